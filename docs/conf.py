@@ -1,0 +1,43 @@
+"""Sphinx configuration: ``python -m sphinx -W -b html docs docs/_build/html``."""
+
+import os
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "src"))
+
+project = "ancf"
+author = "The ancf developers"
+copyright = "2026, The ancf developers"
+release = version = "0.1.0"
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.napoleon",
+]
+exclude_patterns = ["_build"]
+source_suffix = {".md": "markdown"}
+
+myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+
+napoleon_google_docstring = False
+napoleon_numpy_docstring = True
+autodoc_member_order = "bysource"
+autodoc_typehints = "description"
+
+# Equations are drawn in the reader's browser. To read the pages offline, point this at a copy
+# of MathJax 3 (the file es5/tex-mml-chtml.js of the npm package "mathjax").
+if "ANCF_DOCS_MATHJAX" in os.environ:
+    mathjax_path = os.environ["ANCF_DOCS_MATHJAX"]
+
+html_theme = "furo"
+html_title = f"ancf {release}"
+html_static_path = ["_static"]
+html_css_files = ["custom.css"]
+html_theme_options = {
+    "light_css_variables": {"color-brand-primary": "#14507a", "color-brand-content": "#14507a"},
+    "dark_css_variables": {"color-brand-primary": "#7fbde6", "color-brand-content": "#7fbde6"},
+}

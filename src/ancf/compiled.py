@@ -1,0 +1,122 @@
+"""Compiled kernels: one decorator, one cache, one way to add a kind of force.
+
+A *batch* is a NamedTuple of flat arrays that holds all parts of one kind (all cable elements, all
+springs, ...).  Each kind implements the five operations below for its own batch type; a compiled
+loop over the batches of a System finds the right one by type.  Kernels take arrays, write into
+their arguments, allocate nothing and know no objects.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numba
+from numba import types
+from numba.core import event
+from numba.extending import overload
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+# IEEE special values must survive (they are how a diverged step is seen), so no "nnan", no "ninf".
+_OPTIONS = {"fastmath": {"contract", "nsz", "arcp", "reassoc"}, "error_model": "numpy", "_nrt": False}
+
+
+def _package_stamp() -> str:
+    """Hash of the package's sources: a kernel is recompiled when anything that it calls changed."""
+    files = sorted(Path(__file__).parent.rglob("*.py"))
+    return hashlib.sha256(b"".join(f.read_bytes() for f in files if "paper" not in f.parts)).hexdigest()
+
+
+_STAMP = _package_stamp()
+
+
+def kernel(function: F) -> F:
+    """Compile ``function`` with numba on first use and cache it on disk."""
+    dispatcher = numba.njit(cache=True, **_OPTIONS)(function)
+    # numba's own stamp covers the kernel's file alone, not the kernels that it calls
+    cache_file = getattr(dispatcher._cache, "_cache_file", None)
+    if hasattr(cache_file, "_source_stamp"):
+        cache_file._source_stamp = _STAMP
+    return dispatcher  # type: ignore[no-any-return]
+
+
+def inline_kernel(function: F) -> F:
+    """Compile ``function`` as a part of the kernels that call it."""
+    return numba.njit(**_OPTIONS)(function)  # type: ignore[no-any-return]
+
+
+def add_force(batch, q, v, a, r, ws):  # type: ignore[no-untyped-def]
+    """Add the batch's inertia and internal forces at (q, v, a) to the residual ``r``."""
+    raise TypeError(f"no force for {type(batch).__name__}")
+
+
+def add_inertia(batch, a, r, ws):  # type: ignore[no-untyped-def]
+    """Add the batch's mass matrix times ``a`` to ``r``."""
+    raise TypeError(f"no inertia for {type(batch).__name__}")
+
+
+def add_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):  # type: ignore[no-untyped-def]
+    """Add ``c_mass M + c_damping C + c_stiffness K`` of the batch to the block values ``A``."""
+    raise TypeError(f"no tangent for {type(batch).__name__}")
+
+
+def strain_energy(batch, q, ws):  # type: ignore[no-untyped-def]
+    """Elastic energy of the batch, J."""
+    raise TypeError(f"no energy for {type(batch).__name__}")
+
+
+def dissipated_power(batch, q, v, ws):  # type: ignore[no-untyped-def]
+    """Pair (power that dampers take out, power that loads put in) of the batch, W."""
+    raise TypeError(f"no power for {type(batch).__name__}")
+
+
+def implements(
+    batch_type: type,
+    *,
+    force: Callable[..., Any],
+    inertia: Callable[..., Any],
+    tangent: Callable[..., Any],
+    energy: Callable[..., Any],
+    power: Callable[..., Any],
+) -> None:
+    """Register the five operations of a kind of batch (see the functions above for arguments)."""
+
+    def matches(batch: Any) -> bool:
+        return isinstance(batch, types.BaseNamedTuple) and batch.instance_class is batch_type
+
+    def bind(stub: Callable[..., Any], function: Callable[..., Any]) -> None:
+        body = function.py_func if hasattr(function, "py_func") else function
+
+        @overload(stub, jit_options=_OPTIONS, strict=False)
+        def _choose(batch, *arguments):  # type: ignore[no-untyped-def]
+            return body if matches(batch) else None
+
+    for stub, function in (
+        (add_force, force),
+        (add_inertia, inertia),
+        (add_tangent, tangent),
+        (strain_energy, energy),
+        (dissipated_power, power),
+    ):
+        bind(stub, function)
+
+
+class _Announcer(event.Listener):  # type: ignore[misc]
+    def __init__(self, say: Callable[[], None]) -> None:
+        self.say: Callable[[], None] | None = say
+
+    def on_start(self, event: Any) -> None:
+        if self.say is not None:
+            self.say()
+            self.say = None
+
+    def on_end(self, event: Any) -> None:
+        pass
+
+
+def announce_compilation(say: Callable[[], None]) -> None:
+    """Call ``say`` once, before the first kernel that is not in the cache gets compiled."""
+    event.register("numba:compile", _Announcer(say))

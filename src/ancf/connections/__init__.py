@@ -1,0 +1,1 @@
+"""Connections between points, one file per kind."""

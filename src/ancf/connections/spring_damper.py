@@ -1,0 +1,130 @@
+"""Spring and damper between two points, or a point and the ground; optionally slack in compression.
+
+Tension F = k (l - l0) + c dl/dt along the line between the points.  A slack spring (a dropper, a rope)
+carries nothing while l <= l0 and never pushes: F = max(F, 0).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..compiled import implements, inline_kernel
+
+FloatArray = NDArray[np.float64]
+
+
+class SpringBatch(NamedTuple):
+    """All springs; the vector between the ends is d = sum(factor_k q[base_k]) + offset."""
+
+    base: NDArray[np.int64]  # (n, 8) slots of the two elements, -1 unused
+    dest: NDArray[np.int64]  # (n, 64) places of the 3x3 blocks in the matrix
+    factor: FloatArray  # (n, 8) shape functions, negative at the first end
+    offset: FloatArray  # (n, 3) position of a fixed second end
+    data: FloatArray  # (n, 4) stiffness, damping, length, 1 if slack
+
+
+@inline_kernel
+def spring_vector(batch, e, q, fixed):  # type: ignore[no-untyped-def]
+    """Vector from the first to the second end (fixed = 1) or its rate (fixed = 0)."""
+    x, y, z = fixed * batch.offset[e, 0], fixed * batch.offset[e, 1], fixed * batch.offset[e, 2]
+    for k in range(8):
+        i = batch.base[e, k]
+        if i >= 0:
+            w = batch.factor[e, k]
+            x += w * q[i]
+            y += w * q[i + 1]
+            z += w * q[i + 2]
+    return x, y, z
+
+
+@inline_kernel
+def spring_state(batch, e, q, v):  # type: ignore[no-untyped-def]
+    """Direction, length, rate, tension and whether the spring carries."""
+    x, y, z = spring_vector(batch, e, q, 1.0)
+    length = max(math.sqrt(x * x + y * y + z * z), 1e-100)
+    n = (x / length, y / length, z / length)
+    dx, dy, dz = spring_vector(batch, e, v, 0.0)
+    rate = n[0] * dx + n[1] * dy + n[2] * dz
+    extension = length - batch.data[e, 2]
+    tension = batch.data[e, 0] * extension + batch.data[e, 1] * rate
+    slack = batch.data[e, 3] != 0.0 and (extension <= 0.0 or tension <= 0.0)
+    return n, length, rate, 0.0 if slack else tension, not slack
+
+
+@inline_kernel
+def spring_force(batch, q, v, a, r, ws):  # type: ignore[no-untyped-def]
+    """Add the spring forces to r."""
+    for e in range(batch.base.shape[0]):
+        n, _, _, tension, carries = spring_state(batch, e, q, v)
+        if carries:
+            for k in range(8):
+                i = batch.base[e, k]
+                if i >= 0:
+                    f = batch.factor[e, k] * tension
+                    for c in range(3):
+                        r[i + c] += f * n[c]
+
+
+@inline_kernel
+def spring_inertia(batch, a, r, ws):  # type: ignore[no-untyped-def]
+    """Springs have no mass."""
+
+
+@inline_kernel
+def spring_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):  # type: ignore[no-untyped-def]
+    """Add stiffness and damping of the springs that carry to A."""
+    for e in range(batch.base.shape[0]):
+        n, length, _, tension, carries = spring_state(batch, e, q, v)
+        if not carries:
+            continue
+        across = c_stiffness * tension / length
+        along = c_stiffness * batch.data[e, 0] + c_damping * batch.data[e, 1] - across
+        for k in range(8):
+            for m in range(8):
+                place = batch.dest[e, 8 * k + m]
+                if place < 0:
+                    continue
+                w = batch.factor[e, k] * batch.factor[e, m]
+                for i in range(3):
+                    A[place + 7 * i] += w * across
+                    for j in range(3):
+                        A[place + 6 * i + j] += w * along * n[i] * n[j]
+
+
+@inline_kernel
+def spring_energy(batch, q, ws):  # type: ignore[no-untyped-def]
+    """Elastic energy of the springs, J."""
+    energy = 0.0
+    for e in range(batch.base.shape[0]):
+        x, y, z = spring_vector(batch, e, q, 1.0)
+        extension = math.sqrt(x * x + y * y + z * z) - batch.data[e, 2]
+        if extension > 0.0 or batch.data[e, 3] == 0.0:
+            energy += 0.5 * batch.data[e, 0] * extension**2
+    return energy
+
+
+@inline_kernel
+def spring_power(batch, q, v, ws):  # type: ignore[no-untyped-def]
+    """Power taken out by the dampers (a slack spring gives back its energy alone), W."""
+    power = 0.0
+    for e in range(batch.base.shape[0]):
+        _, length, rate, tension, _ = spring_state(batch, e, q, v)
+        elastic = batch.data[e, 0] * (length - batch.data[e, 2])
+        if batch.data[e, 3] != 0.0:
+            elastic = max(elastic, 0.0)
+        power += (tension - elastic) * rate
+    return power, 0.0
+
+
+implements(
+    SpringBatch,
+    force=spring_force,
+    inertia=spring_inertia,
+    tangent=spring_tangent,
+    energy=spring_energy,
+    power=spring_power,
+)

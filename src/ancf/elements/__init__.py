@@ -1,0 +1,1 @@
+"""The mathematics of the elements: shape functions, strain measures, forces and tangents."""

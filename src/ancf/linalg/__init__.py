@@ -1,0 +1,1 @@
+"""The structured solve: block-sparse factorisation of chains and nets of nodes."""

@@ -1,0 +1,93 @@
+"""Order of the nodes and the pattern of L: a narrow band where there is one, minimum degree elsewhere."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_matrix, csr_matrix, eye_array
+from scipy.sparse.csgraph import reverse_cuthill_mckee
+from scipy.sparse.linalg import splu
+
+IntArray = NDArray[np.int64]
+
+
+def fill_pattern(pairs: IntArray, n: int) -> tuple[IntArray, IntArray]:
+    """Rows of L for a symmetric pattern, by the elimination tree.
+
+    Parameters
+    ----------
+    pairs : ndarray, shape (m, 2)
+        Coupled blocks in the order of elimination, any order, repeats allowed.
+    n : int
+        Number of blocks.
+
+    Returns
+    -------
+    row_start : ndarray, shape (n + 1,)
+    column : ndarray
+        Columns j < i of the blocks L_ij, ascending in each row.
+    """
+    neighbours: list[set[int]] = [set() for _ in range(n)]
+    for i, j in pairs.tolist():
+        if i != j:
+            neighbours[max(i, j)].add(min(i, j))
+    parent = [-1] * n
+    rows: list[list[int]] = []
+    for i in range(n):
+        row: set[int] = set()
+        for j in sorted(neighbours[i]):
+            while j != i and j not in row:  # climb the elimination tree: every node passed is filled
+                row.add(j)
+                if parent[j] < 0:
+                    parent[j] = i
+                j = parent[j]
+        rows.append(sorted(row))
+    row_start = np.concatenate([[0], np.cumsum([len(r) for r in rows])]).astype(np.int64)
+    column = np.array([j for r in rows for j in r], dtype=np.int64)
+    return row_start, column
+
+
+def order(pairs: IntArray, n: int) -> tuple[IntArray, str]:
+    """Order in which the blocks are eliminated.
+
+    Compares the order given, reverse Cuthill-McKee (a narrow band) and minimum degree by the number
+    of blocks in L and takes the first that is within 2 % of the least.
+
+    Returns
+    -------
+    rank : ndarray, shape (n,)
+        New place of each block.
+    name : str
+        ``"as given"``, ``"band"`` or ``"minimum degree"``.
+    """
+    candidates = {"as given": np.arange(n), "band": _band(pairs, n)}
+    counts = {name: len(fill_pattern(rank[pairs], n)[1]) for name, rank in candidates.items()}
+    least = len({(min(p), max(p)) for p in map(tuple, pairs.tolist()) if p[0] != p[1]})
+    if min(counts.values()) > 1.02 * least:  # a tree or a chain cannot do better than no fill
+        candidates["minimum degree"] = _minimum_degree(pairs, n)
+        counts["minimum degree"] = len(fill_pattern(candidates["minimum degree"][pairs], n)[1])
+    best = min(counts.values())
+    name = next(k for k in candidates if counts[k] <= 1.02 * best)
+    return candidates[name], name
+
+
+def _graph(pairs: IntArray, n: int) -> csr_matrix:
+    i, j = pairs.T if len(pairs) else (np.zeros(0, int), np.zeros(0, int))
+    graph = csr_matrix((np.ones(len(i)), (i, j)), shape=(n, n))
+    return csr_matrix(graph + graph.T)
+
+
+def _band(pairs: IntArray, n: int) -> IntArray:
+    permutation = reverse_cuthill_mckee(_graph(pairs, n), symmetric_mode=True)
+    rank = np.empty(n, dtype=np.int64)
+    rank[permutation] = np.arange(n)
+    return rank
+
+
+def _minimum_degree(pairs: IntArray, n: int) -> IntArray:
+    graph = _graph(pairs, n)
+    graph.data[:] = -1.0
+    degree = np.asarray(-graph.sum(axis=1)).ravel()
+    laplacian = csc_matrix(graph + csr_matrix(eye_array(n)).multiply((degree + 1.0)[:, None]))
+    factor = splu(laplacian, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    return np.asarray(factor.perm_c, dtype=np.int64)

@@ -1,0 +1,1 @@
+"""Loads that depend on the state, one file per kind."""

@@ -1,0 +1,106 @@
+"""Moment M on the slope r_x of a point: the virtual work M . (r_x x delta r_x)/|r_x|^2.
+
+It acts on r_x as the force f = (M x r_x)/|r_x|^2.  The component along r_x does no work: a cable has no
+rotation about its axis.  The matrix takes the symmetric part of the derivative, which is all of it as
+long as M is perpendicular to r_x.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..compiled import implements, inline_kernel
+
+FloatArray = NDArray[np.float64]
+
+
+class MomentBatch(NamedTuple):
+    """All moments; the slope is r_x = sum(factor_k q[base_k])."""
+
+    base: NDArray[np.int64]  # (n, 4)
+    dest: NDArray[np.int64]  # (n, 16) places of the 3x3 blocks in the matrix
+    factor: FloatArray  # (n, 4) derivatives of the shape functions
+    value: FloatArray  # (n, 3) moment now, N m
+
+
+@inline_kernel
+def moment_slope(batch, e, q):  # type: ignore[no-untyped-def]
+    """The slope r_x or its rate."""
+    x, y, z = 0.0, 0.0, 0.0
+    for k in range(4):
+        i, w = batch.base[e, k], batch.factor[e, k]
+        x += w * q[i]
+        y += w * q[i + 1]
+        z += w * q[i + 2]
+    return x, y, z
+
+
+@inline_kernel
+def slope_force(batch, e, q):  # type: ignore[no-untyped-def]
+    """Slope p, |p|^2 and the force f on it."""
+    p = moment_slope(batch, e, q)
+    a = p[0] * p[0] + p[1] * p[1] + p[2] * p[2]
+    mx, my, mz = batch.value[e, 0] / a, batch.value[e, 1] / a, batch.value[e, 2] / a
+    f = (my * p[2] - mz * p[1], mz * p[0] - mx * p[2], mx * p[1] - my * p[0])
+    return p, a, f
+
+
+@inline_kernel
+def moment_force(batch, q, v, a, r, ws):  # type: ignore[no-untyped-def]
+    """Subtract the moments' forces from r."""
+    for e in range(batch.base.shape[0]):
+        _, _, f = slope_force(batch, e, q)
+        for k in range(4):
+            for c in range(3):
+                r[batch.base[e, k] + c] -= batch.factor[e, k] * f[c]
+
+
+@inline_kernel
+def moment_inertia(batch, a, r, ws):  # type: ignore[no-untyped-def]
+    """Loads have no mass."""
+
+
+@inline_kernel
+def moment_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):  # type: ignore[no-untyped-def]
+    """Add the symmetric part of the moments' stiffness to A."""
+    for e in range(batch.base.shape[0]):
+        p, a, f = slope_force(batch, e, q)
+        for k in range(4):
+            for m in range(4):
+                place = batch.dest[e, 4 * k + m]
+                if place < 0:
+                    continue
+                w = c_stiffness * batch.factor[e, k] * batch.factor[e, m] / a
+                for i in range(3):
+                    for j in range(3):
+                        A[place + 6 * i + j] += w * (f[i] * p[j] + p[i] * f[j])
+
+
+@inline_kernel
+def moment_energy(batch, q, ws):  # type: ignore[no-untyped-def]
+    """Loads store nothing: what they do counts as supplied energy."""
+    return 0.0
+
+
+@inline_kernel
+def moment_power(batch, q, v, ws):  # type: ignore[no-untyped-def]
+    """Power put in by the moments, W."""
+    power = 0.0
+    for e in range(batch.base.shape[0]):
+        _, _, f = slope_force(batch, e, q)
+        dp = moment_slope(batch, e, v)
+        power += f[0] * dp[0] + f[1] * dp[1] + f[2] * dp[2]
+    return 0.0, power
+
+
+implements(
+    MomentBatch,
+    force=moment_force,
+    inertia=moment_inertia,
+    tangent=moment_tangent,
+    energy=moment_energy,
+    power=moment_power,
+)

@@ -1,0 +1,28 @@
+"""What the user describes: Model, Section, bodies, points, supports, loads, connections; no numerics."""
+
+from ancf.model.beam import Beam
+from ancf.model.connections import Spherical, Spring
+from ancf.model.functions import TimeFunction
+from ancf.model.loads import DistributedLoad, Force, Moment
+from ancf.model.model import Model
+from ancf.model.points import Point
+from ancf.model.section import Circle, Rectangle, Section
+from ancf.model.supports import Clamp, Hold, Pin
+
+__all__ = [
+    "Beam",
+    "Circle",
+    "Clamp",
+    "DistributedLoad",
+    "Force",
+    "Hold",
+    "Model",
+    "Moment",
+    "Pin",
+    "Point",
+    "Rectangle",
+    "Section",
+    "Spherical",
+    "Spring",
+    "TimeFunction",
+]

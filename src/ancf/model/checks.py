@@ -1,0 +1,151 @@
+"""Checks shared by the model: each returns the clean value or raises one ModelError that names the place."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ancf.errors import ModelError
+
+FloatArray = npt.NDArray[np.float64]
+
+
+def shown(value: object, limit: int = 60) -> str:
+    """Short text of a value for a message."""
+    text = repr(value)
+    return text if len(text) <= limit else text[: limit - 3] + "..."
+
+
+def number(value: object, where: str) -> float:
+    """A finite float; no bool, no text, no NaN."""
+    if isinstance(value, bool | np.bool_) or not isinstance(value, int | float | np.integer | np.floating):
+        raise ModelError(where, f"must be a number, is {shown(value)} ({type(value).__name__})")
+    try:
+        clean = float(value)
+    except OverflowError:
+        clean = math.inf
+    if not math.isfinite(clean):
+        raise ModelError(where, f"must be a finite number, is {clean}")
+    return clean
+
+
+def positive(value: object, where: str) -> float:
+    """A finite number > 0."""
+    clean = number(value, where)
+    if clean <= 0:
+        raise ModelError(where, f"must be > 0, is {clean:g}")
+    return clean
+
+
+def non_negative(value: object, where: str) -> float:
+    """A finite number >= 0."""
+    clean = number(value, where)
+    if clean < 0:
+        raise ModelError(where, f"must be >= 0, is {clean:g}")
+    return clean
+
+
+def integer(value: object, where: str, low: int, high: int) -> int:
+    """A whole number between low and high, both included."""
+    if isinstance(value, bool | np.bool_) or not isinstance(value, int | np.integer):
+        raise ModelError(where, f"must be a whole number, is {shown(value)} ({type(value).__name__})")
+    if not low <= value <= high:
+        raise ModelError(where, f"must be between {low} and {high}, is {shown(int(value))}")
+    return int(value)
+
+
+def flag(value: object, where: str) -> bool:
+    """True or False, nothing else."""
+    if not isinstance(value, bool | np.bool_):
+        raise ModelError(where, f"must be True or False, is {shown(value)}")
+    return bool(value)
+
+
+def text(value: object, where: str) -> str:
+    """A str."""
+    if not isinstance(value, str):
+        raise ModelError(where, f"must be text, is {shown(value)} ({type(value).__name__})")
+    return value
+
+
+def array(value: object, where: str, shape: tuple[int | None, ...]) -> FloatArray:
+    """A finite float array of the given shape; None in the shape stands for any count."""
+    clean = _from_numpy(value, where) if hasattr(value, "__array__") else _from_list(value, where, len(shape))
+    fits = len(clean.shape) == len(shape) and all(
+        n is None or n == m for n, m in zip(shape, clean.shape, strict=True)
+    )
+    if not fits:
+        raise ModelError(where, f"has shape {clean.shape}, wanted {_shape_text(shape)}")
+    return clean
+
+
+def vector(value: object, where: str) -> FloatArray:
+    """Three finite numbers."""
+    return array(value, where, (3,))
+
+
+def direction(value: object, where: str) -> FloatArray:
+    """Unit vector along three numbers that are not all zero."""
+    clean = vector(value, where)
+    largest = float(np.max(np.abs(clean)))
+    if largest == 0.0:
+        raise ModelError(where, "must not be the zero vector")
+    clean = clean / largest
+    return clean / float(np.linalg.norm(clean))
+
+
+def choice(value: object, where: str, allowed: Sequence[str]) -> str:
+    """One of the allowed words."""
+    if isinstance(value, str) and value in allowed:
+        return value
+    raise ModelError(where, f"is {shown(value)}, must be one of {listed(allowed)}", nearest(value, allowed))
+
+
+def listed(names: Iterable[str], limit: int = 20) -> str:
+    """Quoted names separated by commas, cut after ``limit``."""
+    quoted = [f'"{name}"' for name in names]
+    return ", ".join(quoted[:limit]) + (f" and {len(quoted) - limit} more" if len(quoted) > limit else "")
+
+
+def nearest(value: object, names: Iterable[str]) -> str:
+    """Return 'did you mean "x"?' for the most similar name, or nothing."""
+    found = difflib.get_close_matches(value, list(names), n=1) if isinstance(value, str) else []
+    return f'did you mean "{found[0]}"?' if found else ""
+
+
+def _from_numpy(value: Any, where: str) -> FloatArray:
+    raw = np.asarray(value)
+    if raw.dtype.kind not in "iuf":
+        raise ModelError(where, f"must hold numbers, holds {raw.dtype}")
+    clean = np.array(raw, dtype=np.float64)
+    if not np.all(np.isfinite(clean)):
+        index = tuple(int(i) for i in np.argwhere(~np.isfinite(clean))[0])
+        place = "".join(f"[{i}]" for i in index)
+        raise ModelError(where + place, f"must be a finite number, is {clean[index]}")
+    return clean
+
+
+def _from_list(value: object, where: str, depth: int) -> FloatArray:
+    if isinstance(value, str) or not isinstance(value, Sequence):
+        raise ModelError(where, f"must be a list of numbers, is {shown(value)} ({type(value).__name__})")
+    if depth == 1:
+        return np.array([number(v, f"{where}[{i}]") for i, v in enumerate(value)], dtype=np.float64)
+    rows = [_row(v, f"{where}[{i}]", depth - 1) for i, v in enumerate(value)]
+    for i, row in enumerate(rows):
+        if row.shape != rows[0].shape:
+            raise ModelError(f"{where}[{i}]", f"has shape {row.shape}, the rows before have {rows[0].shape}")
+    return np.array(rows, dtype=np.float64)
+
+
+def _row(value: object, where: str, depth: int) -> FloatArray:
+    return _from_numpy(value, where) if hasattr(value, "__array__") else _from_list(value, where, depth)
+
+
+def _shape_text(shape: tuple[int | None, ...]) -> str:
+    inside = ", ".join("n" if n is None else str(n) for n in shape)
+    return f"({inside},)" if len(shape) == 1 else f"({inside})"

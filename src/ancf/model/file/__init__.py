@@ -1,0 +1,125 @@
+"""The model file: TOML with the nouns of the Python API, read into a Study or refused with one error."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from ancf.errors import ModelError
+from ancf.model.checks import nearest
+from ancf.model.file.build import Builder
+from ancf.model.file.entries import FileEntry
+from ancf.model.file.messages import combined, of_validation
+from ancf.model.model import Model
+from ancf.model.settings import EquilibriumSettings, SimulationSettings
+
+__all__ = ["Study", "parse_study", "read_study", "schema"]
+
+
+@dataclass(frozen=True, slots=True)
+class Study:
+    """A model file, read.
+
+    Parameters
+    ----------
+    model : Model
+    simulation : SimulationSettings or None
+    equilibrium : EquilibriumSettings or None
+    title : str
+    source_text : str
+        The text of the file; empty for a study from a dict.
+
+    """
+
+    model: Model
+    simulation: SimulationSettings | None
+    equilibrium: EquilibriumSettings | None
+    title: str = ""
+    source_text: str = ""
+
+
+def read_study(path: str | Path) -> Study:
+    """Read a model file.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read, is no TOML, or describes no valid model; all problems in one error.
+
+    """
+    text = _read_text(Path(path))
+    return replace(parse_study(_toml(text, str(path)), str(path)), source_text=text)
+
+
+def parse_study(data: dict[str, Any], source: str = "model") -> Study:
+    """Build a Study from the tables of a model file.
+
+    Parameters
+    ----------
+    data : dict
+        What TOML (or JSON) of a model file gives.
+    source : str
+        Its name, for a list of several problems.
+
+    Raises
+    ------
+    ModelError
+        ``where`` is the path in the file, ``bodies[2].section.EA``; for several problems it is `source`.
+
+    """
+    try:
+        entry = FileEntry.model_validate(data)
+    except ValidationError as error:
+        raise combined(of_validation(error), source) from None
+    builder = Builder(entry)
+    model = builder.build()
+    if builder.problems:
+        raise combined(builder.problems, source)
+    simulation, equilibrium = builder.simulation(), builder.equilibrium()
+    if builder.problems:
+        raise combined(builder.problems, source)
+    return Study(model, simulation, equilibrium, entry.title)
+
+
+def schema() -> dict[str, Any]:
+    """JSON Schema of the model file; every field has a description with its unit."""
+    return FileEntry.model_json_schema()
+
+
+def _read_text(path: Path) -> str:
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError:
+        found = [p.name for p in path.parent.glob("*.toml")] if path.parent.is_dir() else []
+        raise ModelError(str(path), "no such file", nearest(path.name, found)) from None
+    except IsADirectoryError:
+        raise ModelError(str(path), "is a folder, not a model file") from None
+    except UnicodeDecodeError as error:
+        raise ModelError(str(path), f"is not UTF-8 text: byte {error.start} cannot be read") from None
+    except (OSError, ValueError) as error:
+        raise ModelError(str(path), f"cannot be read: {error}") from None
+
+
+def _toml(text: str, source: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise _syntax_error(text, source, str(error)) from None
+
+
+def _syntax_error(text: str, source: str, message: str) -> ModelError:
+    found = re.fullmatch(r"(.*) \(at line (\d+), column (\d+)\)", message, re.DOTALL)
+    if found:
+        return ModelError(f"{source}, line {found[2]}, column {found[3]}", f"TOML syntax: {found[1]}")
+    if message.endswith("(at end of document)"):
+        lines = text.split("\n")
+        spot = f"line {len(lines)}, column {len(lines[-1]) + 1}"
+        return ModelError(
+            f"{source}, {spot}", f"TOML syntax: {message.removesuffix(' (at end of document)')}"
+        )
+    return ModelError(source, f"TOML syntax: {message}")

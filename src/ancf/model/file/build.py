@@ -1,0 +1,159 @@
+"""From the checked tables of a model file to a Model; all problems are collected."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any, TypeVar
+
+from ancf.errors import ModelError
+from ancf.model.file.entries import (
+    AnyConnection,
+    AnyLoad,
+    AnySupport,
+    BodyEntry,
+    CircleEntry,
+    EquilibriumEntry,
+    FileEntry,
+    MotionEntry,
+    RectangleEntry,
+    SectionEntry,
+    SimulationEntry,
+)
+from ancf.model.file.messages import place
+from ancf.model.model import Model
+from ancf.model.names import unknown
+from ancf.model.section import Section
+from ancf.model.settings import EquilibriumSettings, IntegratorSettings, SimulationSettings
+
+T = TypeVar("T")
+Shaped = SectionEntry | RectangleEntry | CircleEntry
+
+
+class Builder:
+    """Builds the model of one file and keeps the problems found on the way."""
+
+    def __init__(self, entry: FileEntry) -> None:
+        self.entry = entry
+        self.model = Model(entry.gravity, entry.title)
+        self.problems: list[ModelError] = []
+        self._sections: dict[str, Section] = {}
+
+    def build(self) -> Model:
+        """Return the model, complete when `problems` is empty."""
+        for name, section in self.entry.sections.items():
+            made = self._collected(_section, section, place(("sections", name)))
+            if made is not None:
+                self._sections[name] = made
+        if not self.problems:
+            for i, body in enumerate(self.entry.bodies):
+                self._collected(self._add_body, body, f"bodies[{i}]")
+        if not self.problems:
+            self._add_items()
+        return self.model
+
+    def simulation(self) -> SimulationSettings | None:
+        """Return the settings of a simulation, or None."""
+        given = self.entry.simulation
+        return None if given is None else self._collected(self._simulation, given)
+
+    def equilibrium(self) -> EquilibriumSettings | None:
+        """Return the settings of an equilibrium, or None."""
+        given = self.entry.equilibrium
+        return None if given is None else self._collected(self._equilibrium, given)
+
+    def _simulation(self, given: SimulationEntry) -> SimulationSettings:
+        settings = _simulation(given)
+        for i, body in enumerate(settings.equilibrium_of or ()):
+            self._check(self.model.body, body, f"simulation.equilibrium_of[{i}]")
+        for i, label in enumerate(settings.outputs):
+            self._check(self.model.point, label, f"simulation.outputs[{i}]")
+        return settings
+
+    def _equilibrium(self, given: EquilibriumEntry) -> EquilibriumSettings:
+        simulation = self.entry.simulation
+        if simulation is not None and simulation.start != "equilibrium":
+            what = f'is not used: the simulation starts from "{simulation.start}"'
+            raise ModelError("equilibrium", what, 'give simulation.start = "equilibrium"')
+        return EquilibriumSettings(**given.given())
+
+    def _check(self, find: Callable[[str], object], name: str, where: str) -> None:
+        with _renamed(lambda _: where):
+            find(name)
+
+    def _add_body(self, body: BodyEntry, where: str) -> None:
+        given = body.given("name", "section", "motion")
+        section = self._section_of(body, f"{where}.section")
+        with self.model.located(where):
+            beam = self.model.add_beam(body.name, section=section, **given)
+        if body.motion is not None:
+            _set_motion(beam.set_motion, body.motion, f"{where}.motion")
+
+    def _section_of(self, body: BodyEntry, where: str) -> Section:
+        if not isinstance(body.section, str):
+            return _section(body.section, where)
+        if body.section not in self._sections:
+            raise unknown(where, "section", body.section, self._sections)
+        return self._sections[body.section]
+
+    def _add_items(self) -> None:
+        model, entry = self.model, self.entry
+        add: dict[str, Callable[..., Any]] = {
+            "pin": model.pin,
+            "clamp": model.clamp,
+            "hold": model.hold,
+            "force": model.add_force,
+            "moment": model.add_moment,
+            "distributed": model.add_distributed_load,
+            "spherical": model.connect,
+            "spring": model.add_spring,
+        }
+        groups: dict[str, Sequence[AnySupport | AnyLoad | AnyConnection]] = {
+            "supports": entry.supports,
+            "loads": entry.loads,
+            "connections": entry.connections,
+        }
+        for key, items in groups.items():
+            for i, item in enumerate(items):
+                with model.located(f"{key}[{i}]"):
+                    self._collected(lambda add, given: add(**given), add[item.type], item.given())
+
+    def _collected(self, work: Callable[..., T], *given: Any) -> T | None:
+        try:
+            return work(*given)
+        except ModelError as error:
+            self.problems.append(error)
+            return None
+
+
+@contextmanager
+def _renamed(rename: Callable[[str], str]) -> Iterator[None]:
+    """Turn the place of an error into one of the file."""
+    try:
+        yield
+    except ModelError as error:
+        raise ModelError(rename(error.where), error.what, error.hint) from None
+
+
+def _section(given: Shaped, where: str) -> Section:
+    values = given.given("shape")
+    with _renamed(lambda old: where + old.removeprefix("Section")):
+        if isinstance(given, RectangleEntry):
+            return Section.rectangle(**values)
+        return Section.circle(**values) if isinstance(given, CircleEntry) else Section(**values)
+
+
+def _set_motion(set_motion: Callable[..., None], motion: MotionEntry, where: str) -> None:
+    with _renamed(lambda old: where + old.rpartition(")")[2]):
+        set_motion(**motion.given())
+
+
+def _simulation(given: SimulationEntry) -> SimulationSettings:
+    values = given.given("integrator", "equilibrium_of", "outputs")
+    of = given.equilibrium_of
+    return SimulationSettings(
+        integrator=IntegratorSettings.of(given.integrator),
+        equilibrium_of=None if of is None else tuple(of),
+        outputs=tuple(given.outputs),
+        **values,
+    )

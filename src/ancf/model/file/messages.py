@@ -1,0 +1,106 @@
+"""One message per problem of a model file: its path in the file, what is wrong, what to do."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from pydantic import ValidationError
+
+from ancf.errors import ModelError
+from ancf.model.checks import listed, nearest, shown
+from ancf.model.file.entries import NESTED, TAGGED, FileEntry
+from ancf.model.file.fields import Entry
+
+MOST_LINES = 10
+WANTED = {
+    "float_type": "a number",
+    "int_type": "a whole number",
+    "int_from_float": "a whole number",
+    "string_type": "text",
+    "bool_type": "true or false",
+    "list_type": "a list",
+    "dict_type": "a table",
+    "model_type": "a table",
+    "finite_number": "a finite number",
+}
+BOUNDS = {"greater_than": ("gt", ">"), "greater_than_equal": ("ge", ">="), "less_than": ("lt", "<")}
+
+
+def combined(problems: list[ModelError], source: str) -> ModelError:
+    """One error out of all: itself when alone, otherwise a list with one line each."""
+    if len(problems) == 1:
+        return problems[0]
+    lines = [f"\n  {problem}" for problem in problems[:MOST_LINES]]
+    if len(problems) > MOST_LINES:
+        lines.append(f"\n  and {len(problems) - MOST_LINES} more")
+    return ModelError(source, f"{len(problems)} problems:" + "".join(lines))
+
+
+def of_validation(error: ValidationError) -> list[ModelError]:
+    """ModelErrors out of what pydantic found."""
+    return [_of_detail(dict(detail)) for detail in error.errors(include_url=False)]
+
+
+def place(parts: tuple[int | str, ...]) -> str:
+    """Path in the notation of the file: ``bodies[2].section.EA``."""
+    text = ""
+    for part in parts:
+        if isinstance(part, int):
+            text += f"[{part}]"
+        elif not re.fullmatch(r"<\w+>", part):
+            text += "." + (part if re.fullmatch(r"[\w-]+", part) else f'"{part}"')
+    return text.removeprefix(".")
+
+
+def _of_detail(detail: dict[str, Any]) -> ModelError:
+    kind, where, given = detail["type"], place(detail["loc"]) or "the file", detail["input"]
+    context = detail.get("ctx", {})
+    if kind == "model":
+        return ModelError(where + context["place"], context["what"], context["hint"])
+    if kind == "wrong_kind":
+        return _wrong_kind(where, given, context["key"], context["allowed"].split())
+    if kind == "extra_forbidden":
+        key, allowed = str(detail["loc"][-1]), _allowed(detail["loc"][:-1])
+        return ModelError(where, f"unknown key, allowed: {listed(allowed, 30)}", nearest(key, allowed))
+    if kind == "missing":
+        field = _entry(detail["loc"][:-1]).model_fields[str(detail["loc"][-1])]
+        return ModelError(where, "is missing", (field.description or "").rstrip("."))
+    return ModelError(where, *_of_value(kind, given, context, detail["msg"]))
+
+
+def _of_value(kind: str, given: Any, context: dict[str, Any], message: str) -> tuple[str, str]:
+    if kind in WANTED:
+        return f"must be {WANTED[kind]}, is {shown(given)} ({type(given).__name__})", ""
+    if kind in BOUNDS:
+        key, sign = BOUNDS[kind]
+        return f"must be {sign} {context[key]:g}, is {given:g}", ""
+    if kind == "literal_error":
+        allowed = re.findall(r"'([^']*)'", context["expected"])
+        return f"is {shown(given)}, must be one of {listed(allowed)}", nearest(given, allowed)
+    if kind in ("too_short", "too_long"):
+        wanted = context.get("min_length", context.get("max_length"))
+        least = "at least " if wanted == 1 else ""
+        return f"has {len(given)} entries, wanted {least}{wanted}", ""
+    return f"{message}, is {shown(given)}", ""
+
+
+def _wrong_kind(where: str, given: Any, key: str, allowed: list[str]) -> ModelError:
+    if not isinstance(given, dict):
+        also = "the name of a section or " if key == "shape" and "sections" not in where else ""
+        return ModelError(where, f"must be {also}a table, is {shown(given)} ({type(given).__name__})")
+    if key not in given:
+        return ModelError(f"{where}.{key}", f"is missing, must be one of {listed(allowed)}")
+    what = f"is {shown(given[key])}, must be one of {listed(allowed)}"
+    return ModelError(f"{where}.{key}", what, nearest(given[key], allowed))
+
+
+def _entry(parts: tuple[int | str, ...]) -> type[Entry]:
+    entry: type[Entry] = FileEntry
+    for part in parts:
+        entry = TAGGED.get(str(part), NESTED.get(str(part), entry))
+    return entry
+
+
+def _allowed(parts: tuple[int | str, ...]) -> list[str]:
+    return list(_entry(parts).model_fields)

@@ -1,0 +1,188 @@
+"""TimeFunction: a constant, a Python function of t, a formula or a table, behind one face."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ancf.errors import ModelError
+from ancf.model import checks
+from ancf.model.checks import FloatArray
+from ancf.model.expression import Expression
+
+Evaluate = Callable[[FloatArray], FloatArray]
+
+
+class TimeFunction:
+    """A value of `size` numbers that may depend on time.
+
+    Parameters
+    ----------
+    given : number, sequence, str, callable, mapping or TimeFunction
+        A constant; a formula of t (``"sin(2*pi*t)"``) or, for size 3, a list of numbers and formulas;
+        a Python function of t in s that returns a number or a (3,) array; ``{"t": ..., "value": ...}``.
+    size : int
+        1 or 3.
+    where : str
+        Place in the model, for messages.
+
+    Attributes
+    ----------
+    constant : bool
+        It does not depend on time.
+
+    Raises
+    ------
+    ModelError
+        It cannot be evaluated at t = 0, now or at a later time in `table`.
+
+    """
+
+    __slots__ = ("_evaluate", "constant", "given", "size", "where")
+
+    def __init__(self, given: Any, size: int, where: str) -> None:
+        if size not in (1, 3):
+            raise ValueError(f"size is {size}, must be 1 or 3")
+        self.size, self.where = size, where
+        self.given: Any = given.given if isinstance(given, TimeFunction) else given
+        self._evaluate, self.constant = self._interpret(self.given)
+        self.table(np.zeros(1))
+
+    @classmethod
+    def from_table(cls, t: Any, value: Any, size: int, where: str) -> TimeFunction:
+        """Linear interpolation of values (n,) or (n, 3) at increasing times (n,), constant outside."""
+        return cls({"t": t, "value": value}, size, where)
+
+    def __repr__(self) -> str:
+        return f"TimeFunction({checks.shown(self.describe())}, size={self.size})"
+
+    def __call__(self, t: float) -> FloatArray:
+        """Values (size,) at the time t in s."""
+        value: FloatArray = self.table(np.array([t], dtype=np.float64))[0]
+        return value
+
+    def table(self, times: FloatArray) -> FloatArray:
+        """Values at many times.
+
+        Parameters
+        ----------
+        times : (n,) array, s
+            In any order.
+
+        Returns
+        -------
+        (n, size) array
+
+        Raises
+        ------
+        ModelError
+            The function raised, returned a wrong shape or a non-finite number; the time is named.
+
+        """
+        times = np.asarray(times, dtype=np.float64)
+        values = self._evaluate(times)
+        bad = ~np.all(np.isfinite(values), axis=1)
+        if np.any(bad):
+            first = int(np.argmax(bad))
+            shown = values[first].tolist() if self.size > 1 else float(values[first, 0])
+            raise ModelError(self.where, f"is {shown} at t = {times[first]:.6g} s, must be finite")
+        return values
+
+    def describe(self) -> Any:
+        """Plain JSON-able form; a Python function as ``<function name>``."""
+        return _plain(self.given)
+
+    def _interpret(self, given: Any) -> tuple[Evaluate, bool]:
+        if isinstance(given, Mapping):
+            return self._from_mapping(given)
+        if callable(given):
+            return self._from_callable(given), False
+        if self.size == 1:
+            return self._join([self._component(given, self.where)])
+        return self._join(self._components(given))
+
+    def _components(self, given: Any) -> list[Expression | float]:
+        if isinstance(given, str) or not isinstance(given, Sequence | np.ndarray):
+            wanted = "a list of 3 numbers or formulas, a function of t or a table"
+            raise ModelError(self.where, f"must be {wanted}, is {checks.shown(given)}")
+        if np.shape(given) == () or len(given) != 3:
+            raise ModelError(self.where, f"has {np.size(np.asarray(given, object))} components, wanted 3")
+        return [self._component(part, f"{self.where}[{i}]") for i, part in enumerate(given)]
+
+    def _component(self, part: Any, where: str) -> Expression | float:
+        return Expression(part, where) if isinstance(part, str) else checks.number(part, where)
+
+    def _join(self, parts: list[Expression | float]) -> tuple[Evaluate, bool]:
+        def evaluate(times: FloatArray) -> FloatArray:
+            columns = [p(times) if isinstance(p, Expression) else np.full(times.shape, p) for p in parts]
+            return np.column_stack(columns)
+
+        return evaluate, not any(isinstance(p, Expression) and p.uses_t for p in parts)
+
+    def _from_callable(self, function: Callable[[float], Any]) -> Evaluate:
+        def evaluate(times: FloatArray) -> FloatArray:
+            rows = np.empty((times.size, self.size))
+            for i, t in enumerate(times.tolist()):
+                rows[i] = call(function, t, self.size, self.where, "t", " s")
+            return rows
+
+        return evaluate
+
+    def _from_mapping(self, given: Mapping[str, Any]) -> tuple[Evaluate, bool]:
+        if set(given) != {"t", "value"}:
+            raise ModelError(
+                self.where, f'a table has the keys "t" and "value", not {sorted(map(str, given))}'
+            )
+        t = checks.array(given["t"], f"{self.where}.t", (None,))
+        wanted = (None,) if self.size == 1 else (None, 3)
+        value = checks.array(given["value"], f"{self.where}.value", wanted).reshape(-1, self.size)
+        if t.size < 2 or not np.all(np.diff(t) > 0):
+            raise ModelError(f"{self.where}.t", "must be at least 2 increasing times")
+        if len(value) != t.size:
+            raise ModelError(f"{self.where}.value", f"has {len(value)} values for {t.size} times")
+
+        def evaluate(times: FloatArray) -> FloatArray:
+            return np.column_stack([np.interp(times, t, column) for column in value.T])
+
+        return evaluate, bool(np.all(value == value[0]))
+
+
+def call(
+    function: Callable[[float], Any], at: float, size: int, where: str, symbol: str, unit: str
+) -> FloatArray:
+    """Call a user's function of one number; (size,) array, or a ModelError that says what came back."""
+    place = f"at {symbol} = {at:.6g}{unit}"
+    try:
+        with np.errstate(all="ignore"):
+            got = function(at)
+    except Exception as error:
+        raise ModelError(where, f"{place} the function raised {type(error).__name__}: {error}") from error
+    try:
+        value = np.asarray(got)
+    except ValueError:
+        value = np.asarray(None)
+    if value.dtype.kind not in "iuf":
+        raise ModelError(where, f"{place} the function returned {checks.shown(got)}, wanted {_wanted(size)}")
+    if value.shape != (size,) and not (size == 1 and value.shape == ()):
+        raise ModelError(where, f"{place} the function returned shape {value.shape}, wanted {_wanted(size)}")
+    if not np.all(np.isfinite(value)):
+        raise ModelError(where, f"{place} the function returned {checks.shown(got)}, must be finite")
+    return value.astype(np.float64).reshape(size)
+
+
+def _wanted(size: int) -> str:
+    return "a number" if size == 1 else f"({size},)"
+
+
+def _plain(given: Any) -> Any:
+    if isinstance(given, np.ndarray | np.generic):
+        return given.tolist()
+    if isinstance(given, Mapping):
+        return {str(key): _plain(value) for key, value in given.items()}
+    if isinstance(given, list | tuple):
+        return [_plain(part) for part in given]
+    if callable(given):
+        return f"<function {getattr(given, '__name__', type(given).__name__)}>"
+    return given

@@ -1,0 +1,70 @@
+"""Loads: forces, moments and distributed loads, constant or functions of time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ancf.errors import ModelError
+from ancf.model import checks
+from ancf.model.beam import Beam
+from ancf.model.functions import TimeFunction
+from ancf.model.points import Point
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Force:
+    """Force (3,) in N at a point, in fixed directions."""
+
+    name: str
+    point: Point
+    force: TimeFunction
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Moment:
+    """Moment (3,) in N m at a point, in fixed directions, acting on the slope r_x."""
+
+    name: str
+    point: Point
+    moment: TimeFunction
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DistributedLoad:
+    """Load (3,) in N per m of reference length, between two reference arc lengths in m."""
+
+    name: str
+    body: Beam
+    load: TimeFunction
+    between: tuple[float, float]
+
+
+Load = Force | Moment | DistributedLoad
+
+
+def make_moment(where: str, name: str, point: Point, moment: Any) -> Moment:
+    """Check what ``Model.add_moment`` was given; a cable takes no torque."""
+    function = TimeFunction(moment, 3, f"{where}.moment")
+    if function.constant and point.body.element == "cable":
+        value, tangent = function(0.0), point.body.initial_tangent(point.x)
+        size = float(np.linalg.norm(value))
+        if size > 0.0 and float(np.linalg.norm(np.cross(value / size, tangent))) <= 1e-9:
+            what = f"{value.tolist()} N m is a torque about the tangent, which a cable cannot take"
+            raise ModelError(f"{where}.moment", what)
+    return Moment(name, point, function)
+
+
+def make_distributed(where: str, name: str, body: Beam, load: Any, between: Any) -> DistributedLoad:
+    """Check what ``Model.add_distributed_load`` was given."""
+    function = TimeFunction(load, 3, f"{where}.load")
+    if between is None:
+        return DistributedLoad(name, body, function, (0.0, body.length))
+    x0, x1 = checks.array(between, f"{where}.between", (2,)).tolist()
+    slack = 1e-9 * body.length
+    if not -slack <= x0 < x1 <= body.length + slack:
+        what = f"is {x0:g} to {x1:g} m, must be 0 <= x0 < x1 <= {body.length:g} m"
+        raise ModelError(f"{where}.between", what)
+    return DistributedLoad(name, body, function, (max(x0, 0.0), min(x1, body.length)))

@@ -1,0 +1,72 @@
+"""Names of bodies and items: unique over a model, found with a suggestion when misspelt."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from ancf.errors import ModelError
+from ancf.model import checks
+
+BODY_NAME = re.compile(r"\w([\w -]*\w)?")
+POINT_LABEL = re.compile(r"(?P<body>.*)\.(?:(?P<end>start|end)|at\((?P<x>[^()]*)\))")
+
+
+class Names:
+    """The names taken in one model."""
+
+    __slots__ = ("_taken",)
+
+    def __init__(self) -> None:
+        self._taken: dict[str, str] = {}
+
+    def of_body(self, given: object, where: str) -> str:
+        """Check a body's name: letters, digits, _, - and spaces, not taken."""
+        name = checks.text(given, f"{where}.name")
+        if not BODY_NAME.fullmatch(name):
+            rule = "must be letters, digits, _, - and spaces inside"
+            raise ModelError(f"{where}.name", f"is {checks.shown(name)}, {rule}")
+        return self._free(name, where)
+
+    def of_item(self, given: object, automatic: str, where: str) -> str:
+        """Return the name given for an item, or its automatic one with #2, #3 when repeated."""
+        if given is not None:
+            name = checks.text(given, f"{where}.name")
+            if not name or name != name.strip() or not name.isprintable():
+                raise ModelError(f"{where}.name", f"is {checks.shown(name)}, must be printable text")
+            return self._free(name, where)
+        name, count = automatic, 1
+        while name in self._taken:
+            count += 1
+            name = f"{automatic} #{count}"
+        return name
+
+    def take(self, name: str, kind: str) -> None:
+        """Register a name."""
+        self._taken[name] = kind
+
+    def _free(self, name: str, where: str) -> str:
+        if name in self._taken:
+            raise ModelError(f"{where}.name", f'"{name}" is the name of a {self._taken[name]} already')
+        return name
+
+
+def unknown(where: str, kind: str, name: object, known: Iterable[str]) -> ModelError:
+    """Error for a name that is not there; lists the right ones."""
+    names = list(known)
+    have = f"known: {checks.listed(names)}" if names else "the model has none yet"
+    return ModelError(where, f"unknown {kind} {checks.shown(name)}, {have}", checks.nearest(name, names))
+
+
+def split_label(label: str, where: str) -> tuple[str, str | float]:
+    """Split "beam.end" into ("beam", "end") and "beam.at(0.5)" into ("beam", 0.5)."""
+    found = POINT_LABEL.fullmatch(label.strip())
+    if found is None:
+        example = "beam.start, beam.end or beam.at(0.5)"
+        raise ModelError(where, f'"{label}" is no point, a point is written like {example}')
+    if found["end"]:
+        return found["body"], found["end"]
+    try:
+        return found["body"], float(found["x"])
+    except ValueError:
+        raise ModelError(where, f'"{label}": "{found["x"]}" is no arc length in m') from None

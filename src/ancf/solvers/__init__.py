@@ -1,0 +1,1 @@
+"""Static equilibrium, time stepping and modes of a System."""

@@ -1,0 +1,287 @@
+"""One compiled block of implicit steps of the Newmark family, with a modified Newton method.
+
+At the end of a step the unknown is the acceleration a, with
+
+    q = q~ + B a,      v = v~ + G a,      B = beta h^2 (1 - alpha_f)/(1 - alpha_m),
+                                          G = gamma h (1 - alpha_f)/(1 - alpha_m),
+
+where q~ and v~ hold everything that is known; the trapezoidal rule is alpha_m = alpha_f = 0, beta = 1/4,
+gamma = 1/2.  Newton corrects q by dq, v by (G/B) dq and a by dq/B with the matrix M/B + (G/B) C + K.
+
+Modified Newton keeps that matrix over iterations and steps.  With the contraction theta of successive
+corrections the error left is about theta/(1 - theta) |dq|, and the iteration stops when that is below
+the tolerance.  The matrix is renewed when theta exceeds the limit or the iterations run out.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..compiled import inline_kernel, kernel
+from ..system.core import (
+    build_matrix,
+    drive,
+    external_force,
+    factorise_matrix,
+    follow,
+    powers,
+    residual,
+    solve_matrix,
+    to_local,
+)
+
+FloatArray = NDArray[np.float64]
+
+OK, DIVERGED, NOT_FINITE, SINGULAR, SLOW = 0, 1, 2, 3, 4
+#: Names of the entries of Memory.count.
+COUNTS = ("steps", "newton_iterations", "jacobians", "factorizations", "retries")
+STEPS, ITERATIONS, JACOBIANS, FACTORIZATIONS, RETRIES = range(5)
+
+
+class Scheme(NamedTuple):
+    """Coefficients of the Newmark family."""
+
+    beta: float
+    gamma: float
+    alpha_m: float
+    alpha_f: float
+
+
+class Rule(NamedTuple):
+    """Newton's rule: see :class:`ancf.solvers.newton.Newton`."""
+
+    tolerance: float
+    contraction: float
+    max_iterations: int
+    modified: bool
+
+
+class Memory(NamedTuple):
+    """State and workspace of a run; all arrays of length n unless said otherwise."""
+
+    q: FloatArray
+    v: FloatArray
+    a: FloatArray
+    abar: FloatArray  # the generalised-alpha method's algorithmic acceleration
+    a_prev: FloatArray  # acceleration one step before a, for the predictor
+    q0: FloatArray  # copies at the start of the step
+    v0: FloatArray
+    a0: FloatArray
+    r: FloatArray
+    f: FloatArray
+    push: FloatArray  # forces that do work at the start of the step
+    push_new: FloatArray
+    count: NDArray[np.int64]  # (5,) see COUNTS
+    memo: FloatArray  # (8,) see below
+    work: FloatArray  # (2,) energy dissipated and supplied since the start, J
+
+
+# entries of Memory.memo
+H_FACTOR, ETA, H_PREV, WORST, NORM, POWER, POWER_IN = range(7)
+
+
+def allocate(n: int) -> Memory:
+    """Memory for n unknowns."""
+    arrays = [np.zeros(n) for _ in range(12)]
+    memory = Memory(*arrays, np.zeros(5, dtype=np.int64), np.zeros(8), np.zeros(2))
+    memory.memo[ETA] = 1.0
+    return memory
+
+
+@inline_kernel
+def predict(s, h, scheme):  # type: ignore[no-untyped-def]
+    """Accelerations extrapolated from the last two steps; q, v at the end of the step."""
+    am, af = scheme.alpha_m, scheme.alpha_f
+    c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
+    hh, be, ga = h * h, scheme.beta, scheme.gamma
+    ratio = h / s.memo[H_PREV] if s.memo[H_PREV] > 0.0 else 0.0
+    for i in range(s.q.shape[0]):
+        q, v, a = s.q[i], s.v[i], s.a[i]
+        s.q0[i], s.v0[i], s.a0[i] = q, v, a
+        guess = a + ratio * (a - s.a_prev[i])
+        bar = s.abar[i]
+        bar_new = c1 * guess + c2 * a + c3 * bar
+        s.a[i] = guess
+        s.q[i] = q + h * v + hh * ((0.5 - be) * bar + be * bar_new)
+        s.v[i] = v + h * ((1.0 - ga) * bar + ga * bar_new)
+
+
+@inline_kernel
+def restore(s):  # type: ignore[no-untyped-def]
+    """Back to the start of the step."""
+    for i in range(s.q.shape[0]):
+        s.q[i], s.v[i], s.a[i] = s.q0[i], s.v0[i], s.a0[i]
+
+
+@inline_kernel
+def renew(core, s, h, B, G):  # type: ignore[no-untyped-def]
+    """Assemble and factorise the iteration matrix at the present q, v."""
+    build_matrix(core, s.q, s.v, 1.0 / B, G / B, 1.0)
+    s.count[JACOBIANS] += 1
+    s.count[FACTORIZATIONS] += 1
+    s.memo[H_FACTOR] = h
+    bad = factorise_matrix(core)
+    if bad < 0:
+        s.memo[WORST] = 6.0 * (-bad - 1)
+        s.memo[H_FACTOR] = 0.0
+    return bad
+
+
+@inline_kernel
+def correct(core, s, B, G):  # type: ignore[no-untyped-def]
+    """One Newton correction; returns its norm (NaN when it is not finite)."""
+    residual(core, s.q, s.v, s.a, s.f, s.r)
+    to_local(core, s.r)
+    solve_matrix(core, s.r)
+    norm, total, gb, ib = 0.0, 0.0, G / B, 1.0 / B
+    for i in range(core.weight.shape[0]):
+        d = s.r[i]
+        s.q[i] -= d
+        s.v[i] -= gb * d
+        s.a[i] -= ib * d
+        x = abs(d) * core.weight[i]
+        total += x
+        norm = max(norm, x)
+    follow(core, s.q, s.v, s.a)
+    return norm if total < 1e300 else np.nan
+
+
+@inline_kernel
+def worst_unknown(core, s):  # type: ignore[no-untyped-def]
+    """Unknown with the largest (or no finite) correction."""
+    worst, largest = 0, -1.0
+    for i in range(core.weight.shape[0]):
+        x = abs(s.r[i]) * core.weight[i]
+        if not x < 1e300:
+            return i
+        if x > largest:
+            worst, largest = i, x
+    return worst
+
+
+@inline_kernel
+def newton(core, s, h, rule, modified, B, G):  # type: ignore[no-untyped-def]
+    """Solve the equations of one step from the prediction in s; returns a status."""
+    fresh = False  # the matrix was renewed in this step
+    if s.memo[H_FACTOR] != h:
+        if renew(core, s, h, B, G) < 0:
+            return SINGULAR
+        fresh = True
+    eta = max(s.memo[ETA], 1e-10) ** 0.8
+    old = -1.0
+    for iteration in range(rule.max_iterations):
+        norm = correct(core, s, B, G)
+        s.count[ITERATIONS] += 1
+        s.memo[NORM] = norm
+        if not norm < 1e300:
+            return NOT_FINITE
+        theta = norm / old if old > 0.0 else -1.0
+        if theta >= 0.0:
+            eta = theta / (1.0 - theta) if theta < 1.0 else 1e300
+        if eta * norm <= rule.tolerance:
+            s.memo[ETA] = eta
+            return OK
+        if norm > 1e3 or theta >= 2.0 or (theta >= 1.0 and fresh and iteration > 3):
+            return DIVERGED
+        old = norm
+        if not modified or theta > rule.contraction or iteration % 8 == 7:
+            if renew(core, s, h, B, G) < 0:
+                return SINGULAR
+            fresh, old, eta = True, -1.0, 1.0
+    return SLOW
+
+
+@inline_kernel
+def finish(core, s, tables, n, h, scheme):  # type: ignore[no-untyped-def]
+    """Accept the step: algorithmic acceleration, memory of the predictor, energy balance."""
+    am, af = scheme.alpha_m, scheme.alpha_f
+    c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
+    for i in range(s.a.shape[0]):
+        s.abar[i] = c1 * s.a[i] + c2 * s.a0[i] + c3 * s.abar[i]
+        s.a_prev[i] = s.a0[i]
+    s.memo[H_PREV] = h
+    if core.damped or core.loaded:
+        balance(core, s, h)
+
+
+@inline_kernel
+def balance(core, s, h):  # type: ignore[no-untyped-def]
+    """Add the step's share to the energies dissipated and supplied (trapezoidal rule)."""
+    out, into = powers(core, s.q, s.v)
+    s.work[0] += 0.5 * h * (s.memo[POWER] + out)
+    s.work[1] += 0.5 * h * (s.memo[POWER_IN] + into)
+    s.memo[POWER], s.memo[POWER_IN] = out, into
+    working_forces(core, s, s.push_new)
+    for i in range(s.q.shape[0]):
+        s.work[1] += 0.5 * (s.push[i] + s.push_new[i]) * (s.q[i] - s.q0[i])
+        s.push[i] = s.push_new[i]
+
+
+@inline_kernel
+def working_forces(core, s, push):  # type: ignore[no-untyped-def]
+    """Loads but gravity, and the reactions of moving supports, at the state in s."""
+    for i in range(push.shape[0]):
+        push[i] = s.f[i] - core.gravity[i]
+    for k in range(core.rot_slot.shape[0]):  # the shadow carries the work
+        for c in range(3):
+            push[core.rot_slot[k] + c] = 0.0
+    if core.driven.shape[0] > 0:
+        residual(core, s.q, s.v, s.a, s.f, s.r)
+        for k in range(core.driven.shape[0]):
+            for c in range(3):
+                push[core.driven[k] + c] += s.r[core.driven[k] + c]
+
+
+@kernel
+def start_balance(core, s, load):  # type: ignore[no-untyped-def]
+    """Forces and powers at the start of a run, for the energy balance."""
+    external_force(core, load, s.f)
+    s.memo[POWER], s.memo[POWER_IN] = powers(core, s.q, s.v)
+    working_forces(core, s, s.push)
+
+
+@inline_kernel
+def try_step(core, s, tables, n, h, scheme, rule):  # type: ignore[no-untyped-def]
+    """One step; a failure is tried once more with a matrix renewed at every iteration."""
+    c = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
+    B, G = scheme.beta * h * h * c, scheme.gamma * h * c
+    external_force(core, tables.load[n], s.f)
+    status = OK
+    for attempt in range(2):
+        predict(s, h, scheme)
+        drive(core, tables, n, s.q, s.v, s.a)
+        follow(core, s.q, s.v, s.a)
+        status = newton(core, s, h, rule, rule.modified and attempt == 0, B, G)
+        if status == OK:
+            return OK
+        s.memo[WORST] = worst_unknown(core, s)
+        restore(s)
+        s.memo[H_FACTOR] = 0.0
+        s.memo[ETA] = 1.0
+        s.memo[H_PREV] = 0.0
+    return status
+
+
+@kernel
+def advance(core, s, tables, h, scheme, rule, keep, out_q, out_v, out_work):  # type: ignore[no-untyped-def]
+    """Take the steps of one block.
+
+    ``keep[n]`` is the row of the outputs that takes the state at the end of step n, or -1.
+    Returns the number of steps done and the status of the last one; a failed step leaves the
+    state at its start.
+    """
+    steps = keep.shape[0]
+    for n in range(steps):
+        status = try_step(core, s, tables, n, h, scheme, rule)
+        if status != OK:
+            return n, status
+        finish(core, s, tables, n, h, scheme)
+        s.count[STEPS] += 1
+        if keep[n] >= 0:
+            for i in range(s.q.shape[0]):
+                out_q[keep[n], i], out_v[keep[n], i] = s.q[i], s.v[i]
+            out_work[keep[n], 0], out_work[keep[n], 1] = s.work[0], s.work[1]
+    return steps, OK

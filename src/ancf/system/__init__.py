@@ -1,0 +1,1 @@
+"""A Model compiled once to flat arrays: unknowns, batches, residual, matrix, constraints."""

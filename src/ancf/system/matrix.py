@@ -1,0 +1,73 @@
+"""Places of the elements' blocks, of held unknowns and of local axes in the block matrix."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+IntArray = NDArray[np.int64]
+
+
+def block_pairs(batches: list[Any]) -> IntArray:
+    """Pairs of blocks that some batch couples, shape (m, 2), each once."""
+    parts = [np.zeros((0, 2), dtype=np.int64)]
+    for batch in batches:
+        blocks = np.where(batch.base >= 0, batch.base // 6, -1)
+        k = blocks.shape[1]
+        pairs = np.stack([np.repeat(blocks, k, axis=1), np.tile(blocks, (1, k))], axis=-1).reshape(-1, 2)
+        parts.append(np.unique(pairs[(pairs[:, 0] > pairs[:, 1]) & (pairs[:, 1] >= 0)], axis=0))
+    return np.unique(np.concatenate(parts), axis=0)
+
+
+class Places:
+    """Where entry (i, j) of the matrix is stored; diagonal blocks whole, others below the diagonal."""
+
+    def __init__(self, row_start: IntArray, column: IntArray) -> None:
+        self.row_start, self.column = row_start, column
+        self.n = len(row_start) - 1
+        rows = np.repeat(np.arange(self.n), np.diff(row_start))
+        self.key = rows * self.n + column  # ascending
+        self.rows = rows
+
+    @property
+    def size(self) -> int:
+        """Number of values."""
+        return 36 * (self.n + len(self.column))
+
+    def of(self, i: IntArray, j: IntArray) -> IntArray:
+        """Places of the entries (i, j) of unknowns, -1 above the diagonal blocks or for i, j < 0."""
+        bi, bj = i // 6, j // 6
+        k = np.searchsorted(self.key, bi * self.n + bj)
+        block = np.where(bi == bj, bi, self.n + k)
+        place = 36 * block + 6 * (i % 6) + j % 6
+        return np.where((bi >= bj) & (i >= 0) & (j >= 0), place, -1)
+
+    def dest(self, slots: IntArray) -> IntArray:
+        """Places of all 3x3 blocks of elements with these slots, shape (n, k*k)."""
+        n, k = slots.shape
+        i = np.repeat(slots, k, axis=1)
+        j = np.tile(slots, (1, k))
+        return np.ascontiguousarray(self.of(i, j).reshape(n, k * k))
+
+    def blocks_of(self, b: int) -> tuple[IntArray, IntArray]:
+        """Numbers of the stored blocks in row b (diagonal included) and below in column b."""
+        row = self.n + np.arange(self.row_start[b], self.row_start[b + 1])
+        column = self.n + np.flatnonzero(self.column == b)
+        return np.append(row, b), column
+
+    def cross(self, unknown: int) -> IntArray:
+        """Places of the row and column of an unknown, the diagonal entry included."""
+        row, column = self.blocks_of(unknown // 6)
+        c = unknown % 6
+        in_row = (36 * row[:, None] + 6 * c + np.arange(6)).ravel()
+        below = np.append(column, unknown // 6)
+        in_column = (36 * below[:, None] + c + 6 * np.arange(6)).ravel()
+        return np.unique(np.concatenate([in_row, in_column]))
+
+    def pieces(self, slot: int) -> tuple[IntArray, IntArray]:
+        """Places of the 3x6 pieces in the row of a slot and of the 6x3 pieces in its column."""
+        row, column = self.blocks_of(slot // 6)
+        c = slot % 6
+        return 36 * row + 6 * c, 36 * np.append(column, slot // 6) + c

@@ -1,0 +1,246 @@
+"""System: a Model compiled once to flat arrays that the kernels work on."""
+
+from __future__ import annotations
+
+import warnings
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..connections.build import springs
+from ..elements.lanes import LANES, ROWS
+from ..elements.registry import ELEMENTS
+from ..errors import ModelError
+from ..linalg.block_ldl import allocate
+from ..linalg.ordering import fill_pattern, order
+from ..model.beam import Beam
+from ..model.model import Model
+from ..model.points import Point
+from . import loads
+from .core import Core, place_supports
+from .drive import Drive
+from .matrix import Places, block_pairs
+from .numbering import Numbering
+from .probe import Probe, locate
+from .supports import Constraints, collect
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+class System:
+    """All arrays of a model, in the order in which the solver eliminates the nodes.
+
+    Parameters
+    ----------
+    model : Model
+
+    Attributes
+    ----------
+    core : Core
+        What the kernels work on.
+    drive : Drive
+        Functions of time.
+    n : int
+        Unknowns, held ones included; a state vector is longer by the shadows, see ``size``.
+    ordering : str
+        How the nodes were ordered: "as given", "band" or "minimum degree".
+    half_bandwidth : int
+        Of the matrix, in unknowns.
+    """
+
+    def __init__(self, model: Model) -> None:
+        if not model.bodies:
+            raise ModelError("bodies", "the model has no body", "add one with model.add_beam(...)")
+        self.model = model
+        self.numbering = Numbering(model)
+        self._order(self._batches(self.numbering.slots))
+        self.constraints = collect(model, self.numbering)
+        self.places = Places(*fill_pattern(self._pairs, self.numbering.blocks))
+        self.n = 6 * self.numbering.blocks
+        self.size = self.n + 3 * len(self.constraints.rotations)
+        self.slots = {name: self._shadowed(s) for name, s in self.numbering.slots.items()}
+        self.patterns, load_functions = loads.patterns(model, self.probe, self.slots)
+        batches = self._batches(self.numbering.slots)
+        moment_functions = loads.moments(model, self.probe)[1]
+        self.drive = Drive(load_functions, moment_functions, self.constraints)
+        self.core = self._core(batches)
+
+    def probe(self, point: Point) -> Probe:
+        """Where the state of a point of the model is found."""
+        return locate(point.body, point.x, self.slots[point.body.name])
+
+    def _batches(self, slots: dict[str, IntArray]) -> list[Any]:
+        def find(point: Point) -> Probe:
+            return locate(point.body, point.x, slots[point.body.name])
+
+        kinds: dict[str, list[Beam]] = {}
+        for beam in self.model.bodies.values():
+            kinds.setdefault(beam.element, []).append(beam)
+        elements = [
+            ELEMENTS[kind].build(beams, [slots[b.name] for b in beams]) for kind, beams in kinds.items()
+        ]
+        return [*elements, springs(self.model, find), loads.moments(self.model, find)[0]]
+
+    def _order(self, batches: list[Any]) -> None:
+        """Number the blocks so that L stays thin."""
+        pairs = block_pairs(batches)
+        rank, self.ordering = order(pairs, self.numbering.blocks)
+        self.numbering.renumber(rank)
+        self._pairs = rank[pairs]
+        spread = int(np.max(np.abs(np.diff(self._pairs, axis=1)), initial=0))
+        self.half_bandwidth = 6 * (spread + 1) - 1
+
+    def _shadowed(self, slots: IntArray) -> IntArray:
+        """Slots as elements and results see them: the shadow where there are local axes."""
+        seen = slots.copy()
+        for k, rotation in enumerate(self.constraints.rotations):
+            seen[slots == rotation.slot] = self.n + 3 * k
+        return seen
+
+    def _core(self, batches: list[Any]) -> Core:
+        for i, batch in enumerate(batches):
+            batches[i] = batch._replace(dest=self.places.dest(batch.base), base=self._shadowed(batch.base))
+        moment = batches[-1].value
+        start = np.cumsum([0] + [len(p[0]) for p in self.patterns])
+        arrays = _rotation_arrays(self.constraints, self.places, self.n)
+        held = self._held()
+        gravity = loads.gravity(self.model, self.slots, self.size)
+        damped = any(b.section.damping or b.section.axial_damping or b.section.bending_damping
+                     for b in self.model.bodies.values())
+        driven = sorted(self.constraints.driven)
+        return Core(
+            batches=tuple(batches),
+            factor=allocate(self.places.row_start, self.places.column),
+            A=np.zeros(self.places.size),
+            ws=np.zeros(ROWS * LANES),
+            weight=self._weight(),
+            **_held_arrays(held, self.places),
+            **arrays,
+            gravity=gravity,
+            load_start=start.astype(np.int64),
+            load_slot=_joined([p[0] for p in self.patterns], np.int64),
+            load_factor=_joined([p[1] for p in self.patterns], np.float64),
+            moment=moment,
+            prescribed=self.drive.prescribed,
+            driven=self._shadowed(np.array(driven, dtype=np.int64)),
+            damped=damped or bool(np.any(batches[-2].data[:, 1])),
+            loaded=bool(self.patterns or len(moment) or driven),
+        )
+
+    def _held(self) -> IntArray:
+        unused = np.flatnonzero(~self.numbering.used())
+        return np.unique(np.concatenate([unused, sorted(self.constraints.held)])).astype(np.int64)
+
+    def _weight(self) -> FloatArray:
+        weight = np.ones(self.n)
+        for slots in self.numbering.slots.values():
+            for c in range(3):
+                weight[slots[:, 0] + c] = 1.0 / self.model.size
+        return weight
+
+    def holding(self, bodies: list[str]) -> Core:
+        """Core in which these bodies are held altogether."""
+        extra = [self.numbering.slots[name].ravel()[:, None] + np.arange(3) for name in bodies]
+        held = np.unique(np.concatenate([self.core.held, *[e.ravel() for e in extra]]))
+        return self.core._replace(**_held_arrays(held, self.places))
+
+    @cached_property
+    def free(self) -> IntArray:
+        """Unknowns that move freely."""
+        return np.setdiff1d(np.arange(self.n), self.core.held)
+
+    def initial_state(self, time: float = 0.0) -> tuple[FloatArray, FloatArray]:
+        """State vectors q and v of the initial shape and motion, supports as at ``time``."""
+        q, v, a = np.zeros(self.size), np.zeros(self.size), np.zeros(self.size)
+        for beam in self.model.bodies.values():
+            slots = self.numbering.slots[beam.name]
+            values = (beam.node_position, beam.stretch * beam.node_tangent)
+            for slot, value in zip(slots.T[:2], values, strict=True):
+                for c in range(3):
+                    q[slot + c] = value[:, c]
+        self._to_local(q)
+        self.place(time, q, v, a)
+        self._set_motion(q, v, a, time)
+        return q, v
+
+    def _to_local(self, q: FloatArray) -> None:
+        for r in self.constraints.rotations:
+            q[r.slot : r.slot + 3] = r.R0.T @ q[r.slot : r.slot + 3]
+
+    def place(self, time: float, q: FloatArray, v: FloatArray, a: FloatArray) -> None:
+        """Put supports where they are at ``time``, and moments; fills the shadows."""
+        h = 1e-3
+        place_supports(self.core, self.drive.tables(time - h, h, 1, time, np.inf), 0, q, v, a)
+
+    def _set_motion(self, q: FloatArray, v: FloatArray, a: FloatArray, time: float) -> None:
+        """Initial rigid motions of the bodies; what a support holds follows the support."""
+        wanted = np.zeros_like(v)
+        for beam in self.model.bodies.values():
+            slots = self.slots[beam.name]
+            for k in range(2):
+                arm = np.stack([q[slots[:, k] + c] for c in range(3)], axis=1)
+                rate = np.cross(beam.angular_velocity, arm - (beam.about if k == 0 else 0.0))
+                rate += beam.velocity if k == 0 else 0.0
+                for c in range(3):
+                    wanted[slots[:, k] + c] = rate[:, c]
+        if not np.any(wanted):
+            return
+        for k, r in enumerate(self.constraints.rotations):
+            shadow = slice(self.n + 3 * k, self.n + 3 * k + 3)
+            R, dR = self.core.rot_R[k, 0], self.core.rot_R[k, 1]
+            wanted[r.slot : r.slot + 3] = R.T @ (wanted[shadow] - dR @ q[r.slot : r.slot + 3])
+        given = v.copy()
+        v[: self.n] = wanted[: self.n]
+        v[self.core.held] = given[self.core.held]
+        self._warn_of_jump(wanted, v)
+        self.place(time, q, v, a)
+
+    def _warn_of_jump(self, wanted: FloatArray, v: FloatArray) -> None:
+        gap = np.abs(wanted[: self.n] - v[: self.n]) * self.core.weight
+        worst = int(np.argmax(gap))
+        if gap[worst] > 1e-9 * np.max(np.abs(wanted[: self.n]) * self.core.weight):
+            name = self.numbering.describe(worst)
+            text = f"{name}: set_motion asks for {wanted[worst]:.6g}, the support holds it at {v[worst]:.6g}"
+            warnings.warn(text + "; the support wins", UserWarning, stacklevel=2)
+
+
+def _joined(parts: list[NDArray], dtype: type) -> NDArray:  # type: ignore[type-arg]
+    return np.concatenate([np.zeros(0), *parts]).astype(dtype)
+
+
+def _held_arrays(held: IntArray, places: Places) -> dict[str, IntArray]:
+    crosses = [places.cross(int(i)) for i in held]
+    return {
+        "held": np.ascontiguousarray(held, dtype=np.int64),
+        "held_zero": _joined(crosses, np.int64),
+        "held_one": np.ascontiguousarray(36 * (held // 6) + 7 * (held % 6), dtype=np.int64),
+    }
+
+
+def _rotation_arrays(constraints: Constraints, places: Places, n: int) -> dict[str, NDArray]:  # type: ignore[type-arg]
+    k = len(constraints.rotations)
+    R = np.zeros((k, 3, 3, 3))
+    moving = np.full(k, -1, dtype=np.int64)
+    rows, rows_of, cols, cols_of = [], [], [], []
+    for i, r in enumerate(constraints.rotations):
+        R[i, 0] = r.R0
+        if r.angle is not None:
+            moving[i] = int(np.max(moving[:i], initial=-1)) + 1
+        row, col = places.pieces(r.slot)
+        rows.append(row)
+        cols.append(col)
+        rows_of.append(np.full(len(row), i))
+        cols_of.append(np.full(len(col), i))
+    return {
+        "rot_slot": np.array([r.slot for r in constraints.rotations], dtype=np.int64),
+        "rot_shadow": n + 3 * np.arange(k, dtype=np.int64),
+        "rot_R": R,
+        "rot_moving": moving,
+        "rot_rows": _joined(rows, np.int64),
+        "rot_rows_of": _joined(rows_of, np.int64),
+        "rot_cols": _joined(cols, np.int64),
+        "rot_cols_of": _joined(cols_of, np.int64),
+    }
