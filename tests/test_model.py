@@ -228,7 +228,7 @@ BAD_BEAMS = [
     ({"strain": "papr"}, "strain", 'did you mean "paper"?'),
     ({"poisson": "none"}, "poisson", '"centreline", "full"'),
     ({"natural_shape": "curved"}, "natural_shape", '"path", "straight"'),
-    ({"gauss": (0, 3)}, "gauss[0]", "between 1 and 20"),
+    ({"gauss": (0, 3)}, "gauss[0]", "between 1 and 10"),
     ({"gauss": (5, 3.0)}, "gauss[1]", "whole number"),
     ({"gauss": 5}, "gauss", "two counts"),
     ({"path": [(0, 0, 0), (1, 0, 0), (2, 0, 0)]}, "path", "not both"),

@@ -210,7 +210,7 @@ BAD = [
     ((*BEAM, "path"), [[0, 0, 0]], "bodies[0].path", "not both"),
     ((*BEAM, "length"), 0, "bodies[0].length", "must be > 0"),
     ((*BEAM, "gauss"), [5], "bodies[0].gauss", "has 1 entries, wanted 2"),
-    ((*BEAM, "gauss"), [5, 99], "bodies[0].gauss[1]", "between 1 and 20"),
+    ((*BEAM, "gauss"), [5, 99], "bodies[0].gauss[1]", "between 1 and 10"),
     ((*BEAM, "motion"), {"velocty": [0, 0, 0]}, "bodies[0].motion.velocty", 'did you mean "velocity"?'),
     ((*BEAM, "motion", "about"), [0, 0], "bodies[0].motion.about", "wanted 3"),
     (("bodies", 1, "path", 1), [1, 0, 0], "bodies[1].path[1]", "coincides with path[0]"),

@@ -1,7 +1,7 @@
 """Compiled kernels: one decorator, one cache, one way to add a kind of force.
 
 A *batch* is a NamedTuple of flat arrays that holds all parts of one kind (all cable elements, all
-springs, ...).  Each kind implements the five operations below for its own batch type; a compiled
+springs, ...).  Each kind implements the four operations below for its own batch type; a compiled
 loop over the batches of a System finds the right one by type.  Kernels take arrays, write into
 their arguments, allocate nothing and know no objects.
 """
@@ -21,7 +21,7 @@ from numba.extending import overload
 F = TypeVar("F", bound=Callable[..., Any])
 
 # IEEE special values must survive (they are how a diverged step is seen), so no "nnan", no "ninf".
-_OPTIONS = {"fastmath": {"contract", "nsz", "arcp", "reassoc"}, "error_model": "numpy", "_nrt": False}
+_OPTIONS = {"fastmath": {"contract", "nsz", "arcp"}, "error_model": "numpy", "_nrt": False}
 
 
 def _package_stamp() -> str:
@@ -68,11 +68,6 @@ def strain_energy(batch, q, ws):  # type: ignore[no-untyped-def]
     raise TypeError(f"no energy for {type(batch).__name__}")
 
 
-def dissipated_power(batch, q, v, ws):  # type: ignore[no-untyped-def]
-    """Pair (power that dampers take out, power that loads put in) of the batch, W."""
-    raise TypeError(f"no power for {type(batch).__name__}")
-
-
 def implements(
     batch_type: type,
     *,
@@ -80,9 +75,8 @@ def implements(
     inertia: Callable[..., Any],
     tangent: Callable[..., Any],
     energy: Callable[..., Any],
-    power: Callable[..., Any],
 ) -> None:
-    """Register the five operations of a kind of batch (see the functions above for arguments)."""
+    """Register the four operations of a kind of batch (see the functions above for arguments)."""
 
     def matches(batch: Any) -> bool:
         return isinstance(batch, types.BaseNamedTuple) and batch.instance_class is batch_type
@@ -99,7 +93,6 @@ def implements(
         (add_inertia, inertia),
         (add_tangent, tangent),
         (strain_energy, energy),
-        (dissipated_power, power),
     ):
         bind(stub, function)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 
 class ModelError(ValueError):
     """The description of the model is wrong; nothing was computed.
@@ -15,7 +17,14 @@ class ModelError(ValueError):
         What is wrong, with the offending value.
     hint : str, optional
         What to do about it.
+
+    Attributes
+    ----------
+    result : Result or None
+        What a simulation had computed when, for example, a load function failed.
     """
+
+    result: Any = None
 
     def __init__(self, where: str, what: str, hint: str = "") -> None:
         self.where, self.what, self.hint = where, what, hint
@@ -33,11 +42,26 @@ class SolveError(RuntimeError):
         What happened.
     hint : str, optional
         The likely cause and what to try.
+
+    Attributes
+    ----------
+    result : Result or None
+        What a simulation had computed until then.
     """
+
+    result: Any = None
 
     def __init__(self, where: str, what: str, hint: str = "") -> None:
         self.where, self.what, self.hint = where, what, hint
         super().__init__(_sentence(where, what, hint))
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C during a simulation; ``result`` holds what was computed until then."""
+
+    def __init__(self, result: Any) -> None:
+        self.result = result
+        super().__init__("the simulation was interrupted")
 
 
 def _sentence(where: str, what: str, hint: str) -> str:

@@ -107,24 +107,10 @@ def spring_energy(batch, q, ws):  # type: ignore[no-untyped-def]
     return energy
 
 
-@inline_kernel
-def spring_power(batch, q, v, ws):  # type: ignore[no-untyped-def]
-    """Power taken out by the dampers (a slack spring gives back its energy alone), W."""
-    power = 0.0
-    for e in range(batch.base.shape[0]):
-        _, length, rate, tension, _ = spring_state(batch, e, q, v)
-        elastic = batch.data[e, 0] * (length - batch.data[e, 2])
-        if batch.data[e, 3] != 0.0:
-            elastic = max(elastic, 0.0)
-        power += (tension - elastic) * rate
-    return power, 0.0
-
-
 implements(
     SpringBatch,
     force=spring_force,
     inertia=spring_inertia,
     tangent=spring_tangent,
     energy=spring_energy,
-    power=spring_power,
 )

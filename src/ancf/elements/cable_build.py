@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..model.beam import Beam
 from .cable import CableBatch
-from .lanes import gauss_table
+from .lanes import CONSTANTS, LANES, gauss_table
 from .measures import axial_strain, curvature
 from .shapes import FloatArray, gauss, hermite
 
@@ -28,24 +28,43 @@ def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> CableBatch:
     """
     parts = sorted((_part(beam, slot) for beam, slot in zip(beams, slots, strict=True)), key=lambda p: p[0])
     groups: list[list[int]] = []
-    tables = []
-    start = first_gp = 0
+    tables = [np.zeros((0, 7))]
+    first = [np.zeros(1, dtype=np.int64)]
+    start = chunk = first_gp = 0
     for key, members in groupby(parts, key=lambda part: part[0]):
         paper, axial, bending, damped, curved = key
-        stop = start + sum(len(member[1]) for member in members)
+        count = sum(len(member[1]) for member in members)
+        ends = start + np.append(np.arange(LANES, count, LANES), count)
+        first.append(ends)
         tables.append(gauss_table(axial, bending))
-        groups.append([start, stop, paper, first_gp, axial, bending, damped, curved])
-        start, first_gp = stop, first_gp + axial + bending
-    base, data, eps0, kappa0 = ([part[k] for part in parts] for k in range(1, 5))
+        groups.append([chunk, chunk + len(ends), paper, first_gp, axial, bending, damped, curved])
+        start, chunk, first_gp = start + count, chunk + len(ends), first_gp + axial + bending
+    base, data, reference = (np.concatenate([part[k] for part in parts]) for k in range(1, 4))
+    bounds = np.concatenate(first)
     return CableBatch(
-        base=_stack(base, 4, np.int64),
+        base=np.ascontiguousarray(base, dtype=np.int64),
         dest=np.full((start, 16), -1, dtype=np.int64),
-        data=_stack(data, 8, np.float64),
-        eps0=_stack(eps0, 10, np.float64),
-        kappa0=_stack(kappa0, 10, np.float64),
+        first=bounds,
+        lane_base=in_lanes(base, bounds).astype(np.int64),
+        lane_data=in_lanes(data, bounds),
+        lane_reference=in_lanes(reference, bounds),
         groups=np.array(groups, dtype=np.int64).reshape(-1, 8),
-        gp=np.ascontiguousarray(np.concatenate(tables)) if tables else np.zeros((0, 7)),
+        gp=np.ascontiguousarray(np.concatenate(tables)),
     )
+
+
+def in_lanes(values: NDArray, bounds: IntArray) -> NDArray:  # type: ignore[type-arg]
+    """Rows of values by element, (n, k), as (chunks, k LANES): component by component, lane by lane.
+
+    Lanes without an element repeat the last one, without stiffness and mass.
+    """
+    counts = np.diff(bounds)
+    lane = np.arange(LANES)
+    element = bounds[:-1, None] + np.minimum(lane, counts[:, None] - 1)
+    out = values[element]  # (chunks, LANES, k)
+    if values.shape[1] == CONSTANTS:
+        out[lane >= counts[:, None], 2:] = 0.0
+    return np.ascontiguousarray(out.transpose(0, 2, 1).reshape(len(counts), -1))
 
 
 def reference_strains(beam: Beam) -> tuple[FloatArray, FloatArray]:
@@ -80,22 +99,25 @@ def _is_straight(beam: Beam) -> bool:
     return bool(np.all(np.abs(beam.node_tangent - beam.node_tangent[0]) < 1e-12))
 
 
-def _part(beam: Beam, slot: IntArray) -> tuple[tuple[int, ...], IntArray, FloatArray, FloatArray, FloatArray]:
-    """Key of the group, base, data, eps0 and kappa0 of one beam."""
-    data = _data(beam, np.diff(beam.node_x))
+def _part(beam: Beam, slot: IntArray) -> tuple[tuple[int, ...], IntArray, FloatArray, FloatArray]:
+    """Key of the group, base, constants and reference strains of one beam."""
+    s, h = beam.section, np.diff(beam.node_x)
+    one = np.ones_like(h)
+    data = np.stack(
+        [
+            h,
+            1 / h,
+            s.EA * h,
+            s.EI * h,
+            s.axial_damping * h,
+            s.bending_damping * h,
+            s.rhoA * h / 420,
+            s.damping / s.rhoA * one,
+        ],
+        axis=1,
+    )
     eps0, kappa0 = reference_strains(beam)
-    damped, curved = bool(np.any(data[:, 4:7])), bool(np.any(eps0) or np.any(kappa0))
+    damped = bool(s.damping or s.axial_damping or s.bending_damping)
+    curved = bool(np.any(eps0) or np.any(kappa0))
     key = (int(beam.strain == "paper"), *beam.gauss, int(damped), int(curved))
-    return key, np.hstack([slot[:-1], slot[1:]]), data, eps0, kappa0
-
-
-def _data(beam: Beam, h: FloatArray) -> FloatArray:
-    s = beam.section
-    row = [0.0, s.EA, s.EI, s.rhoA, s.damping, s.axial_damping, s.bending_damping, 0.0]
-    data = np.tile(row, (len(h), 1))
-    data[:, 0] = h
-    return data
-
-
-def _stack(parts: list[NDArray], columns: int, dtype: type) -> NDArray:  # type: ignore[type-arg]
-    return np.ascontiguousarray(np.concatenate([np.zeros((0, columns)), *parts]), dtype=dtype)
+    return key, np.hstack([slot[:-1], slot[1:]]), data, np.hstack([eps0, kappa0])

@@ -26,14 +26,14 @@ D, T1, T2 = 0, 3, 6  # element shape
 FD, F1, F2 = 9, 12, 15  # force on d, t1, t2
 VD, V1, V2 = 18, 21, 24  # rates of d, t1, t2
 LENGTH, INV_L, EA_L, EI_L, DA_L, DB_L = 27, 28, 29, 30, 31, 32
-MASS, VISCOUS = 33, 34  # rhoA L/420, viscous c L/420
+MASS, VISCOUS = 33, 34  # rhoA L/420, external damping / rhoA
+CONSTANTS = 8  # rows from LENGTH to VISCOUS
 A1, AS1, A2, AS2 = 35, 38, 41, 44  # accelerations of the four slots
 NODAL = 47  # forces on the four slots: 12 rows
-EPS0 = 60  # reference axial strain, up to 10 Gauss points
-KAPPA0 = 70  # reference curvature, up to 10 Gauss points
-KPP, KPS, KSS = 80, 86, 95  # second derivatives at a Gauss point: 6, 9, 6 rows
-KDD, KD1, KD2, K11, K12, K22 = 101, 110, 119, 128, 137, 146  # 3x3 blocks
-ROWS = 155
+REFERENCE = 60  # reference axial strain or curvature at the Gauss point at hand
+KPP, KPS, KSS = 61, 67, 76  # second derivatives at a Gauss point: 6, 9, 6 rows
+KDD, KD1, KD2, K11, K12, K22 = 82, 91, 100, 109, 118, 127  # 3x3 blocks
+ROWS = 136
 
 #: A curved reference needs kappa itself; it is rounded off below this fraction of kappa0.
 SMOOTHING = 1e-4
@@ -53,7 +53,7 @@ def gauss_table(axial: int, bending: int) -> FloatArray:
 
 
 @inline_kernel
-def axial_force(ws, gp, g, k0, paper):  # type: ignore[no-untyped-def]
+def axial_force(ws, gp, g, paper):  # type: ignore[no-untyped-def]
     """Add the axial force of Gauss point ``g`` to rows FD, F1, F2 (eqs. 25, 27, B-1)."""
     cd, c1, c2, w = gp[g, 0], gp[g, 1], gp[g, 2], gp[g, 6]
     for m in range(LANES):
@@ -61,7 +61,7 @@ def axial_force(ws, gp, g, k0, paper):  # type: ignore[no-untyped-def]
         py = cd * ws[1 * LANES + m] + c1 * ws[4 * LANES + m] + c2 * ws[7 * LANES + m]
         pz = cd * ws[2 * LANES + m] + c1 * ws[5 * LANES + m] + c2 * ws[8 * LANES + m]
         a = px * px + py * py + pz * pz
-        e0 = ws[k0 * LANES + m]
+        e0 = ws[REFERENCE * LANES + m]
         f = w * ws[EA_L * LANES + m] * (0.5 * (a - 1.0) - e0 if paper else 1.0 - (1.0 + e0) / math.sqrt(a))
         px *= f
         py *= f
@@ -78,7 +78,7 @@ def axial_force(ws, gp, g, k0, paper):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def bending_force(ws, gp, g, k0, paper, curved):  # type: ignore[no-untyped-def]
+def bending_force(ws, gp, g, paper, curved):  # type: ignore[no-untyped-def]
     """Add the bending force of Gauss point ``g`` to rows FD, F1, F2 (eqs. 26, 27)."""
     cd, c1, c2, ed, e1, e2, w = gp[g, 0], gp[g, 1], gp[g, 2], gp[g, 3], gp[g, 4], gp[g, 5], gp[g, 6]
     scale = math.sqrt(1.0 + SMOOTHING * SMOOTHING)
@@ -98,7 +98,7 @@ def bending_force(ws, gp, g, k0, paper, curved):  # type: ignore[no-untyped-def]
         k2 = (a * c - b * b) * im
         f = w * ws[EI_L * LANES + m]
         if curved:
-            kappa0 = ws[k0 * LANES + m]
+            kappa0 = ws[REFERENCE * LANES + m]
             f *= 1.0 - kappa0 * scale / math.sqrt(abs(k2) + (SMOOTHING * kappa0) ** 2 + 1e-200)
         wa = f * (c * im - (3.0 if paper else 2.0) * k2 * ia)  # 2 dW/da
         wb = -f * b * im  # dW/db
@@ -141,7 +141,7 @@ def inertia_force(ws):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def axial_tangent(ws, gp, g, k0, paper, c_damping):  # type: ignore[no-untyped-def]
+def axial_tangent(ws, gp, g, paper, c_damping):  # type: ignore[no-untyped-def]
     """Rows KPP: second derivative of the axial energy by r_x, damping included."""
     cd, c1, c2, w = gp[g, 0], gp[g, 1], gp[g, 2], gp[g, 6]
     for m in range(LANES):
@@ -149,7 +149,7 @@ def axial_tangent(ws, gp, g, k0, paper, c_damping):  # type: ignore[no-untyped-d
         py = cd * ws[1 * LANES + m] + c1 * ws[4 * LANES + m] + c2 * ws[7 * LANES + m]
         pz = cd * ws[2 * LANES + m] + c1 * ws[5 * LANES + m] + c2 * ws[8 * LANES + m]
         a = px * px + py * py + pz * pz
-        e0 = ws[k0 * LANES + m]
+        e0 = ws[REFERENCE * LANES + m]
         ea = w * ws[EA_L * LANES + m]
         if paper:
             f = ea * (0.5 * (a - 1.0) - e0)
@@ -166,7 +166,7 @@ def axial_tangent(ws, gp, g, k0, paper, c_damping):  # type: ignore[no-untyped-d
 
 
 @inline_kernel
-def bending_tangent(ws, gp, g, k0, paper, curved):  # type: ignore[no-untyped-def]
+def bending_tangent(ws, gp, g, paper, curved):  # type: ignore[no-untyped-def]
     """Rows KPP, KPS, KSS: second derivatives of the bending energy by r_x = p and r_xx = s."""
     cd, c1, c2, ed, e1, e2, w = gp[g, 0], gp[g, 1], gp[g, 2], gp[g, 3], gp[g, 4], gp[g, 5], gp[g, 6]
     scale = math.sqrt(1.0 + SMOOTHING * SMOOTHING)
@@ -188,7 +188,7 @@ def bending_tangent(ws, gp, g, k0, paper, curved):  # type: ignore[no-untyped-de
         wu = 0.5 * w * ws[EI_L * LANES + m]  # dW/d(kappa^2)
         wuu = 0.0
         if curved:
-            kappa0 = ws[k0 * LANES + m]
+            kappa0 = ws[REFERENCE * LANES + m]
             khat2 = abs(k2) + (SMOOTHING * kappa0) ** 2 + 1e-200
             ratio = kappa0 * scale / math.sqrt(khat2)
             wuu = 0.5 * wu * ratio / khat2

@@ -40,7 +40,7 @@ def dot(u, v):  # type: ignore[no-untyped-def]
 
 @inline_kernel
 def bending_rate(p, s, dp, ds, paper, length):  # type: ignore[no-untyped-def]
-    """Rate y and X y of the curvature vector, and the numbers that the force needs."""
+    """X y of the curvature vector's rate y, and the numbers that the force needs."""
     a = dot(p, p)
     b = dot(p, s)
     ba = b / a
@@ -59,7 +59,7 @@ def bending_rate(p, s, dp, ds, paper, length):  # type: ignore[no-untyped-def]
     along = g * g * nu * dot(z, y)
     e = delta * delta * nu
     xy = (e * y[0] + along * z[0], e * y[1] + along * z[1], e * y[2] + along * z[2])
-    return y, xy, z, a, ba, g, k, nu
+    return xy, z, a, ba, g, k, nu
 
 
 @inline_kernel
@@ -75,8 +75,7 @@ def add_nodal(ws, gp, g, m, qp, qs):  # type: ignore[no-untyped-def]
 
 @inline_kernel
 def axial_damping(ws, gp, g, paper):  # type: ignore[no-untyped-def]
-    """Add the axial damping force of Gauss point g; returns its power summed over the lanes."""
-    power = 0.0
+    """Add the axial damping force of Gauss point g."""
     for m in range(LANES):
         p, _ = shape_at(ws, gp, g, 0, m)
         dp, _ = shape_at(ws, gp, g, 18, m)
@@ -85,18 +84,15 @@ def axial_damping(ws, gp, g, paper):  # type: ignore[no-untyped-def]
         if not paper:
             f /= dot(p, p)
         add_nodal(ws, gp, g, m, (f * p[0], f * p[1], f * p[2]), (0.0, 0.0, 0.0))
-        power += f * rate
-    return power
 
 
 @inline_kernel
 def bending_damping(ws, gp, g, paper):  # type: ignore[no-untyped-def]
-    """Add the bending damping force of Gauss point g; returns its power summed over the lanes."""
-    power = 0.0
+    """Add the bending damping force of Gauss point g."""
     for m in range(LANES):
         p, s = shape_at(ws, gp, g, 0, m)
         dp, ds = shape_at(ws, gp, g, 18, m)
-        y, xy, z, a, ba, gg, k, _ = bending_rate(p, s, dp, ds, paper, ws[LENGTH * LANES + m])
+        xy, z, a, ba, gg, k, _ = bending_rate(p, s, dp, ds, paper, ws[LENGTH * LANES + m])
         f = gp[g, 6] * ws[DB_L * LANES + m]
         h = -k * dot(z, xy) / a
         q = f * gg
@@ -108,8 +104,6 @@ def bending_damping(ws, gp, g, paper):  # type: ignore[no-untyped-def]
             (q * (h * p[0] - ba * xy[0]), q * (h * p[1] - ba * xy[1]), q * (h * p[2] - ba * xy[2])),
             (q * xy[0], q * xy[1], q * xy[2]),
         )
-        power += f * dot(y, xy)
-    return power
 
 
 @inline_kernel
@@ -117,7 +111,7 @@ def bending_damping_tangent(ws, gp, g, paper, c_damping):  # type: ignore[no-unt
     """Add the derivative of the bending damping force by the velocities to rows KPP, KPS, KSS."""
     for m in range(LANES):
         p, s = shape_at(ws, gp, g, 0, m)
-        _, _, z, a, ba, gg, k, nu = bending_rate(p, s, p, s, paper, ws[LENGTH * LANES + m])
+        _, z, a, ba, gg, k, nu = bending_rate(p, s, p, s, paper, ws[LENGTH * LANES + m])
         f = c_damping * gp[g, 6] * ws[DB_L * LANES + m] * gg * gg
         delta = STRAIGHT / ws[LENGTH * LANES + m]
         e = delta * delta * nu

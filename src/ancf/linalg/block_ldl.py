@@ -67,9 +67,10 @@ def invert_symmetric(A, o, original):  # type: ignore[no-untyped-def]
         for i in range(6):
             if i != p:
                 f = A[o + 6 * i + p] / d
-                for j in range(6):
+                for j in range(i + 1):
                     if j != p:
                         A[o + 6 * i + j] -= f * A[o + 6 * p + j]
+                        A[o + 6 * j + i] = A[o + 6 * i + j]
         for i in range(6):
             A[o + 6 * i + p] /= d
             A[o + 6 * p + i] = A[o + 6 * i + p]
@@ -91,6 +92,21 @@ def subtract_product_t(C, oc, A, oa, B, ob):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
+def subtract_symmetric(C, oc, A, oa, B, ob):  # type: ignore[no-untyped-def]
+    """C -= A B^T where the product is known to be symmetric.
+
+    C must stay exactly symmetric: along a chain of many nodes an antisymmetric error would grow.
+    """
+    for i in range(6):
+        for j in range(i + 1):
+            s = 0.0
+            for k in range(6):
+                s += A[oa + 6 * i + k] * B[ob + 6 * j + k]
+            C[oc + 6 * i + j] -= s
+            C[oc + 6 * j + i] = C[oc + 6 * i + j]
+
+
+@inline_kernel
 def factorise(A, factor):  # type: ignore[no-untyped-def]
     """Fill ``factor`` from the values A; returns the number of negative pivots, or -(block + 1) if singular."""
     row_start, column, L, D_inv, T, place = factor
@@ -100,8 +116,9 @@ def factorise(A, factor):  # type: ignore[no-untyped-def]
         first, last = row_start[i], row_start[i + 1]
         for k in range(first, last):
             place[column[k]] = k - first
-        for m in range(36 * i, 36 * i + 36):
-            D_inv[m] = A[m]
+        for m in range(6):
+            for c in range(6):
+                D_inv[36 * i + 6 * m + c] = A[36 * i + 6 * max(m, c) + min(m, c)]
         for k in range(first, last):
             j, t = column[k], 36 * (k - first)
             for m in range(36):
@@ -114,7 +131,7 @@ def factorise(A, factor):  # type: ignore[no-untyped-def]
             subtract_product_t(L, 36 * k, T, t, D_inv, 36 * j)  # D_inv is symmetric
             for m in range(36 * k, 36 * k + 36):
                 L[m] = -L[m]
-            subtract_product_t(D_inv, 36 * i, T, t, L, 36 * k)
+            subtract_symmetric(D_inv, 36 * i, T, t, L, 36 * k)
         for k in range(first, last):
             place[column[k]] = -1
         bad = invert_symmetric(D_inv, 36 * i, A)

@@ -85,22 +85,10 @@ def moment_energy(batch, q, ws):  # type: ignore[no-untyped-def]
     return 0.0
 
 
-@inline_kernel
-def moment_power(batch, q, v, ws):  # type: ignore[no-untyped-def]
-    """Power put in by the moments, W."""
-    power = 0.0
-    for e in range(batch.base.shape[0]):
-        _, _, f = slope_force(batch, e, q)
-        dp = moment_slope(batch, e, v)
-        power += f[0] * dp[0] + f[1] * dp[1] + f[2] * dp[2]
-    return 0.0, power
-
-
 implements(
     MomentBatch,
     force=moment_force,
     inertia=moment_inertia,
     tangent=moment_tangent,
     energy=moment_energy,
-    power=moment_power,
 )

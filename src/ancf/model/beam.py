@@ -18,7 +18,7 @@ STRAINS = ("material", "paper")
 POISSON = ("centreline", "full")
 NATURAL_SHAPES = ("path", "straight")
 MOST_ELEMENTS = 1_000_000
-MOST_GAUSS_POINTS = 20
+MOST_GAUSS_POINTS = 10
 NODE_TOLERANCE = 1e-9  # of the length
 
 

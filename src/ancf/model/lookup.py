@@ -64,11 +64,18 @@ class Lookup:
         if not isinstance(point, str):
             hint = "such as beam.start, beam.end or beam.at(0.5)"
             raise ModelError(where, f"must be a point, is {checks.shown(point)}", hint)
-        name, place = split_label(point, where)
-        body = self._body(name, where)
-        if isinstance(place, str):
-            return body.start if place == "start" else body.end
-        try:
-            return body.at(place)
-        except ModelError as error:
-            raise ModelError(where, error.what, error.hint) from None
+        return parse_point(self.bodies, point, where)
+
+
+def parse_point(bodies: dict[str, Beam], label: str, where: str = "point") -> Point:
+    """Point written as ``beam.start``, ``beam.end`` or ``beam.at(0.5)``; ModelError if there is none."""
+    name, place = split_label(label, where)
+    if name not in bodies:
+        raise unknown(where, "body", name, bodies)
+    body = bodies[name]
+    if isinstance(place, str):
+        return body.start if place == "start" else body.end
+    try:
+        return body.at(place)
+    except ModelError as error:
+        raise ModelError(where, error.what, error.hint) from None

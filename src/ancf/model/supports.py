@@ -139,8 +139,10 @@ def _letters(value: Any, where: str) -> str:
 
 
 def check_overlap(where: str, new: Support, others: list[Support]) -> None:
-    """No component of a node may be held twice."""
+    """No component of a node may be held twice; a second clamp refines the first one."""
     for other in others:
+        if isinstance(other, Clamp) and isinstance(new, Clamp):
+            continue
         same_node = other.point.body is new.point.body and node_of(other.point) == node_of(new.point)
         twice = sorted(other.held & new.held)
         if same_node and twice:

@@ -1,1 +1,8 @@
-"""."""
+"""What a run computed: states, histories, energies, counters, and the file that holds them."""
+
+from ..solvers.stepping import Progress, Stats
+from .modes import Modes
+from .result import Result
+from .state import Energy, State
+
+__all__ = ["Energy", "Modes", "Progress", "Result", "State", "Stats"]

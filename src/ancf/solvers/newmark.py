@@ -18,20 +18,22 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numba import literal_unroll
 from numpy.typing import NDArray
 
-from ..compiled import inline_kernel, kernel
+from ..compiled import add_force, inline_kernel, kernel
 from ..system.core import (
-    build_matrix,
+    assemble,
     drive,
     external_force,
     factorise_matrix,
     follow,
-    powers,
     residual,
+    restrict,
     solve_matrix,
     to_local,
 )
+from .frames import Frames, remember, turn, turn_back, turn_forth
 
 FloatArray = NDArray[np.float64]
 
@@ -57,6 +59,7 @@ class Rule(NamedTuple):
     contraction: float
     max_iterations: int
     modified: bool
+    corotate: bool
 
 
 class Memory(NamedTuple):
@@ -77,16 +80,17 @@ class Memory(NamedTuple):
     count: NDArray[np.int64]  # (5,) see COUNTS
     memo: FloatArray  # (8,) see below
     work: FloatArray  # (2,) energy dissipated and supplied since the start, J
+    frames: Frames
 
 
 # entries of Memory.memo
-H_FACTOR, ETA, H_PREV, WORST, NORM, POWER, POWER_IN = range(7)
+H_FACTOR, ETA, H_PREV, WORST, NORM, POWER = range(6)
 
 
-def allocate(n: int) -> Memory:
-    """Memory for n unknowns."""
+def allocate(n: int, frames: Frames) -> Memory:
+    """Memory for state vectors of length n."""
     arrays = [np.zeros(n) for _ in range(12)]
-    memory = Memory(*arrays, np.zeros(5, dtype=np.int64), np.zeros(8), np.zeros(2))
+    memory = Memory(*arrays, np.zeros(5, dtype=np.int64), np.zeros(8), np.zeros(2), frames)
     memory.memo[ETA] = 1.0
     return memory
 
@@ -119,11 +123,13 @@ def restore(s):  # type: ignore[no-untyped-def]
 @inline_kernel
 def renew(core, s, h, B, G):  # type: ignore[no-untyped-def]
     """Assemble and factorise the iteration matrix at the present q, v."""
-    build_matrix(core, s.q, s.v, 1.0 / B, G / B, 1.0)
+    assemble(core.batches, core.ws, s.q, s.v, core.A, 1.0 / B, G / B, 1.0)
+    restrict(core.supports, core.A)
+    remember(s.frames, s.q)
+    bad = factorise_matrix(core.A, core.factor)
     s.count[JACOBIANS] += 1
     s.count[FACTORIZATIONS] += 1
     s.memo[H_FACTOR] = h
-    bad = factorise_matrix(core)
     if bad < 0:
         s.memo[WORST] = 6.0 * (-bad - 1)
         s.memo[H_FACTOR] = 0.0
@@ -131,30 +137,26 @@ def renew(core, s, h, B, G):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def correct(core, s, B, G):  # type: ignore[no-untyped-def]
-    """One Newton correction; returns its norm (NaN when it is not finite)."""
-    residual(core, s.q, s.v, s.a, s.f, s.r)
-    to_local(core, s.r)
-    solve_matrix(core, s.r)
-    norm, total, gb, ib = 0.0, 0.0, G / B, 1.0 / B
-    for i in range(core.weight.shape[0]):
+def update(s, weight, gb, ib):  # type: ignore[no-untyped-def]
+    """Take the correction in s.r from q, v, a; returns its norm (NaN when it is not finite)."""
+    norm, total = 0.0, 0.0
+    for i in range(weight.shape[0]):
         d = s.r[i]
         s.q[i] -= d
         s.v[i] -= gb * d
         s.a[i] -= ib * d
-        x = abs(d) * core.weight[i]
+        x = abs(d) * weight[i]
         total += x
         norm = max(norm, x)
-    follow(core, s.q, s.v, s.a)
     return norm if total < 1e300 else np.nan
 
 
 @inline_kernel
-def worst_unknown(core, s):  # type: ignore[no-untyped-def]
+def worst_unknown(s, weight):  # type: ignore[no-untyped-def]
     """Unknown with the largest (or no finite) correction."""
     worst, largest = 0, -1.0
-    for i in range(core.weight.shape[0]):
-        x = abs(s.r[i]) * core.weight[i]
+    for i in range(weight.shape[0]):
+        x = abs(s.r[i]) * weight[i]
         if not x < 1e300:
             return i
         if x > largest:
@@ -170,10 +172,20 @@ def newton(core, s, h, rule, modified, B, G):  # type: ignore[no-untyped-def]
         if renew(core, s, h, B, G) < 0:
             return SINGULAR
         fresh = True
+    elif rule.corotate:
+        turn(s.frames, s.q)
     eta = max(s.memo[ETA], 1e-10) ** 0.8
     old = -1.0
     for iteration in range(rule.max_iterations):
-        norm = correct(core, s, B, G)
+        residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)
+        to_local(core.supports, s.r)
+        if rule.corotate:
+            turn_back(s.frames, s.r)
+        solve_matrix(core.factor, s.r)
+        if rule.corotate:
+            turn_forth(s.frames, s.r)
+        norm = update(s, core.weight, G / B, 1.0 / B)
+        follow(core.supports, s.q, s.v, s.a)
         s.count[ITERATIONS] += 1
         s.memo[NORM] = norm
         if not norm < 1e300:
@@ -195,52 +207,67 @@ def newton(core, s, h, rule, modified, B, G):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def finish(core, s, tables, n, h, scheme):  # type: ignore[no-untyped-def]
-    """Accept the step: algorithmic acceleration, memory of the predictor, energy balance."""
+def finish(s, h, scheme):  # type: ignore[no-untyped-def]
+    """Accept the step: algorithmic acceleration and memory of the predictor."""
     am, af = scheme.alpha_m, scheme.alpha_f
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
     for i in range(s.a.shape[0]):
         s.abar[i] = c1 * s.a[i] + c2 * s.a0[i] + c3 * s.abar[i]
         s.a_prev[i] = s.a0[i]
     s.memo[H_PREV] = h
-    if core.damped or core.loaded:
-        balance(core, s, h)
+    s.count[STEPS] += 1
+
+
+@kernel
+def powers(core, s):  # type: ignore[no-untyped-def]
+    """At the state in s: forces that do work into s.push_new, and the power that damping takes out.
+
+    The forces are all loads but gravity and the reactions of moving supports; damping forces are
+    what the residual loses when the velocities are set to zero.
+    """
+    push, loads = s.push_new, core.loads
+    out = 0.0
+    for i in range(push.shape[0]):
+        push[i] = 0.0
+    if core.damped:
+        residual(core.batches, core.ws, s.q, push, s.a, s.f, s.r)
+        for i in range(push.shape[0]):
+            out -= s.v[i] * s.r[i]
+    if core.damped or core.supports.driven.shape[0] > 0:
+        residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)
+    if core.damped:
+        for i in range(push.shape[0]):
+            out += s.v[i] * s.r[i]
+    for i in range(push.shape[0]):
+        push[i] = loads.gravity[i] - s.f[i]
+    for batch in literal_unroll(core.followers):
+        add_force(batch, s.q, s.v, s.a, push, core.ws)
+    for i in range(push.shape[0]):
+        push[i] = -push[i]
+    for k in range(core.supports.driven.shape[0]):
+        for c in range(3):
+            push[core.supports.driven[k] + c] += s.r[core.supports.driven[k] + c]
+    return out
 
 
 @inline_kernel
 def balance(core, s, h):  # type: ignore[no-untyped-def]
     """Add the step's share to the energies dissipated and supplied (trapezoidal rule)."""
-    out, into = powers(core, s.q, s.v)
+    out = powers(core, s)
     s.work[0] += 0.5 * h * (s.memo[POWER] + out)
-    s.work[1] += 0.5 * h * (s.memo[POWER_IN] + into)
-    s.memo[POWER], s.memo[POWER_IN] = out, into
-    working_forces(core, s, s.push_new)
+    s.memo[POWER] = out
     for i in range(s.q.shape[0]):
         s.work[1] += 0.5 * (s.push[i] + s.push_new[i]) * (s.q[i] - s.q0[i])
         s.push[i] = s.push_new[i]
 
 
-@inline_kernel
-def working_forces(core, s, push):  # type: ignore[no-untyped-def]
-    """Loads but gravity, and the reactions of moving supports, at the state in s."""
-    for i in range(push.shape[0]):
-        push[i] = s.f[i] - core.gravity[i]
-    for k in range(core.rot_slot.shape[0]):  # the shadow carries the work
-        for c in range(3):
-            push[core.rot_slot[k] + c] = 0.0
-    if core.driven.shape[0] > 0:
-        residual(core, s.q, s.v, s.a, s.f, s.r)
-        for k in range(core.driven.shape[0]):
-            for c in range(3):
-                push[core.driven[k] + c] += s.r[core.driven[k] + c]
-
-
 @kernel
 def start_balance(core, s, load):  # type: ignore[no-untyped-def]
     """Forces and powers at the start of a run, for the energy balance."""
-    external_force(core, load, s.f)
-    s.memo[POWER], s.memo[POWER_IN] = powers(core, s.q, s.v)
-    working_forces(core, s, s.push)
+    external_force(core.loads, load, s.f)
+    s.memo[POWER] = powers(core, s)
+    for i in range(s.push.shape[0]):
+        s.push[i] = s.push_new[i]
 
 
 @inline_kernel
@@ -248,16 +275,15 @@ def try_step(core, s, tables, n, h, scheme, rule):  # type: ignore[no-untyped-de
     """One step; a failure is tried once more with a matrix renewed at every iteration."""
     c = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
     B, G = scheme.beta * h * h * c, scheme.gamma * h * c
-    external_force(core, tables.load[n], s.f)
+    external_force(core.loads, tables.load[n], s.f)
     status = OK
     for attempt in range(2):
         predict(s, h, scheme)
-        drive(core, tables, n, s.q, s.v, s.a)
-        follow(core, s.q, s.v, s.a)
+        drive(core.supports, core.loads.moment, tables, n, s.q, s.v, s.a)
         status = newton(core, s, h, rule, rule.modified and attempt == 0, B, G)
         if status == OK:
             return OK
-        s.memo[WORST] = worst_unknown(core, s)
+        s.memo[WORST] = worst_unknown(s, core.weight)
         restore(s)
         s.memo[H_FACTOR] = 0.0
         s.memo[ETA] = 1.0
@@ -278,8 +304,9 @@ def advance(core, s, tables, h, scheme, rule, keep, out_q, out_v, out_work):  # 
         status = try_step(core, s, tables, n, h, scheme, rule)
         if status != OK:
             return n, status
-        finish(core, s, tables, n, h, scheme)
-        s.count[STEPS] += 1
+        finish(s, h, scheme)
+        if core.damped or core.loaded:
+            balance(core, s, h)
         if keep[n] >= 0:
             for i in range(s.q.shape[0]):
                 out_q[keep[n], i], out_v[keep[n], i] = s.q[i], s.v[i]

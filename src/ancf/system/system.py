@@ -19,7 +19,7 @@ from ..model.beam import Beam
 from ..model.model import Model
 from ..model.points import Point
 from . import loads
-from .core import Core, place_supports
+from .core import Core, Loads, Supports, place_supports
 from .drive import Drive
 from .matrix import Places, block_pairs
 from .numbering import Numbering
@@ -101,33 +101,40 @@ class System:
         return seen
 
     def _core(self, batches: list[Any]) -> Core:
-        for i, batch in enumerate(batches):
-            batches[i] = batch._replace(dest=self.places.dest(batch.base), base=self._shadowed(batch.base))
-        moment = batches[-1].value
-        start = np.cumsum([0] + [len(p[0]) for p in self.patterns])
-        arrays = _rotation_arrays(self.constraints, self.places, self.n)
-        held = self._held()
-        gravity = loads.gravity(self.model, self.slots, self.size)
-        damped = any(b.section.damping or b.section.axial_damping or b.section.bending_damping
-                     for b in self.model.bodies.values())
-        driven = sorted(self.constraints.driven)
+        # elements read and write the shadows; the matrix knows the unknowns alone
+        seen = self._batches(self.slots)
+        batches = [
+            shadowed._replace(dest=self.places.dest(plain.base))
+            for plain, shadowed in zip(batches, seen, strict=True)
+        ]
+        springs_batch, moments_batch = batches[-2:]
+        damped = any(
+            b.section.damping or b.section.axial_damping or b.section.bending_damping
+            for b in self.model.bodies.values()
+        )
+        driven = np.array(sorted(self.constraints.driven), dtype=np.int64)
         return Core(
             batches=tuple(batches),
-            factor=allocate(self.places.row_start, self.places.column),
-            A=np.zeros(self.places.size),
+            followers=(moments_batch,),
             ws=np.zeros(ROWS * LANES),
+            A=np.zeros(self.places.size),
+            factor=allocate(self.places.row_start, self.places.column),
             weight=self._weight(),
-            **_held_arrays(held, self.places),
-            **arrays,
-            gravity=gravity,
-            load_start=start.astype(np.int64),
-            load_slot=_joined([p[0] for p in self.patterns], np.int64),
-            load_factor=_joined([p[1] for p in self.patterns], np.float64),
-            moment=moment,
-            prescribed=self.drive.prescribed,
-            driven=self._shadowed(np.array(driven, dtype=np.int64)),
-            damped=damped or bool(np.any(batches[-2].data[:, 1])),
-            loaded=bool(self.patterns or len(moment) or driven),
+            supports=Supports(
+                **_held_arrays(self._held(), self.places),
+                **_rotation_arrays(self.constraints, self.places, self.n),
+                prescribed=self.drive.prescribed,
+                driven=self._shadowed(driven),
+            ),
+            loads=Loads(
+                gravity=loads.gravity(self.model, self.slots, self.size),
+                start=np.cumsum([0] + [len(p[0]) for p in self.patterns]).astype(np.int64),
+                slot=_joined([p[0] for p in self.patterns], np.int64),
+                factor=_joined([p[1] for p in self.patterns], np.float64),
+                moment=moments_batch.value,
+            ),
+            damped=damped or bool(np.any(springs_batch.data[:, 1])),
+            loaded=bool(self.patterns or len(moments_batch.value) or len(driven)),
         )
 
     def _held(self) -> IntArray:
@@ -144,13 +151,14 @@ class System:
     def holding(self, bodies: list[str]) -> Core:
         """Core in which these bodies are held altogether."""
         extra = [self.numbering.slots[name].ravel()[:, None] + np.arange(3) for name in bodies]
-        held = np.unique(np.concatenate([self.core.held, *[e.ravel() for e in extra]]))
-        return self.core._replace(**_held_arrays(held, self.places))
+        held = np.unique(np.concatenate([self.core.supports.held, *[e.ravel() for e in extra]]))
+        supports = self.core.supports._replace(**_held_arrays(held, self.places))
+        return self.core._replace(supports=supports)
 
     @cached_property
     def free(self) -> IntArray:
         """Unknowns that move freely."""
-        return np.setdiff1d(np.arange(self.n), self.core.held)
+        return np.setdiff1d(np.arange(self.n), self.core.supports.held)
 
     def initial_state(self, time: float = 0.0) -> tuple[FloatArray, FloatArray]:
         """State vectors q and v of the initial shape and motion, supports as at ``time``."""
@@ -163,8 +171,14 @@ class System:
                     q[slot + c] = value[:, c]
         self._to_local(q)
         self.place(time, q, v, a)
+        return q, self.motion(q, time)
+
+    def motion(self, q: FloatArray, time: float) -> FloatArray:
+        """Velocities of the bodies' initial rigid motions at the shape q, supports as at ``time``."""
+        q, v, a = q.copy(), np.zeros(self.size), np.zeros(self.size)
+        self.place(time, q, v, a)
         self._set_motion(q, v, a, time)
-        return q, v
+        return v
 
     def _to_local(self, q: FloatArray) -> None:
         for r in self.constraints.rotations:
@@ -173,7 +187,8 @@ class System:
     def place(self, time: float, q: FloatArray, v: FloatArray, a: FloatArray) -> None:
         """Put supports where they are at ``time``, and moments; fills the shadows."""
         h = 1e-3
-        place_supports(self.core, self.drive.tables(time - h, h, 1, time, np.inf), 0, q, v, a)
+        tables = self.drive.tables(time - h, h, 1, time, np.inf)
+        place_supports(self.core.supports, self.core.loads.moment, tables, 0, q, v, a)
 
     def _set_motion(self, q: FloatArray, v: FloatArray, a: FloatArray, time: float) -> None:
         """Initial rigid motions of the bodies; what a support holds follows the support."""
@@ -190,11 +205,12 @@ class System:
             return
         for k, r in enumerate(self.constraints.rotations):
             shadow = slice(self.n + 3 * k, self.n + 3 * k + 3)
-            R, dR = self.core.rot_R[k, 0], self.core.rot_R[k, 1]
+            R, dR = self.core.supports.rot_R[k, :2]
             wanted[r.slot : r.slot + 3] = R.T @ (wanted[shadow] - dR @ q[r.slot : r.slot + 3])
         given = v.copy()
         v[: self.n] = wanted[: self.n]
-        v[self.core.held] = given[self.core.held]
+        held = self.core.supports.held
+        v[held] = given[held]
         self._warn_of_jump(wanted, v)
         self.place(time, q, v, a)
 

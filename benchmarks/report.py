@@ -1,0 +1,146 @@
+"""Tables of the results, for the terminal."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+Results = dict[str, Any]
+
+
+def show(results: Results, console: Console) -> None:
+    """Print every table for which there are results."""
+    console.print(speed(results["cases"]))
+    console.print(counters(results["cases"]))
+    if any(row["exudyn"] for row in results["cases"]):
+        console.print(peers(results["cases"]))
+    for key, table in (("memory", memory), ("kernels", kernels), ("startup_s", startup)):
+        if results.get(key):
+            console.print(table(results[key]))
+    if results["growth"]["us_per_step_and_element"]:
+        console.print(growth(results["growth"]))
+    console.print(f"[dim]{footer(results['machine'])}[/]")
+
+
+def table(title: str, *columns: str) -> Table:
+    """Table whose columns after the first are aligned to the right."""
+    made = Table(title=title, title_justify="left")
+    for k, column in enumerate(columns):
+        made.add_column(column, justify="left" if k == 0 else "right", no_wrap=True)
+    return made
+
+
+def number(value: float | None, form: str = ".4g") -> str:
+    return "–" if value is None else format(value, form)
+
+
+def name(row: Results) -> str:
+    return f"{row['title']} {row['elements']}"
+
+
+def both(row: Results, key: str) -> str:
+    """A counter of both sides."""
+    peer = row["exudyn"].get(row["best"], {}).get(key)
+    return f"{row['ancf'][key]} / {number(peer, '')}"
+
+
+def speed(rows: list[Results]) -> Table:
+    """One line for each case: our solve, the best of the peer's, and their ratio."""
+    made = table("CPU time of the solve alone (best variant of Exudyn)", "model, elements", "ancf", "Exudyn",
+                 "ancf", "Exudyn", "ratio", "whole")  # fmt: skip
+    made.add_row("", "s", "s", "µs/step", "µs/step", "", "", style="dim")
+    for row in rows:
+        sides = row["ancf"], row["exudyn"].get(row["best"], {})
+        cells = [number(side.get(key)) for key in ("cpu_median", "us_per_step") for side in sides]
+        ratios = row["ratio"], sides[1].get("ratio_whole")
+        made.add_row(name(row), *cells, *(number(ratio, ".1f") for ratio in ratios))
+    return made
+
+
+def counters(rows: list[Results]) -> Table:
+    """What both sides did for it, and how far their results agree."""
+    made = table("Work and agreement", "model, elements", "steps", "Newton iterations", "Jacobians",
+                 "tips differ", "Newton error")  # fmt: skip
+    made.add_row("", "", "ancf / Exudyn", "ancf / Exudyn", "m", "of ancf, m", style="dim")
+    for row in rows:
+        errors = row["tip_difference"], row["ancf"]["newton_error"]
+        work = (both(row, key) for key in ("newton_iterations", "jacobians"))
+        made.add_row(name(row), str(row["ancf"]["steps"]), *work, *(number(e, ".1e") for e in errors))
+    return made
+
+
+def peers(rows: list[Results]) -> Table:
+    """The ratio to each way to run the peer; the best one for the peer is marked."""
+    columns = ("standard", "fast", "tuned")
+    made = table(
+        "Exudyn / ancf by variant of Exudyn (* the fastest)", "model, elements", *columns, "tuned with"
+    )
+    for row in rows:
+        variants = row["exudyn"]
+        cells = [
+            number(variants.get(key, {}).get("ratio"), ".1f") + ("*" if key == row["best"] else "")
+            for key in columns
+        ]
+        options = variants.get("tuned", next(iter(variants.values()), {})).get("options", {})
+        made.add_row(name(row), *cells, described(options))
+    return made
+
+
+def described(options: Results) -> str:
+    """Options of the peer in a few words."""
+    short = {
+        "absoluteTolerance": "atol",
+        "relativeTolerance": "rtol",
+        "modifiedNewtonContractivity": "contr.",
+    }
+    parts = [f"{short[key]} {value:g}" for key, value in options.get("newton", {}).items()]
+    return ", ".join([options.get("solver", ""), *parts])
+
+
+def memory(rows: list[Results]) -> Table:
+    made = table(
+        "Peak memory of a fresh process, MB (in brackets: after the import)", "model", "ancf", "Exudyn"
+    )
+    for row in rows:
+        cells = [row[side] for side in ("ancf", "exudyn")]
+        made.add_row(
+            name(row), *(f"{c['peak_mb']:.0f} ({c['imported_mb']:.0f})" if c else "–" for c in cells)
+        )
+    return made
+
+
+def kernels(rows: list[Results]) -> Table:
+    made = table("Our kernels, µs per element", "elements", *[key for key in rows[0] if key != "elements"])
+    for row in rows:
+        made.add_row(str(row["elements"]), *(f"{v:.3f}" for key, v in row.items() if key != "elements"))
+    return made
+
+
+def startup(times: dict[str, float]) -> Table:
+    texts = {
+        "python": "python -c pass",
+        "import_ancf": 'python -c "import ancf"',
+        "first_run": "ancf run, everything compiled anew",
+        "later_run": "ancf run, later",
+    }
+    made = table("Start, wall time in s", "what", "s")
+    for key, value in times.items():
+        made.add_row(texts[key], f"{value:.2f}")
+    return made
+
+
+def growth(values: Results) -> Table:
+    made = table("µs per step and element", "swinging cable", "ancf", "Exudyn")
+    sizes: Results = values["us_per_step_and_element"]
+    for size, both in sizes.items():
+        made.add_row(size, number(both["ancf"], ".3f"), number(both["exudyn"], ".3f"))
+    if values["ancf"] is not None:
+        made.add_row("10000 / 100", number(values["ancf"], ".2f"), number(values["exudyn"], ".2f"))
+    return made
+
+
+def footer(machine: Results) -> str:
+    versions = ", ".join(f"{key} {value}" for key, value in machine["versions"].items())
+    return f"{machine['date']}, {machine['processor']}, {machine['cores']} cores, {versions}"

@@ -1,0 +1,57 @@
+"""ancf: flexible multibody dynamics of thin beams and cables, absolute nodal coordinate formulation."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from .errors import Interrupted, ModelError, SolveError
+from .model import Model, Section
+
+if TYPE_CHECKING:
+    from .analysis import equilibrium, load, modes, simulate
+    from .results import Modes, Result, State
+    from .solvers.integrators import GeneralizedAlpha, Trapezoidal
+    from .solvers.newton import Newton
+
+__version__ = "0.1.0"
+
+# the compiled parts are imported on first use: describing a model needs none of them
+_LATER = {
+    "equilibrium": "analysis",
+    "simulate": "analysis",
+    "modes": "analysis",
+    "load": "analysis",
+    "Result": "results",
+    "State": "results",
+    "Modes": "results",
+    "Trapezoidal": "solvers.integrators",
+    "GeneralizedAlpha": "solvers.integrators",
+    "Newton": "solvers.newton",
+}
+
+__all__ = [
+    "GeneralizedAlpha",
+    "Interrupted",
+    "Model",
+    "ModelError",
+    "Modes",
+    "Newton",
+    "Result",
+    "Section",
+    "SolveError",
+    "State",
+    "Trapezoidal",
+    "equilibrium",
+    "load",
+    "modes",
+    "simulate",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATER:
+        raise AttributeError(f"module 'ancf' has no attribute {name!r}")
+    value = getattr(import_module(f".{_LATER[name]}", __name__), name)
+    globals()[name] = value
+    return value

@@ -1,0 +1,217 @@
+"""The three things one does with a model: equilibrium, simulation, modes."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Callable, Sequence
+from datetime import UTC, datetime
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .errors import Interrupted, ModelError, SolveError
+from .model.beam import Beam
+from .model.model import Model
+from .results.modes import Modes
+from .results.result import Result, load
+from .results.state import State
+from .results.store import FileStore, MemoryStore
+from .solvers import statics
+from .solvers.integrators import Integrator, Trapezoidal
+from .solvers.modal import natural_modes
+from .solvers.stepping import Progress, Run
+from .system.system import System
+
+__all__ = ["equilibrium", "load", "modes", "simulate"]
+
+
+def equilibrium(
+    model: Model, of: Sequence[Beam | str] | None = None, load_steps: int = 1, time: float = 0.0
+) -> State:
+    """Stable static equilibrium of a model.
+
+    Parameters
+    ----------
+    model : Model
+    of : sequence of bodies or names, optional
+        Only these bodies find their equilibrium, the others stay in their initial shape.
+    load_steps : int
+        Steps in which the loads grow; a step that fails is halved.
+    time : float
+        Time at which loads and supports are taken, s.
+
+    Returns
+    -------
+    State
+        Its velocities are those of ``set_motion`` at the deformed shape, zero by default.
+
+    Raises
+    ------
+    ModelError
+        A body is not supported, or a name is unknown.
+    SolveError
+        No equilibrium was found.
+    """
+    if isinstance(load_steps, bool) or not isinstance(load_steps, int) or load_steps < 1:
+        raise ModelError("equilibrium.load_steps", f"is {load_steps!r}, must be a whole number from 1")
+    names = None if of is None else [model.body(b if isinstance(b, str) else b.name).name for b in of]
+    system = System(model)
+    q, stats = statics.equilibrium(system, names, load_steps, time)
+    return State(system, float(time), q, system.motion(q, time), stats)
+
+
+def simulate(
+    model: Model,
+    *,
+    t_end: float,
+    step: float,
+    start: State | None = None,
+    integrator: Integrator | None = None,
+    output_step: float | None = None,
+    file: str | Path | None = None,
+    progress: Callable[[Progress], None] | None = None,
+) -> Result:
+    """Simulate a model from its start to ``t_end``.
+
+    Parameters
+    ----------
+    model : Model
+    t_end, step : float
+        End time and time step, s; the last step is shorter if they do not fit.
+    start : State, optional
+        Where to start, from :func:`equilibrium` or :meth:`Result.state`; default the initial shape and
+        motion of the model at t = 0.
+    integrator : Trapezoidal or GeneralizedAlpha, optional
+        Default the trapezoidal rule.
+    output_step : float, optional
+        Time between stored states, s, a multiple of ``step``; default every step.
+    file : path, optional
+        HDF5 file that takes the states while they are computed; default in memory.
+    progress : callable, optional
+        Called between blocks of steps with a :class:`ancf.results.Progress`.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    ModelError
+        A wrong number, or a file that cannot be written.
+    SolveError
+        A step failed; ``error.result`` holds what was computed until then.
+    Interrupted
+        Ctrl-C; ``interrupt.result`` holds what was computed until then.
+    """
+    t0 = 0.0 if start is None else start.t
+    every = _check_times(t0, t_end, step, output_step)
+    method = Trapezoidal() if integrator is None else integrator
+    system = System(model) if start is None or start.system.model is not model else start.system
+    q, v = system.initial_state(t0) if start is None else _start_vectors(start, system)
+    header = _header(model, method, t0, t_end, step, output_step)
+    run = Run(system, method, t0, t_end, step, every)
+    run.start(q, v)
+    store = MemoryStore(system) if file is None else FileStore(file, system, header)
+
+    def finished(status: str) -> Result:
+        store.update(run.stats, status)
+        if isinstance(store, MemoryStore):
+            return Result(store, header, system)
+        store.close()
+        return load(store.path, system)
+
+    try:
+        run.go(store, progress)
+    except (SolveError, ModelError) as error:
+        error.result = finished("failed")
+        raise
+    except KeyboardInterrupt as stop:
+        raise Interrupted(finished("interrupted")) from stop
+    return finished("complete")
+
+
+def modes(model: Model, *, about: State | None = None, count: int = 10) -> Modes:
+    """Lowest natural modes of a model about a state, without damping.
+
+    Parameters
+    ----------
+    model : Model
+    about : State, optional
+        Equilibrium about which the model vibrates; default its initial shape.
+    count : int
+        Number of modes.
+
+    Raises
+    ------
+    ModelError
+        More modes are wanted than there are free unknowns.
+    SolveError
+        The state is not a stable equilibrium.
+    """
+    if about is None:
+        system = System(model)
+        q, v = system.initial_state()
+        about = State(system, 0.0, q, np.zeros_like(v))
+    omega, shapes = natural_modes(about.system, about.q, count)
+    return Modes(omega, shapes, about)
+
+
+def _start_vectors(start: State, system: System) -> tuple[Any, Any]:
+    if start.q.shape != (system.size,):
+        raise ModelError("simulate.start", "is a state of another model", "compute it from this model")
+    return start.q.copy(), start.v.copy()
+
+
+def _check_times(t0: float, t_end: float, step: float, output_step: float | None) -> int:
+    """Check the times and return the number of steps between outputs."""
+    for name, value in (("t_end", t_end), ("step", step), ("output_step", output_step)):
+        if value is None and name == "output_step":
+            continue
+        number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
+        if not number or not np.isfinite(value) or value <= 0:
+            raise ModelError(f"simulate.{name}", f"is {value!r}, must be a positive number of seconds")
+    if t_end <= t0:
+        raise ModelError("simulate.t_end", f"is {t_end:g} s, must be later than the start at {t0:g} s")
+    if step > (t_end - t0) * (1 + 1e-12):
+        raise ModelError("simulate.step", f"is {step:g} s, longer than the whole run of {t_end - t0:g} s")
+    if (t_end - t0) / step > 1e9:
+        raise ModelError("simulate.step", f"is {step:g} s, which makes more than 1e9 steps")
+    ratio = 1.0 if output_step is None else output_step / step
+    if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-6 * ratio:
+        what = f"is {output_step:g} s, must be a multiple of step = {step:g} s"
+        raise ModelError("simulate.output_step", what)
+    return round(ratio)
+
+
+def _header(
+    model: Model, method: Integrator, t0: float, t_end: float, step: float, output_step: float | None
+) -> dict[str, Any]:
+    """What made a result: model, settings, versions, time."""
+    n = method.newton
+    return {
+        "title": model.title,
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "model": model.to_dict(),
+        "settings": {
+            "t_start": t0,
+            "t_end": t_end,
+            "step": step,
+            "output_step": output_step or step,
+            "integrator": method.name,
+            "scheme": method.scheme()._asdict(),
+            "newton": {k: getattr(n, k) for k in n.__dataclass_fields__},
+        },
+        "versions": {"python": platform.python_version(), **_versions()},
+    }
+
+
+def _versions() -> dict[str, str]:
+    found = {}
+    for name in ("ancf", "numpy", "scipy", "numba", "h5py"):
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            found[name] = "unknown"
+    return found

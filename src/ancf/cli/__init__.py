@@ -1,0 +1,5 @@
+"""The command line: run, check, schema, info, reproduce."""
+
+from ancf.cli.app import app, main
+
+__all__ = ["app", "main"]

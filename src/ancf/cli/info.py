@@ -1,0 +1,37 @@
+"""``ancf info``: what is in a file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ancf.errors import ModelError
+
+SIGNATURE = b"\x89HDF\r\n\x1a\n"
+
+
+def show_info(path: Path) -> None:
+    """Tell a results file from a model file by its first bytes, and describe it."""
+    if _is_hdf5(path):
+        from ancf.cli.info_result import show_result
+
+        show_result(path)
+    elif path.suffix.lower() in (".h5", ".hdf5"):
+        raise ModelError(str(path), "is not a results file: no HDF5")
+    else:
+        from ancf.cli.info_model import show_model
+
+        show_model(path)
+
+
+def _is_hdf5(path: Path) -> bool:
+    try:
+        with path.open("rb") as file:
+            return file.read(len(SIGNATURE)) == SIGNATURE
+    except FileNotFoundError:
+        raise ModelError(str(path), "no such file") from None
+    except IsADirectoryError:
+        inside = path / "results.h5"
+        hint = f"ancf info {inside}" if inside.exists() else ""
+        raise ModelError(str(path), "is a folder", hint) from None
+    except (OSError, ValueError) as error:
+        raise ModelError(str(path), f"cannot be read: {error}") from None

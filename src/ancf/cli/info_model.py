@@ -1,0 +1,91 @@
+"""``ancf check`` and ``ancf info`` of a model file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ancf.cli.notes import notes
+from ancf.cli.screen import console, table
+from ancf.cli.summary import plural, sizes, total_mass
+from ancf.model.file import Study, read_study
+from ancf.model.model import Model
+
+if TYPE_CHECKING:
+    from ancf.system.system import System
+
+
+def check_file(path: Path) -> None:
+    """Read a model file and compile its System, which finds everything that is wrong with it."""
+    study = read_study(path)
+    _system(study.model)
+    console().print(f"{path}: right; {_counts(study.model)}; {task(study)}", soft_wrap=True)
+    _print_notes(study)
+
+
+def show_model(path: Path) -> None:
+    """Print bodies, sizes, how the matrix is ordered, and remarks."""
+    study = read_study(path)
+    system = _system(study.model)
+    out = console()
+    out.print(study.title or str(path), style="bold", soft_wrap=True)
+    for key, value in _facts(study, system):
+        out.print(f"  {key:<10} {value}", soft_wrap=True)
+    out.print()
+    out.print(_bodies(study.model))
+    _print_notes(study)
+
+
+def task(study: Study) -> str:
+    """What the file asks for."""
+    simulation = study.simulation
+    if simulation is None:
+        return "nothing to compute" if study.equilibrium is None else "an equilibrium"
+    start = " from equilibrium" if simulation.start == "equilibrium" else ""
+    steps = plural(round(simulation.t_end / simulation.step), "step")
+    return f"{steps} of {simulation.step:g} s to t = {simulation.t_end:g} s{start}"
+
+
+def _system(model: Model) -> System:
+    from ancf.system.system import System
+
+    return System(model)
+
+
+def _facts(study: Study, system: System) -> list[tuple[str, str]]:
+    model = study.model
+    free = len(system.free)
+    return [
+        ("model", _counts(model)),
+        ("unknowns", f"{free} free of {system.n}"),
+        ("matrix", f"ordering: {system.ordering}, half bandwidth {system.half_bandwidth}"),
+        ("mass", f"{total_mass(model):.6g} kg"),
+        ("gravity", f"{model.gravity.tolist()} m/s^2"),
+        ("task", task(study)),
+    ]
+
+
+def _counts(model: Model) -> str:
+    size = sizes(model)
+    return ", ".join(
+        [
+            plural(size["bodies"], "body", "bodies"),
+            plural(size["elements"], "element"),
+            plural(size["supports"], "support"),
+            plural(size["loads"], "load"),
+            plural(size["connections"], "connection"),
+        ]
+    )
+
+
+def _bodies(model: Model) -> Any:
+    made = table("body", "element", "elements", "length [m]", "mass [kg]", "EA [N]", "EI [N m^2]")
+    for b in model.bodies.values():
+        numbers = (b.length, b.section.rhoA * b.length, b.section.EA, b.section.EI)
+        made.add_row(b.name, b.element, str(b.elements), *[f"{x:.6g}" for x in numbers])
+    return made
+
+
+def _print_notes(study: Study) -> None:
+    for note in notes(study):
+        console().print(f"note: {note}", soft_wrap=True)

@@ -1,0 +1,73 @@
+"""``ancf info`` of a results file: what was computed, how far, with what, at what cost."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ancf.cli.screen import console, table
+from ancf.cli.summary import plural
+from ancf.errors import ModelError
+
+if TYPE_CHECKING:
+    from ancf import Result
+
+STATUS = {
+    "complete": "complete",
+    "failed": "the solve failed",
+    "interrupted": "stopped by Ctrl-C",
+    "running": "not finished: still running, or killed",
+}
+
+
+def show_result(path: Path) -> None:
+    """Print a results file, finished or not."""
+    result = _load(path)
+    plain = result.provenance
+    out = console()
+    out.print(_title(plain, path), style="bold", soft_wrap=True)
+    for key, value in _facts(result, plain):
+        out.print(f"  {key:<10} {value}", soft_wrap=True)
+    out.print()
+    out.print(_bodies(plain))
+
+
+def _load(path: Path) -> Result:
+    import ancf
+
+    try:
+        return ancf.load(path)
+    except ModelError:
+        raise
+    except (OSError, KeyError, ValueError, TypeError, AttributeError) as error:
+        raise ModelError(str(path), f"is not a results file of ancf: {error}") from None
+
+
+def _title(plain: dict[str, Any], path: Path) -> str:
+    return str(plain.get("model", {}).get("title") or path)
+
+
+def _facts(result: Result, plain: dict[str, Any]) -> list[tuple[str, str]]:
+    t = result.t
+    versions = plain.get("versions", {})
+    counters = result.stats.as_dict()
+    return [
+        ("status", f"{STATUS.get(result.status, result.status)}{_how_far(result, plain)}"),
+        ("times", f"{plural(len(t), 'state')}, t = {t[0]:g} ... {t[-1]:g} s" if len(t) else "none"),
+        ("counters", ", ".join(f"{key} {value:g}" for key, value in counters.items())),
+        ("versions", ", ".join(f"{key} {value}" for key, value in versions.items())),
+    ]
+
+
+def _how_far(result: Result, plain: dict[str, Any]) -> str:
+    t_end = plain.get("settings", {}).get("t_end")
+    if result.status == "complete" or not t_end or not len(result.t):
+        return ""
+    return f"; reached t = {result.t[-1]:g} s of {t_end:g} s ({100 * result.t[-1] / t_end:.0f} %)"
+
+
+def _bodies(plain: dict[str, Any]) -> Any:
+    made = table("body", "element", "elements", "length [m]")
+    for body in plain.get("model", {}).get("bodies", []):
+        made.add_row(body["name"], body["element"], str(body["elements"]), f"{body['length']:g}")
+    return made

@@ -1,0 +1,115 @@
+"""``ancf run``: from a model file to OUT/results.h5, OUT/summary.json and a short table."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ancf.cli.output import OutputFolder
+from ancf.cli.screen import Screen, console
+from ancf.errors import ModelError, SolveError
+from ancf.model.file import Study, read_study
+from ancf.model.settings import IntegratorSettings, SimulationSettings
+
+if TYPE_CHECKING:
+    from ancf import GeneralizedAlpha, Result, State, Trapezoidal
+
+
+def run_file(path: Path, folder: Path, quiet: bool = False) -> None:
+    """Read, compute, write and print.
+
+    Raises
+    ------
+    ModelError
+        The model file or the folder is wrong; nothing was computed.
+    SolveError, KeyboardInterrupt
+        What was computed until then is in the folder; a note of the error says so.
+
+    """
+    study = read_study(path)
+    if study.simulation is None and study.equilibrium is None:
+        hint = "add a table [simulation] with t_end and step, or [equilibrium]"
+        raise ModelError(str(path), "nothing to compute", hint)
+    output = OutputFolder(folder)
+    output.clear()
+    Run(study, path, output, Screen(quiet)).compute()
+
+
+class Run:
+    """One run of a study."""
+
+    def __init__(self, study: Study, path: Path, output: OutputFolder, screen: Screen) -> None:
+        self.study, self.path, self.output, self.screen = study, path, output, screen
+        self.start = time.perf_counter(), time.process_time()
+
+    def compute(self) -> None:
+        """Compute and write; the summary is written for a run that stops early as well."""
+        self.screen.announce_compilation()
+        try:
+            result = self._result()
+        except (SolveError, ModelError, KeyboardInterrupt) as error:
+            self._keep(error)
+            raise
+        self._finish(result)
+
+    def _result(self) -> Result:
+        settings = self.study.simulation
+        return self._statics() if settings is None else self._simulation(settings)
+
+    def _simulation(self, settings: SimulationSettings) -> Result:
+        import ancf
+
+        start = self._equilibrium(settings.equilibrium_of) if settings.start == "equilibrium" else None
+        with self.screen.progress(round(settings.t_end / settings.step)) as report:
+            return ancf.simulate(
+                self.study.model,
+                t_end=settings.t_end,
+                step=settings.step,
+                start=start,
+                integrator=integrator(settings.integrator),
+                output_step=settings.output_step,
+                file=self.output.results,
+                progress=report,
+            )
+
+    def _equilibrium(self, of: tuple[str, ...] | None = None) -> State:
+        import ancf
+
+        given = self.study.equilibrium
+        bodies = None if of is None else [self.study.model.body(name) for name in of]
+        self.screen.say("looking for the equilibrium ...")
+        return ancf.equilibrium(self.study.model, of=bodies, load_steps=given.load_steps if given else 1)
+
+    def _statics(self) -> Result:
+        raise NotImplementedError
+
+    def _finish(self, result: Result, error: BaseException | None = None) -> None:
+        from ancf.cli.summary import print_summary, summarise
+
+        wall, cpu = time.perf_counter() - self.start[0], time.process_time() - self.start[1]
+        seconds = {"wall_seconds": wall, "cpu_seconds": result.stats.cpu_seconds, "process_cpu_seconds": cpu}
+        summary = summarise(self.study, self.path, result, seconds, error)
+        self.output.write_summary(summary)
+        if error is None and not self.screen.quiet:
+            print_summary(console(), summary)
+            console().print(f"written: {self.output.results}, {self.output.summary}", soft_wrap=True)
+
+    def _keep(self, error: BaseException) -> None:
+        result = getattr(error, "result", None)
+        if result is None:
+            return
+        error.add_note(f"results up to t = {result.t[-1]:.6g} s kept in {self.output.results}")
+        try:
+            self._finish(result, error)
+        except OSError as other:
+            error.add_note(f"{self.output.summary} cannot be written: {other.strerror or other}")
+
+
+def integrator(settings: IntegratorSettings) -> Trapezoidal | GeneralizedAlpha:
+    """The integrator that the settings ask for."""
+    import ancf
+
+    if settings.type == "trapezoidal":
+        return ancf.Trapezoidal()
+    return ancf.GeneralizedAlpha() if settings.rho_inf is None else ancf.GeneralizedAlpha(settings.rho_inf)

@@ -1,0 +1,172 @@
+"""The summary of a run: a dict for scripts, and the table that is printed from it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ancf.cli.screen import table
+from ancf.errors import ModelError, SolveError
+from ancf.model.file import Study
+from ancf.model.model import Model
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ancf import Result, State
+
+MOST_BODIES = 4
+ENERGIES = ("kinetic", "strain", "potential", "dissipated", "supplied", "total")
+
+
+def summarise(
+    study: Study, path: Path, result: Result, seconds: dict[str, float], error: BaseException | None
+) -> dict[str, Any]:
+    """Everything worth keeping of a run, ready for JSON."""
+    model = study.model
+    state, counters = result.state(), result.stats.as_dict()
+    summary: dict[str, Any] = {
+        "title": study.title,
+        "model_file": str(path),
+        "status": result.status,
+        "kind": "equilibrium" if study.simulation is None else "simulation",
+        "model": sizes(model),
+        "settings": settings(study),
+        "t": float(result.t[-1]),
+        "stored_times": len(result.t),
+        "outputs": {label: at_point(model, state, label) for label in outputs(study)},
+        "energy": energies(result),
+        "counters": {key: value for key, value in counters.items() if key != "cpu_seconds"},
+        "versions": result.provenance.get("versions", {}),
+        **seconds,
+    }
+    if isinstance(error, ModelError | SolveError):
+        summary["error"] = {"where": error.where, "what": error.what, "hint": error.hint}
+    return summary
+
+
+def sizes(model: Model) -> dict[str, Any]:
+    """Counts of a model."""
+    elements = sum(beam.elements for beam in model.bodies.values())
+    return {
+        "bodies": len(model.bodies),
+        "elements": elements,
+        "nodes": elements + len(model.bodies),
+        "supports": len(model.supports),
+        "loads": len(model.loads),
+        "connections": len(model.connections),
+        "mass": total_mass(model),
+    }
+
+
+def total_mass(model: Model) -> float:
+    """Mass of all bodies, kg."""
+    return float(sum(beam.section.rhoA * beam.length for beam in model.bodies.values()))
+
+
+def settings(study: Study) -> dict[str, Any]:
+    """Settings of the simulation and the equilibrium, without what was not given."""
+    given: dict[str, Any] = {}
+    for name, part in (("simulation", study.simulation), ("equilibrium", study.equilibrium)):
+        if part is not None:
+            given[name] = asdict(part)
+    return given
+
+
+def outputs(study: Study) -> list[str]:
+    """Points to print: those that the file names, otherwise start, middle and end of the first bodies."""
+    if study.simulation is not None and study.simulation.outputs:
+        return list(study.simulation.outputs)
+    beams = list(study.model.bodies.values())[:MOST_BODIES]
+    return [str(point) for b in beams for point in (b.start, b.at(0.5 * b.length), b.end)]
+
+
+def at_point(model: Model, state: State, label: str) -> dict[str, Any]:
+    """State at a point, and what holds it."""
+    point = model.point(label)
+    held = [support.name for support in model.supports if support.point == point]
+    return {
+        "position": [float(x) for x in state.position(point)],
+        "velocity": [float(x) for x in state.velocity(point)],
+        "tension": float(state.tension(point)),
+        "support": held[0] if held else None,
+    }
+
+
+def energies(result: Result) -> dict[str, Any]:
+    """Energies at the first and last stored time, and the drift of their balance, J."""
+    energy = result.energy
+    series = {name: np.asarray(getattr(energy, name)) for name in ENERGIES}
+    balance = np.asarray(energy.balance)
+    ends = {key: {n: float(x[i]) for n, x in series.items()} for key, i in (("start", 0), ("end", -1))}
+    return {**ends, "balance_drift": float(np.max(np.abs(balance - balance[0])))}
+
+
+def print_summary(to: Console, summary: dict[str, Any]) -> None:
+    """Print what was computed, the outputs, the energies and the cost."""
+    to.print(
+        f"{summary['title'] or summary['model_file']}: {summary['status']}", style="bold", soft_wrap=True
+    )
+    to.print(_what(summary), soft_wrap=True)
+    to.print()
+    to.print(_points(summary))
+    if summary["kind"] == "simulation":
+        to.print()
+        to.print(_energy(summary["energy"]))
+    to.print()
+    to.print(_cost(summary), soft_wrap=True)
+
+
+def _what(summary: dict[str, Any]) -> str:
+    size = summary["model"]
+    parts = [plural(size["bodies"], "body", "bodies"), plural(size["elements"], "element")]
+    if summary["kind"] == "simulation":
+        step = summary["settings"]["simulation"]["step"]
+        parts += [f"{summary['counters']['steps']} steps of {step:g} s", f"t = {summary['t']:g} s"]
+    return ", ".join(parts)
+
+
+def _points(summary: dict[str, Any]) -> Any:
+    moving = summary["kind"] == "simulation"
+    last = "speed [m/s]" if moving else "support"
+    made = table("point", "x [m]", "y [m]", "z [m]", "tension [N]", last)
+    for label, value in summary["outputs"].items():
+        speed = f"{math.hypot(*value['velocity']):.6g}"
+        place = [coordinate(x, value["position"]) for x in value["position"]]
+        end = speed if moving else value["support"] or ""
+        made.add_row(label, *place, f"{value['tension']:.6g}", end)
+    return made
+
+
+def _energy(energy: dict[str, Any]) -> Any:
+    made = table("energy [J]", *ENERGIES)
+    for key in ("start", "end"):
+        made.add_row(key, *[f"{energy[key][name]:.6g}" for name in ENERGIES])
+    made.add_row("drift", *[""] * (len(ENERGIES) - 1), f"{energy['balance_drift']:.2g}")
+    return made
+
+
+def _cost(summary: dict[str, Any]) -> str:
+    count = summary["counters"]
+    parts = [
+        plural(count["newton_iterations"], "Newton iteration"),
+        plural(count["jacobians"], "Jacobian"),
+    ]
+    if count.get("retries"):
+        parts.append(plural(count["retries"], "retry", "retries"))
+    parts.append(f"{summary['cpu_seconds']:.3g} s CPU of the solve, {summary['wall_seconds']:.3g} s in all")
+    return ", ".join(parts)
+
+
+def coordinate(x: float, others: list[float]) -> str:
+    """A coordinate with micrometres; what is rounding noise beside the others is 0."""
+    return f"{0.0 if abs(x) <= 1e-12 * max(map(abs, others)) else x:.6f}"
+
+
+def plural(count: int, one: str, many: str = "") -> str:
+    """``1 body``, ``2 bodies``."""
+    return f"{count} {one if count == 1 else many or one + 's'}"

@@ -1,0 +1,36 @@
+"""Fig. 2: tip of the cantilever (7.1) at 0.4 s against the number of elements."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from . import cantilever, convergence
+from .table import Table, Value
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+KINDS: tuple[str, ...] = ("cable",)
+COUNTS, SHORT_COUNTS = (1, 2, 4, 8, 16, 32, 64), (1, 2, 4)
+COLUMNS = ("element", "elements", "tip_x", "tip_z")
+SIZE = convergence.SIZE
+
+
+def data(short: bool = False) -> Table:
+    """Tip position at 0.4 s, m; z is the vertical."""
+    counts = SHORT_COUNTS if short else COUNTS
+    rows = [_row(element, n) for element in KINDS for n in counts]
+    measured = [f"Measured, {e}, {n} elements: tip at ({x:.7f}, {z:.7f}) m." for e, n, x, z in rows]
+    return Table("fig2", COLUMNS, rows, [*cantilever.NOTES, *measured])
+
+
+def draw(table: Table, figure: Figure) -> None:
+    """Vertical displacement, and its distance from the finest mesh."""
+    names = {"tip_z": "vertical", "tip_x": "horizontal"}
+    convergence.draw(table, figure, "tip_z", "vertical tip displacement [m]", names)
+
+
+def _row(element: str, elements: int) -> tuple[Value, ...]:
+    result = cantilever.run(cantilever.build(elements, element=element))
+    x, _, z = result.position("beam.end")[-1].tolist()
+    return element, elements, x, z

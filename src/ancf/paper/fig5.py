@@ -1,0 +1,31 @@
+"""Fig. 5: y of the pendulum's midpoint (7.2) over time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..viz import style
+from . import fig4
+from .table import Table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+COLUMNS = fig4.COLUMNS
+SIZE = (110.0, 65.0)  # mm
+
+
+def data(short: bool = False) -> Table:
+    """As Fig. 4."""
+    return fig4.renamed(fig4.data(short), "fig5")
+
+
+def draw(table: Table, figure: Figure) -> None:
+    """Y of the midpoint over t."""
+    axes = figure.subplots()
+    for curve in fig4.CURVES:
+        t, y = (table.values(c, element=curve.element, elements=curve.elements) for c in ("t", "mid_y"))
+        axes.plot(t, y, **curve.look)
+    axes.set(xlabel="$t$ [s]", ylabel="$Y$ of the midpoint [m]", xlim=(0.0, t[-1]))
+    axes.locator_params("x", nbins=5)
+    style.legend_above(figure, axes)

@@ -1,0 +1,49 @@
+"""Natural modes about a state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.points import Point
+from ..system.fields import Fields
+from .state import State
+
+FloatArray = NDArray[np.float64]
+
+
+class _Shapes(Fields):
+    """Mode shapes read like states."""
+
+    def __init__(self, state: State, shapes: FloatArray) -> None:
+        self.bodies, self.slots = state.bodies, state.slots
+        self.q = self.v = shapes
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Undamped natural modes about a state.
+
+    Parameters
+    ----------
+    frequencies : ndarray, shape (count,)
+        Angular frequencies, rad/s, ascending.
+    shapes : ndarray, shape (count, size)
+        State vectors of the shapes, normed to a modal mass of 1 kg.
+    about : State
+    """
+
+    frequencies: FloatArray
+    shapes: FloatArray
+    about: State
+
+    @property
+    def frequencies_hz(self) -> FloatArray:
+        """Frequencies, Hz."""
+        return self.frequencies / (2 * np.pi)
+
+    def position(self, point: Point | str) -> FloatArray:
+        """Displacement of a point in each mode, shape (count, 3), m for a modal mass of 1 kg."""
+        return _Shapes(self.about, self.shapes).position(point)

@@ -1,0 +1,147 @@
+"""Result: the stored states of a simulation and what can be asked of them."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ModelError
+from ..model.beam import Beam
+from ..model.section import Section
+from ..solvers.stepping import Stats
+from ..system.fields import Fields
+from ..system.system import System
+from .state import Energy, State
+from .store import FileStore, MemoryStore, ReadStore
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+class Result(Fields):
+    """History of a simulation; see :class:`Fields` for positions, velocities, strains, tensions, ...
+
+    Attributes
+    ----------
+    t : ndarray, shape (n_t,)
+        Stored times, s, the start included.
+    """
+
+    def __init__(self, store: MemoryStore | ReadStore, header: dict[str, Any], system: System | None) -> None:
+        self._store, self._header, self._system = store, header, system
+        if system is not None:
+            self.bodies, self.slots = system.model.bodies, system.slots
+        elif isinstance(store, ReadStore):
+            self.bodies, self.slots = _read_layout(store.layout)
+
+    @property
+    def t(self) -> FloatArray:
+        """Stored times, s, shape (n_t,)."""
+        t: FloatArray = self._store.arrays["time"]
+        return t
+
+    @property
+    def q(self) -> Any:
+        """State vectors, shape (n_t, size)."""
+        return self._store.arrays["q"]
+
+    @property
+    def v(self) -> Any:
+        """Rates of the state vectors, shape (n_t, size)."""
+        return self._store.arrays["v"]
+
+    @property
+    def energy(self) -> Energy:
+        """Energies at the stored times, J."""
+        arrays = self._store.arrays
+        energy, work = arrays["energy"][:], arrays["work"][:]
+        return Energy(energy[:, 0], energy[:, 1], energy[:, 2], work[:, 0], work[:, 1])
+
+    @property
+    def stats(self) -> Stats:
+        """Counters of the run."""
+        return self._store.stats
+
+    @property
+    def status(self) -> str:
+        """ "complete", "failed", "interrupted", or "running" for a run that goes on or was killed."""
+        return self._store.status
+
+    @property
+    def provenance(self) -> dict[str, Any]:
+        """Model, settings and versions that made the result."""
+        return self._header
+
+    def state(self, index: int = -1) -> State:
+        """State at a stored time, from which a simulation can go on.
+
+        Raises
+        ------
+        ModelError
+            The result was loaded from a file: its model may hold functions, which a file cannot keep.
+        """
+        if self._system is None:
+            raise ModelError("Result.state", "a loaded result has no model to go on with", "simulate it again")
+        return State(self._system, float(self.t[index]), self.q[index], self.v[index], self.stats)
+
+    def save(self, path: str | Path) -> None:
+        """Write the result to an HDF5 file; :func:`ancf.load` reads it."""
+        if isinstance(self._store, ReadStore):
+            shutil.copyfile(self._store.path, path)
+            return
+        if self._system is None:
+            raise ModelError(str(path), "there is nothing to save")
+        file = FileStore(path, self._system, self._header)
+        arrays = self._store.arrays
+        file.append(arrays["time"], arrays["q"], arrays["v"], arrays["work"])
+        file.update(self.stats, self.status)
+        file.close()
+
+
+def load(path: str | Path, system: System | None = None) -> Result:
+    """Result from a file that a simulation or :meth:`Result.save` wrote.
+
+    Parameters
+    ----------
+    path : path
+    system : System, optional
+        The system that made it, if it is still there: the result can then give states to go on from.
+
+    Raises
+    ------
+    ModelError
+        There is no such file, or it is not a results file.
+    """
+    store = ReadStore(path)
+    return Result(store, store.header, system)
+
+
+def _read_layout(group: Any) -> tuple[dict[str, Beam], dict[str, IntArray]]:
+    bodies, slots = {}, {}
+    for name, body in group.items():
+        a = body.attrs
+        motion = a["motion"].reshape(3, 3)
+        section = {k: float(a[k]) for k in ("EA", "EI", "rhoA", "damping", "axial_damping", "bending_damping")}
+        bodies[name] = Beam(
+            name=name,
+            section=Section(**section),
+            element=str(a["element"]),
+            strain=str(a["strain"]),
+            poisson=str(a["poisson"]),
+            natural_shape=str(a["natural_shape"]),
+            gauss=(int(a["gauss"][0]), int(a["gauss"][1])),
+            length=float(a["length"]),
+            stretch=float(a["stretch"]),
+            node_x=body["node_x"][:],
+            node_position=body["node_position"][:],
+            node_tangent=body["node_tangent"][:],
+            velocity=motion[0],
+            angular_velocity=motion[1],
+            about=motion[2],
+        )
+        slots[name] = body["slots"][:]
+    return bodies, slots

@@ -1,0 +1,91 @@
+"""State of a system at one time, and its energy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..solvers.stepping import Stats
+from ..system.core import inertia, total_strain_energy
+from ..system.fields import Fields
+from ..system.system import System
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Energy:
+    """Energies in J; arrays of shape (n_t,) for a history, numbers for a state.
+
+    ``potential`` is that of gravity, zero at the origin; all other loads, moments and moving supports
+    count as ``supplied`` work since the start, and ``dissipated`` is what the damping took out.
+    """
+
+    kinetic: FloatArray
+    strain: FloatArray
+    potential: FloatArray
+    dissipated: FloatArray
+    supplied: FloatArray
+
+    @property
+    def total(self) -> FloatArray:
+        """Kinetic + strain + potential energy."""
+        return self.kinetic + self.strain + self.potential
+
+    @property
+    def balance(self) -> FloatArray:
+        """Total + dissipated - supplied: constant but for the integration error."""
+        return self.total + self.dissipated - self.supplied
+
+
+def energies(system: System, q: FloatArray, v: FloatArray) -> FloatArray:
+    """Kinetic, strain and potential energy of states, shape (m, 3), from q, v of shape (m, size)."""
+    out = np.empty((len(q), 3))
+    momentum = np.empty(system.size)
+    core = system.core
+    for k in range(len(q)):
+        inertia(core.batches, core.ws, v[k], momentum)
+        strain = total_strain_energy(core.batches, core.ws, q[k])
+        out[k] = 0.5 * momentum @ v[k], strain, -(core.loads.gravity @ q[k])
+    return out
+
+
+@dataclass(frozen=True)
+class State(Fields):
+    """Positions and velocities of a model at one time; see :class:`Fields` for what it answers.
+
+    Parameters
+    ----------
+    system : System
+    t : float
+        Time, s.
+    q, v : ndarray, shape (size,)
+        State vectors.
+    stats : Stats
+        What it cost to compute.
+    """
+
+    system: System
+    t: float
+    q: FloatArray
+    v: FloatArray
+    stats: Stats = field(default_factory=Stats)
+
+    @property
+    def bodies(self):  # type: ignore[no-untyped-def]
+        """Bodies by name."""
+        return self.system.model.bodies
+
+    @property
+    def slots(self):  # type: ignore[no-untyped-def]
+        """First unknowns of the nodes' vectors by body."""
+        return self.system.slots
+
+    @property
+    def energy(self) -> Energy:
+        """Energies; nothing is dissipated or supplied at one time."""
+        kinetic, strain, potential = energies(self.system, self.q[None], self.v[None])[0]
+        zero = np.float64(0.0)
+        return Energy(kinetic, strain, potential, zero, zero)  # type: ignore[arg-type]

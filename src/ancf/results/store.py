@@ -1,0 +1,236 @@
+"""Where the stored states of a run are kept: in memory, or in an HDF5 file that is read while it grows.
+
+The file is written in HDF5's single-writer-multiple-reader mode and flushed after every block of steps,
+so that a run that is killed leaves a file which is readable up to its last block.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+from pathlib import Path
+from typing import Any, Protocol
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ModelError
+from ..solvers.newmark import COUNTS
+from ..solvers.stepping import Stats
+from ..system.system import System
+from .state import energies
+
+FloatArray = NDArray[np.float64]
+
+FORMAT = "ancf results"
+VERSION = 1
+STATUS = ("running", "complete", "failed", "interrupted")
+CHUNK_BYTES = 256 * 1024
+
+
+class Store(Protocol):
+    """States and counters of a run; arrays have one row per stored time."""
+
+    @property
+    def arrays(self) -> dict[str, Any]:
+        """The arrays ``time q v work energy`` (energy: kinetic, strain, potential)."""
+        ...
+
+    @property
+    def stats(self) -> Stats:
+        """Counters."""
+        ...
+
+    @property
+    def status(self) -> str:
+        """One of STATUS."""
+        ...
+
+
+class MemoryStore:
+    """States of a run in memory."""
+
+    def __init__(self, system: System) -> None:
+        self._system = system
+        self._parts: list[tuple[FloatArray, ...]] = []
+        self._joined: dict[str, FloatArray] = {}
+        self.stats, self.status = Stats(), "running"
+
+    def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
+        """Add states; see :class:`ancf.solvers.stepping.Recorder`."""
+        self._parts.append((t, q, v, work))
+        self._joined = {}
+
+    def update(self, stats: Stats, status: str) -> None:
+        """Counters and status so far."""
+        self.stats, self.status = stats, status
+
+    @property
+    def arrays(self) -> dict[str, FloatArray]:
+        """See :class:`Store`."""
+        if not self._joined:
+            columns = [np.concatenate(column) for column in zip(*self._parts, strict=True)]
+            self._joined = dict(zip(("time", "q", "v", "work"), columns, strict=True))
+            self._parts = [tuple(columns)]
+        if "energy" not in self._joined:
+            self._joined["energy"] = LazyEnergy(self._system, self._joined)  # type: ignore[assignment]
+        return self._joined
+
+
+class LazyEnergy:
+    """Energies of states in memory, computed when they are asked for."""
+
+    def __init__(self, system: System, arrays: dict[str, FloatArray]) -> None:
+        self._system, self._arrays = system, arrays
+        self._values: FloatArray | None = None
+
+    def __getitem__(self, key: Any) -> FloatArray:
+        if self._values is None:
+            self._values = energies(self._system, self._arrays["q"], self._arrays["v"])
+        return self._values[key]
+
+
+class FileStore:
+    """States of a run in an HDF5 file, written block by block.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be written.
+    """
+
+    def __init__(self, path: str | Path, system: System, header: dict[str, Any]) -> None:
+        self._system = system
+        self.path = Path(path)
+        try:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            self._file = h5py.File(self.path, "w", libver="latest")
+        except OSError as error:
+            raise ModelError(str(path), f"cannot be written: {error}", "choose another folder") from None
+        self._create(header)
+        self._file.swmr_mode = True
+        self.stats, self.status = Stats(), "running"
+
+    def _create(self, header: dict[str, Any]) -> None:
+        file, size = self._file, self._system.size
+        file.attrs["format"], file.attrs["format_version"] = FORMAT, VERSION
+        file.attrs["header"] = json.dumps(header)
+        for name, width in (("time", 0), ("q", size), ("v", size), ("work", 2), ("energy", 3)):
+            tail = (width,) if width else ()
+            rows = max(1, min(1024, CHUNK_BYTES // (8 * max(width, 1))))
+            file.create_dataset(name, (0, *tail), "f8", maxshape=(None, *tail), chunks=(rows, *tail))
+        file.create_dataset("stats", data=np.zeros(len(COUNTS) + 1))
+        file.create_dataset("status", data=0)
+        _write_layout(file, self._system)
+        file.flush()
+
+    def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
+        """Add states; see :class:`ancf.solvers.stepping.Recorder`."""
+        if len(t) == 0:
+            return
+        columns = {"q": q, "v": v, "work": work, "energy": energies(self._system, q, v), "time": t}
+        for name, values in columns.items():
+            data = self._file[name]
+            first = data.shape[0]
+            data.resize(first + len(t), axis=0)
+            data[first:] = values
+            data.flush()
+
+    def update(self, stats: Stats, status: str) -> None:
+        """Counters and status so far; everything until now reaches the disk."""
+        self.stats, self.status = stats, status
+        self._file["stats"][:] = [getattr(stats, name) for name in COUNTS] + [stats.cpu_seconds]
+        self._file["status"][()] = STATUS.index(status)
+        self._file.flush()
+
+    def close(self) -> None:
+        """Close the file; the states are read from it from now on."""
+        self._file.close()
+
+
+class ReadStore:
+    """A results file opened for reading; also one whose run was killed.
+
+    Raises
+    ------
+    ModelError
+        It is not there, or not a results file.
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path)
+        self._file = _open(self.path)
+        if self._file.attrs.get("format") != FORMAT:
+            raise ModelError(str(path), "is not a results file of ancf")
+        self.header: dict[str, Any] = json.loads(self._file.attrs["header"])
+
+    @property
+    def arrays(self) -> dict[str, Any]:
+        """See :class:`Store`; time is written last, so that every row of it is complete."""
+        rows = self._file["time"].shape[0]
+        whole = {name: self._file[name] for name in ("q", "v", "work", "energy")}
+        return {"time": self._file["time"][:rows], **{k: Rows(d, rows) for k, d in whole.items()}}
+
+    @property
+    def layout(self) -> Any:
+        """Group with the bodies."""
+        return self._file["bodies"]
+
+    @property
+    def stats(self) -> Stats:
+        """Counters."""
+        *counts, seconds = self._file["stats"][:].tolist()
+        return Stats(*(int(c) for c in counts), cpu_seconds=seconds)
+
+    @property
+    def status(self) -> str:
+        """One of STATUS; "running" also for a run that was killed."""
+        return STATUS[int(self._file["status"][()])]
+
+
+class Rows:
+    """The first rows of a data set."""
+
+    def __init__(self, data: Any, rows: int) -> None:
+        self._data, self.shape = data, (rows, *data.shape[1:])
+
+    def __getitem__(self, key: Any) -> FloatArray:
+        first, *rest = key if isinstance(key, tuple) else (key,)
+        if first is Ellipsis:
+            first = slice(None)
+        if isinstance(first, slice):
+            start, stop, stride = first.indices(self.shape[0])
+            first = slice(start, stop, stride)
+        elif first < 0:
+            first += self.shape[0]
+        return np.asarray(self._data[(first, *rest)])
+
+
+def _open(path: Path) -> Any:
+    if not path.is_file():
+        raise ModelError(str(path), "there is no such file")
+    problem: OSError | None = None
+    for swmr in (False, True):  # a killed run leaves the file marked as being written
+        try:
+            return h5py.File(path, "r", libver="latest", swmr=swmr)
+        except OSError as error:
+            problem = error
+    raise ModelError(str(path), f"is not a results file of ancf: {problem}") from None
+
+
+def _write_layout(file: Any, system: System) -> None:
+    group = file.create_group("bodies")
+    for name, beam in system.model.bodies.items():
+        body = group.create_group(name)
+        body.attrs["length"], body.attrs["stretch"] = beam.length, beam.stretch
+        body.attrs["element"], body.attrs["strain"] = beam.element, beam.strain
+        body.attrs["natural_shape"], body.attrs["poisson"] = beam.natural_shape, beam.poisson
+        body.attrs["gauss"] = beam.gauss
+        for key in ("EA", "EI", "rhoA", "damping", "axial_damping", "bending_damping"):
+            body.attrs[key] = getattr(beam.section, key)
+        body["slots"] = system.slots[name]
+        for key in ("node_x", "node_position", "node_tangent"):
+            body[key] = getattr(beam, key)
+        with contextlib.suppress(AttributeError):
+            body.attrs["motion"] = np.concatenate([beam.velocity, beam.angular_velocity, beam.about])

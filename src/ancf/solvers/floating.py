@@ -1,0 +1,43 @@
+"""Which bodies nothing holds: they have no equilibrium."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..errors import ModelError
+from ..model.connections import Spherical, Spring
+from ..model.points import Point
+from ..system.system import System
+
+
+def check_supported(system: System, ignored: list[str]) -> None:
+    """Raise ModelError if a body, or a group of connected bodies, can move freely in some direction.
+
+    ``ignored`` are bodies that are held altogether: they support what is connected to them.
+    """
+    groups = {name: {name} for name in system.model.bodies}
+    grounded: set[str] = set(ignored)
+    for item in system.model.connections:
+        if isinstance(item, Spring) and not isinstance(item.b, Point):
+            grounded.add(item.a.body.name)
+        elif isinstance(item, Spherical | Spring) and isinstance(item.b, Point):
+            merged = groups[item.a.body.name] | groups[item.b.body.name]
+            for name in merged:
+                groups[name] = merged
+    for names in {id(g): g for g in groups.values()}.values():
+        if names & grounded:
+            continue
+        free = [c for c in range(3) if not any(_holds(system, name, c) for name in names)]
+        if free:
+            label = " and ".join(f'"{n}"' for n in sorted(names))
+            axes = ", ".join("xyz"[c] for c in free)
+            raise ModelError(
+                "supports",
+                f"nothing holds {label} in {axes}: it floats and has no equilibrium",
+                "add model.pin(...) or model.clamp(...)",
+            )
+
+
+def _holds(system: System, name: str, component: int) -> bool:
+    positions = system.numbering.slots[name][:, 0] + component
+    return bool(np.isin(positions, system.core.supports.held).any())

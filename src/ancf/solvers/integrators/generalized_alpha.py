@@ -1,0 +1,43 @@
+"""Generalised-alpha method.
+
+Order 2, unconditionally stable for linear systems, spectral radius rho_inf at infinite frequency: it
+damps what the mesh cannot resolve.  References: Chung & Hulbert (1993) for the coefficients; Arnold &
+Brüls (2007) for the form with an algorithmic acceleration, in which the equations of motion hold at
+the end of each step.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ...errors import ModelError
+from ..newmark import Scheme
+from ..newton import Newton
+
+
+@dataclass(frozen=True)
+class GeneralizedAlpha:
+    """Generalised-alpha method, order 2.
+
+    Parameters
+    ----------
+    rho_inf : float
+        Spectral radius at infinite frequency, 0 (strongest damping) to 1 (none).
+    newton : Newton
+        Settings of Newton's method.
+    """
+
+    rho_inf: float = 0.9
+    newton: Newton = field(default_factory=Newton)
+    name = "generalized_alpha"
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.rho_inf <= 1.0:
+            raise ModelError("GeneralizedAlpha.rho_inf", f"is {self.rho_inf}, must be between 0 and 1")
+
+    def scheme(self) -> Scheme:
+        """Coefficients of the Newmark family."""
+        alpha_m = (2 * self.rho_inf - 1) / (self.rho_inf + 1)
+        alpha_f = self.rho_inf / (self.rho_inf + 1)
+        gamma = 0.5 + alpha_f - alpha_m
+        return Scheme(beta=0.25 * (gamma + 0.5) ** 2, gamma=gamma, alpha_m=alpha_m, alpha_f=alpha_f)

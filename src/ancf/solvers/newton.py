@@ -1,0 +1,41 @@
+"""Settings of Newton's method, and what to say when it fails."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..errors import ModelError
+
+
+@dataclass(frozen=True)
+class Newton:
+    """Modified Newton method of a time step.
+
+    Parameters
+    ----------
+    tolerance : float
+        Largest error of q left in a step: positions relative to the size of the model, slopes absolute.
+    contraction : float
+        Ratio of successive corrections above which the Jacobian is renewed.
+    max_iterations : int
+        Iterations in a step before it is given up and halved.
+    modified : bool
+        Keep the Jacobian over iterations and steps; False: a new one for every iteration.
+    corotate : bool
+        Turn a kept Jacobian with the nodes (:mod:`ancf.solvers.frames`); False gives the plain
+        modified Newton method, whose Jacobian counts the paper reports.
+    """
+
+    tolerance: float = 1e-11
+    contraction: float = 0.5
+    max_iterations: int = 60
+    modified: bool = True
+    corotate: bool = True
+
+    def __post_init__(self) -> None:
+        if not 1e-15 <= self.tolerance <= 1e-3:
+            raise ModelError("Newton.tolerance", f"is {self.tolerance}, must be between 1e-15 and 1e-3")
+        if not 0.0 < self.contraction < 1.0:
+            raise ModelError("Newton.contraction", f"is {self.contraction}, must be between 0 and 1")
+        if self.max_iterations < 2:
+            raise ModelError("Newton.max_iterations", f"is {self.max_iterations}, must be at least 2")

@@ -1,0 +1,1 @@
+"""Figures; needs the extra `plot`, and nothing in the core imports it."""

@@ -1,0 +1,168 @@
+"""Every example runs, its file and its script describe one model, and every figure is written."""
+
+import csv
+import importlib.util
+import json
+import runpy
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ancf
+from ancf.errors import ModelError
+from ancf.model.file import read_study
+from ancf.paper import FIGURES, cantilever, pendulum, reproduce, spin_up
+
+EXAMPLES = Path(__file__).parent.parent / "examples"
+WITH_MAIN = ("cantilever", "pendulum", "spin_up", "coupled_wires")
+FILES = sorted(path.name for path in EXAMPLES.glob("*.toml"))
+
+COLUMNS = {
+    "fig2": ["element", "elements", "tip_x", "tip_z"],
+    "fig3": ["element", "f", "E", "jacobians", "newton_iterations", "steps"],
+    "fig4": ["element", "elements", "t", "tip_x", "tip_y", "tip_z", "mid_x", "mid_y", "mid_z"],
+    "fig5": ["element", "elements", "t", "tip_x", "tip_y", "tip_z", "mid_x", "mid_y", "mid_z"],
+    "fig6": ["element", "f", "E", "jacobians", "newton_iterations", "steps"],
+    "fig7": ["element", "elements", "u_transverse", "u_axial"],
+    "fig8": ["element", "elements", "t", "u_transverse"],
+}
+
+
+def script(name):
+    spec = importlib.util.spec_from_file_location(f"example_{name}", EXAMPLES / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def described(model):
+    """Plain description without the texts that may differ."""
+    plain = model.to_dict()
+    plain.pop("title")
+    for body in plain["bodies"]:
+        for key in ("shape", "width", "height", "diameter", "E", "nu", "rho"):
+            body["section"].pop(key, None)
+    return plain
+
+
+def integrator_of(settings):
+    if settings.integrator.type == "trapezoidal":
+        return ancf.Trapezoidal()
+    return ancf.GeneralizedAlpha(rho_inf=settings.integrator.rho_inf)
+
+
+class TestScripts:
+    @pytest.mark.parametrize("name", WITH_MAIN)
+    def test_runs(self, name, capsys):
+        script(name).main(t_end=0.05)
+        assert len(capsys.readouterr().out.splitlines()) >= 3
+
+    def test_the_whole_face_runs(self, capsys):
+        runpy.run_path(str(EXAMPLES / "model_face.py"))
+        assert "rad/s" in capsys.readouterr().out
+
+    def test_all_scripts_are_tested(self):
+        assert sorted(path.stem for path in EXAMPLES.glob("*.py")) == sorted([*WITH_MAIN, "model_face"])
+
+
+class TestFiles:
+    @pytest.mark.parametrize("name", FILES)
+    def test_runs(self, name):
+        study = read_study(EXAMPLES / name)
+        settings = study.simulation
+        start = ancf.equilibrium(study.model) if settings.start == "equilibrium" else None
+        result = ancf.simulate(
+            study.model,
+            t_end=20 * settings.step,
+            step=settings.step,
+            start=start,
+            integrator=integrator_of(settings),
+        )
+        assert result.status == "complete"
+        assert settings.outputs
+        for label in settings.outputs:
+            assert np.all(np.isfinite(result.position(label)))
+
+    @pytest.mark.parametrize("name", WITH_MAIN)
+    def test_describes_the_model_of_the_script(self, name):
+        from_file, from_script = (
+            described(m) for m in (read_study(EXAMPLES / f"{name}.toml").model, script(name).build())
+        )
+        assert from_file == approximately(from_script)
+
+    @pytest.mark.parametrize(
+        ("name", "build"),
+        [
+            ("cantilever", lambda: cantilever.build(16)),
+            ("pendulum", pendulum.build),
+            ("spin_up", spin_up.build),
+        ],
+    )
+    def test_describes_the_model_of_the_paper(self, name, build):
+        from_file, wanted = described(read_study(EXAMPLES / f"{name}.toml").model), described(build())
+        assert from_file["bodies"] == approximately(wanted["bodies"])
+        assert from_file["gravity"] == wanted["gravity"]
+
+
+def approximately(value):
+    """The same nested description with its numbers compared within 1e-7 relative."""
+    if isinstance(value, dict):
+        return {key: approximately(part) for key, part in value.items()}
+    if isinstance(value, list):
+        return [approximately(part) for part in value]
+    return pytest.approx(value, rel=1e-7) if isinstance(value, float) else value
+
+
+@pytest.fixture(scope="module")
+def reproduced(tmp_path_factory):
+    """Folder with all figures in their short form, and the calls of progress."""
+    folder, calls = tmp_path_factory.mktemp("figures") / "new" / "folder", []
+    reproduce(["all"], folder, short=True, progress=lambda *call: calls.append(call))
+    return folder, calls
+
+
+class TestReproduce:
+    @pytest.mark.parametrize("name", COLUMNS)
+    def test_writes_table_and_picture(self, reproduced, name):
+        folder, _ = reproduced
+        full = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))
+        assert list(full) == ["name", "columns", "rows", "notes"]
+        assert full["name"] == name
+        assert full["columns"] == COLUMNS[name]
+        assert full["rows"]
+        assert all(len(row) == len(full["columns"]) and row[0] == "cable" for row in full["rows"])
+        assert len(full["notes"]) >= 4
+        assert all(isinstance(note, str) for note in full["notes"])
+        with (folder / f"{name}.csv").open(newline="", encoding="utf-8") as file:
+            head, *rows = csv.reader(file)
+        assert head == full["columns"]
+        assert [[str(value) for value in row] for row in full["rows"]] == rows
+        assert (folder / f"{name}.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+
+    def test_reports_progress(self, reproduced):
+        _, calls = reproduced
+        count = len(FIGURES)
+        assert [call[1:] for call in calls] == [(i, count) for i in range(count + 1)]
+        assert [call[0] for call in calls[:-1]] == list(FIGURES)
+
+    def test_every_figure_is_tested(self):
+        assert set(COLUMNS) == set(FIGURES)
+
+    def test_unknown_figure(self, tmp_path):
+        with pytest.raises(ModelError, match=r'unknown figure "fig22".*did you mean "fig2"'):
+            reproduce(["fig22"], tmp_path)
+
+    def test_no_figure(self, tmp_path):
+        with pytest.raises(ModelError, match="no figure named"):
+            reproduce([], tmp_path)
+
+    def test_folder_that_cannot_be_written(self, tmp_path):
+        (tmp_path / "file").write_text("", encoding="utf-8")
+        with pytest.raises(ModelError, match="cannot be written"):
+            reproduce(["fig2"], tmp_path / "file" / "out", short=True)
+
+    def test_without_matplotlib(self, tmp_path, monkeypatch):
+        monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
+        with pytest.raises(ModelError, match=r"ancf\[plot\]"):
+            reproduce(["fig2"], tmp_path, short=True)
