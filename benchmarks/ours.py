@@ -1,4 +1,8 @@
-"""A case built and solved with ancf."""
+"""A case built and solved with ancf, through its public interface.
+
+The counter ``cpu_seconds`` of a result covers the stepping. The peer's solve contains the initial
+accelerations too, so their time is added here: ``Run.start`` gets a clock.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +10,20 @@ import time
 from typing import Any
 
 import ancf
+from ancf.solvers.stepping import Run
 from cases import GRAVITY, Case
+
+spent = {"start": 0.0}  # CPU seconds of the initial accelerations in the last solve
+_start = Run.start
+
+
+def _timed_start(run: Run, *state: Any) -> None:
+    begin = time.process_time()
+    _start(run, *state)
+    spent["start"] = time.process_time() - begin
+
+
+Run.start = _timed_start  # type: ignore[method-assign]
 
 
 def version() -> str:
@@ -28,7 +45,7 @@ def build(case: Case) -> ancf.Model:
 
 
 def solve(case: Case, options: dict[str, Any]) -> dict[str, Any]:
-    """Build and solve; CPU seconds of the stepping alone and of everything."""
+    """Build and solve; CPU seconds of the solve (start and steps) and of everything."""
     start = time.process_time()
     model = build(case)
     integrator = ancf.Trapezoidal(newton=ancf.Newton(**options.get("newton", {})))
@@ -38,7 +55,8 @@ def solve(case: Case, options: dict[str, Any]) -> dict[str, Any]:
     tip = result.position("beam.end")[-1]
     stats = result.stats
     return {
-        "cpu": stats.cpu_seconds,
+        "cpu": spent["start"] + stats.cpu_seconds,
+        "cpu_stepping": stats.cpu_seconds,
         "cpu_whole": time.process_time() - start,
         "steps": stats.steps,
         "newton_iterations": stats.newton_iterations,

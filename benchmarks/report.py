@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
@@ -26,7 +27,7 @@ def show(results: Results, console: Console) -> None:
 
 def table(title: str, *columns: str) -> Table:
     """Table whose columns after the first are aligned to the right."""
-    made = Table(title=title, title_justify="left")
+    made = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, min_width=len(title))
     for k, column in enumerate(columns):
         made.add_column(column, justify="left" if k == 0 else "right", no_wrap=True)
     return made
@@ -48,26 +49,23 @@ def both(row: Results, key: str) -> str:
 
 def speed(rows: list[Results]) -> Table:
     """One line for each case: our solve, the best of the peer's, and their ratio."""
-    made = table("CPU time of the solve alone (best variant of Exudyn)", "model, elements", "ancf", "Exudyn",
-                 "ancf", "Exudyn", "ratio", "whole")  # fmt: skip
-    made.add_row("", "s", "s", "µs/step", "µs/step", "", "", style="dim")
+    made = table("CPU time of the solve (ancf, best variant of Exudyn)", "model, elements",
+                 "ancf s", "Exudyn s", "ancf µs/step", "Exudyn µs/step", "ratio")  # fmt: skip
     for row in rows:
         sides = row["ancf"], row["exudyn"].get(row["best"], {})
         cells = [number(side.get(key)) for key in ("cpu_median", "us_per_step") for side in sides]
-        ratios = row["ratio"], sides[1].get("ratio_whole")
-        made.add_row(name(row), *cells, *(number(ratio, ".1f") for ratio in ratios))
+        made.add_row(name(row), *cells, number(row["ratio"], ".1f"))
     return made
 
 
 def counters(rows: list[Results]) -> Table:
     """What both sides did for it, and how far their results agree."""
-    made = table("Work and agreement", "model, elements", "steps", "Newton iterations", "Jacobians",
-                 "tips differ", "Newton error")  # fmt: skip
-    made.add_row("", "", "ancf / Exudyn", "ancf / Exudyn", "m", "of ancf, m", style="dim")
+    made = table("Work (ancf / Exudyn) and agreement of the tip in m", "model, elements", "steps", "Newton",
+                 "Jacobians", "tips differ", "Newton error")  # fmt: skip
     for row in rows:
         errors = row["tip_difference"], row["ancf"]["newton_error"]
         work = (both(row, key) for key in ("newton_iterations", "jacobians"))
-        made.add_row(name(row), str(row["ancf"]["steps"]), *work, *(number(e, ".1e") for e in errors))
+        made.add_row(name(row), str(row["ancf"]["steps"]), *work, *(number(e, ".0e") for e in errors))
     return made
 
 
@@ -75,7 +73,7 @@ def peers(rows: list[Results]) -> Table:
     """The ratio to each way to run the peer; the best one for the peer is marked."""
     columns = ("standard", "fast", "tuned")
     made = table(
-        "Exudyn / ancf by variant of Exudyn (* the fastest)", "model, elements", *columns, "tuned with"
+        "Ratio by variant of Exudyn (* the best)", "model, elements", *columns, "whole", "tuned with"
     )
     for row in rows:
         variants = row["exudyn"]
@@ -84,7 +82,8 @@ def peers(rows: list[Results]) -> Table:
             for key in columns
         ]
         options = variants.get("tuned", next(iter(variants.values()), {})).get("options", {})
-        made.add_row(name(row), *cells, described(options))
+        whole = number(variants.get(row["best"], {}).get("ratio_whole"), ".1f")
+        made.add_row(name(row), *cells, whole, described(options))
     return made
 
 
@@ -100,9 +99,7 @@ def described(options: Results) -> str:
 
 
 def memory(rows: list[Results]) -> Table:
-    made = table(
-        "Peak memory of a fresh process, MB (in brackets: after the import)", "model", "ancf", "Exudyn"
-    )
+    made = table("Peak memory, MB (after the import)", "model, elements", "ancf", "Exudyn")
     for row in rows:
         cells = [row[side] for side in ("ancf", "exudyn")]
         made.add_row(

@@ -28,8 +28,9 @@ def burst(side: Any, case: Case, options: dict[str, Any], seconds: float) -> dic
     while len(runs) < FEWEST or (time.process_time() < end and len(runs) < MOST):
         gc.collect()
         runs.append(side.solve(case, options))
-    for key in ("cpu", "cpu_whole"):
-        runs[-1][key] = statistics.median(run[key] for run in runs)
+    for key in ("cpu", "cpu_stepping", "cpu_whole"):
+        if key in runs[-1]:
+            runs[-1][key] = statistics.median(run[key] for run in runs)
     return {**runs[-1], "solves": len(runs)}
 
 

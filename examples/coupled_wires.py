@@ -6,7 +6,7 @@ import ancf
 
 SPAN = 50.0  # m
 DROPPERS = (5.0, 15.0, 25.0, 35.0, 45.0)  # m
-LENGTHS = (1.14, 0.99, 0.94, 0.99, 1.14)  # m, without force
+LENGTHS = (1.07, 0.896, 0.838, 0.896, 1.07)  # m, without force
 
 
 def build(elements: int = 40) -> ancf.Model:

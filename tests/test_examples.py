@@ -62,6 +62,25 @@ class TestScripts:
         runpy.run_path(str(EXAMPLES / "model_face.py"))
         assert "rad/s" in capsys.readouterr().out
 
+    @pytest.mark.filterwarnings("ignore:beam node")  # the pin stops the end that set_motion starts
+    def test_everything_on_one_beam(self):
+        section = ancf.Section.rectangle(width=0.01, height=0.01, E=1e8, rho=500.0, nu=0.0)
+        model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+        beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=8, section=section)
+        beam.set_motion(velocity=(0, 0, 0), angular_velocity=(0, 0, 4.0), about=(0, 0, 0))
+        model.clamp(beam.start, stretch="free")
+        model.clamp(beam.start, rotation=lambda t: t**3, axis=(0, 0, 1))
+        model.pin(beam.end)
+        model.add_force(beam.end, (0.0, 0.0, -1.0))
+        model.add_moment(beam.end, (0.0, 0.5, 0.0))
+        state = ancf.equilibrium(model)
+        result = ancf.simulate(model, t_end=0.1, step=2.5e-4, start=state, integrator=ancf.Trapezoidal())
+        assert result.t.shape == (401,)
+        assert result.position(beam.end) == pytest.approx(np.tile([1.0, 0.0, 0.0], (401, 1)), abs=1e-12)
+        for history in (result.velocity(beam.at(0.5)), result.tension(beam.at(0.5)), result.energy.total):
+            assert np.all(np.isfinite(history))
+        assert ancf.modes(model, about=state, count=10).frequencies.shape == (10,)
+
     def test_all_scripts_are_tested(self):
         assert sorted(path.stem for path in EXAMPLES.glob("*.py")) == sorted([*WITH_MAIN, "model_face"])
 

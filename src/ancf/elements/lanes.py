@@ -38,7 +38,7 @@ ROWS = 136
 #: A curved reference needs kappa itself; it is rounded off below this fraction of kappa0.
 SMOOTHING = 1e-4
 #: Curvature times element length below which bending damping acts alike in all directions.
-STRAIGHT = 1e-6
+STRAIGHT = 1e-2
 
 
 def gauss_table(axial: int, bending: int) -> FloatArray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -53,10 +53,11 @@ def draw(table: Table, figure: Figure, shown: str, label: str, distances: dict[s
     _legend(figure, left, right)
 
 
-def _distance(axes: Axes, table: Table, element: str, column: str, look: dict[str, str]) -> None:
+def _distance(axes: Axes, table: Table, element: str, column: str, look: dict[str, Any]) -> None:
     n, u = table.values("elements", element=element), table.values(column, element=element)
-    hollow = {} if look["marker"] == MARKERS[0] else {"markerfacecolor": "white"}
-    axes.plot(n[:-1], np.abs(u[:-1] - u[-1]), **line_of(element), **look, **hollow)
+    if look["marker"] != MARKERS[0]:
+        look = {**look, "markerfacecolor": "white"}
+    axes.plot(n[:-1], np.abs(u[:-1] - u[-1]), **line_of(element), **look)
 
 
 def _legend(figure: Figure, left: Axes, right: Axes) -> None:

@@ -30,7 +30,7 @@ class Curve:
     @property
     def label(self) -> str:
         """Text of the legend."""
-        return f"{self.element}, {self.elements} elements"
+        return f"{self.element}, {counted(self.elements, 'element')}"
 
     @property
     def look(self) -> dict[str, Any]:
@@ -46,6 +46,11 @@ LOOKS: dict[str, tuple[str, str, str]] = {
     "nonlocking": (style.ORANGE, "--", "s"),
     "original": (style.GREEN, "-.", "^"),
 }
+
+
+def counted(number: int, noun: str) -> str:
+    """Return "1 element", "2 elements"."""
+    return f"{number} {noun}" + ("" if number == 1 else "s")
 
 
 def line_of(element: str) -> dict[str, Any]:

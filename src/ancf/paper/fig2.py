@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from . import cantilever, convergence
-from .table import Table, Value
+from .curves import counted
+from .table import Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -20,8 +21,10 @@ def data(short: bool = False) -> Table:
     """Tip position at 0.4 s, m; z is the vertical."""
     counts = SHORT_COUNTS if short else COUNTS
     rows = [_row(element, n) for element in KINDS for n in counts]
-    measured = [f"Measured, {e}, {n} elements: tip at ({x:.7f}, {z:.7f}) m." for e, n, x, z in rows]
-    return Table("fig2", COLUMNS, rows, [*cantilever.NOTES, *measured])
+    measured = [
+        f"Measured, {e}, {counted(n, 'element')}: tip at ({x:.7f}, {z:.7f}) m." for e, n, x, z in rows
+    ]
+    return Table("fig2", COLUMNS, [*rows], [*cantilever.NOTES, *measured])
 
 
 def draw(table: Table, figure: Figure) -> None:
@@ -30,7 +33,7 @@ def draw(table: Table, figure: Figure) -> None:
     convergence.draw(table, figure, "tip_z", "vertical tip displacement [m]", names)
 
 
-def _row(element: str, elements: int) -> tuple[Value, ...]:
+def _row(element: str, elements: int) -> tuple[str, int, float, float]:
     result = cantilever.run(cantilever.build(elements, element=element))
     x, _, z = result.position("beam.end")[-1].tolist()
     return element, elements, x, z

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 CURVES = (Curve("cable", 32, reference=True), Curve("cable", 4))
 COLUMNS = ("element", "elements", "t", "tip_x", "tip_y", "tip_z", "mid_x", "mid_y", "mid_z")
 OUTPUT_STEP = 2e-3  # s
-SIZE = (100.0, 72.0)  # mm
+SIZE = (100.0, 56.0)  # mm
 
 
 def data(short: bool = False) -> Table:
@@ -39,7 +39,7 @@ def draw(table: Table, figure: Figure) -> None:
         axes.plot(x, z, **curve.look)
     axes.plot(x[:1], z[:1], "o", color=style.GREY, label="start")
     axes.set(xlabel="$X$ of the tip [m]", ylabel="$Z$ of the tip [m]", aspect="equal")
-    axes.locator_params("both", nbins=6)
+    axes.locator_params("both", nbins=5)
     style.legend_above(figure, axes, columns=3)
 
 

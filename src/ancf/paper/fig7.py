@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from . import convergence, spin_up
-from .table import Table, Value
+from .curves import counted
+from .table import Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -22,10 +23,11 @@ def data(short: bool = False) -> Table:
     counts, t_end = (SHORT_COUNTS, SHORT_TIME) if short else (COUNTS, TIME)
     rows = [_row(element, n, t_end) for element in KINDS for n in counts]
     measured = [
-        f"Measured, {e}, {n} elements, t = {t_end:g} s: u_transverse = {u:.7f} m, u_axial = {w:.7f} m."
+        f"Measured, {e}, {counted(n, 'element')}, t = {t_end:g} s: "
+        f"u_transverse = {u:.7f} m, u_axial = {w:.7f} m."
         for e, n, u, w in rows
     ]
-    return Table("fig7", COLUMNS, rows, [*spin_up.NOTES, *measured])
+    return Table("fig7", COLUMNS, [*rows], [*spin_up.NOTES, *measured])
 
 
 def draw(table: Table, figure: Figure) -> None:
@@ -34,7 +36,7 @@ def draw(table: Table, figure: Figure) -> None:
     convergence.draw(table, figure, "u_transverse", "transverse tip displ. at 7 s [m]", names)
 
 
-def _row(element: str, elements: int, t_end: float) -> tuple[Value, ...]:
+def _row(element: str, elements: int, t_end: float) -> tuple[str, int, float, float]:
     result = spin_up.run(spin_up.build(elements, element), t_end, output_step=t_end)
     transverse, axial = spin_up.tip_displacement(result)
     return element, elements, float(transverse[-1]), float(axial[-1])

@@ -9,7 +9,7 @@ import numpy as np
 from ..viz import style
 from . import spin_up
 from .curves import Curve
-from .table import FloatArray, Table, sampled_rows
+from .table import FloatArray, Table, Value, sampled_rows
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,7 +36,7 @@ def draw(table: Table, figure: Figure) -> None:
     """Transverse displacement over t."""
     axes = figure.subplots()
     for curve in CURVES:
-        only = {"element": curve.element, "elements": curve.elements}
+        only: dict[str, Value] = {"element": curve.element, "elements": curve.elements}
         axes.plot(table.values("t", **only), table.values("u_transverse", **only), **curve.look)
     axes.set(xlabel="$t$ [s]", ylabel="transverse tip displacement [m]")
     axes.set_xlim(0.0, float(table.values("t").max()))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import ancf
 
 from ..viz import style
-from .curves import points_of
+from .curves import counted, points_of
 from .table import Table
 
 if TYPE_CHECKING:
@@ -103,6 +103,6 @@ def _measured(rows: list[tuple[str | int | float, ...]]) -> list[str]:
     for element in dict.fromkeys(row[0] for row in rows):
         mine = sorted((row for row in rows if row[0] == element), key=lambda row: float(row[2]))
         for _, f, E, jacobians, iterations, steps in (mine[0], mine[-1]):
-            counts = f"{jacobians} Jacobians, {iterations} Newton iterations, {steps} steps"
+            counts = f"{counted(int(jacobians), 'Jacobian')}, {iterations} Newton iterations, {steps} steps"
             notes.append(f"Measured, {element}, f = {f}, E = {E:.3g} N/m^2: {counts}.")
     return notes

@@ -3,20 +3,29 @@
 Each correction solves (K + mu M) dq = -r.  The mass-weighted term is there only while the plain
 matrix K is not positive definite or the corrections are too long: a slack cable has hardly any
 stiffness against falling, a compressed one a negative one.  mu goes to zero as the iteration settles,
-so that the last corrections are Newton's own.  The line search looks for the place along the
-correction where the out-of-balance force does no more work.  Because only positive definite matrices
-are accepted, the result is a stable equilibrium.
+so that the last corrections are Newton's own.  Corrections are capped; when they do not settle, a line
+search looks for the place along the correction where the out-of-balance force does no more work.
+Because only positive definite matrices are accepted, the result is a stable equilibrium.
+
+A cable that is longer than its initial shape (slack) would start strongly compressed and crumple.  Its
+axial stiffness is first lowered until the load alone stretches it by a good part of its length, its
+loads come on at the length of the initial shape, and only then does the natural length take effect
+and the stiffness rise to its value: the cable comes to its length from above, always in tension.
 """
 
 from __future__ import annotations
 
 import time as clock
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SolveError
+from ..elements.cable import CableBatch
+from ..elements.cable_build import compression
+from ..elements.lanes import LANES
 from ..system.core import (
     Core,
     apply_load,
@@ -38,9 +47,10 @@ FloatArray = NDArray[np.float64]
 TOLERANCE = 1e-12  # of a correction, positions relative to the size of the model
 ACCEPTED = 1e-9  # where round-off keeps corrections above TOLERANCE
 MAX_ITERATIONS = 300  # in a load step
+PLAIN = 150  # of them without a line search
 MOST_HALVINGS = 12  # of a load step
 LONGEST = 0.3  # largest change of a slope, or of a position in sizes of the model, in one correction
-DISTURBANCE = 1e-4  # of the slopes, to leave an unstable equilibrium
+DISTURBANCE = 1e-3  # along the softest mode, to leave an unstable equilibrium
 
 
 @dataclass
@@ -95,17 +105,22 @@ class Iteration:
         return float(np.max(np.abs(dq) * self.core.weight))
 
     def correction(self, r: FloatArray) -> FloatArray:
-        """dq of (K + mu M) dq = r with the least mu that makes the matrix positive definite."""
-        if self.factorise(self.mu) == 0:
+        """dq of (K + mu M) dq = r, with mu large enough to make the matrix positive definite.
+
+        A moment is no conservative load and the symmetric part of its stiffness says nothing about
+        stability: with moments an indefinite K is taken as it is.
+        """
+        negative = self.factorise(self.mu)
+        if negative == 0 or (negative > 0 and self.mu == 0.0 and len(self.moment) > 0):
             return self.solve(r)
         if self.push == 0.0:
             self.factorise(1.0, 0.0)
             self.push = max(self.length(self.solve(r)), 1e-12)
-        self.mu = max(self.mu, 1e-3 * self.push)
-        for _ in range(60):
+        self.mu = max(self.mu, 1e-9 * self.push)
+        for _ in range(40):
             if self.factorise(self.mu) == 0:
                 return self.solve(r)
-            self.mu *= 4.0
+            self.mu *= 5.0
         raise SolveError("equilibrium", "no regularisation makes the stiffness positive definite")
 
 
@@ -133,27 +148,79 @@ def equilibrium(
     force = np.empty_like(q)
     apply_load(core.loads, tables.load[0], force)
     it = Iteration(system, core, q, force, core.loads.moment.copy())
-    share, part, halvings = 0.0, 1.0 / load_steps, 0
+    slack = Slack(system, q, force)
+    try:
+        slack.set(1.0, 1.0)
+        halvings = follow_path(it, lambda share: share, load_steps, "of the load")
+        if slack.found:
+            halvings += follow_path(it, slack.let_out, 4, "of the slack")
+            halvings += follow_path(it, slack.stiffen, slack.steps, "of the axial stiffness")
+    finally:
+        slack.set(0.0, 0.0)
+        core.loads.moment[:] = it.moment
+    seconds = clock.process_time() - cpu
+    return it.q, Stats(load_steps, it.iterations, it.jacobians, it.jacobians, halvings, seconds)
+
+
+class Slack:
+    """The detour by which slack cables come to their equilibrium; nothing if no cable is slack."""
+
+    def __init__(self, system: System, q: FloatArray, force: FloatArray) -> None:
+        load = float(np.sum(np.abs(force)))
+        self.found = load > 0.0 and any(b.stretch < 1.0 - 1e-9 for b in system.model.bodies.values())
+        self.cables = [b for b in system.core.batches if isinstance(b, CableBatch)] if self.found else []
+        self.rows = [b.lane_data[:, 2 * LANES : 3 * LANES] for b in self.cables]  # EA L
+        self.natural = [(row.copy(), b.lane_reference.copy(), b.groups[:, 7].copy())
+                        for row, b in zip(self.rows, self.cables, strict=True)]
+        self.strain = [compression(b, q) for b in self.cables]
+        lengths = [b.lane_data[:, :LANES] for b in self.cables]
+        stiffest = max((float(np.max(row / h)) for row, h in zip(self.rows, lengths, strict=True)), default=1.0)
+        self.factor = min(1.0, load / stiffest) if self.found else 1.0
+        self.steps = max(1, int(np.ceil(np.log(1.0 / self.factor) / np.log(6.0))))
+
+    def set(self, soft: float, held: float) -> None:
+        """Lower EA by a share of the factor's logarithm and free the forces of a share of the compression."""
+        for k, batch in enumerate(self.cables):
+            stiffness, reference, curved = self.natural[k]
+            self.rows[k][:] = stiffness * self.factor**soft
+            batch.lane_reference[:] = reference + held * self.strain[k]
+            batch.groups[:, 7] = curved if held == 0.0 else 1
+
+    def let_out(self, share: float) -> float:
+        """Put the compression back, at low stiffness; the loads stay whole."""
+        self.set(1.0, 1.0 - share)
+        return 1.0
+
+    def stiffen(self, share: float) -> float:
+        """Raise the stiffness to a share of the logarithm; the loads stay whole."""
+        self.set(1.0 - share, 0.0)
+        return 1.0
+
+
+def follow_path(it: Iteration, load: Callable[[float], float], steps: int, of: str) -> int:
+    """Equilibria along a path from 0 to 1; a step that fails is halved.  Returns the number of halvings.
+
+    ``load(share)`` prepares a point of the path and returns the share of the loads there.
+    """
+    share, part, halvings = 0.0, 1.0 / steps, 0
     while share < 1.0 - 1e-12:
         before = it.q.copy()
-        problem = settle(it, min(share + part, 1.0))
+        problem = settle(it, load(min(share + part, 1.0)))
         if problem is None:
             share = min(share + part, 1.0)
             continue
         it.q, it.mu = before, 0.0
         part, halvings = 0.5 * part, halvings + 1
         if halvings > MOST_HALVINGS:
-            raise SolveError(f"equilibrium at {share:.4g} of the load", problem, "give more load_steps")
-    core.loads.moment[:] = it.moment
-    seconds = clock.process_time() - cpu
-    return it.q, Stats(load_steps, it.iterations, it.jacobians, it.jacobians, halvings, seconds)
+            raise SolveError(f"equilibrium at {share:.4g} {of}", problem, "give more load_steps")
+    return halvings
 
 
 def settle(it: Iteration, share: float) -> str | None:
     """Newton iterations for one share of the loads; None, or what went wrong."""
     r = it.out_of_balance(it.q, share)
     disturbed = False
-    for _ in range(MAX_ITERATIONS):
+    for number in range(MAX_ITERATIONS):
         if not np.all(np.isfinite(r)):
             return "the forces are not finite"
         regular = it.mu == 0.0
@@ -163,12 +230,16 @@ def settle(it: Iteration, share: float) -> str | None:
         if it.mu == 0.0 and (norm <= TOLERANCE or (norm <= ACCEPTED and _stalled(it, dq, r, share))):
             it.q = it.moved(dq, 1.0)
             return None
-        if regular and it.mu > 0.0 and it.length(dq) < 1e-9 and not disturbed:
+        if regular and it.mu > 0.0 and norm < 1e-6 and not disturbed:
             disturbed = True  # balanced, but not stable
             it.q = disturb(it)
             r = it.out_of_balance(it.q, share)
             continue
-        s, r = line_search(it, dq, r, share, min(1.0, LONGEST / max(norm, 1e-300)))
+        longest = min(1.0, LONGEST / max(norm, 1e-300))
+        if number < PLAIN:
+            s, r = longest, it.out_of_balance(it.moved(dq, longest), share)
+        else:
+            s, r = line_search(it, dq, r, share, longest)
         it.q = it.moved(dq, s)
         it.mu = relax(it.mu, s, norm)
     return f"Newton's method did not converge in {MAX_ITERATIONS} iterations, last correction {norm:.2e}"
@@ -181,10 +252,10 @@ def _stalled(it: Iteration, dq: FloatArray, r: FloatArray, share: float) -> bool
 
 
 def relax(mu: float, s: float, norm: float) -> float:
-    """Next regularisation: less after a full step, more after a short one."""
-    if mu == 0.0 or (s == 1.0 and norm < 1e-3):
+    """Next regularisation: less after a long step, more after a short one."""
+    if mu == 0.0 or (s == 1.0 and norm < 1e-2):
         return 0.0
-    return 0.1 * mu if s > 0.5 else (mu if s > 0.1 else 4.0 * mu)
+    return 0.1 * mu if s > 0.3 else (mu if s > 0.05 else 5.0 * mu)
 
 
 def line_search(
@@ -192,6 +263,8 @@ def line_search(
 ) -> tuple[float, FloatArray]:
     """Part of the correction to take, at most ``longest``, and the residual there."""
     work0 = float(dq @ r)
+    if work0 <= 0.0:  # indefinite matrix: there is nothing to search for
+        return longest, it.out_of_balance(it.moved(dq, longest), share)
     low, high, w_low = 0.0, longest, work0
     ahead = r
     for _ in range(12):
@@ -210,13 +283,10 @@ def line_search(
 
 
 def disturb(it: Iteration) -> FloatArray:
-    """State with small random slopes, always the same ones."""
-    noise = np.zeros_like(it.q)
-    noise[: it.system.n] = DISTURBANCE * np.random.default_rng(1).standard_normal(it.system.n)
-    noise[: it.system.n] /= it.core.weight
-    noise[it.core.supports.held] = 0.0
-    q = it.q + noise
-    follow_supports(it.core.supports, q, it.zero.copy(), it.zero.copy())
-    return q
-
-
+    """State moved a little along the softest mode, by inverse iteration with the last matrix."""
+    x = np.random.default_rng(1).standard_normal(it.system.n)
+    x[it.core.supports.held] = 0.0
+    for _ in range(4):
+        x = it.solve(x)
+        x /= it.length(x)
+    return it.moved(x, DISTURBANCE)

@@ -82,8 +82,8 @@ def differences(function, times: FloatArray, step: float, first: float, last: fl
     n, half = len(times), STENCIL // 2
     lowest = max(int(np.floor((times[0] - first) / step + 1e-9)), 0)  # grid points from first to times[0]
     below = min(lowest, half)
-    room = int(np.floor((last - times[-1]) / step + 1e-9))
-    above = max(min(room, half), STENCIL - (below + n))
+    room = int(min(np.floor((last - times[-1]) / step + 1e-9), half))
+    above = max(room, STENCIL - (below + n))
     grid = times[0] + step * np.arange(-below, n + above)
     grid[below : below + n] = times
     values = function(grid)

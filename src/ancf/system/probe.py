@@ -36,6 +36,17 @@ class Probe:
     slots: IntArray
     S: FloatArray
 
+    @property
+    def element_length(self) -> float:
+        """Reference length of the element, m."""
+        return float(self.beam.node_x[self.element + 1] - self.beam.node_x[self.element])
+
+    def moved(self, xi: float) -> Probe:
+        """Probe at xi in [0, 1] of the same element."""
+        h = self.element_length
+        S = np.stack([hermite(xi, h, d) for d in range(3)])
+        return Probe(self.beam, float(self.beam.node_x[self.element]) + xi * h, self.element, self.slots, S)
+
     def field(self, states: FloatArray, derivative: int = 0) -> FloatArray:
         """r or a derivative, shape (..., 3), from state vectors of shape (..., n)."""
         total = np.zeros((*states.shape[:-1], 3))

@@ -29,7 +29,7 @@ class Rotation:
 
     def matrices(self, theta: FloatArray, rate: FloatArray, acceleration: FloatArray) -> FloatArray:
         """R, dR/dt and d2R/dt2, shape (n, 3, 3, 3), from angles of shape (n,)."""
-        K = np.cross(np.eye(3), self.axis).T  # K x = axis x x
+        K = np.cross(np.eye(3), self.axis)  # K x = axis x x
         s, c = np.sin(theta)[:, None, None], np.cos(theta)[:, None, None]
         R = np.eye(3) + s * K + (1 - c) * (K @ K)
         w, dw = rate[:, None, None], acceleration[:, None, None]

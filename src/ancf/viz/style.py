@@ -18,7 +18,7 @@ DPI = 200
 BLUE, ORANGE, GREEN, GREY, LIGHT = "#0060A8", "#D55E00", "#009E73", "#6B6B6B", "#B8B8B8"
 
 #: Settings that matplotlib holds while a figure is made.
-SETTINGS: dict[str, Any] = {
+SETTINGS: dict[Any, Any] = {
     "font.size": 8.0,
     "axes.labelsize": 8.0,
     "axes.titlesize": 8.0,
