@@ -166,9 +166,8 @@ def _start_vectors(start: State, system: System) -> tuple[Any, Any]:
 
 def _check_times(t0: float, t_end: float, step: float, output_step: float | None) -> int:
     """Check the times and return the number of steps between outputs."""
-    for name, value in (("t_end", t_end), ("step", step), ("output_step", output_step)):
-        if value is None and name == "output_step":
-            continue
+    given: list[tuple[str, Any]] = [("t_end", t_end), ("step", step)]
+    for name, value in given + ([] if output_step is None else [("output_step", output_step)]):
         number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
         if not number or not np.isfinite(value) or value <= 0:
             raise ModelError(f"simulate.{name}", f"is {value!r}, must be a positive number of seconds")

@@ -11,7 +11,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numba
 from numba import types
@@ -21,7 +21,9 @@ from numba.extending import overload
 F = TypeVar("F", bound=Callable[..., Any])
 
 # IEEE special values must survive (they are how a diverged step is seen), so no "nnan", no "ninf".
-_OPTIONS = {"fastmath": {"contract", "nsz", "arcp"}, "error_model": "numpy", "_nrt": False}
+_OPTIONS: dict[str, Any] = {"fastmath": {"contract", "nsz", "arcp"}, "error_model": "numpy", "_nrt": False}
+
+_JIT: Any = _OPTIONS
 
 
 def _package_stamp() -> str:
@@ -35,35 +37,35 @@ _STAMP = _package_stamp()
 
 def kernel(function: F) -> F:
     """Compile ``function`` with numba on first use and cache it on disk."""
-    dispatcher = numba.njit(cache=True, **_OPTIONS)(function)
+    dispatcher: Any = numba.njit(cache=True, **_OPTIONS)(function)
     # numba's own stamp covers the kernel's file alone, not the kernels that it calls
     cache_file = getattr(dispatcher._cache, "_cache_file", None)
-    if hasattr(cache_file, "_source_stamp"):
+    if cache_file is not None and hasattr(cache_file, "_source_stamp"):
         cache_file._source_stamp = _STAMP
-    return dispatcher  # type: ignore[no-any-return]
+    return cast(F, dispatcher)
 
 
 def inline_kernel(function: F) -> F:
     """Compile ``function`` as a part of the kernels that call it."""
-    return numba.njit(**_OPTIONS)(function)  # type: ignore[no-any-return]
+    return cast(F, numba.njit(**_OPTIONS)(function))
 
 
-def add_force(batch, q, v, a, r, ws):  # type: ignore[no-untyped-def]
+def add_force(batch, q, v, a, r, ws):
     """Add the batch's inertia and internal forces at (q, v, a) to the residual ``r``."""
     raise TypeError(f"no force for {type(batch).__name__}")
 
 
-def add_inertia(batch, a, r, ws):  # type: ignore[no-untyped-def]
+def add_inertia(batch, a, r, ws):
     """Add the batch's mass matrix times ``a`` to ``r``."""
     raise TypeError(f"no inertia for {type(batch).__name__}")
 
 
-def add_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):  # type: ignore[no-untyped-def]
+def add_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add ``c_mass M + c_damping C + c_stiffness K`` of the batch to the block values ``A``."""
     raise TypeError(f"no tangent for {type(batch).__name__}")
 
 
-def strain_energy(batch, q, ws):  # type: ignore[no-untyped-def]
+def strain_energy(batch, q, ws):
     """Elastic energy of the batch, J."""
     raise TypeError(f"no energy for {type(batch).__name__}")
 
@@ -79,13 +81,15 @@ def implements(
     """Register the four operations of a kind of batch (see the functions above for arguments)."""
 
     def matches(batch: Any) -> bool:
-        return isinstance(batch, types.BaseNamedTuple) and batch.instance_class is batch_type
+        return (
+            isinstance(batch, types.BaseNamedTuple) and getattr(batch, "instance_class", None) is batch_type
+        )
 
     def bind(stub: Callable[..., Any], function: Callable[..., Any]) -> None:
         body = function.py_func if hasattr(function, "py_func") else function
 
-        @overload(stub, jit_options=_OPTIONS, strict=False)
-        def _choose(batch, *arguments):  # type: ignore[no-untyped-def]
+        @overload(stub, jit_options=_JIT, strict=False)
+        def _choose(batch, *arguments):
             return body if matches(batch) else None
 
     for stub, function in (
@@ -97,7 +101,7 @@ def implements(
         bind(stub, function)
 
 
-class _Announcer(event.Listener):  # type: ignore[misc]
+class _Announcer(event.Listener):
     def __init__(self, say: Callable[[], None]) -> None:
         self.say: Callable[[], None] | None = say
 

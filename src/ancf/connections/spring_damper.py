@@ -28,7 +28,7 @@ class SpringBatch(NamedTuple):
 
 
 @inline_kernel
-def spring_vector(batch, e, q, fixed):  # type: ignore[no-untyped-def]
+def spring_vector(batch, e, q, fixed):
     """Vector from the first to the second end (fixed = 1) or its rate (fixed = 0)."""
     x, y, z = fixed * batch.offset[e, 0], fixed * batch.offset[e, 1], fixed * batch.offset[e, 2]
     for k in range(8):
@@ -42,7 +42,7 @@ def spring_vector(batch, e, q, fixed):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def spring_state(batch, e, q, v):  # type: ignore[no-untyped-def]
+def spring_state(batch, e, q, v):
     """Direction, length, rate, tension and whether the spring carries."""
     x, y, z = spring_vector(batch, e, q, 1.0)
     length = max(math.sqrt(x * x + y * y + z * z), 1e-100)
@@ -56,7 +56,7 @@ def spring_state(batch, e, q, v):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def spring_force(batch, q, v, a, r, ws):  # type: ignore[no-untyped-def]
+def spring_force(batch, q, v, a, r, ws):
     """Add the spring forces to r."""
     for e in range(batch.base.shape[0]):
         n, _, _, tension, carries = spring_state(batch, e, q, v)
@@ -70,12 +70,12 @@ def spring_force(batch, q, v, a, r, ws):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def spring_inertia(batch, a, r, ws):  # type: ignore[no-untyped-def]
+def spring_inertia(batch, a, r, ws):
     """Springs have no mass."""
 
 
 @inline_kernel
-def spring_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):  # type: ignore[no-untyped-def]
+def spring_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add stiffness and damping of the springs that carry to A."""
     for e in range(batch.base.shape[0]):
         n, length, _, tension, carries = spring_state(batch, e, q, v)
@@ -96,7 +96,7 @@ def spring_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):  # type:
 
 
 @inline_kernel
-def spring_energy(batch, q, ws):  # type: ignore[no-untyped-def]
+def spring_energy(batch, q, ws):
     """Elastic energy of the springs, J."""
     energy = 0.0
     for e in range(batch.base.shape[0]):

@@ -62,14 +62,14 @@ class CableBatch(NamedTuple):
 
 
 @inline_kernel
-def load_data(batch, ws, chunk):  # type: ignore[no-untyped-def]
+def load_data(batch, ws, chunk):
     """Rows of the elements' constants."""
     for i in range(CONSTANTS * LANES):
         ws[LENGTH * LANES + i] = batch.lane_data[chunk, i]
 
 
 @inline_kernel
-def load_reference(batch, ws, chunk, k, curved):  # type: ignore[no-untyped-def]
+def load_reference(batch, ws, chunk, k, curved):
     """Row REFERENCE: column k of the reference strains; it stays zero for a straight reference."""
     if curved:
         for m in range(LANES):
@@ -77,7 +77,7 @@ def load_reference(batch, ws, chunk, k, curved):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def load_shape(batch, q, ws, chunk, first):  # type: ignore[no-untyped-def]
+def load_shape(batch, q, ws, chunk, first):
     """Rows d, t1, t2 (starting at ``first``) of a chunk from the nodal values q."""
     for m in range(LANES):
         i0, i1 = batch.lane_base[chunk, m], batch.lane_base[chunk, LANES + m]
@@ -90,7 +90,7 @@ def load_shape(batch, q, ws, chunk, first):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def load_acceleration(batch, v, a, ws, chunk, damped):  # type: ignore[no-untyped-def]
+def load_acceleration(batch, v, a, ws, chunk, damped):
     """Rows A1 ... AS2: acceleration, plus (damping / rhoA) velocity for the external damping."""
     for slot in range(4):
         for m in range(LANES):
@@ -107,14 +107,14 @@ def load_acceleration(batch, v, a, ws, chunk, damped):  # type: ignore[no-untype
 
 
 @inline_kernel
-def clear(ws, first, rows):  # type: ignore[no-untyped-def]
+def clear(ws, first, rows):
     """Set rows to zero."""
     for i in range(first * LANES, (first + rows) * LANES):
         ws[i] = 0.0
 
 
 @inline_kernel
-def store_nodal(batch, r, ws, chunk):  # type: ignore[no-untyped-def]
+def store_nodal(batch, r, ws, chunk):
     """Add the rows NODAL of a chunk to the residual."""
     for m in range(LANES):
         for slot in range(4):
@@ -124,7 +124,7 @@ def store_nodal(batch, r, ws, chunk):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def cable_force(batch, q, v, a, r, ws):  # type: ignore[no-untyped-def]
+def cable_force(batch, q, v, a, r, ws):
     """Add inertia, elastic and damping forces to r."""
     gp = batch.gp
     for n in range(batch.groups.shape[0]):
@@ -154,7 +154,7 @@ def cable_force(batch, q, v, a, r, ws):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def cable_inertia(batch, a, r, ws):  # type: ignore[no-untyped-def]
+def cable_inertia(batch, a, r, ws):
     """Add the mass matrix times a to r (eq. 23)."""
     clear(ws, FD, 9)
     for chunk in range(batch.first.shape[0] - 1):
@@ -165,7 +165,7 @@ def cable_inertia(batch, a, r, ws):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def mass_entry(x, y, length):  # type: ignore[no-untyped-def]
+def mass_entry(x, y, length):
     """420/(rhoA L) times the integral of S_x S_y of eq. 23."""
     if x > y:
         x, y = y, x
@@ -179,7 +179,7 @@ def mass_entry(x, y, length):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def store_tangent(batch, A, ws, chunk, c_mass, c_damping):  # type: ignore[no-untyped-def]
+def store_tangent(batch, A, ws, chunk, c_mass, c_damping):
     """Add stiffness blocks and mass of a chunk to the block values A."""
     for m in range(batch.first[chunk + 1] - batch.first[chunk]):
         e = batch.first[chunk] + m
@@ -197,7 +197,7 @@ def store_tangent(batch, A, ws, chunk, c_mass, c_damping):  # type: ignore[no-un
 
 
 @inline_kernel
-def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):  # type: ignore[no-untyped-def]
+def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add c_mass M + c_damping C + c_stiffness K (c_stiffness is 0 or 1) to the block values A."""
     gp = batch.gp
     for n in range(batch.groups.shape[0]):
@@ -225,7 +225,7 @@ def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):  # type: 
 
 
 @inline_kernel
-def gauss_energy(ws, gp, g, m, paper, bending):  # type: ignore[no-untyped-def]
+def gauss_energy(ws, gp, g, m, paper, bending):
     """Energy of one Gauss point of lane m."""
     p, s = shape_at(ws, gp, g, 0, m)
     a = dot(p, p)
@@ -241,7 +241,7 @@ def gauss_energy(ws, gp, g, m, paper, bending):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def cable_energy(batch, q, ws):  # type: ignore[no-untyped-def]
+def cable_energy(batch, q, ws):
     """Strain energy, J (the integral behind eq. 27)."""
     energy = 0.0
     for n in range(batch.groups.shape[0]):

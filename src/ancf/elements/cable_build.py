@@ -86,8 +86,14 @@ def reference_strains(beam: Beam) -> tuple[FloatArray, FloatArray]:
         return eps0, kappa0
     for e in range(n):
         h = beam.node_x[e + 1] - beam.node_x[e]
-        values = np.stack([beam.node_position[e], beam.stretch * beam.node_tangent[e],
-                           beam.node_position[e + 1], beam.stretch * beam.node_tangent[e + 1]])
+        values = np.stack(
+            [
+                beam.node_position[e],
+                beam.stretch * beam.node_tangent[e],
+                beam.node_position[e + 1],
+                beam.stretch * beam.node_tangent[e + 1],
+            ]
+        )
         xa, xb = gauss(beam.gauss[0])[0], gauss(beam.gauss[1])[0]
         r_s = hermite(xa, h, 1) @ values / beam.stretch
         eps0[e, : len(xa)] = axial_strain(r_s, beam.strain)

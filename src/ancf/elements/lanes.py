@@ -53,7 +53,7 @@ def gauss_table(axial: int, bending: int) -> FloatArray:
 
 
 @inline_kernel
-def axial_force(ws, gp, g, paper):  # type: ignore[no-untyped-def]
+def axial_force(ws, gp, g, paper):
     """Add the axial force of Gauss point ``g`` to rows FD, F1, F2 (eqs. 25, 27, B-1)."""
     cd, c1, c2, w = gp[g, 0], gp[g, 1], gp[g, 2], gp[g, 6]
     for m in range(LANES):
@@ -78,7 +78,7 @@ def axial_force(ws, gp, g, paper):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def bending_force(ws, gp, g, paper, curved):  # type: ignore[no-untyped-def]
+def bending_force(ws, gp, g, paper, curved):
     """Add the bending force of Gauss point ``g`` to rows FD, F1, F2 (eqs. 26, 27)."""
     cd, c1, c2, ed, e1, e2, w = gp[g, 0], gp[g, 1], gp[g, 2], gp[g, 3], gp[g, 4], gp[g, 5], gp[g, 6]
     scale = math.sqrt(1.0 + SMOOTHING * SMOOTHING)
@@ -122,7 +122,7 @@ def bending_force(ws, gp, g, paper, curved):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def inertia_force(ws):  # type: ignore[no-untyped-def]
+def inertia_force(ws):
     """Rows NODAL: consistent mass (eq. 23) times the rows A1 ... AS2, plus the rows FD, F1, F2."""
     for k in range(3):
         for m in range(LANES):
@@ -141,7 +141,7 @@ def inertia_force(ws):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def axial_tangent(ws, gp, g, paper, c_damping):  # type: ignore[no-untyped-def]
+def axial_tangent(ws, gp, g, paper, c_damping):
     """Rows KPP: second derivative of the axial energy by r_x, damping included."""
     cd, c1, c2, w = gp[g, 0], gp[g, 1], gp[g, 2], gp[g, 6]
     for m in range(LANES):
@@ -166,7 +166,7 @@ def axial_tangent(ws, gp, g, paper, c_damping):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def bending_tangent(ws, gp, g, paper, curved):  # type: ignore[no-untyped-def]
+def bending_tangent(ws, gp, g, paper, curved):
     """Rows KPP, KPS, KSS: second derivatives of the bending energy by r_x = p and r_xx = s."""
     cd, c1, c2, ed, e1, e2, w = gp[g, 0], gp[g, 1], gp[g, 2], gp[g, 3], gp[g, 4], gp[g, 5], gp[g, 6]
     scale = math.sqrt(1.0 + SMOOTHING * SMOOTHING)

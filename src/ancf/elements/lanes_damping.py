@@ -16,7 +16,7 @@ from .lanes import DA_L, DB_L, INV_L, KPP, KPS, KSS, LANES, LENGTH, STRAIGHT
 
 
 @inline_kernel
-def shape_at(ws, gp, g, first, m):  # type: ignore[no-untyped-def]
+def shape_at(ws, gp, g, first, m):
     """r_x and r_xx (or their rates) of lane m at Gauss point g, from the nine rows at ``first``."""
     cd, c1, c2, ed, e1, e2 = gp[g, 0], gp[g, 1], gp[g, 2], gp[g, 3], gp[g, 4], gp[g, 5]
     il = ws[INV_L * LANES + m]
@@ -33,13 +33,13 @@ def shape_at(ws, gp, g, first, m):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def dot(u, v):  # type: ignore[no-untyped-def]
+def dot(u, v):
     """Scalar product."""
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
 @inline_kernel
-def bending_rate(p, s, dp, ds, paper, length):  # type: ignore[no-untyped-def]
+def bending_rate(p, s, dp, ds, paper, length):
     """X y of the curvature vector's rate y, and the numbers that the force needs."""
     a = dot(p, p)
     b = dot(p, s)
@@ -63,7 +63,7 @@ def bending_rate(p, s, dp, ds, paper, length):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def add_nodal(ws, gp, g, m, qp, qs):  # type: ignore[no-untyped-def]
+def add_nodal(ws, gp, g, m, qp, qs):
     """Add generalised forces on r_x and r_xx to the rows FD, F1, F2 of lane m."""
     il = ws[INV_L * LANES + m]
     for k in range(3):
@@ -74,7 +74,7 @@ def add_nodal(ws, gp, g, m, qp, qs):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def axial_damping(ws, gp, g, paper):  # type: ignore[no-untyped-def]
+def axial_damping(ws, gp, g, paper):
     """Add the axial damping force of Gauss point g."""
     for m in range(LANES):
         p, _ = shape_at(ws, gp, g, 0, m)
@@ -87,7 +87,7 @@ def axial_damping(ws, gp, g, paper):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def bending_damping(ws, gp, g, paper):  # type: ignore[no-untyped-def]
+def bending_damping(ws, gp, g, paper):
     """Add the bending damping force of Gauss point g."""
     for m in range(LANES):
         p, s = shape_at(ws, gp, g, 0, m)
@@ -107,7 +107,7 @@ def bending_damping(ws, gp, g, paper):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def bending_damping_tangent(ws, gp, g, paper, c_damping):  # type: ignore[no-untyped-def]
+def bending_damping_tangent(ws, gp, g, paper, c_damping):
     """Add the derivative of the bending damping force by the velocities to rows KPP, KPS, KSS."""
     for m in range(LANES):
         p, s = shape_at(ws, gp, g, 0, m)

@@ -9,7 +9,7 @@ BLOCKS = 54  # rows of the six 3x3 blocks that start at KDD
 
 
 @inline_kernel
-def symmetric_row(i, j):  # type: ignore[no-untyped-def]
+def symmetric_row(i, j):
     """Row of entry (i, j) in the six stored entries 00 01 02 11 12 22."""
     if i > j:
         i, j = j, i
@@ -17,7 +17,7 @@ def symmetric_row(i, j):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def spread_axial(ws, gp, g):  # type: ignore[no-untyped-def]
+def spread_axial(ws, gp, g):
     """Add the rows KPP of Gauss point ``g`` to the 3x3 blocks of (d, t1, t2)."""
     cd, c1, c2 = gp[g, 0], gp[g, 1], gp[g, 2]
     dd, d1, d2, c11, c12, c22 = cd * cd, cd * c1, cd * c2, c1 * c1, c1 * c2, c2 * c2
@@ -36,7 +36,7 @@ def spread_axial(ws, gp, g):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def spread_bending(ws, gp, g):  # type: ignore[no-untyped-def]
+def spread_bending(ws, gp, g):
     """Add the rows KPP, KPS, KSS of Gauss point ``g`` to the 3x3 blocks of (d, t1, t2)."""
     cd, c1, c2, ed, e1, e2 = gp[g, 0], gp[g, 1], gp[g, 2], gp[g, 3], gp[g, 4], gp[g, 5]
     for i in range(3):
@@ -61,7 +61,7 @@ def spread_bending(ws, gp, g):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def slot_entry(ws, x, y, i, j, m):  # type: ignore[no-untyped-def]
+def slot_entry(ws, x, y, i, j, m):
     """Entry (i, j) of the stiffness between slots x and y of (r1, r_x1, r2, r_x2), lane m."""
     bx = 0 if x % 2 == 0 else (x + 1) // 2  # d, t1, d, t2
     by = 0 if y % 2 == 0 else (y + 1) // 2

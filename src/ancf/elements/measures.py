@@ -27,22 +27,27 @@ STRAINS = tuple(CURVATURE_POWER)
 def axial_strain(r_x: FloatArray, strain: str) -> FloatArray:
     """Axial strain, shape (...,), dimensionless, from r_x of shape (..., 3)."""
     a = np.einsum("...k,...k->...", r_x, r_x)
-    return 0.5 * (a - 1.0) if strain == "paper" else np.sqrt(a) - 1.0
+    eps: FloatArray = 0.5 * (a - 1.0) if strain == "paper" else np.sqrt(a) - 1.0
+    return eps
 
 
 def axial_strain_rate(r_x: FloatArray, v_x: FloatArray, strain: str) -> FloatArray:
     """Time derivative of the axial strain, shape (...,), 1/s; v_x is the rate of r_x."""
-    rate = np.einsum("...k,...k->...", r_x, v_x)
-    return rate if strain == "paper" else rate / np.linalg.norm(r_x, axis=-1)
+    rate: FloatArray = np.einsum("...k,...k->...", r_x, v_x)
+    if strain == "material":
+        rate = rate / np.linalg.norm(r_x, axis=-1)
+    return rate
 
 
 def normal_curvature(r_x: FloatArray, r_xx: FloatArray, strain: str) -> FloatArray:
     """Curvature vector in the normal plane, shape (..., 3), 1/m; its length is kappa."""
     a = np.einsum("...k,...k->...", r_x, r_x)[..., None]
     b = np.einsum("...k,...k->...", r_x, r_xx)[..., None]
-    return (r_xx - r_x * (b / a)) / a ** (0.5 * (CURVATURE_POWER[strain] - 1))
+    n: FloatArray = (r_xx - r_x * (b / a)) / a ** (0.5 * (CURVATURE_POWER[strain] - 1))
+    return n
 
 
 def curvature(r_x: FloatArray, r_xx: FloatArray, strain: str) -> FloatArray:
     """Curvature kappa >= 0, shape (...,), 1/m."""
-    return np.linalg.norm(normal_curvature(r_x, r_xx, strain), axis=-1)
+    kappa: FloatArray = np.linalg.norm(normal_curvature(r_x, r_xx, strain), axis=-1)
+    return kappa

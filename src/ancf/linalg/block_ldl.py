@@ -50,8 +50,8 @@ def allocate(row_start: NDArray[np.int64], column: NDArray[np.int64]) -> Factor:
 
 
 @inline_kernel
-def invert_symmetric(A, o, original):  # type: ignore[no-untyped-def]
-    """Invert the 6x6 block at ``A[o]`` in place by sweeps; returns the number of negative pivots, -1 if singular."""
+def invert_symmetric(A, o, original):
+    """Invert the 6x6 block at ``A[o]`` in place by sweeps; number of negative pivots, -1 if singular."""
     negative = 0
     done = 0
     for _ in range(6):
@@ -81,7 +81,7 @@ def invert_symmetric(A, o, original):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def subtract_product_t(C, oc, A, oa, B, ob):  # type: ignore[no-untyped-def]
+def subtract_product_t(C, oc, A, oa, B, ob):
     """C -= A B^T for 6x6 blocks at the given offsets."""
     for i in range(6):
         for j in range(6):
@@ -92,7 +92,7 @@ def subtract_product_t(C, oc, A, oa, B, ob):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def subtract_symmetric(C, oc, A, oa, B, ob):  # type: ignore[no-untyped-def]
+def subtract_symmetric(C, oc, A, oa, B, ob):
     """C -= A B^T where the product is known to be symmetric.
 
     C must stay exactly symmetric: along a chain of many nodes an antisymmetric error would grow.
@@ -107,8 +107,8 @@ def subtract_symmetric(C, oc, A, oa, B, ob):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def factorise(A, factor):  # type: ignore[no-untyped-def]
-    """Fill ``factor`` from the values A; returns the number of negative pivots, or -(block + 1) if singular."""
+def factorise(A, factor):
+    """Fill ``factor`` from the values A; number of negative pivots, or -(block + 1) if singular."""
     row_start, column, L, D_inv, T, place = factor
     n = row_start.shape[0] - 1
     negative = 0
@@ -142,12 +142,19 @@ def factorise(A, factor):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def solve(factor, x):  # type: ignore[no-untyped-def]
+def solve(factor, x):
     """Replace the right-hand side x, shape (6 n,), by the solution."""
     row_start, column, L, D_inv, _, _ = factor
     n = row_start.shape[0] - 1
     for i in range(n):
-        s0, s1, s2, s3, s4, s5 = x[6 * i], x[6 * i + 1], x[6 * i + 2], x[6 * i + 3], x[6 * i + 4], x[6 * i + 5]
+        s0, s1, s2, s3, s4, s5 = (
+            x[6 * i],
+            x[6 * i + 1],
+            x[6 * i + 2],
+            x[6 * i + 3],
+            x[6 * i + 4],
+            x[6 * i + 5],
+        )
         for k in range(row_start[i], row_start[i + 1]):
             j, o = 6 * column[k], 36 * k
             for c in range(6):
@@ -158,7 +165,14 @@ def solve(factor, x):  # type: ignore[no-untyped-def]
                 s3 -= L[o + 18 + c] * f
                 s4 -= L[o + 24 + c] * f
                 s5 -= L[o + 30 + c] * f
-        x[6 * i], x[6 * i + 1], x[6 * i + 2], x[6 * i + 3], x[6 * i + 4], x[6 * i + 5] = s0, s1, s2, s3, s4, s5
+        x[6 * i], x[6 * i + 1], x[6 * i + 2], x[6 * i + 3], x[6 * i + 4], x[6 * i + 5] = (
+            s0,
+            s1,
+            s2,
+            s3,
+            s4,
+            s5,
+        )
     for i in range(n - 1, -1, -1):
         o = 36 * i
         s0, s1, s2, s3, s4, s5 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
@@ -170,8 +184,14 @@ def solve(factor, x):  # type: ignore[no-untyped-def]
             s3 += D_inv[o + 6 * c + 3] * f
             s4 += D_inv[o + 6 * c + 4] * f
             s5 += D_inv[o + 6 * c + 5] * f
-        # the row's own solution is final only after all rows below have been subtracted, see below
-        x[6 * i], x[6 * i + 1], x[6 * i + 2], x[6 * i + 3], x[6 * i + 4], x[6 * i + 5] = s0, s1, s2, s3, s4, s5
+        x[6 * i], x[6 * i + 1], x[6 * i + 2], x[6 * i + 3], x[6 * i + 4], x[6 * i + 5] = (
+            s0,
+            s1,
+            s2,
+            s3,
+            s4,
+            s5,
+        )
     for i in range(n - 1, -1, -1):
         for k in range(row_start[i], row_start[i + 1]):
             j, o = 6 * column[k], 36 * k

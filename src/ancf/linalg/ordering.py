@@ -89,5 +89,7 @@ def _minimum_degree(pairs: IntArray, n: int) -> IntArray:
     graph.data[:] = -1.0
     degree = np.asarray(-graph.sum(axis=1)).ravel()
     laplacian = csc_matrix(graph + csr_matrix(eye_array(n)).multiply((degree + 1.0)[:, None]))
-    factor = splu(laplacian, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    factor = splu(
+        laplacian, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+    )
     return np.asarray(factor.perm_c, dtype=np.int64)

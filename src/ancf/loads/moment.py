@@ -27,7 +27,7 @@ class MomentBatch(NamedTuple):
 
 
 @inline_kernel
-def moment_slope(batch, e, q):  # type: ignore[no-untyped-def]
+def moment_slope(batch, e, q):
     """The slope r_x or its rate."""
     x, y, z = 0.0, 0.0, 0.0
     for k in range(4):
@@ -39,7 +39,7 @@ def moment_slope(batch, e, q):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def slope_force(batch, e, q):  # type: ignore[no-untyped-def]
+def slope_force(batch, e, q):
     """Slope p, |p|^2 and the force f on it."""
     p = moment_slope(batch, e, q)
     a = p[0] * p[0] + p[1] * p[1] + p[2] * p[2]
@@ -49,7 +49,7 @@ def slope_force(batch, e, q):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def moment_force(batch, q, v, a, r, ws):  # type: ignore[no-untyped-def]
+def moment_force(batch, q, v, a, r, ws):
     """Subtract the moments' forces from r."""
     for e in range(batch.base.shape[0]):
         _, _, f = slope_force(batch, e, q)
@@ -59,12 +59,12 @@ def moment_force(batch, q, v, a, r, ws):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def moment_inertia(batch, a, r, ws):  # type: ignore[no-untyped-def]
+def moment_inertia(batch, a, r, ws):
     """Loads have no mass."""
 
 
 @inline_kernel
-def moment_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):  # type: ignore[no-untyped-def]
+def moment_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add the symmetric part of the moments' stiffness to A."""
     for e in range(batch.base.shape[0]):
         p, a, f = slope_force(batch, e, q)
@@ -80,7 +80,7 @@ def moment_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):  # type:
 
 
 @inline_kernel
-def moment_energy(batch, q, ws):  # type: ignore[no-untyped-def]
+def moment_energy(batch, q, ws):
     """Loads store nothing: what they do counts as supplied energy."""
     return 0.0
 

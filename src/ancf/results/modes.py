@@ -18,8 +18,8 @@ class _Shapes(Fields):
     """Mode shapes read like states."""
 
     def __init__(self, state: State, shapes: FloatArray) -> None:
-        self.bodies, self.slots = state.bodies, state.slots
-        self.q = self.v = shapes
+        self._bodies, self._slots = state.bodies, state.slots
+        self._q = self._v = shapes
 
 
 @dataclass(frozen=True)

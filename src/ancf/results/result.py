@@ -34,9 +34,9 @@ class Result(Fields):
     def __init__(self, store: MemoryStore | ReadStore, header: dict[str, Any], system: System | None) -> None:
         self._store, self._header, self._system = store, header, system
         if system is not None:
-            self.bodies, self.slots = system.model.bodies, system.slots
+            self._bodies, self._slots = system.model.bodies, system.slots
         elif isinstance(store, ReadStore):
-            self.bodies, self.slots = _read_layout(store.layout)
+            self._bodies, self._slots = _read_layout(store.layout)
 
     @property
     def t(self) -> FloatArray:
@@ -68,7 +68,7 @@ class Result(Fields):
 
     @property
     def status(self) -> str:
-        """ "complete", "failed", "interrupted", or "running" for a run that goes on or was killed."""
+        """How it ended: "complete", "failed", "interrupted"; "running" if it goes on or was killed."""
         return self._store.status
 
     @property
@@ -85,7 +85,9 @@ class Result(Fields):
             The result was loaded from a file: its model may hold functions, which a file cannot keep.
         """
         if self._system is None:
-            raise ModelError("Result.state", "a loaded result has no model to go on with", "simulate it again")
+            raise ModelError(
+                "Result.state", "a loaded result has no model to go on with", "simulate it again"
+            )
         return State(self._system, float(self.t[index]), self.q[index], self.v[index], self.stats)
 
     def save(self, path: str | Path) -> None:
@@ -125,7 +127,9 @@ def _read_layout(group: Any) -> tuple[dict[str, Beam], dict[str, IntArray]]:
     for name, body in group.items():
         a = body.attrs
         motion = a["motion"].reshape(3, 3)
-        section = {k: float(a[k]) for k in ("EA", "EI", "rhoA", "damping", "axial_damping", "bending_damping")}
+        section = {
+            k: float(a[k]) for k in ("EA", "EI", "rhoA", "damping", "axial_damping", "bending_damping")
+        }
         bodies[name] = Beam(
             name=name,
             section=Section(**section),

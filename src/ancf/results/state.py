@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,7 +52,6 @@ def energies(system: System, q: FloatArray, v: FloatArray) -> FloatArray:
     return out
 
 
-@dataclass(frozen=True)
 class State(Fields):
     """Positions and velocities of a model at one time; see :class:`Fields` for what it answers.
 
@@ -67,21 +66,13 @@ class State(Fields):
         What it cost to compute.
     """
 
-    system: System
-    t: float
-    q: FloatArray
-    v: FloatArray
-    stats: Stats = field(default_factory=Stats)
-
-    @property
-    def bodies(self):  # type: ignore[no-untyped-def]
-        """Bodies by name."""
-        return self.system.model.bodies
-
-    @property
-    def slots(self):  # type: ignore[no-untyped-def]
-        """First unknowns of the nodes' vectors by body."""
-        return self.system.slots
+    def __init__(
+        self, system: System, t: float, q: FloatArray, v: FloatArray, stats: Stats | None = None
+    ) -> None:
+        self.system, self.t = system, t
+        self.stats = Stats() if stats is None else stats
+        self._q, self._v = q, v
+        self._bodies, self._slots = system.model.bodies, system.slots
 
     @property
     def energy(self) -> Energy:

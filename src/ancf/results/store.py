@@ -88,7 +88,8 @@ class LazyEnergy:
     def __getitem__(self, key: Any) -> FloatArray:
         if self._values is None:
             self._values = energies(self._system, self._arrays["q"], self._arrays["v"])
-        return self._values[key]
+        part: FloatArray = self._values[key]
+        return part
 
 
 class FileStore:
@@ -181,7 +182,7 @@ class ReadStore:
     def stats(self) -> Stats:
         """Counters."""
         *counts, seconds = self._file["stats"][:].tolist()
-        return Stats(*(int(c) for c in counts), cpu_seconds=seconds)
+        return Stats.of(counts, seconds)
 
     @property
     def status(self) -> str:

@@ -39,12 +39,15 @@ def allocate(slots: list[IntArray], held: IntArray) -> Frames:
     pairs = pairs[~fixed & ~shared]
     m = len(pairs)
     return Frames(
-        np.ascontiguousarray(pairs[:, 0]), np.ascontiguousarray(pairs[:, 1]), np.zeros((m, 3)), np.zeros((m, 9))
+        np.ascontiguousarray(pairs[:, 0]),
+        np.ascontiguousarray(pairs[:, 1]),
+        np.zeros((m, 3)),
+        np.zeros((m, 9)),
     )
 
 
 @inline_kernel
-def remember(frames, q):  # type: ignore[no-untyped-def]
+def remember(frames, q):
     """The matrix is being made now: no rotation yet."""
     for k in range(frames.slope.shape[0]):
         i = frames.slope[k]
@@ -56,7 +59,7 @@ def remember(frames, q):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def turn(frames, q):  # type: ignore[no-untyped-def]
+def turn(frames, q):
     """Smallest rotations from the remembered tangents to the present ones."""
     for k in range(frames.slope.shape[0]):
         i = frames.slope[k]
@@ -80,7 +83,7 @@ def turn(frames, q):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def turn_back(frames, r):  # type: ignore[no-untyped-def]
+def turn_back(frames, r):
     """r -> Q^T r."""
     for k in range(frames.slope.shape[0]):
         for i in (frames.position[k], frames.slope[k]):
@@ -91,7 +94,7 @@ def turn_back(frames, r):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def turn_forth(frames, r):  # type: ignore[no-untyped-def]
+def turn_forth(frames, r):
     """r -> Q r."""
     for k in range(frames.slope.shape[0]):
         for i in (frames.position[k], frames.slope[k]):

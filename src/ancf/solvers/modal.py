@@ -85,4 +85,6 @@ def to_sparse(A: FloatArray, places: Places) -> csc_array:
         np.concatenate([i.ravel(), j[below].ravel()]),
         np.concatenate([j.ravel(), i[below].ravel()]),
     )
-    return csc_array(coo_array((np.concatenate([values.ravel(), values[below].ravel()]), ij), shape=(6 * n, 6 * n)))
+    return csc_array(
+        coo_array((np.concatenate([values.ravel(), values[below].ravel()]), ij), shape=(6 * n, 6 * n))
+    )

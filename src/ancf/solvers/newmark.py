@@ -15,7 +15,7 @@ the tolerance.  The matrix is renewed when theta exceeds the limit or the iterat
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import literal_unroll
@@ -37,8 +37,11 @@ from .frames import Frames, remember, turn, turn_back, turn_forth
 
 FloatArray = NDArray[np.float64]
 
+#: Least theta/(1 - theta) that is believed before a step has shown its own contraction.
+STALE = 0.03
+
 OK, DIVERGED, NOT_FINITE, SINGULAR, SLOW = 0, 1, 2, 3, 4
-#: Names of the entries of Memory.count.
+#: Names of the entries of Memory.counts.
 COUNTS = ("steps", "newton_iterations", "jacobians", "factorizations", "retries")
 STEPS, ITERATIONS, JACOBIANS, FACTORIZATIONS, RETRIES = range(5)
 
@@ -77,7 +80,7 @@ class Memory(NamedTuple):
     f: FloatArray
     push: FloatArray  # forces that do work at the start of the step
     push_new: FloatArray
-    count: NDArray[np.int64]  # (5,) see COUNTS
+    counts: NDArray[np.int64]  # (5,) see COUNTS
     memo: FloatArray  # (8,) see below
     work: FloatArray  # (2,) energy dissipated and supplied since the start, J
     frames: Frames
@@ -89,14 +92,15 @@ H_FACTOR, ETA, H_PREV, WORST, NORM, POWER = range(6)
 
 def allocate(n: int, frames: Frames) -> Memory:
     """Memory for state vectors of length n."""
-    arrays = [np.zeros(n) for _ in range(12)]
-    memory = Memory(*arrays, np.zeros(5, dtype=np.int64), np.zeros(8), np.zeros(2), frames)
+    vectors: Any = {name: np.zeros(n) for name in Memory._fields[:12]}
+    counts = np.zeros(len(COUNTS), dtype=np.int64)
+    memory = Memory(**vectors, counts=counts, memo=np.zeros(8), work=np.zeros(2), frames=frames)
     memory.memo[ETA] = 1.0
     return memory
 
 
 @inline_kernel
-def predict(s, h, scheme):  # type: ignore[no-untyped-def]
+def predict(s, h, scheme):
     """Accelerations extrapolated from the last two steps; q, v at the end of the step."""
     am, af = scheme.alpha_m, scheme.alpha_f
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
@@ -114,21 +118,21 @@ def predict(s, h, scheme):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def restore(s):  # type: ignore[no-untyped-def]
+def restore(s):
     """Back to the start of the step."""
     for i in range(s.q.shape[0]):
         s.q[i], s.v[i], s.a[i] = s.q0[i], s.v0[i], s.a0[i]
 
 
 @inline_kernel
-def renew(core, s, h, B, G):  # type: ignore[no-untyped-def]
+def renew(core, s, h, B, G):
     """Assemble and factorise the iteration matrix at the present q, v."""
     assemble(core.batches, core.ws, s.q, s.v, core.A, 1.0 / B, G / B, 1.0)
     restrict(core.supports, core.A)
     remember(s.frames, s.q)
     bad = factorise_matrix(core.A, core.factor)
-    s.count[JACOBIANS] += 1
-    s.count[FACTORIZATIONS] += 1
+    s.counts[JACOBIANS] += 1
+    s.counts[FACTORIZATIONS] += 1
     s.memo[H_FACTOR] = h
     if bad < 0:
         s.memo[WORST] = 6.0 * (-bad - 1)
@@ -137,7 +141,7 @@ def renew(core, s, h, B, G):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def update(s, weight, gb, ib):  # type: ignore[no-untyped-def]
+def update(s, weight, gb, ib):
     """Take the correction in s.r from q, v, a; returns its norm (NaN when it is not finite)."""
     norm, total = 0.0, 0.0
     for i in range(weight.shape[0]):
@@ -152,7 +156,7 @@ def update(s, weight, gb, ib):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def worst_unknown(s, weight):  # type: ignore[no-untyped-def]
+def worst_unknown(s, weight):
     """Unknown with the largest (or no finite) correction."""
     worst, largest = 0, -1.0
     for i in range(weight.shape[0]):
@@ -165,7 +169,7 @@ def worst_unknown(s, weight):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def newton(core, s, h, rule, modified, B, G):  # type: ignore[no-untyped-def]
+def newton(core, s, h, rule, modified, B, G):
     """Solve the equations of one step from the prediction in s; returns a status."""
     fresh = False  # the matrix was renewed in this step
     if s.memo[H_FACTOR] != h:
@@ -174,7 +178,7 @@ def newton(core, s, h, rule, modified, B, G):  # type: ignore[no-untyped-def]
         fresh = True
     elif rule.corotate:
         turn(s.frames, s.q)
-    eta = max(s.memo[ETA], 1e-10) ** 0.8
+    eta = max(s.memo[ETA] ** 0.8, STALE)
     old = -1.0
     for iteration in range(rule.max_iterations):
         residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)
@@ -186,7 +190,7 @@ def newton(core, s, h, rule, modified, B, G):  # type: ignore[no-untyped-def]
             turn_forth(s.frames, s.r)
         norm = update(s, core.weight, G / B, 1.0 / B)
         follow(core.supports, s.q, s.v, s.a)
-        s.count[ITERATIONS] += 1
+        s.counts[ITERATIONS] += 1
         s.memo[NORM] = norm
         if not norm < 1e300:
             return NOT_FINITE
@@ -207,7 +211,7 @@ def newton(core, s, h, rule, modified, B, G):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def finish(s, h, scheme):  # type: ignore[no-untyped-def]
+def finish(s, h, scheme):
     """Accept the step: algorithmic acceleration and memory of the predictor."""
     am, af = scheme.alpha_m, scheme.alpha_f
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
@@ -215,11 +219,11 @@ def finish(s, h, scheme):  # type: ignore[no-untyped-def]
         s.abar[i] = c1 * s.a[i] + c2 * s.a0[i] + c3 * s.abar[i]
         s.a_prev[i] = s.a0[i]
     s.memo[H_PREV] = h
-    s.count[STEPS] += 1
+    s.counts[STEPS] += 1
 
 
 @kernel
-def powers(core, s):  # type: ignore[no-untyped-def]
+def powers(core, s):
     """At the state in s: forces that do work into s.push_new, and the power that damping takes out.
 
     The forces are all loads but gravity and the reactions of moving supports; damping forces are
@@ -251,7 +255,7 @@ def powers(core, s):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def balance(core, s, h):  # type: ignore[no-untyped-def]
+def balance(core, s, h):
     """Add the step's share to the energies dissipated and supplied (trapezoidal rule)."""
     out = powers(core, s)
     s.work[0] += 0.5 * h * (s.memo[POWER] + out)
@@ -262,7 +266,7 @@ def balance(core, s, h):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def start_balance(core, s, load):  # type: ignore[no-untyped-def]
+def start_balance(core, s, load):
     """Forces and powers at the start of a run, for the energy balance."""
     external_force(core.loads, load, s.f)
     s.memo[POWER] = powers(core, s)
@@ -271,7 +275,7 @@ def start_balance(core, s, load):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def try_step(core, s, tables, n, h, scheme, rule):  # type: ignore[no-untyped-def]
+def try_step(core, s, tables, n, h, scheme, rule):
     """One step; a failure is tried once more with a matrix renewed at every iteration."""
     c = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
     B, G = scheme.beta * h * h * c, scheme.gamma * h * c
@@ -292,7 +296,7 @@ def try_step(core, s, tables, n, h, scheme, rule):  # type: ignore[no-untyped-de
 
 
 @kernel
-def advance(core, s, tables, h, scheme, rule, keep, out_q, out_v, out_work):  # type: ignore[no-untyped-def]
+def advance(core, s, tables, h, scheme, rule, keep, out_q, out_v, out_work):
     """Take the steps of one block.
 
     ``keep[n]`` is the row of the outputs that takes the state at the end of step n, or -1.

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from ..errors import SolveError
 from ..system.core import (
+    Tables,
     apply_load,
     apply_supports,
     assemble,
@@ -17,7 +18,6 @@ from ..system.core import (
     restrict,
     solve_matrix,
 )
-from ..system.core import Tables
 from ..system.system import System
 
 FloatArray = NDArray[np.float64]

@@ -22,10 +22,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import SolveError
 from ..elements.cable import CableBatch
 from ..elements.cable_build import compression
 from ..elements.lanes import LANES
+from ..errors import SolveError
 from ..system.core import (
     Core,
     apply_load,
@@ -170,11 +170,15 @@ class Slack:
         self.found = load > 0.0 and any(b.stretch < 1.0 - 1e-9 for b in system.model.bodies.values())
         self.cables = [b for b in system.core.batches if isinstance(b, CableBatch)] if self.found else []
         self.rows = [b.lane_data[:, 2 * LANES : 3 * LANES] for b in self.cables]  # EA L
-        self.natural = [(row.copy(), b.lane_reference.copy(), b.groups[:, 7].copy())
-                        for row, b in zip(self.rows, self.cables, strict=True)]
+        self.natural = [
+            (row.copy(), b.lane_reference.copy(), b.groups[:, 7].copy())
+            for row, b in zip(self.rows, self.cables, strict=True)
+        ]
         self.strain = [compression(b, q) for b in self.cables]
         lengths = [b.lane_data[:, :LANES] for b in self.cables]
-        stiffest = max((float(np.max(row / h)) for row, h in zip(self.rows, lengths, strict=True)), default=1.0)
+        stiffest = max(
+            (float(np.max(row / h)) for row, h in zip(self.rows, lengths, strict=True)), default=1.0
+        )
         self.factor = min(1.0, load / stiffest) if self.found else 1.0
         self.steps = max(1, int(np.ceil(np.log(1.0 / self.factor) / np.log(6.0))))
 
@@ -270,7 +274,7 @@ def line_search(
     for _ in range(12):
         ahead = it.out_of_balance(it.moved(dq, high), share)
         w = float(dq @ ahead)
-        if np.isfinite(w) and abs(w) <= 0.8 * work0 or (np.isfinite(w) and w > 0.0 and high == longest):
+        if (np.isfinite(w) and abs(w) <= 0.8 * work0) or (np.isfinite(w) and w > 0.0 and high == longest):
             return high, ahead
         if np.isfinite(w) and w > 0.0:
             low, w_low = high, w

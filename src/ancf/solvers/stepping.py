@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,20 @@ from ..errors import SolveError
 from ..system.system import System
 from . import frames
 from .integrators.base import Integrator
-from .newmark import COUNTS, NORM, OK, RETRIES, SINGULAR, STEPS, WORST, Memory, Rule, advance, allocate, start_balance
+from .newmark import (
+    COUNTS,
+    NORM,
+    OK,
+    RETRIES,
+    SINGULAR,
+    STEPS,
+    WORST,
+    Memory,
+    Rule,
+    advance,
+    allocate,
+    start_balance,
+)
 from .start import initial_acceleration
 
 FloatArray = NDArray[np.float64]
@@ -47,6 +60,12 @@ class Stats:
     factorizations: int = 0
     retries: int = 0
     cpu_seconds: float = 0.0
+
+    @classmethod
+    def of(cls, counts: Iterable[float], cpu_seconds: float) -> Stats:
+        """From counters in the order of COUNTS."""
+        values: dict[str, Any] = dict(zip(COUNTS, (int(c) for c in counts), strict=True))
+        return cls(**values, cpu_seconds=cpu_seconds)
 
     def as_dict(self) -> dict[str, float]:
         """Counters by name."""
@@ -86,13 +105,15 @@ class Run:
         n = integrator.newton
         self.rule = Rule(n.tolerance, n.contraction, n.max_iterations, n.modified, n.corotate)
         held = system.core.supports.held
-        self.memory: Memory = allocate(system.size, frames.allocate(list(system.numbering.slots.values()), held))
+        self.memory: Memory = allocate(
+            system.size, frames.allocate(list(system.numbering.slots.values()), held)
+        )
         self.seconds = 0.0
 
     @property
     def stats(self) -> Stats:
         """Counters so far."""
-        return Stats(*(int(c) for c in self.memory.count), cpu_seconds=self.seconds)
+        return Stats.of(self.memory.counts, self.seconds)
 
     def start(self, q: FloatArray, v: FloatArray) -> None:
         """Consistent state at t_start."""
@@ -160,22 +181,22 @@ class Run:
     def _bridge(self, t: float, h: float, number: int) -> None:
         """Step ``number`` from t to t + h in two, four, ... parts."""
         m = self.memory
-        m.count[RETRIES] += 1
-        steps = int(m.count[STEPS])
-        if m.count[RETRIES] > 20 and m.count[RETRIES] > MOST_RETRIED * steps:
+        m.counts[RETRIES] += 1
+        steps = int(m.counts[STEPS])
+        if m.counts[RETRIES] > 20 and m.counts[RETRIES] > MOST_RETRIED * steps:
             raise self._failure(t, number, "more than a fifth of the steps had to be halved", h)
         nothing = (np.empty((0, len(m.q))), np.empty((0, len(m.q))), np.empty((0, 2)))
         left, part = h, h
         while left > 1e-9 * h:
-            n, status = self._advance(t + h - left, part, np.full(1, -1), nothing)
+            _, status = self._advance(t + h - left, part, np.full(1, -1), nothing)
             if status == OK:
                 left -= part
-                m.count[STEPS] -= 1  # the parts count as one step
+                m.counts[STEPS] -= 1  # the parts count as one step
                 continue
             part *= 0.5
             if part < h * 0.5**MOST_HALVINGS:
                 raise self._failure(t + h - left, number, _REASONS[status], h)
-        m.count[STEPS] += 1
+        m.counts[STEPS] += 1
 
     def _failure(self, t: float, number: int, reason: str, h: float) -> SolveError:
         unknown = int(self.memory.memo[WORST])

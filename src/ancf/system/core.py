@@ -73,7 +73,7 @@ class Tables(NamedTuple):
 
 
 @inline_kernel
-def external_force(loads, load, f):  # type: ignore[no-untyped-def]
+def external_force(loads, load, f):
     """Load vector f from gravity and the loads' values, shape (loads, 3)."""
     for i in range(f.shape[0]):
         f[i] = loads.gravity[i]
@@ -85,7 +85,7 @@ def external_force(loads, load, f):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def residual(batches, ws, q, v, a, f, r):  # type: ignore[no-untyped-def]
+def residual(batches, ws, q, v, a, f, r):
     """r = M a + internal forces - f, in the physical components; supports not yet applied."""
     for i in range(r.shape[0]):
         r[i] = -f[i]
@@ -94,7 +94,7 @@ def residual(batches, ws, q, v, a, f, r):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def assemble(batches, ws, q, v, A, c_mass, c_damping, c_stiffness):  # type: ignore[no-untyped-def]
+def assemble(batches, ws, q, v, A, c_mass, c_damping, c_stiffness):
     """A = c_mass M + c_damping C + c_stiffness K, supports not yet applied."""
     for i in range(A.shape[0]):
         A[i] = 0.0
@@ -103,7 +103,7 @@ def assemble(batches, ws, q, v, A, c_mass, c_damping, c_stiffness):  # type: ign
 
 
 @inline_kernel
-def to_local(supports, r):  # type: ignore[no-untyped-def]
+def to_local(supports, r):
     """Residual as the solve wants it: components along local axes, zero for held unknowns."""
     for k in range(supports.rot_slot.shape[0]):
         i, j = supports.rot_slot[k], supports.rot_shadow[k]
@@ -117,7 +117,7 @@ def to_local(supports, r):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def follow(supports, q, v, a):  # type: ignore[no-untyped-def]
+def follow(supports, q, v, a):
     """Shadows from the unknowns: r_x = R y and its two time derivatives."""
     for k in range(supports.rot_slot.shape[0]):
         i, j = supports.rot_slot[k], supports.rot_shadow[k]
@@ -132,7 +132,7 @@ def follow(supports, q, v, a):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def drive(supports, moment, tables, n, q, v, a):  # type: ignore[no-untyped-def]
+def drive(supports, moment, tables, n, q, v, a):
     """Moments and given motions of the supports at the end of step n of the block; fills the shadows."""
     for k in range(moment.shape[0]):
         for c in range(3):
@@ -151,7 +151,7 @@ def drive(supports, moment, tables, n, q, v, a):  # type: ignore[no-untyped-def]
 
 
 @inline_kernel
-def rotate_rows(A, o, step, R):  # type: ignore[no-untyped-def]
+def rotate_rows(A, o, step, R):
     """Replace three numbers, ``step`` apart from ``A[o]``, by R^T times them."""
     x, y, z = A[o], A[o + step], A[o + 2 * step]
     for i in range(3):
@@ -159,7 +159,7 @@ def rotate_rows(A, o, step, R):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def restrict(supports, A):  # type: ignore[no-untyped-def]
+def restrict(supports, A):
     """Apply local axes to A and replace held unknowns by the identity."""
     for k in range(supports.rot_rows.shape[0]):
         for c in range(6):
@@ -174,19 +174,19 @@ def restrict(supports, A):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def factorise_matrix(A, factor):  # type: ignore[no-untyped-def]
+def factorise_matrix(A, factor):
     """Factorise A; number of negative pivots, or -(block + 1) when singular there."""
     return factorise(A, factor)
 
 
 @kernel
-def solve_matrix(factor, x):  # type: ignore[no-untyped-def]
+def solve_matrix(factor, x):
     """Replace a residual that :func:`to_local` has prepared by the correction."""
     solve(factor, x)
 
 
 @kernel
-def inertia(batches, ws, a, r):  # type: ignore[no-untyped-def]
+def inertia(batches, ws, a, r):
     """r = M a."""
     for i in range(r.shape[0]):
         r[i] = 0.0
@@ -195,7 +195,7 @@ def inertia(batches, ws, a, r):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def total_strain_energy(batches, ws, q):  # type: ignore[no-untyped-def]
+def total_strain_energy(batches, ws, q):
     """Strain energy of all batches, J."""
     energy = 0.0
     for batch in literal_unroll(batches):
@@ -204,24 +204,24 @@ def total_strain_energy(batches, ws, q):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def apply_load(loads, load, f):  # type: ignore[no-untyped-def]
+def apply_load(loads, load, f):
     """Load vector f, see :func:`external_force`."""
     external_force(loads, load, f)
 
 
 @kernel
-def apply_supports(supports, r):  # type: ignore[no-untyped-def]
+def apply_supports(supports, r):
     """Residual as the solve wants it, see :func:`to_local`."""
     to_local(supports, r)
 
 
 @kernel
-def follow_supports(supports, q, v, a):  # type: ignore[no-untyped-def]
+def follow_supports(supports, q, v, a):
     """Shadows from the unknowns, see :func:`follow`."""
     follow(supports, q, v, a)
 
 
 @kernel
-def place_supports(supports, moment, tables, n, q, v, a):  # type: ignore[no-untyped-def]
+def place_supports(supports, moment, tables, n, q, v, a):
     """Moments, given motions and shadows, see :func:`drive`."""
     drive(supports, moment, tables, n, q, v, a)

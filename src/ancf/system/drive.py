@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -40,7 +42,7 @@ class Drive:
         ``first`` and ``last`` are the times of the whole run, s: rates are differences of values
         between them.
         """
-        times = start + step * np.arange(1, steps + 1)
+        times: FloatArray = start + step * np.arange(1, steps + 1, dtype=np.float64)
         motion = [self._motion(k, times, step, first, last) for k in range(len(self.motions))]
         rotation = [self._rotation(r, times, step, first, last) for r in self.rotations]
         return Tables(
@@ -58,9 +60,7 @@ class Drive:
             return np.stack([motion.values(times), *motion.rates(times)], axis=-1)
         return np.stack(differences(motion.values, times, step, first, last), axis=-1)
 
-    def _rotation(
-        self, r: Rotation, times: FloatArray, step: float, first: float, last: float
-    ) -> FloatArray:
+    def _rotation(self, r: Rotation, times: FloatArray, step: float, first: float, last: float) -> FloatArray:
         assert r.angle is not None
         angle = r.angle.table
         if r.rate is not None and r.acceleration is not None:
@@ -70,7 +70,9 @@ class Drive:
         return r.matrices(*(c[:, 0] for c in columns))
 
 
-def differences(function, times: FloatArray, step: float, first: float, last: float):  # type: ignore[no-untyped-def]
+def differences(
+    function: Callable[[FloatArray], FloatArray], times: FloatArray, step: float, first: float, last: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Values and the first two derivatives of a tabulating function, by differences on the step grid.
 
     The formulas are centred, one-sided next to ``first`` and, where enough steps fit in, next to ``last``.
@@ -84,7 +86,7 @@ def differences(function, times: FloatArray, step: float, first: float, last: fl
     below = min(lowest, half)
     room = int(min(np.floor((last - times[-1]) / step + 1e-9), half))
     above = max(room, STENCIL - (below + n))
-    grid = times[0] + step * np.arange(-below, n + above)
+    grid: FloatArray = times[0] + step * np.arange(-below, n + above, dtype=np.float64)
     grid[below : below + n] = times
     values = function(grid)
     rate, second = np.empty((n, values.shape[1])), np.empty((n, values.shape[1]))
@@ -105,7 +107,7 @@ def _weights(offset: int) -> tuple[FloatArray, FloatArray]:
     powers = np.vander(x, increasing=True).T.astype(np.float64)
     unit = np.zeros((STENCIL, 2))
     unit[1, 0], unit[2, 1] = 1.0, 2.0
-    w = np.linalg.solve(powers, unit)
+    w: FloatArray = np.linalg.solve(powers, unit).astype(np.float64)
     return w[:, 0], w[:, 1]
 
 

@@ -23,10 +23,30 @@ class Fields:
     A point is ``beam.start``, ``beam.end``, ``beam.at(x)`` or that text.
     """
 
-    bodies: dict[str, Beam]
-    slots: dict[str, IntArray]
-    q: FloatArray
-    v: FloatArray
+    @property
+    def bodies(self) -> dict[str, Beam]:
+        """Bodies by name."""
+        return self._bodies
+
+    @property
+    def slots(self) -> dict[str, IntArray]:
+        """First unknowns of the nodes' vectors, shape (nodes, vectors), by body."""
+        return self._slots
+
+    @property
+    def q(self) -> FloatArray:
+        """State vectors, shape (..., size)."""
+        return self._q
+
+    @property
+    def v(self) -> FloatArray:
+        """Rates of the state vectors, shape (..., size)."""
+        return self._v
+
+    _bodies: dict[str, Beam]
+    _slots: dict[str, IntArray]
+    _q: FloatArray
+    _v: FloatArray
 
     def position(self, point: Point | str) -> FloatArray:
         """Position r, m."""
@@ -123,5 +143,5 @@ def _curvature_rate(probe: Probe, q: FloatArray, v: FloatArray, strain: str) -> 
     d = 1e-6 * (np.abs(r_xx).max() + 1.0) / size
     ahead = normal_curvature(r_x + d * v_x, r_xx + d * v_xx, strain)
     behind = normal_curvature(r_x - d * v_x, r_xx - d * v_xx, strain)
-    rate = np.linalg.norm(ahead, axis=-1) - np.linalg.norm(behind, axis=-1)
-    return rate / (2 * d)
+    rate: FloatArray = (np.linalg.norm(ahead, axis=-1) - np.linalg.norm(behind, axis=-1)) / (2 * d)
+    return rate

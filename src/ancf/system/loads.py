@@ -21,7 +21,9 @@ Pattern = tuple[IntArray, FloatArray]  # slots and factors
 Locate = Callable[..., Probe]
 
 
-def patterns(model: Model, locate: Locate, slots: dict[str, IntArray]) -> tuple[list[Pattern], list[TimeFunction]]:
+def patterns(
+    model: Model, locate: Locate, slots: dict[str, IntArray]
+) -> tuple[list[Pattern], list[TimeFunction]]:
     """Patterns and amplitudes of all loads but gravity and moments."""
     found: list[Pattern] = []
     amplitudes: list[TimeFunction] = []

@@ -227,7 +227,7 @@ def _joined(parts: list[NDArray], dtype: type) -> NDArray:  # type: ignore[type-
     return np.concatenate([np.zeros(0), *parts]).astype(dtype)
 
 
-def _held_arrays(held: IntArray, places: Places) -> dict[str, IntArray]:
+def _held_arrays(held: IntArray, places: Places) -> dict[str, Any]:
     crosses = [places.cross(int(i)) for i in held]
     return {
         "held": np.ascontiguousarray(held, dtype=np.int64),
@@ -236,7 +236,7 @@ def _held_arrays(held: IntArray, places: Places) -> dict[str, IntArray]:
     }
 
 
-def _rotation_arrays(constraints: Constraints, places: Places, n: int) -> dict[str, NDArray]:  # type: ignore[type-arg]
+def _rotation_arrays(constraints: Constraints, places: Places, n: int) -> dict[str, Any]:
     k = len(constraints.rotations)
     R = np.zeros((k, 3, 3, 3))
     moving = np.full(k, -1, dtype=np.int64)
