@@ -124,6 +124,7 @@ def simulation_settings(case: Case, options: Options) -> Any:
     integration.endTime = case.t_end
     integration.numberOfSteps = case.steps
     integration.verboseMode = 0
+    integration.adaptiveStep = False  # a step that fails ends the run instead of being cut silently
     integration.newton.useModifiedNewton = True
     for key, value in options.get("newton", {}).items():
         setattr(integration.newton, key, value)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..solvers.stepping import Stats
-from ..system.core import inertia, total_strain_energy
+from ..system.energy import energies
 from ..system.fields import Fields
 from ..system.system import System
 
@@ -38,18 +38,6 @@ class Energy:
     def balance(self) -> FloatArray:
         """Total + dissipated - supplied: constant but for the integration error."""
         return self.total + self.dissipated - self.supplied
-
-
-def energies(system: System, q: FloatArray, v: FloatArray) -> FloatArray:
-    """Kinetic, strain and potential energy of states, shape (m, 3), from q, v of shape (m, size)."""
-    out = np.empty((len(q), 3))
-    momentum = np.empty(system.size)
-    core = system.core
-    for k in range(len(q)):
-        inertia(core.batches, core.ws, v[k], momentum)
-        strain = total_strain_energy(core.batches, core.ws, q[k])
-        out[k] = 0.5 * momentum @ v[k], strain, -(core.loads.gravity @ q[k])
-    return out
 
 
 class State(Fields):

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from ..errors import ModelError
 from ..solvers.newmark import COUNTS
 from ..solvers.stepping import Stats
+from ..system.energy import energies
 from ..system.system import System
-from .state import energies
 
 FloatArray = NDArray[np.float64]
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SolveError
+from ..system.energy import energies
 from ..system.system import System
 from . import frames
 from .integrators.base import Integrator
@@ -35,6 +36,7 @@ FloatArray = NDArray[np.float64]
 BLOCK_SECONDS = 0.1  # between two looks at the keyboard, the progress and the file
 BLOCK_BYTES = 32e6  # of stored states
 MOST_HALVINGS = 10
+MOST_MADE = 0.5  # energy from nowhere, as a share of the energy exchanged
 MOST_RETRIED = 0.2  # share of steps that may need halving
 
 
@@ -123,6 +125,8 @@ class Run:
         m.a[:] = initial_acceleration(system, m.q, m.v, first)
         m.abar[:] = m.a_prev[:] = m.a
         start_balance(system.core, m, first.load[0])
+        self.energy0 = energies(system, m.q[None], m.v[None])[0]
+        self._advance(self.t_start, self.h, np.zeros(0, dtype=np.int64), self._nothing())  # compiles
 
     def go(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
         """Take all steps."""
@@ -135,6 +139,7 @@ class Run:
             begin = clock.perf_counter()
             self._block(done, count, recorder)
             done += count
+            self._check_energy(done)
             seconds = clock.perf_counter() - begin
             size = int(np.clip(count * BLOCK_SECONDS / max(seconds, 1e-6), 1, 4 * size))
             recorder.update(self.stats, "running")
@@ -182,10 +187,10 @@ class Run:
         """Step ``number`` from t to t + h in two, four, ... parts."""
         m = self.memory
         m.counts[RETRIES] += 1
-        steps = int(m.counts[STEPS])
-        if m.counts[RETRIES] > 20 and m.counts[RETRIES] > MOST_RETRIED * steps:
-            raise self._failure(t, number, "more than a fifth of the steps had to be halved", h)
-        nothing = (np.empty((0, len(m.q))), np.empty((0, len(m.q))), np.empty((0, 2)))
+        halved, done = int(m.counts[RETRIES]), int(m.counts[STEPS])
+        if halved > 2 + MOST_RETRIED * self.steps or (halved > 20 and halved > MOST_RETRIED * done):
+            raise self._failure(t, number, f"{halved} of {done + 1} steps had to be halved", h)
+        nothing = self._nothing()
         left, part = h, h
         while left > 1e-9 * h:
             _, status = self._advance(t + h - left, part, np.full(1, -1), nothing)
@@ -198,12 +203,28 @@ class Run:
                 raise self._failure(t + h - left, number, _REASONS[status], h)
         m.counts[STEPS] += 1
 
+    def _nothing(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Room for no output."""
+        size = self.system.size
+        return np.empty((0, size)), np.empty((0, size)), np.empty((0, 2))
+
+    def _check_energy(self, done: int) -> None:
+        """A step that is far too large can converge to nonsense: it makes energy from nothing."""
+        m = self.memory
+        now = energies(self.system, m.q[None], m.v[None])[0]
+        dissipated, supplied = m.work
+        made = float(np.sum(now - self.energy0) + dissipated - supplied)
+        exchanged = float(now[0] + now[1] + abs(now[2] - self.energy0[2]) + dissipated + abs(supplied))
+        if made > MOST_MADE * exchanged + 1e-9 * float(np.sum(np.abs(self.energy0))) + 1e-300:
+            m.memo[WORST] = float(np.argmax(np.abs(m.v[: self.system.n]) * self.system.core.weight))
+            raise self._failure(self._time(done), done, f"{made:.3g} J came from nowhere", self.h)
+
     def _failure(self, t: float, number: int, reason: str, h: float) -> SolveError:
         unknown = int(self.memory.memo[WORST])
         where = f"t = {t:.6g} s, step {number}, {self.system.numbering.describe(unknown)}"
         norm = self.memory.memo[NORM]
         what = f"{reason}; last correction {norm:.3g}, step {h:g} s"
-        hint = f"try a step of {h / 10:.2g} s or less, more elements, or some damping"
+        hint = f"try a step of {h / 10:.2g} s or less, GeneralizedAlpha, more elements, or some damping"
         return SolveError(where, what, hint)
 
 

@@ -1,0 +1,34 @@
+"""Energies of states of a System."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .core import inertia, total_strain_energy
+from .system import System
+
+FloatArray = NDArray[np.float64]
+
+
+def energies(system: System, q: FloatArray, v: FloatArray) -> FloatArray:
+    """Kinetic, strain and potential energy of states, J.
+
+    Parameters
+    ----------
+    system : System
+    q, v : ndarray, shape (m, size)
+        State vectors and their rates.
+
+    Returns
+    -------
+    ndarray, shape (m, 3)
+    """
+    out = np.empty((len(q), 3))
+    momentum = np.empty(system.size)
+    core = system.core
+    for k in range(len(q)):
+        inertia(core.batches, core.ws, v[k], momentum)
+        strain = total_strain_energy(core.batches, core.ws, q[k])
+        out[k] = 0.5 * momentum @ v[k], strain, -(core.loads.gravity @ q[k])
+    return out

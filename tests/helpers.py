@@ -1,0 +1,94 @@
+"""Small models, dense views of a System and difference formulas that several tests share."""
+
+import numpy as np
+
+import ancf
+from ancf.solvers.modal import to_sparse
+from ancf.system.core import assemble, residual
+from ancf.system.system import System
+
+#: Soft enough that a test state far from the natural shape has forces of the order of 1 N.
+SOFT = {"EA": 40.0, "EI": 2.0, "rhoA": 0.7}
+DAMPINGS = {"damping": 0.3, "axial_damping": 0.5, "bending_damping": 0.2}
+
+
+def arc(u):
+    """A curve in space without symmetry, about 1.3 m long."""
+    return (np.sin(1.2 * u), 0.4 * u**2, 1.1 * u - 0.3 * np.cos(2.0 * u))
+
+
+#: Initial shapes by what is special about their natural shape.
+SHAPES = {
+    "straight": {"start": (0.1, 0.2, -0.1), "end": (0.9, 0.6, 0.5)},
+    "stretched": {"start": (0.1, 0.2, -0.1), "end": (0.9, 0.6, 0.5), "length": 0.9},
+    "curved": {"path": arc},
+    "curved and stretched": {"path": arc, "length": 1.1},
+    "bent from straight": {"path": arc, "natural_shape": "straight"},
+}
+
+
+def cable(shape="straight", *, elements=3, damped=False, model=None, name="beam", **more):
+    """A free cable; returns its model and the beam."""
+    model = ancf.Model() if model is None else model
+    section = ancf.Section(**SOFT, **(DAMPINGS if damped else {}))
+    return model, model.add_beam(name, section=section, elements=elements, **SHAPES[shape], **more)
+
+
+def shaken(system, size=1.0, seed=1):
+    """Initial state vector of a system plus a random part, on the unknowns that nodes have."""
+    q, _ = system.initial_state()
+    used = system.numbering.used()
+    q[: system.n][used] += size * 0.1 * np.random.default_rng(seed).uniform(-1, 1, int(used.sum()))
+    return q
+
+
+def random_rate(system, seed=2):
+    """Random velocities or accelerations on the unknowns that nodes have."""
+    v = np.zeros(system.size)
+    used = system.numbering.used()
+    v[: system.n][used] = np.random.default_rng(seed).uniform(-1, 1, int(used.sum()))
+    return v
+
+
+def forces(system, q, v=None, a=None, batches=None):
+    """Inertia and internal forces, without gravity and dead loads."""
+    zero = np.zeros_like(q)
+    r = np.empty_like(q)
+    batches = system.core.batches if batches is None else batches
+    residual(batches, system.core.ws, q, zero if v is None else v, zero if a is None else a, zero, r)
+    return r
+
+
+def matrix(system, q, mass=0.0, damping=0.0, stiffness=0.0):
+    """Dense mass M + damping C + stiffness K, supports not applied."""
+    core = system.core
+    A = np.empty(system.places.size)
+    assemble(core.batches, core.ws, q, np.zeros_like(q), A, mass, damping, stiffness)
+    return to_sparse(A, system.places).toarray()
+
+
+def derivative(function, q, step=1e-3):
+    """Derivative of a function of a vector by central differences of order 4, one column per unknown."""
+    columns = []
+    for i in range(len(q)):
+        e = np.zeros_like(q)
+        e[i] = step
+        near = np.asarray(function(q + e)) - function(q - e)
+        far = np.asarray(function(q + 2 * e)) - function(q - 2 * e)
+        columns.append((8 * near - far) / (12 * step))
+    return np.stack(columns, axis=-1)
+
+
+def rotation(axis, angle):
+    """Rotation matrix about an axis of any length."""
+    k = np.cross(np.eye(3), np.asarray(axis, float) / np.linalg.norm(axis))
+    return np.eye(3) - np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
+
+
+def rate(errors, ratio=2.0):
+    """Observed order from errors at steps that fall by ``ratio``."""
+    errors = np.abs(np.asarray(errors, float))
+    return np.log(errors[:-1] / errors[1:]) / np.log(ratio)
+
+
+__all__ = ["System", "arc", "cable", "derivative", "forces", "matrix", "random_rate", "rate", "rotation", "shaken"]

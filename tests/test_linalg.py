@@ -1,0 +1,315 @@
+"""The block factorisation against dense algebra, the orderings against symbolic elimination.
+
+A backward stable solve leaves a residual of about n eps (|A| |x| + |b|): 1e-13 of that is generous for
+the small matrices here, and no pivoting between blocks costs some digits for indefinite ones.
+"""
+
+import numpy as np
+import pytest
+from helpers import SOFT, cable, matrix, shaken
+
+import ancf
+from ancf.linalg.block_ldl import allocate
+from ancf.linalg.ordering import fill_pattern, order
+from ancf.solvers.modal import to_sparse
+from ancf.system.core import apply_supports, assemble, factorise_matrix, restrict, solve_matrix
+from ancf.system.matrix import Places
+from ancf.system.system import System
+
+RNG = np.random.default_rng(7)
+
+
+def chain(n):
+    return np.array([(i, i + 1) for i in range(n - 1)])
+
+
+def wires(n):
+    """Two wires numbered one after the other, tied at every third node."""
+    tied = [(i, n + i) for i in range(0, n, 3)]
+    return np.concatenate([chain(n), chain(n) + n, tied])
+
+
+def tree(n):
+    return np.array([((i - 1) // 2, i) for i in range(1, n)])
+
+
+def net(n):
+    """Random sparse pattern in which everything is connected."""
+    return np.concatenate([chain(n), np.random.default_rng(1).integers(0, n, (n, 2))])
+
+
+PATTERNS = {"chain": (chain(9), 9), "wires": (wires(8), 16), "tree": (tree(15), 15), "net": (net(14), 14)}
+
+
+@pytest.fixture(params=PATTERNS)
+def pattern(request):
+    return PATTERNS[request.param]
+
+
+def boolean(pairs, n):
+    """Dense pattern with the diagonal."""
+    B = np.eye(n, dtype=bool)
+    B[pairs[:, 0], pairs[:, 1]] = B[pairs[:, 1], pairs[:, 0]] = True
+    return B
+
+
+def random_symmetric(pairs, n, seed=0):
+    """Dense symmetric matrix with 6x6 blocks where the pattern has them."""
+    A = np.random.default_rng(seed).standard_normal((6 * n, 6 * n))
+    return (A + A.T) * np.kron(boolean(pairs, n), np.ones((6, 6)))
+
+
+def definite(pairs, n):
+    A = random_symmetric(pairs, n)
+    return A + (1.0 - np.linalg.eigvalsh(A)[0]) * np.eye(6 * n)
+
+
+def values(A, places):
+    """Block values of a dense matrix."""
+    k = np.arange(places.n)
+    rows, cols = np.append(k, places.rows), np.append(k, places.column)
+    return np.concatenate([A[6 * i : 6 * i + 6, 6 * j : 6 * j + 6].ravel() for i, j in zip(rows, cols, strict=True)])
+
+
+def factorised(A, pairs, n):
+    """Factor of a dense matrix and the number of negative pivots."""
+    places = Places(*fill_pattern(pairs, n))
+    factor = allocate(places.row_start, places.column)
+    return factor, int(factorise_matrix(values(A, places), factor))
+
+
+def backward_error(A, x, b):
+    return np.linalg.norm(A @ x - b) / (np.linalg.norm(A) * np.linalg.norm(x) + np.linalg.norm(b))
+
+
+class TestFactorisation:
+    def test_solves_definite_systems(self, pattern):
+        pairs, n = pattern
+        A = definite(pairs, n)
+        factor, negative = factorised(A, pairs, n)
+        b = RNG.standard_normal(6 * n)
+        x = b.copy()
+        solve_matrix(factor, x)
+        assert negative == 0
+        assert backward_error(A, x, b) < 1e-14
+        assert x == pytest.approx(np.linalg.solve(A, b), rel=1e-9)
+
+    def test_counts_negative_eigenvalues(self, pattern):
+        pairs, n = pattern
+        for seed in range(5):
+            A = random_symmetric(pairs, n, seed) + 2.0 * (seed - 2) * np.eye(6 * n)
+            factor, negative = factorised(A, pairs, n)
+            assert negative == np.sum(np.linalg.eigvalsh(A) < 0)
+            b = RNG.standard_normal(6 * n)
+            x = b.copy()
+            solve_matrix(factor, x)
+            growth = max(np.max(np.abs(factor.L)), 1.0) ** 2  # there is no pivoting between blocks
+            assert backward_error(A, x, b) < 1e-13 * growth
+
+    def test_badly_scaled_unknowns(self):
+        """Positions in m and slopes of stiff cables differ by orders of magnitude."""
+        pairs, n = PATTERNS["wires"]
+        scale = 10.0 ** RNG.uniform(-4, 4, 6 * n)
+        A = definite(pairs, n) * scale[:, None] * scale
+        factor, negative = factorised(A, pairs, n)
+        b = scale * RNG.standard_normal(6 * n)
+        x = b.copy()
+        solve_matrix(factor, x)
+        assert negative == 0
+        assert scale * x == pytest.approx(scale * np.linalg.solve(A, b), rel=1e-9)
+
+    def test_only_the_lower_triangle_counts(self):
+        """Round-off above the diagonal of a diagonal block must not enter."""
+        pairs, n = PATTERNS["chain"]
+        A = definite(pairs, n)
+        spoiled = A.copy()
+        for i in range(n):
+            block = spoiled[6 * i : 6 * i + 6, 6 * i : 6 * i + 6]
+            block[np.triu_indices(6, 1)] += 1.0
+        for one, two in zip(factorised(A, pairs, n)[0], factorised(spoiled, pairs, n)[0], strict=True):
+            assert np.array_equal(one, two)
+
+    def test_detects_singular_matrices(self):
+        """Integers: the last pivot of a free chain of springs is exactly zero."""
+        n = 6
+        laplacian = 2.0 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1)
+        laplacian[0, 0] = laplacian[-1, -1] = 1.0
+        _, code = factorised(np.kron(laplacian, np.eye(6)), chain(n), n)
+        assert code == -n
+
+    def test_detects_what_is_not_a_number(self):
+        pairs, n = PATTERNS["chain"]
+        A = definite(pairs, n)
+        A[20, 20] = np.nan
+        assert factorised(A, pairs, n)[1] < 0
+
+
+@pytest.fixture(scope="module")
+def long_cable():
+    model = ancf.Model()
+    section = ancf.Section.rectangle(0.01, 0.01, E=1e8, rho=500.0)
+    beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=1000, section=section)
+    model.clamp(beam.start)
+    return System(model)
+
+
+class TestLongChain:
+    """A cable of 1000 elements: M/B + K mixes entries over ten orders of magnitude."""
+
+    @pytest.mark.parametrize("mass", [4 / 1e-3**2, 4 / 2.5e-4**2])
+    def test_solve(self, long_cable, mass):
+        core = long_cable.core
+        q, v = long_cable.initial_state()
+        assemble(core.batches, core.ws, q, v, core.A, mass, 0.0, 1.0)
+        restrict(core.supports, core.A)
+        A = to_sparse(core.A, long_cable.places)
+        assert factorise_matrix(core.A, core.factor) == 0
+        b = RNG.standard_normal(long_cable.n)
+        b[core.supports.held] = 0.0
+        x = b.copy()
+        solve_matrix(core.factor, x)
+        norm = np.max(abs(A).sum(axis=1))
+        assert np.max(np.abs(A @ x - b)) < 1e-13 * (norm * np.max(np.abs(x)) + np.max(np.abs(b)))
+
+    def test_pivot_blocks_stay_symmetric(self, long_cable):
+        """An antisymmetric error would grow from node to node up to the tip."""
+        core = long_cable.core
+        q, v = long_cable.initial_state()
+        assemble(core.batches, core.ws, q, v, core.A, 4 / 2.5e-4**2, 0.0, 1.0)
+        restrict(core.supports, core.A)
+        factorise_matrix(core.A, core.factor)
+        D = core.factor.D_inv.reshape(-1, 6, 6)
+        assert np.array_equal(D, D.transpose(0, 2, 1))
+
+    def test_static_stiffness_is_definite(self, long_cable):
+        core = long_cable.core
+        q, v = long_cable.initial_state()
+        assemble(core.batches, core.ws, q, v, core.A, 0.0, 0.0, 1.0)
+        restrict(core.supports, core.A)
+        assert factorise_matrix(core.A, core.factor) == 0
+
+
+class TestFill:
+    def test_equals_symbolic_elimination(self, pattern):
+        pairs, n = pattern
+        B = boolean(pairs, n)
+        for k in range(n):  # eliminating k couples all later neighbours of k
+            later = np.flatnonzero(B[k, k + 1 :]) + k + 1
+            B[np.ix_(later, later)] = True
+        row_start, column = fill_pattern(pairs, n)
+        for i in range(n):
+            assert column[row_start[i] : row_start[i + 1]].tolist() == np.flatnonzero(B[i, :i]).tolist()
+
+    def test_no_pairs(self):
+        row_start, column = fill_pattern(np.zeros((0, 2), dtype=np.int64), 3)
+        assert row_start.tolist() == [0, 0, 0, 0]
+        assert len(column) == 0
+
+
+def fill_of(pairs, rank):
+    return len(fill_pattern(rank[pairs], len(rank))[1])
+
+
+class TestOrder:
+    def test_is_a_permutation(self, pattern):
+        rank, _ = order(*pattern)
+        assert sorted(rank.tolist()) == list(range(pattern[1]))
+
+    def test_keeps_a_chain(self):
+        rank, name = order(chain(50), 50)
+        assert name == "as given"
+        assert rank.tolist() == list(range(50))
+
+    def test_one_body(self):
+        rank, _ = order(np.zeros((0, 2), dtype=np.int64), 1)
+        assert rank.tolist() == [0]
+
+    def test_tree_has_no_fill(self):
+        pairs = np.random.default_rng(2).permutation(40)[tree(40)]
+        rank, _ = order(pairs, 40)
+        assert fill_of(pairs, rank) <= 1.02 * 39
+
+    @pytest.mark.parametrize("n", [30, 300])
+    def test_band_for_wires(self, n):
+        """Wires coupled at every node: one after the other fills n columns of L, side by side two."""
+        pairs = np.concatenate([chain(n), chain(n) + n, [(i, n + i) for i in range(n)]])
+        rank, name = order(pairs, 2 * n)
+        assert name == "band"
+        assert np.max(np.abs(np.diff(rank[pairs], axis=1))) <= 2
+        assert fill_of(pairs, rank) < 4 * n
+
+    @pytest.mark.parametrize("every", [2, 3, 5])
+    def test_fill_of_wires_does_not_grow(self, every):
+        """Wires coupled now and then: a few blocks of L per node, however long the wires are."""
+        for n in (30, 300):
+            pairs = np.concatenate([chain(n), chain(n) + n, [(i, n + i) for i in range(0, n, every)]])
+            assert fill_of(pairs, order(pairs, 2 * n)[0]) < 4 * n < 0.6 * fill_of(pairs, np.arange(2 * n))
+
+    def test_minimum_degree_for_a_net(self):
+        k = 24
+        node = np.arange(k * k).reshape(k, k)
+        across = np.stack([node[:, :-1].ravel(), node[:, 1:].ravel()], axis=1)
+        down = np.stack([node[:-1].ravel(), node[1:].ravel()], axis=1)
+        pairs = np.concatenate([across, down])
+        rank, name = order(pairs, k * k)
+        assert name == "minimum degree"
+        assert fill_of(pairs, rank) < 0.7 * fill_of(pairs, np.arange(k * k))
+
+
+class TestSystems:
+    """The orderings as a System uses them."""
+
+    @staticmethod
+    def ladder(elements):
+        """Two wires with a spring at every node."""
+        model, section = ancf.Model(), ancf.Section(**SOFT)
+        given = {"elements": elements, "section": section}
+        wire = model.add_beam("wire", start=(0, 0, 0), end=(elements, 0, 0), **given)
+        carrier = model.add_beam("carrier", start=(0, 0, 1), end=(elements, 0, 1), **given)
+        for x in range(elements + 1):
+            model.add_spring(wire.at(x), carrier.at(x), stiffness=100.0, slack=True)
+        return System(model)
+
+    def test_band_of_coupled_wires_does_not_grow(self):
+        assert self.ladder(20).half_bandwidth == self.ladder(200).half_bandwidth == 17
+
+    def test_single_cable_is_block_tridiagonal(self):
+        assert System(cable(elements=40)[0]).half_bandwidth == 11
+
+    def test_supports_as_in_reduced_dense_algebra(self):
+        """Local axes are a change of variables, held unknowns drop out."""
+        model, beam = cable("curved and stretched", elements=4)
+        model.clamp(beam.start)
+        model.hold(beam.at(beam.node_x[2]), position="y", slope="xz")
+        model.clamp(beam.end, stretch="fixed")
+        system = System(model)
+        core, n = system.core, system.n
+        q = shaken(system, size=0.3)
+        T = np.eye(n)
+        rot = [(s, R[0]) for s, R in zip(core.supports.rot_slot, core.supports.rot_R, strict=True)]
+        assert len(rot) == 1
+        for slot, R in rot:
+            T[slot : slot + 3, slot : slot + 3] = R
+        for slot, R in rot:
+            q[core.supports.rot_shadow[0] :] = R @ q[slot : slot + 3]
+        whole = matrix(system, q, mass=2.0, stiffness=1.0)
+        assemble(core.batches, core.ws, q, np.zeros_like(q), core.A, 2.0, 0.0, 1.0)
+        restrict(core.supports, core.A)
+        got, wanted = to_sparse(core.A, system.places).toarray(), T.T @ whole @ T
+        held = core.supports.held
+        wanted[held] = wanted[:, held] = 0.0
+        wanted[held, held] = 1.0
+        assert len(held) == 5 + 3 + 6
+        assert np.max(np.abs(got - wanted)) < 1e-13 * np.max(np.abs(wanted))
+
+    def test_residual_along_local_axes(self):
+        model, beam = cable("curved", elements=2)
+        model.clamp(beam.start)
+        system = System(model)
+        supports = system.core.supports
+        r = RNG.standard_normal(system.size)
+        physical = r[supports.rot_shadow[0] :].copy()
+        apply_supports(supports, r)
+        slot = supports.rot_slot[0]
+        assert r[slot] == pytest.approx(beam.node_tangent[0] @ physical)
+        assert not np.any(r[supports.held])
