@@ -119,19 +119,16 @@ def tune(peer: Worker, case: Case) -> Sample:
     return options
 
 
-def best_solver(options: Sample) -> Sample:
-    """The same linear solver, but Newton's default settings."""
-    return {**options, "newton": {}}
-
-
 def variants(peers: dict[str, Worker], case: Case) -> dict[str, tuple[Worker, Sample]]:
     """Ways to run the peer: its normal and its fast build with default settings, and the fast one tuned."""
     if not peers:
         return {}
     fast = peers.get("fast") or peers["standard"]
     tuned = tune(fast, case)
-    chosen = {name: (worker, best_solver(tuned)) for name, worker in peers.items()}
-    if tuned["newton"] and attempt(fast, case, tuned, 0.0, case.steps):
+    choices: list[Sample] = fast.ask("settings", case=case.name)
+    default = next(choice for choice in choices if choice["solver"] == tuned["solver"])
+    chosen = {name: (worker, default) for name, worker in peers.items()}
+    if tuned != default and attempt(fast, case, tuned, 0.0, case.steps):
         chosen["tuned"] = (fast, tuned)
     return chosen
 

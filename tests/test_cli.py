@@ -160,7 +160,7 @@ def test_summary_of_a_simulation(call):
     assert summary["counters"]["newton_iterations"] >= 1600
     assert summary["versions"]["ancf"] == ancf.__version__
     assert 0 < summary["cpu_seconds"] <= summary["process_cpu_seconds"]
-    assert 0 < summary["wall_seconds"]
+    assert summary["wall_seconds"] > 0
     assert "error" not in summary
 
 

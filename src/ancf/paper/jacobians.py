@@ -68,7 +68,7 @@ def factors(low: float, high: float, count: int) -> list[float]:
 
 def plain_newton() -> Newton:
     """Modified Newton method as the paper knew it: a kept Jacobian is not turned with the nodes."""
-    return ancf.Newton(tolerance=1e-8, contraction=0.5, corotate=False)
+    return ancf.Newton(tolerance=1e-10, contraction=0.5, corotate=False)
 
 
 def rule(t_end: float) -> list[str]:
