@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ancf.cli.notes import notes
+from ancf.cli.notes import check_equilibrium, notes
 from ancf.cli.screen import console, table
 from ancf.cli.summary import plural, sizes, total_mass
 from ancf.model.file import Study, read_study
@@ -18,9 +18,10 @@ if TYPE_CHECKING:
 def check_file(path: Path) -> None:
     """Read a model file and compile its System, which finds everything that is wrong with it."""
     study = read_study(path)
-    _system(study.model)
+    system = _system(study.model)
+    check_equilibrium(study, system)
     console().print(f"{path}: right; {_counts(study.model)}; {task(study)}", soft_wrap=True)
-    _print_notes(study)
+    _print_notes(study, system)
 
 
 def show_model(path: Path) -> None:
@@ -33,7 +34,7 @@ def show_model(path: Path) -> None:
         out.print(f"  {key:<10} {value}", soft_wrap=True)
     out.print()
     out.print(_bodies(study.model))
-    _print_notes(study)
+    _print_notes(study, system)
 
 
 def task(study: Study) -> str:
@@ -86,6 +87,6 @@ def _bodies(model: Model) -> Any:
     return made
 
 
-def _print_notes(study: Study) -> None:
-    for note in notes(study):
+def _print_notes(study: Study, system: System) -> None:
+    for note in notes(study, system):
         console().print(f"note: {note}", soft_wrap=True)

@@ -22,24 +22,25 @@ STATUS = {
 
 def show_result(path: Path) -> None:
     """Print a results file, finished or not."""
-    result = _load(path)
-    plain = result.provenance
+    title, facts, bodies = _read(path)
     out = console()
-    out.print(_title(plain, path), style="bold", soft_wrap=True)
-    for key, value in _facts(result, plain):
+    out.print(title, style="bold", soft_wrap=True)
+    for key, value in facts:
         out.print(f"  {key:<10} {value}", soft_wrap=True)
     out.print()
-    out.print(_bodies(plain))
+    out.print(bodies)
 
 
-def _load(path: Path) -> Result:
+def _read(path: Path) -> tuple[str, list[tuple[str, str]], Any]:
     import ancf
 
     try:
-        return ancf.load(path)
+        result = ancf.load(path)
+        plain = result.provenance
+        return _title(plain, path), _facts(result, plain), _bodies(plain)
     except ModelError:
         raise
-    except (OSError, KeyError, ValueError, TypeError, AttributeError) as error:
+    except (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError) as error:
         raise ModelError(str(path), f"is not a results file of ancf: {error}") from None
 
 

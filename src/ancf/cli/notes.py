@@ -3,48 +3,49 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
-from ancf.model.beam import Beam
+from ancf.errors import ModelError
 from ancf.model.file import Study
 from ancf.model.model import Model
-from ancf.model.points import Point
+
+if TYPE_CHECKING:
+    from ancf.system.system import System
 
 BYTES_PER_NODE = 96
 LARGE = 2e9
 
 
-def notes(study: Study) -> list[str]:
+def check_equilibrium(study: Study, system: System) -> None:
+    """Raise ModelError if the study asks for the equilibrium of something that floats."""
+    from ancf.solvers.floating import check_supported
+
+    settings = study.simulation
+    of = None if settings is None else settings.equilibrium_of
+    wanted = study.equilibrium if settings is None else settings.start == "equilibrium"
+    if wanted:
+        check_supported(system, [] if of is None else [name for name in study.model.bodies if name not in of])
+
+
+def notes(study: Study, system: System) -> list[str]:
     """All remarks on a study, one line each."""
-    return [*_floating(study.model), *_stretched(study.model), *_size(study)]
+    return [*_floating(system), *_stretched(study.model), *_size(study)]
 
 
-def floating(model: Model) -> list[str]:
-    """Bodies that neither a support nor a chain of connections ties to the ground."""
-    tied = {support.point.body.name for support in model.supports}
-    links = [_link(item.a, item.b) for item in model.connections]
-    tied |= {name for link in links if None in link for name in link if name}
-    for _ in model.bodies:
-        tied |= {name for link in links if tied & link for name in link if name}
-    return [name for name in model.bodies if name not in tied]
+def _floating(system: System) -> Iterator[str]:
+    from ancf.solvers.floating import check_supported
 
-
-def _link(a: Point, b: object) -> frozenset[str | None]:
-    return frozenset({a.body.name, b.body.name if isinstance(b, Point) else None})
-
-
-def _floating(model: Model) -> Iterator[str]:
-    for name in floating(model):
-        yield f'body "{name}" floats: no support holds it and no connection leads to one'
+    try:
+        check_supported(system, [])
+    except ModelError as error:
+        yield error.what
 
 
 def _stretched(model: Model) -> Iterator[str]:
     for beam in model.bodies.values():
         if abs(beam.stretch - 1) > 1e-12:
-            yield f'body "{beam.name}" starts {_percent(beam)} than its natural length {beam.length:g} m'
-
-
-def _percent(beam: Beam) -> str:
-    return f"{100 * abs(beam.stretch - 1):.3g} % {'longer' if beam.stretch > 1 else 'shorter'}"
+            share = f"{100 * abs(beam.stretch - 1):.3g} % {'longer' if beam.stretch > 1 else 'shorter'}"
+            yield f'body "{beam.name}" starts {share} than its natural length {beam.length:g} m'
 
 
 def _size(study: Study) -> Iterator[str]:
@@ -53,6 +54,6 @@ def _size(study: Study) -> Iterator[str]:
         return
     nodes = sum(beam.elements + 1 for beam in study.model.bodies.values())
     states = round(settings.t_end / (settings.output_step or settings.step)) + 1
-    if nodes * states * BYTES_PER_NODE > LARGE:
-        size = nodes * states * BYTES_PER_NODE / 1e9
-        yield f"{states} states make a results file of about {size:.0f} GB: give a longer output_step"
+    size = nodes * states * BYTES_PER_NODE
+    if size > LARGE:
+        yield f"{states} states make a results file of about {size / 1e9:.0f} GB: give a longer output_step"

@@ -82,7 +82,9 @@ class Run:
         return ancf.equilibrium(self.study.model, of=bodies, load_steps=given.load_steps if given else 1)
 
     def _statics(self) -> Result:
-        raise NotImplementedError
+        from ancf.cli.statics import store
+
+        return store(self.study, self._equilibrium(), self.output.results)
 
     def _finish(self, result: Result, error: BaseException | None = None) -> None:
         from ancf.cli.summary import print_summary, summarise

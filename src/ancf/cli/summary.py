@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ancf import __version__
 from ancf.cli.screen import table
 from ancf.errors import ModelError, SolveError
 from ancf.model.file import Study
@@ -41,7 +42,7 @@ def summarise(
         "outputs": {label: at_point(model, state, label) for label in outputs(study)},
         "energy": energies(result),
         "counters": {key: value for key, value in counters.items() if key != "cpu_seconds"},
-        "versions": result.provenance.get("versions", {}),
+        "versions": {**result.provenance.get("versions", {}), "ancf": __version__},
         **seconds,
     }
     if isinstance(error, ModelError | SolveError):

@@ -23,13 +23,7 @@ IntArray = NDArray[np.int64]
 
 
 class Result(Fields):
-    """History of a simulation; see :class:`Fields` for positions, velocities, strains, tensions, ...
-
-    Attributes
-    ----------
-    t : ndarray, shape (n_t,)
-        Stored times, s, the start included.
-    """
+    """History of a simulation; see :class:`Fields` for positions, velocities, strains, tensions, ..."""
 
     def __init__(self, store: MemoryStore | ReadStore, header: dict[str, Any], system: System | None) -> None:
         self._store, self._header, self._system = store, header, system

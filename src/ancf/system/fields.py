@@ -80,8 +80,8 @@ class Fields:
     def tension(self, point: Point | str) -> FloatArray:
         """Axial force along the tangent, N, positive in tension, axial damping included.
 
-        It is the force that is work-conjugate to |r_x|: EA eps for material strains, EA eps |r_x| for
-        the paper's Green strain.
+        It is the force that is work-conjugate to the stretch, the length of r_x: EA eps for material
+        strains, EA eps times the stretch for the paper's Green strain.
         """
         probe = self._probe(point)
         section, strain = probe.beam.section, probe.beam.strain

@@ -1,0 +1,84 @@
+"""Make docs/_static/overview.png, the picture of the README, from three short simulations.
+
+Run from the repository root: python docs/pictures.py
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import ancf
+
+BLUE, GREY = "#005ca9", "#b0b0b0"
+
+
+def nodes(result: ancf.Result | ancf.State, beam: str, length: float, count: int = 41) -> np.ndarray:
+    """Positions of points along a beam, shape (count, n_t, 3) or (count, 3)."""
+    return np.array([result.position(f"{beam}.at({x})") for x in np.linspace(0, length, count)])
+
+
+def cantilever(axes: plt.Axes) -> None:
+    """Shapes of the falling cantilever of the paper's example 7.1."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section.rectangle(width=0.01, height=0.01, E=1e8, rho=500)
+    beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=16, section=section)
+    model.clamp(beam.start)
+    result = ancf.simulate(model, t_end=0.4, step=2.5e-4, output_step=0.05)
+    shapes = nodes(result, "beam", 1.0)
+    for k in range(len(result.t)):
+        axes.plot(shapes[:, k, 0], shapes[:, k, 2], color=BLUE, alpha=0.25 + 0.75 * k / (len(result.t) - 1))
+    axes.set(title="falling cantilever, every 0.05 s", xlabel="x [m]", ylabel="z [m]", aspect="equal")
+
+
+def pendulum(axes: plt.Axes) -> None:
+    """Path of the tip of the soft three-dimensional pendulum of example 7.2."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=40.0, EI=8.333e-5, rhoA=0.008)
+    beam = model.add_beam("rope", start=(0, 0, 0), end=(1, 0, 0), elements=16, section=section)
+    model.pin(beam.start)
+    beam.set_motion(angular_velocity=(0, 0, 4))
+    result = ancf.simulate(model, t_end=2.0, step=2e-4, output_step=2e-3)
+    tip = result.position(beam.end)
+    axes.plot(*tip.T, color=GREY, lw=1)
+    shapes = nodes(result, "rope", 1.0)
+    for k in range(0, len(result.t), 125):
+        axes.plot(*shapes[:, k].T, color=BLUE)
+    axes.set(title="soft 3D pendulum, path of the tip", xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
+    axes.view_init(22, -60)
+    axes.set_box_aspect(None, zoom=0.82)
+
+
+def hanging(axes: plt.Axes) -> None:
+    """Slack cables: start shapes and equilibria."""
+    for length, colour in ((10.1, "#7fb0dd"), (10.5, "#3f86c0"), (12.0, BLUE)):
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        section = ancf.Section(EA=1e6, EI=1.0, rhoA=1.0)
+        model.add_beam("c", start=(0, 0, 0), end=(10, 0, 1), elements=40, section=section, length=length)
+        model.pin("c.start")
+        model.pin("c.end")
+        state = ancf.equilibrium(model)
+        shape = nodes(state, "c", length)
+        label = f"{length:g} m, {state.tension('c.start'):.0f} N"
+        axes.plot(shape[:, 0], shape[:, 2], color=colour, label=label)
+    axes.plot([0, 10], [0, 1], color=GREY, ls="--", label="start")
+    axes.legend(frameon=False, fontsize=7, loc="upper left", bbox_to_anchor=(0.0, 1.0))
+    axes.set_ylim(-2.7, 3.2)
+    axes.set(title="slack cables: length, tension at the left end", xlabel="x [m]", ylabel="z [m]")
+
+
+def main() -> None:
+    """Draw the three panels."""
+    plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "lines.linewidth": 1.6})
+    figure = plt.figure(figsize=(9.6, 3.3), layout="constrained")
+    grid = figure.add_gridspec(1, 3, width_ratios=(1, 1.15, 1.25))
+    cantilever(figure.add_subplot(grid[0]))
+    pendulum(figure.add_subplot(grid[1], projection="3d"))
+    hanging(figure.add_subplot(grid[2]))
+    figure.savefig(Path(__file__).parent / "_static" / "overview.png", dpi=160)
+
+
+if __name__ == "__main__":
+    main()
