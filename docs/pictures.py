@@ -73,7 +73,8 @@ def main() -> None:
     """Draw the three panels."""
     plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "lines.linewidth": 1.6})
     figure = plt.figure(figsize=(9.6, 3.3), layout="constrained")
-    grid = figure.add_gridspec(1, 3, width_ratios=(1, 1.15, 1.25))
+    grid = figure.add_gridspec(1, 3, width_ratios=(1, 1.25, 1.2))
+    figure.get_layout_engine().set(w_pad=0.15)
     cantilever(figure.add_subplot(grid[0]))
     pendulum(figure.add_subplot(grid[1], projection="3d"))
     hanging(figure.add_subplot(grid[2]))

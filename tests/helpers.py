@@ -5,7 +5,6 @@ import numpy as np
 import ancf
 from ancf.solvers.modal import to_sparse
 from ancf.system.core import assemble, residual
-from ancf.system.system import System
 
 #: Soft enough that a test state far from the natural shape has forces of the order of 1 N.
 SOFT = {"EA": 40.0, "EI": 2.0, "rhoA": 0.7}
@@ -89,6 +88,3 @@ def rate(errors, ratio=2.0):
     """Observed order from errors at steps that fall by ``ratio``."""
     errors = np.abs(np.asarray(errors, float))
     return np.log(errors[:-1] / errors[1:]) / np.log(ratio)
-
-
-__all__ = ["System", "arc", "cable", "derivative", "forces", "matrix", "random_rate", "rate", "rotation", "shaken"]

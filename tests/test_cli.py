@@ -15,7 +15,6 @@ import pytest
 
 import ancf
 from ancf.cli.app import app
-from ancf.cli.notes import floating
 from ancf.cli.screen import Screen, _duration, _Lines
 from ancf.cli.summary import coordinate
 from ancf.model.file import parse_study
@@ -333,10 +332,10 @@ def test_wrong_usage(call, wrong):
 
 def test_floating_body(call):
     floats = MODEL[: MODEL.index("[[supports]]")] + EQUILIBRIUM
-    ran = call("run", write(floats))
-    assert ran.code in (1, 2)
-    assert ran.err.startswith("error: ")
-    assert "beam" in ran.err
+    for command in ("check", "run"):
+        ran = call(command, write(floats))
+        assert ran.code == 2
+        assert 'error: supports: nothing holds "beam" in x, y, z: it floats' in ran.err
 
 
 def test_failed_simulation_keeps_what_was_computed(call):
@@ -372,25 +371,9 @@ def test_notes_on_what_may_not_be_meant(call):
     text = text.replace("output_step = 2.5e-3", "")
     ran = call("check", write(text))
     assert ran.code == 0
-    assert 'note: body "beam" floats' in ran.out
+    assert 'note: nothing holds "beam" in x, y, z: it floats' in ran.out
     assert 'note: body "beam" starts 9.09 % shorter than its natural length 1.1 m' in ran.out
     assert "give a longer output_step" in ran.out
-
-
-def test_floating_follows_connections():
-    section = ancf.Section(EA=1.0, EI=1.0, rhoA=1.0)
-    model = ancf.Model()
-    a, b, c, d = (
-        model.add_beam(name, start=(i, 0, 0), end=(i + 1, 0, 0), elements=1, section=section)
-        for i, name in enumerate("abcd")
-    )
-    model.connect(b.end, c.start)
-    model.connect(a.end, b.start)
-    assert floating(model) == ["a", "b", "c", "d"]
-    model.add_spring(c.end, (3, 0, 1), stiffness=1.0)
-    assert floating(model) == ["d"]
-    model.pin(d.start)
-    assert floating(model) == []
 
 
 def test_info_of_a_model(call):
@@ -405,7 +388,7 @@ def test_info_of_results(call):
     ran = call("info", "out/results.h5")
     assert (ran.code, ran.err) == (0, "")
     expected = ("Cantilever [1] of Größe 1", "complete", "1601 states, t = 0 ... 0.4 s", "steps 1600", "beam")
-    for text in (*expected, f"ancf {ancf.__version__}"):
+    for text in (*expected, "numba"):
         assert text in ran.out
 
 

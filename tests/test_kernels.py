@@ -10,7 +10,6 @@ from itertools import product
 
 import numpy as np
 import pytest
-from helpers import DAMPINGS, SHAPES, SOFT, cable, derivative, forces, matrix, random_rate, shaken
 
 import ancf
 from ancf.elements.measures import axial_strain, curvature
@@ -19,6 +18,7 @@ from ancf.elements.shapes import gauss, hermite
 from ancf.model.beam import STRAINS
 from ancf.system.core import inertia, total_strain_energy
 from ancf.system.system import System
+from helpers import DAMPINGS, SHAPES, SOFT, cable, derivative, forces, matrix, random_rate, shaken
 
 BY_DIFFERENCES, BY_ROUND_OFF = 1e-7, 1e-12
 
@@ -228,7 +228,9 @@ class TestSprings:
         slack, bare = spring_system("slack"), System(model)
         q, v = shaken(slack), random_rate(slack)
         assert np.array_equal(forces(slack, q, v=v), forces(bare, q, v=v))
-        assert np.array_equal(matrix(slack, q, damping=1, stiffness=1), matrix(bare, q, damping=1, stiffness=1))
+        assert np.array_equal(
+            matrix(slack, q, damping=1, stiffness=1), matrix(bare, q, damping=1, stiffness=1)
+        )
         assert energy(slack, q) == energy(bare, q)
 
     def test_slack_never_pushes(self):
@@ -300,7 +302,9 @@ class TestLanes:
         model = ancf.Model()
         kinds = list(product(STRAINS, SHAPES, [False, True]))
         for k, (strain, shape, damped) in enumerate(kinds):
-            cable(shape, model=model, name=f"c{k}", strain=strain, damped=damped, gauss=(5 - k % 3, 3 + k % 2))
+            cable(
+                shape, model=model, name=f"c{k}", strain=strain, damped=damped, gauss=(5 - k % 3, 3 + k % 2)
+            )
         system = System(model)
         q, v, a = shaken(system), random_rate(system), random_rate(system, 5)
         whole, tangent = forces(system, q, v, a), matrix(system, q, 1.0, 1.0, 1.0)

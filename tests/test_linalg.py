@@ -6,7 +6,6 @@ the small matrices here, and no pivoting between blocks costs some digits for in
 
 import numpy as np
 import pytest
-from helpers import SOFT, cable, matrix, shaken
 
 import ancf
 from ancf.linalg.block_ldl import allocate
@@ -15,6 +14,7 @@ from ancf.solvers.modal import to_sparse
 from ancf.system.core import apply_supports, assemble, factorise_matrix, restrict, solve_matrix
 from ancf.system.matrix import Places
 from ancf.system.system import System
+from helpers import SOFT, cable, matrix, shaken
 
 RNG = np.random.default_rng(7)
 
@@ -68,7 +68,9 @@ def values(A, places):
     """Block values of a dense matrix."""
     k = np.arange(places.n)
     rows, cols = np.append(k, places.rows), np.append(k, places.column)
-    return np.concatenate([A[6 * i : 6 * i + 6, 6 * j : 6 * j + 6].ravel() for i, j in zip(rows, cols, strict=True)])
+    return np.concatenate(
+        [A[6 * i : 6 * i + 6, 6 * j : 6 * j + 6].ravel() for i, j in zip(rows, cols, strict=True)]
+    )
 
 
 def factorised(A, pairs, n):

@@ -58,7 +58,7 @@ class Screen:
         from ancf.compiled import announce_compilation
 
         announce_compilation(
-            lambda: self.say("compiling the numerical core: once on this machine, well under a minute ...")
+            lambda: self.say("compiling the numerical core: this happens only once on this machine ...")
         )
 
     @contextmanager
@@ -117,22 +117,26 @@ def _in_bar(bar: Bar, steps: int) -> Report:
 
 
 class _Lines:
-    """One line whenever another tenth is done."""
+    """One line whenever another tenth is done; times count from the first report, after compiling."""
 
     def __init__(self, say: Callable[[str], None]) -> None:
         self.say = say
-        self.start = time.monotonic()
+        self.first: tuple[int, float] | None = None
         self.tenths = 0
 
     def __call__(self, progress: Any) -> None:
-        share = progress.step / max(progress.steps, 1)
-        if int(10 * share) <= self.tenths:
+        now = time.monotonic()
+        if self.first is None:
+            self.first = progress.step, now
+        tenths = 10 * progress.step // progress.steps
+        if tenths <= self.tenths:
             return
-        self.tenths = int(10 * share)
-        elapsed = time.monotonic() - self.start
+        self.tenths = tenths
+        elapsed, steps = now - self.first[1], progress.step - self.first[0]
+        left = elapsed / max(steps, 1) * (progress.steps - progress.step)
         self.say(
-            f"{100 * share:3.0f} %  step {progress.step} of {progress.steps}, t = {progress.t:.4g} s, "
-            f"{_duration(elapsed)} elapsed, about {_duration(elapsed * (1 / share - 1))} left"
+            f"{100 * progress.step // progress.steps:3} %  step {progress.step} of {progress.steps}, "
+            f"t = {progress.t:.4g} s, {_duration(elapsed)} elapsed, about {_duration(left)} left"
         )
 
 

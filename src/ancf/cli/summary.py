@@ -145,8 +145,10 @@ def _points(summary: dict[str, Any]) -> Any:
 
 def _energy(energy: dict[str, Any]) -> Any:
     made = table("energy [J]", *ENERGIES)
-    for key in ("start", "end"):
-        made.add_row(key, *[f"{energy[key][name]:.6g}" for name in ENERGIES])
+    rows = {key: [energy[key][name] for name in ENERGIES] for key in ("start", "end")}
+    noise = 1e-15 * max(abs(x) for row in rows.values() for x in row)
+    for key, row in rows.items():
+        made.add_row(key, *[f"{x if abs(x) > noise else 0.0:.6g}" for x in row])
     made.add_row("drift", *[""] * (len(ENERGIES) - 1), f"{energy['balance_drift']:.2g}")
     return made
 

@@ -125,22 +125,6 @@ def restore(s):
 
 
 @inline_kernel
-def renew(core, s, h, B, G):
-    """Assemble and factorise the iteration matrix at the present q, v."""
-    assemble(core.batches, core.ws, s.q, s.v, core.A, 1.0 / B, G / B, 1.0)
-    restrict(core.supports, core.A)
-    remember(s.frames, s.q)
-    bad = factorise_matrix(core.A, core.factor)
-    s.counts[JACOBIANS] += 1
-    s.counts[FACTORIZATIONS] += 1
-    s.memo[H_FACTOR] = h
-    if bad < 0:
-        s.memo[WORST] = 6.0 * (-bad - 1)
-        s.memo[H_FACTOR] = 0.0
-    return bad
-
-
-@inline_kernel
 def update(s, weight, gb, ib):
     """Take the correction in s.r from q, v, a; returns its norm (NaN when it is not finite)."""
     norm, total = 0.0, 0.0
@@ -171,16 +155,22 @@ def worst_unknown(s, weight):
 @inline_kernel
 def newton(core, s, h, rule, modified, B, G):
     """Solve the equations of one step from the prediction in s; returns a status."""
-    fresh = False  # the matrix was renewed in this step
-    if s.memo[H_FACTOR] != h:
-        if renew(core, s, h, B, G) < 0:
-            return SINGULAR
-        fresh = True
-    elif rule.corotate:
+    renew, fresh = s.memo[H_FACTOR] != h, False  # fresh: the matrix was renewed in this step
+    if rule.corotate and not renew:
         turn(s.frames, s.q)
     eta = max(s.memo[ETA] ** 0.8, STALE)
     old = -1.0
     for iteration in range(rule.max_iterations):
+        if renew:
+            assemble(core.batches, core.ws, s.q, s.v, core.A, 1.0 / B, G / B, 1.0)
+            restrict(core.supports, core.A)
+            remember(s.frames, s.q)
+            s.counts[JACOBIANS] += 1
+            s.counts[FACTORIZATIONS] += 1
+            if factorise_matrix(core.A, core.factor) < 0:
+                return SINGULAR
+            s.memo[H_FACTOR] = h
+            renew, fresh, old, eta = False, True, -1.0, 1.0
         residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)
         to_local(core.supports, s.r)
         if rule.corotate:
@@ -203,10 +193,7 @@ def newton(core, s, h, rule, modified, B, G):
         if norm > 1e3 or theta >= 2.0 or (theta >= 1.0 and fresh and iteration > 3):
             return DIVERGED
         old = norm
-        if not modified or theta > rule.contraction or iteration % 8 == 7:
-            if renew(core, s, h, B, G) < 0:
-                return SINGULAR
-            fresh, old, eta = True, -1.0, 1.0
+        renew = not modified or theta > rule.contraction or iteration % 8 == 7
     return SLOW
 
 
@@ -223,27 +210,26 @@ def finish(s, h, scheme):
 
 
 @kernel
-def powers(core, s):
-    """At the state in s: forces that do work into s.push_new, and the power that damping takes out.
+def balance(core, s, h):
+    """Add a step's share to the energies dissipated and supplied (trapezoidal rule); h = 0 at the start.
 
-    The forces are all loads but gravity and the reactions of moving supports; damping forces are
-    what the residual loses when the velocities are set to zero.
+    The forces that do work are all loads but gravity and the reactions of moving supports; damping
+    forces are what the residual loses when the velocities are set to zero.
     """
-    push, loads = s.push_new, core.loads
-    out = 0.0
+    push, power = s.push_new, 0.0
     for i in range(push.shape[0]):
         push[i] = 0.0
     if core.damped:
         residual(core.batches, core.ws, s.q, push, s.a, s.f, s.r)
         for i in range(push.shape[0]):
-            out -= s.v[i] * s.r[i]
+            power -= s.v[i] * s.r[i]
     if core.damped or core.supports.driven.shape[0] > 0:
         residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)
     if core.damped:
         for i in range(push.shape[0]):
-            out += s.v[i] * s.r[i]
+            power += s.v[i] * s.r[i]
     for i in range(push.shape[0]):
-        push[i] = loads.gravity[i] - s.f[i]
+        push[i] = core.loads.gravity[i] - s.f[i]
     for batch in literal_unroll(core.followers):
         add_force(batch, s.q, s.v, s.a, push, core.ws)
     for i in range(push.shape[0]):
@@ -251,48 +237,12 @@ def powers(core, s):
     for k in range(core.supports.driven.shape[0]):
         for c in range(3):
             push[core.supports.driven[k] + c] += s.r[core.supports.driven[k] + c]
-    return out
-
-
-@inline_kernel
-def balance(core, s, h):
-    """Add the step's share to the energies dissipated and supplied (trapezoidal rule)."""
-    out = powers(core, s)
-    s.work[0] += 0.5 * h * (s.memo[POWER] + out)
-    s.memo[POWER] = out
-    for i in range(s.q.shape[0]):
-        s.work[1] += 0.5 * (s.push[i] + s.push_new[i]) * (s.q[i] - s.q0[i])
-        s.push[i] = s.push_new[i]
-
-
-@kernel
-def start_balance(core, s, load):
-    """Forces and powers at the start of a run, for the energy balance."""
-    external_force(core.loads, load, s.f)
-    s.memo[POWER] = powers(core, s)
-    for i in range(s.push.shape[0]):
-        s.push[i] = s.push_new[i]
-
-
-@inline_kernel
-def try_step(core, s, tables, n, h, scheme, rule):
-    """One step; a failure is tried once more with a matrix renewed at every iteration."""
-    c = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
-    B, G = scheme.beta * h * h * c, scheme.gamma * h * c
-    external_force(core.loads, tables.load[n], s.f)
-    status = OK
-    for attempt in range(2):
-        predict(s, h, scheme)
-        drive(core.supports, core.loads.moment, tables, n, s.q, s.v, s.a)
-        status = newton(core, s, h, rule, rule.modified and attempt == 0, B, G)
-        if status == OK:
-            return OK
-        s.memo[WORST] = worst_unknown(s, core.weight)
-        restore(s)
-        s.memo[H_FACTOR] = 0.0
-        s.memo[ETA] = 1.0
-        s.memo[H_PREV] = 0.0
-    return status
+    s.work[0] += 0.5 * h * (s.memo[POWER] + power)
+    s.memo[POWER] = power
+    for i in range(push.shape[0]):
+        if h > 0.0:
+            s.work[1] += 0.5 * (s.push[i] + push[i]) * (s.q[i] - s.q0[i])
+        s.push[i] = push[i]
 
 
 @kernel
@@ -300,12 +250,23 @@ def advance(core, s, tables, h, scheme, rule, keep, out_q, out_v, out_work):
     """Take the steps of one block.
 
     ``keep[n]`` is the row of the outputs that takes the state at the end of step n, or -1.
-    Returns the number of steps done and the status of the last one; a failed step leaves the
-    state at its start.
+    A step that fails is tried once more with a matrix renewed at every iteration.  Returns the number
+    of steps done and the status of the last one; a failed step leaves the state at its start.
     """
-    steps = keep.shape[0]
-    for n in range(steps):
-        status = try_step(core, s, tables, n, h, scheme, rule)
+    c = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
+    B, G = scheme.beta * h * h * c, scheme.gamma * h * c
+    status = OK
+    for n in range(keep.shape[0]):
+        external_force(core.loads, tables.load[n], s.f)
+        for attempt in range(2):
+            predict(s, h, scheme)
+            drive(core.supports, core.loads.moment, tables, n, s.q, s.v, s.a)
+            status = newton(core, s, h, rule, rule.modified and attempt == 0, B, G)
+            if status == OK:
+                break
+            s.memo[WORST] = worst_unknown(s, core.weight)
+            restore(s)
+            s.memo[H_FACTOR], s.memo[ETA], s.memo[H_PREV] = 0.0, 1.0, 0.0
         if status != OK:
             return n, status
         finish(s, h, scheme)
@@ -315,4 +276,4 @@ def advance(core, s, tables, h, scheme, rule, keep, out_q, out_v, out_work):
             for i in range(s.q.shape[0]):
                 out_q[keep[n], i], out_v[keep[n], i] = s.q[i], s.v[i]
             out_work[keep[n], 0], out_work[keep[n], 1] = s.work[0], s.work[1]
-    return steps, OK
+    return keep.shape[0], status

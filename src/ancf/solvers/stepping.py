@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SolveError
+from ..system.core import apply_load
 from ..system.energy import energies
 from ..system.system import System
 from . import frames
@@ -27,7 +28,7 @@ from .newmark import (
     Rule,
     advance,
     allocate,
-    start_balance,
+    balance,
 )
 from .start import initial_acceleration
 
@@ -124,7 +125,8 @@ class Run:
         first = system.drive.tables(self.t_start - self.h, self.h, 1, self.t_start, self.t_end)
         m.a[:] = initial_acceleration(system, m.q, m.v, first)
         m.abar[:] = m.a_prev[:] = m.a
-        start_balance(system.core, m, first.load[0])
+        apply_load(system.core.loads, first.load[0], m.f)
+        balance(system.core, m, 0.0)
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         none = np.zeros(0, dtype=np.int64)  # no steps yet: this compiles, outside the CPU time of the run
         advance(system.core, m, first, self.h, self.scheme, self.rule, none, *self._nothing())

@@ -1,0 +1,250 @@
+"""Convergence orders, measured as rates.
+
+A rate needs errors well above round-off and below the first term's range: the sizes are chosen so, and
+the rates of three refinements lie within 0.2 (elements) and 0.1 (steps) of the order.
+"""
+
+import numpy as np
+import pytest
+from helpers import rate
+from scipy.optimize import brentq
+
+import ancf
+from ancf.model.beam import STRAINS
+from ancf.system.drive import STENCIL, differences
+
+#: Tolerances of the step errors below: Newton's share stays far under them.
+EXACT = ancf.Newton(tolerance=1e-14, modified=False)
+LENGTH, EA, EI, RHO_A = 1.3, 2e4, 0.5, 0.4
+
+
+def straight(elements, strain="material", gravity=(0, 0, 0), **section):
+    model = ancf.Model(gravity=gravity)
+    given = {"EA": EA, "EI": EI, "rhoA": RHO_A} | section
+    beam = model.add_beam(
+        "beam", start=(0, 0, 0), end=(LENGTH, 0, 0), elements=elements, section=ancf.Section(**given), strain=strain
+    )
+    return model, beam
+
+
+class TestElementLength:
+    """Bending frequencies and the roll-up: order 4."""
+
+    @staticmethod
+    def beta_l(n):
+        """Roots of cos(b) cosh(b) = -1, the clamped-free beam."""
+        middle = (n - 0.5) * np.pi
+        return brentq(lambda b: np.cos(b) + 1 / np.cosh(b), middle - 0.5, middle + 0.5, xtol=1e-14)
+
+    @pytest.mark.parametrize("strain", STRAINS)
+    @pytest.mark.parametrize("stretch", ["free", "fixed"])
+    def test_cantilever_frequencies(self, strain, stretch):
+        wanted = np.array([self.beta_l(n) for n in (1, 2, 3)]) ** 2 / LENGTH**2 * np.sqrt(EI / RHO_A)
+        errors = []
+        for elements in (4, 8, 16):
+            model, beam = straight(elements, strain)
+            model.clamp(beam.start, stretch=stretch)
+            got = ancf.modes(model, count=6).frequencies[::2]  # each mode twice, in y and in z
+            errors.append(got / wanted - 1)
+        assert np.all(np.array(errors) > 0)  # from above: the elements are stiffer than the beam
+        assert np.abs(rate(errors) - 4).max() < 0.2
+
+    @pytest.mark.parametrize("strain", STRAINS)
+    def test_simply_supported_frequencies(self, strain):
+        wanted = (np.arange(1, 4) * np.pi / LENGTH) ** 2 * np.sqrt(EI / RHO_A)
+        errors = []
+        for elements in (6, 12, 24):
+            model, beam = straight(elements, strain)
+            model.pin(beam.start)
+            model.pin(beam.end)
+            errors.append(ancf.modes(model, count=6).frequencies[::2] / wanted - 1)
+        assert np.abs(rate(errors) - 4).max() < 0.2
+
+    def test_roll_up(self):
+        """An end moment of 2 pi EI/L closes the circle; of half of it, the tip stands above the wall."""
+        for share in (0.5, 1.0):
+            errors = []
+            for elements in (8, 16, 32):
+                model, beam = straight(elements)
+                model.clamp(beam.start)
+                model.add_moment(beam.end, (0, -2 * np.pi * share * EI / LENGTH, 0))
+                tip = ancf.equilibrium(model, load_steps=8).position(beam.end)
+                radius = LENGTH / (2 * np.pi * share)
+                wanted = (radius * np.sin(2 * np.pi * share), 0, radius * (1 - np.cos(2 * np.pi * share)))
+                errors.append(np.linalg.norm(tip - wanted))
+            assert np.abs(rate(errors) - 4).max() < 0.2, share
+            assert errors[-1] < 1e-4 * LENGTH
+
+
+def step_rates(build, integrator, steps=(2e-3, 1e-3, 5e-4, 2.5e-4), t_end=0.24):
+    """Rates from the differences of runs with successive steps: tip position and velocity."""
+    ends = []
+    for step in steps:
+        model, beam = build()
+        result = ancf.simulate(model, t_end=t_end, step=step, integrator=integrator, output_step=t_end)
+        state = result.state()
+        ends.append(np.append(state.position(beam.end), 0.02 * state.velocity(beam.end)))
+    gaps = np.linalg.norm(np.diff(ends, axis=0), axis=1)
+    assert gaps[-1] > 1e-9  # above what Newton leaves
+    return rate(gaps)
+
+
+METHODS = {
+    "trapezoidal": ancf.Trapezoidal(newton=EXACT),
+    "alpha 0.9": ancf.GeneralizedAlpha(rho_inf=0.9, newton=EXACT),
+    "alpha 0.5": ancf.GeneralizedAlpha(rho_inf=0.5, newton=EXACT),
+}
+
+
+@pytest.mark.parametrize("stretch", ["free", "fixed"])
+@pytest.mark.parametrize("method", METHODS)
+class TestStep:
+    """Order 2, with axial waves slow enough to be resolved by the steps."""
+
+    def test_falling_cantilever(self, method, stretch):
+        def build():
+            model, beam = straight(4, "paper", (0, 0, -9.81), EA=60.0, EI=0.4, damping=0.3)
+            model.clamp(beam.start, stretch=stretch)
+            return model, beam
+
+        rates = step_rates(build, METHODS[method])
+        assert rates[-1] == pytest.approx(2, abs=0.1)
+
+    def test_driven_clamp(self, method, stretch):
+        def build():
+            model, beam = straight(4, "material", EA=60.0, EI=0.4)
+            turn = {"rotation": "0.5*(1 - cos(8*t))", "axis": (0, 1, 0.2)}
+            model.clamp(beam.start, stretch=stretch, displacement=["0", "0.1*sin(7*t)**3", "0"], **turn)
+            return model, beam
+
+        rates = step_rates(build, METHODS[method])
+        assert rates[-1] == pytest.approx(2, abs=0.1)
+
+
+def oscillator(method, omega_h, steps):
+    """Displacements of u'' = -omega^2 u, u(0) = 1, by Chung & Hulbert's own recursion (1993)."""
+    rho = method.rho_inf
+    am, af = (2 * rho - 1) / (rho + 1), rho / (rho + 1)
+    gamma = 0.5 - am + af
+    beta = 0.25 * (1 - am + af) ** 2
+    w2 = omega_h**2  # time in steps
+    left = np.array([[1, 0, -beta], [0, 1, -gamma], [(1 - af) * w2, 0, 1 - am]])
+    right = np.array([[1, 1, 0.5 - beta], [0, 1, 1 - gamma], [-af * w2, 0, -am]])
+    A = np.linalg.solve(left, right)
+    x, path = np.array([1.0, 0.0, -w2]), [1.0]
+    for _ in range(steps):
+        x = A @ x
+        path.append(x[0])
+    return np.array(path), np.max(np.abs(np.linalg.eigvals(A)))
+
+
+class TestNumericalDamping:
+    """A bar in its first axial mode is a linear oscillator (material strains are linear along a line)."""
+
+    @staticmethod
+    def bar(omega_h, method, steps):
+        model, beam = straight(3)
+        model.clamp(beam.start)
+        for x in beam.node_x[1:]:
+            model.hold(beam.at(x), position="yz", slope="yz")
+        modes = ancf.modes(model, count=1)
+        shape, omega = modes.shapes[0], modes.frequencies[0]
+        rest = modes.about
+        tip = modes.position(beam.end)[0, 0]
+        start = ancf.State(rest.system, 0.0, rest.q + 0.01 / tip * shape, 0 * rest.q)
+        step = omega_h / omega
+        result = ancf.simulate(model, t_end=steps * step, step=step, start=start, integrator=method)
+        return (result.position(beam.end)[:, 0] - LENGTH) / 0.01
+
+    @pytest.mark.parametrize("rho_inf", [0.0, 0.4, 0.9, 1.0])
+    @pytest.mark.parametrize("omega_h", [0.3, 3.0, 1e3])
+    def test_is_chung_and_hulbert(self, rho_inf, omega_h):
+        method = ancf.GeneralizedAlpha(rho_inf=rho_inf, newton=EXACT)
+        wanted, _ = oscillator(method, omega_h, 30)
+        assert self.bar(omega_h, method, 30) == pytest.approx(wanted, abs=1e-8)
+
+    @pytest.mark.parametrize("rho_inf", [0.0, 0.4, 0.9, 1.0])
+    def test_spectral_radius_at_high_frequency(self, rho_inf):
+        """rho_inf is a double (for 0 a triple) eigenvalue: round-off splits it by its root."""
+        _, radius = oscillator(ancf.GeneralizedAlpha(rho_inf=rho_inf), 1e4, 1)
+        assert radius == pytest.approx(rho_inf, abs=2e-2 if rho_inf == 0 else 1e-3)
+
+    def test_trapezoidal_rule_has_none(self):
+        """Amplitude of an exact rotation of the phase: u and v/omega' stay on a circle."""
+        u = self.bar(0.5, ancf.Trapezoidal(newton=EXACT), 400)
+        phase = 2 * np.arctan(0.25)
+        assert u == pytest.approx(np.cos(phase * np.arange(401)), abs=1e-8)
+
+    def test_rho_one_is_the_limit_without_damping(self):
+        u = self.bar(1e3, ancf.GeneralizedAlpha(rho_inf=1.0, newton=EXACT), 200)
+        assert np.max(np.abs(u[-20:])) > 0.9
+
+
+class TestRatesOfGivenMotions:
+    """Rates by differences of seven points: order 6, second rates at the ends of a run order 5."""
+
+    @staticmethod
+    def of(function, step, steps=20):
+        times = step * np.arange(1, steps + 1)
+        return times, differences(lambda t: function(t)[:, None], times, step, 0.0, times[-1])
+
+    @pytest.mark.parametrize("degree", range(STENCIL))
+    def test_exact_for_polynomials(self, degree):
+        times, (value, first, second) = self.of(lambda t: t**degree, 0.1)
+        assert value[:, 0] == pytest.approx(times**degree, rel=1e-12)
+        scale = 2.0 ** max(degree, 1)
+        assert first[:, 0] == pytest.approx(degree * times ** max(degree - 1, 0), abs=1e-11 * scale)
+        wanted = degree * (degree - 1) * times ** max(degree - 2, 0)
+        assert second[:, 0] == pytest.approx(wanted, abs=1e-9 * scale)
+
+    def test_orders(self):
+        errors = []
+        for step in (0.1, 0.05, 0.025):
+            times, (_, first, second) = self.of(np.sin, step)
+            inner = slice(STENCIL // 2, -(STENCIL // 2))
+            e1, e2 = np.abs(first[:, 0] - np.cos(times)), np.abs(second[:, 0] + np.sin(times))
+            errors.append([e1[inner].max(), e2[inner].max(), e1.max(), e2.max()])
+        assert rate(errors)[-1] == pytest.approx([6, 6, 6, 5], abs=0.4)
+
+    def test_steps_in_one_block_or_many(self):
+        """Inside a run the rates do not depend on how the steps were cut into blocks."""
+        times, whole = self.of(np.sin, 0.05)
+        for cut in range(4, 16):
+            ahead = differences(lambda t: np.sin(t)[:, None], times[:cut], 0.05, 0.0, times[-1])
+            after = differences(lambda t: np.sin(t)[:, None], times[cut:], 0.05, 0.0, times[-1])
+            for a, b, w in zip(ahead, after, whole, strict=True):
+                assert np.concatenate([a, b]) == pytest.approx(w, abs=1e-10)
+
+    def test_exact_rates_are_used(self):
+        """A clamp turned with its exact rates gives what differences give, to their order."""
+        tips = []
+        for given in ({}, {"rotation_rate": "0.9*cos(3*t)", "rotation_acceleration": "-2.7*sin(3*t)"}):
+            model, beam = straight(3, EA=200.0)
+            model.clamp(beam.start, rotation="0.3*sin(3*t)", axis=(0, 0, 1), **given)
+            tips.append(ancf.simulate(model, t_end=0.5, step=2e-3).position(beam.end))
+        assert tips[0] == pytest.approx(tips[1], abs=1e-8)
+
+
+class TestNewtonVariants:
+    """However the equations are solved, the solution is the same, to Newton's tolerance per step."""
+
+    @staticmethod
+    def run(newton, contraction=0.5):
+        model, beam = straight(6, "paper", (0, 0, -9.81), EA=5e3, EI=0.05, damping=0.2)
+        model.pin(beam.start)
+        model.add_spring(beam.end, (LENGTH, 0.2, 0.3), stiffness=40.0, length=0.2, slack=True)
+        beam.set_motion(angular_velocity=(0, 0, 5.0))
+        result = ancf.simulate(model, t_end=0.3, step=5e-4, integrator=ancf.Trapezoidal(newton=newton))
+        return result.position(beam.end), result.stats
+
+    def test_agree(self):
+        wanted, full = self.run(EXACT)
+        for corotate in (True, False):
+            got, stats = self.run(ancf.Newton(corotate=corotate))
+            assert got == pytest.approx(wanted, abs=2e-7)
+            assert stats.jacobians < 0.2 * full.jacobians
+
+    def test_tighter_tolerance_comes_closer(self):
+        wanted, _ = self.run(EXACT)
+        gaps = [np.abs(self.run(ancf.Newton(tolerance=t))[0] - wanted).max() for t in (1e-6, 1e-9, 1e-12)]
+        assert gaps[0] > 20 * gaps[1] > 400 * gaps[2]
