@@ -51,6 +51,11 @@ class Case:
     def steps(self) -> int:
         return round(self.t_end / self.step)
 
+    @property
+    def long(self) -> bool:
+        """One solve takes seconds: it is measured by single solves, and less often."""
+        return self.steps * self.elements > 500_000
+
     def first(self, steps: int) -> Case:
         """The same with the first steps only."""
         return replace(self, t_end=steps * self.step)

@@ -22,6 +22,7 @@ ONE_THREAD = {
     f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "NUMBA", "NUMEXPR", "VECLIB_MAXIMUM")
 }
 TUNING_SECONDS = 0.1  # CPU time of one measurement while tuning
+MEMORY_STEPS = 20  # everything is allocated in the first one
 TUNING_WORK = 150_000  # elements times steps that are enough to tune with
 
 
@@ -97,7 +98,7 @@ def distance(a: Sample, b: Sample) -> float:
 
 
 def attempt(worker: Worker, case: Case, options: Sample, seconds: float, steps: int) -> Sample | None:
-    """A solve that may fail, or that may need more steps than it was given: then None."""
+    """A solve that may fail, or take other steps than it was given: then None."""
     try:
         sample = worker.solve(case, options, seconds, steps)
     except RefusedError:
@@ -105,10 +106,9 @@ def attempt(worker: Worker, case: Case, options: Sample, seconds: float, steps: 
     return sample if sample["steps"] == steps else None
 
 
-def tune(peer: Worker, case: Case) -> Sample:
+def tune(peer: Worker, case: Case, choices: list[Sample]) -> Sample:
     """Options of the fastest run among those that end where the default settings do."""
     steps = min(case.steps, max(15, TUNING_WORK // case.elements))
-    choices: list[Sample] = peer.ask("settings", case=case.name)
     default, *others = [attempt(peer, case, choice, TUNING_SECONDS, steps) for choice in choices]
     if default is None:
         return choices[0]
@@ -124,34 +124,60 @@ def variants(peers: dict[str, Worker], case: Case) -> dict[str, tuple[Worker, Sa
     if not peers:
         return {}
     fast = peers.get("fast") or peers["standard"]
-    tuned = tune(fast, case)
     choices: list[Sample] = fast.ask("settings", case=case.name)
+    tuned = tune(fast, case, choices)
     default = next(choice for choice in choices if choice["solver"] == tuned["solver"])
     chosen = {name: (worker, default) for name, worker in peers.items()}
-    if tuned != default and attempt(fast, case, tuned, 0.0, case.steps):
-        chosen["tuned"] = (fast, tuned)
-    return chosen
+    return chosen if tuned == default else {**chosen, "tuned": (fast, tuned)}
+
+
+class Pairs:
+    """Samples of our side and of the peer's variants, taken in turn: A B A B ..."""
+
+    def __init__(self, ours: Worker, chosen: dict[str, tuple[Worker, Sample]], case: Case) -> None:
+        self.ours, self.chosen, self.case = ours, dict(chosen), case
+        self.own: list[Sample] = []
+        self.by_variant: dict[str, list[tuple[Sample, Sample]]] = {name: [] for name in chosen}
+
+    def round(self, seconds: float) -> None:
+        """One pair for each variant; of a long case one solve of ours serves for the whole round."""
+        for k, (name, (worker, options)) in enumerate(self.chosen.items()):
+            if k == 0 or not self.case.long:
+                self.own.append(self.ours.solve(self.case, {}, seconds))
+            sample = attempt(worker, self.case, options, seconds, self.case.steps)
+            if sample is not None:
+                self.by_variant[name].append((sample, self.own[-1]))
+        if not self.chosen:
+            self.own.append(self.ours.solve(self.case, {}, seconds))
+
+    def prune(self) -> None:
+        """Leave out the variants that failed, are inaccurate, or over a tenth slower than the best."""
+        first = {name: both[0][0] for name, both in self.by_variant.items() if both}
+        fit = accurate(first, self.case)
+        limit = 1.1 * min((first[name]["cpu"] for name in fit), default=0.0)
+        self.chosen = {name: self.chosen[name] for name in fit if first[name]["cpu"] <= limit}
+
+
+def accurate(peers: dict[str, Sample], case: Case) -> list[str]:
+    """Variants that end where the first one, with default settings, does."""
+    return [name for name in peers if distance(peers[name], next(iter(peers.values()))) <= case.accuracy]
 
 
 def compare(ours: Worker, peers: dict[str, Worker], case: Case, pairs: int, seconds: float) -> Sample:
     """Measure one case: our side and a variant of the peer in turn, ``pairs`` times for each variant."""
     ours.solve(case, {}, 0.0)  # compiles or loads what is not there yet
     chosen = variants(peers, case)
-    own: list[Sample] = []
-    other: dict[str, list[Sample]] = {name: [] for name in chosen}
-    mates: dict[str, list[Sample]] = {name: [] for name in chosen}
-    for _ in range(pairs):
-        for name, (worker, options) in chosen.items():
-            own.append(ours.solve(case, {}, seconds))
-            mates[name].append(own[-1])
-            other[name].append(worker.solve(case, options, seconds))
-        if not chosen:
-            own.append(ours.solve(case, {}, seconds))
+    taken = Pairs(ours, chosen, case)
+    for k in range(pairs):
+        taken.round(seconds)
+        if k == 0 and case.long:
+            taken.prune()
     row: Sample = {"name": case.name, "title": case.title, "elements": case.elements}
-    row["ancf"] = {**summary(own), "newton_error": newton_error(ours, case, own[-1])}
+    row["ancf"] = {**summary(taken.own), "newton_error": newton_error(ours, case, taken.own[-1])}
     row["exudyn"] = {
-        name: {**summary(other[name]), **ratios(other[name], mates[name]), "options": chosen[name][1]}
-        for name in chosen
+        name: {**summary([a for a, _ in both]), **ratios(both), "options": chosen[name][1]}
+        for name, both in taken.by_variant.items()
+        if both
     }
     return {**row, **verdict(row, case)}
 
@@ -173,9 +199,8 @@ def summary(samples: list[Sample]) -> Sample:
     }
 
 
-def ratios(peer: list[Sample], ours: list[Sample]) -> Sample:
+def ratios(pairs: list[tuple[Sample, Sample]]) -> Sample:
     """Medians over the pairs of peer / ours, for the solve alone and from model to result."""
-    pairs = list(zip(peer, ours, strict=True))
     each = [a["cpu"] / b["cpu"] for a, b in pairs]
     return {
         "ratio": statistics.median(each),
@@ -189,10 +214,11 @@ def verdict(row: Sample, case: Case) -> Sample:
     peers: Sample = row["exudyn"]
     if not peers:
         return {"best": None, "ratio": None, "tip_difference": None}
-    default = next(iter(peers.values()))
-    fit = [name for name, peer in peers.items() if distance(peer, default) <= case.accuracy]
+    fit = accurate(peers, case)
+    for name in peers:
+        peers[name]["accurate"] = name in fit
     best = min(fit, key=lambda name: float(peers[name]["cpu_median"]))
-    gap = distance(row["ancf"], default)
+    gap = distance(row["ancf"], next(iter(peers.values())))
     return {"best": best, "ratio": peers[best]["ratio"], "tip_difference": gap}
 
 
@@ -205,12 +231,12 @@ def newton_error(ours: Worker, case: Case, sample: Sample) -> float | None:
 
 
 def memory(case: Case, module: str) -> Sample:
-    """Peak resident memory of a fresh process, MB: after the import and after one solve."""
+    """Peak resident memory of a fresh process, MB: after the import and after some steps."""
     worker = Worker(module)
     try:
         worker.ask("version")
         imported = worker.ask("memory")
-        worker.solve(case, {}, 0.0)
+        worker.solve(case, {}, 0.0, MEMORY_STEPS)
         return {"imported_mb": imported, "peak_mb": worker.ask("memory")}
     finally:
         worker.close()

@@ -23,7 +23,7 @@ def _timed_start(run: Run, *state: Any) -> None:
     spent["start"] = time.process_time() - begin
 
 
-Run.start = _timed_start  # type: ignore[method-assign]
+Run.start = _timed_start  # type: ignore[method-assign, assignment]
 
 
 def version() -> str:

@@ -72,19 +72,23 @@ def counters(rows: list[Results]) -> Table:
 def peers(rows: list[Results]) -> Table:
     """The ratio to each way to run the peer; the best one for the peer is marked."""
     columns = ("standard", "fast", "tuned")
-    made = table(
-        "Ratio by variant of Exudyn (* the best)", "model, elements", *columns, "whole", "tuned with"
-    )
+    title = "Ratio by variant of Exudyn (* the best; in brackets: too inaccurate)"
+    made = table(title, "model, elements", *columns, "whole", "tuned with")
     for row in rows:
         variants = row["exudyn"]
-        cells = [
-            number(variants.get(key, {}).get("ratio"), ".1f") + ("*" if key == row["best"] else "")
-            for key in columns
-        ]
-        options = variants.get("tuned", next(iter(variants.values()), {})).get("options", {})
         whole = number(variants.get(row["best"], {}).get("ratio_whole"), ".1f")
+        options = variants.get("tuned", next(iter(variants.values()), {})).get("options", {})
+        cells = [variant(variants.get(key), key == row["best"]) for key in columns]
         made.add_row(name(row), *cells, whole, described(options))
     return made
+
+
+def variant(peer: Results | None, best: bool) -> str:
+    """Ratio to one variant."""
+    if peer is None:
+        return "–"
+    text = number(peer["ratio"], ".1f")
+    return text + "*" * best if peer["accurate"] else f"({text})"
 
 
 def described(options: Results) -> str:

@@ -22,7 +22,7 @@ from report import show
 from startup import startup
 
 HERE = Path(__file__).parent
-SECONDS, QUICK_SECONDS = 0.25, 0.05  # CPU time of one measurement of a short case
+SECONDS, QUICK_SECONDS = 0.1, 0.03  # CPU time of one measurement of a short case
 SIDES = {
     "ancf": ("ours", {"EXUDYN_MODULE": ""}),
     "standard": ("peer_exudyn", {"EXUDYN_MODULE": ""}),
@@ -41,7 +41,7 @@ def arguments() -> argparse.Namespace:
         metavar="NAME",
         help="this case alone; may be repeated",
     )
-    add("--pairs", type=int, default=3, help="pairs of measurements for each variant (default: 3)")
+    add("--pairs", type=int, default=3, help="least pairs of measurements for each variant (default: 3)")
     add(
         "-o",
         "--output",
@@ -68,7 +68,7 @@ def measure(cases: list[Case], pairs: int, seconds: float, console: Console) -> 
             raise SystemExit("ancf cannot be imported: pip install -e '.[bench]'")
         own, peers = ready.pop("ancf"), ready
         if not peers:
-            console.print("Exudyn is not installed (pip install -e '.[bench]'): our side alone")
+            console.print("Exudyn is not installed (pip install -e '.[bench]'): our side alone", markup=False)
         for case in cases:
             console.print(f"[dim]{case.title}, {case.elements} elements[/]")
             rows.append(checked(own, peers, case, pairs, seconds))
@@ -77,7 +77,7 @@ def measure(cases: list[Case], pairs: int, seconds: float, console: Console) -> 
 
 def checked(own: Worker, peers: dict[str, Worker], case: Case, pairs: int, seconds: float) -> dict[str, Any]:
     try:
-        return compare(own, peers, case, pairs, seconds)
+        return compare(own, peers, case, pairs if case.long or seconds < SECONDS else 2 * pairs + 1, seconds)
     except RefusedError as failure:
         raise SystemExit(f"{case.name}: {failure}") from None
 
@@ -140,7 +140,7 @@ def main() -> None:
     console.print("[dim]memory, kernels, start[/]")
     results["memory"] = memories(cases)
     results["kernels"] = [] if options.only or options.quick else our_kernels()
-    results["startup_s"] = {} if options.only else startup(2 if options.quick else 5, not options.quick)
+    results["startup_s"] = {} if options.only else startup(2 if options.quick else 3, not options.quick)
     results["seconds"] = time.perf_counter() - begin
     options.output.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
     show(results, console)

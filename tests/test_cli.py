@@ -1,21 +1,15 @@
 """The command line: what each command prints and writes, its exit codes, and how it ends when stopped."""
 
 import json
-import os
 import re
-import signal
-import subprocess
-import sys
-import time
 from dataclasses import dataclass
 from pathlib import Path
 
-import numba
 import pytest
 
 import ancf
 from ancf.cli.app import app
-from ancf.cli.screen import Screen, _duration, _Lines
+from ancf.cli.screen import _duration, _Lines
 from ancf.cli.summary import coordinate
 from ancf.model.file import parse_study
 
@@ -85,42 +79,6 @@ def write(text, name="model.toml"):
     path = Path(name)
     path.write_text(text, encoding="utf-8")
     return path
-
-
-def process(folder, *arguments, **environment):
-    """Start a command as a user does; Ctrl-C reaches it even where the tests run in the background."""
-    return subprocess.Popen(
-        [sys.executable, "-m", "ancf.cli", *arguments],
-        cwd=folder,
-        env={**os.environ, **environment},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        encoding="utf-8",
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )
-
-
-def finished(folder, *arguments, **environment):
-    work = process(folder, *arguments, **environment)
-    out, err = work.communicate(timeout=300)
-    return Ran(work.returncode, out, err)
-
-
-def running_until_stored(folder):
-    """A long run that has stored more than its first state."""
-    (folder / "model.toml").write_text(MODEL + LONG, encoding="utf-8")
-    work = process(folder, "run", "model.toml", "-o", "out")
-    deadline = time.monotonic() + 240
-    while time.monotonic() < deadline and work.poll() is None:
-        time.sleep(0.3)
-        try:
-            if len(ancf.load(folder / "out/results.h5").t) > 10:
-                return work
-        except (ancf.ModelError, OSError):
-            pass
-    work.kill()
-    raise AssertionError(f"no results: {work.communicate()}")
 
 
 # run
@@ -346,13 +304,33 @@ def test_failed_simulation_keeps_what_was_computed(call):
     assert "kept in out/results.h5" in ran.err
     result = ancf.load("out/results.h5")
     assert result.status == "failed"
-    assert result.t[-1] == pytest.approx(0.05, abs=1e-3)
+    assert result.t[-1] == pytest.approx(0.05, abs=2e-3)
     summary = json.loads(Path("out/summary.json").read_text(encoding="utf-8"))
     assert summary["status"] == "failed"
     assert summary["error"]["where"].startswith("t = ")
     info = call("info", "out/results.h5")
     assert info.code == 0
     assert "the solve failed; reached t = 0.05" in info.out
+
+
+def test_a_step_far_too_large(call):
+    ran = call(
+        "run", write((MODEL + SIMULATION).replace("elements = 4", "elements = 16").replace("2.5e-4", "0.2"))
+    )
+    assert ran.code == 1
+    assert re.search(
+        r"error: t = 0\.[24] s, step [12], beam node \d+ .*step 0\.2 s\n  try a step of", ran.err
+    )
+    assert ancf.load("out/results.h5").status == "failed"
+
+
+def test_a_load_that_fails_later_keeps_what_was_computed(call):
+    ran = call("run", write(MODEL + FORCE.format(force='[0, 0, "log(0.05 - t)"]') + SIMULATION))
+    assert ran.code == 2
+    assert "error: loads[0].force: " in ran.err
+    assert "at t = 0.05" in ran.err
+    assert "results up to t = 0.0" in ran.err
+    assert ancf.load("out/results.h5").status == "failed"
 
 
 # check, info, schema
@@ -479,95 +457,6 @@ def test_reproduce_of_an_unknown_figure(call):
     assert ran.code == 2
     assert "fig99" in ran.err
     assert "fig2" in ran.err
-
-
-# how it ends
-
-
-def test_ctrl_c_keeps_the_results(tmp_path):
-    work = running_until_stored(tmp_path)
-    work.send_signal(signal.SIGINT)
-    out, err = work.communicate(timeout=60)
-    assert work.returncode == 130
-    assert out == ""
-    assert "Traceback" not in err
-    assert re.search(r"stopped by Ctrl-C\n  results up to t = \S+ s kept in out/results.h5", err)
-    result = ancf.load(tmp_path / "out/results.h5")
-    assert result.status == "interrupted"
-    summary = json.loads((tmp_path / "out/summary.json").read_text(encoding="utf-8"))
-    assert summary["status"] == "interrupted"
-    assert summary["t"] == result.t[-1]
-    info = finished(tmp_path, "info", "out/results.h5")
-    assert info.code == 0
-    assert "stopped by Ctrl-C; reached t = " in info.out
-
-
-def test_a_killed_run_can_be_read(tmp_path):
-    work = running_until_stored(tmp_path)
-    work.kill()
-    work.communicate(timeout=60)
-    info = finished(tmp_path, "info", "out/results.h5")
-    assert (info.code, info.err) == (0, "")
-    assert "not finished: still running, or killed; reached t = " in info.out
-    assert "of 100000 s" in info.out
-    assert not (tmp_path / "out/summary.json").exists()
-
-
-def test_a_later_start_compiles_nothing(tmp_path):
-    (tmp_path / "model.toml").write_text(MODEL + SIMULATION, encoding="utf-8")
-    finished(tmp_path, "run", "model.toml")
-    ran = finished(tmp_path, "run", "model.toml")
-    assert ran.code == 0
-    assert "compiling" not in ran.err
-
-
-def test_the_message_about_compiling_comes_once(capsys):
-    Screen().announce_compilation()
-    for value in (1, 1.0):
-        numba.njit(lambda x: x + 1)(value)
-    assert capsys.readouterr().err.count("compiling the numerical core: once") == 1
-
-
-def test_a_terminal_that_knows_no_letters(tmp_path):
-    (tmp_path / "model.toml").write_text(MODEL + SIMULATION, encoding="utf-8")
-    ran = finished(tmp_path, "info", "model.toml", PYTHONIOENCODING="ascii")
-    assert (ran.code, ran.err) == (0, "")
-    assert r"Gr\xf6\xdfe" in ran.out
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals")
-@pytest.mark.parametrize("no_color", ["", "1"])
-def test_bar_in_a_terminal(tmp_path, no_color):
-    text = MODEL + SIMULATION.replace("t_end = 0.4", "t_end = 20.0")
-    (tmp_path / "model.toml").write_text(text, encoding="utf-8")
-    seen = in_terminal(tmp_path, ["run", "model.toml"], NO_COLOR=no_color, TERM="xterm", COLUMNS="120")
-    assert re.search(r"\d+ %  step \d+ of 80000", seen)
-    assert "Traceback" not in seen
-    assert "\x1b[?25h" in seen  # the cursor is shown again
-    assert bool(re.search(r"\x1b\[(3\d|9\d)[\d;]*m", seen)) != bool(no_color)
-
-
-def in_terminal(folder, arguments, **environment):
-    import pty
-
-    ours, theirs = pty.openpty()
-    command = [sys.executable, "-m", "ancf.cli", *arguments]
-    work = subprocess.Popen(
-        command, cwd=folder, env={**os.environ, **environment}, stdout=theirs, stderr=theirs
-    )
-    os.close(theirs)
-    seen = b""
-    while True:
-        try:
-            part = os.read(ours, 4096)
-        except OSError:
-            break
-        if not part:
-            break
-        seen += part
-    os.close(ours)
-    assert work.wait(timeout=60) == 0
-    return seen.decode("utf-8", errors="replace")
 
 
 def test_an_internal_error_is_one_block(call, monkeypatch):

@@ -6,12 +6,12 @@ the rates of three refinements lie within 0.2 (elements) and 0.1 (steps) of the 
 
 import numpy as np
 import pytest
-from helpers import rate
 from scipy.optimize import brentq
 
 import ancf
 from ancf.model.beam import STRAINS
 from ancf.system.drive import STENCIL, differences
+from helpers import rate
 
 #: Tolerances of the step errors below: Newton's share stays far under them.
 EXACT = ancf.Newton(tolerance=1e-14, modified=False)
@@ -22,7 +22,12 @@ def straight(elements, strain="material", gravity=(0, 0, 0), **section):
     model = ancf.Model(gravity=gravity)
     given = {"EA": EA, "EI": EI, "rhoA": RHO_A} | section
     beam = model.add_beam(
-        "beam", start=(0, 0, 0), end=(LENGTH, 0, 0), elements=elements, section=ancf.Section(**given), strain=strain
+        "beam",
+        start=(0, 0, 0),
+        end=(LENGTH, 0, 0),
+        elements=elements,
+        section=ancf.Section(**given),
+        strain=strain,
     )
     return model, beam
 
@@ -41,7 +46,7 @@ class TestElementLength:
     def test_cantilever_frequencies(self, strain, stretch):
         wanted = np.array([self.beta_l(n) for n in (1, 2, 3)]) ** 2 / LENGTH**2 * np.sqrt(EI / RHO_A)
         errors = []
-        for elements in (4, 8, 16):
+        for elements in (8, 16):
             model, beam = straight(elements, strain)
             model.clamp(beam.start, stretch=stretch)
             got = ancf.modes(model, count=6).frequencies[::2]  # each mode twice, in y and in z
@@ -53,7 +58,7 @@ class TestElementLength:
     def test_simply_supported_frequencies(self, strain):
         wanted = (np.arange(1, 4) * np.pi / LENGTH) ** 2 * np.sqrt(EI / RHO_A)
         errors = []
-        for elements in (6, 12, 24):
+        for elements in (8, 16):
             model, beam = straight(elements, strain)
             model.pin(beam.start)
             model.pin(beam.end)
@@ -64,7 +69,7 @@ class TestElementLength:
         """An end moment of 2 pi EI/L closes the circle; of half of it, the tip stands above the wall."""
         for share in (0.5, 1.0):
             errors = []
-            for elements in (8, 16, 32):
+            for elements in (12, 24, 48):
                 model, beam = straight(elements)
                 model.clamp(beam.start)
                 model.add_moment(beam.end, (0, -2 * np.pi * share * EI / LENGTH, 0))
@@ -76,7 +81,11 @@ class TestElementLength:
             assert errors[-1] < 1e-4 * LENGTH
 
 
-def step_rates(build, integrator, steps=(2e-3, 1e-3, 5e-4, 2.5e-4), t_end=0.24):
+#: Soft and coarse: the fastest of its waves, about 200 rad/s, is resolved by all steps.
+SLOW = {"EA": 30.0, "EI": 0.02}
+
+
+def step_rates(build, integrator, steps=(1e-3, 5e-4, 2.5e-4, 1.25e-4), t_end=0.24):
     """Rates from the differences of runs with successive steps: tip position and velocity."""
     ends = []
     for step in steps:
@@ -103,22 +112,25 @@ class TestStep:
 
     def test_falling_cantilever(self, method, stretch):
         def build():
-            model, beam = straight(4, "paper", (0, 0, -9.81), EA=60.0, EI=0.4, damping=0.3)
+            model, beam = straight(3, "paper", (0, 0, -4.0), **SLOW, damping=0.3)
             model.clamp(beam.start, stretch=stretch)
             return model, beam
 
         rates = step_rates(build, METHODS[method])
-        assert rates[-1] == pytest.approx(2, abs=0.1)
+        assert rates == pytest.approx([2, 2], abs=0.1)
 
     def test_driven_clamp(self, method, stretch):
         def build():
-            model, beam = straight(4, "material", EA=60.0, EI=0.4)
+            model, beam = straight(3, "material", **SLOW)
             turn = {"rotation": "0.5*(1 - cos(8*t))", "axis": (0, 1, 0.2)}
             model.clamp(beam.start, stretch=stretch, displacement=["0", "0.1*sin(7*t)**3", "0"], **turn)
             return model, beam
 
         rates = step_rates(build, METHODS[method])
-        assert rates[-1] == pytest.approx(2, abs=0.1)
+        assert rates == pytest.approx([2, 2], abs=0.1)
+
+
+AMPLITUDE = 1e-4  # m; Newton's 1e-14 m is 1e-10 of it
 
 
 def oscillator(method, omega_h, steps):
@@ -151,13 +163,13 @@ class TestNumericalDamping:
         shape, omega = modes.shapes[0], modes.frequencies[0]
         rest = modes.about
         tip = modes.position(beam.end)[0, 0]
-        start = ancf.State(rest.system, 0.0, rest.q + 0.01 / tip * shape, 0 * rest.q)
+        start = ancf.State(rest.system, 0.0, rest.q + AMPLITUDE / tip * shape, 0 * rest.q)
         step = omega_h / omega
         result = ancf.simulate(model, t_end=steps * step, step=step, start=start, integrator=method)
-        return (result.position(beam.end)[:, 0] - LENGTH) / 0.01
+        return (result.position(beam.end)[:, 0] - LENGTH) / AMPLITUDE
 
     @pytest.mark.parametrize("rho_inf", [0.0, 0.4, 0.9, 1.0])
-    @pytest.mark.parametrize("omega_h", [0.3, 3.0, 1e3])
+    @pytest.mark.parametrize("omega_h", [0.3, 3.0, 30.0])
     def test_is_chung_and_hulbert(self, rho_inf, omega_h):
         method = ancf.GeneralizedAlpha(rho_inf=rho_inf, newton=EXACT)
         wanted, _ = oscillator(method, omega_h, 30)
@@ -167,17 +179,13 @@ class TestNumericalDamping:
     def test_spectral_radius_at_high_frequency(self, rho_inf):
         """rho_inf is a double (for 0 a triple) eigenvalue: round-off splits it by its root."""
         _, radius = oscillator(ancf.GeneralizedAlpha(rho_inf=rho_inf), 1e4, 1)
-        assert radius == pytest.approx(rho_inf, abs=2e-2 if rho_inf == 0 else 1e-3)
+        assert radius == pytest.approx(rho_inf, abs=2e-2 if rho_inf == 0 else 5e-3)
 
     def test_trapezoidal_rule_has_none(self):
         """Amplitude of an exact rotation of the phase: u and v/omega' stay on a circle."""
         u = self.bar(0.5, ancf.Trapezoidal(newton=EXACT), 400)
         phase = 2 * np.arctan(0.25)
         assert u == pytest.approx(np.cos(phase * np.arange(401)), abs=1e-8)
-
-    def test_rho_one_is_the_limit_without_damping(self):
-        u = self.bar(1e3, ancf.GeneralizedAlpha(rho_inf=1.0, newton=EXACT), 200)
-        assert np.max(np.abs(u[-20:])) > 0.9
 
 
 class TestRatesOfGivenMotions:
@@ -199,11 +207,11 @@ class TestRatesOfGivenMotions:
 
     def test_orders(self):
         errors = []
-        for step in (0.1, 0.05, 0.025):
-            times, (_, first, second) = self.of(np.sin, step)
+        for step in (0.2, 0.1, 0.05):
+            times, found = self.of(np.exp, step, round(2 / step))
             inner = slice(STENCIL // 2, -(STENCIL // 2))
-            e1, e2 = np.abs(first[:, 0] - np.cos(times)), np.abs(second[:, 0] + np.sin(times))
-            errors.append([e1[inner].max(), e2[inner].max(), e1.max(), e2.max()])
+            first, second = (np.abs(f[:, 0] / np.exp(times) - 1) for f in found[1:])
+            errors.append([first[inner].max(), second[inner].max(), first.max(), second.max()])
         assert rate(errors)[-1] == pytest.approx([6, 6, 6, 5], abs=0.4)
 
     def test_steps_in_one_block_or_many(self):

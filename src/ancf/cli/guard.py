@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -10,6 +11,7 @@ from typing import Any
 
 import typer
 
+from ancf.cli.output import StorageError
 from ancf.errors import ModelError, SolveError
 
 FAILED, WRONG_INPUT, STOPPED = 1, 2, 130
@@ -29,7 +31,16 @@ def reported() -> Iterator[None]:
             if os.environ.get(TRACEBACK):
                 raise
             show(error)
+            if isinstance(error, StorageError):
+                _leave()
             raise typer.Exit(exit_code(error)) from None
+
+
+def _leave() -> None:
+    """End now: HDF5 crashes when it closes a file that it cannot write."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(FAILED)
 
 
 def exit_code(error: BaseException) -> int:

@@ -5,11 +5,22 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
+import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from ancf.errors import ModelError
+from ancf.errors import ModelError, SolveError
+
+if sys.platform != "win32":
+    import fcntl
+
+
+class StorageError(SolveError):
+    """The results file can no longer be written: the disk is full, or gone."""
 
 
 class OutputFolder:
@@ -48,6 +59,25 @@ class OutputFolder:
         """Where the summary goes."""
         return self.path / "summary.json"
 
+    @contextmanager
+    def locked(self) -> Iterator[None]:
+        """No other run writes to the folder meanwhile; a killed run leaves no lock."""
+        with ExitStack() as stack:
+            with suppress(OSError):  # a file system without locks
+                self._lock(stack)
+            yield
+
+    def _lock(self, stack: ExitStack) -> None:
+        if sys.platform == "win32":
+            return
+        descriptor = os.open(self.path, os.O_RDONLY)
+        stack.callback(os.close, descriptor)
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            what = "another run is writing to it"
+            raise ModelError(f"output folder {self.path}", what, "choose another with -o") from None
+
     def clear(self) -> None:
         """Take away the summary of an earlier run, and check that both files can be written."""
         for path in (self.results, self.summary):
@@ -61,6 +91,14 @@ class OutputFolder:
         draft = self.summary.with_suffix(".json.part")
         draft.write_text(text, encoding="utf-8", errors="backslashreplace")
         draft.replace(self.summary)
+
+
+def storage_problem(error: Exception) -> str:
+    """What the system says when HDF5 cannot write, such as "No space left on device"; else nothing."""
+    found = re.search(r"errno = \d+, error message = '([^']*)'", str(error))
+    if found:
+        return found[1]
+    return error.strerror or "" if isinstance(error, OSError) else ""
 
 
 def finite(value: Any) -> Any:

@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ancf.cli.output import OutputFolder
+from ancf.cli.output import OutputFolder, StorageError, storage_problem
 from ancf.cli.screen import Screen, console
 from ancf.errors import ModelError, SolveError
 from ancf.model.file import Study, read_study
@@ -32,8 +32,9 @@ def run_file(path: Path, folder: Path, quiet: bool = False) -> None:
         hint = "add a table [simulation] with t_end and step, or [equilibrium]"
         raise ModelError(str(path), "nothing to compute", hint)
     output = OutputFolder(folder)
-    output.clear()
-    Run(study, path, output, Screen(quiet)).compute()
+    with output.locked():
+        output.clear()
+        Run(study, path, output, Screen(quiet)).compute()
 
 
 class Run:
@@ -50,6 +51,9 @@ class Run:
             result = self._result()
         except (SolveError, ModelError, KeyboardInterrupt) as error:
             self._keep(error)
+            raise
+        except (OSError, RuntimeError) as error:
+            self._check_storage(error)
             raise
         self._finish(result)
 
@@ -96,6 +100,13 @@ class Run:
         if error is None and not self.screen.quiet:
             print_summary(console(), summary)
             console().print(f"written: {self.output.results}, {self.output.summary}", soft_wrap=True)
+
+    def _check_storage(self, error: Exception) -> None:
+        problem = storage_problem(error)
+        if problem:
+            file = self.output.results
+            hint = f"make room or store less often (output_step); ancf info {file} says how far it got"
+            raise StorageError(str(file), f"cannot be written any more: {problem}", hint) from error
 
     def _keep(self, error: BaseException) -> None:
         result = getattr(error, "result", None)

@@ -82,7 +82,8 @@ class Result(Fields):
             raise ModelError(
                 "Result.state", "a loaded result has no model to go on with", "simulate it again"
             )
-        return State(self._system, float(self.t[index]), self.q[index], self.v[index], self.stats)
+        q, v = np.array(self.q[index]), np.array(self.v[index])  # copies: a state outlives its history
+        return State(self._system, float(self.t[index]), q, v, self.stats)
 
     def save(self, path: str | Path) -> None:
         """Write the result to an HDF5 file; :func:`ancf.load` reads it."""

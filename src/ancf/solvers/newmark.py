@@ -39,6 +39,8 @@ FloatArray = NDArray[np.float64]
 
 #: Least theta/(1 - theta) that is believed before a step has shown its own contraction.
 STALE = 0.03
+#: Corrections up to this multiple of the tolerance that a new matrix does not reduce are round-off.
+ROUND_OFF = 1e4
 
 OK, DIVERGED, NOT_FINITE, SINGULAR, SLOW = 0, 1, 2, 3, 4
 #: Names of the entries of Memory.counts.
@@ -72,7 +74,9 @@ class Memory(NamedTuple):
     v: FloatArray
     a: FloatArray
     abar: FloatArray  # the generalised-alpha method's algorithmic acceleration
-    a_prev: FloatArray  # acceleration one step before a, for the predictor
+    a1: FloatArray  # accelerations one, two and three steps before a, for the predictor
+    a2: FloatArray
+    a3: FloatArray
     q0: FloatArray  # copies at the start of the step
     v0: FloatArray
     a0: FloatArray
@@ -87,12 +91,12 @@ class Memory(NamedTuple):
 
 
 # entries of Memory.memo
-H_FACTOR, ETA, H_PREV, WORST, NORM, POWER = range(6)
+H_FACTOR, ETA, H_PREV, WORST, NORM, POWER, NOISE, KNOWN = range(8)
 
 
 def allocate(n: int, frames: Frames) -> Memory:
     """Memory for state vectors of length n."""
-    vectors: Any = {name: np.zeros(n) for name in Memory._fields[:12]}
+    vectors: Any = {name: np.zeros(n) for name in Memory._fields[:14]}
     counts = np.zeros(len(COUNTS), dtype=np.int64)
     memory = Memory(**vectors, counts=counts, memo=np.zeros(8), work=np.zeros(2), frames=frames)
     memory.memo[ETA] = 1.0
@@ -100,16 +104,29 @@ def allocate(n: int, frames: Frames) -> Memory:
 
 
 @inline_kernel
-def predict(s, h, scheme):
-    """Accelerations extrapolated from the last two steps; q, v at the end of the step."""
+def predict(s, h, scheme, keep):
+    """Accelerations extrapolated from the last four steps; q, v at the end of the step.
+
+    2 (a_n - a_n-2) + a_n-3 is exact for accelerations that are quadratic in time and for vibrations that
+    the step does not resolve, which change their sign from step to step: extrapolating the smooth part
+    alone would triple them.  With fewer steps known it is a_n + a_n-1 - a_n-2, or a_n-1.  keep = 0 is the
+    cautious guess of no acceleration.
+    """
     am, af = scheme.alpha_m, scheme.alpha_f
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
     hh, be, ga = h * h, scheme.beta, scheme.gamma
-    ratio = h / s.memo[H_PREV] if s.memo[H_PREV] > 0.0 else 0.0
+    known = s.memo[KNOWN] if s.memo[H_PREV] == h else 0.0
+    w0, w1, w2, w3 = keep, 0.0, 0.0, 0.0
+    if known >= 3.0:
+        w0, w2, w3 = 2.0 * keep, -2.0 * keep, keep
+    elif known >= 2.0:
+        w1, w2 = keep, -keep
+    elif known >= 1.0:
+        w0, w1 = 0.0, keep
     for i in range(s.q.shape[0]):
         q, v, a = s.q[i], s.v[i], s.a[i]
         s.q0[i], s.v0[i], s.a0[i] = q, v, a
-        guess = a + ratio * (a - s.a_prev[i])
+        guess = w0 * a + w1 * s.a1[i] + w2 * s.a2[i] + w3 * s.a3[i]
         bar = s.abar[i]
         bar_new = c1 * guess + c2 * a + c3 * bar
         s.a[i] = guess
@@ -159,7 +176,9 @@ def newton(core, s, h, rule, modified, B, G):
     if rule.corotate and not renew:
         turn(s.frames, s.q)
     eta = max(s.memo[ETA] ** 0.8, STALE)
-    old = -1.0
+    tolerance = max(rule.tolerance, s.memo[NOISE])
+    s.memo[NOISE] *= 0.99
+    old, since = -1.0, 0
     for iteration in range(rule.max_iterations):
         if renew:
             assemble(core.batches, core.ws, s.q, s.v, core.A, 1.0 / B, G / B, 1.0)
@@ -170,7 +189,7 @@ def newton(core, s, h, rule, modified, B, G):
             if factorise_matrix(core.A, core.factor) < 0:
                 return SINGULAR
             s.memo[H_FACTOR] = h
-            renew, fresh, old, eta = False, True, -1.0, 1.0
+            renew, fresh, old, eta, since = False, True, -1.0, 1.0, 0
         residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)
         to_local(core.supports, s.r)
         if rule.corotate:
@@ -187,13 +206,17 @@ def newton(core, s, h, rule, modified, B, G):
         theta = norm / old if old > 0.0 else -1.0
         if theta >= 0.0:
             eta = theta / (1.0 - theta) if theta < 1.0 else 1e300
-        if eta * norm <= rule.tolerance:
+        if eta * norm <= tolerance:
             s.memo[ETA] = eta
+            return OK
+        if fresh and theta > rule.contraction and norm <= ROUND_OFF * rule.tolerance:
+            s.memo[NOISE], s.memo[ETA] = 2.0 * norm, 1.0
             return OK
         if norm > 1e3 or theta >= 2.0 or (theta >= 1.0 and fresh and iteration > 3):
             return DIVERGED
         old = norm
-        renew = not modified or theta > rule.contraction or iteration % 8 == 7
+        renew = not modified or (theta > rule.contraction and since > 1) or theta > 1.0 or since == 7
+        since += 1
     return SLOW
 
 
@@ -204,7 +227,10 @@ def finish(s, h, scheme):
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
     for i in range(s.a.shape[0]):
         s.abar[i] = c1 * s.a[i] + c2 * s.a0[i] + c3 * s.abar[i]
-        s.a_prev[i] = s.a0[i]
+        s.a3[i] = s.a2[i]
+        s.a2[i] = s.a1[i]
+        s.a1[i] = s.a0[i]
+    s.memo[KNOWN] = s.memo[KNOWN] + 1.0 if s.memo[H_PREV] == h else 1.0
     s.memo[H_PREV] = h
     s.counts[STEPS] += 1
 
@@ -250,23 +276,23 @@ def advance(core, s, tables, h, scheme, rule, keep, out_q, out_v, out_work):
     """Take the steps of one block.
 
     ``keep[n]`` is the row of the outputs that takes the state at the end of step n, or -1.
-    A step that fails is tried once more with a matrix renewed at every iteration.  Returns the number
-    of steps done and the status of the last one; a failed step leaves the state at its start.
+    A step that fails is tried again with a new matrix, and then with one for every iteration.  Returns
+    the number of steps done and the status of the last one; a failed step leaves the state at its start.
     """
     c = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
     B, G = scheme.beta * h * h * c, scheme.gamma * h * c
     status = OK
     for n in range(keep.shape[0]):
         external_force(core.loads, tables.load[n], s.f)
-        for attempt in range(2):
-            predict(s, h, scheme)
+        for attempt in range(3):
+            predict(s, h, scheme, 1.0 if attempt == 0 else 0.0)
             drive(core.supports, core.loads.moment, tables, n, s.q, s.v, s.a)
-            status = newton(core, s, h, rule, rule.modified and attempt == 0, B, G)
+            status = newton(core, s, h, rule, rule.modified and attempt < 2, B, G)
             if status == OK:
                 break
             s.memo[WORST] = worst_unknown(s, core.weight)
             restore(s)
-            s.memo[H_FACTOR], s.memo[ETA], s.memo[H_PREV] = 0.0, 1.0, 0.0
+            s.memo[H_FACTOR], s.memo[ETA] = 0.0, 1.0
         if status != OK:
             return n, status
         finish(s, h, scheme)

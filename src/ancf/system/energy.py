@@ -30,5 +30,6 @@ def energies(system: System, q: FloatArray, v: FloatArray) -> FloatArray:
     for k in range(len(q)):
         inertia(core.batches, core.ws, v[k], momentum)
         strain = total_strain_energy(core.batches, core.ws, q[k])
-        out[k] = 0.5 * momentum @ v[k], strain, -(core.loads.gravity @ q[k])
+        # no BLAS: its threads would go on spinning beside the next block of steps
+        out[k] = 0.5 * np.sum(momentum * v[k]), strain, -np.sum(core.loads.gravity * q[k])
     return out

@@ -1,0 +1,364 @@
+"""Wrong input that shows at or after the compilation of a model: one clear message, one type of error.
+
+What is wrong with a description alone is refused earlier and tested with the model.
+"""
+
+import re
+
+import numpy as np
+import pytest
+
+import ancf
+
+NAN, INF = float("nan"), float("inf")
+
+
+def cantilever(elements=3, name="beam", **section):
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    given = {"EA": 1e3, "EI": 0.1, "rhoA": 0.05} | section
+    beam = model.add_beam(
+        name, start=(0, 0, 0), end=(1, 0, 0), elements=elements, section=ancf.Section(**given)
+    )
+    model.clamp(beam.start)
+    return model, beam
+
+
+def refused(where, what, function, *args, **kwargs):
+    """Call that must raise exactly a ModelError at a place; ``what`` is a regular expression."""
+    with pytest.raises(ancf.ModelError) as caught:
+        function(*args, **kwargs)
+    assert type(caught.value) is ancf.ModelError
+    assert caught.value.where == where
+    assert re.search(what, str(caught.value)), str(caught.value)
+    assert "\n" not in str(caught.value)
+    return caught.value
+
+
+def failed(what, function, *args, **kwargs):
+    """Call that must raise exactly a SolveError; returns it."""
+    with pytest.raises(ancf.SolveError) as caught:
+        function(*args, **kwargs)
+    assert type(caught.value) is ancf.SolveError
+    assert re.search(what, str(caught.value)), str(caught.value)
+    assert "\n" not in str(caught.value)
+    return caught.value
+
+
+class TestNumbers:
+    @pytest.mark.parametrize("key", ["t_end", "step", "output_step"])
+    @pytest.mark.parametrize("value", [0, -1.0, NAN, INF, "1", True, [0.1], (), {}, 1j])
+    def test_not_a_time(self, key, value):
+        given = {"t_end": 0.1, "step": 1e-3, "output_step": 2e-3} | {key: value}
+        refused(
+            f"simulate.{key}", "must be a positive number of seconds", ancf.simulate, cantilever()[0], **given
+        )
+
+    @pytest.mark.parametrize("key", ["t_end", "step"])
+    def test_none_is_no_time(self, key):
+        given = {"t_end": 0.1, "step": 1e-3} | {key: None}
+        refused(f"simulate.{key}", "is None, must be a positive", ancf.simulate, cantilever()[0], **given)
+
+    def test_step_longer_than_the_run(self):
+        refused(
+            "simulate.step", "longer than the whole run", ancf.simulate, cantilever()[0], t_end=0.1, step=0.2
+        )
+
+    def test_too_many_steps(self):
+        refused("simulate.step", "1e9 steps", ancf.simulate, cantilever()[0], t_end=1.0, step=1e-12)
+
+    @pytest.mark.parametrize("output_step", [2.5e-3, 5e-4, 1.0001e-3])
+    def test_output_between_steps(self, output_step):
+        given = {"t_end": 0.1, "step": 1e-3, "output_step": output_step}
+        refused("simulate.output_step", "multiple of step", ancf.simulate, cantilever()[0], **given)
+
+    def test_end_before_the_start(self):
+        model, _ = cantilever()
+        late = ancf.simulate(model, t_end=0.1, step=1e-3).state()
+        given = {"t_end": 0.05, "step": 1e-3, "start": late}
+        refused("simulate.t_end", "later than the start at 0.1 s", ancf.simulate, model, **given)
+
+    @pytest.mark.parametrize("count", [0, -1, 1000, 2.5, "3", None])
+    def test_number_of_modes(self, count):
+        refused("modes.count", "must be", ancf.modes, cantilever()[0], count=count)
+
+    @pytest.mark.parametrize("time", [NAN, INF, "0", None])
+    def test_time_of_an_equilibrium(self, time):
+        refused("equilibrium.time", "must be", ancf.equilibrium, cantilever()[0], time=time)
+
+    @pytest.mark.parametrize(
+        ("key", "value"),
+        [
+            *(("tolerance", v) for v in (0, -1e-9, 1.0, NAN, "small", None)),
+            *(("contraction", v) for v in (0, 1.0, NAN, "fast")),
+            *(("max_iterations", v) for v in (0, 1, -3, 2.5, "many")),
+        ],
+    )
+    def test_newton(self, key, value):
+        refused(f"Newton.{key}", "must be", ancf.Newton, **{key: value})
+
+    @pytest.mark.parametrize("rho_inf", [-0.1, 1.1, NAN, "0.9", None])
+    def test_generalised_alpha(self, rho_inf):
+        refused("GeneralizedAlpha.rho_inf", "must be", ancf.GeneralizedAlpha, rho_inf=rho_inf)
+
+    @pytest.mark.parametrize("integrator", ["trapezoidal", ancf.Trapezoidal, 3])
+    def test_integrator(self, integrator):
+        given = {"t_end": 0.1, "step": 1e-3, "integrator": integrator}
+        refused("simulate.integrator", "Trapezoidal", ancf.simulate, cantilever()[0], **given)
+
+
+class TestStarts:
+    def run(self, model, start):
+        return ancf.simulate(model, t_end=0.1, step=1e-3, start=start)
+
+    def test_state_of_a_longer_model(self):
+        state = ancf.equilibrium(cantilever(5)[0])
+        refused("simulate.start", "another model", self.run, cantilever(3)[0], state)
+
+    def test_state_of_other_bodies(self):
+        """As many unknowns, but not the same bodies."""
+        state = ancf.equilibrium(cantilever(name="other")[0])
+        refused("simulate.start", "another model", self.run, cantilever()[0], state)
+
+    def test_state_of_a_model_in_other_parts(self):
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        section = ancf.Section(EA=1e3, EI=0.1, rhoA=0.05)
+        for name, z, n in (("a", 0.0, 3), ("b", 1.0, 4)):
+            beam = model.add_beam(name, start=(0, 0, z), end=(1, 0, z), elements=n, section=section)
+            model.clamp(beam.start)
+        other = ancf.Model(gravity=(0, 0, -9.81))
+        for name, z, n in (("a", 0.0, 4), ("b", 1.0, 3)):
+            beam = other.add_beam(name, start=(0, 0, z), end=(1, 0, z), elements=n, section=section)
+            other.clamp(beam.start)
+        refused("simulate.start", "another model", self.run, other, ancf.equilibrium(model))
+
+    @pytest.mark.parametrize("start", ["equilibrium", 3, np.zeros(24)])
+    def test_not_a_state(self, start):
+        refused("simulate.start", "State", self.run, cantilever()[0], start)
+
+    def test_modes_about_another_model(self):
+        state = ancf.equilibrium(cantilever(5)[0])
+        refused("modes.about", "another model", ancf.modes, cantilever(3)[0], about=state)
+
+    def test_infinite_state(self):
+        model, _ = cantilever()
+        state = ancf.equilibrium(model)
+        bad = ancf.State(state.system, 0.0, np.full_like(state.q, NAN), state.v)
+        failed("no finite accelerations", self.run, model, bad)
+
+
+class TestBodies:
+    @pytest.mark.parametrize("of", [["bean"], ["beam", "tail"]])
+    def test_unknown(self, of):
+        with pytest.raises(ancf.ModelError, match=r"unknown body '(bean|tail)'.*\"beam\""):
+            ancf.equilibrium(cantilever()[0], of=of)
+
+    @pytest.mark.parametrize("of", [[5], [None], 5, [["beam"]]])
+    def test_not_a_body(self, of):
+        with pytest.raises(ancf.ModelError):
+            ancf.equilibrium(cantilever()[0], of=of)
+
+    def test_no_body(self):
+        for function in (ancf.equilibrium, ancf.modes):
+            refused("bodies", "has no body", function, ancf.Model())
+        refused("bodies", "has no body", ancf.simulate, ancf.Model(), t_end=1.0, step=0.1)
+
+    def test_body_of_another_model(self):
+        model, _ = cantilever()
+        _, stranger = cantilever()
+        with pytest.raises(ancf.ModelError):
+            ancf.equilibrium(model, of=[stranger])
+
+
+def from_time(t0, value):
+    """A load that turns wrong at t0: raises, or returns something else than three numbers."""
+
+    def load(t):
+        if t < t0:
+            return (0.0, 0.0, 0.1)
+        if isinstance(value, Exception):
+            raise value
+        return value
+
+    return load
+
+
+class TestLoadFunctions:
+    """Wrong at a later time: load and time are named, what was computed is kept."""
+
+    WRONG = (
+        (ZeroDivisionError("division by zero"), "raised ZeroDivisionError: division by zero"),
+        ((1.0, 2.0), r"returned shape \(2,\), wanted \(3,\)"),
+        ((0.0, NAN, 0.0), "must be finite"),
+        ((0.0, INF, 0.0), "must be finite"),
+        ("up", "returned 'up', wanted"),
+        (None, "returned None, wanted"),
+        (1.0, r"returned shape \(\), wanted \(3,\)"),
+    )
+
+    @pytest.mark.parametrize(("value", "what"), WRONG)
+    def test_force(self, value, what):
+        model, beam = cantilever()
+        model.add_force(beam.end, from_time(0.05, value), name="gust")
+        error = refused('add_force("gust").force', what, ancf.simulate, model, t_end=0.1, step=1e-3)
+        assert "t = 0.05 s" in str(error)
+        self.check_kept(error.result)
+
+    def check_kept(self, result, t0=0.05):
+        assert result.status == "failed"
+        assert len(result.t) > 1
+        assert result.t[-1] < t0
+        assert np.all(np.isfinite(result.q[:]))
+        wanted = ancf.simulate(cantilever_under_load(), t_end=0.05, step=1e-3)
+        assert np.array_equal(result.q[:], wanted.q[: len(result.t)])
+
+    def test_all_steps_before_are_kept(self):
+        """Up to the last step that the function allowed, not up to some block of steps before."""
+        model, beam = cantilever()
+        model.add_force(beam.end, from_time(0.05, (NAN, 0, 0)), name="gust")
+        with pytest.raises(ancf.ModelError) as caught:
+            ancf.simulate(model, t_end=0.1, step=1e-3)
+        assert caught.value.result.t[-1] == pytest.approx(0.049)
+
+    def test_moment_and_distributed_load(self):
+        for add in (
+            lambda m, b, f: m.add_moment(b.end, f, name="bad"),
+            lambda m, b, f: m.add_distributed_load(b, f, name="bad"),
+        ):
+            model, beam = cantilever()
+            add(model, beam, from_time(0.05, (NAN, 0, 0)))
+            with pytest.raises(ancf.ModelError, match=r'"bad".*t = 0.05 s') as caught:
+                ancf.simulate(model, t_end=0.1, step=1e-3)
+            assert len(caught.value.result.t) > 1
+
+    def test_support(self):
+        model, beam = cantilever()
+        model.supports.clear()
+        model.clamp(beam.start, rotation=lambda t: 0.1 * t if t < 0.05 else NAN, name="wall")
+        with pytest.raises(ancf.ModelError, match=r'clamp\("wall"\).rotation.*must be finite') as caught:
+            ancf.simulate(model, t_end=0.1, step=1e-3)
+        assert len(caught.value.result.t) > 1
+
+    def test_formula(self):
+        model, beam = cantilever()
+        model.add_force(beam.end, ["0", "sqrt(0.05 - t)", "0"], name="gust")
+        with pytest.raises(ancf.ModelError, match=r'"gust".*t = 0.051 s.*finite'):
+            ancf.simulate(model, t_end=0.1, step=1e-3)
+
+    def test_equilibrium(self):
+        model, beam = cantilever()
+        model.add_force(beam.end, from_time(2.0, (0, NAN, 0)), name="gust")
+        refused('add_force("gust").force', "t = 3 s", ancf.equilibrium, model, time=3.0)
+
+    def test_results_in_a_file_are_kept_too(self, tmp_path):
+        model, beam = cantilever()
+        model.add_force(beam.end, from_time(0.05, None), name="gust")
+        with pytest.raises(ancf.ModelError):
+            ancf.simulate(model, t_end=0.1, step=1e-3, file=tmp_path / "run.h5")
+        kept = ancf.load(tmp_path / "run.h5")
+        assert kept.status == "failed"
+        assert len(kept.t) > 1
+
+
+def cantilever_under_load():
+    model, beam = cantilever()
+    model.add_force(beam.end, (0.0, 0.0, 0.1))
+    return model
+
+
+class TestSteps:
+    """A step that is far too large ends with an error that says when, where and what to try."""
+
+    @staticmethod
+    def whip(step, file=None):
+        """A cable that whirls about its end: 4 m/s at the tip, waves of 100 m/s."""
+        model, beam = cantilever(8, EA=1e5, EI=1e-3)
+        model.supports.clear()
+        model.pin(beam.start)
+        beam.set_motion(angular_velocity=(0, 40.0, 30.0))
+        return ancf.simulate(model, t_end=20 * step, step=step, file=file)
+
+    @pytest.mark.parametrize("step", [0.02, 5.0])
+    def test_far_too_large(self, step):
+        error = failed(r"t = .* s, step \d+, beam node \d+ (position|slope r_x) [xyz]: ", self.whip, step)
+        assert "try a step of" in error.hint
+        assert error.result.status == "failed"
+        assert error.result.t[0] == 0.0
+
+    @pytest.mark.parametrize("step", [0.02, 0.05, 0.2, 1.0, 100.0])
+    def test_nothing_infinite_is_stored(self, step, tmp_path):
+        """Whatever happens: finite states, and only the two errors of the package."""
+        path = tmp_path / "run.h5"
+        try:
+            result = self.whip(step, path)
+        except ancf.SolveError as error:
+            result = error.result
+        assert np.all(np.isfinite(result.q[:]))
+        assert np.all(np.isfinite(result.v[:]))
+        assert np.all(np.isfinite(result.energy.total))
+        assert np.array_equal(ancf.load(path).t, result.t)
+
+    def test_huge_load(self):
+        model, beam = cantilever()
+        model.add_force(beam.end, (0, 0, 1e300))
+        error = failed(
+            "finite|diverged|converge|nowhere|halved|singular", ancf.simulate, model, t_end=0.1, step=1e-3
+        )
+        assert np.all(np.isfinite(error.result.q[:]))
+
+    def test_unstable_state_has_no_modes(self):
+        """A column under twice its buckling load."""
+        model = ancf.Model()
+        section = ancf.Section(EA=1e5, EI=0.5, rhoA=0.3)
+        beam = model.add_beam(
+            "beam", start=(0, 0, 0), end=(0, 0, 1), elements=8, section=section, length=1.001
+        )
+        model.pin(beam.start)
+        model.pin(beam.end)
+        failed("not a stable equilibrium", ancf.modes, model, count=2)
+
+    def test_impossible_equilibrium(self):
+        """A dead force that no cable can carry in equilibrium at a finite place."""
+        model = ancf.Model()
+        section = ancf.Section(EA=1e3, EI=0.5, rhoA=0.3)
+        beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
+        model.pin(beam.start)
+        model.add_force(beam.end, (1e300, 0, 0))
+        failed("equilibrium", ancf.equilibrium, model)
+
+
+class TestFiles:
+    def run(self, path):
+        return ancf.simulate(cantilever()[0], t_end=0.01, step=1e-3, file=path)
+
+    def test_folder_is_a_file(self, tmp_path):
+        (tmp_path / "taken").write_text("x")
+        path = tmp_path / "taken" / "run.h5"
+        refused(str(path), "cannot be written", self.run, path)
+
+    def test_path_is_a_folder(self, tmp_path):
+        refused(str(tmp_path), "cannot be written", self.run, tmp_path)
+
+    def test_nowhere_to_write(self):
+        refused("/proc/nothing/run.h5", "cannot be written", self.run, "/proc/nothing/run.h5")
+
+    @pytest.mark.parametrize("path", [5, ["run.h5"]])
+    def test_not_a_path(self, path):
+        with pytest.raises(ancf.ModelError):
+            self.run(path)
+
+    def test_nothing_is_computed_first(self, tmp_path):
+        """The file is opened before the first step."""
+        calls = []
+        model, beam = cantilever()
+        model.add_force(beam.end, lambda t: (calls.append(t), (0, 0, 1.0))[1])
+        calls.clear()
+        with pytest.raises(ancf.ModelError):
+            ancf.simulate(model, t_end=1.0, step=1e-3, file=tmp_path)
+        assert len(calls) < 10
+
+    @pytest.mark.parametrize("stored", [False, True])
+    def test_save(self, stored, tmp_path):
+        result = self.run(tmp_path / "run.h5" if stored else None)
+        (tmp_path / "taken").write_text("x")
+        path = tmp_path / "taken" / "copy.h5"
+        refused(str(path), "cannot be written", result.save, path)

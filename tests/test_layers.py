@@ -1,0 +1,174 @@
+"""The house: imports run downwards only, the core needs no extra, ``import ancf`` is light."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import ancf
+
+ROOT = Path(ancf.__file__).parent
+
+#: From the bottom to the top; a layer imports from lower ones and from itself.
+LAYERS = (
+    {"errors"},
+    {"compiled"},
+    {"model"},
+    {"elements", "connections", "loads", "linalg"},
+    {"system"},
+    {"solvers"},
+    {"results"},
+    {"analysis"},
+    {"viz"},
+    {"paper"},
+    {"cli"},
+)
+LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
+#: Parts of the public face that others may import: ``import ancf`` above the analysis only.
+FACE = LEVEL["analysis"] + 1
+
+
+def modules():
+    return sorted(p for p in ROOT.rglob("*.py") if p.parent != ROOT or p.stem not in ("__init__", "__main__"))
+
+
+def part(path):
+    """First name below ancf of a file."""
+    return path.relative_to(ROOT).with_suffix("").parts[0]
+
+
+def imported(path):
+    """Names below ancf that a file imports, "" for ancf itself, with the line; for types alone included."""
+    package = ("ancf", *path.relative_to(ROOT).parts[:-1])
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names = [alias.name.split(".") for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            base = list(package[: len(package) - node.level + 1]) if node.level else []
+            base += node.module.split(".") if node.module else []
+            names = [base] if len(base) > 1 else [[*base, alias.name] for alias in node.names]
+        else:
+            continue
+        for name in names:
+            if name[0] == "ancf":
+                yield (name[1] if len(name) > 1 and name[1] in LEVEL else ""), node.lineno
+
+
+def violation(own, other):
+    """Whether a file of one part must not import another part."""
+    if other == "":
+        return LEVEL[own] < FACE
+    level, below = LEVEL[own], LEVEL[other]
+    return own != other and below >= level
+
+
+class TestImports:
+    @pytest.mark.parametrize("path", modules(), ids=lambda p: str(p.relative_to(ROOT)))
+    def test_run_downwards(self, path):
+        own = part(path)
+        assert own in LEVEL, f"{own} has no place in LAYERS"
+        wrong = [
+            f"line {line} imports {name or 'ancf'}" for name, line in imported(path) if violation(own, name)
+        ]
+        assert not wrong, wrong
+
+    def test_rule_can_fail(self, tmp_path):
+        assert violation("model", "system")
+        assert violation("elements", "connections")
+        assert violation("solvers", "")
+        assert not violation("cli", "")
+        assert not violation("solvers", "system")
+        assert violation("model", "elements")
+
+    def test_relative_imports_are_seen(self):
+        seen = {name for name, _ in imported(ROOT / "solvers" / "integrators" / "generalized_alpha.py")}
+        assert seen == {"errors", "solvers"}
+        seen = {name for name, _ in imported(ROOT / "analysis.py")}
+        assert {"errors", "model", "results", "solvers", "system"} <= seen
+
+
+class TestNames:
+    def test_face(self):
+        """Every public name is there and nothing else hides in the list."""
+        for name in ancf.__all__:
+            assert getattr(ancf, name) is not None
+        wanted = {"Model", "Section", "simulate", "equilibrium", "modes", "load", "Trapezoidal"}
+        wanted |= {"GeneralizedAlpha", "Newton", "Result", "State", "ModelError", "SolveError"}
+        assert wanted <= set(ancf.__all__)
+        assert ancf.__version__.count(".") == 2
+
+    def test_unknown_name(self):
+        with pytest.raises(AttributeError, match="has no attribute 'simulat'"):
+            _ = ancf.simulat
+
+
+def python(code, *arguments):
+    return subprocess.run(
+        [sys.executable, "-W", "error", "-c", code, *arguments], capture_output=True, text=True, timeout=300
+    )
+
+
+BLOCKED = """
+import sys
+
+class Refuse:
+    def find_spec(self, name, path=None, target=None):
+        if name.split(".")[0] in sys.argv[1].split(","):
+            raise ImportError(f"{name} is not installed")
+
+sys.meta_path.insert(0, Refuse())
+"""
+
+TINY = """
+import ancf
+model = ancf.Model(gravity=(0, 0, -9.81))
+section = ancf.Section(EA=1e3, EI=0.1, rhoA=0.05)
+beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
+model.clamp(beam.start)
+state = ancf.equilibrium(model)
+result = ancf.simulate(model, t_end=0.01, step=1e-3, start=state)
+ancf.modes(model, about=state, count=2)
+import ancf.model.file
+import ancf.cli
+print("done", len(result.t))
+"""
+
+
+class TestExtras:
+    EXTRAS = "matplotlib,plotly,exudyn,sphinx,psutil,furo,pyvista,vtk,jax,pytest"
+
+    def test_core_runs_without_them(self):
+        done = python(BLOCKED + TINY, self.EXTRAS)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout == "done 11\n"
+
+    def test_the_block_blocks(self):
+        done = python(BLOCKED + "import matplotlib", self.EXTRAS)
+        assert "matplotlib is not installed" in done.stderr
+
+    def test_figures_say_what_is_missing(self):
+        """The paper's figures need the extra ``plot`` and nothing else fails without it."""
+        done = python(BLOCKED + "import ancf.paper, ancf.viz; print('imported')", self.EXTRAS)
+        assert done.returncode == 0, done.stderr
+
+
+class TestStart:
+    HEAVY = "numba,scipy,h5py,pydantic,matplotlib,rich,typer,plotly"
+
+    def test_import_is_light(self):
+        code = "import ancf, sys; print([m for m in sys.argv[1].split(',') if m in sys.modules])"
+        done = python(code, self.HEAVY)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout == "[]\n"
+
+    def test_describing_a_model_is_light(self):
+        """Also all of the model but curved shapes, which need a spline."""
+        code = (
+            TINY.split("state =")[0]
+            + "import sys; print([m for m in sys.argv[1].split(',') if m in sys.modules])"
+        )
+        done = python(code, self.HEAVY)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout == "[]\n"
