@@ -85,7 +85,7 @@ class TestBending:
             radius, angle = 3.0 / M, M * x / 3.0
             wanted = (radius * np.sin(angle), 0, radius * (1 - np.cos(angle)))
             assert state.position(beam.at(x)) == pytest.approx(wanted, abs=2e-5)
-            assert state.curvature(beam.at(x)) == pytest.approx(1 / radius, rel=2e-3)
+            assert state.curvature(beam.at(x)) == pytest.approx(1 / radius, rel=5e-3)  # order 2
         assert state.tension(beam.at(1.0)) == pytest.approx(0, abs=1e-3)
 
     def test_moment_about_any_axis(self):

@@ -84,7 +84,7 @@ class TestImports:
 
     def test_relative_imports_are_seen(self):
         seen = {name for name, _ in imported(ROOT / "solvers" / "integrators" / "generalized_alpha.py")}
-        assert seen == {"errors", "solvers"}
+        assert {"errors", "solvers"} <= seen
         seen = {name for name, _ in imported(ROOT / "analysis.py")}
         assert {"errors", "model", "results", "solvers", "system"} <= seen
 

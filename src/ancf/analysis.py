@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from .errors import Interrupted, ModelError, SolveError
+from .model import checks
 from .model.beam import Beam
 from .model.model import Model
 from .results.modes import Modes
@@ -19,7 +20,7 @@ from .results.result import Result, load
 from .results.state import State
 from .results.store import FileStore, MemoryStore
 from .solvers import statics
-from .solvers.integrators import Integrator, Trapezoidal
+from .solvers.integrators import INTEGRATORS, Integrator, Trapezoidal
 from .solvers.modal import natural_modes
 from .solvers.stepping import Progress, Run
 from .system.system import System
@@ -54,9 +55,9 @@ def equilibrium(
     SolveError
         No equilibrium was found.
     """
-    if isinstance(load_steps, bool) or not isinstance(load_steps, int) or load_steps < 1:
-        raise ModelError("equilibrium.load_steps", f"is {load_steps!r}, must be a whole number from 1")
-    names = None if of is None else [model.body(b if isinstance(b, str) else b.name).name for b in of]
+    checks.integer(load_steps, "equilibrium.load_steps", 1, 100_000)
+    time = checks.number(time, "equilibrium.time")
+    names = None if of is None else _names(model, of)
     system = System(model)
     q, stats = statics.equilibrium(system, names, load_steps, time)
     return State(system, float(time), q, system.motion(q, time), stats)
@@ -105,11 +106,18 @@ def simulate(
     Interrupted
         Ctrl-C; ``interrupt.result`` holds what was computed until then.
     """
+    if start is not None and not isinstance(start, State):
+        raise ModelError(
+            "simulate.start", f"must be a State, is {checks.shown(start)}", "see ancf.equilibrium"
+        )
+    method = Trapezoidal() if integrator is None else integrator
+    if not isinstance(method, tuple(INTEGRATORS.values())):
+        known = "ancf.Trapezoidal() or ancf.GeneralizedAlpha(rho_inf)"
+        raise ModelError("simulate.integrator", f"must be {known}, is {checks.shown(method)}")
     t0 = 0.0 if start is None else start.t
     every = _check_times(t0, t_end, step, output_step)
-    method = Trapezoidal() if integrator is None else integrator
-    system = System(model) if start is None or start.system.model is not model else start.system
-    q, v = system.initial_state(t0) if start is None else _start_vectors(start, system)
+    system = System(model)  # anew: the model may have changed since the start was computed
+    q, v = system.initial_state(t0) if start is None else _adopted(start, system, "simulate.start")
     header = _header(model, method, t0, t_end, step, output_step)
     run = Run(system, method, t0, t_end, step, every)
     run.start(q, v)
@@ -150,27 +158,50 @@ def modes(model: Model, *, about: State | None = None, count: int = 10) -> Modes
     SolveError
         The state is not a stable equilibrium.
     """
+    system = System(model)
     if about is None:
-        system = System(model)
         q, v = system.initial_state()
         about = State(system, 0.0, q, np.zeros_like(v))
+    elif isinstance(about, State):
+        about = State(system, about.t, *_adopted(about, system, "modes.about"))
+    else:
+        raise ModelError("modes.about", f"must be a State, is {checks.shown(about)}", "see ancf.equilibrium")
     omega, shapes = natural_modes(about.system, about.q, count)
     return Modes(omega, shapes, about)
 
 
-def _start_vectors(start: State, system: System) -> tuple[Any, Any]:
-    if start.q.shape != (system.size,):
-        raise ModelError("simulate.start", "is a state of another model", "compute it from this model")
-    return start.q.copy(), start.v.copy()
+def _names(model: Model, of: Any) -> list[str]:
+    """Names of the bodies that ``of`` lists."""
+    if isinstance(of, str | Beam) or not isinstance(of, Sequence):
+        raise ModelError("equilibrium.of", f"must be a list of bodies, is {checks.shown(of)}")
+    found = []
+    for k, item in enumerate(of):
+        if isinstance(item, Beam) and model.bodies.get(item.name) is not item:
+            raise ModelError(f"equilibrium.of[{k}]", f'body "{item.name}" belongs to another model')
+        if not isinstance(item, str | Beam):
+            raise ModelError(f"equilibrium.of[{k}]", f"must be a body or its name, is {checks.shown(item)}")
+        found.append(model.body(item if isinstance(item, str) else item.name).name)
+    return found
+
+
+def _adopted(state: State, system: System, where: str) -> tuple[Any, Any]:
+    """State vectors of a state in the numbering of a system with the same bodies."""
+    mine, theirs = system.model.bodies, state.bodies
+    same = mine.keys() == theirs.keys() and all(
+        np.array_equal(mine[n].node_x, theirs[n].node_x) and mine[n].element == theirs[n].element
+        for n in mine
+    )
+    if not same:
+        raise ModelError(where, "is a state of another model: its bodies or their nodes differ")
+    return system.adopt(state.slots, state.q, state.v, state.t)
 
 
 def _check_times(t0: float, t_end: float, step: float, output_step: float | None) -> int:
     """Check the times and return the number of steps between outputs."""
-    given: list[tuple[str, Any]] = [("t_end", t_end), ("step", step)]
-    for name, value in given + ([] if output_step is None else [("output_step", output_step)]):
-        number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
-        if not number or not np.isfinite(value) or value <= 0:
-            raise ModelError(f"simulate.{name}", f"is {value!r}, must be a positive number of seconds")
+    checks.positive(t_end, "simulate.t_end")
+    checks.positive(step, "simulate.step")
+    if output_step is not None:
+        checks.positive(output_step, "simulate.output_step")
     if t_end <= t0:
         raise ModelError("simulate.t_end", f"is {t_end:g} s, must be later than the start at {t0:g} s")
     if step > (t_end - t0) * (1 + 1e-12):

@@ -41,7 +41,7 @@ from .lanes import (
     inertia_force,
 )
 from .lanes_damping import axial_damping, bending_damping, bending_damping_tangent, dot, shape_at
-from .lanes_tangent import BLOCKS, slot_entry, spread_axial, spread_bending
+from .lanes_tangent import BLOCKS, PLACES, add_block, spread_axial, spread_bending
 from .shapes import FloatArray
 
 
@@ -183,17 +183,14 @@ def store_tangent(batch, A, ws, chunk, c_mass, c_damping):
     """Add stiffness blocks and mass of a chunk to the block values A."""
     for m in range(batch.first[chunk + 1] - batch.first[chunk]):
         e = batch.first[chunk] + m
-        length = ws[LENGTH * LANES + m]
+        length, il = ws[LENGTH * LANES + m], ws[INV_L * LANES + m]
         mass = (c_mass + c_damping * ws[VISCOUS * LANES + m]) * ws[MASS * LANES + m]
         for x in range(4):
             for y in range(4):
                 place = batch.dest[e, 4 * x + y]
-                if place < 0:
-                    continue
-                for i in range(3):
-                    A[place + 7 * i] += mass * mass_entry(x, y, length)
-                    for j in range(3):
-                        A[place + 6 * i + j] += slot_entry(ws, x, y, i, j, m)
+                if place >= 0:
+                    scale = (il * (x - 1.0) if x % 2 == 0 else 1.0) * (il * (y - 1.0) if y % 2 == 0 else 1.0)
+                    add_block(A, place, ws, PLACES[4 * x + y], m, scale, mass * mass_entry(x, y, length))
 
 
 @inline_kernel

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..compiled import inline_kernel
 from .lanes import INV_L, K11, K12, K22, KD1, KD2, KDD, KPP, KPS, KSS, LANES
 
@@ -61,16 +64,25 @@ def spread_bending(ws, gp, g):
 
 
 @inline_kernel
-def slot_entry(ws, x, y, i, j, m):
-    """Entry (i, j) of the stiffness between slots x and y of (r1, r_x1, r2, r_x2), lane m."""
-    bx = 0 if x % 2 == 0 else (x + 1) // 2  # d, t1, d, t2
-    by = 0 if y % 2 == 0 else (y + 1) // 2
-    sign = 1.0
-    if bx == 0:
-        sign *= ws[INV_L * LANES + m] * (x - 1.0)
-    if by == 0:
-        sign *= ws[INV_L * LANES + m] * (y - 1.0)
-    if bx > by:
-        bx, by, i, j = by, bx, j, i
-    block = by if bx == 0 else bx + by + 1  # KDD KD1 KD2 K11 K12 K22
-    return sign * ws[(KDD + 9 * block + 3 * i + j) * LANES + m]
+def add_block(A, place, ws, origin, m, scale, mass):
+    """Add scale times a 3x3 block of lane m, and mass times the unit matrix, to A at ``place``."""
+    first, row, column = origin[0] * LANES + m, origin[1] * LANES, origin[2] * LANES
+    for i in range(3):
+        A[place + 7 * i] += mass
+        for j in range(3):
+            A[place + 6 * i + j] += scale * ws[first + i * row + j * column]
+
+
+def _places() -> NDArray[np.int64]:
+    """First row and strides of the 3x3 block between slots x and y of (r1, r_x1, r2, r_x2), shape (16, 3)."""
+    blocks = {(0, 0): KDD, (0, 1): KD1, (0, 2): KD2, (1, 1): K11, (1, 2): K12, (2, 2): K22}
+    part = (0, 1, 0, 2)  # r1 and r2 act through d
+    rows = []
+    for x in range(4):
+        for y in range(4):
+            i, j = part[x], part[y]
+            rows.append((blocks[i, j], 3, 1) if i <= j else (blocks[j, i], 1, 3))
+    return np.array(rows, dtype=np.int64)
+
+
+PLACES = _places()

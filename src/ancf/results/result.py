@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ModelError
+from ..model import checks
 from ..model.beam import Beam
 from ..model.section import Section
 from ..solvers.stepping import Stats
@@ -88,7 +89,7 @@ class Result(Fields):
     def save(self, path: str | Path) -> None:
         """Write the result to an HDF5 file; :func:`ancf.load` reads it."""
         if isinstance(self._store, ReadStore):
-            shutil.copyfile(self._store.path, path)
+            _copy(self._store.path, path)
             return
         if self._system is None:
             raise ModelError(str(path), "there is nothing to save")
@@ -115,6 +116,17 @@ def load(path: str | Path, system: System | None = None) -> Result:
     """
     store = ReadStore(path)
     return Result(store, store.header, system)
+
+
+def _copy(source: Path, path: str | Path) -> None:
+    if not isinstance(path, str | Path):
+        raise ModelError("save", f"must be given a path, is given {checks.shown(path)}")
+    try:
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        if Path(path).resolve() != source.resolve():
+            shutil.copyfile(source, path)
+    except OSError as error:
+        raise ModelError(str(path), f"cannot be written: {error}", "choose another folder") from None
 
 
 def _read_layout(group: Any) -> tuple[dict[str, Beam], dict[str, IntArray]]:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ModelError
+from ..model import checks
 from ..solvers.newmark import COUNTS
 from ..solvers.stepping import Stats
 from ..system.energy import energies
@@ -103,9 +104,12 @@ class FileStore:
 
     def __init__(self, path: str | Path, system: System, header: dict[str, Any]) -> None:
         self._system = system
+        if not isinstance(path, str | Path):
+            raise ModelError("file", f"must be a path, is {checks.shown(path)}")
         self.path = Path(path)
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
+            self.path.unlink(missing_ok=True)  # a result that still reads the old file keeps it
             self._file = h5py.File(self.path, "w", libver="latest")
         except OSError as error:
             raise ModelError(str(path), f"cannot be written: {error}", "choose another folder") from None
@@ -160,6 +164,8 @@ class ReadStore:
     """
 
     def __init__(self, path: str | Path) -> None:
+        if not isinstance(path, str | Path):
+            raise ModelError("load", f"must be given a path, is given {checks.shown(path)}")
         self.path = Path(path)
         self._file = _open(self.path)
         if self._file.attrs.get("format") != FORMAT:

@@ -8,7 +8,8 @@ from scipy.linalg import eigh
 from scipy.sparse import coo_array, csc_array
 from scipy.sparse.linalg import eigsh
 
-from ..errors import ModelError, SolveError
+from ..errors import SolveError
+from ..model import checks
 from ..system.core import assemble, follow_supports, restrict
 from ..system.matrix import Places
 from ..system.system import System
@@ -36,8 +37,7 @@ def natural_modes(system: System, q: FloatArray, count: int) -> tuple[FloatArray
         The state is not a stable equilibrium: a mode has a negative stiffness.
     """
     free = system.free
-    if not 1 <= count <= len(free):
-        raise ModelError("modes.count", f"is {count}, must be between 1 and the {len(free)} free unknowns")
+    checks.integer(count, "modes.count", 1, len(free))
     K = _matrix(system, q, 0.0, 1.0)[free][:, free]
     M = _matrix(system, q, 1.0, 0.0)[free][:, free]
     values, vectors = _eigen(csc_array(K), csc_array(M), count)

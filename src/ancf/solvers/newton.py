@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..errors import ModelError
+from ..model import checks
 
 
 @dataclass(frozen=True)
@@ -33,9 +34,10 @@ class Newton:
     corotate: bool = True
 
     def __post_init__(self) -> None:
-        if not 1e-15 <= self.tolerance <= 1e-3:
-            raise ModelError("Newton.tolerance", f"is {self.tolerance}, must be between 1e-15 and 1e-3")
-        if not 0.0 < self.contraction < 1.0:
-            raise ModelError("Newton.contraction", f"is {self.contraction}, must be between 0 and 1")
-        if self.max_iterations < 2:
-            raise ModelError("Newton.max_iterations", f"is {self.max_iterations}, must be at least 2")
+        if not 1e-15 <= checks.number(self.tolerance, "Newton.tolerance") <= 1e-3:
+            raise ModelError("Newton.tolerance", f"must be between 1e-15 and 1e-3, is {self.tolerance:g}")
+        if not 0.0 < checks.number(self.contraction, "Newton.contraction") < 1.0:
+            raise ModelError("Newton.contraction", f"must be between 0 and 1, is {self.contraction:g}")
+        checks.integer(self.max_iterations, "Newton.max_iterations", 2, 10_000)
+        checks.flag(self.modified, "Newton.modified")
+        checks.flag(self.corotate, "Newton.corotate")

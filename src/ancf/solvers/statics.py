@@ -50,6 +50,8 @@ MAX_ITERATIONS = 300  # in a load step
 PLAIN = 150  # of them without a line search
 MOST_HALVINGS = 12  # of a load step
 LONGEST = 0.3  # largest change of a slope, or of a position in sizes of the model, in one correction
+LEAST_MU = 1e-15  # of the ratio of stiffness to mass
+NEUTRAL_MU = 1e-13  # up to which what is missing is round-off
 DISTURBANCE = 1e-3  # along the softest mode, to leave an unstable equilibrium
 
 
@@ -69,7 +71,8 @@ class Iteration:
 
     def __post_init__(self) -> None:
         self.zero = np.zeros_like(self.q)
-        self.push = 0.0
+        self.scale = 0.0
+        self.neutral = False  # what the last plain matrix lacks for definiteness is round-off
 
     def out_of_balance(self, q: FloatArray, share: float) -> FloatArray:
         """Residual for a share of the loads, on free unknowns."""
@@ -111,17 +114,27 @@ class Iteration:
         stability: with moments an indefinite K is taken as it is.
         """
         negative = self.factorise(self.mu)
+        self.neutral = negative < 0
         if negative == 0 or (negative > 0 and self.mu == 0.0 and len(self.moment) > 0):
             return self.solve(r)
-        if self.push == 0.0:
-            self.factorise(1.0, 0.0)
-            self.push = max(self.length(self.solve(r)), 1e-12)
-        self.mu = max(self.mu, 1e-9 * self.push)
-        for _ in range(40):
+        if self.scale == 0.0:
+            self.scale = self.largest_ratio()
+        self.mu = max(self.mu, LEAST_MU * self.scale)
+        for _ in range(60):
             if self.factorise(self.mu) == 0:
+                self.neutral = self.mu <= NEUTRAL_MU * self.scale
                 return self.solve(r)
             self.mu *= 5.0
         raise SolveError("equilibrium", "no regularisation makes the stiffness positive definite")
+
+    def largest_ratio(self) -> float:
+        """Ratio of stiffness to mass on the diagonal, 1/s^2: the size of the largest eigenvalue."""
+        diagonal = (36 * np.arange(self.system.n // 6)[:, None] + 7 * np.arange(6)).ravel()
+        sums = []
+        for mass, stiffness in ((0.0, 1.0), (1.0, 0.0)):
+            self.factorise(mass, stiffness)
+            sums.append(float(np.sum(np.abs(self.core.A[diagonal][self.system.free]))))
+        return sums[0] / max(sums[1], 1e-300) if self.system.free.size else 1.0
 
 
 def equilibrium(
@@ -209,7 +222,8 @@ def follow_path(it: Iteration, load: Callable[[float], float], steps: int, of: s
     share, part, halvings = 0.0, 1.0 / steps, 0
     while share < 1.0 - 1e-12:
         before = it.q.copy()
-        problem = settle(it, load(min(share + part, 1.0)))
+        with np.errstate(all="ignore"):  # what overflows on the way is seen and halved
+            problem = settle(it, load(min(share + part, 1.0)))
         if problem is None:
             share = min(share + part, 1.0)
             continue
@@ -231,10 +245,12 @@ def settle(it: Iteration, share: float) -> str | None:
         dq = it.correction(r)
         it.iterations += 1
         norm = it.length(dq)
-        if it.mu == 0.0 and (norm <= TOLERANCE or (norm <= ACCEPTED and _stalled(it, dq, r, share))):
+        if (it.mu == 0.0 or it.neutral) and (
+            norm <= TOLERANCE or (norm <= ACCEPTED and _stalled(it, dq, r, share))
+        ):
             it.q = it.moved(dq, 1.0)
             return None
-        if regular and it.mu > 0.0 and norm < 1e-6 and not disturbed:
+        if regular and it.mu > 0.0 and not it.neutral and norm < 1e-6 and not disturbed:
             disturbed = True  # balanced, but not stable
             it.q = disturb(it)
             r = it.out_of_balance(it.q, share)

@@ -173,6 +173,28 @@ class System:
         self.place(time, q, v, a)
         return q, self.motion(q, time)
 
+    def adopt(
+        self, slots: dict[str, IntArray], q: FloatArray, v: FloatArray, time: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """State vectors from those of a system with the same bodies; supports as at ``time``."""
+        new_q, new_v, a = np.zeros(self.size), np.zeros(self.size), np.zeros(self.size)
+        for new, old in ((new_q, q), (new_v, v)):
+            for name, target in self.slots.items():
+                for c in range(3):
+                    new[target + c] = old[slots[name] + c]
+        before = new_q.copy(), new_v.copy()
+        self.place(time, new_q, new_v, a)  # the rotations of this time
+        for k, r in enumerate(self.constraints.rotations):
+            R, dR = self.core.supports.rot_R[k, :2]
+            own, shadow = slice(r.slot, r.slot + 3), slice(self.n + 3 * k, self.n + 3 * k + 3)
+            new_q[own] = R.T @ before[0][shadow]
+            new_v[own] = R.T @ (before[1][shadow] - dR @ new_q[own])
+        held = self.core.supports.held
+        still = np.setdiff1d(held, self.drive.prescribed)
+        new_v[still] = 0.0
+        self.place(time, new_q, new_v, a)
+        return new_q, new_v
+
     def motion(self, q: FloatArray, time: float) -> FloatArray:
         """Velocities of the bodies' initial rigid motions at the shape q, supports as at ``time``."""
         q, v, a = q.copy(), np.zeros(self.size), np.zeros(self.size)
@@ -192,8 +214,9 @@ class System:
 
     def _set_motion(self, q: FloatArray, v: FloatArray, a: FloatArray, time: float) -> None:
         """Initial rigid motions of the bodies; what a support holds follows the support."""
-        wanted = np.zeros_like(v)
-        for beam in self.model.bodies.values():
+        wanted = v.copy()
+        moving = [b for b in self.model.bodies.values() if np.any(b.velocity) or np.any(b.angular_velocity)]
+        for beam in moving:
             slots = self.slots[beam.name]
             for k in range(2):
                 arm = np.stack([q[slots[:, k] + c] for c in range(3)], axis=1)
@@ -201,7 +224,7 @@ class System:
                 rate += beam.velocity if k == 0 else 0.0
                 for c in range(3):
                     wanted[slots[:, k] + c] = rate[:, c]
-        if not np.any(wanted):
+        if not moving:
             return
         for k, r in enumerate(self.constraints.rotations):
             shadow = slice(self.n + 3 * k, self.n + 3 * k + 3)

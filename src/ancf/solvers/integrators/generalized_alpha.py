@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ...errors import ModelError
+from ...model import checks
 from ..newmark import Scheme
 from ..newton import Newton
 
@@ -32,8 +33,8 @@ class GeneralizedAlpha:
     name = "generalized_alpha"
 
     def __post_init__(self) -> None:
-        if not 0.0 <= self.rho_inf <= 1.0:
-            raise ModelError("GeneralizedAlpha.rho_inf", f"is {self.rho_inf}, must be between 0 and 1")
+        if not 0.0 <= checks.number(self.rho_inf, "GeneralizedAlpha.rho_inf") <= 1.0:
+            raise ModelError("GeneralizedAlpha.rho_inf", f"must be between 0 and 1, is {self.rho_inf:g}")
 
     def scheme(self) -> Scheme:
         """Coefficients of the Newmark family."""
