@@ -50,13 +50,13 @@ class TestNumbers:
     def test_not_a_time(self, key, value):
         given = {"t_end": 0.1, "step": 1e-3, "output_step": 2e-3} | {key: value}
         refused(
-            f"simulate.{key}", "must be a positive number of seconds", ancf.simulate, cantilever()[0], **given
+            f"simulate.{key}", "must be", ancf.simulate, cantilever()[0], **given
         )
 
     @pytest.mark.parametrize("key", ["t_end", "step"])
     def test_none_is_no_time(self, key):
         given = {"t_end": 0.1, "step": 1e-3} | {key: None}
-        refused(f"simulate.{key}", "is None, must be a positive", ancf.simulate, cantilever()[0], **given)
+        refused(f"simulate.{key}", "must be a number, is None", ancf.simulate, cantilever()[0], **given)
 
     def test_step_longer_than_the_run(self):
         refused(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from ._version import __version__
 from .errors import Interrupted, ModelError, SolveError
 from .model import Model, Section
 
@@ -13,8 +14,6 @@ if TYPE_CHECKING:
     from .results import Modes, Result, State
     from .solvers.integrators import GeneralizedAlpha, Trapezoidal
     from .solvers.newton import Newton
-
-__version__ = "0.1.0"
 
 # the compiled parts are imported on first use: describing a model needs none of them
 _LATER = {
@@ -42,6 +41,7 @@ __all__ = [
     "SolveError",
     "State",
     "Trapezoidal",
+    "__version__",
     "equilibrium",
     "load",
     "modes",

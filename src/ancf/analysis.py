@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import platform
 from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +14,7 @@ from .model import checks
 from .model.beam import Beam
 from .model.model import Model
 from .results.modes import Modes
+from .results.provenance import versions
 from .results.result import Result, load
 from .results.state import State
 from .results.store import FileStore, MemoryStore
@@ -233,15 +232,5 @@ def _header(
             "scheme": method.scheme()._asdict(),
             "newton": {k: getattr(n, k) for k in n.__dataclass_fields__},
         },
-        "versions": {"python": platform.python_version(), **_versions()},
+        "versions": versions(),
     }
-
-
-def _versions() -> dict[str, str]:
-    found = {}
-    for name in ("ancf", "numpy", "scipy", "numba", "h5py"):
-        try:
-            found[name] = version(name)
-        except PackageNotFoundError:
-            found[name] = "unknown"
-    return found

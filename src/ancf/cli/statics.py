@@ -35,12 +35,12 @@ def store(study: Study, state: State, path: Path) -> Result:
 
 
 def _header(study: Study) -> dict[str, Any]:
-    from ancf.analysis import _versions
+    from ancf.results.provenance import versions
 
     return {
         "title": study.title,
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "model": study.model.to_dict(),
         "settings": {"equilibrium": None if study.equilibrium is None else asdict(study.equilibrium)},
-        "versions": _versions(),
+        "versions": versions(),
     }

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import SolveError
+from ..errors import ModelError, SolveError
 from ..system.core import apply_load
 from ..system.energy import energies
 from ..system.system import System
@@ -161,11 +161,17 @@ class Run:
         size = self.system.size
         q, v, work = (np.empty((int(keep.sum()), k)) for k in (size, size, 2))
         cpu = clock.process_time()
-        first = 0
+        first, most = 0, count
         try:
             while first < count:
                 t = self._time(done + first)
-                n, status = self._advance(t, h, row[first:], (q, v, work))
+                try:
+                    n, status = self._advance(t, h, row[first : first + most], (q, v, work))
+                except ModelError:  # a function of time failed: go as far as it works
+                    if most == 1:
+                        raise
+                    most = 1
+                    continue
                 first += n
                 if status != OK:
                     self._bridge(self._time(done + first), h, done + first + 1)
