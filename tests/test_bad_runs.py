@@ -49,9 +49,7 @@ class TestNumbers:
     @pytest.mark.parametrize("value", [0, -1.0, NAN, INF, "1", True, [0.1], (), {}, 1j])
     def test_not_a_time(self, key, value):
         given = {"t_end": 0.1, "step": 1e-3, "output_step": 2e-3} | {key: value}
-        refused(
-            f"simulate.{key}", "must be", ancf.simulate, cantilever()[0], **given
-        )
+        refused(f"simulate.{key}", "must be", ancf.simulate, cantilever()[0], **given)
 
     @pytest.mark.parametrize("key", ["t_end", "step"])
     def test_none_is_no_time(self, key):
