@@ -13,7 +13,7 @@ ROOT = Path(ancf.__file__).parent
 
 #: From the bottom to the top; a layer imports from lower ones and from itself.
 LAYERS = (
-    {"errors"},
+    {"errors", "_version"},
     {"compiled"},
     {"model"},
     {"elements", "connections", "loads", "linalg"},

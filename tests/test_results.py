@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.results.store import FileStore
 from helpers import arc
 
 
@@ -178,6 +179,25 @@ class TestFile:
             assert len(file["q"]) == len(file["v"]) == len(file["energy"]) == n == 51
             slots = file["bodies/two/slots"][:, 0]
             assert np.array_equal(file["q"][-1, slots[-1] : slots[-1] + 3], run[0].position("two.end")[-1])
+
+    def test_block_that_was_torn(self, run, tmp_path):
+        """A kill between the arrays of a block: rows without their time do not count."""
+        path = tmp_path / "torn.h5"
+        run[1].save(path)
+        with h5py.File(path, "r+") as file:
+            for name in ("q", "v", "work", "energy"):
+                file[name].resize(len(file[name]) + 3, axis=0)
+        assert_same(run[0], ancf.load(path))
+
+    def test_time_is_written_last(self, run, tmp_path, monkeypatch):
+        """Otherwise the torn block above would have a time and no values."""
+        system, memory = run[0].state().system, run[0]
+        store = FileStore(tmp_path / "half.h5", system, {})
+        monkeypatch.setattr("ancf.results.store.energies", lambda *_: np.zeros((7, 7)))
+        with pytest.raises((TypeError, ValueError)):
+            store.append(memory.t, memory.q, memory.v, np.zeros((len(memory.t), 2)))
+        store.close()
+        assert len(ancf.load(tmp_path / "half.h5").t) == 0
 
     def test_not_a_results_file(self, tmp_path):
         text, other = tmp_path / "text.h5", tmp_path / "other.h5"

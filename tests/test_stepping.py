@@ -113,6 +113,36 @@ class TestGoingOn:
         result = ancf.simulate(model, t_end=0.02, step=1e-3, start=state)
         assert result.position(beam.end)[-1, 1] > before[1] + 1e-5
 
+    def test_new_supports_and_another_order_of_nodes(self):
+        """What is connected and held since then changes the unknowns, not the shape."""
+        model, beam = pendulum()
+        section = beam.section
+        other = model.add_beam("other", start=(0, 0, -2), end=(1, 0, -2), elements=5, section=section)
+        model.clamp(other.start)
+        model.clamp(other.end)
+        first = ancf.simulate(model, t_end=0.1, step=1e-3)
+        old = first.state()
+        for x in (0.2, 0.8):
+            model.add_spring(beam.at(x), other.at(1 - x), stiffness=1.0)
+        model.clamp(beam.end, rotation=lambda t: 0.3 * (t - 0.1), axis=(0, 0, 1))
+        with pytest.warns(UserWarning, match="support") if False else contextlib.nullcontext():
+            new = ancf.simulate(model, t_end=0.11, step=1e-3, start=old).state(0)
+        assert first.state(0).system.numbering.slots["beam"].shape == (5, 2)
+        for point in ("beam.at(0.3)", "beam.at(0.6)", "other.at(0.5)"):
+            assert new.position(point) == pytest.approx(old.position(point), abs=1e-14)
+            assert new.velocity(point) == pytest.approx(old.velocity(point), abs=1e-12)
+        assert not np.array_equal(new.system.slots["beam"], old.system.slots["beam"])
+
+    def test_modes_of_the_model_as_it_is_now(self):
+        """A spring added after the equilibrium stiffens the model."""
+        model, beam = pendulum()
+        state = ancf.equilibrium(model)
+        before = ancf.modes(model, about=state, count=3).frequencies
+        model.add_spring(beam.end, state.position(beam.end) + (0, 1, 0), stiffness=100.0, length=1.0)
+        after = ancf.modes(model, about=state, count=3).frequencies
+        assert np.all(after > before - 1e-9)
+        assert after[1] > 1.05 * before[1]
+
     def test_released_load(self):
         """The equilibrium of one model is the start of another one with the same bodies."""
         loaded, beam = pendulum(EI=5.0)
