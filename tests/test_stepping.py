@@ -120,14 +120,11 @@ class TestGoingOn:
         other = model.add_beam("other", start=(0, 0, -2), end=(1, 0, -2), elements=5, section=section)
         model.clamp(other.start)
         model.clamp(other.end)
-        first = ancf.simulate(model, t_end=0.1, step=1e-3)
-        old = first.state()
+        old = ancf.simulate(model, t_end=0.1, step=1e-3).state()
         for x in (0.2, 0.8):
             model.add_spring(beam.at(x), other.at(1 - x), stiffness=1.0)
         model.clamp(beam.end, rotation=lambda t: 0.3 * (t - 0.1), axis=(0, 0, 1))
-        with pytest.warns(UserWarning, match="support") if False else contextlib.nullcontext():
-            new = ancf.simulate(model, t_end=0.11, step=1e-3, start=old).state(0)
-        assert first.state(0).system.numbering.slots["beam"].shape == (5, 2)
+        new = ancf.simulate(model, t_end=0.11, step=1e-3, start=old).state(0)
         for point in ("beam.at(0.3)", "beam.at(0.6)", "other.at(0.5)"):
             assert new.position(point) == pytest.approx(old.position(point), abs=1e-14)
             assert new.velocity(point) == pytest.approx(old.velocity(point), abs=1e-12)
