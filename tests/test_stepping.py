@@ -135,7 +135,8 @@ class TestGoingOn:
         model, beam = pendulum()
         state = ancf.equilibrium(model)
         before = ancf.modes(model, about=state, count=3).frequencies
-        model.add_spring(beam.end, state.position(beam.end) + (0, 1, 0), stiffness=100.0, length=1.0)
+        above = state.position(beam.end) + np.array([0, 1, 0])
+        model.add_spring(beam.end, above, stiffness=100.0, length=1.0)
         after = ancf.modes(model, about=state, count=3).frequencies
         assert np.all(after > before - 1e-9)
         assert after[1] > 1.05 * before[1]
