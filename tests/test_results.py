@@ -213,7 +213,7 @@ class TestFile:
             ancf.load(tmp_path)
 
 
-KILLED = """
+LONG_RUN = """
 import sys, ancf
 model = ancf.Model(gravity=(0, 0, -9.81))
 section = ancf.Section(EA=2e3, EI=0.1, rhoA=0.4)
@@ -225,20 +225,45 @@ ancf.simulate(model, t_end=1e4, step=1e-3, file=sys.argv[1], progress=tell)
 """
 
 
+def started(path, steps):
+    """A run in another process that has reported so many steps, and the number it reported last."""
+    child = subprocess.Popen([sys.executable, "-c", LONG_RUN, str(path)], stdout=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "ready\n"
+    return child, reported_by(child, steps)
+
+
+def reported_by(child, steps):
+    reported, end = 0, time.monotonic() + 120
+    while reported < steps and time.monotonic() < end:
+        reported = int(child.stdout.readline())
+    assert reported >= steps
+    return reported
+
+
+def test_run_that_goes_on(tmp_path):
+    """A file is read while it grows: each load sees what is there then, and keeps seeing that."""
+    child, reported = started(tmp_path / "run.h5", 1000)
+    with child:
+        first = ancf.load(tmp_path / "run.h5")
+        before = len(first.t)
+        assert before >= reported + 1
+        later = reported_by(child, before + 1000)
+        second = ancf.load(tmp_path / "run.h5")
+        assert len(second.t) >= later + 1
+        for result, rows in ((first, before), (second, len(second.t))):
+            assert result.status == "running"
+            assert len(result.t) == len(result.position("beam.end")) == len(result.energy.total) == rows
+        child.kill()
+
+
 def test_killed_run_is_readable(tmp_path):
     """kill -9 in the middle: every block that was reported is in the file and right."""
     path = tmp_path / "run.h5"
-    child = subprocess.Popen([sys.executable, "-c", KILLED, str(path)], stdout=subprocess.PIPE, text=True)
+    child, reported = started(path, 3000)
     with child:
-        assert child.stdout.readline() == "ready\n"
-        reported = 0
-        end = time.monotonic() + 120
-        while reported < 3000 and time.monotonic() < end:
-            reported = int(child.stdout.readline())
         os.kill(child.pid, signal.SIGKILL)
     result = ancf.load(path)
     assert result.status == "running"
-    assert reported >= 3000
     assert len(result.t) >= reported + 1
     assert result.stats.steps >= reported
     model = ancf.Model(gravity=(0, 0, -9.81))

@@ -171,11 +171,21 @@ class ReadStore:
         if self._file.attrs.get("format") != FORMAT:
             raise ModelError(str(path), "is not a results file of ancf")
         self.header: dict[str, Any] = json.loads(self._file.attrs["header"])
+        for name in (
+            "time",
+            "q",
+            "v",
+            "work",
+            "energy",
+        ):  # of a run that goes on: not as an earlier load saw it
+            self._file[name].refresh()
+            if name == "time":
+                self._rows: int = self._file[name].shape[0]
 
     @property
     def arrays(self) -> dict[str, Any]:
         """See :class:`Store`; time is written last, so that every row of it is complete."""
-        rows = self._file["time"].shape[0]
+        rows = self._rows
         whole = {name: self._file[name] for name in ("q", "v", "work", "energy")}
         return {"time": self._file["time"][:rows], **{k: Rows(d, rows) for k, d in whole.items()}}
 

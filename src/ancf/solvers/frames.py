@@ -4,7 +4,7 @@ The elastic energy does not change under a rotation, so the iteration matrix of 
 turned is about Q S Q^T with S the matrix as it was and Q the rotations of the nodes; the error is the
 change of curvature within an element, not the rotation itself.  A correction costs two small
 rotations per node more and one factorisation then serves far longer; the idea of a co-rotated
-Jacobian is that of Gerstmayr (reference [5] of the paper).  Nodes with held unknowns are not turned.
+Jacobian is that of Gerstmayr (reference [5] of the paper).
 """
 
 from __future__ import annotations
@@ -31,9 +31,14 @@ class Frames(NamedTuple):
 
 
 def allocate(slots: list[IntArray], held: IntArray) -> Frames:
-    """Frames of all nodes with these slots, (nodes, >= 2) each, that hold no unknown and share none."""
+    """Frames of all nodes with these slots, (nodes, >= 2) each.
+
+    A vector that is held as a whole turns like a free one: its correction is zero.  Nodes that hold
+    single components, or share their position with others, are left out.
+    """
     pairs = np.concatenate([np.zeros((0, 2), dtype=np.int64), *[s[:, :2] for s in slots]])
-    fixed = np.isin(pairs // 3, held // 3).any(axis=1)
+    count_held = np.isin(pairs[:, :, None] + np.arange(3), held).sum(axis=2)
+    fixed = ((count_held == 1) | (count_held == 2)).any(axis=1)
     first, count = np.unique(pairs[:, 0], return_counts=True)
     shared = np.isin(pairs[:, 0], first[count > 1])
     pairs = pairs[~fixed & ~shared]
