@@ -27,9 +27,11 @@ _JIT: Any = _OPTIONS
 
 
 def _package_stamp() -> str:
-    """Hash of the package's sources: a kernel is recompiled when anything that it calls changed."""
-    files = sorted(Path(__file__).parent.rglob("*.py"))
-    return hashlib.sha256(b"".join(f.read_bytes() for f in files if "paper" not in f.parts)).hexdigest()
+    """Hash of the sources that hold kernels: one is recompiled when anything that it calls changed."""
+    root = Path(__file__).parent
+    folders = ("elements", "connections", "loads", "linalg", "system", "solvers")
+    files = [Path(__file__), *(f for folder in folders for f in sorted((root / folder).rglob("*.py")))]
+    return hashlib.sha256(b"".join(f.read_bytes() for f in files)).hexdigest()
 
 
 _STAMP = _package_stamp()

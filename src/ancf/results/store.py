@@ -171,13 +171,8 @@ class ReadStore:
         if self._file.attrs.get("format") != FORMAT:
             raise ModelError(str(path), "is not a results file of ancf")
         self.header: dict[str, Any] = json.loads(self._file.attrs["header"])
-        for name in (
-            "time",
-            "q",
-            "v",
-            "work",
-            "energy",
-        ):  # of a run that goes on: not as an earlier load saw it
+        # an earlier load of a run that goes on has seen less of it
+        for name in ("time", "q", "v", "work", "energy"):
             self._file[name].refresh()
             if name == "time":
                 self._rows: int = self._file[name].shape[0]

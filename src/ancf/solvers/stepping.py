@@ -150,7 +150,7 @@ class Run:
                 progress(Progress(done, self.steps, self._time(done), self.t_end))
 
     def _time(self, done: int) -> float:
-        return self.t_start + done * self.h if done <= self.full else self.t_end
+        return self.t_start + done * self.h if done < self.steps else self.t_end
 
     def _block(self, done: int, count: int, recorder: Recorder) -> None:
         """Steps done + 1 ... done + count; a failed one is bridged by smaller steps."""
