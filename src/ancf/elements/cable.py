@@ -33,7 +33,9 @@ from .lanes import (
     NODAL,
     REFERENCE,
     SMOOTHING,
+    VD,
     VISCOUS,
+    D,
     axial_force,
     axial_tangent,
     bending_force,
@@ -134,7 +136,7 @@ def cable_force(batch, q, v, a, r, ws):
         clear(ws, REFERENCE, 1)
         for chunk in range(group[0], group[1]):
             load_data(batch, ws, chunk)
-            load_shape(batch, q, ws, chunk, 0)
+            load_shape(batch, q, ws, chunk, D)
             load_acceleration(batch, v, a, ws, chunk, damped)
             clear(ws, FD, 9)
             for g in range(axial):
@@ -144,7 +146,7 @@ def cable_force(batch, q, v, a, r, ws):
                 load_reference(batch, ws, chunk, 10 + g, curved)
                 bending_force(ws, gp, g0 + axial + g, paper, curved)
             if damped:
-                load_shape(batch, v, ws, chunk, 18)
+                load_shape(batch, v, ws, chunk, VD)
                 for g in range(axial):
                     axial_damping(ws, gp, g0 + g, paper)
                 for g in range(bending):
@@ -204,7 +206,7 @@ def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
         clear(ws, REFERENCE, 1)
         for chunk in range(group[0], group[1]):
             load_data(batch, ws, chunk)
-            load_shape(batch, q, ws, chunk, 0)
+            load_shape(batch, q, ws, chunk, D)
             if c_stiffness == 0.0:
                 clear(ws, EA_L, 2)
             clear(ws, KDD, BLOCKS)
@@ -224,7 +226,7 @@ def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 @inline_kernel
 def gauss_energy(ws, gp, g, m, paper, bending):
     """Energy of one Gauss point of lane m."""
-    p, s = shape_at(ws, gp, g, 0, m)
+    p, s = shape_at(ws, gp, g, D, m)
     a = dot(p, p)
     ref = ws[REFERENCE * LANES + m]
     if not bending:
@@ -247,7 +249,7 @@ def cable_energy(batch, q, ws):
         clear(ws, REFERENCE, 1)
         for chunk in range(group[0], group[1]):
             load_data(batch, ws, chunk)
-            load_shape(batch, q, ws, chunk, 0)
+            load_shape(batch, q, ws, chunk, D)
             for g in range(axial + group[5]):
                 load_reference(batch, ws, chunk, g if g < axial else 10 + g - axial, group[7] != 0)
                 for m in range(LANES):

@@ -12,7 +12,7 @@ the tangent must not be damped: of y only the part along n counts once the cable
 from __future__ import annotations
 
 from ..compiled import inline_kernel
-from .lanes import DA_L, DB_L, INV_L, KPP, KPS, KSS, LANES, LENGTH, STRAIGHT
+from .lanes import DA_L, DB_L, INV_L, KPP, KPS, KSS, LANES, LENGTH, STRAIGHT, VD, D
 
 
 @inline_kernel
@@ -77,8 +77,8 @@ def add_nodal(ws, gp, g, m, qp, qs):
 def axial_damping(ws, gp, g, paper):
     """Add the axial damping force of Gauss point g."""
     for m in range(LANES):
-        p, _ = shape_at(ws, gp, g, 0, m)
-        dp, _ = shape_at(ws, gp, g, 18, m)
+        p, _ = shape_at(ws, gp, g, D, m)
+        dp, _ = shape_at(ws, gp, g, VD, m)
         rate = dot(p, dp)
         f = gp[g, 6] * ws[DA_L * LANES + m] * rate
         if not paper:
@@ -90,8 +90,8 @@ def axial_damping(ws, gp, g, paper):
 def bending_damping(ws, gp, g, paper):
     """Add the bending damping force of Gauss point g."""
     for m in range(LANES):
-        p, s = shape_at(ws, gp, g, 0, m)
-        dp, ds = shape_at(ws, gp, g, 18, m)
+        p, s = shape_at(ws, gp, g, D, m)
+        dp, ds = shape_at(ws, gp, g, VD, m)
         xy, z, a, ba, gg, k, _ = bending_rate(p, s, dp, ds, paper, ws[LENGTH * LANES + m])
         f = gp[g, 6] * ws[DB_L * LANES + m]
         h = -k * dot(z, xy) / a
@@ -110,7 +110,7 @@ def bending_damping(ws, gp, g, paper):
 def bending_damping_tangent(ws, gp, g, paper, c_damping):
     """Add the derivative of the bending damping force by the velocities to rows KPP, KPS, KSS."""
     for m in range(LANES):
-        p, s = shape_at(ws, gp, g, 0, m)
+        p, s = shape_at(ws, gp, g, D, m)
         _, z, a, ba, gg, k, nu = bending_rate(p, s, p, s, paper, ws[LENGTH * LANES + m])
         f = c_damping * gp[g, 6] * ws[DB_L * LANES + m] * gg * gg
         delta = STRAIGHT / ws[LENGTH * LANES + m]

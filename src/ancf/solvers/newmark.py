@@ -186,7 +186,9 @@ def newton(core, s, h, rule, modified, B, G):
             remember(s.frames, s.q)
             s.counts[JACOBIANS] += 1
             s.counts[FACTORIZATIONS] += 1
-            if factorise_matrix(core.A, core.factor) < 0:
+            bad = factorise_matrix(core.A, core.factor)
+            if bad < 0:
+                s.memo[WORST] = 6.0 * (-bad - 1)
                 return SINGULAR
             s.memo[H_FACTOR] = h
             renew, fresh, old, eta, since = False, True, -1.0, 1.0, 0
@@ -290,7 +292,8 @@ def advance(core, s, tables, h, scheme, rule, keep, out_q, out_v, out_work):
             status = newton(core, s, h, rule, rule.modified and attempt < 2, B, G)
             if status == OK:
                 break
-            s.memo[WORST] = worst_unknown(s, core.weight)
+            if status != SINGULAR:  # else it is the first unknown of the singular block
+                s.memo[WORST] = worst_unknown(s, core.weight)
             restore(s)
             s.memo[H_FACTOR], s.memo[ETA] = 0.0, 1.0
         if status != OK:
