@@ -223,7 +223,7 @@ BAD_BEAMS = [
     ({"length": 1e-9}, "length", "initial shape of 1 m"),
     ({"section": None}, "section", "must be a Section"),
     ({"section": {"EA": 1}}, "section", "must be a Section"),
-    ({"element": "original"}, "element", 'must be one of "cable"'),
+    ({"element": "orignal"}, "element", 'must be one of "cable", "original", "nonlocking"'),
     ({"element": 1}, "element", 'must be one of "cable"'),
     ({"strain": "papr"}, "strain", 'did you mean "paper"?'),
     ({"poisson": "none"}, "poisson", '"centreline", "full"'),
@@ -506,10 +506,11 @@ class TestConnections:
     def test_bad_spherical(self):
         model, first, second = self.two()
         refused("connect(beam.end).b", "are 1 m apart", model.connect, first.end, second.end)
-        refused("connect(beam.at(0.3)).a", "not at a node", model.connect, first.at(0.3), second.end)
-        refused("connect(beam.end).b", "not at a node", model.connect, first.end, second.at(0.3))
+        refused("connect(beam.at(0.3)).b", "m apart", model.connect, first.at(0.3), second.end)
         refused("connect(beam.end).b", "same node", model.connect, first.end, first.at(1.0))
-        refused("connect(beam.end).b", "must be a point", model.connect, first.end, (1, 0, 0))
+        refused("connect(beam.at(0.3)).b", "same point", model.connect, first.at(0.3), first.at(0.3))
+        refused("connect(beam.end).b", "has shape (2,), wanted (3,)", model.connect, first.end, (1, 0))
+        refused("connect().a", "must be a point", model.connect, (1, 0, 0), first.end)
 
     def test_spring(self):
         model, first, second = self.two()

@@ -160,6 +160,12 @@ def test_the_least_file():
         ("trapezoidal", IntegratorSettings("trapezoidal")),
         ("generalized_alpha", IntegratorSettings("generalized_alpha")),
         ({"type": "generalized_alpha", "rho_inf": 0}, IntegratorSettings("generalized_alpha", 0)),
+        ("radau", IntegratorSettings("radau")),
+        (
+            {"type": "radau", "stages": 2, "tolerance": 1e-5, "max_step": 0.01},
+            IntegratorSettings("radau", stages=2, tolerance=1e-5, max_step=0.01),
+        ),
+        ({"type": "explicit", "check": False}, IntegratorSettings("explicit", check=False)),
     ],
 )
 def test_integrator(given, wanted):
@@ -204,7 +210,8 @@ BAD = [
     ((*BEAM, "elements"), 2.5, "bodies[0].elements", "whole number"),
     ((*BEAM, "elements"), 10**9, "bodies[0].elements", "between 1 and 1000000"),
     ((*BEAM, "elements"), MISSING, "bodies[0].elements", "is missing"),
-    ((*BEAM, "element"), "original", "bodies[0].element", 'must be one of "cable"'),
+    ((*BEAM, "element"), "orignal", "bodies[0].element", 'did you mean "original"?'),
+    ((*BEAM, "element"), "original", "bodies[0].strain", '"paper" is a strain measure of cables'),
     ((*BEAM, "end"), [0, 0, 0], "bodies[0].end", "coincides with start"),
     ((*BEAM, "end"), MISSING, "bodies[0].end", "is missing"),
     ((*BEAM, "path"), [[0, 0, 0]], "bodies[0].path", "not both"),
@@ -256,12 +263,24 @@ BAD = [
     ((*RUN, "step"), 1e-30, "simulation.step", "more than 1e+09 steps"),
     ((*RUN, "output_step"), 3e-4, "simulation.output_step", "multiple of step"),
     ((*RUN, "output_step"), 1e-5, "simulation.output_step", "multiple of step"),
-    ((*RUN, "integrator"), "radau", "simulation.integrator", '"trapezoidal", "generalized_alpha"'),
+    ((*RUN, "integrator"), "runge", "simulation.integrator", '"trapezoidal", "generalized_alpha"'),
     ((*RUN, "integrator"), 3, "simulation.integrator", "a name or a table"),
     ((*RUN, "integrator"), {"rho_inf": 1}, "simulation.integrator.type", "is missing"),
     ((*RUN, "integrator", "rho"), 1, "simulation.integrator.rho", 'did you mean "rho_inf"?'),
     ((*RUN, "integrator", "rho_inf"), 1.5, "simulation.integrator.rho_inf", "between 0 and 1"),
     ((*RUN, "integrator", "type"), "trapezoidal", "simulation.integrator.rho_inf", "not of trapezoidal"),
+    ((*RUN, "integrator"), {"type": "radau", "stages": 4}, "simulation.integrator.stages", "between 2 and 3"),
+    ((*RUN, "integrator"), {"type": "radau", "tolerance": 1}, "simulation.integrator.tolerance", "between"),
+    (
+        (*RUN, "integrator"),
+        {"type": "radau", "adaptive": 1},
+        "simulation.integrator.adaptive",
+        "True or False",
+    ),
+    ((*RUN, "integrator"), {"type": "radau", "max_step": 0}, "simulation.integrator.max_step", "must be > 0"),
+    ((*RUN, "integrator"), {"type": "radau", "safety": 1}, "simulation.integrator.safety", "of explicit"),
+    ((*RUN, "integrator"), {"type": "explicit", "safety": 2}, "simulation.integrator.safety", "at most 1"),
+    ((*RUN, "integrator"), {"type": "explicit", "chek": True}, "simulation.integrator.chek", '"check"?'),
     ((*RUN, "outputs"), ["beam.mid"], "simulation.outputs[0]", "is no point"),
     ((*RUN, "equilibrium_of"), ["acr"], "simulation.equilibrium_of[0]", 'did you mean "arc"?'),
     (("equilibrium", "load_steps"), 0, "equilibrium.load_steps", "must be >= 1"),
@@ -419,6 +438,8 @@ def test_schema_is_json_and_names_every_kind():
     text = json.dumps(schema())
     for kind in ("pin", "clamp", "hold", "force", "moment", "distributed", "spherical", "spring", "circle"):
         assert f'"const": "{kind}"' in text
+    assert '"const": "moments"' in text
+    assert '["cable", "original", "nonlocking"]' in text
 
 
 def test_the_python_api_does_not_import_pydantic():

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 
 from ancf.errors import ModelError
-from ancf.model import checks
+from ancf.model import axes, checks
 from ancf.model.checks import FloatArray
 from ancf.model.points import Point
 from ancf.model.section import Section
 
-ELEMENTS = ("cable",)
-STRAINS = ("material", "paper")
+ELEMENTS = ("cable", "original", "nonlocking")
+STRAINS = {"cable": ("material", "paper"), "original": ("green",), "nonlocking": ("green",)}
 POISSON = ("centreline", "full")
 NATURAL_SHAPES = ("path", "straight")
 MOST_ELEMENTS = 1_000_000
@@ -32,7 +32,8 @@ class Beam:
     section : Section
     element, strain, poisson, natural_shape : str
     gauss : (int, int)
-        Gauss points of the axial and the bending integrals.
+        Gauss points of a cable's axial and bending integrals, or of a beam along its axis and in each
+        direction of the section.
     length : float
         Natural length, m.
     stretch : float
@@ -43,6 +44,9 @@ class Beam:
         Initial positions, m.
     node_tangent : (n+1, 3) array
         Initial unit tangents; the initial slope is ``r_x = stretch * node_tangent``.
+    node_y : (n+1, 3) array
+        Initial unit vectors of the section's local y axis, normal to `node_tangent`. A cable has them
+        too but no use for them.
     velocity, angular_velocity, about : (3,) arrays
         Initial rigid motion, m/s, rad/s, m.
 
@@ -60,6 +64,7 @@ class Beam:
     node_x: FloatArray
     node_position: FloatArray
     node_tangent: FloatArray
+    node_y: FloatArray
     velocity: FloatArray
     angular_velocity: FloatArray
     about: FloatArray
@@ -73,6 +78,32 @@ class Beam:
         return self.node_x.size - 1
 
     @property
+    def node_z(self) -> FloatArray:
+        """Initial unit vectors (n+1, 3) of the section's local z axis: node_tangent x node_y."""
+        z: FloatArray = np.cross(self.node_tangent, self.node_y)
+        return z
+
+    @property
+    def torsional_stiffness(self) -> float:
+        """Torque per rate of twist, N m^2.
+
+        0 for a cable; ``G J``, or ``G (I_y + I_z)`` with ``poisson = "full"``, where the section is plane.
+        """
+        s = self.section
+        if self.element == "cable" or s.G is None or s.J is None or s.I_y is None or s.I_z is None:
+            return 0.0
+        return s.G * (s.J if self.poisson == "centreline" else s.I_y + s.I_z)
+
+    @property
+    def middle_axes(self) -> FloatArray:
+        """Initial unit vectors of local y and z in the middle of each element, (n, 2, 3).
+
+        Both are normal to the cubic through the nodes, and y is as near to the axis carried there from
+        one node as to that from the other. They fix the slopes inside the nonlocking element.
+        """
+        return self._middle_axes(0, self.elements)
+
+    @property
     def start(self) -> Point:
         """The point at reference arc length 0."""
         return Point(self, 0.0, f"{self.name}.start")
@@ -82,13 +113,13 @@ class Beam:
         """The point at the full reference length."""
         return Point(self, self.length, f"{self.name}.end")
 
-    def at(self, x: float) -> Point:
-        """Point at the reference arc length x in m.
+    def at(self, x: float, y: float = 0.0, z: float = 0.0) -> Point:
+        """Point at the reference arc length x and at (y, z) in the cross-section, m.
 
         Raises
         ------
         ModelError
-            x is outside the beam.
+            x is outside the beam, (y, z) is outside its section, or a cable is given y or z.
 
         """
         where = f"{self.name}.at"
@@ -96,11 +127,23 @@ class Beam:
         slack = NODE_TOLERANCE * self.length
         if not -slack <= clean <= self.length + slack:
             raise ModelError(where, f"x = {clean:g} m is outside the beam, 0 <= x <= {self.length:g} m")
-        if clean <= 0.0:
+        clean = min(max(clean, 0.0), self.length)
+        across = checks.number(y, f"{where}.y") + 0.0, checks.number(z, f"{where}.z") + 0.0
+        if any(across):
+            self._check_place(*across, where)
+            text = f"{clean:.12g}, {across[0]:.12g}, {across[1]:.12g}"
+            return Point(self, clean, f"{self.name}.at({text})", *across)
+        if clean == 0.0:
             return self.start
-        if clean >= self.length:
-            return self.end
-        return Point(self, clean, f"{self.name}.at({clean:.12g})")
+        return self.end if clean == self.length else Point(self, clean, f"{self.name}.at({clean:.12g})")
+
+    def _check_place(self, y: float, z: float, where: str) -> None:
+        if self.element == "cable":
+            what = f"y = {y:g} m, z = {z:g} m: a cable has no cross-section to place a point in"
+            raise ModelError(where, what, 'element = "original" or "nonlocking" has one')
+        shape = self.section.shape
+        if shape is not None and not shape.contains(y, z):
+            raise ModelError(where, f"y = {y:g} m, z = {z:g} m is outside the cross-section, a {shape}")
 
     def set_motion(
         self, velocity: Any = (0, 0, 0), angular_velocity: Any = (0, 0, 0), about: Any = None
@@ -134,9 +177,17 @@ class Beam:
         i = int(np.argmin(np.abs(self.node_x - x)))
         return i if abs(self.node_x[i] - x) <= NODE_TOLERANCE * self.length else None
 
-    def initial_position(self, x: float) -> FloatArray:
-        """Initial position (3,) of the cubic through the nodes at x, m."""
-        return self._hermite(x)[0]
+    def off_centre(self, x: float, y: float, z: float) -> bool:
+        """Whether a place is off the centreline."""
+        return y != 0.0 or z != 0.0
+
+    def initial_position(self, x: float, y: float = 0.0, z: float = 0.0) -> FloatArray:
+        """Initial position (3,) at x, and at (y, z) in the section there, m, as the element interpolates."""
+        position: FloatArray = self._hermite(x)[0]
+        if y == 0.0 and z == 0.0:
+            return position
+        position += np.array([y, z]) @ self.initial_axes(x)
+        return position
 
     def initial_tangent(self, x: float) -> FloatArray:
         """Initial unit tangent (3,) of the cubic through the nodes at x."""
@@ -144,11 +195,34 @@ class Beam:
         unit: FloatArray = slope / np.linalg.norm(slope)
         return unit
 
+    def initial_axes(self, x: float) -> FloatArray:
+        """Initial r_y and r_z (2, 3) at x, linear or (nonlocking) quadratic in an element."""
+        e, s, _ = self._place(x)
+        y, tangent = self.node_y[e : e + 2], self.node_tangent[e : e + 2]
+        ends = np.stack([y, np.cross(tangent, y)], axis=1)
+        inside: FloatArray = (1 - s) * ends[0] + s * ends[1]
+        if self.element == "nonlocking":
+            inside += 4 * s * (1 - s) * (self._middle_axes(e, e + 1)[0] - 0.5 * (ends[0] + ends[1]))
+        return inside
+
+    def _middle_axes(self, first: int, last: int) -> FloatArray:
+        nodes = slice(first, last + 1)
+        tangent, h = self.node_tangent[nodes], np.diff(self.node_x[nodes])
+        slope = axes.middle_slopes(self.node_position[nodes], self.stretch * tangent, h)
+        middle = slope / np.linalg.norm(slope, axis=1, keepdims=True)
+        y = axes.between(self.node_y[nodes], tangent, middle)
+        both: FloatArray = np.stack([y, np.cross(middle, y)], axis=1)
+        return both
+
     def _hermite(self, x: float) -> tuple[FloatArray, FloatArray]:
-        e = int(np.clip(np.searchsorted(self.node_x, x, side="right") - 1, 0, self.elements - 1))
-        h = self.node_x[e + 1] - self.node_x[e]
-        s = (x - self.node_x[e]) / h
+        e, s, h = self._place(x)
         (p0, p1), (m0, m1) = self.node_position[e : e + 2], h * self.stretch * self.node_tangent[e : e + 2]
         position = p0 + s * m0 + s**2 * (3 * (p1 - p0) - 2 * m0 - m1) + s**3 * (2 * (p0 - p1) + m0 + m1)
         rate = m0 + 2 * s * (3 * (p1 - p0) - 2 * m0 - m1) + 3 * s**2 * (2 * (p0 - p1) + m0 + m1)
         return position, rate / h
+
+    def _place(self, x: float) -> tuple[int, float, float]:
+        """Element at x, place in it from 0 to 1, its reference length."""
+        e = int(np.clip(np.searchsorted(self.node_x, x, side="right") - 1, 0, self.elements - 1))
+        h = float(self.node_x[e + 1] - self.node_x[e])
+        return e, float(x - self.node_x[e]) / h, h

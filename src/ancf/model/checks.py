@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ancf.errors import ModelError
 
 FloatArray = npt.NDArray[np.float64]
+LARGEST = 1e100  # of a coordinate in m or of an inertia in kg m^2
 
 
 def shown(value: object, limit: int = 60) -> str:
@@ -87,6 +88,14 @@ def array(value: object, where: str, shape: tuple[int | None, ...]) -> FloatArra
 def vector(value: object, where: str) -> FloatArray:
     """Three finite numbers."""
     return array(value, where, (3,))
+
+
+def place(value: object, where: str) -> FloatArray:
+    """Three finite numbers that can be squared without overflow: a position, m."""
+    clean = vector(value, where)
+    if float(np.max(np.abs(clean))) > LARGEST:
+        raise ModelError(where, f"is {clean.tolist()} m, must be within {LARGEST:g} m")
+    return clean
 
 
 def direction(value: object, where: str) -> FloatArray:

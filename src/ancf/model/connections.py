@@ -1,26 +1,18 @@
-"""Connections between points: spherical joints and springs."""
+"""Connections between points: springs, beside the joints."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
-
-import numpy as np
 
 from ancf.errors import ModelError
 from ancf.model import checks
 from ancf.model.checks import FloatArray
-from ancf.model.points import Point
-from ancf.model.supports import require_node
+from ancf.model.joints import Fixation, Revolute, Slide, Spherical
+from ancf.model.points import Point, initial_position
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Spherical:
-    """Two nodes keep the same position and turn freely."""
-
-    name: str
-    a: Point
-    b: Point
+__all__ = ["Connection", "Spherical", "Spring", "initial_position", "make_spring"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,30 +41,7 @@ class Spring:
     slack: bool
 
 
-Connection = Spherical | Spring
-
-
-def initial_position(end: Point | FloatArray) -> FloatArray:
-    """Initial position (3,) of a point or of a fixed position, m."""
-    return end.body.initial_position(end.x) if isinstance(end, Point) else end
-
-
-def make_spherical(where: str, name: str, a: Point, b: Point, size: float) -> Spherical:
-    """Check what ``Model.connect`` was given; `size` is the size of the model in m."""
-    nodes = require_node(a, f"{where}.a"), require_node(b, f"{where}.b")
-    if a.body is b.body and nodes[0] == nodes[1]:
-        raise ModelError(f"{where}.b", f"{b} is the same node as {a}")
-    gap = float(np.linalg.norm(initial_position(a) - initial_position(b)))
-    if gap > 1e-9 * size:
-        raise ModelError(f"{where}.b", f"{a} and {b} are {gap:.6g} m apart, must coincide")
-    return Spherical(name, a, b)
-
-
-def check_repeated(where: str, new: Spherical, others: list[Connection]) -> None:
-    """No two joints between the same two points."""
-    for other in others:
-        if isinstance(other, Spherical) and {other.a, other.b} == {new.a, new.b}:
-            raise ModelError(f"{where}.b", f'"{other.name}" connects {new.a} and {new.b} already')
+Connection = Spherical | Revolute | Fixation | Slide | Spring
 
 
 def make_spring(
@@ -87,8 +56,8 @@ def make_spring(
     slack: Any,
 ) -> Spring:
     """Check what ``Model.add_spring`` was given."""
-    distance = float(np.linalg.norm(initial_position(a) - initial_position(b)))
-    if not 0.0 < distance < np.inf:
+    distance = math.dist(initial_position(a), initial_position(b))
+    if not 0.0 < distance < math.inf:
         raise ModelError(f"{where}.b", "its two ends coincide, the spring has no direction")
     k = checks.non_negative(stiffness, f"{where}.stiffness")
     c = checks.non_negative(damping, f"{where}.damping")

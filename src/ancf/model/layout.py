@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ancf.errors import ModelError
-from ancf.model import checks, path
+from ancf.model import axes, checks, path
+from ancf.model.axes import Sampler
 from ancf.model.beam import (
     ELEMENTS,
     MOST_ELEMENTS,
@@ -21,9 +21,10 @@ from ancf.model.beam import (
     Beam,
 )
 from ancf.model.checks import FloatArray
-from ancf.model.section import Section
+from ancf.model.section import MATERIAL, Section
+from ancf.model.shapes import Rectangle
 
-Sampler = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+MOST_TURN = 2 * math.pi / 3  # rad, of the tangent within an element of a beam
 
 
 def make_beam(
@@ -42,30 +43,35 @@ def make_beam(
     length: Any,
     natural_shape: Any,
     gauss: Any,
+    y_axis: Any,
 ) -> Beam:
     """Check everything that ``Model.add_beam`` was given and lay out the nodes."""
+    kind = checks.choice(element, f"{where}.element", ELEMENTS)
     words = {
-        "element": checks.choice(element, f"{where}.element", ELEMENTS),
-        "strain": checks.choice(strain, f"{where}.strain", STRAINS),
+        "element": kind,
+        "strain": _strain(strain, kind, f"{where}.strain"),
         "poisson": checks.choice(poisson, f"{where}.poisson", POISSON),
         "natural_shape": checks.choice(natural_shape, f"{where}.natural_shape", NATURAL_SHAPES),
     }
-    _check_section(section, words["element"], f"{where}.section")
+    _check_section(section, kind, f"{where}.section")
     arc_length, shape = _initial_shape(where, start, end, path)
     natural = arc_length if length is None else checks.positive(length, f"{where}.length")
     if not 1e-6 < arc_length / natural < 1e6:
         raise ModelError(f"{where}.length", f"is {natural:g} m for an initial shape of {arc_length:g} m")
     node_x = _node_x(where, elements, nodes, natural)
     position, tangent = shape(node_x / natural)
+    if kind != "cable":
+        _check_turns(position, arc_length / natural * tangent, np.diff(node_x), where)
     return Beam(
         name=name,
         section=section,
-        gauss=_gauss(gauss, f"{where}.gauss"),
+        gauss=_gauss(gauss, kind, section, f"{where}.gauss"),
         length=natural,
         stretch=arc_length / natural,
         node_x=node_x,
         node_position=position,
         node_tangent=tangent,
+        node_y=_node_y(y_axis, tangent, shape if path is not None else None, node_x / natural, where),
         velocity=np.zeros(3),
         angular_velocity=np.zeros(3),
         about=position[0].copy(),
@@ -82,6 +88,22 @@ def _check_section(section: Any, element: str, where: str) -> None:
             _ = section.EI
         except ModelError as error:
             raise ModelError(where, error.what, error.hint) from None
+    elif section.E is None:
+        what = (
+            f'element "{element}" needs {", ".join(MATERIAL)} of its section, this one has only stiffnesses'
+        )
+        hint = "make it with ancf.Section.rectangle(...), .circle(...) or .from_moments(...)"
+        raise ModelError(where, what, hint)
+
+
+def _strain(given: Any, element: str, where: str) -> str:
+    allowed = STRAINS[element]
+    if given is None:
+        return allowed[0]
+    if element != "cable" and isinstance(given, str) and given in STRAINS["cable"]:
+        what = f'"{given}" is a strain measure of cables, element "{element}" has the "green" strain'
+        raise ModelError(where, what, "leave strain out")
+    return checks.choice(given, where, allowed)
 
 
 def _initial_shape(where: str, start: Any, end: Any, given: Any) -> tuple[float, Sampler]:
@@ -140,8 +162,33 @@ def _check_nodes(node_x: FloatArray, length: float, where: str) -> None:
         raise ModelError(f"{where}[{i + 1}]", f"must be increasing: {node_x[i + 1]:g} follows {node_x[i]:g}")
 
 
-def _gauss(given: Any, where: str) -> tuple[int, int]:
+def _node_y(
+    y_axis: Any, tangent: FloatArray, curve: Sampler | None, fraction: FloatArray, where: str
+) -> FloatArray:
+    first = axes.first_axis(y_axis, tangent[0], f"{where}.y_axis")
+    return np.tile(first, (fraction.size, 1)) if curve is None else axes.along(curve, fraction, first)
+
+
+def _check_turns(position: FloatArray, slope: FloatArray, length: FloatArray, where: str) -> None:
+    """Raise ModelError if an element bends so much that the section between its nodes would collapse."""
+    turn = axes.turns(position, slope, length)
+    worst = int(np.argmax(turn))
+    if turn[worst] > MOST_TURN:
+        angle = f"{np.degrees(turn[worst]):.0f} degrees"
+        what = f"element {worst} of the initial shape turns by {angle}, at most {np.degrees(MOST_TURN):.0f}"
+        raise ModelError(f"{where}.elements", what, "give more elements")
+
+
+def _gauss(given: Any, element: str, section: Section, where: str) -> tuple[int, int]:
+    cable = element == "cable"
     if not isinstance(given, tuple | list) or len(given) != 2:
-        raise ModelError(where, f"must be two counts (axial, bending), is {checks.shown(given)}")
-    axial, bending = (checks.integer(n, f"{where}[{i}]", 1, MOST_GAUSS_POINTS) for i, n in enumerate(given))
-    return axial, bending
+        counts = "axial, bending" if cable else "along the axis, across the section"
+        raise ModelError(where, f"must be two counts ({counts}), is {checks.shown(given)}")
+    lowest = (1, 1) if cable else (1, 2)  # one point across has no stiffness against bending
+    first, second = (
+        checks.integer(n, f"{where}[{i}]", lowest[i], MOST_GAUSS_POINTS) for i, n in enumerate(given)
+    )
+    if not cable and second != 3 and not isinstance(section.shape, Rectangle):
+        what = f"is {second}, must be 3: the points across the section are those of a rectangle"
+        raise ModelError(f"{where}[1]", what, "other sections are integrated exactly")
+    return first, second

@@ -10,6 +10,7 @@ import numpy as np
 from ancf.errors import ModelError
 from ancf.model import checks
 from ancf.model.beam import Beam
+from ancf.model.bodies import Body, PointMass, kind
 from ancf.model.functions import TimeFunction
 from ancf.model.points import Point
 
@@ -25,7 +26,10 @@ class Force:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Moment:
-    """Moment (3,) in N m at a point, in fixed directions, acting on the slope r_x."""
+    """Moment (3,) in N m at a point, in fixed directions.
+
+    On a cable it acts on the slope r_x, on a beam on the section.
+    """
 
     name: str
     point: Point
@@ -46,10 +50,13 @@ Load = Force | Moment | DistributedLoad
 
 
 def make_moment(where: str, name: str, point: Point, moment: Any) -> Moment:
-    """Check what ``Model.add_moment`` was given; a cable takes no torque."""
-    function = TimeFunction(moment, 3, f"{where}.moment")
-    if function.constant and point.body.element == "cable":
-        value, tangent = function(0.0), point.body.initial_tangent(point.x)
+    """Check what ``Model.add_moment`` was given; a cable takes no torque, a point mass no moment."""
+    function, body = TimeFunction(moment, 3, f"{where}.moment"), point.body
+    if isinstance(body, PointMass):
+        what = f'"{body.name}" is a point mass and has no orientation, no moment turns it'
+        raise ModelError(f"{where}.point", what, "make it a rigid body")
+    if function.constant and isinstance(body, Beam) and body.element == "cable":
+        value, tangent = function(0.0), body.initial_tangent(point.x)
         size = float(np.linalg.norm(value))
         if size > 0.0 and float(np.linalg.norm(np.cross(value / size, tangent))) <= 1e-9:
             what = f"{value.tolist()} N m is a torque about the tangent, which a cable cannot take"
@@ -57,8 +64,11 @@ def make_moment(where: str, name: str, point: Point, moment: Any) -> Moment:
     return Moment(name, point, function)
 
 
-def make_distributed(where: str, name: str, body: Beam, load: Any, between: Any) -> DistributedLoad:
+def make_distributed(where: str, name: str, body: Body, load: Any, between: Any) -> DistributedLoad:
     """Check what ``Model.add_distributed_load`` was given."""
+    if not isinstance(body, Beam):
+        what = f'"{body.name}" is a {kind(body)}, a distributed load acts on a beam or cable'
+        raise ModelError(f"{where}.body", what, "model.add_force(...) acts on any body")
     function = TimeFunction(load, 3, f"{where}.load")
     if between is None:
         return DistributedLoad(name, body, function, (0.0, body.length))

@@ -2,31 +2,82 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+
+import numpy as np
 
 from ancf.errors import ModelError
 from ancf.model import checks
 from ancf.model.beam import Beam
-from ancf.model.names import Names, split_label, unknown
+from ancf.model.bodies import Body, PointMass, RigidBody, kind
+from ancf.model.checks import FloatArray
+from ancf.model.connections import Connection, initial_position
+from ancf.model.names import Names, numbers_of, split_label, unknown
 from ancf.model.points import Point
 
 
 class Lookup:
-    """Bodies and names of one model."""
+    """Bodies, connections and names of one model."""
 
     def __init__(self) -> None:
-        self.bodies: dict[str, Beam] = {}
+        self.bodies: dict[str, Body] = {}
+        self.connections: list[Connection] = []
         self._names = Names()
         self._place = ""
 
-    def body(self, name: str) -> Beam:
+    @property
+    def beams(self) -> dict[str, Beam]:
+        """The beams and cables among the bodies, by name."""
+        return {name: body for name, body in self.bodies.items() if isinstance(body, Beam)}
+
+    @property
+    def masses(self) -> dict[str, PointMass]:
+        """The point masses among the bodies, by name."""
+        return {name: body for name, body in self.bodies.items() if isinstance(body, PointMass)}
+
+    @property
+    def rigid_bodies(self) -> dict[str, RigidBody]:
+        """The rigid bodies among the bodies, by name."""
+        return {name: body for name, body in self.bodies.items() if isinstance(body, RigidBody)}
+
+    @property
+    def size(self) -> float:
+        """Largest extent of the initial positions of all bodies along an axis, m; 0 without bodies.
+
+        A rigid body reaches as far as its radius of gyration. Of bodies in one place it is the distance
+        to the farthest fixed position they are connected to, or 1 m.
+        """
+        if not self.bodies:
+            return 0.0
+        ranges = [_extent(body) for body in self.bodies.values()]
+        low, high = np.min([r[0] for r in ranges], axis=0), np.max([r[1] for r in ranges], axis=0)
+        return float(np.max(high - low)) or self._reach(low) or 1.0
+
+    def body(self, name: str) -> Body:
         """Return the body of a name; an unknown name raises ModelError with the right ones."""
         return self._body(name, "Model.body")
 
     def point(self, label: str) -> Point:
-        """Return the point written as ``beam.start``, ``beam.end`` or ``beam.at(0.5)``."""
+        """Return the point written as its label.
+
+        Such as ``beam.start``, ``beam.at(0.5)``, ``beam.at(0.5, 0.01, 0)``, the name of a point mass,
+        ``hub.centre`` or ``hub.at(0.1, 0, 0.2)``.
+        """
         return self._point(label, "Model.point")
+
+    def connection(self, name: Connection | str) -> Connection:
+        """Return the joint or spring of a name, or itself; ModelError with the right names otherwise."""
+        where = "Model.connection"
+        if not isinstance(name, str):
+            if not any(name is item for item in self.connections):
+                what = f"must be a joint or spring of this model, or its name, is {checks.shown(name)}"
+                raise ModelError(where, what)
+            return name
+        for item in self.connections:
+            if item.name == name:
+                return item
+        raise unknown(where, "joint or spring", name, [item.name for item in self.connections])
 
     @contextmanager
     def located(self, place: str) -> Iterator[None]:
@@ -42,12 +93,12 @@ class Lookup:
             return self._place
         if isinstance(name, str):
             return f'{method}("{name}")'
-        if isinstance(subject, Beam):
+        if isinstance(subject, Beam | PointMass | RigidBody):
             return f"{method}({subject.name})"
         return f"{method}({subject})" if isinstance(subject, Point | str) else f"{method}()"
 
-    def _body(self, body: object, where: str) -> Beam:
-        if isinstance(body, Beam):
+    def _body(self, body: object, where: str) -> Body:
+        if isinstance(body, Beam | PointMass | RigidBody):
             if self.bodies.get(body.name) is not body:
                 raise ModelError(where, f'body "{body.name}" belongs to another model')
             return body
@@ -61,21 +112,71 @@ class Lookup:
         if isinstance(point, Point):
             self._body(point.body, where)
             return point
+        if isinstance(point, PointMass | RigidBody):
+            return own_point(self._body(point, where), where)
+        if isinstance(point, Beam):
+            return own_point(point, where)
         if not isinstance(point, str):
-            hint = "such as beam.start, beam.end or beam.at(0.5)"
+            hint = "such as beam.start, beam.end or beam.at(0.5), a point mass or a rigid body"
             raise ModelError(where, f"must be a point, is {checks.shown(point)}", hint)
         return parse_point(self.bodies, point, where)
 
+    def _reach(self, place: FloatArray) -> float:
+        ends = [getattr(item, key, None) for item in self.connections for key in ("b", "point")]
+        far = [float(np.max(np.abs(initial_position(e) - place))) for e in ends if isinstance(e, np.ndarray)]
+        return max(far, default=0.0)
 
-def parse_point(bodies: dict[str, Beam], label: str, where: str = "point") -> Point:
-    """Point written as ``beam.start``, ``beam.end`` or ``beam.at(0.5)``; ModelError if there is none."""
-    name, place = split_label(label, where)
+
+def own_point(body: Body, where: str) -> Point:
+    """The point that stands for a body: of a point mass its point, of a rigid body its centre."""
+    if isinstance(body, PointMass):
+        return body.point
+    if isinstance(body, RigidBody):
+        return body.centre
+    raise ModelError(where, f'"{body.name}" is no point, it is a {kind(body)}', _points_of(body))
+
+
+def parse_point(bodies: Mapping[str, Body], label: str, where: str = "point") -> Point:
+    """Point written as ``beam.start``, ``beam.at(0.5, 0.01, 0)``, ``tip`` or ``hub.centre``.
+
+    Raises
+    ------
+    ModelError
+        There is no such point.
+
+    """
+    if label.strip() in bodies:
+        return own_point(bodies[label.strip()], where)
+    name, word, inside = split_label(label, bodies, where)
     if name not in bodies:
         raise unknown(where, "body", name, bodies)
     body = bodies[name]
-    if isinstance(place, str):
-        return body.start if place == "start" else body.end
+    if isinstance(body, Beam) and word in ("start", "end"):
+        return body.start if word == "start" else body.end
+    if isinstance(body, RigidBody) and word == "centre":
+        return body.centre
+    if isinstance(body, PointMass) or word != "at":
+        raise ModelError(where, f'"{label}": "{name}" is a {kind(body)}', _points_of(body))
+    place = numbers_of(inside, label, where, rigid=isinstance(body, RigidBody))
     try:
-        return body.at(place)
+        return body.at(*place)
     except ModelError as error:
         raise ModelError(where, error.what, error.hint) from None
+
+
+def _points_of(body: Body) -> str:
+    """How the points of a body are written."""
+    name = body.name
+    if isinstance(body, PointMass):
+        return f'its point is "{name}"'
+    if isinstance(body, RigidBody):
+        return f"its points are {name}.centre and {name}.at(x, y, z)"
+    return f"its points are {name}.start, {name}.end and {name}.at(x)"
+
+
+def _extent(body: Body) -> tuple[FloatArray, FloatArray]:
+    """Lowest and highest coordinates (3,) of a body, m."""
+    if isinstance(body, Beam):
+        return np.min(body.node_position, axis=0), np.max(body.node_position, axis=0)
+    radius = body.gyration_radius if isinstance(body, RigidBody) else 0.0
+    return body.position - radius, body.position + radius

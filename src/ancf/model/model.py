@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from typing import Any, TypeVar
 
-import numpy as np
-
+from ancf.errors import ModelError
 from ancf.model import checks, describe
 from ancf.model.beam import Beam
+from ancf.model.bodies import Body, PointMass, RigidBody, make_point_mass, make_rigid_body
 from ancf.model.checks import FloatArray
-from ancf.model.connections import Connection, Spherical, Spring, check_repeated, make_spherical, make_spring
+from ancf.model.connecting import Connecting, PointLike
+from ancf.model.connections import Spring
 from ancf.model.functions import TimeFunction
+from ancf.model.joints import Fixation, Revolute, Slide, Spherical
 from ancf.model.layout import make_beam
 from ancf.model.loads import DistributedLoad, Force, Load, Moment, make_distributed, make_moment
-from ancf.model.lookup import Lookup
 from ancf.model.points import Point
 from ancf.model.section import Section
 from ancf.model.supports import (
@@ -30,16 +31,18 @@ from ancf.model.supports import (
 
 SupportT = TypeVar("SupportT", bound=Support)
 LoadT = TypeVar("LoadT", bound=Load)
-ConnectionT = TypeVar("ConnectionT", bound=Connection)
+BodyT = TypeVar("BodyT", bound=Body)
 
 
-class Model(Lookup):
+class Model(Connecting):
     """Bodies, supports, loads and connections in a field of gravity.
 
-    Points are given as ``beam.start``, ``beam.end``, ``beam.at(x)`` or as that text. Values that may
-    depend on time are constants, functions of t in s, or formulas such as ``"10*sin(2*pi*t)"``.
-    Every ``add_`` and support method takes a unique ``name`` and returns the new item; each raises
-    ModelError, with the place, when something given is wrong.
+    Points are given as ``beam.start``, ``beam.end``, ``beam.at(x)``, on a beam with a cross-section also
+    ``beam.at(x, y, z)``, on a rigid body ``hub.centre`` and ``hub.at(x, y, z)``, or as that text; a point
+    mass, or a rigid body for its centre of mass, stands for its point, as an object or by its name.
+    Values that may depend on time are constants, functions of t in s, or formulas such as
+    ``"10*sin(2*pi*t)"``. Every method that adds something takes a unique ``name`` and returns the new
+    item; each raises ModelError, with the place, when something given is wrong.
 
     Parameters
     ----------
@@ -48,7 +51,9 @@ class Model(Lookup):
 
     Attributes
     ----------
-    bodies : dict of str to Beam
+    bodies : dict of str to Beam, PointMass or RigidBody
+    beams, masses, rigid_bodies : dict
+        The bodies of one kind.
     supports, loads, connections : list
 
     """
@@ -59,7 +64,6 @@ class Model(Lookup):
         self.title = checks.text(title, "Model.title")
         self.supports: list[Support] = []
         self.loads: list[Load] = []
-        self.connections: list[Connection] = []
 
     def __repr__(self) -> str:
         counts = ("bodies", "supports", "loads", "connections")
@@ -77,11 +81,12 @@ class Model(Lookup):
         elements: int | None = None,
         nodes: Any = None,
         element: str = "cable",
-        strain: str = "material",
+        strain: str | None = None,
         poisson: str = "centreline",
         length: float | None = None,
         natural_shape: str = "path",
         gauss: tuple[int, int] = (5, 3),
+        y_axis: Any = None,
     ) -> Beam:
         """Add a beam or cable.
 
@@ -90,7 +95,7 @@ class Model(Lookup):
         name : str
             Unique over the model.
         section : Section
-            Stiffnesses, mass and damping per length.
+            Stiffnesses, mass and damping per length; of a material for the two beams.
         start, end : (3,) m
             Ends of a straight beam.
         path : (m, 3) m or callable
@@ -99,18 +104,25 @@ class Model(Lookup):
             Number of elements of equal length.
         nodes : (n+1,) m
             Instead of elements: increasing reference arc lengths from 0 to the length.
-        element : "cable"
-            Kind of element.
+        element : "cable", "original" or "nonlocking"
+            Kind of element: the paper's cable (12 unknowns), or its beams with shear, torsion and a
+            deformable cross-section (24 and 30 unknowns).
         strain : "material" or "paper"
-            Strain measures of the cable.
+            Strain measures of the cable, default "material". The beams have one, "green".
         poisson : "centreline" or "full"
-            For the thick beams; a cable ignores it.
+            Poisson effect of the beams: coupled on the centreline only, which does not lock and takes
+            the section's J and shear factors, or in the whole volume, the paper's. A cable ignores it.
         length : float, m
             Natural length; default the arc length of the initial shape.
         natural_shape : "path" or "straight"
             Whether the initial shape is free of bending, or a straight beam was bent into it.
         gauss : (int, int)
-            Gauss points of the axial and the bending integrals.
+            Gauss points of a cable's axial and bending integrals, or of a beam along its axis and in
+            each direction of the section, where 3 are exact.
+        y_axis : (3,)
+            Direction near which the local y axis lies at the start; default horizontal, along
+            e_z x tangent, or e_y for a vertical start. Along a path the axes do not turn about the
+            tangent.
 
         """
         where = self._where("add_beam", name if isinstance(name, str) else None)
@@ -129,13 +141,42 @@ class Model(Lookup):
             length=length,
             natural_shape=natural_shape,
             gauss=gauss,
+            y_axis=y_axis,
         )
-        self._names.take(beam.name, "body")
-        self.bodies[beam.name] = beam
-        return beam
+        return self._add_body(beam)
 
-    def pin(self, point: Point | str, displacement: Any = None, name: str | None = None) -> Pin:
-        """Hold the position of a node, or move it by displacement(t) (3,) in m from its initial place."""
+    def add_point_mass(self, name: str, *, at: Any, mass: float) -> PointMass:
+        """Add a mass at a point, at=(3,) in m, mass in kg > 0, without rotation."""
+        where = self._where("add_point_mass", name if isinstance(name, str) else None)
+        return self._add_body(make_point_mass(where, self._names.of_body(name, where), at, mass))
+
+    def add_rigid_body(
+        self, name: str, *, at: Any, mass: float, inertia: Any = None, axes: Any = None
+    ) -> RigidBody:
+        """Add a rigid body.
+
+        Parameters
+        ----------
+        name : str
+            Unique over the model.
+        at : (3,) m
+            Initial position of its centre of mass.
+        mass : float, kg
+        inertia : (3,) or (3, 3) kg m^2
+            Principal moments, or matrix, about the centre of mass in body axes; must be given.
+        axes : (3, 3)
+            Rotation matrix whose columns are the initial directions of the body axes; default global.
+
+        """
+        where = self._where("add_rigid_body", name if isinstance(name, str) else None)
+        clean = self._names.of_body(name, where)
+        return self._add_body(make_rigid_body(where, clean, at, mass, inertia, axes))
+
+    def pin(self, point: PointLike, displacement: Any = None, name: str | None = None) -> Pin:
+        """Hold a node, point mass or rigid body's centre, or move it by displacement(t) (3,) in m.
+
+        The displacement is from the initial place; what is only pinned turns freely.
+        """
         where, clean = self._at_node("pin", point, name)
         item = Pin(
             self._names.of_item(name, f"pin at {clean}", where),
@@ -146,7 +187,7 @@ class Model(Lookup):
 
     def clamp(
         self,
-        point: Point | str,
+        point: PointLike,
         stretch: str = "free",
         rotation: Any = None,
         axis: Any = (0, 0, 1),
@@ -154,17 +195,19 @@ class Model(Lookup):
         rotation_acceleration: Any = None,
         displacement: Any = None,
         name: str | None = None,
-    ) -> Clamp:
-        """Hold position and slope of a node, or move them.
+        to: RigidBody | str | None = None,
+    ) -> Clamp | Fixation:
+        """Hold position and slope of a node, on a beam all three slopes, or a rigid body, or move them.
 
         Parameters
         ----------
-        point : Point
-            At a node.
+        point : Point or RigidBody
+            At a node, or a rigid body, which is held altogether.
         stretch : "free" or "fixed"
-            Hold the direction of r_x only, or all of it (the wall strain is then zero).
+            Hold the direction of r_x only, or all of it (the wall strain is then zero); on a beam of
+            r_x, r_y and r_z.
         rotation : function of time, rad
-            Angle of the tangent about `axis`, from the initial one.
+            Angle of the slopes or the body about `axis`, from the initial ones.
         axis : (3,)
             Axis of the rotation; any length but zero.
         rotation_rate, rotation_acceleration : functions of time, rad/s, rad/s^2
@@ -173,8 +216,22 @@ class Model(Lookup):
             From the initial position.
         name : str
             Default "clamp at beam.start".
+        to : RigidBody
+            Clamp the node to this body where it is, instead of holding or moving it.
 
         """
+        if to is not None:
+            moving = {
+                "rotation": rotation,
+                "rotation_rate": rotation_rate,
+                "rotation_acceleration": rotation_acceleration,
+                "displacement": displacement,
+            }
+            for key, given in moving.items():
+                if given is not None:
+                    where = f"{self._where('clamp', name, point)}.{key}"
+                    raise ModelError(where, "has no effect with to: the node follows the body")
+            return self._fix(point, to, stretch, name)
         where, clean = self._at_node("clamp", point, name)
         item = make_clamp(
             where,
@@ -189,21 +246,51 @@ class Model(Lookup):
         )
         return self._add_support(where, item)
 
-    def hold(self, point: Point | str, position: str = "", slope: str = "", name: str | None = None) -> Hold:
-        """Keep single components of position and slope r_x of a node, letters of "xyz"."""
+    def hold(
+        self,
+        point: PointLike,
+        position: str = "",
+        slope: str = "",
+        slope_y: str = "",
+        slope_z: str = "",
+        twist: bool = False,
+        name: str | None = None,
+    ) -> Hold:
+        """Keep single components of position and slopes of a node at their initial values.
+
+        Parameters
+        ----------
+        point : Point, PointMass or RigidBody
+            At a node, or a point mass or a rigid body's centre, which have a position only.
+        position, slope : str
+            Letters of "xyz" of the position r and of the slope r_x, global directions.
+        slope_y, slope_z : str
+            The same of r_y and r_z, of beams only.
+        twist : bool
+            Hold the component of r_y along the initial local z axis: the section does not turn about
+            the tangent and is free to bend. Of beams only, and not together with slope_y.
+        name : str
+            Default "hold at beam.start".
+
+        """
         where, clean = self._at_node("hold", point, name)
         label = self._names.of_item(name, f"hold at {clean}", where)
-        return self._add_support(where, make_hold(where, label, clean, position, slope))
+        letters = {"position": position, "slope": slope, "slope_y": slope_y, "slope_z": slope_z}
+        return self._add_support(where, make_hold(where, label, clean, **letters, twist=twist))
 
-    def add_force(self, point: Point | str, force: Any, name: str | None = None) -> Force:
+    def add_force(self, point: PointLike, force: Any, name: str | None = None) -> Force:
         """Add a force (3,) in N at a point, in fixed directions."""
         where = self._where("add_force", name, point)
         clean = self._point(point, f"{where}.point")
         label = self._names.of_item(name, f"force at {clean}", where)
         return self._add_load(Force(label, clean, TimeFunction(force, 3, f"{where}.force")))
 
-    def add_moment(self, point: Point | str, moment: Any, name: str | None = None) -> Moment:
-        """Add a moment (3,) in N m at a point, in fixed directions; it acts on the slope r_x."""
+    def add_moment(self, point: PointLike, moment: Any, name: str | None = None) -> Moment:
+        """Add a moment (3,) in N m at a point, in fixed directions.
+
+        On a cable it acts on the slope r_x and must not be a torque; on a beam it acts on the section;
+        on a rigid body its place does not matter.
+        """
         where = self._where("add_moment", name, point)
         clean = self._point(point, f"{where}.point")
         label = self._names.of_item(name, f"moment at {clean}", where)
@@ -218,66 +305,6 @@ class Model(Lookup):
         label = self._names.of_item(name, f"load on {clean.name}", where)
         return self._add_load(make_distributed(where, label, clean, load, between))
 
-    def connect(self, a: Point | str, b: Point | str, name: str | None = None) -> Spherical:
-        """Join two coincident nodes by a spherical joint."""
-        where = self._where("connect", name, a)
-        ends = self._point(a, f"{where}.a"), self._point(b, f"{where}.b")
-        label = self._names.of_item(name, f"joint of {ends[0]} and {ends[1]}", where)
-        item = make_spherical(where, label, *ends, self.size)
-        check_repeated(where, item, self.connections)
-        return self._add_connection(item)
-
-    def add_spring(
-        self,
-        a: Point | str,
-        b: Any,
-        *,
-        stiffness: float,
-        damping: float = 0.0,
-        length: float | None = None,
-        slack: bool = False,
-        name: str | None = None,
-    ) -> Spring:
-        """Add a spring and damper between a point and a point or a fixed position (3,) in m.
-
-        Parameters
-        ----------
-        a : Point
-            One end.
-        b : Point or (3,) m
-            The other end, or a position in space.
-        stiffness : float, N/m
-            Force per elongation.
-        damping : float, N s/m
-            Force per rate of elongation.
-        length : float, m
-            Length without force; default the initial distance.
-        slack : bool
-            It carries tension only.
-        name : str
-            Default "spring from a.end to b.end".
-
-        """
-        where = self._where("add_spring", name, a)
-        first = self._point(a, f"{where}.a")
-        fixed = not isinstance(b, Point | str)
-        second = checks.vector(b, f"{where}.b") if fixed else self._point(b, f"{where}.b")
-        other = "ground" if isinstance(second, np.ndarray) else str(second)
-        label = self._names.of_item(name, f"spring from {first} to {other}", where)
-        item = make_spring(
-            where, label, first, second, stiffness=stiffness, damping=damping, length=length, slack=slack
-        )
-        return self._add_connection(item)
-
-    @property
-    def size(self) -> float:
-        """Largest extent of all initial node positions along an axis, m; 0 without bodies."""
-        if not self.bodies:
-            return 0.0
-        low = np.min([np.min(beam.node_position, axis=0) for beam in self.bodies.values()], axis=0)
-        high = np.max([np.max(beam.node_position, axis=0) for beam in self.bodies.values()], axis=0)
-        return float(np.max(high - low))
-
     def to_dict(self) -> dict[str, Any]:
         """Plain description, ready for JSON; Python functions as ``<function name>``."""
         kinds = {
@@ -288,10 +315,13 @@ class Model(Lookup):
             Moment: "moment",
             DistributedLoad: "distributed",
             Spherical: "spherical",
+            Revolute: "hinge",
+            Fixation: "fixation",
+            Slide: "slide",
             Spring: "spring",
         }
         plain: dict[str, Any] = {"title": self.title, "gravity": self.gravity.tolist()}
-        plain["bodies"] = [describe.beam(beam) for beam in self.bodies.values()]
+        plain["bodies"] = [describe.body(body) for body in self.bodies.values()]
         for key in ("supports", "loads", "connections"):
             plain[key] = [describe.other(item, kinds[type(item)]) for item in getattr(self, key)]
         return plain
@@ -302,6 +332,11 @@ class Model(Lookup):
         require_node(clean, f"{where}.point")
         return where, clean
 
+    def _add_body(self, body: BodyT) -> BodyT:
+        self._names.take(body.name, "body")
+        self.bodies[body.name] = body
+        return body
+
     def _add_support(self, where: str, item: SupportT) -> SupportT:
         check_overlap(where, item, self.supports)
         self._names.take(item.name, "support")
@@ -311,9 +346,4 @@ class Model(Lookup):
     def _add_load(self, item: LoadT) -> LoadT:
         self._names.take(item.name, "load")
         self.loads.append(item)
-        return item
-
-    def _add_connection(self, item: ConnectionT) -> ConnectionT:
-        self._names.take(item.name, "connection")
-        self.connections.append(item)
         return item

@@ -9,7 +9,8 @@ from ancf.errors import ModelError
 from ancf.model import checks
 
 BODY_NAME = re.compile(r"\w([\w -]*\w)?")
-POINT_LABEL = re.compile(r"(?P<body>.*)\.(?:(?P<end>start|end)|at\((?P<x>[^()]*)\))")
+POINT_LABEL = re.compile(r"(?P<body>.*)\.(?:(?P<word>start|end|centre)|at\((?P<inside>[^()]*)\))")
+BEAM_PLACES = ("arc length", "place along local y", "place along local z")
 
 
 class Names:
@@ -58,15 +59,29 @@ def unknown(where: str, kind: str, name: object, known: Iterable[str]) -> ModelE
     return ModelError(where, f"unknown {kind} {checks.shown(name)}, {have}", checks.nearest(name, names))
 
 
-def split_label(label: str, where: str) -> tuple[str, str | float]:
-    """Split "beam.end" into ("beam", "end") and "beam.at(0.5)" into ("beam", 0.5)."""
+def split_label(label: str, bodies: Iterable[str], where: str) -> tuple[str, str, str]:
+    """Split "beam.end" into ("beam", "end", "") and "beam.at(0.5, 0)" into ("beam", "at", "0.5, 0")."""
     found = POINT_LABEL.fullmatch(label.strip())
     if found is None:
-        example = "beam.start, beam.end or beam.at(0.5)"
-        raise ModelError(where, f'"{label}" is no point, a point is written like {example}')
-    if found["end"]:
-        return found["body"], found["end"]
+        example = "beam.start, beam.end, beam.at(0.5) or beam.at(0.5, 0.01, 0)"
+        what = f'"{label}" is no point, a point is written like {example}'
+        raise ModelError(where, what, checks.nearest(label, bodies))
+    return found["body"], found["word"] or "at", found["inside"] or ""
+
+
+def numbers_of(inside: str, label: str, where: str, *, rigid: bool) -> tuple[float, ...]:
+    """Numbers between the brackets of "beam.at(0.5, 0.01, 0)", or of a rigid body's "hub.at(1, 0, 0)"."""
+    parts = inside.split(",")
+    if len(parts) > 3 or (rigid and len(parts) < 3):
+        wanted = "x, y, z" if rigid else "x or x, y, z"
+        count = f"{len(parts)} number{'s' if len(parts) > 1 else ''}"
+        raise ModelError(where, f'"{label}" has {count}, wanted {wanted} in m')
+    kinds = ("place along x", "place along y", "place along z") if rigid else BEAM_PLACES
+    return tuple(_number(*pair, label, where) for pair in zip(parts, kinds, strict=False))
+
+
+def _number(text: str, kind: str, label: str, where: str) -> float:
     try:
-        return found["body"], float(found["x"])
+        return float(text)
     except ValueError:
-        raise ModelError(where, f'"{label}": "{found["x"]}" is no arc length in m') from None
+        raise ModelError(where, f'"{label}": "{text.strip()}" is no {kind} in m') from None

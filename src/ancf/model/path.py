@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ancf.errors import ModelError
+from ancf.model.axes import subdivided
 from ancf.model.checks import FloatArray
 from ancf.model.functions import call
 
@@ -34,7 +35,7 @@ class Curve:
         self._spline: Any = CubicSpline(knots, points)
         self._slope: Any = self._spline.derivative()
         self._parts = max(2, 64 // knots.size)
-        self._u = _subdivided(knots, self._parts)
+        self._u = subdivided(knots, self._parts)
         self._pieces = _arc(self._slope, self._u[:-1], self._u[1:])
         self._s = np.concatenate([[0.0], np.cumsum(self._pieces)])
 
@@ -112,12 +113,6 @@ def _sample(function: Callable[[float], Any], count: int, where: str) -> Curve:
     if float(np.max(np.ptp(points, axis=0))) == 0.0:
         raise ModelError(where, "has no length: the function returns the same position for every u")
     return Curve(u, points, where)
-
-
-def _subdivided(knots: FloatArray, parts: int) -> FloatArray:
-    fraction = np.arange(parts) / parts
-    inner = knots[:-1, None] + fraction * np.diff(knots)[:, None]
-    return np.append(inner.ravel(), knots[-1])
 
 
 def _arc(slope: Any, a: FloatArray, b: FloatArray) -> FloatArray:

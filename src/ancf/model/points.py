@@ -1,4 +1,4 @@
-"""Point: a material point of a body, found by its reference arc length."""
+"""Point: a material point of a body."""
 
 from __future__ import annotations
 
@@ -6,37 +6,64 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ancf.model.beam import Beam
+    from ancf.model.bodies import Body
+    from ancf.model.checks import FloatArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Point:
-    """A point of a body; equal to another with the same body name and arc length.
+    """A point of a body; equal to another with the same body name and the same place.
 
     Parameters
     ----------
-    body : Beam
+    body : Beam, PointMass or RigidBody
     x : float
-        Reference arc length from the start, m.
+        Of a beam: reference arc length from the start, m. Of a rigid body: place along its first axis
+        from the centre of mass, m. Of a point mass: 0.
     label : str
-        ``beam.start``, ``beam.end`` or ``beam.at(0.5)``.
+        ``beam.start``, ``beam.end``, ``beam.at(0.5)``, ``beam.at(0.5, 0.01, 0)``, the name of a point
+        mass, ``hub.centre`` or ``hub.at(0.1, 0, 0.2)``.
+    y, z : float
+        Of a beam: place in the cross-section along its local axes, m. Of a rigid body: place along its
+        second and third axes, m.
 
     """
 
-    body: Beam
+    body: Body
     x: float
     label: str
+    y: float = 0.0
+    z: float = 0.0
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Point):
             return NotImplemented
-        return self.body.name == other.body.name and self.x == other.x
+        return self._key == other._key
 
     def __hash__(self) -> int:
-        return hash((self.body.name, self.x))
+        return hash(self._key)
 
     def __str__(self) -> str:
         return self.label
 
     def __repr__(self) -> str:
         return f"Point({self.label})"
+
+    @property
+    def eccentric(self) -> bool:
+        """Whether the point is off a beam's centreline or off a rigid body's centre of mass."""
+        return self.body.off_centre(self.x, self.y, self.z)
+
+    @property
+    def initial_position(self) -> FloatArray:
+        """Initial position (3,), m."""
+        return self.body.initial_position(self.x, self.y, self.z)
+
+    @property
+    def _key(self) -> tuple[str, float, float, float]:
+        return self.body.name, self.x, self.y, self.z
+
+
+def initial_position(end: Point | FloatArray) -> FloatArray:
+    """Initial position (3,) of a point or of a fixed position, m."""
+    return end.initial_position if isinstance(end, Point) else end

@@ -4,29 +4,28 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from ancf.errors import ModelError
 from ancf.model import checks
+from ancf.model.shapes import Circle, Rectangle
 
+__all__ = ["MATERIAL", "Circle", "Rectangle", "Section"]
 
-@dataclass(frozen=True, slots=True)
-class Rectangle:
-    """Width (local y) and height (local z) in m."""
-
-    width: float
-    height: float
-
-
-@dataclass(frozen=True, slots=True)
-class Circle:
-    """Diameter in m."""
-
-    diameter: float
+#: What a section of a material has and Section(EA=, EI=, rhoA=) has not.
+MATERIAL = ("A", "I_y", "I_z", "J", "E", "nu", "rho")
+FOURTH_MOMENTS = ("I_yyyy", "I_zzzz", "I_yyzz")
+#: Keywords of ``Section.from_moments`` that are integrals over the area.
+MOMENTS = ("A", "I_y", "I_z", "J", *FOURTH_MOMENTS)
+DAMPINGS = ("damping", "axial_damping", "bending_damping")
 
 
 @dataclass(frozen=True, slots=True, init=False)
 class Section:
     """Stiffnesses, mass and damping per length of a beam; every argument by keyword.
+
+    ``Section(EA=, EI=, rhoA=)`` is enough for a cable. The two beams need a section of a material:
+    ``Section.rectangle``, ``Section.circle`` or ``Section.from_moments``.
 
     Parameters
     ----------
@@ -43,6 +42,25 @@ class Section:
     bending_damping : float
         Kelvin-Voigt, N m^2 s: ``M = EI kappa + bending_damping d kappa/dt``.
 
+    Attributes
+    ----------
+    EI_y, EI_z : float
+        Bending stiffnesses about local y and z, N m^2.
+    shape : Rectangle, Circle or None
+    E, nu, rho : float or None
+        Young's modulus, N/m^2, Poisson's ratio, density, kg/m^3.
+    A : float or None
+        Area, m^2.
+    I_y, I_z : float or None
+        Integrals of z^2 and of y^2 over the area, m^4.
+    J : float or None
+        Saint-Venant's torsion constant, m^4, for ``poisson = "centreline"``.
+    I_yyyy, I_zzzz, I_yyzz : float or None
+        Integrals of y^4, z^4 and y^2 z^2 over the area, m^6.
+    shear_factors : (float, float) or None
+        Factors k_y, k_z of the shear stiffnesses ``k_y G A`` along local y and ``k_z G A`` along z,
+        for ``poisson = "centreline"``.
+
     Raises
     ------
     ModelError
@@ -50,8 +68,7 @@ class Section:
 
     Notes
     -----
-    ``EI_y = E width height^3/12`` and ``EI_z = E height width^3/12`` are the two bending stiffnesses of
-    a shape. `shape`, `E`, `nu`, `rho` are None for a section given by its stiffnesses.
+    What belongs to a material is None for a section given by its stiffnesses.
 
     """
 
@@ -66,6 +83,14 @@ class Section:
     E: float | None
     nu: float | None
     rho: float | None
+    A: float | None
+    I_y: float | None
+    I_z: float | None
+    J: float | None
+    I_yyyy: float | None
+    I_zzzz: float | None
+    I_yyzz: float | None
+    shear_factors: tuple[float, float] | None
 
     def __init__(
         self,
@@ -96,15 +121,31 @@ class Section:
         rho: float,
         nu: float = 0.0,
         *,
+        J: float | None = None,
+        shear_factors: tuple[float, float] = (1.0, 1.0),
         damping: float = 0.0,
         axial_damping: float = 0.0,
         bending_damping: float = 0.0,
     ) -> Section:
-        """Rectangle of a material: m, m, Young's modulus N/m^2, density kg/m^3, Poisson's ratio."""
+        """Rectangle of a material.
+
+        Parameters
+        ----------
+        width, height : float, m
+            Along local y and along local z.
+        E, rho, nu : float
+            Young's modulus, N/m^2, density, kg/m^3, Poisson's ratio.
+        J : float, m^4
+            Torsion constant; default Saint-Venant's exact one.
+        shear_factors : (float, float)
+            Of the shear stiffnesses along local y and z; 5/6 for a rectangle in most textbooks.
+        damping, axial_damping, bending_damping : float
+            As for ``Section``.
+
+        """
         b, h = checks.positive(width, "Section.width"), checks.positive(height, "Section.height")
-        second_moments = (b * h**3 / 12, h * b**3 / 12)
         dampings = _dampings(damping, axial_damping, bending_damping)
-        return _of_material(Rectangle(b, h), b * h, second_moments, E, rho, nu, dampings)
+        return _of_shape(Rectangle(b, h), E, rho, nu, J, shear_factors, dampings)
 
     @classmethod
     def circle(
@@ -114,15 +155,86 @@ class Section:
         rho: float,
         nu: float = 0.0,
         *,
+        J: float | None = None,
+        shear_factors: tuple[float, float] = (1.0, 1.0),
         damping: float = 0.0,
         axial_damping: float = 0.0,
         bending_damping: float = 0.0,
     ) -> Section:
-        """Full circle of a material: m, Young's modulus N/m^2, density kg/m^3, Poisson's ratio."""
-        d = checks.positive(diameter, "Section.diameter")
-        second_moment = math.pi * d**4 / 64
+        """Full circle of a material.
+
+        Parameters
+        ----------
+        diameter : float, m
+        E, rho, nu : float
+            Young's modulus, N/m^2, density, kg/m^3, Poisson's ratio.
+        J : float, m^4
+            Torsion constant; default pi diameter^4/32.
+        shear_factors : (float, float)
+            Of the shear stiffnesses along local y and z; 9/10 for a circle in most textbooks.
+        damping, axial_damping, bending_damping : float
+            As for ``Section``.
+
+        """
+        shape = Circle(checks.positive(diameter, "Section.diameter"))
         dampings = _dampings(damping, axial_damping, bending_damping)
-        return _of_material(Circle(d), math.pi * d**2 / 4, (second_moment,) * 2, E, rho, nu, dampings)
+        return _of_shape(shape, E, rho, nu, J, shear_factors, dampings)
+
+    @classmethod
+    def from_moments(
+        cls,
+        *,
+        A: float,
+        I_y: float,
+        I_z: float,
+        J: float,
+        E: float,
+        rho: float,
+        nu: float = 0.0,
+        I_yyyy: float | None = None,
+        I_zzzz: float | None = None,
+        I_yyzz: float | None = None,
+        shear_factors: tuple[float, float] = (1.0, 1.0),
+        damping: float = 0.0,
+        axial_damping: float = 0.0,
+        bending_damping: float = 0.0,
+    ) -> Section:
+        """Section of any shape with two axes of symmetry, from the integrals over its area.
+
+        Parameters
+        ----------
+        A : float, m^2
+            Area.
+        I_y, I_z : float, m^4
+            Integrals of z^2 and of y^2.
+        J : float, m^4
+            Torsion constant.
+        E, rho, nu : float
+            Young's modulus, N/m^2, density, kg/m^3, Poisson's ratio.
+        I_yyyy, I_zzzz, I_yyzz : float, m^6
+            Integrals of y^4, z^4, y^2 z^2; they count where bending is strong. By default those of a
+            rectangle whose radii of gyration are the same: ``height^2 = 12 I_y/A``,
+            ``width^2 = 12 I_z/A``, which makes them 1.8 I_z^2/A, 1.8 I_y^2/A and I_y I_z/A.
+        shear_factors : (float, float)
+            Of the shear stiffnesses along local y and z.
+        damping, axial_damping, bending_damping : float
+            As for ``Section``.
+
+        Raises
+        ------
+        ModelError
+            A value is out of range, or no area has such moments.
+
+        """
+        given = {"A": A, "I_y": I_y, "I_z": I_z}
+        moments = {key: checks.positive(value, f"Section.{key}") for key, value in given.items()}
+        for key, value in zip(FOURTH_MOMENTS, (I_yyyy, I_zzzz, I_yyzz), strict=True):
+            default = _of_similar_rectangle(key, moments)
+            moments[key] = checks.positive(default if value is None else value, f"Section.{key}")
+        _check_moments(moments)
+        torsion = checks.positive(J, "Section.J")
+        dampings = _dampings(damping, axial_damping, bending_damping)
+        return _of_material(None, moments, torsion, E, rho, nu, shear_factors, dampings)
 
     @property
     def EI(self) -> float:
@@ -143,19 +255,64 @@ class Section:
             )
         return self.EI_y
 
+    @property
+    def G(self) -> float | None:
+        """Shear modulus ``E/(2 (1 + nu))``, N/m^2, or None without a material."""
+        return None if self.E is None or self.nu is None else self.E / (2 * (1 + self.nu))
+
+
+def _of_similar_rectangle(key: str, moments: dict[str, float]) -> float:
+    """Fourth moment of the rectangle with the same radii of gyration."""
+    factor, one, other = {
+        "I_yyyy": (1.8, "I_z", "I_z"),
+        "I_zzzz": (1.8, "I_y", "I_y"),
+        "I_yyzz": (1.0, "I_y", "I_z"),
+    }[key]
+    return factor * moments[one] * moments[other] / moments["A"]
+
+
+def _check_moments(m: dict[str, float]) -> None:
+    """Inequalities of Cauchy and Schwarz, which no area breaks; the strain energy would not be positive."""
+    A, I_y, I_z = m["A"], m["I_y"], m["I_z"]
+    spread = {"I_yyyy": m["I_yyyy"] - I_z * I_z / A, "I_zzzz": m["I_zzzz"] - I_y * I_y / A}
+    for key, text in (("I_yyyy", "I_z^2/A"), ("I_zzzz", "I_y^2/A")):
+        if spread[key] < -1e-9 * m[key]:
+            what = f"is {m[key]:g} m^6, must be >= {text} = {m[key] - spread[key]:g} m^6 for any area"
+            raise ModelError(f"Section.{key}", what)
+    middle = I_y * I_z / A
+    most = math.sqrt(max(spread["I_yyyy"], 0.0)) * math.sqrt(max(spread["I_zzzz"], 0.0))
+    if abs(m["I_yyzz"] - middle) > most + 1e-9 * middle:
+        what = f"is {m['I_yyzz']:g} m^6, must be I_y I_z/A = {middle:g} within {most:g} m^6 for any area"
+        hint = "the bound is sqrt((I_yyyy - I_z^2/A) (I_zzzz - I_y^2/A))"
+        raise ModelError("Section.I_yyzz", what, hint)
+
 
 def _dampings(damping: float, axial: float, bending: float) -> dict[str, float]:
-    given = {"damping": damping, "axial_damping": axial, "bending_damping": bending}
+    given = dict(zip(DAMPINGS, (damping, axial, bending), strict=True))
     return {key: checks.non_negative(value, f"Section.{key}") for key, value in given.items()}
 
 
-def _of_material(
+def _of_shape(
     shape: Rectangle | Circle,
-    area: float,
-    second_moments: tuple[float, float],
-    E: float,
-    rho: float,
-    nu: float,
+    E: Any,
+    rho: Any,
+    nu: Any,
+    J: Any,
+    shear_factors: Any,
+    dampings: dict[str, float],
+) -> Section:
+    torsion = shape.torsion_constant() if J is None else checks.positive(J, "Section.J")
+    return _of_material(shape, shape.moments(), torsion, E, rho, nu, shear_factors, dampings)
+
+
+def _of_material(
+    shape: Rectangle | Circle | None,
+    moments: dict[str, float],
+    torsion: float,
+    E: Any,
+    rho: Any,
+    nu: Any,
+    shear_factors: Any,
     dampings: dict[str, float],
 ) -> Section:
     modulus, density = checks.positive(E, "Section.E"), checks.positive(rho, "Section.rho")
@@ -163,18 +320,27 @@ def _of_material(
     if not -1 < ratio < 0.5:
         raise ModelError("Section.nu", f"must be > -1 and < 0.5, is {ratio:g}")
     stiffnesses = {
-        "EA": checks.positive(modulus * area, "Section.EA"),
-        "EI_y": checks.positive(modulus * second_moments[0], "Section.EI"),
-        "EI_z": checks.positive(modulus * second_moments[1], "Section.EI"),
-        "rhoA": checks.positive(density * area, "Section.rhoA"),
+        "EA": checks.positive(modulus * moments["A"], "Section.EA"),
+        "EI_y": checks.positive(modulus * moments["I_y"], "Section.EI"),
+        "EI_z": checks.positive(modulus * moments["I_z"], "Section.EI"),
+        "rhoA": checks.positive(density * moments["A"], "Section.rhoA"),
     }
+    for key, value in moments.items():
+        checks.positive(value, f"Section.{key}")
+    factors = _shear_factors(shear_factors)
+    material = {"E": modulus, "nu": ratio, "rho": density, "J": torsion, "shear_factors": factors}
     section: Section = object.__new__(Section)
-    _fill(section, **stiffnesses, **dampings, shape=shape, E=modulus, nu=ratio, rho=density)
+    _fill(section, shape=shape, **stiffnesses, **dampings, **moments, **material)
     return section
 
 
+def _shear_factors(given: Any) -> tuple[float, float]:
+    k_y, k_z = checks.array(given, "Section.shear_factors", (2,)).tolist()
+    for i, k in enumerate((k_y, k_z)):
+        checks.positive(k, f"Section.shear_factors[{i}]")
+    return k_y, k_z
+
+
 def _fill(section: Section, **values: object) -> None:
-    for key in ("shape", "E", "nu", "rho"):
-        values.setdefault(key, None)
-    for key, value in values.items():
-        object.__setattr__(section, key, value)
+    for key in Section.__slots__:
+        object.__setattr__(section, key, values.get(key))

@@ -1,4 +1,4 @@
-"""Supports: what holds nodes of the bodies, at rest or in prescribed motion."""
+"""Supports: what holds nodes of beams, point masses and rigid bodies, at rest or in prescribed motion."""
 
 from __future__ import annotations
 
@@ -7,17 +7,22 @@ from typing import Any
 
 from ancf.errors import ModelError
 from ancf.model import checks
+from ancf.model.beam import Beam
+from ancf.model.bodies import Body, PointMass, RigidBody, kind
 from ancf.model.checks import FloatArray
 from ancf.model.functions import TimeFunction
+from ancf.model.joints import STRETCH
 from ancf.model.points import Point
 
-STRETCH = ("free", "fixed")
 AXES = "xyz"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pin:
-    """Holds the position of a node; `displacement` (3,) in m is relative to the initial position."""
+    """Holds the position of a node, a point mass or a rigid body's centre of mass.
+
+    `displacement` (3,) in m is relative to the initial position.
+    """
 
     name: str
     point: Point
@@ -31,14 +36,15 @@ class Pin:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Clamp:
-    """Holds position and slope of a node.
+    """Holds position and slope of a node, on a beam all three slopes, or a rigid body altogether.
 
     Attributes
     ----------
     stretch : str
-        "free": the direction of r_x is held, its length is free; "fixed": all of r_x is held.
+        "free": the directions of r_x, r_y, r_z are held, their lengths are free; "fixed": all of them
+        is held. A rigid body has no slopes, "free" says nothing there.
     rotation, rate, acceleration : TimeFunction or None
-        Angle of the tangent about `axis` through the initial one, rad, and its exact derivatives.
+        Angle of the slopes or the body about `axis` from the initial ones, rad, and its exact derivatives.
     axis : (3,) array
         Unit vector.
     displacement : TimeFunction or None
@@ -57,31 +63,56 @@ class Clamp:
 
     @property
     def held(self) -> frozenset[str]:
-        """Components held; with a free stretch the slope still belongs to the clamp as a whole."""
-        return components(AXES, AXES)
+        """Components held; with a free stretch the slopes still belong to the clamp as a whole."""
+        body = self.point.body
+        if not isinstance(body, Beam):
+            return components(AXES, "") | {"rotation"}
+        if body.element == "cable":
+            return components(AXES, AXES)
+        return components(AXES, AXES, AXES, AXES, twist=True)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hold:
-    """Holds single components of position and slope of a node at their initial values ("xyz")."""
+    """Holds single components of position and slopes of a node at their initial values.
+
+    Also of the position of a point mass or a rigid body's centre of mass.
+
+    Attributes
+    ----------
+    position, slope, slope_y, slope_z : str
+        Letters of "xyz", in that order, of r, r_x, r_y and r_z; global directions. Of point masses and
+        rigid bodies the position only.
+    twist : bool
+        Holds the component of r_y along the initial local z axis: the section does not turn about the
+        tangent and is free to bend.
+
+    """
 
     name: str
     point: Point
     position: str
     slope: str
+    slope_y: str = ""
+    slope_z: str = ""
+    twist: bool = False
 
     @property
     def held(self) -> frozenset[str]:
-        """Components held: ``position x``, ``slope z`` and so on."""
-        return components(self.position, self.slope)
+        """Components held: ``position x``, ``slope z``, ``slope_y z``, ``twist`` and so on."""
+        return components(self.position, self.slope, self.slope_y, self.slope_z, twist=self.twist)
 
 
 Support = Pin | Clamp | Hold
 
 
-def components(position: str, slope: str) -> frozenset[str]:
-    """Names of the components given by two strings from "xyz"."""
-    return frozenset({f"position {i}" for i in position} | {f"slope {i}" for i in slope})
+def components(
+    position: str, slope: str, slope_y: str = "", slope_z: str = "", *, twist: bool = False
+) -> frozenset[str]:
+    """Names of the components given by strings from "xyz"."""
+    given = {"position": position, "slope": slope, "slope_y": slope_y, "slope_z": slope_z}
+    names = {f"{key} {i}" for key, letters in given.items() for i in letters}
+    return frozenset(names | ({"twist"} if twist else set()))
 
 
 def optional(value: Any, size: int, where: str) -> TimeFunction | None:
@@ -101,7 +132,13 @@ def make_clamp(
     rotation_acceleration: Any,
     displacement: Any,
 ) -> Clamp:
-    """Check everything that ``Model.clamp`` was given."""
+    """Check everything that ``Model.clamp`` was given without `to`."""
+    if isinstance(point.body, PointMass):
+        what = f'"{point.body.name}" is a point mass and has no orientation'
+        raise ModelError(f"{where}.point", what, "hold it with model.pin(...)")
+    if isinstance(point.body, RigidBody) and stretch == "fixed":
+        what = f'"{point.body.name}" is a rigid body and does not stretch'
+        raise ModelError(f"{where}.stretch", what, "leave stretch out")
     _check_derivatives(where, rotation, rotation_rate, rotation_acceleration)
     return Clamp(
         name,
@@ -123,12 +160,33 @@ def _check_derivatives(where: str, rotation: Any, rate: Any, acceleration: Any) 
         raise ModelError(f"{where}.rotation", "is missing: rotation_rate is its derivative")
 
 
-def make_hold(where: str, name: str, point: Point, position: Any, slope: Any) -> Hold:
+def make_hold(where: str, name: str, point: Point, *, twist: Any, **letters: Any) -> Hold:
     """Check everything that ``Model.hold`` was given."""
-    clean = [_letters(position, f"{where}.position"), _letters(slope, f"{where}.slope")]
-    if not any(clean):
-        raise ModelError(f"{where}.position", "nothing is held: give position and/or slope", 'such as "xz"')
-    return Hold(name, point, clean[0], clean[1])
+    clean = {key: _letters(value, f"{where}.{key}") for key, value in letters.items()}
+    hold = Hold(name, point, **clean, twist=checks.flag(twist, f"{where}.twist"))
+    if not hold.held:
+        what = "nothing is held: give position, slope, slope_y, slope_z or twist"
+        raise ModelError(f"{where}.position", what, 'such as position="xz"')
+    _check_slopes(where, hold, point.body)
+    if hold.twist and hold.slope_y:
+        what = "holds a component of r_y already: give slope_y or twist, not both"
+        raise ModelError(f"{where}.twist", what)
+    return hold
+
+
+def _check_slopes(where: str, hold: Hold, body: Body) -> None:
+    """A cable has one slope, a point mass or rigid body none."""
+    missing = {"slope_y": "r_y", "slope_z": "r_z", "twist": "r_y"}
+    hint = 'element = "original" or "nonlocking" has one'
+    if not isinstance(body, Beam):
+        missing = {"slope": "slope", "slope_y": "slope", "slope_z": "slope", "twist": "slope"}
+        hint = "clamp holds a rigid body altogether" if isinstance(body, RigidBody) else ""
+    elif body.element != "cable":
+        return
+    for key, slope in missing.items():
+        if getattr(hold, key):
+            what = f'"{body.name}" is a {kind(body)} and has no {slope}'
+            raise ModelError(f"{where}.{key}", what, hint)
 
 
 def _letters(value: Any, where: str) -> str:
@@ -144,10 +202,17 @@ def check_overlap(where: str, new: Support, others: list[Support]) -> None:
         if isinstance(other, Clamp) and isinstance(new, Clamp):
             continue
         same_node = other.point.body is new.point.body and node_of(other.point) == node_of(new.point)
-        twice = sorted(other.held & new.held)
+        twice = _held_twice(other.held, new.held)
         if same_node and twice:
             what = f'"{new.name}" and "{other.name}" both hold {", ".join(twice)} of {new.point}'
             raise ModelError(f"{where}.point", what, "keep one of them")
+
+
+def _held_twice(one: frozenset[str], two: frozenset[str]) -> list[str]:
+    """Components in both; twist is a direction of r_y that may not be one of x, y, z."""
+    twice = sorted(one & two)
+    mixed = any("twist" in a and any(i.startswith("slope_y") for i in b) for a, b in ((one, two), (two, one)))
+    return twice or (["r_y (twist and slope_y)"] if mixed else [])
 
 
 def node_of(point: Point) -> int | None:
@@ -157,19 +222,27 @@ def node_of(point: Point) -> int | None:
 
 
 def require_node(point: Point, where: str) -> int:
-    """Index of the node at a point.
+    """Index of the node at a point; 0 for a point mass or a rigid body's centre of mass.
 
     Raises
     ------
     ModelError
-        The point lies inside an element; the nearest nodes are named.
+        The point is off the centreline or the centre of mass, or inside an element; the nearest nodes
+        are named.
 
     """
+    body = point.body
+    if point.eccentric:
+        if not isinstance(body, Beam):
+            what = f"{point} is off the centre of mass, a support holds a rigid body there"
+            place = [round(float(x), 9) for x in point.initial_position]
+            raise ModelError(where, what, f"join it to the ground: model.connect({point}, {place})")
+        what = f"{point} is off the centreline, what holds or joins a node must be on the centreline"
+        raise ModelError(where, what, f"give {body.at(point.x)}")
     node = node_of(point)
-    if node is not None:
-        return node
-    node_x = point.body.node_x
-    after = int(node_x.searchsorted(point.x))
-    near = f"{node_x[after - 1]:.9g} m and {node_x[after]:.9g} m"
+    if node is not None or not isinstance(body, Beam):
+        return node or 0
+    after = int(body.node_x.searchsorted(point.x))
+    near = f"{body.node_x[after - 1]:.9g} m and {body.node_x[after]:.9g} m"
     what = f"{point} is not at a node, the nearest nodes are at {near}"
-    raise ModelError(where, what, f'put a node there: add_beam("{point.body.name}", nodes=[...])')
+    raise ModelError(where, what, f'put a node there: add_beam("{body.name}", nodes=[...])')

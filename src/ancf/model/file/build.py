@@ -7,15 +7,17 @@ from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from ancf.errors import ModelError
+from ancf.model.bodies import Body
 from ancf.model.file.entries import (
+    AnyBody,
     AnyConnection,
     AnyLoad,
     AnySupport,
-    BodyEntry,
+    BeamEntry,
     CircleEntry,
     EquilibriumEntry,
     FileEntry,
-    MotionEntry,
+    MomentsEntry,
     RectangleEntry,
     SectionEntry,
     SimulationEntry,
@@ -27,7 +29,14 @@ from ancf.model.section import Section
 from ancf.model.settings import EquilibriumSettings, IntegratorSettings, SimulationSettings
 
 T = TypeVar("T")
-Shaped = SectionEntry | RectangleEntry | CircleEntry
+Shaped = SectionEntry | RectangleEntry | CircleEntry | MomentsEntry
+
+MAKERS: dict[type[Shaped], Callable[..., Section]] = {
+    SectionEntry: Section,
+    RectangleEntry: Section.rectangle,
+    CircleEntry: Section.circle,
+    MomentsEntry: Section.from_moments,
+}
 
 
 class Builder:
@@ -81,15 +90,21 @@ class Builder:
         with _renamed(lambda _: where):
             find(name)
 
-    def _add_body(self, body: BodyEntry, where: str) -> None:
-        given = body.given("name", "section", "motion")
-        section = self._section_of(body, f"{where}.section")
+    def _add_body(self, entry: AnyBody, where: str) -> None:
+        given = entry.given("name", "section", "motion")
+        if isinstance(entry, BeamEntry):
+            given["section"] = self._section_of(entry, f"{where}.section")
+        add: dict[str, Callable[..., Body]] = {
+            "beam": self.model.add_beam,
+            "point_mass": self.model.add_point_mass,
+            "rigid_body": self.model.add_rigid_body,
+        }
         with self.model.located(where):
-            beam = self.model.add_beam(body.name, section=section, **given)
-        if body.motion is not None:
-            _set_motion(beam.set_motion, body.motion, f"{where}.motion")
+            body = add[entry.type](entry.name, **given)
+        if entry.motion is not None:
+            _set_motion(body.set_motion, entry.motion.given(), f"{where}.motion")
 
-    def _section_of(self, body: BodyEntry, where: str) -> Section:
+    def _section_of(self, body: BeamEntry, where: str) -> Section:
         if not isinstance(body.section, str):
             return _section(body.section, where)
         if body.section not in self._sections:
@@ -106,6 +121,9 @@ class Builder:
             "moment": model.add_moment,
             "distributed": model.add_distributed_load,
             "spherical": model.connect,
+            "hinge": model.hinge,
+            "fixation": model.clamp,
+            "slide": model.slide,
             "spring": model.add_spring,
         }
         groups: dict[str, Sequence[AnySupport | AnyLoad | AnyConnection]] = {
@@ -138,14 +156,12 @@ def _renamed(rename: Callable[[str], str]) -> Iterator[None]:
 def _section(given: Shaped, where: str) -> Section:
     values = given.given("shape")
     with _renamed(lambda old: where + old.removeprefix("Section")):
-        if isinstance(given, RectangleEntry):
-            return Section.rectangle(**values)
-        return Section.circle(**values) if isinstance(given, CircleEntry) else Section(**values)
+        return MAKERS[type(given)](**values)
 
 
-def _set_motion(set_motion: Callable[..., None], motion: MotionEntry, where: str) -> None:
+def _set_motion(set_motion: Callable[..., None], given: dict[str, Any], where: str) -> None:
     with _renamed(lambda old: where + old.rpartition(")")[2]):
-        set_motion(**motion.given())
+        set_motion(**given)
 
 
 def _simulation(given: SimulationEntry) -> SimulationSettings:

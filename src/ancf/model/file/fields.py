@@ -10,8 +10,9 @@ from pydantic_core import PydanticCustomError
 
 from ancf.errors import ModelError
 from ancf.model import checks
+from ancf.model.bodies import as_inertia
 from ancf.model.functions import TimeFunction
-from ancf.model.settings import INTEGRATORS, IntegratorSettings
+from ancf.model.settings import FORMULATIONS, INTEGRATORS, IntegratorSettings
 
 
 class Entry(BaseModel):
@@ -76,6 +77,35 @@ _INTEGRATOR_TABLE = {
             "maximum": 1,
             "description": "Spectral radius at infinite frequency, of generalized_alpha [-].",
         },
+        "formulation": {
+            "enum": list(FORMULATIONS),
+            "description": "How joints with multipliers are kept; trapezoidal has no index3.",
+        },
+        "stages": {"enum": [2, 3], "description": "Stages of radau: order 3 or 5 [-]."},
+        "tolerance": {
+            "type": "number",
+            "minimum": 1e-12,
+            "maximum": 0.1,
+            "description": "Error of a step of radau, relative to the size of the model [-].",
+        },
+        "adaptive": {"type": "boolean", "description": "Whether radau chooses its steps [-]."},
+        "min_step": {
+            "type": "number",
+            "exclusiveMinimum": 0,
+            "description": "Smallest step of radau [s].",
+        },
+        "max_step": {
+            "type": "number",
+            "exclusiveMinimum": 0,
+            "description": "Largest step of radau [s].",
+        },
+        "safety": {
+            "type": "number",
+            "exclusiveMinimum": 0,
+            "maximum": 1,
+            "description": "Part of the stable step that explicit may take [-].",
+        },
+        "check": {"type": "boolean", "description": "Whether explicit refuses unstable steps [-]."},
     },
     "required": ["type"],
     "additionalProperties": False,
@@ -84,6 +114,9 @@ _INTEGRATOR_TABLE = {
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
 Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
+Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
+Matrix = Annotated[list[Vector], Field(min_length=3, max_length=3)]
+Line = Annotated[list[Vector], Field(min_length=2, max_length=2)]
 ScalarFunction = Annotated[Any, _checked(lambda v: TimeFunction(v, 1, "")), _function_schema(_TERM, _NUMBER)]
 VectorFunction = Annotated[
     Any,
@@ -95,12 +128,24 @@ PointOrPosition = Annotated[
     _checked(lambda v: None if isinstance(v, str) else checks.vector(v, "")),
     WithJsonSchema({"anyOf": [{"type": "string"}, _vector_schema(_NUMBER)]}),
 ]
+Inertia = Annotated[
+    Any,
+    _checked(lambda v: as_inertia(v, "")),
+    WithJsonSchema({"anyOf": [_vector_schema(_NUMBER), _vector_schema(_vector_schema(_NUMBER))]}),
+]
 Integrator = Annotated[
     Any,
     _checked(IntegratorSettings.of),
     WithJsonSchema({"anyOf": [{"enum": list(INTEGRATORS)}, _INTEGRATOR_TABLE]}),
 ]
-PointLabel = Annotated[str, Field(description='A point: "beam.start", "beam.end" or "beam.at(0.5)", x in m.')]
+PointLabel = Annotated[
+    str,
+    Field(
+        description='A point: "beam.start", "beam.end", "beam.at(0.5)", or in the cross-section of a beam '
+        '"beam.at(0.5, 0.01, 0)"; a point mass by its name; a rigid body "hub.centre", "hub.at(0.1, 0, 0)"; '
+        "x, y, z in m."
+    ),
+]
 ItemName = Annotated[
     str | None, Field(description="Unique name of this item; made from the point if not given.")
 ]

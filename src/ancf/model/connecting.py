@@ -1,0 +1,219 @@
+"""Connecting: the part of a Model that adds joints and springs."""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ancf.model import checks
+from ancf.model.beam import Beam
+from ancf.model.bodies import PointMass, RigidBody
+from ancf.model.checks import FloatArray
+from ancf.model.connections import Connection, Spring, make_spring
+from ancf.model.joints import Fixation, Revolute, Slide, Spherical
+from ancf.model.lookup import Lookup
+from ancf.model.make_joints import check_repeated, make_fixation, make_revolute, make_spherical
+from ancf.model.make_slide import make_slide
+from ancf.model.points import Point
+
+ConnectionT = TypeVar("ConnectionT", bound=Connection)
+PointLike = Point | PointMass | RigidBody | str
+
+
+class Connecting(Lookup):
+    """Joints and springs of one model."""
+
+    def connect(self, a: PointLike, b: Any, name: str | None = None) -> Spherical:
+        """Join two coincident points, or a point and a fixed position, by a spherical joint.
+
+        Parameters
+        ----------
+        a : Point, PointMass or RigidBody
+            Any point of a body; of a rigid body itself its centre of mass.
+        b : Point, PointMass, RigidBody or (3,) m
+            Any point of another body, or a position in space.
+        name : str
+            Default "joint of a.end and b.start".
+
+        """
+        where = self._where("connect", name, a)
+        first, second = self._point(a, f"{where}.a"), self._end(b, f"{where}.b")
+        label = self._names.of_item(name, f"joint of {first} and {shown(second)}", where)
+        item = make_spherical(where, label, first, second, self.size)
+        check_repeated(where, item, self.connections)
+        return self._add_connection(item)
+
+    def hinge(self, a: PointLike, b: Any, axis: Any, name: str | None = None) -> Revolute:
+        """Join two coincident points so that their bodies turn about one axis against each other.
+
+        Parameters
+        ----------
+        a : Point or RigidBody
+            Of a rigid body, or a node of a beam with a cross-section.
+        b : Point, RigidBody or (3,) m
+            The same of another body, or a position in space: the ground.
+        axis : (3,)
+            Initial global direction of the axis; any length but zero.
+        name : str
+            Default "hinge of hub.centre and ground".
+
+        """
+        where = self._where("hinge", name, a)
+        first, second = self._point(a, f"{where}.a"), self._end(b, f"{where}.b")
+        label = self._names.of_item(name, f"hinge of {first} and {shown(second)}", where)
+        item = make_revolute(where, label, first, second, axis, self.size)
+        check_repeated(where, item, self.connections)
+        return self._add_connection(item)
+
+    def slide(
+        self,
+        point: PointLike | Any,
+        along: Beam | RigidBody | str,
+        *,
+        line: Any = None,
+        offset: Any = (0.0, 0.0),
+        s: float | None = None,
+        tolerance: float | None = None,
+        mass: float = 0.0,
+        friction: float = 0.0,
+        friction_velocity: float = 1e-3,
+        viscous: float = 0.0,
+        force: Any = None,
+        motion: Any = None,
+        release: Any = None,
+        unilateral: Any = None,
+        at_end: str = "stop",
+        name: str | None = None,
+    ) -> Slide:
+        """Let a point slide along a beam, a cable or a line of a rigid body: the paper's sliding joint.
+
+        Parameters
+        ----------
+        point : Point, PointMass, RigidBody or (3,) m
+            A point of another body, or the position of a fixed ring through which the carrier runs.
+        along : Beam or RigidBody
+            The carrier.
+        line : ((3,), (3,)) m
+            Of a rigid carrier: start and end in body axes; s runs from 0 to their distance.
+        offset : (2,) m
+            Of a beam with a cross-section: the line's place (y, z) in it.
+        s : float, m
+            Initial arc length, on a beam the reference arc length; default the nearest place, or that of
+            `motion` at t = 0.
+        tolerance : float, m
+            Largest distance of the point from that place in the initial shape, default 1e-6 of the
+            model's size. What a computation starts from is checked again: give more when the point comes
+            to the line in the equilibrium only.
+        mass : float, kg
+            Moves along the line with s.
+        friction : float
+            Coulomb's coefficient.
+        friction_velocity : float, m/s
+            Speed at which friction has grown to its full size.
+        viscous : float, N s/m
+            Resistance to sliding.
+        force : function of time, N
+            Drive along +s.
+        motion : function of time, m
+            Prescribed arc length, instead of mass, friction, viscous and force.
+        release : (3,)
+            Direction in which no force acts.
+        unilateral : (3,)
+            Direction of the only force that the carrier receives, normal to `release`; in the opposite
+            one the point lifts off.
+        at_end : "stop", "clamp" or "release"
+            At an end of the line the computation stops, the point is held there, or it is let go.
+        name : str
+            Default "slide of a.end along b".
+
+        """
+        where = self._where("slide", name, point)
+        first, carrier = self._end(point, f"{where}.point"), self._body(along, f"{where}.along")
+        label = self._names.of_item(name, f"slide of {shown(first, 'ring')} along {carrier.name}", where)
+        item = make_slide(
+            where,
+            label,
+            first,
+            carrier,
+            self.size,
+            line=line,
+            offset=offset,
+            s=s,
+            tolerance=tolerance,
+            mass=mass,
+            friction=friction,
+            friction_velocity=friction_velocity,
+            viscous=viscous,
+            force=force,
+            motion=motion,
+            release=release,
+            unilateral=unilateral,
+            at_end=at_end,
+        )
+        check_repeated(where, item, self.connections)
+        return self._add_connection(item)
+
+    def add_spring(
+        self,
+        a: PointLike,
+        b: Any,
+        *,
+        stiffness: float,
+        damping: float = 0.0,
+        length: float | None = None,
+        slack: bool = False,
+        name: str | None = None,
+    ) -> Spring:
+        """Add a spring and damper between a point and a point or a fixed position (3,) in m.
+
+        Parameters
+        ----------
+        a : Point, PointMass or RigidBody
+            One end.
+        b : Point, PointMass, RigidBody or (3,) m
+            The other end, or a position in space.
+        stiffness : float, N/m
+            Force per elongation.
+        damping : float, N s/m
+            Force per rate of elongation.
+        length : float, m
+            Length without force; default the initial distance.
+        slack : bool
+            It carries tension only.
+        name : str
+            Default "spring from a.end to b.end".
+
+        """
+        where = self._where("add_spring", name, a)
+        first, second = self._point(a, f"{where}.a"), self._end(b, f"{where}.b")
+        label = self._names.of_item(name, f"spring from {first} to {shown(second)}", where)
+        item = make_spring(
+            where, label, first, second, stiffness=stiffness, damping=damping, length=length, slack=slack
+        )
+        return self._add_connection(item)
+
+    def _fix(self, point: PointLike, to: Any, stretch: Any, name: str | None) -> Fixation:
+        """``Model.clamp`` to a rigid body."""
+        where = self._where("clamp", name, point)
+        clean, body = self._point(point, f"{where}.point"), self._body(to, f"{where}.to")
+        label = self._names.of_item(name, f"clamp of {clean} to {body.name}", where)
+        item = make_fixation(where, label, clean, body, stretch)
+        check_repeated(where, item, self.connections)
+        return self._add_connection(item)
+
+    def _end(self, end: Any, where: str) -> Point | FloatArray:
+        """A point, or a fixed position."""
+        if isinstance(end, Point | PointMass | RigidBody | Beam | str):
+            return self._point(end, where)
+        return checks.place(end, where)
+
+    def _add_connection(self, item: ConnectionT) -> ConnectionT:
+        self._names.take(item.name, "connection")
+        self.connections.append(item)
+        return item
+
+
+def shown(end: Point | FloatArray, fixed: str = "ground") -> str:
+    """A point's label, or what a fixed position is called."""
+    return fixed if isinstance(end, np.ndarray) else str(end)

@@ -1,0 +1,133 @@
+"""Checks of joints: what ``Model.connect``, ``hinge`` and ``clamp(to=)`` were given."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ancf.errors import ModelError
+from ancf.model import checks
+from ancf.model.beam import NODE_TOLERANCE, Beam
+from ancf.model.bodies import Body, PointMass, RigidBody, kind
+from ancf.model.checks import FloatArray
+from ancf.model.connections import Connection
+from ancf.model.joints import STRETCH, Fixation, Joint, Revolute, Slide, Spherical
+from ancf.model.points import Point, initial_position
+from ancf.model.supports import node_of, require_node
+
+COINCIDENT = 1e-9  # of the size of the model
+
+End = Point | FloatArray
+
+
+def make_spherical(where: str, name: str, a: Point, b: End, size: float) -> Spherical:
+    """Check what ``Model.connect`` was given; `size` is the size of the model in m."""
+    _check_pair(where, a, b, size)
+    return Spherical(name, a, b)
+
+
+def make_revolute(where: str, name: str, a: Point, b: End, axis: Any, size: float) -> Revolute:
+    """Check what ``Model.hinge`` was given; `size` is the size of the model in m."""
+    direction = checks.direction(axis, f"{where}.axis")
+    for key, end in (("a", a), ("b", b)):
+        if isinstance(end, Point):
+            _require_axes(end, f"{where}.{key}")
+    _check_pair(where, a, b, size)
+    return Revolute(name, a, b, direction)
+
+
+def make_fixation(where: str, name: str, point: Point, to: Body, stretch: Any) -> Fixation:
+    """Check what ``Model.clamp`` was given with `to`."""
+    if not isinstance(to, RigidBody):
+        what = f'"{to.name}" is a {kind(to)}, must be a rigid body'
+        raise ModelError(f"{where}.to", what, "model.connect(...) joins points of any two bodies")
+    if isinstance(point.body, RigidBody):
+        what = f'"{point.body.name}" is a rigid body, what is clamped to "{to.name}" is a node of a beam'
+        hint = "make one rigid body of the two, or join them with model.hinge(...) or model.connect(...)"
+        raise ModelError(f"{where}.point", what, hint)
+    if isinstance(point.body, PointMass):
+        raise ModelError(f"{where}.point", *_without_axes(point.body))
+    require_node(point, f"{where}.point")
+    return Fixation(name, point, to, checks.choice(stretch, f"{where}.stretch", STRETCH))
+
+
+def check_repeated(where: str, new: Joint, others: list[Connection]) -> None:
+    """No second joint between the same two points: it holds what is held already."""
+    for other in others:
+        if not isinstance(other, Joint):
+            continue
+        mine, theirs = _ends(new), _ends(other)
+        slides = isinstance(new, Slide), isinstance(other, Slide)
+        if slides[0] == slides[1] and (_same(mine, theirs) or _same(mine, theirs[::-1])):
+            key = {Slide: "along", Fixation: "to"}.get(type(new), "b")
+            what = f'"{other.name}" connects {_text(mine[0])} and {_text(mine[1])} already'
+            raise ModelError(f"{where}.{key}", what)
+
+
+def _check_pair(where: str, a: Point, b: End, size: float) -> None:
+    """Two places that coincide and are not the same place of one body."""
+    if isinstance(b, Point) and a.body is b.body:
+        _check_same_body(where, a, b)
+    first, second = initial_position(a), initial_position(b)
+    gap = math.dist(first, second)
+    if not gap <= COINCIDENT * max(size, *(float(np.max(np.abs(r))) for r in (first, second))):
+        other = b if isinstance(b, Point) else f"the position {second.tolist()}"
+        raise ModelError(f"{where}.b", f"{a} and {other} are {gap:.6g} m apart, must coincide")
+
+
+def _check_same_body(where: str, a: Point, b: Point) -> None:
+    body = a.body
+    if isinstance(body, RigidBody):
+        raise ModelError(f"{where}.b", f'{a} and {b} are points of one rigid body, "{body.name}"')
+    extent = body.length if isinstance(body, Beam) else 0.0
+    if abs(a.x - b.x) <= NODE_TOLERANCE * extent and (a.y, a.z) == (b.y, b.z):
+        what = "node" if not a.eccentric and node_of(a) is not None else "point"
+        raise ModelError(f"{where}.b", f"{b} is the same {what} as {a}")
+
+
+def _require_axes(point: Point, where: str) -> None:
+    """A point of a body that can turn about every axis; of a beam a node."""
+    body = point.body
+    if isinstance(body, PointMass):
+        raise ModelError(where, *_without_axes(body))
+    if isinstance(body, Beam) and body.element == "cable":
+        what = f'"{body.name}" is a cable, which does not turn about its tangent, a hinge cannot hold it'
+        hint = "hinge a rigid body and clamp the cable to it: model.clamp(point, to=body)"
+        raise ModelError(where, what, hint)
+    if isinstance(body, Beam):
+        require_node(point, where)
+
+
+def _without_axes(body: PointMass) -> tuple[str, str]:
+    what = f'"{body.name}" is a point mass and has no orientation'
+    return what, "join it with model.connect(...), or make it a rigid body"
+
+
+def _ends(joint: Joint) -> tuple[End | Body, End | Body]:
+    if isinstance(joint, Slide):
+        return joint.point, joint.carrier
+    return (joint.point, joint.to) if isinstance(joint, Fixation) else (joint.a, joint.b)
+
+
+def _same(mine: tuple[End | Body, End | Body], theirs: tuple[End | Body, End | Body]) -> bool:
+    return _same_end(mine[0], theirs[0]) and _same_end(mine[1], theirs[1])
+
+
+def _same_end(one: End | Body, two: End | Body) -> bool:
+    """Whether two ends are the same place; a body stands for all its points."""
+    if isinstance(one, np.ndarray):
+        return isinstance(two, np.ndarray) and bool(np.array_equal(one, two))
+    if isinstance(two, np.ndarray):
+        return False
+    if isinstance(one, Point) and isinstance(two, Point):
+        return one == two
+    bodies = [end.body if isinstance(end, Point) else end for end in (one, two)]
+    return bodies[0] is bodies[1]
+
+
+def _text(end: End | Body) -> str:
+    if isinstance(end, np.ndarray):
+        return str(end.tolist())
+    return str(end) if isinstance(end, Point) else f'"{end.name}"'
