@@ -1,7 +1,7 @@
 """Compiled kernels: one decorator, one cache, one way to add a kind of force.
 
 A *batch* is a NamedTuple of flat arrays that holds all parts of one kind (all cable elements, all
-springs, ...).  Each kind implements the four operations below for its own batch type; a compiled
+springs, ...).  Each kind implements the operations below for its own batch type; a compiled
 loop over the batches of a System finds the right one by type.  Kernels take arrays, write into
 their arguments, allocate nothing and know no objects.
 """
@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numba
-from numba import types
+from numba import literal_unroll, types
 from numba.core import event
 from numba.extending import overload
 
@@ -52,6 +52,11 @@ def inline_kernel(function: F) -> F:
     return cast(F, numba.njit(**_OPTIONS)(function))
 
 
+def formula(function: F) -> F:
+    """Put the code of a small kernel into the loops that call it, which can only then be vectorised."""
+    return cast(F, numba.njit(forceinline=True, **_OPTIONS)(function))
+
+
 def add_force(batch, q, v, a, r, ws):
     """Add the batch's inertia and internal forces at (q, v, a) to the residual ``r``."""
     raise TypeError(f"no force for {type(batch).__name__}")
@@ -72,6 +77,26 @@ def strain_energy(batch, q, ws):
     raise TypeError(f"no energy for {type(batch).__name__}")
 
 
+def find_event(batch, q):
+    """Code of what has happened to the batch in the state q and ends a block of steps, else -1."""
+    raise TypeError(f"no events of {type(batch).__name__}")
+
+
+def no_event(batch, q):
+    """For batches to which nothing happens."""
+    return -1
+
+
+def inverted(batch, q, ws):
+    """Slot of r_y at the start of the first element with a collapsed or inverted section, else -1."""
+    raise TypeError(f"no check of {type(batch).__name__}")
+
+
+def never_inverted(batch, q, ws):
+    """For batches without cross-sections."""
+    return -1
+
+
 def implements(
     batch_type: type,
     *,
@@ -79,8 +104,10 @@ def implements(
     inertia: Callable[..., Any],
     tangent: Callable[..., Any],
     energy: Callable[..., Any],
+    event: Callable[..., Any] = no_event,
+    inverted: Callable[..., Any] = never_inverted,
 ) -> None:
-    """Register the four operations of a kind of batch (see the functions above for arguments)."""
+    """Register the operations of a kind of batch (see the functions above for arguments)."""
 
     def matches(batch: Any) -> bool:
         return (
@@ -99,8 +126,13 @@ def implements(
         (add_inertia, inertia),
         (add_tangent, tangent),
         (strain_energy, energy),
+        (find_event, event),
+        (_inverted, inverted),
     ):
         bind(stub, function)
+
+
+_inverted = inverted  # the parameter of implements hides the name
 
 
 class _Announcer(event.Listener):
@@ -119,3 +151,53 @@ class _Announcer(event.Listener):
 def announce_compilation(say: Callable[[], None]) -> None:
     """Call ``say`` once, before the first kernel that is not in the cache gets compiled."""
     event.register("numba:compile", _Announcer(say))
+
+
+def add_forces(batches, q, v, a, r, ws):
+    """:func:`add_force` of a tuple of batches, which may be empty."""
+    raise TypeError("only in compiled code")
+
+
+def add_tangents(batches, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    """:func:`add_tangent` of a tuple of batches, which may be empty."""
+    raise TypeError("only in compiled code")
+
+
+def find_events(batches, q):
+    """Code of the first event of a tuple of batches, which may be empty, or -1."""
+    raise TypeError("only in compiled code")
+
+
+def _force_of_each(batches, q, v, a, r, ws):
+    for batch in literal_unroll(batches):
+        add_force(batch, q, v, a, r, ws)
+
+
+def _tangent_of_each(batches, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    for batch in literal_unroll(batches):
+        add_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws)
+
+
+def _event_of_each(batches, q):
+    code = -1
+    for batch in literal_unroll(batches):
+        if code < 0:
+            code = find_event(batch, q)
+    return code
+
+
+@overload(add_forces, jit_options=_JIT, strict=False)
+def _add_forces(batches, q, v, a, r, ws):
+    return _force_of_each if len(batches) else lambda batches, q, v, a, r, ws: None
+
+
+@overload(add_tangents, jit_options=_JIT, strict=False)
+def _add_tangents(batches, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    if len(batches):
+        return _tangent_of_each
+    return lambda batches, q, v, A, c_mass, c_damping, c_stiffness, ws: None
+
+
+@overload(find_events, jit_options=_JIT, strict=False)
+def _find_events(batches, q):
+    return _event_of_each if len(batches) else lambda batches, q: -1

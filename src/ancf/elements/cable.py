@@ -40,6 +40,7 @@ from .lanes import (
     axial_tangent,
     bending_force,
     bending_tangent,
+    clear,
     inertia_force,
 )
 from .lanes_damping import axial_damping, bending_damping, bending_damping_tangent, dot, shape_at
@@ -106,13 +107,6 @@ def load_acceleration(batch, v, a, ws, chunk, damped):
                 c = ws[VISCOUS * LANES + m]
                 for k in range(3):
                     ws[(A1 + 3 * slot + k) * LANES + m] += c * v[i + k]
-
-
-@inline_kernel
-def clear(ws, first, rows):
-    """Set rows to zero."""
-    for i in range(first * LANES, (first + rows) * LANES):
-        ws[i] = 0.0
 
 
 @inline_kernel

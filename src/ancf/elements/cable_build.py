@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from ..model.beam import Beam
 from .cable import CableBatch
-from .lanes import CONSTANTS, LANES, gauss_table
+from .chunks import in_lanes
+from .lanes import LANES, gauss_table
 from .measures import axial_strain, curvature
 from .shapes import FloatArray, gauss, hermite
 
@@ -46,25 +47,11 @@ def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> CableBatch:
         dest=np.full((start, 16), -1, dtype=np.int64),
         first=bounds,
         lane_base=in_lanes(base, bounds).astype(np.int64),
-        lane_data=in_lanes(data, bounds),
+        lane_data=in_lanes(data, bounds, empty=2),
         lane_reference=in_lanes(reference, bounds),
         groups=np.array(groups, dtype=np.int64).reshape(-1, 8),
         gp=np.ascontiguousarray(np.concatenate(tables)),
     )
-
-
-def in_lanes(values: NDArray, bounds: IntArray) -> NDArray:  # type: ignore[type-arg]
-    """Rows of values by element, (n, k), as (chunks, k LANES): component by component, lane by lane.
-
-    Lanes without an element repeat the last one, without stiffness and mass.
-    """
-    counts = np.diff(bounds)
-    lane = np.arange(LANES)
-    element = bounds[:-1, None] + np.minimum(lane, counts[:, None] - 1)
-    out = values[element]  # (chunks, LANES, k)
-    if values.shape[1] == CONSTANTS:
-        out[lane >= counts[:, None], 2:] = 0.0
-    return np.ascontiguousarray(out.transpose(0, 2, 1).reshape(len(counts), -1))
 
 
 def reference_strains(beam: Beam) -> tuple[FloatArray, FloatArray]:

@@ -16,7 +16,7 @@ import math
 
 import numpy as np
 
-from ..compiled import inline_kernel
+from ..compiled import formula, inline_kernel
 from .shapes import FloatArray, gauss
 
 LANES = 8
@@ -33,7 +33,7 @@ NODAL = 47  # forces on the four slots: 12 rows
 REFERENCE = 60  # reference axial strain or curvature at the Gauss point at hand
 KPP, KPS, KSS = 61, 67, 76  # second derivatives at a Gauss point: 6, 9, 6 rows
 KDD, KD1, KD2, K11, K12, K22 = 82, 91, 100, 109, 118, 127  # 3x3 blocks
-ROWS = 136
+ROWS = 738  # of the workspace, which all elements share: what the greediest needs
 
 #: A curved reference needs kappa itself; it is rounded off below this fraction of kappa0.
 SMOOTHING = 1e-4
@@ -50,6 +50,20 @@ def gauss_table(axial: int, bending: int) -> FloatArray:
         e = (6 - 12 * x, 6 * x - 4, 6 * x - 2)
         rows.append(np.stack([*c, *e, weight], axis=1))
     return np.ascontiguousarray(np.concatenate(rows))
+
+
+def workspace() -> FloatArray:
+    """Workspace for the kernels of all elements; its rows do not cross cache lines."""
+    spare = np.zeros((ROWS + 1) * LANES)
+    start = -(spare.ctypes.data // 8) % LANES
+    return spare[start : start + ROWS * LANES]
+
+
+@formula
+def clear(ws, first, rows):
+    """Set rows to zero."""
+    for i in range(first * LANES, (first + rows) * LANES):
+        ws[i] = 0.0
 
 
 @inline_kernel

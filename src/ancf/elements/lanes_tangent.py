@@ -67,6 +67,8 @@ def spread_bending(ws, gp, g):
 def add_block(A, place, ws, origin, m, scale, mass):
     """Add scale times a 3x3 block of lane m, and mass times the unit matrix, to A at ``place``."""
     first, row, column = origin[0] * LANES + m, origin[1] * LANES, origin[2] * LANES
+    if min(place, first, row, column) < 0:
+        return  # never: but now the compiler knows that no index counts from the end
     for i in range(3):
         A[place + 7 * i] += mass
         for j in range(3):

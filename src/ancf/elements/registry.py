@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..model.beam import Beam
-from . import cable_build
+from . import cable_build, solid_build
 
 
 @dataclass(frozen=True)
@@ -17,15 +17,20 @@ class ElementKind:
     Parameters
     ----------
     vectors : int
-        Three-component unknowns per node; the first two are r and r_x.
+        Three-component unknowns per node that neighbours share; the first two are r and r_x.
+    internal : int
+        Three-component unknowns per element, not shared.
     build : callable
         ``build(beams, slots)`` makes the batch of all such elements.
     """
 
     vectors: int
+    internal: int
     build: Callable[[Sequence[Beam], Sequence[Any]], Any]
 
 
 ELEMENTS: dict[str, ElementKind] = {
-    "cable": ElementKind(vectors=2, build=cable_build.build),
+    "cable": ElementKind(vectors=2, internal=0, build=cable_build.build),
+    "original": ElementKind(vectors=4, internal=0, build=solid_build.build),
+    "nonlocking": ElementKind(vectors=4, internal=2, build=solid_build.build),
 }
