@@ -7,25 +7,37 @@ from typing import Any
 
 import numpy as np
 
+from ..model.beam import Beam
 from ..model.connections import Spring
 from ..model.model import Model
 from ..model.points import Point
 from .spring_damper import SpringBatch
 
+CABLE, SOLID = 4, 10  # slots of an element at most
+
 
 def springs(model: Model, locate: Callable[[Point], Any]) -> SpringBatch:
     """Batch of all springs; ``locate`` finds a point's slots and shape functions."""
     items = [c for c in model.connections if isinstance(c, Spring)]
-    n = len(items)
-    base = np.full((n, 8), -1, dtype=np.int64)
-    factor, offset, data = np.zeros((n, 8)), np.zeros((n, 3)), np.zeros((n, 4))
+    n, k = len(items), max((_slots(c) for c in items), default=CABLE)
+    base = np.full((n, 2 * k), -1, dtype=np.int64)
+    factor, offset, data = np.zeros((n, 2 * k)), np.zeros((n, 3)), np.zeros((n, 4))
     for e, spring in enumerate(items):
         data[e] = spring.stiffness, spring.damping, spring.length, spring.slack
-        for end, first, sign in ((spring.a, 0, -1.0), (spring.b, 4, 1.0)):
+        for end, first, sign in ((spring.a, 0, -1.0), (spring.b, k, 1.0)):
             if isinstance(end, Point):
                 probe = locate(end)
-                factor[e, first : first + 4] = sign * probe.S[0]
-                base[e, first : first + 4] = np.where(probe.S[0] != 0.0, probe.slots, -1)
+                S = probe.S[0]
+                columns = slice(first, first + len(S))
+                factor[e, columns] = sign * S
+                base[e, columns] = np.where(S != 0.0, probe.slots, -1)
             else:
                 offset[e] = end
-    return SpringBatch(base, np.full((n, 64), -1, dtype=np.int64), factor, offset, data)
+    return SpringBatch(base, np.full((n, 4 * k * k), -1, dtype=np.int64), factor, offset, data)
+
+
+def _slots(spring: Spring) -> int:
+    """Columns for one end of a spring."""
+    ends = [end for end in (spring.a, spring.b) if isinstance(end, Point)]
+    plain = all(not isinstance(end.body, Beam) or end.body.element == "cable" for end in ends)
+    return CABLE if plain else SOLID

@@ -20,9 +20,9 @@ FloatArray = NDArray[np.float64]
 class SpringBatch(NamedTuple):
     """All springs; the vector between the ends is d = sum(factor_k q[base_k]) + offset."""
 
-    base: NDArray[np.int64]  # (n, 8) slots of the two elements, -1 unused
-    dest: NDArray[np.int64]  # (n, 64) places of the 3x3 blocks in the matrix
-    factor: FloatArray  # (n, 8) shape functions, negative at the first end
+    base: NDArray[np.int64]  # (n, k) slots of the two elements, -1 unused; k = 8 for cables
+    dest: NDArray[np.int64]  # (n, k*k) places of the 3x3 blocks in the matrix
+    factor: FloatArray  # (n, k) shape functions, negative at the first end
     offset: FloatArray  # (n, 3) position of a fixed second end
     data: FloatArray  # (n, 4) stiffness, damping, length, 1 if slack
 
@@ -31,7 +31,7 @@ class SpringBatch(NamedTuple):
 def spring_vector(batch, e, q, fixed):
     """Vector from the first to the second end (fixed = 1) or its rate (fixed = 0)."""
     x, y, z = fixed * batch.offset[e, 0], fixed * batch.offset[e, 1], fixed * batch.offset[e, 2]
-    for k in range(8):
+    for k in range(batch.base.shape[1]):
         i = batch.base[e, k]
         if i >= 0:
             w = batch.factor[e, k]
@@ -61,7 +61,7 @@ def spring_force(batch, q, v, a, r, ws):
     for e in range(batch.base.shape[0]):
         n, _, _, tension, carries = spring_state(batch, e, q, v)
         if carries:
-            for k in range(8):
+            for k in range(batch.base.shape[1]):
                 i = batch.base[e, k]
                 if i >= 0:
                     f = batch.factor[e, k] * tension
@@ -83,9 +83,10 @@ def spring_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
             continue
         across = c_stiffness * tension / length
         along = c_stiffness * batch.data[e, 0] + c_damping * batch.data[e, 1] - across
-        for k in range(8):
-            for m in range(8):
-                place = batch.dest[e, 8 * k + m]
+        size = batch.base.shape[1]
+        for k in range(size):
+            for m in range(size):
+                place = batch.dest[e, size * k + m]
                 if place < 0:
                     continue
                 w = batch.factor[e, k] * batch.factor[e, m]

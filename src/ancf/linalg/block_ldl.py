@@ -107,23 +107,41 @@ def subtract_symmetric(C, oc, A, oa, B, ob):
 
 
 @inline_kernel
-def factorise(A, factor):
-    """Fill ``factor`` from the values A; number of negative pivots, or -(block + 1) if singular."""
+def is_zero(T, t):
+    """Whether the block at ``T[t]`` is zero."""
+    largest = 0.0
+    for m in range(t, t + 36):
+        largest = max(largest, abs(T[m]))
+    return largest == 0.0
+
+
+@inline_kernel
+def factorise(A, factor, start):
+    """Fill ``factor`` from the values A; number of negative pivots, or -(block + 1) if singular.
+
+    Rows before ``start`` are taken as they are: when A has changed in its last rows alone, these are all
+    that has to be done again.
+    """
     row_start, column, L, D_inv, T, place = factor
     n = row_start.shape[0] - 1
     negative = 0
-    for i in range(n):
+    for i in range(start, n):
         first, last = row_start[i], row_start[i + 1]
         for k in range(first, last):
             place[column[k]] = k - first
         for m in range(6):
             for c in range(6):
                 D_inv[36 * i + 6 * m + c] = A[36 * i + 6 * max(m, c) + min(m, c)]
+        leading = True  # zeros at the left of a row stay zeros
         for k in range(first, last):
             j, t = column[k], 36 * (k - first)
             for m in range(36):
                 T[t + m] = A[36 * (n + k) + m]
                 L[36 * k + m] = 0.0
+            if leading:
+                leading = is_zero(T, t)
+                if leading:
+                    continue
             for h in range(row_start[j], row_start[j + 1]):
                 c = place[column[h]]
                 if c >= 0:

@@ -75,6 +75,35 @@ def order(pairs: IntArray, n: int) -> tuple[IntArray, str]:
     return candidates[name], name
 
 
+def behind(rank: IntArray, pairs: IntArray, later: IntArray, last: list[int]) -> IntArray:
+    """Order in which some blocks come right behind all that they are coupled with, others at the end.
+
+    Blocks of multipliers have no entries of their own on the diagonal: what stands there is the result of
+    eliminating the bodies first.
+
+    Parameters
+    ----------
+    rank : ndarray, shape (n,)
+        Place of each block.
+    pairs : ndarray, shape (m, 2)
+        Coupled blocks.
+    later, last : sequences of int
+        Blocks to be moved behind their neighbours, and to the end.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+    """
+    key = rank.astype(np.float64)
+    for block in later:
+        met = np.unique(pairs[(pairs == block).any(axis=1)])
+        key[block] = np.max(rank[np.setdiff1d(met, later)], initial=0) + 0.5
+    key[last] = len(rank) + np.arange(len(last))
+    place = np.empty(len(rank), dtype=np.int64)
+    place[np.argsort(key, kind="stable")] = np.arange(len(rank))
+    return place
+
+
 def _graph(pairs: IntArray, n: int) -> csr_matrix:
     i, j = pairs.T if len(pairs) else (np.zeros(0, int), np.zeros(0, int))
     graph = csr_matrix((np.ones(len(i)), (i, j)), shape=(n, n))

@@ -8,7 +8,17 @@ import numpy as np
 from numba import literal_unroll
 from numpy.typing import NDArray
 
-from ..compiled import add_force, add_inertia, add_tangent, inline_kernel, kernel, strain_energy
+from ..compiled import (
+    add_force,
+    add_forces,
+    add_inertia,
+    add_tangent,
+    find_events,
+    inline_kernel,
+    inverted,
+    kernel,
+    strain_energy,
+)
 from ..linalg.block_ldl import Factor, factorise, solve
 
 FloatArray = NDArray[np.float64]
@@ -43,6 +53,22 @@ class Loads(NamedTuple):
     moment: FloatArray  # (k, 3) moments now, shared with their batch
 
 
+class Joints(NamedTuple):
+    """Constraints with multipliers.
+
+    The multipliers are unknowns of the state vector without rates.  The blocks of the sliding joints,
+    whose rows of the matrix change as they slide, come last: their rows alone are renewed in every step.
+    """
+
+    multipliers: IntArray  # unknowns
+    mask: FloatArray  # (size,) 1 for multipliers, else 0
+    level: FloatArray  # (3,) weights of C, dC/dt, d2C/dt2 in their rows now
+    batches: tuple[Any, ...]  # with constraints
+    tail: tuple[Any, ...]  # of them those whose rows come last
+    first: int  # first block of these rows, the number of blocks if there are none
+    supports: Supports  # the part of the supports that concerns these rows
+
+
 class Core(NamedTuple):
     """All arrays that the kernels need.
 
@@ -56,8 +82,9 @@ class Core(NamedTuple):
     ws: FloatArray  # workspace of the element kernels
     A: FloatArray  # values of the iteration matrix in 6x6 blocks
     factor: Factor
-    weight: FloatArray  # (n,) 1/size for positions, 1 for slopes: the norm of a correction
+    weight: FloatArray  # (n,) 1/size for positions, 1 for slopes, element length for r_yx, r_zx: the norm
     supports: Supports
+    joints: Joints
     loads: Loads
     damped: bool  # something dissipates
     loaded: bool  # something but gravity does work
@@ -176,7 +203,35 @@ def restrict(supports, A):
 @kernel
 def factorise_matrix(A, factor):
     """Factorise A; number of negative pivots, or -(block + 1) when singular there."""
-    return factorise(A, factor)
+    return factorise(A, factor, 0)
+
+
+@kernel
+def factorise_tail(A, factor, first):
+    """Factorise the rows from block ``first`` on again; see :func:`factorise_matrix`."""
+    return factorise(A, factor, first)
+
+
+@inline_kernel
+def constraint_rows(joints, q, v, a, r, ws):
+    """r = the weighted constraints in the rows of the multipliers, zero elsewhere."""
+    for i in range(r.shape[0]):
+        r[i] = 0.0
+    add_forces(joints.batches, q, v, a, r, ws)
+    for i in range(r.shape[0]):
+        r[i] *= joints.mask[i]
+
+
+@kernel
+def first_event(tail, q):
+    """Code of the first event of the sliding joints in the state q, or -1."""
+    return find_events(tail, q)
+
+
+@kernel
+def constraints(joints, q, v, a, r, ws):
+    """See :func:`constraint_rows`."""
+    constraint_rows(joints, q, v, a, r, ws)
 
 
 @kernel
@@ -201,6 +256,23 @@ def total_strain_energy(batches, ws, q):
     for batch in literal_unroll(batches):
         energy += strain_energy(batch, q, ws)
     return energy
+
+
+@inline_kernel
+def inverted_section(batches, ws, q):
+    """Slot of r_y at the start of an element whose section has collapsed or turned inside out, or -1."""
+    slot = -1
+    for batch in literal_unroll(batches):
+        found = inverted(batch, q, ws)
+        if found >= 0:
+            slot = found
+    return slot
+
+
+@kernel
+def find_inverted(batches, ws, q):
+    """See :func:`inverted_section`."""
+    return inverted_section(batches, ws, q)
 
 
 @kernel

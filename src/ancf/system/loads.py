@@ -1,19 +1,23 @@
-"""Loads of the model as patterns of nodal forces, and the batch of moments."""
+"""Loads of the model as patterns of nodal forces, and the batches of moments."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..elements.shapes import gauss, hermite
 from ..loads.moment import MomentBatch
+from ..loads.section_moment import SectionMomentBatch
 from ..model.beam import Beam
+from ..model.bodies import Body
 from ..model.functions import TimeFunction
+from ..model.joints import Slide
 from ..model.loads import DistributedLoad, Force, Moment
 from ..model.model import Model
-from .probe import Probe
+from .probe import R_X, R_Y, R_Z, Probe, R
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -22,34 +26,64 @@ Locate = Callable[..., Probe]
 
 
 def patterns(
-    model: Model, locate: Locate, slots: dict[str, IntArray]
+    model: Model, locate: Locate, slots: dict[str, IntArray], arcs: dict[str, int]
 ) -> tuple[list[Pattern], list[TimeFunction]]:
-    """Patterns and amplitudes of all loads but gravity and moments."""
+    """Patterns and amplitudes of all loads but gravity and moments; ``arcs``: s of the sliding joints."""
     found: list[Pattern] = []
     amplitudes: list[TimeFunction] = []
     for load in model.loads:
         if isinstance(load, Force):
             probe = locate(load.point)
-            found.append((probe.slots, probe.S[0]))
+            found.append((probe.slots, probe.S[R]))
             amplitudes.append(load.force)
         elif isinstance(load, DistributedLoad):
             found.append(distributed(load.body, slots[load.body.name], *load.between))
             amplitudes.append(load.load)
+    for joint in model.connections:
+        if isinstance(joint, Slide) and joint.force is not None:
+            # a scalar on a slot of three: the two unknowns behind s are held
+            found.append((np.array([arcs[joint.name]]), np.ones(1)))
+            amplitudes.append(joint.force)
     return found, amplitudes
 
 
-def moments(model: Model, locate: Locate) -> tuple[MomentBatch, list[TimeFunction]]:
-    """Batch of all moments and their amplitudes."""
+def moments(model: Model, locate: Locate, value: FloatArray) -> tuple[list[Any], list[TimeFunction]]:
+    """Batches of all moments, which share ``value``, the moments now (k, 3), and their amplitudes.
+
+    Moments on cables come first; there is a batch of moments on sections only where there are sections.
+    """
     items = [load for load in model.loads if isinstance(load, Moment)]
-    probes = [locate(load.point) for load in items]
-    n = len(items)
-    batch = MomentBatch(
+    cables = [load for load in items if _is_cable(load.point.body)]
+    sections = [load for load in items if not _is_cable(load.point.body)]
+    batches: list[Any] = [_on_slopes([locate(m.point) for m in cables], value[: len(cables)])]
+    if sections or any(not _is_cable(beam) for beam in model.beams.values()):
+        batches.append(_on_sections([locate(m.point) for m in sections], value[len(cables) :]))
+    return batches, [load.moment for load in cables + sections]
+
+
+def _is_cable(body: Body) -> bool:
+    return isinstance(body, Beam) and body.element == "cable"
+
+
+def _on_slopes(probes: list[Probe], value: FloatArray) -> MomentBatch:
+    n = len(probes)
+    return MomentBatch(
         base=np.array([p.slots for p in probes], dtype=np.int64).reshape(n, 4),
         dest=np.full((n, 16), -1, dtype=np.int64),
-        factor=np.array([p.S[1] for p in probes], dtype=np.float64).reshape(n, 4),
-        value=np.zeros((n, 3)),
+        factor=np.array([p.S[R_X] for p in probes], dtype=np.float64).reshape(n, 4),
+        value=value,
     )
-    return batch, [load.moment for load in items]
+
+
+def _on_sections(probes: list[Probe], value: FloatArray) -> SectionMomentBatch:
+    n = len(probes)
+    base, factor = np.full((n, 6), -1, dtype=np.int64), np.zeros((n, 6))
+    for e, probe in enumerate(probes):
+        for first, row in ((0, R_Y), (3, R_Z)):
+            used = np.flatnonzero(probe.S[row])
+            columns = slice(first, first + len(used))
+            base[e, columns], factor[e, columns] = probe.slots[used], probe.S[row][used]
+    return SectionMomentBatch(base, np.full((n, 36), -1, dtype=np.int64), factor, value)
 
 
 def distributed(beam: Beam, slots: IntArray, x0: float, x1: float) -> Pattern:
@@ -68,8 +102,12 @@ def distributed(beam: Beam, slots: IntArray, x0: float, x1: float) -> Pattern:
 def gravity(model: Model, slots: dict[str, IntArray], size: int) -> FloatArray:
     """Weight of all bodies on a state vector of this size, N."""
     f = np.zeros(size)
-    for beam in model.bodies.values():
-        at, factor = distributed(beam, slots[beam.name], 0.0, beam.length)
+    for body in model.bodies.values():
+        if isinstance(body, Beam):
+            at, factor = distributed(body, slots[body.name], 0.0, body.length)
+            weight = factor * body.section.rhoA
+        else:
+            at, weight = slots[body.name][0, :1], np.array([body.mass])
         for c in range(3):
-            np.add.at(f, at + c, factor * beam.section.rhoA * model.gravity[c])
+            np.add.at(f, at + c, weight * model.gravity[c])
     return f

@@ -1,79 +1,118 @@
-"""Which unknown belongs to which node: slots of three numbers in blocks of six."""
+"""Which unknown belongs to which node or joint: slots of three numbers in blocks of six."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..elements.registry import ELEMENTS
+from ..connections.joint_build import count
+from ..model.bodies import RigidBody
 from ..model.connections import Spherical
+from ..model.joints import Slide
 from ..model.model import Model
+from ..model.points import Point
+from .nodes import layout, names_of, node_of
 
 IntArray = NDArray[np.int64]
 
 
 class Numbering:
-    """Slots of all nodes, in the order of the model.
+    """Slots of all nodes, in the order of the model, then the blocks of the joints.
 
     Attributes
     ----------
-    slots : dict of str to ndarray, shape (nodes, vectors)
-        First unknown of each vector of each node, by body; connected nodes share the slot of r.
+    slots : dict of str to ndarray, shape (nodes, vectors + internal)
+        First unknown of each vector of each node, by body; connected nodes share the slot of r.  Internal
+        vectors stand at the node at which their element starts, those of the last node are not used.
+    shared : dict of str to int
+        Number of vectors of a node that its elements share, by body.
+    multipliers : dict of str to ndarray
+        Unknowns of the multipliers, by joint or rigid body.
+    arcs : dict of str to int
+        Unknown of the arc length s, by sliding joint.
     blocks : int
         Number of blocks of six unknowns.
-    owner : list of (str, int)
-        Body and node of each block.
+    sliding : list of int
+        Blocks of the sliding joints.
     """
 
     def __init__(self, model: Model) -> None:
+        self.model = model
         self.slots: dict[str, IntArray] = {}
-        self.owner: list[tuple[str, int]] = []
-        for beam in model.bodies.values():
-            vectors = ELEMENTS[beam.element].vectors
-            first = 6 * len(self.owner)
-            nodes = beam.elements + 1
-            size = 6 * ((vectors + 1) // 2)
-            starts = first + size * np.arange(nodes)[:, None] + 3 * np.arange(vectors)
-            self.slots[beam.name] = starts.astype(np.int64)
-            self.owner += [(beam.name, i) for i in range(nodes) for _ in range(size // 6)]
-        self.blocks = len(self.owner)
+        self.shared: dict[str, int] = {}
+        self.multipliers: dict[str, IntArray] = {}
+        self.arcs: dict[str, int] = {}
+        self.sliding: list[int] = []
+        self.blocks = 0
+        for body in model.bodies.values():
+            nodes, shared, internal = layout(body)
+            vectors = shared + internal
+            self.shared[body.name] = shared
+            per_node = (vectors + 1) // 2
+            starts = 6 * (self.blocks + per_node * np.arange(nodes)[:, None]) + 3 * np.arange(vectors)
+            self.slots[body.name] = starts.astype(np.int64)
+            self.blocks += nodes * per_node
+            if isinstance(body, RigidBody):
+                self._rows(body.name, 6)
         for joint in model.connections:
-            if isinstance(joint, Spherical):
+            if isinstance(joint, Slide):
+                self.sliding.append(self.blocks)
+                self._rows(joint.name, 3)
+                self.arcs[joint.name] = int(self.multipliers[joint.name][0]) + 3
+            elif isinstance(joint, Spherical) and joint.shared:
                 self._share(joint)
+            elif rows := count(joint):
+                self._rows(joint.name, rows)
+
+    def _rows(self, name: str, rows: int) -> None:
+        """Blocks for a number of multipliers."""
+        self.multipliers[name] = 6 * self.blocks + np.arange(rows)
+        self.blocks += (rows + 5) // 6
 
     def _share(self, joint: Spherical) -> None:
         """Give both nodes the same slot for r."""
-        a, b = (self.slots[p.body.name][node_index(p.body.node_x, p.x), 0] for p in (joint.a, joint.b))
+        ends = [p for p in (joint.a, joint.b) if isinstance(p, Point)]
+        a, b = (int(self.slots[p.body.name][node_of(p.body, p.x), 0]) for p in ends)
         for slots in self.slots.values():
             slots[slots[:, 0] == b, 0] = a
 
     def renumber(self, rank: IntArray) -> None:
         """Move block k to place rank[k]."""
-        for name, slots in self.slots.items():
-            self.slots[name] = 6 * rank[slots // 6] + slots % 6
-        owner = list(self.owner)
-        for k, place in enumerate(rank):
-            owner[place] = self.owner[k]
-        self.owner = owner
+        for table in (self.slots, self.multipliers):
+            for name, unknowns in table.items():
+                table[name] = 6 * rank[unknowns // 6] + unknowns % 6
+        self.arcs = {name: int(6 * rank[i // 6] + i % 6) for name, i in self.arcs.items()}
+        self.sliding = [int(rank[b]) for b in self.sliding]
+
+    def all_multipliers(self) -> IntArray:
+        """Unknowns of all multipliers, ascending."""
+        return np.sort(np.concatenate([np.zeros(0, dtype=np.int64), *self.multipliers.values()]))
 
     def used(self) -> NDArray[np.bool_]:
-        """Mask of the unknowns that some node has, shape (6 blocks,)."""
+        """Mask of the unknowns that some node or joint has, shape (6 blocks,)."""
         mask = np.zeros(6 * self.blocks, dtype=bool)
-        for slots in self.slots.values():
+        for name, slots in self.slots.items():
+            shared = self.shared[name]
             for c in range(3):
-                mask[slots + c] = True
+                mask[slots[:, :shared] + c] = True
+                mask[slots[:-1, shared:] + c] = True
+        mask[self.all_multipliers()] = True
+        mask[list(self.arcs.values())] = True
         return mask
 
     def describe(self, unknown: int) -> str:
-        """Name of an unknown: body, node and component."""
+        """Name of an unknown: body, node and component, or joint."""
         for name, slots in self.slots.items():
             node, vector = np.nonzero((slots <= unknown) & (unknown < slots + 3))
             if len(node):
-                what = ("position", "slope r_x", "slope r_y", "slope r_z")[vector[0]]
-                return f"{name} node {node[0]} {what} {'xyz'[unknown - slots[node[0], vector[0]]]}"
+                body = self.model.bodies[name]
+                where = name if len(slots) == 1 else f"{name} node {node[0]}"
+                component = "xyz"[unknown - slots[node[0], vector[0]]]
+                return f"{where} {names_of(body)[vector[0]]} {component}"
+        for name, unknowns in self.multipliers.items():
+            if unknown in unknowns:
+                return f"force of {name}"
+        for name, arc in self.arcs.items():
+            if unknown == arc:
+                return f"arc length of {name}"
         return f"unknown {unknown}"
-
-
-def node_index(node_x: NDArray[np.float64], x: float) -> int:
-    """Index of the node next to the reference arc length x."""
-    return int(np.argmin(np.abs(node_x - x)))

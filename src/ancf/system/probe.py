@@ -2,64 +2,130 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..elements.registry import ELEMENTS
 from ..elements.shapes import hermite
+from ..elements.solid_shapes import shape
 from ..model.beam import Beam
+from ..model.bodies import Body
+from ..model.points import Point
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
+#: Rows of a probe's factors; a cable has the first three.
+R, R_X, R_XX, R_Y, R_Z, R_YX, R_ZX = range(7)
+_NAMES = ("r_x", "r_xx", "r_y", "r_z", "r_yx", "r_zx")
+
 
 @dataclass(frozen=True)
 class Probe:
-    """One material point: r, r_x and r_xx are sums of four slots of the state vector.
+    """One material point: r and its derivatives are sums of slots of the state vector.
+
+    Parameters
+    ----------
+    body : Beam, PointMass or RigidBody
+    x, y, z : float
+        Reference arc length, m, and place in the section; of a rigid body: body coordinates.
+    slots : ndarray, shape (k,)
+        Of the element: 4 for a cable, 8 or 10 for a beam with r_y and r_z; 1 or 4 of a body without.
+    S : ndarray, shape (3, k) or (7, k)
+        Factors of r at the point, and of r_x, r_xx, r_y, r_z, r_yx, r_zx of the centreline; of a rigid body
+        the directors stand for r_x, r_y, r_z.
+    """
+
+    body: Body
+    x: float
+    y: float
+    z: float
+    slots: IntArray
+    S: FloatArray
+
+    def field(self, states: FloatArray, row: int = R) -> FloatArray:
+        """r or a derivative, shape (..., 3), from state vectors of shape (..., n)."""
+        return self.combined(states, self.S[row])
+
+    def combined(self, states: FloatArray, factors: FloatArray) -> FloatArray:
+        """Sum of factors times slots, shape (..., 3)."""
+        total = np.zeros((*states.shape[:-1], 3))
+        for slot, factor in zip(self.slots.tolist(), factors.tolist(), strict=True):
+            if factor != 0.0:
+                total += factor * states[..., slot : slot + 3]
+        return total
+
+
+@dataclass(frozen=True)
+class BeamProbe(Probe):
+    """Probe on a beam.
 
     Parameters
     ----------
     beam : Beam
-    x : float
-        Reference arc length, m.
     element : int
         Element that holds the point (the later one at a node, but the last at the end).
-    slots : ndarray, shape (4,)
-    S : ndarray, shape (3, 4)
-        Factors of r, r_x and r_xx.
     """
 
     beam: Beam
-    x: float
     element: int
-    slots: IntArray
-    S: FloatArray
+
+    @property
+    def solid(self) -> bool:
+        """Whether the beam has cross-sections."""
+        return self.beam.element != "cable"
 
     @property
     def element_length(self) -> float:
         """Reference length of the element, m."""
         return float(self.beam.node_x[self.element + 1] - self.beam.node_x[self.element])
 
-    def moved(self, xi: float) -> Probe:
+    @property
+    def xi(self) -> float:
+        """Position in the element, 0 to 1."""
+        return float(self.x - self.beam.node_x[self.element]) / self.element_length
+
+    def moved(self, xi: float) -> BeamProbe:
         """Probe at xi in [0, 1] of the same element."""
         h = self.element_length
-        S = np.stack([hermite(xi, h, d) for d in range(3)])
-        return Probe(self.beam, float(self.beam.node_x[self.element]) + xi * h, self.element, self.slots, S)
+        S = _factors(self.beam, xi, h, self.y, self.z)
+        return replace(self, x=float(self.beam.node_x[self.element]) + xi * h, S=S)
 
-    def field(self, states: FloatArray, derivative: int = 0) -> FloatArray:
-        """r or a derivative, shape (..., 3), from state vectors of shape (..., n)."""
-        total = np.zeros((*states.shape[:-1], 3))
-        for slot, factor in zip(self.slots.tolist(), self.S[derivative].tolist(), strict=True):
-            if factor != 0.0:
-                total += factor * states[..., slot : slot + 3]
-        return total
+    def slope(self, states: FloatArray) -> FloatArray:
+        """Derivative of the point's r by x, shape (..., 3)."""
+        S = self.S[R_X]
+        if self.y != 0.0 or self.z != 0.0:
+            S = S + self.y * self.S[R_YX] + self.z * self.S[R_ZX]
+        return self.combined(states, S)
 
 
-def locate(beam: Beam, x: float, slots: IntArray) -> Probe:
-    """Probe at reference arc length x of a beam whose nodes have these slots, shape (nodes, >= 2)."""
-    e = int(np.clip(np.searchsorted(beam.node_x, x, side="right") - 1, 0, beam.elements - 1))
-    h = float(beam.node_x[e + 1] - beam.node_x[e])
-    xi = (x - beam.node_x[e]) / h
-    S = np.stack([hermite(xi, h, d) for d in range(3)])
-    return Probe(beam, x, e, slots[e : e + 2, :2].ravel(), S)
+def locate(point: Point, slots: IntArray) -> Probe:
+    """Probe at a point of a body whose nodes have these slots, shape (nodes, vectors + internal)."""
+    body, x, y, z = point.body, point.x, point.y, point.z
+    if not isinstance(body, Beam):
+        return Probe(body, x, y, z, slots[0], _rigid_factors(point, slots.shape[1]))
+    e = int(np.clip(np.searchsorted(body.node_x, x, side="right") - 1, 0, body.elements - 1))
+    h = float(body.node_x[e + 1] - body.node_x[e])
+    S = _factors(body, (x - body.node_x[e]) / h, h, y, z)
+    vectors = ELEMENTS[body.element].vectors
+    parts = (slots[e, :vectors], slots[e + 1, :vectors], slots[e, vectors:])
+    return BeamProbe(body, x, y, z, np.concatenate(parts), S, body, e)
+
+
+def _rigid_factors(point: Point, vectors: int) -> FloatArray:
+    """Factors of r and the directors; the directors stand for r_x, r_y and r_z."""
+    S = np.zeros((7, vectors))
+    S[R, 0] = 1.0
+    if vectors > 1:
+        S[R, 1:] = point.x, point.y, point.z
+        S[[R_X, R_Y, R_Z], [1, 2, 3]] = 1.0
+    return S
+
+
+def _factors(beam: Beam, xi: float, h: float, y: float, z: float) -> FloatArray:
+    if beam.element == "cable":
+        return np.stack([hermite(xi, h, d) for d in range(3)])
+    rest = [shape(beam.element, xi, h, derivative=name) for name in _NAMES]
+    return np.stack([shape(beam.element, xi, h, y, z), *rest])

@@ -8,10 +8,14 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.beam import Beam
+from ..model.bodies import Body, RigidBody
 from ..model.functions import TimeFunction
+from ..model.joints import Slide
 from ..model.model import Model
 from ..model.supports import Clamp, Hold, Pin
-from .numbering import Numbering, node_index
+from .nodes import node_of, start_vectors
+from .numbering import Numbering
 
 FloatArray = NDArray[np.float64]
 
@@ -21,7 +25,7 @@ class Rotation:
     """Local axes of a slot: R(t) = exp(theta(t) axis) R0, constant without an angle."""
 
     slot: int
-    R0: FloatArray  # (3, 3), first column along the initial tangent
+    R0: FloatArray  # (3, 3), first column along the initial vector
     axis: FloatArray
     angle: TimeFunction | None = None
     rate: TimeFunction | None = None
@@ -61,22 +65,50 @@ def collect(model: Model, numbering: Numbering) -> Constraints:
     clamps: dict[int, Clamp] = {}
     for support in model.supports:
         body = support.point.body
-        node = node_index(body.node_x, support.point.x)
-        r, r_x = (int(i) for i in numbering.slots[body.name][node, :2])
+        node = node_of(body, support.point.x)
+        slots = numbering.slots[body.name][node].tolist()
         if isinstance(support, Pin):
-            _hold_position(constraints, r, body.node_position[node], support.displacement)
+            _hold_position(constraints, slots[0], start_vectors(body)[node, 0], support.displacement)
         elif isinstance(support, Hold):
-            constraints.held |= {r + "xyz".index(c) for c in support.position}
-            constraints.held |= {r_x + "xyz".index(c) for c in support.slope}
+            _hold_components(constraints, numbering, support, node)
         else:
-            clamps[r_x] = _refined(clamps.get(r_x), support)
-    for r_x, clamp in clamps.items():
-        body = clamp.point.body
-        node = node_index(body.node_x, clamp.point.x)
-        r = int(numbering.slots[body.name][node, 0])
-        _hold_position(constraints, r, body.node_position[node], clamp.displacement)
-        _hold_slope(constraints, r_x, clamp, body.node_tangent[node], body.stretch)
+            clamps[slots[1]] = _refined(clamps.get(slots[1]), support)
+    for clamp in clamps.values():
+        _clamp(constraints, numbering, clamp)
+    for joint in model.connections:
+        if isinstance(joint, Slide) and joint.motion is not None:
+            arc = numbering.arcs[joint.name]
+            constraints.held.add(arc)
+            constraints.motions.append(Motion([arc], joint.motion.table))
+            constraints.driven.add(arc)
     return constraints
+
+
+def _clamp(constraints: Constraints, numbering: Numbering, clamp: Clamp) -> None:
+    body: Body = clamp.point.body
+    node = node_of(body, clamp.point.x)
+    shared = numbering.shared[body.name]
+    slots, vectors = numbering.slots[body.name][node, :shared].tolist(), start_vectors(body)[node]
+    _hold_position(constraints, slots[0], vectors[0], clamp.displacement)
+    if isinstance(body, RigidBody):  # what is held altogether needs nothing to keep it rigid
+        clamp = replace(clamp, stretch="fixed")
+        constraints.held |= set(numbering.multipliers[body.name].tolist())
+    for slot, vector in zip(slots[1:], vectors[1:shared], strict=True):
+        _hold_slope(constraints, slot, clamp, vector)
+
+
+def _hold_components(constraints: Constraints, numbering: Numbering, hold: Hold, node: int) -> None:
+    slots = numbering.slots[hold.point.body.name][node].tolist()
+    letters = (hold.position, hold.slope, hold.slope_y, hold.slope_z)
+    for slot, components in zip(slots, letters, strict=False):  # a cable has the first two
+        constraints.held |= {slot + "xyz".index(c) for c in components}
+    if hold.twist:
+        body = hold.point.body
+        assert isinstance(body, Beam)
+        y, z = body.node_y[node], body.node_z[node]
+        R0 = np.column_stack([y, z, np.cross(y, z)])
+        constraints.held.add(slots[2] + 1)
+        constraints.rotations.append(Rotation(slots[2], R0, np.array([0.0, 0.0, 1.0])))
 
 
 def _refined(earlier: Clamp | None, later: Clamp) -> Clamp:
@@ -104,10 +136,9 @@ def _hold_position(
         constraints.driven.add(slot)
 
 
-def _hold_slope(
-    constraints: Constraints, slot: int, clamp: Clamp, tangent: FloatArray, stretch: float
-) -> None:
-    rotation = Rotation(slot, axes(tangent), clamp.axis, clamp.rotation, clamp.rate, clamp.acceleration)
+def _hold_slope(constraints: Constraints, slot: int, clamp: Clamp, vector: FloatArray) -> None:
+    """Hold the direction of one of the slopes, or all of it; ``vector`` is its initial value."""
+    rotation = Rotation(slot, axes(vector), clamp.axis, clamp.rotation, clamp.rate, clamp.acceleration)
     if clamp.rotation is not None:
         constraints.driven.add(slot)
     if clamp.stretch == "free":
@@ -118,12 +149,13 @@ def _hold_slope(
     if clamp.rotation is None:
         return
     angle, rate, acceleration = clamp.rotation, clamp.rate, clamp.acceleration
+    length = float(np.linalg.norm(vector))
 
     def slope(order: int, t: FloatArray) -> FloatArray:
         zero = np.zeros_like(t)
         first = rate.table(t)[:, 0] if rate is not None else zero
         second = acceleration.table(t)[:, 0] if acceleration is not None else zero
-        return stretch * rotation.matrices(angle.table(t)[:, 0], first, second)[:, order, :, 0]
+        return length * rotation.matrices(angle.table(t)[:, 0], first, second)[:, order, :, 0]
 
     exact = None if rate is None else (lambda t: (slope(1, t), slope(2, t)))
     constraints.motions.append(Motion([slot, slot + 1, slot + 2], lambda t: slope(0, t), exact))

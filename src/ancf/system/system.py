@@ -3,25 +3,40 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..bodies.build import inertia
+from ..connections import joint_build
 from ..connections.build import springs
-from ..elements.lanes import LANES, ROWS
+from ..connections.joint import JointBatch
+from ..connections.sliding import SlidingBatch
+from ..connections.sliding_build import sliding
+from ..connections.spring_damper import SpringBatch
+from ..elements.lanes import workspace
 from ..elements.registry import ELEMENTS
 from ..errors import ModelError
 from ..linalg.block_ldl import allocate
-from ..linalg.ordering import fill_pattern, order
+from ..linalg.ordering import behind, fill_pattern, order
+from ..loads.moment import MomentBatch
+from ..loads.section_moment import SectionMomentBatch
 from ..model.beam import Beam
+from ..model.bodies import PointMass, RigidBody
+from ..model.joints import Slide
+from ..model.loads import Moment
 from ..model.model import Model
 from ..model.points import Point
+from ..model.touching import bodies_of
 from . import loads
 from .core import Core, Loads, Supports, place_supports
 from .drive import Drive
+from .joints import bind_joints, bind_sliding, core_joints, joint_pairs, set_scales, sliding_pairs
 from .matrix import Places, block_pairs
+from .nodes import start_vectors
 from .numbering import Numbering
 from .probe import Probe, locate
 from .supports import Constraints, collect
@@ -56,41 +71,73 @@ class System:
             raise ModelError("bodies", "the model has no body", "add one with model.add_beam(...)")
         self.model = model
         self.numbering = Numbering(model)
+        self.level = np.array([1.0, 0.0, 0.0])
+        self.moment = np.zeros((sum(isinstance(load, Moment) for load in model.loads), 3))
         self._order(self._batches(self.numbering.slots))
         self.constraints = collect(model, self.numbering)
         self.places = Places(*fill_pattern(self._pairs, self.numbering.blocks))
         self.n = 6 * self.numbering.blocks
         self.size = self.n + 3 * len(self.constraints.rotations)
         self.slots = {name: self._shadowed(s) for name, s in self.numbering.slots.items()}
-        self.patterns, load_functions = loads.patterns(model, self.probe, self.slots)
+        self.multipliers = self.numbering.all_multipliers()
+        self.joints = _joint_unknowns(self.numbering)
+        self.patterns, load_functions = loads.patterns(model, self.probe, self.slots, self.numbering.arcs)
         batches = self._batches(self.numbering.slots)
-        moment_functions = loads.moments(model, self.probe)[1]
+        moment_functions = loads.moments(model, self.probe, self.moment)[1]
         self.drive = Drive(load_functions, moment_functions, self.constraints)
         self.core = self._core(batches)
+        set_scales(self)
 
     def probe(self, point: Point) -> Probe:
         """Where the state of a point of the model is found."""
-        return locate(point.body, point.x, self.slots[point.body.name])
+        return locate(point, self.slots[point.body.name])
 
     def _batches(self, slots: dict[str, IntArray]) -> list[Any]:
         def find(point: Point) -> Probe:
-            return locate(point.body, point.x, slots[point.body.name])
+            return locate(point, slots[point.body.name])
 
+        model = self.model
         kinds: dict[str, list[Beam]] = {}
-        for beam in self.model.bodies.values():
+        for beam in model.beams.values():
             kinds.setdefault(beam.element, []).append(beam)
         elements = [
             ELEMENTS[kind].build(beams, [slots[b.name] for b in beams]) for kind, beams in kinds.items()
         ]
-        return [*elements, springs(self.model, find), loads.moments(self.model, find)[0]]
+        batches = [*elements, springs(model, find), *loads.moments(model, find, self.moment)[0]]
+        undeformed = [b for b in model.bodies.values() if not isinstance(b, Beam)]
+        if undeformed:
+            batches.append(inertia(undeformed, slots))
+        return [*batches, *self._joint_batches(slots, find)]
+
+    def _joint_batches(self, slots: dict[str, IntArray], find: Callable[[Point], Probe]) -> list[Any]:
+        rows, unknowns, slides = [], [], []
+        for body in self.model.rigid_bodies.values():
+            rows += joint_build.rigid(body, slots)
+            unknowns += self.numbering.multipliers[body.name].tolist()
+        for joint in self.model.connections:
+            if isinstance(joint, Slide):
+                slides.append(joint)
+            elif joint.name in self.numbering.multipliers:
+                rows += joint_build.BUILDERS[type(joint)](joint, find, slots)
+                unknowns += self.numbering.multipliers[joint.name].tolist()
+        batches: list[Any] = [joint_build.batch(rows, unknowns, self.level)] if rows else []
+        if slides:
+            first = [int(self.numbering.multipliers[joint.name][0]) for joint in slides]
+            batches.append(sliding(slides, first, self.level, find, slots))
+        return batches
 
     def _order(self, batches: list[Any]) -> None:
         """Number the blocks so that L stays thin."""
-        pairs = block_pairs(batches)
+        fixed = [joint_pairs(b) for b in batches if isinstance(b, JointBatch)]
+        moving = [sliding_pairs(b) for b in batches if isinstance(b, SlidingBatch)]
+        plain = block_pairs([b for b in batches if not isinstance(b, JointBatch | SlidingBatch)])
+        pairs = np.concatenate([plain, *fixed])
         rank, self.ordering = order(pairs, self.numbering.blocks)
+        joints = np.unique(self.numbering.all_multipliers() // 6)
+        rank = behind(rank, pairs, np.setdiff1d(joints, self.numbering.sliding), self.numbering.sliding)
         self.numbering.renumber(rank)
-        self._pairs = rank[pairs]
-        spread = int(np.max(np.abs(np.diff(self._pairs, axis=1)), initial=0))
+        self._pairs = rank[np.concatenate([pairs, *moving])]
+        spread = int(np.max(np.abs(np.diff(rank[pairs], axis=1)), initial=0))
         self.half_bandwidth = 6 * (spread + 1) - 1
 
     def _shadowed(self, slots: IntArray) -> IntArray:
@@ -103,39 +150,49 @@ class System:
     def _core(self, batches: list[Any]) -> Core:
         # elements read and write the shadows; the matrix knows the unknowns alone
         seen = self._batches(self.slots)
-        batches = [
-            shadowed._replace(dest=self.places.dest(plain.base))
-            for plain, shadowed in zip(batches, seen, strict=True)
-        ]
-        springs_batch, moments_batch = batches[-2:]
+        batches = [self._bound(plain, shadowed) for plain, shadowed in zip(batches, seen, strict=True)]
+        followers = tuple(b for b in batches if isinstance(b, MomentBatch | SectionMomentBatch))
+        springs_batch = next(b for b in batches if isinstance(b, SpringBatch))
         damped = any(
             b.section.damping or b.section.axial_damping or b.section.bending_damping
-            for b in self.model.bodies.values()
+            for b in self.model.beams.values()
         )
+        slides = [joint for joint in self.model.connections if isinstance(joint, Slide)]
+        rubbed = any(joint.viscous or joint.friction for joint in slides)
         driven = np.array(sorted(self.constraints.driven), dtype=np.int64)
+        supports = Supports(
+            **_held_arrays(self._held(), self.places),
+            **_rotation_arrays(self.constraints, self.places, self.n),
+            prescribed=self.drive.prescribed,
+            driven=self._shadowed(driven),
+        )
         return Core(
             batches=tuple(batches),
-            followers=(moments_batch,),
-            ws=np.zeros(ROWS * LANES),
+            followers=followers,
+            ws=workspace(),
             A=np.zeros(self.places.size),
             factor=allocate(self.places.row_start, self.places.column),
             weight=self._weight(),
-            supports=Supports(
-                **_held_arrays(self._held(), self.places),
-                **_rotation_arrays(self.constraints, self.places, self.n),
-                prescribed=self.drive.prescribed,
-                driven=self._shadowed(driven),
-            ),
+            supports=supports,
+            joints=core_joints(batches, self, supports),
             loads=Loads(
                 gravity=loads.gravity(self.model, self.slots, self.size),
                 start=np.cumsum([0] + [len(p[0]) for p in self.patterns]).astype(np.int64),
                 slot=_joined([p[0] for p in self.patterns], np.int64),
                 factor=_joined([p[1] for p in self.patterns], np.float64),
-                moment=moments_batch.value,
+                moment=self.moment,
             ),
-            damped=damped or bool(np.any(springs_batch.data[:, 1])),
-            loaded=bool(self.patterns or len(moments_batch.value) or len(driven)),
+            damped=damped or rubbed or bool(np.any(springs_batch.data[:, 1])),
+            loaded=bool(self.patterns or len(self.moment) or len(driven)),
         )
+
+    def _bound(self, plain: Any, seen: Any) -> Any:
+        """A batch with its places in the matrix."""
+        if isinstance(plain, JointBatch):
+            return bind_joints(plain, seen, self.places)
+        if isinstance(plain, SlidingBatch):
+            return bind_sliding(plain, seen, self.places)
+        return seen._replace(dest=self.places.dest(plain.base))
 
     def _held(self) -> IntArray:
         unused = np.flatnonzero(~self.numbering.used())
@@ -146,11 +203,19 @@ class System:
         for slots in self.numbering.slots.values():
             for c in range(3):
                 weight[slots[:, 0] + c] = 1.0 / self.model.size
+        for name, beam in self.model.beams.items():
+            internal = self.numbering.slots[name][:-1, self.numbering.shared[name] :]
+            for c in range(3):
+                weight[internal + c] = np.diff(beam.node_x)[:, None]
+        weight[self.numbering.all_multipliers()] = 0.0
+        weight[list(self.numbering.arcs.values())] = 1.0 / self.model.size
         return weight
 
     def holding(self, bodies: list[str]) -> Core:
-        """Core in which these bodies are held altogether."""
+        """Core in which these bodies are held altogether; joints to others carry nothing."""
         extra = [self.numbering.slots[name].ravel()[:, None] + np.arange(3) for name in bodies]
+        idle = [j.name for j in self.model.connections if set(bodies_of(j)) & set(bodies)]
+        extra += [self.joints[name] for name in (*idle, *bodies) if name in self.joints]
         held = np.unique(np.concatenate([self.core.supports.held, *[e.ravel() for e in extra]]))
         supports = self.core.supports._replace(**_held_arrays(held, self.places))
         return self.core._replace(supports=supports)
@@ -162,19 +227,38 @@ class System:
 
     def initial_state(self, time: float = 0.0) -> tuple[FloatArray, FloatArray]:
         """State vectors q and v of the initial shape and motion, supports as at ``time``."""
-        q, v, a = np.zeros(self.size), np.zeros(self.size), np.zeros(self.size)
-        for beam in self.model.bodies.values():
-            slots = self.numbering.slots[beam.name]
-            values = (beam.node_position, beam.stretch * beam.node_tangent)
-            for slot, value in zip(slots.T[:2], values, strict=True):
-                for c in range(3):
-                    q[slot + c] = value[:, c]
-        self._to_local(q)
-        self.place(time, q, v, a)
+        q = self.initial_shape(time)
         return q, self.motion(q, time)
 
+    def initial_shape(self, time: float = 0.0) -> FloatArray:
+        """State vector q of the initial shape, supports as at ``time``."""
+        q, v, a = np.zeros(self.size), np.zeros(self.size), np.zeros(self.size)
+        for body in self.model.bodies.values():
+            slots = self.numbering.slots[body.name]
+            values = start_vectors(body)
+            for c in range(3):
+                q[slots + c] = values[:, :, c]
+        for joint in self.model.connections:
+            if isinstance(joint, Slide):
+                q[self.numbering.arcs[joint.name]] = joint.s
+        self._to_local(q)
+        self.place(time, q, v, a)
+        return q
+
+    def element_of(self, slot: int) -> str:
+        """Name of the element of a beam at whose first node r_y has this slot (as the batches see it)."""
+        for name, slots in self.slots.items():
+            if slots.shape[1] > 2 and slot in slots[:, 2]:
+                return f"{name} element {int(np.flatnonzero(slots[:, 2] == slot)[0])}"
+        return f"unknown {slot}"
+
     def adopt(
-        self, slots: dict[str, IntArray], q: FloatArray, v: FloatArray, time: float
+        self,
+        slots: dict[str, IntArray],
+        joints: dict[str, IntArray],
+        q: FloatArray,
+        v: FloatArray,
+        time: float,
     ) -> tuple[FloatArray, FloatArray]:
         """State vectors from those of a system with the same bodies; supports as at ``time``."""
         new_q, new_v, a = np.zeros(self.size), np.zeros(self.size), np.zeros(self.size)
@@ -182,6 +266,9 @@ class System:
             for name, target in self.slots.items():
                 for c in range(3):
                     new[target + c] = old[slots[name] + c]
+            for name, unknowns in self.joints.items():
+                if name in joints and len(joints[name]) == len(unknowns):
+                    new[unknowns] = old[joints[name]]
         before = new_q.copy(), new_v.copy()
         self.place(time, new_q, new_v, a)  # the rotations of this time
         for k, r in enumerate(self.constraints.rotations):
@@ -215,13 +302,14 @@ class System:
     def _set_motion(self, q: FloatArray, v: FloatArray, a: FloatArray, time: float) -> None:
         """Initial rigid motions of the bodies; what a support holds follows the support."""
         wanted = v.copy()
-        moving = [b for b in self.model.bodies.values() if np.any(b.velocity) or np.any(b.angular_velocity)]
-        for beam in moving:
-            slots = self.slots[beam.name]
-            for k in range(2):
+        moving = [b for b in self.model.bodies.values() if np.any(b.velocity) or np.any(_spin(b))]
+        for body in moving:
+            slots = self.slots[body.name]
+            for k in range(slots.shape[1]):
                 arm = np.stack([q[slots[:, k] + c] for c in range(3)], axis=1)
-                rate = np.cross(beam.angular_velocity, arm - (beam.about if k == 0 else 0.0))
-                rate += beam.velocity if k == 0 else 0.0
+                if k == 0 and not isinstance(body, PointMass):
+                    arm -= body.about
+                rate = np.cross(_spin(body), arm) + (body.velocity if k == 0 else 0.0)
                 for c in range(3):
                     wanted[slots[:, k] + c] = rate[:, c]
         if not moving:
@@ -244,6 +332,18 @@ class System:
             name = self.numbering.describe(worst)
             text = f"{name}: set_motion asks for {wanted[worst]:.6g}, the support holds it at {v[worst]:.6g}"
             warnings.warn(text + "; the support wins", UserWarning, stacklevel=2)
+
+
+def _spin(body: Beam | PointMass | RigidBody) -> FloatArray:
+    return np.zeros(3) if isinstance(body, PointMass) else body.angular_velocity
+
+
+def _joint_unknowns(numbering: Numbering) -> dict[str, IntArray]:
+    """Multipliers by joint or rigid body, followed by s for a sliding joint."""
+    found = {name: unknowns.copy() for name, unknowns in numbering.multipliers.items()}
+    for name, arc in numbering.arcs.items():
+        found[name] = np.append(found[name], arc)
+    return found
 
 
 def _joined(parts: list[NDArray], dtype: type) -> NDArray:  # type: ignore[type-arg]

@@ -1,0 +1,94 @@
+"""From sliding joints of the model to the flat arrays of a SlidingBatch."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..elements.shapes import hermite
+from ..elements.solid_shapes import shape
+from ..model.bodies import RigidBody
+from ..model.joints import Slide
+from ..model.points import Point
+from .joint_build import place_of
+from .sliding import COLUMNS, SlidingBatch
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+def sliding(
+    joints: Sequence[Slide],
+    unknowns: Sequence[int],
+    level: FloatArray,
+    locate: Callable[[Point], Any],
+    slots: dict[str, IntArray],
+) -> SlidingBatch:
+    """Batch of these joints, whose blocks start at ``unknowns``; places follow later."""
+    n = len(joints)
+    lines = [carrier_line(joint, slots) for joint in joints]
+    counts = [len(line[0]) for line in lines]
+    slot, factor, offset = np.full((n, COLUMNS), -1), np.zeros((n, COLUMNS)), np.zeros((n, 3))
+    for k, joint in enumerate(joints):
+        point = place_of(joint.point, locate)
+        slot[k, : len(point.slots)], factor[k, : len(point.factors)] = point.slots, point.factors
+        offset[k] = point.constant
+    m = sum(counts)
+    return SlidingBatch(
+        unknown=np.array(unknowns, dtype=np.int64),
+        level=level,
+        own=np.full(n, -1, dtype=np.int64),
+        slot=slot.astype(np.int64),
+        factor=factor,
+        place=np.full((n, COLUMNS), -1, dtype=np.int64),
+        offset=offset,
+        first=np.concatenate([[0], np.cumsum(counts)]).astype(np.int64),
+        x=np.concatenate([np.zeros((0, 2)), *(line[0] for line in lines)]),
+        line_slot=np.concatenate([np.zeros((0, COLUMNS)), *(line[1] for line in lines)]).astype(np.int64),
+        line_poly=np.concatenate([np.zeros((0, COLUMNS, 4)), *(line[2] for line in lines)]),
+        line_place=np.full((m, COLUMNS), -1, dtype=np.int64),
+        data=np.array([[j.mass, j.viscous, j.friction, j.friction_velocity] for j in joints]).reshape(n, 4),
+        released=_directions([j.release for j in joints]),
+        unilateral=_directions([j.unilateral for j in joints]),
+        open=np.zeros(n, dtype=np.int64),
+        mode=np.zeros(n, dtype=np.int64),
+    )
+
+
+def _directions(given: Sequence[FloatArray | None]) -> FloatArray:
+    rows = [np.zeros(3) if d is None else np.asarray(d) for d in given]
+    return np.array(rows, dtype=np.float64).reshape(len(rows), 3)
+
+
+def carrier_line(joint: Slide, slots: dict[str, IntArray]) -> tuple[FloatArray, IntArray, FloatArray]:
+    """Elements of the carrier: start and length (m, 2), slots (m, COLUMNS), polynomials (m, COLUMNS, 4)."""
+    body = joint.carrier
+    if isinstance(body, RigidBody):
+        assert joint.line is not None
+        start, end = joint.line
+        length = float(np.linalg.norm(end - start))
+        poly = np.zeros((1, COLUMNS, 4))
+        poly[0, 0, 0] = 1.0
+        poly[0, 1:4, 0], poly[0, 1:4, 1] = start, end - start
+        line = np.full((1, COLUMNS), -1)
+        line[0, :4] = slots[body.name][0, :4]
+        return np.array([[0.0, length]]), line, poly
+    h = np.diff(body.node_x)
+    seen, (y, z) = slots[body.name], joint.offset
+    columns = [seen[:-1, :4], seen[1:, :4]] if seen.shape[1] > 2 else [seen[:-1, :2], seen[1:, :2]]
+    used = np.hstack([*columns, seen[:-1, 4:]])
+    line = np.full((len(h), COLUMNS), -1)
+    line[:, : used.shape[1]] = used
+    poly = np.zeros((len(h), COLUMNS, 4))
+    at = np.linspace(0.0, 1.0, 4)
+    inverse = np.linalg.inv(np.vander(at, 4, increasing=True))
+    for length in np.unique(h):
+        cable = body.element == "cable"
+        values = hermite(at, length) if cable else shape(body.element, at, length, y, z)  # (4, columns)
+        poly[h == length, : used.shape[1]] = (inverse @ values).T
+    if y == 0.0 and z == 0.0:  # columns that do not contribute
+        line[np.all(poly == 0.0, axis=2)] = -1
+    return np.column_stack([body.node_x[:-1], h]), line, poly

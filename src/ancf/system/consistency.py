@@ -1,0 +1,154 @@
+"""Checks of the joints of a System: are they independent, and do they meet where a run starts?"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import null_space, qr
+from scipy.sparse import csc_array
+from scipy.sparse.linalg import splu
+
+from ..errors import ModelError
+from ..linalg.sparse import to_sparse
+from ..model.joints import Slide
+from .core import assemble, constraints, restrict
+from .system import System
+
+FloatArray = NDArray[np.float64]
+
+#: Rank of the rows of the joints, relative to the largest.
+INDEPENDENT = 1e-9
+#: Rows up to which their rank is found by dense algebra at once.
+FEW = 200
+#: Share of a row in a dependent combination from which on its joint is named.
+NAMED = 0.05
+#: Largest gap of a joint at the start, in sizes of the model; a sliding joint has its own.
+GAP = 1e-6
+
+
+def check_independent(system: System) -> None:
+    """Raise ModelError if some joints hold what others, or supports, hold already.
+
+    The rows C_q of all multipliers must be independent on the unknowns that move, in the initial shape.
+    """
+    if not len(np.setdiff1d(system.multipliers, system.core.supports.held)):
+        return
+    C, gap, owner = _held_rows(system)
+    size = np.linalg.norm(C, axis=1)
+    _refuse_immovable(owner, size > 1e-12 * size.max())
+    C, gap = C / size[:, None], gap / size
+    if len(C) > FEW and _surely_independent(C):
+        return
+    _, R, order = qr(C.T, mode="economic", pivoting=True)
+    diagonal = np.abs(np.diag(R))
+    rank = int(np.sum(diagonal > INDEPENDENT * max(float(diagonal.max()), 1e-300)))
+    if rank == len(C):
+        return
+    combinations = np.zeros((len(C) - rank, len(C)))  # each row times C is zero
+    combinations[:, order[:rank]] = np.linalg.solve(R[:rank, :rank], R[:rank, rank:]).T
+    combinations[np.arange(len(C) - rank), order[rank:]] = -1.0
+    combinations /= np.abs(combinations).max(axis=1)[:, None]
+    mismatch = np.abs(combinations @ gap)
+    worst = int(np.argmax(mismatch)) if mismatch.max() > GAP * system.model.size else 0
+    involved = owner[np.abs(combinations[worst]) > NAMED]
+    raise _redundant(list(dict.fromkeys(involved.tolist())), float(mismatch[worst]), system.model.size)
+
+
+def _held_rows(system: System) -> tuple[FloatArray, FloatArray, NDArray[np.str_]]:
+    """Rows of C_q on the unknowns that move, C there, and the joint of each row.
+
+    A sliding joint with a released direction has two rows, normal to it.
+    """
+    core, q = system.core, system.initial_shape()
+    held, zero, gap = core.supports.held, np.zeros(system.size), np.zeros(system.size)
+    system.level[:] = 1.0, 0.0, 0.0
+    constraints(core.joints, q, zero, zero, gap, core.ws)
+    assemble(core.batches, core.ws, q, zero, core.A, 0.0, 0.0, 1.0)
+    restrict(core.supports, core.A)
+    lam, moving = np.setdiff1d(system.multipliers, held), np.setdiff1d(system.free, system.multipliers)
+    C = to_sparse(core.A, system.places)[lam][:, moving].toarray()
+    released = {c.name: c.release for c in system.model.connections if isinstance(c, Slide)}
+    rows, gaps, owner = [np.zeros((0, len(moving)))], [np.zeros(0)], []
+    for name, unknowns in system.numbering.multipliers.items():
+        mine = np.isin(lam, unknowns)
+        part, g = C[mine], gap[lam[mine]]
+        direction = released.get(name)
+        if direction is not None and len(part):
+            across = null_space(direction[None]).T
+            part, g = across @ part, across @ g
+        rows.append(part)
+        gaps.append(g)
+        owner += [name] * len(part)
+    return np.concatenate(rows), np.concatenate(gaps), np.array(owner)
+
+
+def _surely_independent(C: FloatArray) -> bool:
+    """A cheap look at many rows: pivots of the sparse matrix C C^T."""
+    rows = csc_array(C)
+    try:
+        pivots = np.abs(splu(csc_array(rows @ rows.T)).U.diagonal())
+    except RuntimeError:  # exactly singular
+        return False
+    return bool(pivots.min() > 1e-8 * pivots.max())
+
+
+def _refuse_immovable(owner: NDArray[np.str_], moves: NDArray[np.bool_]) -> None:
+    """Rows without an unknown that moves."""
+    if np.all(moves):
+        return
+    name = owner[~moves][0]
+    if np.any(moves[owner == name]):
+        what = f'"{name}" joins what supports hold already, in some direction'
+        raise ModelError("connections", what, "remove that from the support, or let the joint hold less")
+    what = f'"{name}" joins what supports hold already: it has nothing to do'
+    raise ModelError("connections", what, "remove the joint or the support")
+
+
+def _redundant(names: list[str], mismatch: float, size: float) -> ModelError:
+    listed = " and ".join(f'"{n}"' for n in names)
+    if mismatch > GAP * size:
+        what = f"{listed} contradict each other: they cannot all hold, by {mismatch:.3g} m"
+    else:
+        what = f"{listed} are redundant: they, or they and the supports, hold the same motion twice"
+    return ModelError("connections", what, "remove one of them, or let it hold less")
+
+
+def open_contacts(system: System, q: FloatArray) -> None:
+    """Take the unilateral contacts for open whose points are apart in the state q."""
+    for batch in system.core.joints.tail:
+        gaps = _gaps(system, q)[batch.unknown[:, None] + np.arange(3)]
+        apart = -np.sum(batch.unilateral * gaps, axis=1)
+        batch.open[:] = apart > GAP * system.model.size
+
+
+def _gaps(system: System, q: FloatArray) -> FloatArray:
+    """C in the rows of the multipliers, with all contacts closed."""
+    r, zero = np.zeros(system.size), np.zeros(system.size)
+    still = q.copy()
+    still[system.multipliers] = 0.0
+    system.level[:] = 1.0, 0.0, 0.0
+    for batch in system.core.joints.tail:
+        batch.open[:] = 0
+    constraints(system.core.joints, still, zero, zero, r, system.core.ws)
+    return r
+
+
+def check_gaps(system: System, q: FloatArray, where: str) -> None:
+    """Raise ModelError if a joint's points are apart in the state q from which a run starts."""
+    if not len(system.multipliers):
+        return
+    gaps = _gaps(system, q)
+    for joint in system.model.connections:
+        if joint.name not in system.numbering.multipliers:
+            continue
+        apart = gaps[system.numbering.multipliers[joint.name][:3]]
+        allowed = GAP * system.model.size
+        if isinstance(joint, Slide):
+            allowed = joint.tolerance
+            if joint.unilateral is not None:  # an open contact is apart
+                apart = apart - min(float(apart @ joint.unilateral), 0.0) * joint.unilateral
+        gap = float(np.linalg.norm(apart))
+        if gap > allowed:
+            what = f'"{joint.name}" does not meet: its points are {gap:.6g} m apart, at most {allowed:.3g} m'
+            hint = "start from ancf.equilibrium(model), or place the bodies where they meet"
+            raise ModelError(where, what, hint)
