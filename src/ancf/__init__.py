@@ -10,9 +10,9 @@ from .errors import Interrupted, ModelError, SolveError
 from .model import Model, Section
 
 if TYPE_CHECKING:
-    from .analysis import equilibrium, load, modes, simulate
+    from .analysis import equilibrium, load, modes, simulate, stable_step
     from .results import Modes, Result, State
-    from .solvers.integrators import GeneralizedAlpha, Trapezoidal
+    from .solvers.integrators import Explicit, GeneralizedAlpha, Radau, Trapezoidal
     from .solvers.newton import Newton
 
 # the compiled parts are imported on first use: describing a model needs none of them
@@ -20,22 +20,27 @@ _LATER = {
     "equilibrium": "analysis",
     "simulate": "analysis",
     "modes": "analysis",
+    "stable_step": "analysis",
     "load": "analysis",
     "Result": "results",
     "State": "results",
     "Modes": "results",
     "Trapezoidal": "solvers.integrators",
+    "Explicit": "solvers.integrators",
     "GeneralizedAlpha": "solvers.integrators",
+    "Radau": "solvers.integrators",
     "Newton": "solvers.newton",
 }
 
 __all__ = [
+    "Explicit",
     "GeneralizedAlpha",
     "Interrupted",
     "Model",
     "ModelError",
     "Modes",
     "Newton",
+    "Radau",
     "Result",
     "Section",
     "SolveError",
@@ -46,6 +51,7 @@ __all__ = [
     "load",
     "modes",
     "simulate",
+    "stable_step",
 ]
 
 

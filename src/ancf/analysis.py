@@ -12,6 +12,7 @@ import numpy as np
 from .errors import Interrupted, ModelError, SolveError
 from .model import checks
 from .model.beam import Beam
+from .model.bodies import PointMass, RigidBody
 from .model.model import Model
 from .results.modes import Modes
 from .results.provenance import versions
@@ -19,12 +20,14 @@ from .results.result import Result, load
 from .results.state import State
 from .results.store import FileStore, MemoryStore
 from .solvers import statics
-from .solvers.integrators import INTEGRATORS, Integrator, Trapezoidal
+from .solvers.integrators import INTEGRATORS, Explicit, Integrator, Trapezoidal
 from .solvers.modal import natural_modes
-from .solvers.stepping import Progress, Run
+from .solvers.stability import stable_limit
+from .solvers.stepping import Progress
+from .system.consistency import check_gaps, check_independent
 from .system.system import System
 
-__all__ = ["equilibrium", "load", "modes", "simulate"]
+__all__ = ["equilibrium", "load", "modes", "simulate", "stable_step"]
 
 
 def equilibrium(
@@ -57,7 +60,7 @@ def equilibrium(
     checks.integer(load_steps, "equilibrium.load_steps", 1, 100_000)
     time = checks.number(time, "equilibrium.time")
     names = None if of is None else _names(model, of)
-    system = System(model)
+    system = _system(model)
     q, stats = statics.equilibrium(system, names, load_steps, time)
     return State(system, float(time), q, system.motion(q, time), stats)
 
@@ -83,7 +86,7 @@ def simulate(
     start : State, optional
         Where to start, from :func:`equilibrium` or :meth:`Result.state`; default the initial shape and
         motion of the model at t = 0.
-    integrator : Trapezoidal or GeneralizedAlpha, optional
+    integrator : Trapezoidal, GeneralizedAlpha, Radau or Explicit, optional
         Default the trapezoidal rule.
     output_step : float, optional
         Time between stored states, s, a multiple of ``step``; default every step.
@@ -111,14 +114,15 @@ def simulate(
         )
     method = Trapezoidal() if integrator is None else integrator
     if not isinstance(method, tuple(INTEGRATORS.values())):
-        known = "ancf.Trapezoidal() or ancf.GeneralizedAlpha(rho_inf)"
+        known = "one of " + ", ".join(f"ancf.{kind.__name__}()" for kind in INTEGRATORS.values())
         raise ModelError("simulate.integrator", f"must be {known}, is {checks.shown(method)}")
     t0 = 0.0 if start is None else start.t
     every = _check_times(t0, t_end, step, output_step)
-    system = System(model)  # anew: the model may have changed since the start was computed
+    system = _system(model)  # anew: the model may have changed since the start was computed
     q, v = system.initial_state(t0) if start is None else _adopted(start, system, "simulate.start")
+    check_gaps(system, q, "simulate.start")
     header = _header(model, method, t0, t_end, step, output_step)
-    run = Run(system, method, t0, t_end, step, every)
+    run = method.run(system, t0, t_end, step, every)
     run.start(q, v)
     store = MemoryStore(system) if file is None else FileStore(file, system, header)
 
@@ -157,7 +161,7 @@ def modes(model: Model, *, about: State | None = None, count: int = 10) -> Modes
     SolveError
         The state is not a stable equilibrium.
     """
-    system = System(model)
+    system = _system(model)
     if about is None:
         q, v = system.initial_state()
         about = State(system, 0.0, q, np.zeros_like(v))
@@ -169,15 +173,50 @@ def modes(model: Model, *, about: State | None = None, count: int = 10) -> Modes
     return Modes(omega, shapes, about)
 
 
+def _system(model: Model) -> System:
+    system = System(model)
+    check_independent(system)
+    return system
+
+
+def stable_step(model: Model, *, about: State | None = None, safety: float = 0.9) -> float:
+    """Largest step of an :class:`ancf.Explicit` run for small vibrations about a state, s.
+
+    Parameters
+    ----------
+    model : Model
+    about : State, optional
+        Default the initial shape of the model at t = 0.
+    safety : float
+        Part of the limit of stability that is returned, above 0 and at most 1.
+
+    Raises
+    ------
+    SolveError
+        The mass matrix is singular.
+    """
+    method = Explicit(safety=safety)
+    system = _system(model)
+    if about is None:
+        q, v = system.initial_state()
+    elif isinstance(about, State):
+        q, v = _adopted(about, system, "stable_step.about")
+    else:
+        raise ModelError(
+            "stable_step.about", f"must be a State, is {checks.shown(about)}", "see ancf.equilibrium"
+        )
+    return method.safety * stable_limit(system, q, v)
+
+
 def _names(model: Model, of: Any) -> list[str]:
     """Names of the bodies that ``of`` lists."""
-    if isinstance(of, str | Beam) or not isinstance(of, Sequence):
+    if isinstance(of, str | Beam | PointMass | RigidBody) or not isinstance(of, Sequence):
         raise ModelError("equilibrium.of", f"must be a list of bodies, is {checks.shown(of)}")
     found = []
     for k, item in enumerate(of):
-        if isinstance(item, Beam) and model.bodies.get(item.name) is not item:
+        if isinstance(item, Beam | PointMass | RigidBody) and model.bodies.get(item.name) is not item:
             raise ModelError(f"equilibrium.of[{k}]", f'body "{item.name}" belongs to another model')
-        if not isinstance(item, str | Beam):
+        if not isinstance(item, str | Beam | PointMass | RigidBody):
             raise ModelError(f"equilibrium.of[{k}]", f"must be a body or its name, is {checks.shown(item)}")
         found.append(model.body(item if isinstance(item, str) else item.name).name)
     return found
@@ -187,12 +226,17 @@ def _adopted(state: State, system: System, where: str) -> tuple[Any, Any]:
     """State vectors of a state in the numbering of a system with the same bodies."""
     mine, theirs = system.model.bodies, state.bodies
     same = mine.keys() == theirs.keys() and all(
-        np.array_equal(mine[n].node_x, theirs[n].node_x) and mine[n].element == theirs[n].element
-        for n in mine
+        system.slots[n].shape == state.slots[n].shape and _same_nodes(mine[n], theirs[n]) for n in mine
     )
     if not same:
         raise ModelError(where, "is a state of another model: its bodies or their nodes differ")
-    return system.adopt(state.slots, state.q, state.v, state.t)
+    return system.adopt(state.slots, state.joints, state.q, state.v, state.t)
+
+
+def _same_nodes(a: Any, b: Any) -> bool:
+    if not isinstance(a, Beam) or not isinstance(b, Beam):
+        return type(a) is type(b)
+    return a.element == b.element and np.array_equal(a.node_x, b.node_x)
 
 
 def _check_times(t0: float, t_end: float, step: float, output_step: float | None) -> int:
@@ -218,7 +262,6 @@ def _header(
     model: Model, method: Integrator, t0: float, t_end: float, step: float, output_step: float | None
 ) -> dict[str, Any]:
     """What made a result: model, settings, versions, time."""
-    n = method.newton
     return {
         "title": model.title,
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -229,8 +272,7 @@ def _header(
             "step": step,
             "output_step": output_step or step,
             "integrator": method.name,
-            "scheme": method.scheme()._asdict(),
-            "newton": {k: getattr(n, k) for k in n.__dataclass_fields__},
+            **method.settings(),
         },
         "versions": versions(),
     }

@@ -5,9 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ancf.cli.notes import check_equilibrium, notes
 from ancf.cli.screen import console, table
-from ancf.cli.summary import plural, sizes, total_mass
+from ancf.cli.summary import mass, plural, sizes, total_mass
+from ancf.model.beam import Beam
+from ancf.model.bodies import RigidBody, kind
 from ancf.model.file import Study, read_study
 from ancf.model.model import Model
 
@@ -33,7 +37,9 @@ def show_model(path: Path) -> None:
     for key, value in _facts(study, system):
         out.print(f"  {key:<10} {value}", soft_wrap=True)
     out.print()
-    out.print(_bodies(study.model))
+    for made in (_bodies(study.model), _masses(study.model)):
+        if made.row_count:
+            out.print(made)
     _print_notes(study, system)
 
 
@@ -80,10 +86,25 @@ def _counts(model: Model) -> str:
 
 
 def _bodies(model: Model) -> Any:
-    made = table("body", "element", "elements", "length [m]", "mass [kg]", "EA [N]", "EI [N m^2]")
-    for b in model.bodies.values():
-        numbers = (b.length, b.section.rhoA * b.length, b.section.EA, b.section.EI)
+    """Sizes and stiffnesses of beams and cables; a cable has one bending stiffness and takes no torque."""
+    beams = any(b.element != "cable" for b in model.beams.values())
+    stiffnesses = ["EA [N]", *(["EI_y [N m^2]", "EI_z [N m^2]", "GJ [N m^2]"] if beams else ["EI [N m^2]"])]
+    made = table("body", "element", "elements", "length [m]", "mass [kg]", *stiffnesses)
+    for b in model.beams.values():
+        numbers = [b.length, mass(b), b.section.EA, b.section.EI_y]
+        numbers += [b.section.EI_z, b.torsional_stiffness] if beams else []
         made.add_row(b.name, b.element, str(b.elements), *[f"{x:.6g}" for x in numbers])
+    return made
+
+
+def _masses(model: Model) -> Any:
+    """Kind, mass and principal moments of inertia of point masses and rigid bodies."""
+    made = table("body", "kind", "mass [kg]", "principal inertia [kg m^2]")
+    for body in model.bodies.values():
+        if isinstance(body, Beam):
+            continue
+        moments = np.linalg.eigvalsh(body.inertia) if isinstance(body, RigidBody) else ()
+        made.add_row(body.name, kind(body), f"{body.mass:.6g}", ", ".join(f"{x:.6g}" for x in moments))
     return made
 
 

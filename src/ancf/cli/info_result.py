@@ -70,5 +70,9 @@ def _how_far(result: Result, plain: dict[str, Any]) -> str:
 def _bodies(plain: dict[str, Any]) -> Any:
     made = table("body", "element", "elements", "length [m]")
     for body in plain.get("model", {}).get("bodies", []):
-        made.add_row(body["name"], body["element"], str(body["elements"]), f"{body['length']:g}")
+        if body.get("type", "beam") == "beam":
+            row = (body["element"], str(body["elements"]), f"{body['length']:g}")
+        else:
+            row = (body["type"].replace("_", " "), "", "")
+        made.add_row(body["name"], *row)
     return made

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from ancf.cli.summary import node_count
 from ancf.errors import ModelError
 from ancf.model.file import Study
 from ancf.model.model import Model
@@ -42,7 +43,7 @@ def _floating(system: System) -> Iterator[str]:
 
 
 def _stretched(model: Model) -> Iterator[str]:
-    for beam in model.bodies.values():
+    for beam in model.beams.values():
         if abs(beam.stretch - 1) > 1e-12:
             share = f"{100 * abs(beam.stretch - 1):.3g} % {'longer' if beam.stretch > 1 else 'shorter'}"
             yield f'body "{beam.name}" starts {share} than its natural length {beam.length:g} m'
@@ -52,7 +53,7 @@ def _size(study: Study) -> Iterator[str]:
     settings = study.simulation
     if settings is None:
         return
-    nodes = sum(beam.elements + 1 for beam in study.model.bodies.values())
+    nodes = node_count(study.model)
     states = round(settings.t_end / (settings.output_step or settings.step)) + 1
     size = nodes * states * BYTES_PER_NODE
     if size > LARGE:

@@ -13,7 +13,8 @@ from ancf.model.file import Study, read_study
 from ancf.model.settings import IntegratorSettings, SimulationSettings
 
 if TYPE_CHECKING:
-    from ancf import GeneralizedAlpha, Result, State, Trapezoidal
+    from ancf import Result, State
+    from ancf.solvers.integrators import Integrator
 
 
 def run_file(path: Path, folder: Path, quiet: bool = False) -> None:
@@ -81,9 +82,8 @@ class Run:
         import ancf
 
         given = self.study.equilibrium
-        bodies = None if of is None else [self.study.model.body(name) for name in of]
         self.screen.say("looking for the equilibrium ...")
-        return ancf.equilibrium(self.study.model, of=bodies, load_steps=given.load_steps if given else 1)
+        return ancf.equilibrium(self.study.model, of=of, load_steps=given.load_steps if given else 1)
 
     def _statics(self) -> Result:
         from ancf.cli.statics import store
@@ -119,10 +119,8 @@ class Run:
             error.add_note(f"{self.output.summary} cannot be written: {other.strerror or other}")
 
 
-def integrator(settings: IntegratorSettings) -> Trapezoidal | GeneralizedAlpha:
+def integrator(settings: IntegratorSettings) -> Integrator:
     """The integrator that the settings ask for."""
-    import ancf
+    from ancf.solvers.integrators import INTEGRATORS
 
-    if settings.type == "trapezoidal":
-        return ancf.Trapezoidal()
-    return ancf.GeneralizedAlpha() if settings.rho_inf is None else ancf.GeneralizedAlpha(settings.rho_inf)
+    return INTEGRATORS[settings.type](**settings.options())

@@ -12,8 +12,11 @@ import numpy as np
 from ancf import __version__
 from ancf.cli.screen import table
 from ancf.errors import ModelError, SolveError
+from ancf.model.beam import Beam
+from ancf.model.bodies import Body, PointMass
 from ancf.model.file import Study
 from ancf.model.model import Model
+from ancf.model.points import Point
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -52,11 +55,10 @@ def summarise(
 
 def sizes(model: Model) -> dict[str, Any]:
     """Counts of a model."""
-    elements = sum(beam.elements for beam in model.bodies.values())
     return {
         "bodies": len(model.bodies),
-        "elements": elements,
-        "nodes": elements + len(model.bodies),
+        "elements": sum(beam.elements for beam in model.beams.values()),
+        "nodes": node_count(model),
         "supports": len(model.supports),
         "loads": len(model.loads),
         "connections": len(model.connections),
@@ -64,9 +66,19 @@ def sizes(model: Model) -> dict[str, Any]:
     }
 
 
+def node_count(model: Model) -> int:
+    """Nodes of all bodies; a point mass or a rigid body is one."""
+    return sum(body.elements + 1 if isinstance(body, Beam) else 1 for body in model.bodies.values())
+
+
 def total_mass(model: Model) -> float:
     """Mass of all bodies, kg."""
-    return float(sum(beam.section.rhoA * beam.length for beam in model.bodies.values()))
+    return sum(mass(body) for body in model.bodies.values())
+
+
+def mass(body: Body) -> float:
+    """Mass of a body, kg."""
+    return body.section.rhoA * body.length if isinstance(body, Beam) else body.mass
 
 
 def settings(study: Study) -> dict[str, Any]:
@@ -79,21 +91,31 @@ def settings(study: Study) -> dict[str, Any]:
 
 
 def outputs(study: Study) -> list[str]:
-    """Points to print: those that the file names, otherwise start, middle and end of the first bodies."""
+    """Points to print: those that the file names, otherwise those of the first bodies.
+
+    Of a beam start, middle and end, of a rigid body the centre of mass.
+    """
     if study.simulation is not None and study.simulation.outputs:
         return list(study.simulation.outputs)
-    beams = list(study.model.bodies.values())[:MOST_BODIES]
-    return [str(point) for b in beams for point in (b.start, b.at(0.5 * b.length), b.end)]
+    return [
+        str(point) for body in list(study.model.bodies.values())[:MOST_BODIES] for point in _points_of(body)
+    ]
+
+
+def _points_of(body: Body) -> tuple[Point, ...]:
+    if isinstance(body, Beam):
+        return body.start, body.at(0.5 * body.length), body.end
+    return (body.point if isinstance(body, PointMass) else body.centre,)
 
 
 def at_point(model: Model, state: State, label: str) -> dict[str, Any]:
-    """State at a point, and what holds it."""
+    """State at a point, and what holds it; only a beam or cable has a tension."""
     point = model.point(label)
     held = [support.name for support in model.supports if support.point == point]
     return {
         "position": [float(x) for x in state.position(point)],
         "velocity": [float(x) for x in state.velocity(point)],
-        "tension": float(state.tension(point)),
+        "tension": float(state.tension(point)) if isinstance(point.body, Beam) else None,
         "support": held[0] if held else None,
     }
 
@@ -114,7 +136,7 @@ def print_summary(to: Console, summary: dict[str, Any]) -> None:
     )
     to.print(_what(summary), soft_wrap=True)
     to.print()
-    to.print(_points(summary))
+    to.print(_point_table(summary))
     if summary["kind"] == "simulation":
         to.print()
         to.print(_energy(summary["energy"]))
@@ -131,7 +153,7 @@ def _what(summary: dict[str, Any]) -> str:
     return ", ".join(parts)
 
 
-def _points(summary: dict[str, Any]) -> Any:
+def _point_table(summary: dict[str, Any]) -> Any:
     moving = summary["kind"] == "simulation"
     last = "speed [m/s]" if moving else "support"
     made = table("point", "x [m]", "y [m]", "z [m]", "tension [N]", last)
@@ -139,7 +161,8 @@ def _points(summary: dict[str, Any]) -> Any:
         speed = f"{math.hypot(*value['velocity']):.6g}"
         place = [coordinate(x, value["position"]) for x in value["position"]]
         end = speed if moving else value["support"] or ""
-        made.add_row(label, *place, f"{value['tension']:.6g}", end)
+        tension = "" if value["tension"] is None else f"{value['tension']:.6g}"
+        made.add_row(label, *place, tension, end)
     return made
 
 

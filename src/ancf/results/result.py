@@ -11,27 +11,28 @@ from numpy.typing import NDArray
 
 from ..errors import ModelError
 from ..model import checks
-from ..model.beam import Beam
-from ..model.section import Section
 from ..solvers.stepping import Stats
 from ..system.fields import Fields
+from ..system.joint_fields import JointFields
 from ..system.system import System
+from .layout import read_joints, read_layout
 from .state import Energy, State
 from .store import FileStore, MemoryStore, ReadStore
 
 FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
-class Result(Fields):
+class Result(Fields, JointFields):
     """History of a simulation; see :class:`Fields` for positions, velocities, strains, tensions, ..."""
 
     def __init__(self, store: MemoryStore | ReadStore, header: dict[str, Any], system: System | None) -> None:
         self._store, self._header, self._system = store, header, system
         if system is not None:
             self._bodies, self._slots = system.model.bodies, system.slots
+            self._joints, self._arcs = system.joints, system.numbering.arcs
         elif isinstance(store, ReadStore):
-            self._bodies, self._slots = _read_layout(store.layout)
+            self._bodies, self._slots = read_layout(store.layout)
+            self._joints, self._arcs = read_joints(store.layout.parent)
 
     @property
     def t(self) -> FloatArray:
@@ -127,32 +128,3 @@ def _copy(source: Path, path: str | Path) -> None:
             shutil.copyfile(source, path)
     except OSError as error:
         raise ModelError(str(path), f"cannot be written: {error}", "choose another folder") from None
-
-
-def _read_layout(group: Any) -> tuple[dict[str, Beam], dict[str, IntArray]]:
-    bodies, slots = {}, {}
-    for name, body in group.items():
-        a = body.attrs
-        motion = a["motion"].reshape(3, 3)
-        section = {
-            k: float(a[k]) for k in ("EA", "EI", "rhoA", "damping", "axial_damping", "bending_damping")
-        }
-        bodies[name] = Beam(
-            name=name,
-            section=Section(**section),
-            element=str(a["element"]),
-            strain=str(a["strain"]),
-            poisson=str(a["poisson"]),
-            natural_shape=str(a["natural_shape"]),
-            gauss=(int(a["gauss"][0]), int(a["gauss"][1])),
-            length=float(a["length"]),
-            stretch=float(a["stretch"]),
-            node_x=body["node_x"][:],
-            node_position=body["node_position"][:],
-            node_tangent=body["node_tangent"][:],
-            velocity=motion[0],
-            angular_velocity=motion[1],
-            about=motion[2],
-        )
-        slots[name] = body["slots"][:]
-    return bodies, slots

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..solvers.stepping import Stats
 from ..system.energy import energies
 from ..system.fields import Fields
+from ..system.joint_fields import JointFields
 from ..system.system import System
 
 FloatArray = NDArray[np.float64]
@@ -40,7 +41,7 @@ class Energy:
         return self.total + self.dissipated - self.supplied
 
 
-class State(Fields):
+class State(Fields, JointFields):
     """Positions and velocities of a model at one time; see :class:`Fields` for what it answers.
 
     Parameters
@@ -61,6 +62,7 @@ class State(Fields):
         self.stats = Stats() if stats is None else stats
         self._q, self._v = q, v
         self._bodies, self._slots = system.model.bodies, system.slots
+        self._joints, self._arcs = system.joints, system.numbering.arcs
 
     @property
     def energy(self) -> Energy:

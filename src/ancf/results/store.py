@@ -6,7 +6,6 @@ so that a run that is killed leaves a file which is readable up to its last bloc
 
 from __future__ import annotations
 
-import contextlib
 import json
 from pathlib import Path
 from typing import Any, Protocol
@@ -21,6 +20,7 @@ from ..solvers.newmark import COUNTS
 from ..solvers.stepping import Stats
 from ..system.energy import energies
 from ..system.system import System
+from .layout import write_layout
 
 FloatArray = NDArray[np.float64]
 
@@ -127,7 +127,7 @@ class FileStore:
             file.create_dataset(name, (0, *tail), "f8", maxshape=(None, *tail), chunks=(rows, *tail))
         file.create_dataset("stats", data=np.zeros(len(COUNTS) + 1))
         file.create_dataset("status", data=0)
-        _write_layout(file, self._system)
+        write_layout(file, self._system)
         file.flush()
 
     def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
@@ -229,20 +229,3 @@ def _open(path: Path) -> Any:
         except OSError as error:
             problem = error
     raise ModelError(str(path), f"is not a results file of ancf: {problem}") from None
-
-
-def _write_layout(file: Any, system: System) -> None:
-    group = file.create_group("bodies")
-    for name, beam in system.model.bodies.items():
-        body = group.create_group(name)
-        body.attrs["length"], body.attrs["stretch"] = beam.length, beam.stretch
-        body.attrs["element"], body.attrs["strain"] = beam.element, beam.strain
-        body.attrs["natural_shape"], body.attrs["poisson"] = beam.natural_shape, beam.poisson
-        body.attrs["gauss"] = beam.gauss
-        for key in ("EA", "EI", "rhoA", "damping", "axial_damping", "bending_damping"):
-            body.attrs[key] = getattr(beam.section, key)
-        body["slots"] = system.slots[name]
-        for key in ("node_x", "node_position", "node_tangent"):
-            body[key] = getattr(beam, key)
-        with contextlib.suppress(AttributeError):
-            body.attrs["motion"] = np.concatenate([beam.velocity, beam.angular_velocity, beam.about])

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import ModelError
-from ..model.connections import Spherical, Spring
-from ..model.points import Point
+from ..model.touching import bodies_of, to_ground
 from ..system.system import System
 
 
@@ -18,12 +17,12 @@ def check_supported(system: System, ignored: list[str]) -> None:
     groups = {name: {name} for name in system.model.bodies}
     grounded: set[str] = set(ignored)
     for item in system.model.connections:
-        if isinstance(item, Spring) and not isinstance(item.b, Point):
-            grounded.add(item.a.body.name)
-        elif isinstance(item, Spherical | Spring) and isinstance(item.b, Point):
-            merged = groups[item.a.body.name] | groups[item.b.body.name]
-            for name in merged:
-                groups[name] = merged
+        touched = bodies_of(item)
+        if to_ground(item):
+            grounded.update(touched)
+        merged = set().union(*(groups[name] for name in touched))
+        for name in merged:
+            groups[name] = merged
     for names in {id(g): g for g in groups.values()}.values():
         if names & grounded:
             continue

@@ -11,6 +11,9 @@ gamma = 1/2.  Newton corrects q by dq, v by (G/B) dq and a by dq/B with the matr
 Modified Newton keeps that matrix over iterations and steps.  With the contraction theta of successive
 corrections the error left is about theta/(1 - theta) |dq|, and the iteration stops when that is below
 the tolerance.  The matrix is renewed when theta exceeds the limit or the iterations run out.
+
+Constraints add multipliers to the unknowns, which have no rates: dq alone is added to them.  Which time
+derivative of a constraint its row asks for is the formulation's choice (:mod:`ancf.solvers.formulations`).
 """
 
 from __future__ import annotations
@@ -21,19 +24,22 @@ import numpy as np
 from numba import literal_unroll
 from numpy.typing import NDArray
 
-from ..compiled import add_force, inline_kernel, kernel
+from ..compiled import add_force, add_tangents, find_events, inline_kernel, kernel
 from ..system.core import (
     assemble,
+    constraint_rows,
     drive,
     external_force,
     factorise_matrix,
+    factorise_tail,
     follow,
+    inverted_section,
     residual,
     restrict,
     solve_matrix,
     to_local,
 )
-from .frames import Frames, remember, turn, turn_back, turn_forth
+from .frames import Frames, remember, turn, turn_back, turn_forth, turn_rows
 
 FloatArray = NDArray[np.float64]
 
@@ -42,7 +48,15 @@ STALE = 0.03
 #: Corrections up to this multiple of the tolerance that a new matrix does not reduce are round-off.
 ROUND_OFF = 1e4
 
-OK, DIVERGED, NOT_FINITE, SINGULAR, SLOW = 0, 1, 2, 3, 4
+#: Share of the tolerance up to which constraints need no shift.
+HELD = 0.1
+
+#: Error of the accelerations that is left in a step with constraints: what is left in q returns divided
+#: by B, with one sign, where a joint keeps it from being felt as a displacement.
+JOINTED = 1e-6
+
+OK, DIVERGED, NOT_FINITE, SINGULAR, SLOW, INVERTED = 0, 1, 2, 3, 4, 5
+EVENT = 16  # plus the code of an event after a step that is OK
 #: Names of the entries of Memory.counts.
 COUNTS = ("steps", "newton_iterations", "jacobians", "factorizations", "retries")
 STEPS, ITERATIONS, JACOBIANS, FACTORIZATIONS, RETRIES = range(5)
@@ -65,6 +79,10 @@ class Rule(NamedTuple):
     max_iterations: int
     modified: bool
     corotate: bool
+    w0: float  # weights of C, dC/dt and d2C/dt2 in the rows of the multipliers
+    w1: float
+    w2: float
+    projects: bool  # positions are shifted onto C = 0
 
 
 class Memory(NamedTuple):
@@ -157,6 +175,71 @@ def update(s, weight, gb, ib):
 
 
 @inline_kernel
+def still(joints, v, a):
+    """Multipliers have no rates."""
+    for k in range(joints.multipliers.shape[0]):
+        v[joints.multipliers[k]] = 0.0
+        a[joints.multipliers[k]] = 0.0
+
+
+@inline_kernel
+def solve_turned(core, s, rule):
+    """Replace the residual s.r by the correction, with a factorisation that turns with the nodes."""
+    to_local(core.supports, s.r)
+    if rule.corotate:
+        turn_back(s.frames, s.r)
+    solve_matrix(core.factor, s.r)
+    if rule.corotate:
+        turn_forth(s.frames, s.r)
+
+
+@inline_kernel
+def renew_tail(core, s, rule, B, G):
+    """Renew the rows of the sliding joints alone; whether that is possible."""
+    joints, A = core.joints, core.A
+    n = core.factor.row_start.shape[0] - 1
+    for i in range(36 * joints.first, 36 * n):
+        A[i] = 0.0
+    for i in range(36 * (n + core.factor.row_start[joints.first]), A.shape[0]):
+        A[i] = 0.0
+    add_tangents(joints.tail, s.q, s.v, A, 1.0 / B, G / B, 1.0, core.ws)
+    restrict(joints.supports, A)
+    if rule.corotate:
+        turn_rows(s.frames, A)
+    return factorise_tail(A, core.factor, joints.first) >= 0
+
+
+@inline_kernel
+def project(core, s, rule):
+    """Shift the positions onto C = 0; returns the norm of the shift."""
+    joints = core.joints
+    joints.level[0], joints.level[1], joints.level[2] = 1.0, 0.0, 0.0
+    constraint_rows(joints, s.q, s.v, s.a, s.r, core.ws)
+    joints.level[0], joints.level[1], joints.level[2] = rule.w0, rule.w1, rule.w2
+    norm = 0.0
+    for k in range(joints.multipliers.shape[0]):
+        norm = max(norm, abs(s.r[joints.multipliers[k]]))
+    if norm <= HELD * rule.tolerance:
+        return 0.0
+    solve_turned(core, s, rule)
+    norm = 0.0
+    for i in range(core.weight.shape[0]):
+        d = s.r[i] * (1.0 - joints.mask[i])
+        s.q[i] -= d
+        norm = max(norm, abs(d) * core.weight[i])
+    return norm
+
+
+@inline_kernel
+def largest(x, weight):
+    """Largest entry by size, weighted."""
+    size = 0.0
+    for i in range(weight.shape[0]):
+        size = max(size, abs(x[i]) * weight[i])
+    return size
+
+
+@inline_kernel
 def worst_unknown(s, weight):
     """Unknown with the largest (or no finite) correction."""
     worst, largest = 0, -1.0
@@ -173,10 +256,16 @@ def worst_unknown(s, weight):
 def newton(core, s, h, rule, modified, B, G):
     """Solve the equations of one step from the prediction in s; returns a status."""
     renew, fresh = s.memo[H_FACTOR] != h, False  # fresh: the matrix was renewed in this step
+    has_joints = core.joints.multipliers.shape[0] > 0
     if rule.corotate and not renew:
         turn(s.frames, s.q)
+    if not renew and core.joints.first < core.factor.row_start.shape[0] - 1:
+        renew = not renew_tail(core, s, rule, B, G)
     eta = max(s.memo[ETA] ** 0.8, STALE)
-    tolerance = max(rule.tolerance, s.memo[NOISE])
+    tolerance = rule.tolerance
+    if has_joints:
+        tolerance = max(min(tolerance, JOINTED * B * largest(s.a, core.weight)), 1e-15)
+    tolerance = max(tolerance, s.memo[NOISE])
     s.memo[NOISE] *= 0.99
     old, since = -1.0, 0
     for iteration in range(rule.max_iterations):
@@ -193,13 +282,12 @@ def newton(core, s, h, rule, modified, B, G):
             s.memo[H_FACTOR] = h
             renew, fresh, old, eta, since = False, True, -1.0, 1.0, 0
         residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)
-        to_local(core.supports, s.r)
-        if rule.corotate:
-            turn_back(s.frames, s.r)
-        solve_matrix(core.factor, s.r)
-        if rule.corotate:
-            turn_forth(s.frames, s.r)
+        solve_turned(core, s, rule)
         norm = update(s, core.weight, G / B, 1.0 / B)
+        if has_joints:
+            still(core.joints, s.v, s.a)
+            if rule.projects:
+                norm = max(norm, project(core, s, rule))
         follow(core.supports, s.q, s.v, s.a)
         s.counts[ITERATIONS] += 1
         s.memo[NORM] = norm
@@ -220,6 +308,16 @@ def newton(core, s, h, rule, modified, B, G):
         renew = not modified or (theta > rule.contraction and since > 1) or theta > 1.0 or since == 7
         since += 1
     return SLOW
+
+
+@inline_kernel
+def check_sections(core, s):
+    """Status after a converged step: no cross-section may have collapsed or turned inside out."""
+    slot = inverted_section(core.batches, core.ws, s.q)
+    if slot < 0:
+        return OK
+    s.memo[WORST] = slot
+    return INVERTED
 
 
 @inline_kernel
@@ -279,10 +377,13 @@ def advance(core, s, tables, h, scheme, rule, keep, out_q, out_v, out_work):
 
     ``keep[n]`` is the row of the outputs that takes the state at the end of step n, or -1.
     A step that fails is tried again with a new matrix, and then with one for every iteration.  Returns
-    the number of steps done and the status of the last one; a failed step leaves the state at its start.
+    the number of steps done and the status of the last one; a failed step leaves the state at its start,
+    an event ends the block after a step.
     """
     c = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
     B, G = scheme.beta * h * h * c, scheme.gamma * h * c
+    level = core.joints.level
+    level[0], level[1], level[2] = rule.w0, rule.w1, rule.w2
     status = OK
     for n in range(keep.shape[0]):
         external_force(core.loads, tables.load[n], s.f)
@@ -291,8 +392,10 @@ def advance(core, s, tables, h, scheme, rule, keep, out_q, out_v, out_work):
             drive(core.supports, core.loads.moment, tables, n, s.q, s.v, s.a)
             status = newton(core, s, h, rule, rule.modified and attempt < 2, B, G)
             if status == OK:
+                status = check_sections(core, s)
+            if status == OK:
                 break
-            if status != SINGULAR:  # else it is the first unknown of the singular block
+            if status != SINGULAR and status != INVERTED:  # else it says where already
                 s.memo[WORST] = worst_unknown(s, core.weight)
             restore(s)
             s.memo[H_FACTOR], s.memo[ETA] = 0.0, 1.0
@@ -305,4 +408,7 @@ def advance(core, s, tables, h, scheme, rule, keep, out_q, out_v, out_work):
             for i in range(s.q.shape[0]):
                 out_q[keep[n], i], out_v[keep[n], i] = s.q[i], s.v[i]
             out_work[keep[n], 0], out_work[keep[n], 1] = s.work[0], s.work[1]
+        event = find_events(core.joints.tail, s.q)
+        if event >= 0:
+            return n + 1, EVENT + event
     return keep.shape[0], status

@@ -11,13 +11,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ModelError, SolveError
-from ..system.core import apply_load
+from ..system.consistency import open_contacts
+from ..system.core import Tables, apply_load, first_event
 from ..system.energy import energies
 from ..system.system import System
-from . import frames
-from .integrators.base import Integrator
+from .events import happen
+from .formulations import FORMULATIONS
+from .frames import turning_nodes
+from .integrators.base import NewmarkFamily
 from .newmark import (
     COUNTS,
+    EVENT,
+    H_FACTOR,
+    H_PREV,
+    INVERTED,
+    KNOWN,
     NORM,
     OK,
     RETRIES,
@@ -30,7 +38,7 @@ from .newmark import (
     allocate,
     balance,
 )
-from .start import initial_acceleration
+from .start import consistent_start
 
 FloatArray = NDArray[np.float64]
 
@@ -91,7 +99,7 @@ class Run:
     def __init__(
         self,
         system: System,
-        integrator: Integrator,
+        integrator: NewmarkFamily,
         t_start: float,
         t_end: float,
         step: float,
@@ -106,12 +114,17 @@ class Run:
         self.steps = self.full + (self.rest > 0.0)
         self.scheme = integrator.scheme()
         n = integrator.newton
-        self.rule = Rule(n.tolerance, n.contraction, n.max_iterations, n.modified, n.corotate)
-        held = system.core.supports.held
-        self.memory: Memory = allocate(
-            system.size, frames.allocate(list(system.numbering.slots.values()), held)
-        )
+        self.newton = (n.tolerance, n.contraction, n.max_iterations, n.modified, n.corotate)
+        self.formulation = FORMULATIONS[integrator.formulation]
+        self.memory: Memory = allocate(system.size, turning_nodes(system))
         self.seconds = 0.0
+
+    def rule(self, h: float) -> Rule:
+        """Newton's rule and the formulation of the constraints for a step h."""
+        s = self.scheme
+        c = (1.0 - s.alpha_f) / (1.0 - s.alpha_m)
+        weights = self.formulation.weights(s.beta * h * h * c, s.gamma * h * c, h)
+        return Rule(*self.newton, *weights, self.formulation.projects)
 
     @property
     def stats(self) -> Stats:
@@ -122,14 +135,27 @@ class Run:
         """Consistent state at t_start."""
         m, system = self.memory, self.system
         m.q[:], m.v[:] = q, v
-        first = system.drive.tables(self.t_start - self.h, self.h, 1, self.t_start, self.t_end)
-        m.a[:] = initial_acceleration(system, m.q, m.v, first)
-        m.abar[:] = m.a
-        apply_load(system.core.loads, first.load[0], m.f)
-        balance(system.core, m, 0.0)
+        open_contacts(system, m.q)
+        first = self._restart(self.t_start)
+        for _ in range(len(system.numbering.sliding)):  # a contact may be pulled open from the start
+            code = first_event(system.core.joints.tail, m.q)
+            if code < 0:
+                break
+            self._event(int(code), self.t_start, 0)
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         none = np.zeros(0, dtype=np.int64)  # no steps yet: this compiles, outside the CPU time of the run
-        advance(system.core, m, first, self.h, self.scheme, self.rule, none, *self._nothing())
+        advance(system.core, m, first, self.h, self.scheme, self.rule(self.h), none, *self._nothing())
+
+    def _restart(self, t: float) -> Tables:
+        """Consistent velocities, accelerations and multipliers at t; the memory of earlier steps is lost."""
+        m, system = self.memory, self.system
+        now = system.drive.tables(t - self.h, self.h, 1, self.t_start, self.t_end)
+        m.a[:] = consistent_start(system, m.q, m.v, now)
+        m.abar[:] = m.a
+        m.memo[H_FACTOR] = m.memo[H_PREV] = m.memo[KNOWN] = 0.0
+        apply_load(system.core.loads, now.load[0], m.f)
+        balance(system.core, m, 0.0)
+        return now
 
     def go(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
         """Take all steps."""
@@ -173,11 +199,12 @@ class Run:
                     most = 1
                     continue
                 first += n
-                if status != OK:
+                if status >= EVENT:
+                    self._event(status - EVENT, self._time(done + first), done + first)
+                    self._store(row[first - 1], (q, v, work))
+                elif status != OK:
                     self._bridge(self._time(done + first), h, done + first + 1)
-                    if row[first] >= 0:
-                        k, m = row[first], self.memory
-                        q[k], v[k], work[k] = m.q, m.v, m.work
+                    self._store(row[first], (q, v, work))
                     first += 1
         finally:
             self.seconds += clock.process_time() - cpu
@@ -185,11 +212,17 @@ class Run:
             times = np.array([self._time(int(k)) for k in number[keep]])
             recorder.append(times[:stored], q[:stored], v[:stored], work[:stored])
 
+    def _store(self, k: int, out: tuple[FloatArray, FloatArray, FloatArray]) -> None:
+        """The state now as row k of the outputs, -1: not wanted."""
+        if k >= 0:
+            m = self.memory
+            out[0][k], out[1][k], out[2][k] = m.q, m.v, m.work
+
     def _advance(
         self, t: float, h: float, row: NDArray[np.int64], out: tuple[FloatArray, FloatArray, FloatArray]
     ) -> tuple[int, int]:
         tables = self.system.drive.tables(t, h, len(row), self.t_start, self.t_end)
-        n, status = advance(self.system.core, self.memory, tables, h, self.scheme, self.rule, row, *out)
+        n, status = advance(self.system.core, self.memory, tables, h, self.scheme, self.rule(h), row, *out)
         return int(n), int(status)
 
     def _bridge(self, t: float, h: float, number: int) -> None:
@@ -203,14 +236,27 @@ class Run:
         left, part = h, h
         while left > 1e-9 * h:
             _, status = self._advance(t + h - left, part, np.full(1, -1), nothing)
-            if status == OK:
+            if status == OK or status >= EVENT:
                 left -= part
+                if status >= EVENT:
+                    self._event(status - EVENT, t + h - left, number)
                 m.counts[STEPS] -= 1  # the parts count as one step
                 continue
             part *= 0.5
             if part < h * 0.5**MOST_HALVINGS:
+                self._check_energy(number - 1)  # if energy came from nowhere, that is the reason
+                if status == INVERTED:
+                    raise self._collapse(t + h - left, number, h)
                 raise self._failure(t + h - left, number, _REASONS[status], h)
         m.counts[STEPS] += 1
+
+    def _event(self, code: int, t: float, number: int) -> None:
+        """What has happened to a sliding joint at the end of a step, and a new start from there."""
+        m = self.memory
+        before = float(energies(self.system, m.q[None], m.v[None]).sum())
+        happen(self.system, m.q, m.v, code, f"t = {t:.6g} s, step {number}")
+        self._restart(t)
+        m.work[0] += before - float(energies(self.system, m.q[None], m.v[None]).sum())  # an impact
 
     def _nothing(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Room for no output."""
@@ -224,8 +270,12 @@ class Run:
         dissipated, supplied = m.work
         made = float(np.sum(now - self.energy0) + dissipated - supplied)
         exchanged = float(now[0] + now[1] + abs(now[2] - self.energy0[2]) + dissipated + abs(supplied))
-        stiff = sum(b.section.EA * b.length for b in self.system.model.bodies.values())  # energy of strain 1
-        if made > MOST_MADE * exchanged + 1e-9 * float(np.sum(np.abs(self.energy0))) + 1e-10 * stiff:
+        loads = self.system.core.loads.gravity
+        weight = float(np.sum(np.abs(loads)) + np.sum(np.abs(m.f))) * self.system.model.size
+        stiff = sum(b.section.EA * b.length for b in self.system.model.beams.values())  # energy of strain 1
+        if made > MOST_MADE * exchanged + 1e-9 * float(np.sum(np.abs(self.energy0))) + 1e-10 * (
+            stiff + weight
+        ):
             m.memo[WORST] = float(np.argmax(np.abs(m.v[: self.system.n]) * self.system.core.weight))
             raise self._failure(self._time(done), done, f"{made:.3g} J came from nowhere", self.h)
 
@@ -237,7 +287,14 @@ class Run:
         hint = f"try a step of {h / 10:.2g} s or less, GeneralizedAlpha, more elements, or some damping"
         return SolveError(where, what, hint)
 
+    def _collapse(self, t: float, number: int, h: float) -> SolveError:
+        element = self.system.element_of(int(self.memory.memo[WORST]))
+        what = f"{COLLAPSED}; step {h:g} s"
+        hint = f"try a step of {h / 10:.2g} s or less, GeneralizedAlpha, more elements, or a stiffer section"
+        return SolveError(f"t = {t:.6g} s, step {number}, {element}", what, hint)
 
+
+COLLAPSED = "the cross-section has collapsed or turned inside out"
 _REASONS = {
     1: "Newton's method diverged, also with full Jacobians and smaller steps",
     2: "the forces are no longer finite, also with smaller steps",

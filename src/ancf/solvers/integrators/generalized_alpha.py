@@ -1,9 +1,9 @@
 """Generalised-alpha method.
 
 Order 2, unconditionally stable for linear systems, spectral radius rho_inf at infinite frequency: it
-damps what the mesh cannot resolve.  References: Chung & Hulbert (1993) for the coefficients; Arnold &
-Brüls (2007) for the form with an algorithmic acceleration, in which the equations of motion hold at
-the end of each step.
+damps what the mesh cannot resolve.  Constraints of index 3 (by default), 2 or 1.  References: Chung &
+Hulbert (1993) for the coefficients; Arnold & Brüls (2007) for the form with an algorithmic
+acceleration, in which the equations of motion hold at the end of each step.
 """
 
 from __future__ import annotations
@@ -12,12 +12,14 @@ from dataclasses import dataclass, field
 
 from ...errors import ModelError
 from ...model import checks
+from ..formulations import FORMULATIONS
 from ..newmark import Scheme
 from ..newton import Newton
+from .base import NewmarkFamily
 
 
 @dataclass(frozen=True)
-class GeneralizedAlpha:
+class GeneralizedAlpha(NewmarkFamily):
     """Generalised-alpha method, order 2.
 
     Parameters
@@ -26,15 +28,19 @@ class GeneralizedAlpha:
         Spectral radius at infinite frequency, 0 (strongest damping) to 1 (none).
     newton : Newton
         Settings of Newton's method.
+    formulation : {"index1", "index2", "ggl", "index3"}
+        How constraints with multipliers enter, see :mod:`ancf.solvers.formulations`.
     """
 
     rho_inf: float = 0.9
     newton: Newton = field(default_factory=Newton)
+    formulation: str = "index3"
     name = "generalized_alpha"
 
     def __post_init__(self) -> None:
         if not 0.0 <= checks.number(self.rho_inf, "GeneralizedAlpha.rho_inf") <= 1.0:
             raise ModelError("GeneralizedAlpha.rho_inf", f"must be between 0 and 1, is {self.rho_inf:g}")
+        checks.choice(self.formulation, "GeneralizedAlpha.formulation", tuple(FORMULATIONS))
 
     def scheme(self) -> Scheme:
         """Coefficients of the Newmark family."""

@@ -1,0 +1,117 @@
+"""A simulation by explicit steps: stability is checked at the start and now and then."""
+
+from __future__ import annotations
+
+import time as clock
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ModelError, SolveError
+from ..system.core import apply_load
+from ..system.energy import energies
+from ..system.system import System
+from .explicit import advance_explicit
+from .integrators.base import NewmarkFamily
+from .newmark import DIVERGED, NORM, SINGULAR, WORST, Scheme, balance
+from .newton import Newton
+from .stability import stable_limit
+from .start import consistent_start
+from .stepping import Run
+
+if TYPE_CHECKING:
+    from .integrators.explicit import Explicit
+
+FloatArray = NDArray[np.float64]
+
+#: A step may be larger than asked for by this: estimates about two states differ a little.
+SLACK = 1.01
+#: Steps in as much time as an estimate takes, times this, come before the next estimate.
+RARE = 20.0
+
+
+class CentralDifferences(NewmarkFamily):
+    """What the stepping asks of a method; Newton's method is not used."""
+
+    newton = Newton()
+    formulation = "index2"  # there are no constraints
+
+    def scheme(self) -> Scheme:
+        """Coefficients of the Newmark family."""
+        return Scheme(beta=0.0, gamma=0.5, alpha_m=0.0, alpha_f=0.0)
+
+
+class ExplicitRun(Run):
+    """One simulation of a System by central differences; see :class:`ancf.solvers.stepping.Run`."""
+
+    def __init__(
+        self, system: System, method: Explicit, t_start: float, t_end: float, step: float, every: int
+    ) -> None:
+        if len(system.multipliers):
+            raise ModelError(
+                "simulate.integrator",
+                "an Explicit run cannot take constraints with multipliers",
+                "use ancf.Radau() or ancf.Trapezoidal()",
+            )
+        super().__init__(system, CentralDifferences(), t_start, t_end, step, every)
+        self.method = method
+        self.turning = bool(np.any(system.core.supports.rot_moving >= 0))
+
+    def start(self, q: FloatArray, v: FloatArray) -> None:
+        """Consistent state at t_start; the step must be stable there.
+
+        Raises
+        ------
+        ModelError
+            The step is larger than the stable one.
+        """
+        m, system = self.memory, self.system
+        m.q[:], m.v[:] = q, v
+        first = system.drive.tables(self.t_start - self.h, self.h, 1, self.t_start, self.t_end)
+        m.a[:] = consistent_start(system, m.q, m.v, first)
+        begin = clock.perf_counter()
+        self.limit = stable_limit(system, m.q, m.v)  # leaves the factors of the mass matrix
+        stable = self.method.safety * self.limit
+        if self.method.check and self.h > SLACK * stable:
+            what = f"is {self.h:g} s, the largest stable step {stable:.4g} s (safety {self.method.safety:g})"
+            hint = "take that and store less often (output_step), or use an implicit method"
+            raise ModelError("simulate.step", what, hint)
+        apply_load(system.core.loads, first.load[0], m.f)
+        balance(system.core, m, 0.0)
+        self.energy0 = energies(system, m.q[None], m.v[None])[0]
+        none = np.zeros(0, dtype=np.int64)  # no steps yet: this compiles, outside the CPU time of the run
+        advance_explicit(system.core, m, first, self.h, self.turning, none, *self._nothing())
+        self._estimated, self._pause = clock.perf_counter(), RARE * (clock.perf_counter() - begin)
+
+    def _advance(
+        self, t: float, h: float, row: NDArray[np.int64], out: tuple[FloatArray, FloatArray, FloatArray]
+    ) -> tuple[int, int]:
+        tables = self.system.drive.tables(t, h, len(row), self.t_start, self.t_end)
+        n, self._status = advance_explicit(self.system.core, self.memory, tables, h, self.turning, row, *out)
+        return int(n), int(self._status)
+
+    def _bridge(self, t: float, h: float, number: int) -> None:
+        """Nothing helps a step that has failed."""
+        raise self._failure(t, number, _REASONS.get(self._status, "the forces are no longer finite"), h)
+
+    def _check_energy(self, done: int) -> None:
+        super()._check_energy(done)
+        now = clock.perf_counter()
+        if not self.method.check or now < self._estimated + self._pause:
+            return
+        self.limit = stable_limit(self.system, self.memory.q, self.memory.v)
+        self._estimated = clock.perf_counter()
+        self._pause = RARE * (self._estimated - now)
+        if self.h > self.limit:
+            raise self._failure(self._time(done), done, "the step is no longer stable", self.h)
+
+    def _failure(self, t: float, number: int, reason: str, h: float) -> SolveError:
+        memo = self.memory.memo
+        where = f"t = {t:.6g} s, step {number}, {self.system.numbering.describe(int(memo[WORST]))}"
+        what = f"{reason}; largest motion in a step {memo[NORM]:.3g} sizes of the model, "
+        what += f"step {h:g} s, largest stable one {self.limit:.4g} s when last estimated"
+        return SolveError(where, what, "try a smaller step, see ancf.stable_step, or an implicit method")
+
+
+_REASONS = {DIVERGED: "the motion has blown up", SINGULAR: "the mass matrix is singular"}

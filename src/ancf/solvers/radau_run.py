@@ -1,0 +1,229 @@
+"""A simulation by Radau steps: step control, outputs at uniform times, energies, failures."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import SolveError
+from ..system.core import first_event
+from ..system.energy import energies
+from ..system.system import System
+from .events import happen
+from .radau import DIVERGED, NOT_FINITE, OK, SINGULAR, Step, Stepper
+from .radau_problem import SystemProblem
+from .start import consistent_start
+from .stepping import BLOCK_SECONDS, MOST_HALVINGS, MOST_RETRIED, Progress, Recorder, Stats
+
+if TYPE_CHECKING:
+    from .integrators.radau import Radau
+
+FloatArray = NDArray[np.float64]
+
+BLOCK_BYTES = 32e6  # of stored states
+#: Least step, in units of the last digit of the time: a load that jumps needs very small ones.
+LEAST_STEP = 16.0
+#: Error that Newton's method leaves when the steps are constant.
+NEWTON_TOLERANCE = 1e-12
+#: Longest step, as a part of the run: what happens within a step is not seen.
+LONGEST_STEP = 0.1
+
+
+class RadauRun:
+    """One simulation of a System; outputs at every ``every``-th multiple of ``step`` and at the end."""
+
+    def __init__(
+        self,
+        system: System,
+        method: Radau,
+        t_start: float,
+        t_end: float,
+        step: float,
+        every: int,
+    ) -> None:
+        self.system, self.method, self.h, self.every = system, method, step, every
+        self.t_start, self.t_end = t_start, t_end
+        span = t_end - t_start
+        self.steps = int(np.ceil(span / step - 1e-9))  # of the nominal size
+        digit = float(np.spacing(max(abs(t_start), abs(t_end))))
+        self.shortest = LEAST_STEP * digit if method.min_step is None else method.min_step
+        self.longest = max(LONGEST_STEP * span, step) if method.max_step is None else method.max_step
+        self.problem = SystemProblem(system, t_start, t_end)
+        newton = 0.1 * NEWTON_TOLERANCE if method.adaptive else NEWTON_TOLERANCE
+        self.stepper = Stepper(self.problem, method.stages, method.tolerance, newton, span)
+        self.seconds, self.work = 0.0, np.zeros(2)
+        self._stored = 0  # outputs so far, the start not counted
+        self._buffer: list[tuple[FloatArray, ...]] = []
+
+    @property
+    def stats(self) -> Stats:
+        """Counters so far."""
+        c = self.stepper.counts
+        counts = (c.steps, c.newton_iterations, c.jacobians, c.factorizations, c.retries)
+        return Stats.of(counts, self.seconds)
+
+    def start(self, q: FloatArray, v: FloatArray) -> None:
+        """Consistent state at t_start."""
+        q, v, system = q.copy(), v.copy(), self.system
+        first = system.drive.tables(self.t_start - self.h, self.h, 1, self.t_start, self.t_end)
+        a = consistent_start(system, q, v, first)
+        system.level[:] = 1.0, 0.0, 0.0  # index 3
+        self.problem.start(q, v)
+        self.problem.step_size(self.h)
+        free, t = self.problem.free, np.array([self.t_start])
+        self.stepper.start(self.t_start, q[free], v[free], a[free])
+        self._first = q[None], v[None]
+        # this compiles, outside the CPU time of the run
+        state = q[None, free], v[None, free], a[None, free]
+        self.problem.residuals(t, *state)
+        self.problem.powers(t, *state)
+        self.problem.placed(t, *state)
+
+    def go(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
+        """Take all steps."""
+        recorder.append(np.array([self.t_start]), *self._first, self.work[None].copy())
+        self._looked, self._cpu = clock.perf_counter(), clock.process_time()
+        try:
+            if self.method.adaptive:
+                self._adaptive(recorder, progress)
+            else:
+                self._constant(recorder, progress)
+        finally:
+            self._flush(recorder)
+
+    def _adaptive(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
+        stepper, h = self.stepper, max(min(self.h, self.longest), self.shortest)
+        while stepper.t < self.t_end:
+            left = self.t_end - stepper.t
+            h = min(h, self.longest)
+            size = left if h > 0.99 * left else min(h, 0.5 * left) if h > 0.6 * left else h
+            t_next = self.t_end if size == left else stepper.t + size
+            status, step = self._solve(size, True)
+            if status != OK:
+                stepper.failed()
+                h = 0.5 * size
+                self._check_size(h, _REASONS[status])
+                continue
+            error = stepper.error(step)
+            h = stepper.next_size(size, error)
+            if error >= 1.0:
+                stepper.counts.retries += 1
+                self._check_size(h, f"the error stays at {error:.3g} times the tolerance")
+                continue
+            self._accept(step, t_next, recorder, progress)
+
+    def _constant(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
+        halved = 0
+        for n in range(self.steps):
+            end = self.t_end if n == self.steps - 1 else self.t_start + (n + 1) * self.h
+            part = end - self.stepper.t
+            if abs(part - self.h) < 1e-9 * self.h:
+                part = self.h  # round-off of the times must not renew the matrices
+            again, whole = 0, part
+            while self.stepper.t < end:
+                left = end - self.stepper.t
+                last = part > 0.999 * left
+                status, step = self._solve(part, False)
+                if status != OK:
+                    part *= 0.5
+                    if part < whole * 0.5**MOST_HALVINGS:
+                        raise self._failure(_REASONS[status], part)
+                    halved += 1 - again
+                    self.stepper.counts.retries, again = halved, 1
+                    if halved > 2 + MOST_RETRIED * self.steps:
+                        raise self._failure(f"{halved} of {n + 1} steps had to be halved", self.h)
+                    continue
+                self._accept(step, end if last else self.stepper.t + part, recorder, progress)
+                self.stepper.counts.steps -= not last  # the parts count as one step
+
+    def _solve(self, h: float, adaptive: bool) -> tuple[int, Step]:
+        self.problem.step_size(h)
+        return self.stepper.solve(h, adaptive)
+
+    def _check_size(self, h: float, reason: str) -> None:
+        if h < self.shortest:
+            raise self._failure(reason, h)
+
+    def _accept(
+        self, step: Step, t: float, recorder: Recorder, progress: Callable[[Progress], None] | None
+    ) -> None:
+        """Outputs and energies of a step."""
+        power = self.problem.powers(step.times, step.Q, step.V, step.A)
+        self._output(step, t, power)
+        self.work += step.h * (self.stepper.method.b @ power)
+        self.stepper.accept(step, t)
+        if self.system.core.joints.tail:
+            self._look_at_joints(step, t)
+        if clock.perf_counter() - self._looked > BLOCK_SECONDS or self._bytes > BLOCK_BYTES:
+            self._flush(recorder)
+            recorder.update(self.stats, "running")
+            if progress is not None:
+                done = self.steps if t >= self.t_end else int((t - self.t_start) / self.h * (1 + 1e-12))
+                progress(Progress(done, self.steps, t, self.t_end))
+            self._looked = clock.perf_counter()
+
+    def _look_at_joints(self, step: Step, t: float) -> None:
+        """Start anew if something has happened to a sliding joint at the end of a step."""
+        system, free = self.system, self.problem.free
+        q, v, _ = (x[0] for x in self.problem.placed(np.array([t]), step.Q[-1:], step.V[-1:], step.A[-1:]))
+        code = first_event(system.core.joints.tail, q)
+        if code < 0:
+            return
+        before = float(energies(system, q[None], v[None]).sum())
+        happen(system, q, v, int(code), f"t = {t:.6g} s, step {self.stepper.counts.steps}")
+        tables = system.drive.tables(t - self.h, self.h, 1, self.t_start, self.t_end)
+        a = consistent_start(system, q, v, tables)
+        system.level[:] = 1.0, 0.0, 0.0
+        self.work[0] += before - float(energies(system, q[None], v[None]).sum())  # an impact
+        self.problem.start(q, v)
+        self.stepper.start(t, q[free], v[free], a[free])
+
+    def _output(self, step: Step, t: float, power: FloatArray) -> None:
+        """States at the output times of a step that ends at t."""
+        last = -(-self.steps // self.every)  # number of the last output
+        near = int((t - self.t_start) / (self.every * self.h) * (1 + 1e-12) + 1e-9)
+        number = np.arange(self._stored + 1, (last if t >= self.t_end else min(near, last - 1)) + 1)
+        if len(number) == 0:
+            return
+        times = np.where(number == last, self.t_end, self.t_start + number * self.every * self.h)
+        tau = np.minimum((times - step.t) / step.h, 1.0)
+        tau[np.abs(times - t) < 1e-9 * step.h] = 1.0
+        q, v, a = step.at(tau)
+        q[tau == 1.0], v[tau == 1.0], a[tau == 1.0] = step.Q[-1], step.V[-1], step.A[-1]
+        q, v, _ = self.problem.placed(times, q, v, a)
+        once = self.stepper.method.integrals(tau)[1]
+        self._buffer.append((times, q, v, self.work + step.h * (once @ power)))
+        self._stored = int(number[-1])
+
+    @property
+    def _bytes(self) -> int:
+        return sum(2 * q.nbytes for _, q, _, _ in self._buffer)
+
+    def _flush(self, recorder: Recorder) -> None:
+        now = clock.process_time()
+        self.seconds += now - self._cpu
+        self._cpu = now
+        if self._buffer:
+            recorder.append(*(np.concatenate(c) for c in zip(*self._buffer, strict=True)))
+            self._buffer = []
+
+    def _failure(self, reason: str, h: float) -> SolveError:
+        s = self.stepper
+        name = self.system.numbering.describe(int(self.problem.free[s.worst]))
+        where = f"t = {s.t:.6g} s, step {s.counts.steps + 1}, {name}"
+        what = f"{reason}; last correction {s.norm:.3g}, step {h:.3g} s"
+        hint = "try a larger tolerance, more elements, some damping, or a smaller min_step if one is given"
+        if not self.method.adaptive:
+            hint = f"try a step of {self.h / 10:.2g} s or less, adaptive=True, or more elements"
+        return SolveError(where, what, hint)
+
+
+_REASONS = {
+    DIVERGED: "Newton's method did not converge, also with new matrices and smaller steps",
+    NOT_FINITE: "the forces are no longer finite, also with smaller steps",
+    SINGULAR: "the iteration matrix is singular",
+}

@@ -1,0 +1,108 @@
+"""The softest mode of a stiffness, whether its stiffness is anything but round-off, and sections that spin.
+
+A beam whose ends turn freely about its axis may spin: its sections turn about their normals against nothing.
+Round-off decides then whether the matrix is positive definite, and what the correction is along that mode.
+A torsional stiffness against the spin since the last iteration makes the mode harmless; it is in the matrix
+alone, not in the forces, and leaves bending as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_array
+
+from ..system.system import System
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+Solve = Callable[[FloatArray], FloatArray]
+
+#: Stiffness of a mode, as a share of the sum of the sizes of its terms, that counts as zero.
+ROUND_OFF = 1e-13
+#: Stiffness of a spin, as a share of G J/L, that counts as zero.
+FREE_SPIN = 1e-5
+_ROUNDS = 4  # of inverse iterations
+
+
+def softest_mode(solve: Solve, n: int, held: IntArray) -> FloatArray:
+    """Mode (n,) of the lowest stiffness by inverse iteration, of length 1."""
+    x = np.random.default_rng(1).standard_normal(n)
+    x[held] = 0.0
+    for _ in range(_ROUNDS):
+        x = solve(x)
+        x /= np.linalg.norm(x)
+    return x
+
+
+def is_neutral(K: csc_array, x: FloatArray) -> bool:
+    """Whether the mode x of the stiffness K has none but what round-off leaves of it."""
+    terms = np.abs(x) @ (abs(K) @ np.abs(x))
+    return bool(abs(x @ (K @ x)) <= ROUND_OFF * terms)
+
+
+class Spin:
+    """Stiffness G J/L of each beam against a common spin of its sections.
+
+    Nodes whose r_y or r_z has unknowns in ``held`` are left out.
+    """
+
+    def __init__(self, system: System, held: IntArray) -> None:
+        self._n = system.n
+        self._parts: list[tuple[IntArray, float]] = []  # slots of r_y and r_z of the nodes, stiffness
+        for name, beam in system.model.beams.items():
+            if beam.element == "cable":
+                continue
+            section, slots = beam.section, system.numbering.slots[name][:, 2:4]
+            assert section.G is not None  # the model has checked that there is a material
+            assert section.J is not None
+            free = ~np.isin(slots[:, :, None] + np.arange(3), held).any(axis=(1, 2))
+            stiffness = section.G * section.J / (beam.length * len(slots))
+            self._parts.append((slots[free], stiffness))
+
+    def __bool__(self) -> bool:
+        return bool(self._parts)
+
+    def add(self, A: FloatArray, q: FloatArray) -> None:
+        """Add the stiffness at the state q to the block values A."""
+        blocks = A.reshape(-1, 36)
+        for slots, mode, stiffness in self._modes(q):
+            blocks[slots[:, 0] // 6] += stiffness * (mode[:, :, None] * mode[:, None, :]).reshape(-1, 36)
+
+    def is_free(self, solve: Solve, q: FloatArray, added: bool, residual: float) -> bool:
+        """Whether the softest spin has no stiffness but for round-off and the largest residual.
+
+        ``solve`` belongs to the stiffness K, with the spin S ``added`` or without; inverse iteration finds
+        the mode of the least K/S.  Out of balance, a rotation that costs no energy has a stiffness of the
+        size of the residual.
+        """
+        b = self._times(np.ones(self._n), q)
+        for _ in range(_ROUNDS):
+            x = solve(b)
+            energy, last = float(x @ b), self._times(x, q)
+            own = float(x @ last)
+            if not own > 0.0:
+                return False
+            ratio, share = energy / own - float(added), float(x @ x) / own
+            b = last / np.sqrt(own)
+        return abs(ratio) <= FREE_SPIN + 3.0 * residual * share
+
+    def _times(self, x: FloatArray, q: FloatArray) -> FloatArray:
+        """Stiffness times x, both (n,)."""
+        b = np.zeros(self._n)
+        for slots, mode, stiffness in self._modes(q):
+            at = slots[:, :1] + np.arange(6)
+            b[at] = stiffness * np.sum(mode * x[at], axis=1, keepdims=True) * mode
+        return b
+
+    def _modes(self, q: FloatArray) -> list[tuple[IntArray, FloatArray, float]]:
+        """Slots, changes of (r_y, r_z) of the nodes (n, 6) by half a unit of spin, stiffness."""
+        found = []
+        for slots, stiffness in self._parts:
+            y, z = (q[slots[:, k, None] + np.arange(3)] for k in range(2))
+            t = np.cross(y, z)
+            t /= np.linalg.norm(t, axis=1, keepdims=True)
+            found.append((slots, 0.5 * np.hstack([np.cross(t, y), np.cross(t, z)]), stiffness))
+        return found

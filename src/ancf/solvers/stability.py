@@ -1,0 +1,113 @@
+"""Largest stable step of central differences: the fastest vibration of the present shape.
+
+The largest eigenvalue of L^-1 K L^-T, with M = L L^T, comes from Lanczos' method in the inner product of
+the mass matrix; its residual bounds the error.  Reference: Parlett, The Symmetric Eigenvalue Problem,
+chapter 13.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh_tridiagonal
+from scipy.sparse import csc_array
+
+from ..errors import SolveError
+from ..linalg.sparse import to_sparse
+from ..system.core import assemble, restrict, solve_matrix
+from ..system.system import System
+from .explicit import mass_factor
+
+FloatArray = NDArray[np.float64]
+
+#: Relative error of the eigenvalue, and the most Lanczos steps for it.
+SHARP, MOST_VECTORS = 2e-3, 200
+
+
+def stable_limit(system: System, q: FloatArray, v: FloatArray) -> float:
+    """Largest step for which small vibrations about a state do not grow, s; inf if nothing vibrates.
+
+    Leaves the factors of the mass matrix in the system's core.
+
+    Raises
+    ------
+    SolveError
+        The mass matrix is singular.
+    """
+    core = system.core
+    if mass_factor(core, q, v) < 0:
+        raise SolveError("start", "the mass matrix is singular", "an explicit method needs a mass everywhere")
+    omega = np.sqrt(_largest(system, q, v, 0.0, 1.0))
+    damping = _largest(system, q, v, 1.0, 0.0) if core.damped else 0.0
+    return limit(float(omega), damping)
+
+
+def limit(omega: float, damping: float) -> float:
+    """Largest stable step for u'' = -omega^2 u - damping u', s."""
+    if omega == 0.0 and damping == 0.0:
+        return np.inf
+    high = min(2.0 / omega if omega > 0.0 else np.inf, 1.0 / damping if damping > 0.0 else np.inf)
+    if damping == 0.0:
+        return high
+    low = 0.0
+    for _ in range(40):
+        h = 0.5 * (low + high)
+        growth = max(_growth(part * omega * h, damping * h) for part in (0.0, 0.25, 0.5, 0.75, 1.0))
+        low, high = (h, high) if growth <= 1.0 + 1e-9 else (low, h)
+    return low
+
+
+def _growth(omega_h: float, d: float) -> float:
+    """Spectral radius of a step of (u, h v, h^2 a) when the damping force sees v_n + h a_n."""
+    q = np.array([1.0, 1.0, 0.5])
+    a = -(omega_h**2) * q - d * np.array([0.0, 1.0, 1.0])
+    v = np.array([0.0, 1.0, 0.5]) + 0.5 * a
+    return float(np.max(np.abs(np.linalg.eigvals(np.stack([q, v, a])))))
+
+
+def _largest(system: System, q: FloatArray, v: FloatArray, damping: float, stiffness: float) -> float:
+    """Largest eigenvalue of M^-1 (damping D + stiffness K), at least 0; an upper bound, sharp."""
+    core, free = system.core, system.free
+    values, x = np.empty(system.places.size), np.zeros(system.n)
+    assemble(core.batches, core.ws, q, v, values, 0.0, damping, stiffness)
+    restrict(core.supports, values)
+    K = csc_array(to_sparse(values, system.places)[free][:, free])
+
+    def solve(r: FloatArray) -> FloatArray:
+        x[:] = 0.0
+        x[free] = r
+        solve_matrix(core.factor, x)
+        return x[free]
+
+    return max(lanczos(lambda y: K @ y, solve, len(free)), 0.0)
+
+
+def lanczos(
+    apply: Callable[[FloatArray], FloatArray], solve: Callable[[FloatArray], FloatArray], n: int
+) -> float:
+    """Largest eigenvalue of M^-1 K from x -> K x and r -> M^-1 r; Ritz value plus its error bound."""
+    r = np.random.default_rng(1).standard_normal(n)
+    p = solve(r)
+    norm = np.sqrt(np.sum(p * r))
+    vectors, duals = [p / norm], [r / norm]
+    diagonal: list[float] = []
+    beside: list[float] = []
+    value, error = 0.0, 0.0
+    for k in range(min(n, MOST_VECTORS)):
+        r = apply(vectors[-1])
+        diagonal.append(float(np.sum(vectors[-1] * r)))
+        for x, u in zip(vectors, duals, strict=True):  # against round-off, with all former ones
+            r = r - np.sum(x * r) * u
+        p = solve(r)
+        norm = float(np.sqrt(max(np.sum(p * r), 0.0)))
+        values, shapes = eigh_tridiagonal(np.array(diagonal), np.array(beside))
+        value = float(values[-1])
+        error = norm * abs(float(shapes[-1, -1]))
+        if error <= SHARP * abs(value) or norm <= 1e-14 * max(np.max(np.abs(values)), 1e-300) or k == n - 1:
+            break
+        vectors.append(p / norm)
+        duals.append(r / norm)
+        beside.append(norm)
+    return value + error
