@@ -18,9 +18,9 @@ beam = model.add_beam(
     end=(1, 0, 0),
     elements=8,
     section=section,
-    element="cable",
-    strain="material",  # "material" | "paper"
-    poisson="centreline",  # of thick beams; a cable ignores it
+    element="cable",  # "cable" | "original" | "nonlocking"
+    strain="material",  # of cables: "material" | "paper"
+    poisson="centreline",  # of the beams: "centreline" | "full"; a cable ignores it
     length=None,  # natural length, m; default |end - start|
 )
 beam.set_motion(velocity=(0, 0, 0), angular_velocity=(0, 0, 4.0), about=(0, 0, 0))  # initial rigid motion

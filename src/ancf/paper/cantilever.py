@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 import ancf
 
+from . import kinds
+
 if TYPE_CHECKING:
     from ancf import Model, Newton, Result, Section
 
@@ -20,8 +22,8 @@ GRAVITY = 9.81  # m/s^2
 NOTES = [
     "Example 7.1: x along the undeformed beam, z up; straight and at rest at t = 0; square section, "
     "side f cm, f = 1 unless a column says otherwise.",
-    'Clamp: position and all of the slope r_x held (stretch="fixed"); strain measures "paper": Green axial '
-    "strain and curvature |r_x x r_xx|/|r_x|^3, 5 axial and 3 bending Gauss points per element.",
+    'Clamp: position and all slopes held, r_x or r_x, r_y, r_z (stretch="fixed").',
+    kinds.NOTE,
     "Trapezoidal rule, step 0.25 ms.",
 ]
 
@@ -41,7 +43,7 @@ def build(
     elements: int = 4,
     f: float = 1.0,
     element: str = "cable",
-    strain: str = "paper",
+    strain: str | None = None,
     stretch: str = "fixed",
 ) -> Model:
     """Model of the example; its beam is called "beam".
@@ -53,11 +55,11 @@ def build(
     f : float
         Parameter of the section, 0.1 to 1.
     element : str
-        Kind of element.
+        Kind of element, one of ``kinds.KINDS``.
     strain : "paper" or "material"
-        Strain measures of the cable.
+        Strain measures of the cable, default "paper".
     stretch : "fixed" or "free"
-        Whether the clamp holds all of r_x or its direction only.
+        Whether the clamp holds all of the slopes or their directions only.
 
     """
     model = ancf.Model(gravity=(0.0, 0.0, -GRAVITY), title="Cantilever, example 7.1")
@@ -67,8 +69,7 @@ def build(
         end=(LENGTH, 0.0, 0.0),
         elements=elements,
         section=section(f),
-        element=element,
-        strain=strain,
+        **kinds.options(element, strain),
     )
     model.clamp(beam.start, stretch=stretch)
     return model

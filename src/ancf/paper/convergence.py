@@ -1,70 +1,65 @@
-"""Two panels over the number of elements: a displacement, and how far it is from the finest mesh."""
+"""Three panels over the number of elements: a displacement, and how far two are from the finest mesh."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..viz import style
-from .curves import line_of, points_of
-from .table import Table
+from .curves import points_of
+from .kinds import NONLOCKING, ORIGINAL
+from .table import FloatArray, Table
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-SIZE = (120.0, 64.0)  # mm
+SIZE = (170.0, 66.0)  # mm
 
-#: Marker of each displacement in the second panel.
-MARKERS = ("o", "v")
+NOTE = (
+    "The distances in the picture are from the finest mesh of the same element; the original element, still "
+    "far from its limit there, is compared with the finest mesh of the nonlocking one: the same body and the "
+    "same strains, hence the same limit."
+)
 
 
-def draw(table: Table, figure: Figure, shown: str, label: str, distances: dict[str, str]) -> None:
-    """Draw both panels.
+def draw(table: Table, figure: Figure, shown: tuple[str, str], distances: dict[str, str]) -> None:
+    """Draw the panels.
 
     Parameters
     ----------
     table : Table
-        With the columns ``element``, ``elements``, `shown` and those of `distances`.
+        With the columns ``element``, ``elements`` and those that follow.
     figure : Figure
         Empty.
-    shown : str
-        Column of the first panel.
-    label : str
-        Its axis.
+    shown : (str, str)
+        Column of the first panel and its axis.
     distances : dict
-        Columns of the second panel, at most two, and what the legend calls them.
+        Columns of the other two panels and what they are called.
 
     """
-    left, right = figure.subplots(1, 2)
+    panels = figure.subplots(1, 3)
     counts = [int(n) for n in np.unique(table.values("elements"))]
     for element in table.kinds():
         n = table.values("elements", element=element)
-        left.plot(n, table.values(shown, element=element), **points_of(element))
-        for marker, (column, name) in zip(MARKERS, distances.items(), strict=False):
-            _distance(right, table, element, column, {"marker": marker, "label": name})
-    left.set_ylabel(label)
-    right.set_ylabel(f"distance to {counts[-1]} elements [m]")
-    right.set_yscale("log")
-    for axes, name in ((left, "a"), (right, "b")):
+        panels[0].plot(n, table.values(shown[0], element=element), **points_of(element))
+        for axes, column in zip(panels[1:], distances, strict=True):
+            far = distance(table, element, column)
+            axes.plot(n[: far.size], far, **points_of(element))
+    panels[0].set_ylabel(shown[1])
+    for axes, name in zip(panels[1:], distances.values(), strict=True):
+        axes.set(yscale="log", ylabel=f"distance to {counts[-1]} el. [m]", title=name)
+    for axes, name in zip(panels, "abc", strict=True):
         style.counts_on_x(axes, counts)
         style.panel_name(axes, name)
-    _legend(figure, left, right)
+    style.legend_above(figure, panels[0])
 
 
-def _distance(axes: Axes, table: Table, element: str, column: str, look: dict[str, Any]) -> None:
-    n, u = table.values("elements", element=element), table.values(column, element=element)
-    if look["marker"] != MARKERS[0]:
-        look = {**look, "markerfacecolor": "white"}
-    axes.plot(n[:-1], np.abs(u[:-1] - u[-1]), **line_of(element), **look)
-
-
-def _legend(figure: Figure, left: Axes, right: Axes) -> None:
-    """Elements for the first panel, displacements for the second one, above each."""
-    for axes in (left, right):
-        handles, labels = axes.get_legend_handles_labels()
-        unique = dict(zip(labels, handles, strict=True))
-        axes.legend(
-            unique.values(), unique.keys(), loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(unique)
-        )
+def distance(table: Table, element: str, column: str) -> FloatArray:
+    """Distances of a displacement from the finest mesh, which is left out where it is its own."""
+    u = table.values(column, element=element)
+    if element == ORIGINAL and NONLOCKING in table.kinds():
+        far: FloatArray = np.abs(u - table.values(column, element=NONLOCKING)[-1])
+        return far
+    own: FloatArray = np.abs(u[:-1] - u[-1])
+    return own

@@ -3,9 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..viz import style
+from .table import Table, Value
+
+
+class Look(NamedTuple):
+    """How a kind of element is drawn; line and marker tell them apart in a grey copy."""
+
+    color: str
+    line: Any
+    marker: str
+
+
+#: Look of each kind of element.
+LOOKS: dict[str, Look] = {
+    "cable": Look(style.BLUE, "-", "o"),
+    "nonlocking": Look(style.ORANGE, "--", "s"),
+    "original": Look(style.GREEN, (0, (5, 1.2, 1, 1.2)), "^"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,13 +56,15 @@ class Curve:
             return {"color": style.LIGHT, "linewidth": 3.0, "label": self.label}
         return {**line_of(self.element), "label": self.label}
 
+    @property
+    def head(self) -> tuple[str, int]:
+        """First columns of its rows."""
+        return self.element, self.elements
 
-#: Colour, line and marker of each kind of element.
-LOOKS: dict[str, tuple[str, str, str]] = {
-    "cable": (style.BLUE, "-", "o"),
-    "nonlocking": (style.ORANGE, "--", "s"),
-    "original": (style.GREEN, "-.", "^"),
-}
+    def values(self, table: Table, *columns: str) -> list[Any]:
+        """Columns of its rows."""
+        only: dict[str, Value] = {"element": self.element, "elements": self.elements}
+        return [table.values(column, **only) for column in columns]
 
 
 def counted(number: int, noun: str) -> str:
@@ -53,12 +72,17 @@ def counted(number: int, noun: str) -> str:
     return f"{number} {noun}" + ("" if number == 1 else "s")
 
 
+def look_of(element: str) -> Look:
+    """Colour, line and marker of a kind of element."""
+    return LOOKS[element]
+
+
 def line_of(element: str) -> dict[str, Any]:
     """Colour and line of a kind of element."""
-    color, line, _ = LOOKS[element]
-    return {"color": color, "linestyle": line}
+    look = LOOKS[element]
+    return {"color": look.color, "linestyle": look.line}
 
 
 def points_of(element: str) -> dict[str, Any]:
     """Colour, line, marker and label of a kind of element, for curves of a few computed points."""
-    return {**line_of(element), "marker": LOOKS[element][2], "label": element}
+    return {**line_of(element), "marker": LOOKS[element].marker, "label": element}

@@ -6,14 +6,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..viz import style
-from . import pendulum
+from . import kinds, pendulum
 from .curves import Curve
 from .table import Table, sampled_rows
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-CURVES = (Curve("cable", 32, reference=True), Curve("cable", 4))
+CURVES = (Curve(kinds.ORIGINAL, 32, reference=True), *(Curve(element, 4) for element in kinds.KINDS))
 COLUMNS = ("element", "elements", "t", "tip_x", "tip_y", "tip_z", "mid_x", "mid_y", "mid_z")
 OUTPUT_STEP = 2e-3  # s
 SIZE = (100.0, 56.0)  # mm
@@ -21,12 +21,12 @@ SIZE = (100.0, 56.0)  # mm
 
 def data(short: bool = False) -> Table:
     """Positions of the tip and the midpoint every 2 ms, m; the short form ends at 0.1 s."""
-    table = Table("fig4", COLUMNS, [], [*pendulum.NOTES])
+    table = Table("fig4", COLUMNS, [], [*pendulum.NOTES, pendulum.SENSITIVE])
     for curve in CURVES:
         model = pendulum.build(curve.elements, element=curve.element)
-        result = pendulum.run(model, 0.1 if short else pendulum.T_END, OUTPUT_STEP)
+        result = pendulum.run(model, 0.1 if short else pendulum.T_END, OUTPUT_STEP, pendulum.exact_newton())
         tip, mid = result.position("rope.end"), result.position("rope.at(0.5)")
-        table.rows.extend(sampled_rows((curve.element, curve.elements), result.t, tip, mid))
+        table.rows.extend(sampled_rows(curve.head, result.t, tip, mid))
         table.notes.append(_measured(curve, result.t[-1], tip[-1].tolist(), mid[-1].tolist()))
     return table
 
@@ -35,7 +35,7 @@ def draw(table: Table, figure: Figure) -> None:
     """Z over X of the tip; it starts at X = 1 m, Z = 0."""
     axes = figure.subplots()
     for curve in CURVES:
-        x, z = (table.values(c, element=curve.element, elements=curve.elements) for c in ("tip_x", "tip_z"))
+        x, z = curve.values(table, "tip_x", "tip_z")
         axes.plot(x, z, **curve.look)
     axes.plot(x[:1], z[:1], "o", color=style.GREY, label="start")
     axes.set(xlabel="$X$ of the tip [m]", ylabel="$Z$ of the tip [m]", aspect="equal")

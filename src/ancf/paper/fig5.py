@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 COLUMNS = fig4.COLUMNS
-SIZE = (110.0, 65.0)  # mm
+SIZE = (110.0, 72.0)  # mm
 
 
 def data(short: bool = False) -> Table:
@@ -24,8 +24,8 @@ def draw(table: Table, figure: Figure) -> None:
     """Y of the midpoint over t."""
     axes = figure.subplots()
     for curve in fig4.CURVES:
-        t, y = (table.values(c, element=curve.element, elements=curve.elements) for c in ("t", "mid_y"))
+        t, y = curve.values(table, "t", "mid_y")
         axes.plot(t, y, **curve.look)
     axes.set(xlabel="$t$ [s]", ylabel="$Y$ of the midpoint [m]", xlim=(0.0, t[-1]))
     axes.locator_params("x", nbins=5)
-    style.legend_above(figure, axes)
+    style.legend_above(figure, axes, columns=2)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import jacobians, pendulum
+from . import jacobians, kinds, pendulum
 from .table import Table
 
 if TYPE_CHECKING:
     from ancf import Result
 
-KINDS: tuple[str, ...] = ("cable",)
+KINDS = kinds.KINDS
 SIZE = jacobians.SIZE
 draw = jacobians.draw
 
@@ -21,9 +21,8 @@ def data(short: bool = False) -> Table:
     t_end = 0.02 if short else 0.5
 
     def run(element: str, f: float) -> Result:
-        return pendulum.run(
-            pendulum.build(jacobians.ELEMENTS, f, element), t_end, newton=jacobians.plain_newton()
-        )
+        model = pendulum.build(jacobians.ELEMENTS, f, element)
+        return pendulum.run(model, t_end, newton=jacobians.plain_newton())
 
     notes = [*pendulum.NOTES, *jacobians.rule(t_end)]
     return jacobians.Sweep("fig6", KINDS, factors, pendulum.youngs_modulus, run, notes).table()

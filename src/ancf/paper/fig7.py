@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import convergence, spin_up
+from . import convergence, kinds, spin_up
 from .curves import counted
 from .table import Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-KINDS: tuple[str, ...] = ("cable",)
+KINDS = kinds.KINDS
 COUNTS, SHORT_COUNTS = (1, 2, 4, 8, 16, 32, 64), (1, 2, 4)
 COLUMNS = ("element", "elements", "u_transverse", "u_axial")
 TIME, SHORT_TIME = 7.0, 0.7  # s
@@ -27,13 +27,13 @@ def data(short: bool = False) -> Table:
         f"u_transverse = {u:.7f} m, u_axial = {w:.7f} m."
         for e, n, u, w in rows
     ]
-    return Table("fig7", COLUMNS, [*rows], [*spin_up.NOTES, *measured])
+    return Table("fig7", COLUMNS, [*rows], [*spin_up.NOTES, convergence.NOTE, *measured])
 
 
 def draw(table: Table, figure: Figure) -> None:
-    """Transverse displacement, and the distances of both from the finest mesh."""
+    """Transverse displacement, and how far both are from the finest mesh."""
     names = {"u_transverse": "transverse", "u_axial": "axial"}
-    convergence.draw(table, figure, "u_transverse", "transverse tip displ. at 7 s [m]", names)
+    convergence.draw(table, figure, ("u_transverse", "transverse tip displ. at 7 s [m]"), names)
 
 
 def _row(element: str, elements: int, t_end: float) -> tuple[str, int, float, float]:

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..viz import style
-from . import spin_up
+from . import kinds, spin_up
 from .curves import Curve
-from .table import FloatArray, Table, Value, sampled_rows
+from .table import FloatArray, Table, sampled_rows
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-CURVES = (Curve("cable", 16, reference=True), Curve("cable", 4))
+CURVES = (Curve(kinds.ORIGINAL, 16, reference=True), *(Curve(element, 4) for element in kinds.KINDS))
 COLUMNS = ("element", "elements", "t", "u_transverse")
 STRIDE = 20  # rows every 20 ms
-SIZE = (110.0, 65.0)  # mm
+SIZE = (110.0, 72.0)  # mm
 
 
 def data(short: bool = False) -> Table:
@@ -26,8 +26,7 @@ def data(short: bool = False) -> Table:
     for curve in CURVES:
         result = spin_up.run(spin_up.build(curve.elements, curve.element), 0.5 if short else spin_up.T_END)
         u, _ = spin_up.tip_displacement(result)
-        head = (curve.element, curve.elements)
-        table.rows.extend(sampled_rows(head, result.t[::STRIDE], u[::STRIDE]))
+        table.rows.extend(sampled_rows(curve.head, result.t[::STRIDE], u[::STRIDE]))
         table.notes.append(_measured(curve, result.t, u))
     return table
 
@@ -36,12 +35,11 @@ def draw(table: Table, figure: Figure) -> None:
     """Transverse displacement over t."""
     axes = figure.subplots()
     for curve in CURVES:
-        only: dict[str, Value] = {"element": curve.element, "elements": curve.elements}
-        axes.plot(table.values("t", **only), table.values("u_transverse", **only), **curve.look)
+        axes.plot(*curve.values(table, "t", "u_transverse"), **curve.look)
     axes.set(xlabel="$t$ [s]", ylabel="transverse tip displacement [m]")
     axes.set_xlim(0.0, float(table.values("t").max()))
     axes.locator_params("x", nbins=5)
-    style.legend_above(figure, axes)
+    style.legend_above(figure, axes, columns=2)
 
 
 def _measured(curve: Curve, t: FloatArray, u: FloatArray) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Protocol, cast
 
-from . import fig2, fig3, fig4, fig5, fig6, fig7, fig8
+from . import fig1, fig2, fig3, fig4, fig5, fig6, fig7, fig8, fig9, fig10, fig11, table2
 from .table import Table
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ class FigureModule(Protocol):
 FIGURES: Mapping[str, FigureModule] = {
     name: cast(FigureModule, module)
     for name, module in {
+        "fig1": fig1,
         "fig2": fig2,
         "fig3": fig3,
         "fig4": fig4,
@@ -34,5 +35,9 @@ FIGURES: Mapping[str, FigureModule] = {
         "fig6": fig6,
         "fig7": fig7,
         "fig8": fig8,
+        "fig9": fig9,
+        "fig10": fig10,
+        "fig11": fig11,
+        "table2": table2,
     }.items()
 }

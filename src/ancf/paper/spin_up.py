@@ -8,6 +8,7 @@ import numpy as np
 
 import ancf
 
+from . import kinds
 from .table import FloatArray
 
 if TYPE_CHECKING:
@@ -30,18 +31,24 @@ NOTES = [
     "Example 7.3: A = 7.299e-5 m^2, I = 8.215e-9 m^4, rho = 2766.67 kg/m^3, no gravity; eq. 33 with "
     "(T_s/(2 pi))^2, so that the angular acceleration is continuous.",
     "Displacements of the tip in the frame that turns with the clamp; negative u_transverse lags behind.",
-    'Prescribed position and all of the slope r_x at the clamp (stretch="fixed"); strain measures "paper", '
-    "5 axial and 3 bending Gauss points per element.",
+    'Prescribed position and all slopes at the clamp, r_x or r_x, r_y, r_z (stretch="fixed").',
+    "Section of the beams: a rectangle of 36.75 x 1.986 mm that bends in its wide direction.",
+    kinds.NOTE,
     "Trapezoidal rule, step 1 ms.",
 ]
 
 
-def section() -> Section:
-    """Stiffnesses in the plane of the motion."""
-    return ancf.Section(EA=E * AREA, EI=E * INERTIA, rhoA=DENSITY * AREA)
+def section(element: str = kinds.CABLE) -> Section:
+    """Stiffnesses in the plane of the motion, x and y; for a beam the rectangle that has them."""
+    if element == kinds.CABLE:
+        return ancf.Section(EA=E * AREA, EI=E * INERTIA, rhoA=DENSITY * AREA)
+    width = (12.0 * INERTIA / AREA) ** 0.5
+    return ancf.Section.rectangle(width, AREA / width, E=E, rho=DENSITY)
 
 
-def build(elements: int = 4, element: str = "cable", strain: str = "paper", stretch: str = "fixed") -> Model:
+def build(
+    elements: int = 4, element: str = "cable", strain: str | None = None, stretch: str = "fixed"
+) -> Model:
     """Model of the example; its beam is called "arm".
 
     Parameters
@@ -49,11 +56,11 @@ def build(elements: int = 4, element: str = "cable", strain: str = "paper", stre
     elements : int
         Number of elements.
     element : str
-        Kind of element.
+        Kind of element, one of ``kinds.KINDS``.
     strain : "paper" or "material"
-        Strain measures of the cable.
+        Strain measures of the cable, default "paper".
     stretch : "fixed" or "free"
-        Whether the clamp holds all of r_x or its direction only.
+        Whether the clamp holds all of the slopes or their directions only.
 
     """
     model = ancf.Model(title="Spin-up of a cantilever, example 7.3")
@@ -62,9 +69,8 @@ def build(elements: int = 4, element: str = "cable", strain: str = "paper", stre
         start=(0.0, 0.0, 0.0),
         end=(LENGTH, 0.0, 0.0),
         elements=elements,
-        section=section(),
-        element=element,
-        strain=strain,
+        section=section(element),
+        **kinds.options(element, strain),
     )
     model.clamp(
         arm.start,

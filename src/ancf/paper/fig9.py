@@ -1,0 +1,73 @@
+"""Fig. 9: configurations of the sliding beam (7.4) in space, 128+8 cable elements."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..viz import style
+from . import sliding
+from .table import Table, sampled_rows
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ancf import Result
+
+    from .table import FloatArray
+
+MESH = sliding.MESHES[0]
+TIMES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)  # s
+SAMPLES = {"carrier": 193, "slider": 65}
+COLUMNS = (*sliding.KEYS, "t", "body", "arc_length", "x", "y", "z")
+SIZE = (110.0, 92.0)  # mm
+VIEW = {"elev": 18.0, "azim": -52.0}  # degrees
+
+
+def data(short: bool = False) -> Table:
+    """Points of both centrelines at six times, m; the short form shows the first 20 ms."""
+    result = sliding.history(MESH, short)
+    table = Table("fig9", COLUMNS, [], [*sliding.NOTES])
+    for share in TIMES:
+        i = int(np.argmin(np.abs(result.t - share * result.t[-1])))
+        for body in SAMPLES:
+            arc, places = _centreline(result, body, i)
+            head = (*MESH.key, float(result.t[i]), body)
+            table.rows.extend(sampled_rows(head, arc, places))
+        s = float(result.arc_length("joint")[i])
+        table.notes.append(f"Measured, {MESH.label}, t = {result.t[i]:g} s: s = {s:.6f} m.")
+    return table
+
+
+def draw(table: Table, figure: Figure) -> None:
+    """Carrier, sliding beam and mass; the later, the darker."""
+    axes: Any = figure.add_subplot(projection="3d")
+    times = np.unique(table.values("t"))
+    for k, t in enumerate(times):
+        shade = 0.25 + 0.75 * k / max(len(times) - 1, 1)
+        for body, color in (("carrier", style.BLUE), ("slider", style.ORANGE)):
+            x, y, z = (table.values(c, t=t, body=body) for c in "xyz")
+            name = body if k == len(times) - 1 else None
+            axes.plot(x, y, z, color=color, alpha=shade, linewidth=1.0, label=name)
+        axes.plot(x[-1:], y[-1:], z[-1:], "o", color="black", alpha=shade, markersize=4.0)
+        axes.text(x[-1] + 0.07, y[-1], z[-1] - 0.02, f"{t:.4g} s", fontsize=6.5)
+    axes.set(xlabel="$X$ [m]", ylabel="$Y$ [m]", zlabel="$Z$ [m]")
+    _arrange(axes)
+
+
+def _arrange(axes: Any) -> None:
+    """One scale for all axes, a view in which the beams do not hide each other, room for the names."""
+    limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
+    axes.set_box_aspect(np.ptp(limits, axis=1), zoom=0.86)
+    axes.locator_params("x", nbins=3)
+    axes.view_init(**VIEW)
+    axes.legend(loc="upper left")
+
+
+def _centreline(result: Result, body: str, i: int) -> tuple[FloatArray, FloatArray]:
+    """Reference arc lengths (n,) and positions (n, 3) of points of a beam at the stored time i, m."""
+    state = result.state(i)
+    beam = state.system.model.beams[body]
+    arc = np.linspace(0.0, beam.length, SAMPLES[body])
+    return arc, np.array([state.position(beam.at(x)) for x in arc])
