@@ -3,16 +3,31 @@
 import numpy as np
 
 import ancf
-from ancf.solvers.modal import to_sparse
-from ancf.system.core import assemble, residual
+from ancf.elements.registry import ELEMENTS
+from ancf.linalg.sparse import to_sparse
+from ancf.model.beam import POISSON, STRAINS
+from ancf.system.core import assemble, residual, total_strain_energy
 
 #: Soft enough that a test state far from the natural shape has forces of the order of 1 N.
 SOFT = {"EA": 40.0, "EI": 2.0, "rhoA": 0.7}
 DAMPINGS = {"damping": 0.3, "axial_damping": 0.5, "bending_damping": 0.2}
+#: The same for the elements that have a cross-section: rhoA = 0.6 kg/m, EA = 36 N, no symmetry left.
+SOFT_SOLID = {"width": 0.3, "height": 0.2, "E": 600.0, "rho": 10.0, "nu": 0.3, "shear_factors": (0.8, 0.9)}
+#: Elements with r_y and r_z, and keywords of ``add_beam`` for each kind of energy of each element.
+SOLIDS = [name for name, kind in ELEMENTS.items() if kind.vectors > 2]
+VARIANTS = {
+    f"{name}-{poisson if name in SOLIDS else strain}": {"element": name, "strain": strain, "poisson": poisson}
+    for name in ELEMENTS
+    for strain in STRAINS[name]
+    for poisson in (POISSON if name in SOLIDS else POISSON[:1])
+}
+
+#: Relative bars of test_elements and test_kernels, which say why.
+BY_DIFFERENCES, BY_ROUND_OFF = 1e-7, 1e-12
 
 
 def arc(u):
-    """A curve in space without symmetry, about 1.3 m long."""
+    """A curve in space without symmetry, about 1.9 m long."""
     return (np.sin(1.2 * u), 0.4 * u**2, 1.1 * u - 0.3 * np.cos(2.0 * u))
 
 
@@ -21,15 +36,29 @@ SHAPES = {
     "straight": {"start": (0.1, 0.2, -0.1), "end": (0.9, 0.6, 0.5)},
     "stretched": {"start": (0.1, 0.2, -0.1), "end": (0.9, 0.6, 0.5), "length": 0.9},
     "curved": {"path": arc},
-    "curved and stretched": {"path": arc, "length": 1.1},
+    "curved and stretched": {"path": arc, "length": 1.6},
     "bent from straight": {"path": arc, "natural_shape": "straight"},
 }
 
 
-def cable(shape="straight", *, elements=3, damped=False, model=None, name="beam", **more):
-    """A free cable; returns its model and the beam."""
+def soft(element="cable", **more):
+    """A soft section that an element can have; keywords of the damping may be added."""
+    return ancf.Section.rectangle(**SOFT_SOLID, **more) if element in SOLIDS else ancf.Section(**SOFT, **more)
+
+
+def square(element="cable", *, EA, EI, rhoA, nu=0.3, **more):
+    """A section with these stiffnesses: for the elements that need one, a square of a material."""
+    if element not in SOLIDS:
+        return ancf.Section(EA=EA, EI=EI, rhoA=rhoA, **more)
+    side = np.sqrt(12 * EI / EA)
+    return ancf.Section.rectangle(side, side, E=EA / side**2, rho=rhoA / side**2, nu=nu, **more)
+
+
+def cable(shape="straight", *, elements=3, damped=False, model=None, name="beam", section=None, **more):
+    """A free cable or beam of any element, of a soft section by default; returns its model and the beam."""
     model = ancf.Model() if model is None else model
-    section = ancf.Section(**SOFT, **(DAMPINGS if damped else {}))
+    if section is None:
+        section = soft(more.get("element", "cable"), **(DAMPINGS if damped else {}))
     return model, model.add_beam(name, section=section, elements=elements, **SHAPES[shape], **more)
 
 
@@ -58,12 +87,24 @@ def forces(system, q, v=None, a=None, batches=None):
     return r
 
 
+def energy(system, q):
+    """Strain energy of elements and springs."""
+    return total_strain_energy(system.core.batches, system.core.ws, q)
+
+
 def matrix(system, q, mass=0.0, damping=0.0, stiffness=0.0):
     """Dense mass M + damping C + stiffness K, supports not applied."""
     core = system.core
     A = np.empty(system.places.size)
     assemble(core.batches, core.ws, q, np.zeros_like(q), A, mass, damping, stiffness)
     return to_sparse(A, system.places).toarray()
+
+
+def assert_close(actual, wanted, tolerance):
+    """Arrays agree to a share of the largest entry."""
+    scale = np.max(np.abs(wanted))
+    assert scale > 0
+    assert np.max(np.abs(actual - wanted)) <= tolerance * scale
 
 
 def derivative(function, q, step=1e-3):

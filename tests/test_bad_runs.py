@@ -9,15 +9,23 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.elements.registry import ELEMENTS
+from ancf.paper import pendulum
+from helpers import SOLIDS, cable, square
 
 NAN, INF = float("nan"), float("inf")
 
 
-def cantilever(elements=3, name="beam", **section):
+def cantilever(elements=3, name="beam", element="cable", **section):
     model = ancf.Model(gravity=(0, 0, -9.81))
     given = {"EA": 1e3, "EI": 0.1, "rhoA": 0.05} | section
     beam = model.add_beam(
-        name, start=(0, 0, 0), end=(1, 0, 0), elements=elements, section=ancf.Section(**given)
+        name,
+        start=(0, 0, 0),
+        end=(1, 0, 0),
+        elements=elements,
+        section=square(element, **given),
+        element=element,
     )
     model.clamp(beam.start)
     return model, beam
@@ -111,6 +119,12 @@ class TestStarts:
     def test_state_of_a_longer_model(self):
         state = ancf.equilibrium(cantilever(5)[0])
         refused("simulate.start", "another model", self.run, cantilever(3)[0], state)
+
+    @pytest.mark.parametrize("element", SOLIDS)
+    def test_state_of_another_element(self, element):
+        for one, two in ((element, "cable"), ("cable", element)):
+            state = ancf.equilibrium(cantilever(element=one)[0])
+            refused("simulate.start", "another model", self.run, cantilever(element=two)[0], state)
 
     def test_state_of_other_bodies(self):
         """As many unknowns, but not the same bodies."""
@@ -263,31 +277,33 @@ def cantilever_under_load():
     return model
 
 
+@pytest.mark.parametrize("element", ELEMENTS)
 class TestSteps:
     """A step that is far too large ends with an error that says when, where and what to try."""
 
     @staticmethod
-    def whip(step, file=None):
+    def whip(element, step, file=None):
         """A cable that whirls about its end: 4 m/s at the tip, waves of 100 m/s."""
-        model, beam = cantilever(8, EA=1e5, EI=1e-3)
+        model, beam = cantilever(8, element=element, EA=1e5, EI=1e-3)
         model.supports.clear()
         model.pin(beam.start)
         beam.set_motion(angular_velocity=(0, 40.0, 30.0))
         return ancf.simulate(model, t_end=20 * step, step=step, file=file)
 
     @pytest.mark.parametrize("step", [0.02, 5.0])
-    def test_far_too_large(self, step):
-        error = failed(r"t = .* s, step \d+, beam node \d+ (position|slope r_x) [xyz]: ", self.whip, step)
+    def test_far_too_large(self, step, element):
+        unknown = r"beam node \d+ (position|slope r_.|internal r_.x) [xyz]"
+        error = failed(rf"t = .* s, step \d+, {unknown}: ", self.whip, element, step)
         assert "try a step of" in error.hint
         assert error.result.status == "failed"
         assert error.result.t[0] == 0.0
 
     @pytest.mark.parametrize("step", [0.02, 0.05, 0.2, 1.0, 100.0])
-    def test_nothing_infinite_is_stored(self, step, tmp_path):
+    def test_nothing_infinite_is_stored(self, step, tmp_path, element):
         """Whatever happens: finite states, and only the two errors of the package."""
         path = tmp_path / "run.h5"
         try:
-            result = self.whip(step, path)
+            result = self.whip(element, step, path)
         except ancf.SolveError as error:
             result = error.result
         assert np.all(np.isfinite(result.q[:]))
@@ -295,14 +311,16 @@ class TestSteps:
         assert np.all(np.isfinite(result.energy.total))
         assert np.array_equal(ancf.load(path).t, result.t)
 
-    def test_huge_load(self):
-        model, beam = cantilever()
+    def test_huge_load(self, element):
+        model, beam = cantilever(element=element)
         model.add_force(beam.end, (0, 0, 1e300))
         error = failed(
             "finite|diverged|converge|nowhere|halved|singular", ancf.simulate, model, t_end=0.1, step=1e-3
         )
         assert np.all(np.isfinite(error.result.q[:]))
 
+
+class TestEquilibria:
     def test_unstable_state_has_no_modes(self):
         """A column under twice its buckling load."""
         model = ancf.Model()
@@ -322,6 +340,69 @@ class TestSteps:
         model.pin(beam.start)
         model.add_force(beam.end, (1e300, 0, 0))
         failed("equilibrium", ancf.equilibrium, model)
+
+
+class TestCollapse:
+    """A cross-section that turns inside out has no meaning: when, which body, which element."""
+
+    WHAT = r"beam element \d: the cross-section has collapsed or turned inside out"
+
+    @pytest.mark.parametrize("element", SOLIDS)
+    def test_in_a_run(self, element, tmp_path):
+        """Let go at 1.7 times its length, of a material that shrinks by 0.3 of that."""
+        model, beam = cable("curved", element=element, length=1.1)
+        model.clamp(beam.end, stretch="fixed")
+        path = tmp_path / "run.h5"
+        given = {"t_end": 0.1, "step": 5e-4, "file": path}
+        error = failed(rf"t = 0\.0\d+ s, step \d+, {self.WHAT}", ancf.simulate, model, **given)
+        assert "try a step of" in error.hint
+        result = error.result
+        assert result.status == "failed"
+        assert 0.005 < result.t[-1] < 0.05
+        assert np.all(np.isfinite(result.q[:]))
+        assert np.array_equal(ancf.load(path).t, result.t)
+
+    @pytest.mark.parametrize("element", SOLIDS)
+    def test_in_an_equilibrium(self, element):
+        """Pressed together with more than any length can bear."""
+        model, beam = cantilever(2, element=element)
+        for x in beam.node_x[1:]:
+            model.hold(beam.at(x), position="yz", slope="yz", slope_y="xz", slope_z="xy")
+        model.add_force(beam.end, (-1e4, 0, 0))
+        failed(r"equilibrium at .* of the load", ancf.equilibrium, model)
+
+    @pytest.mark.parametrize("element", SOLIDS)
+    def test_at_the_start(self, element):
+        model, _ = cantilever(3, element=element)
+        state = ancf.equilibrium(model)
+        q = state.q.copy()
+        for slots in state.system.slots["beam"]:
+            q[slots[2] + np.arange(3)] *= -1.0
+        bad = ancf.State(state.system, 0.0, q, state.v)
+        failed(self.WHAT, ancf.simulate, model, t_end=0.01, step=1e-4, start=bad)
+
+
+@pytest.mark.parametrize("element", SOLIDS)
+@pytest.mark.parametrize("f", [1.0, 0.5, 0.2])
+def test_plain_newton_on_stiff_beams(element, f):
+    """7.2 with E = 1e9 N/m^2 and more: kept Jacobians may fail, but then the run says so.
+
+    What is called complete has kept its energy, and the rope its length.
+    """
+    error, model = None, pendulum.build(4, f, element)
+    try:
+        result = pendulum.run(model, 0.15, newton=ancf.Newton(corotate=False))
+    except ancf.SolveError as caught:
+        error, result = caught, caught.result
+    assert np.all(np.isfinite(result.q[:]))
+    assert result.status == ("complete" if error is None else "failed")
+    if error is None:
+        assert np.ptp(result.energy.balance) < 1e-3 * result.energy.kinetic[0]
+        assert np.max(np.linalg.norm(result.position("rope.end"), axis=1)) < 1.001
+    else:
+        assert re.match(r"t = [\d.]+ s, step \d+, rope node \d ", error.where)
+        assert re.search("came from nowhere|did not converge|had to be halved", error.what)
+        assert "try a step of" in error.hint
 
 
 class TestFiles:

@@ -1,209 +1,61 @@
-"""Kernels: force is the gradient of the energy, tangent the gradient of the force, mass is the body's.
+"""Kernels of springs, moments, joints and masses, by the rules and bars of test_elements."""
 
-Differences of order 4 with steps of 1e-3 on states that vary over about 0.1 leave errors near 1e-9 of
-the largest entry; a wrong or missing term shows at 1e-3 and more.  Sums in another order differ by
-round-off, 1e-12 of the largest entry here.
-"""
-
-from dataclasses import replace
 from itertools import product
 
 import numpy as np
 import pytest
 
 import ancf
-from ancf.elements.measures import axial_strain, curvature
+from ancf.connections.sliding import FREE, FROZEN
 from ancf.elements.registry import ELEMENTS
-from ancf.elements.shapes import gauss, hermite
-from ancf.model.beam import STRAINS
-from ancf.system.core import inertia, total_strain_energy
+from ancf.system.core import inertia
+from ancf.system.probe import R_Y, R_Z
 from ancf.system.system import System
-from helpers import DAMPINGS, SHAPES, SOFT, cable, derivative, forces, matrix, random_rate, shaken
-
-BY_DIFFERENCES, BY_ROUND_OFF = 1e-7, 1e-12
-
-
-def assert_close(actual, wanted, tolerance):
-    scale = np.max(np.abs(wanted))
-    assert scale > 0
-    assert np.max(np.abs(actual - wanted)) <= tolerance * scale
-
-
-def energy(system, q):
-    return total_strain_energy(system.core.batches, system.core.ws, q)
-
-
-def element_system(kind, strain, shape, damped=False):
-    return System(cable(shape, element=kind, strain=strain, damped=damped)[0])
+from helpers import (
+    BY_DIFFERENCES,
+    BY_ROUND_OFF,
+    SOLIDS,
+    assert_close,
+    cable,
+    derivative,
+    energy,
+    forces,
+    matrix,
+    random_rate,
+    rotation,
+    shaken,
+)
+from mechanisms import LEVELS, at_level, bare, joints_of, mechanism, moving
 
 
-def two_cables():
-    model, a = cable("straight", elements=2, name="a")
-    _, b = cable("curved", elements=2, name="b", model=model)
+def two_bodies(element):
+    model, a = cable("straight", elements=2, name="a", element=element)
+    _, b = cable("curved", elements=2, name="b", model=model, element=element)
     return model, a, b
 
 
-def spring_system(kind):
-    """Springs between points inside elements, or to the ground."""
-    model, a, b = two_cables()
-    other = (0.3, -0.5, 1.2) if kind == "to ground" else b.at(0.3 * b.length)
+def spring_system(element, kind):
+    """Springs between points inside elements, on beams off the centreline, or to the ground."""
+    model, a, b = two_bodies(element)
+    here, there = ((0.1, -0.05), (-0.12, 0.08)) if element in SOLIDS else ((), ())
+    other = (0.3, -0.5, 1.2) if kind == "to ground" else b.at(0.3 * b.length, *there)
     given = {"stiffness": 30.0, "damping": 4.0, "slack": kind in ("tight", "slack")}
-    model.add_spring(a.at(0.7 * a.length), other, length=9.0 if kind == "slack" else 0.2, **given)
+    model.add_spring(a.at(0.7 * a.length, *here), other, length=9.0 if kind == "slack" else 0.2, **given)
     return System(model)
 
 
-def moment_system():
-    model, a, b = two_cables()
+def moment_system(element):
+    model, a, b = two_bodies(element)
     model.add_moment(a.at(0.4 * a.length), (0.5, -1.0, 2.0))
     model.add_moment(b.end, (0.3, 0.2, -0.7))
     return System(model)
 
 
-@pytest.fixture(params=list(product(ELEMENTS, STRAINS, SHAPES)), ids=lambda p: "-".join(p))
-def element(request):
-    return element_system(*request.param)
-
-
-@pytest.fixture(params=list(product(ELEMENTS, STRAINS, SHAPES)), ids=lambda p: "-".join(p))
-def damped_element(request):
-    return element_system(*request.param, damped=True)
-
-
-@pytest.fixture(params=["both ways", "tight", "to ground"])
+@pytest.fixture(
+    params=list(product(ELEMENTS, ["both ways", "tight", "to ground"])), ids=lambda p: "-".join(p)
+)
 def spring(request):
-    return spring_system(request.param)
-
-
-class TestElements:
-    def test_force_is_gradient_of_energy(self, element):
-        q = shaken(element)
-        assert_close(forces(element, q), derivative(lambda x: energy(element, x), q), BY_DIFFERENCES)
-
-    def test_tangent_is_gradient_of_force(self, element):
-        q = shaken(element)
-        wanted = derivative(lambda x: forces(element, x), q)
-        assert_close(matrix(element, q, stiffness=1.0), wanted, BY_DIFFERENCES)
-
-    def test_tangent_of_the_initial_shape(self, element):
-        """A straight cable is where 1/kappa would be infinite."""
-        q = shaken(element, size=0.0)
-        # near the natural shape of a curved cable forces vary fast: the differences are less accurate
-        wanted = derivative(lambda x: forces(element, x), q, step=2e-5)
-        assert_close(matrix(element, q, stiffness=1.0), wanted, 1e-5)
-
-    def test_natural_shape_is_free_of_force(self, element):
-        q = shaken(element, size=0.0)
-        beam = element.model.bodies["beam"]
-        natural = beam.stretch == 1.0 and beam.natural_shape == "path"
-        # a curved reference leaves kappa - kappa0 rounded off to SMOOTHING^2 = 1e-8
-        assert (np.max(np.abs(forces(element, q))) < 1e-6) == natural
-
-    def test_damping_matrix_is_derivative_by_velocity(self, damped_element):
-        q = shaken(damped_element)
-        rest = forces(damped_element, q)
-        columns = [forces(damped_element, q, v=e) - rest for e in np.eye(len(q))]  # exact: linear in v
-        C = matrix(damped_element, q, damping=1.0)
-        assert_close(C, np.stack(columns, axis=-1), 1e-11)
-        assert_close(C, C.T, BY_ROUND_OFF)
-        assert np.linalg.eigvalsh(C)[0] > -1e-10 * np.max(np.abs(C))  # never feeds energy in
-
-    def test_matrices_add_up(self, damped_element):
-        q = shaken(damped_element)
-        parts = [matrix(damped_element, q, **{k: 1.0}) for k in ("mass", "damping", "stiffness")]
-        whole = matrix(damped_element, q, mass=3.0, damping=2.0, stiffness=1.0)
-        assert_close(whole, 3.0 * parts[0] + 2.0 * parts[1] + parts[2], BY_ROUND_OFF)
-
-    def test_mass_of_rigid_motions(self, element):
-        """Linear fields are in the shape functions: mass, first and second moment come out exactly."""
-        M = matrix(element, shaken(element), mass=1.0)
-        beam, slots = element.model.bodies["beam"], element.slots["beam"]
-        L, rhoA = beam.length, beam.section.rhoA
-        for c in range(3):
-            one, x = np.zeros(element.n), np.zeros(element.n)
-            one[slots[:, 0] + c] = 1.0
-            x[slots[:, 0] + c], x[slots[:, 1] + c] = beam.node_x, 1.0
-            got = np.array([one @ M @ one, one @ M @ x, x @ M @ x])
-            assert got == pytest.approx(rhoA * np.array([L, L**2 / 2, L**3 / 3]), rel=1e-12)
-
-    def test_inertia_is_mass_times_acceleration(self, element):
-        q, a = shaken(element), random_rate(element)
-        r = np.empty_like(q)
-        inertia(element.core.batches, element.core.ws, a, r)
-        M = matrix(element, q, mass=1.0)
-        assert_close(r, M @ a, BY_ROUND_OFF)
-        assert_close(forces(element, q, a=a) - forces(element, q), M @ a, 1e-11)
-        assert np.linalg.eigvalsh(M)[0] > 0
-
-    def test_mass_is_the_integral_of_the_shape_functions(self, element):
-        beam, slots = element.model.bodies["beam"], element.slots["beam"]
-        x, w = gauss(4)  # exact: the integrand has degree 6
-        wanted = np.zeros((element.n, element.n))
-        for e in range(beam.elements):
-            h = beam.node_x[e + 1] - beam.node_x[e]
-            S = np.zeros((len(x), 3, element.n))
-            for c in range(3):
-                S[:, c, slots[e : e + 2, :2].ravel() + c] = hermite(x, h)
-            wanted += beam.section.rhoA * h * np.einsum("g,gci,gcj->ij", w, S, S)
-        centreline = np.ix_(slots[:, :2].ravel(), slots[:, :2].ravel())
-        assert_close(matrix(element, shaken(element), mass=1.0)[centreline], wanted[centreline], BY_ROUND_OFF)
-
-
-class TestCableFormulas:
-    """The cable's energy and dissipation against the formulas of the theory, one element in numpy."""
-
-    @staticmethod
-    def at_gauss_points(system, q, points):
-        beam = system.model.bodies["beam"]
-        x, w = gauss(points)
-        h = beam.node_x[1] - beam.node_x[0]
-        values = q[system.slots["beam"][:2].ravel()[:, None] + np.arange(3)]
-        return hermite(x, h, 1) @ values, hermite(x, h, 2) @ values, w * h
-
-    def strains(self, system, q, strain):
-        r_x, _, wa = self.at_gauss_points(system, q, 5)
-        p, s, wb = self.at_gauss_points(system, q, 3)
-        return axial_strain(r_x, strain), curvature(p, s, strain), wa, wb
-
-    @pytest.mark.parametrize("strain", STRAINS)
-    @pytest.mark.parametrize("shape", SHAPES)
-    def test_energy(self, strain, shape):
-        model, beam = cable(shape, elements=1, strain=strain)
-        system = System(model)
-        first, q = shaken(system, size=0.0), shaken(system)
-        eps, kappa, wa, wb = self.strains(system, q, strain)
-        eps0, kappa0 = np.zeros_like(eps), np.zeros_like(kappa)
-        if beam.natural_shape == "path":
-            r_x, _, _ = self.at_gauss_points(system, first, 5)
-            eps0, kappa0 = axial_strain(r_x / beam.stretch, strain), self.strains(system, first, strain)[1]
-        wanted = 0.5 * SOFT["EA"] * wa @ (eps - eps0) ** 2 + 0.5 * SOFT["EI"] * wb @ (kappa - kappa0) ** 2
-        assert energy(system, q) == pytest.approx(wanted, rel=1e-7)  # curved: kappa is rounded off by 1e-8
-
-    @pytest.mark.parametrize("strain", STRAINS)
-    def test_dissipation_in_a_plane(self, strain):
-        """v.(damping force) is the integral of D_a (d eps/dt)^2 + D_b (d kappa/dt)^2 + c v^2."""
-        system = System(cable(elements=1, strain=strain, damped=True)[0])
-        rng = np.random.default_rng(3)
-        (e1, e2), base = np.linalg.qr(rng.standard_normal((3, 3)))[0][:2], shaken(system, size=0.0)
-        in_plane = np.outer(rng.uniform(-0.2, 0.2, 4), e1) + np.outer(rng.uniform(-0.2, 0.2, 4), e2)
-        straight = np.stack([np.zeros(3), e1, beam_length(system) * e1, e1])
-        q, v = base.copy(), np.zeros_like(base)
-        at = system.slots["beam"].ravel()[:, None] + np.arange(3)
-        q[at] = straight + in_plane + np.outer([0, 0.3, 0, -0.3], e2)
-        v[at] = np.outer(rng.uniform(-1, 1, 4), e1) + np.outer(rng.uniform(-1, 1, 4), e2)
-        power = v @ (forces(system, q, v=v) - forces(system, q))
-        h = 1e-4
-        ahead, behind = (self.strains(system, q + s * h * v, strain) for s in (1, -1))
-        eps_rate, kappa_rate = ((a - b) / (2 * h) for a, b in zip(ahead[:2], behind[:2], strict=True))
-        M = matrix(system, q, mass=1.0) / SOFT["rhoA"]
-        viscous = DAMPINGS["damping"] * v @ M @ v
-        axial = DAMPINGS["axial_damping"] * ahead[2] @ eps_rate**2
-        bending = DAMPINGS["bending_damping"] * ahead[3] @ kappa_rate**2
-        assert power == pytest.approx(viscous + axial + bending, rel=1e-6)
-        assert min(viscous, axial, bending) > 0.01 * power  # each part is seen
-
-
-def beam_length(system):
-    return system.model.bodies["beam"].length
+    return spring_system(*request.param)
 
 
 class TestSprings:
@@ -223,9 +75,10 @@ class TestSprings:
         columns = [(forces(spring, q, v=small * e) - rest) / small for e in np.eye(len(q))]
         assert_close(matrix(spring, q, damping=1.0), np.stack(columns, axis=-1), 1e-9)
 
-    def test_slack_carries_nothing(self):
-        model, _, _ = two_cables()
-        slack, bare = spring_system("slack"), System(model)
+    @pytest.mark.parametrize("kind", ELEMENTS)
+    def test_slack_carries_nothing(self, kind):
+        model, _, _ = two_bodies(kind)
+        slack, bare = spring_system(kind, "slack"), System(model)
         q, v = shaken(slack), random_rate(slack)
         assert np.array_equal(forces(slack, q, v=v), forces(bare, q, v=v))
         assert np.array_equal(
@@ -235,8 +88,8 @@ class TestSprings:
 
     def test_slack_never_pushes(self):
         """A tight spring whose ends approach fast: the damper would push more than the spring pulls."""
-        tight, both = spring_system("tight"), spring_system("both ways")
-        model, _, _ = two_cables()
+        tight, both = spring_system("cable", "tight"), spring_system("cable", "both ways")
+        model, _, _ = two_bodies("cable")
         q = shaken(tight)
         towards = -forces(tight, q) + forces(System(model), q)  # the spring pulls its ends this way
         v = 100.0 * towards
@@ -245,16 +98,19 @@ class TestSprings:
 
 
 class TestMoments:
-    def test_tangent_is_symmetric_part_of_gradient(self):
-        system = moment_system()
+    @pytest.mark.parametrize("kind", ELEMENTS)
+    def test_tangent_is_symmetric_part_of_gradient(self, kind):
+        system = moment_system(kind)
         q = shaken(system)
         gradient = derivative(lambda x: forces(system, x), q)
         assert_close(matrix(system, q, stiffness=1.0), 0.5 * (gradient + gradient.T), BY_DIFFERENCES)
 
-    def test_does_work_on_rotations(self):
-        """Turning everything by a small angle takes the work M . angle, less the part along the tangent."""
-        system, bare = moment_system(), System(two_cables()[0])
-        q = shaken(system)
+    @pytest.mark.parametrize("kind", ELEMENTS)
+    def test_does_work_on_rotations(self, kind):
+        """Turning everything by a small angle takes the work M . angle; a cable takes no torque."""
+        system, bare = moment_system(kind), System(two_bodies(kind)[0])
+        # the work is exact while r_y and r_z are at right angles
+        q = shaken(system, size=0.0 if kind in SOLIDS else 1.0)
         moment = forces(bare, q) - forces(system, q)
         w = np.array([0.3, -0.4, 0.2])
         slots = system.slots
@@ -266,57 +122,226 @@ class TestMoments:
             p = system.probe(load.point).field(q, 1)
             t = p / np.linalg.norm(p)
             M = load.moment(0.0)
-            work += (M - t * (t @ M)) @ w
+            work += (M if kind in SOLIDS else M - t * (t @ M)) @ w
+        # the first moment is inside an element of the straight body, the other one at a node
         assert moment @ turned == pytest.approx(work, rel=1e-11)
 
+    @pytest.mark.parametrize("kind", SOLIDS)
+    def test_works_on_the_mean_rotation_of_a_sheared_section(self, kind):
+        """delta theta = (I - t t/2) sum r_i x delta r_i/|r_i|^2 over r_y and r_z, in any state."""
+        system, bare = moment_system(kind), System(two_bodies(kind)[0])
+        q, dq = shaken(system), random_rate(system)
+        work = 0.0
+        for load in system.model.loads:
+            probe = system.probe(load.point)
+            y, z, dy, dz = (probe.field(x, row) for x in (q, dq) for row in (R_Y, R_Z))
+            t = np.cross(y, z) / np.linalg.norm(np.cross(y, z))
+            turn = np.cross(y, dy) / (y @ y) + np.cross(z, dz) / (z @ z)
+            work += load.moment(0.0) @ (turn - t * (t @ turn) / 2)
+        assert (forces(bare, q) - forces(system, q)) @ dq == pytest.approx(work, rel=1e-11)
 
-class TestLanes:
-    """Elements go through the kernels in chunks: every number of them gives what one at a time gives."""
 
-    @pytest.mark.parametrize("shape", ["straight", "curved and stretched"])
-    @pytest.mark.parametrize("elements", [1, 7, 8, 9, 17])
-    @pytest.mark.parametrize("kind", ELEMENTS)
-    def test_one_at_a_time(self, kind, elements, shape):
-        fractions = np.linspace(0, 1, elements + 1) ** 1.3  # elements of different lengths
-        length = System(cable(shape)[0]).model.bodies["beam"].length
-        given = {"elements": None, "nodes": fractions * length, "element": kind, "damped": True}
-        system = System(cable(shape, **given)[0])
-        q, v, a = shaken(system, size=0.2), random_rate(system), random_rate(system, 5)
-        whole = forces(system, q, v, a)
-        others = system.core.batches[1:]
-        parts = [forces(system, q, v, a, (batch, *others)) for batch in self.singles(system)]
-        assert_close(np.sum(parts, axis=0), whole, BY_ROUND_OFF)
-        total = sum(total_strain_energy((b, *others), system.core.ws, q) for b in self.singles(system))
-        assert energy(system, q) == pytest.approx(total, rel=1e-13)
+SLIDING = {
+    "slides": {},
+    "released": {"release": (0, 0.6, 0.8)},
+    "one-sided": {"unilateral": (0, 0, 1), "release": (0, 1, 0)},
+}
+
+
+class TestJoints:
+    """Rows of joints and sliding joints: C is what the model means, the rest follows from it by derivation.
+
+    State vectors off the constraints, with random multipliers; alpha is left out, for its forces vanish
+    where the constraints hold.
+    """
+
+    @pytest.fixture(params=SLIDING)
+    def system(self, request):
+        return bare(mechanism(**SLIDING[request.param]))
 
     @staticmethod
-    def singles(system):
-        beam, slots = system.model.bodies["beam"], system.slots["beam"]
-        for e in range(beam.elements):
-            ends = slice(e, e + 2)
-            nodes = {k: getattr(beam, k)[ends] for k in ("node_x", "node_position", "node_tangent")}
-            yield ELEMENTS[beam.element].build([replace(beam, **nodes)], [slots[ends]])
+    def rows(system, q, v=None, a=None):
+        lam = system.multipliers
+        return forces(system, q, v, a)[lam]
 
-    def test_beams_of_all_kinds_together(self):
-        """A model of different cables is the sum of its cables."""
+    def test_velocity_rows_are_the_rate_of_the_constraints(self, system):
+        q, v, a = moving(system)
+        wanted = derivative(lambda h: self.rows(system, q + h[0] * v), np.zeros(1))[:, 0]
+        released = self.released_rows(system, q)  # u . lambda = 0 stands there in every form
+        got = self.rows(at_level(system, "velocity"), q, v, a) - released
+        assert_close(got, wanted, BY_DIFFERENCES)
+
+    def test_acceleration_rows_are_the_second_derivative(self, system):
+        q, v, a = moving(system)
+
+        def rate(h):
+            return self.rows(system, q + h * v + 0.5 * h**2 * a, v + h * a)
+
+        at_level(system, "velocity")
+        wanted = derivative(lambda h: rate(h[0]), np.zeros(1))[:, 0]
+        released = self.released_rows(system, q)
+        got = self.rows(at_level(system, "acceleration"), q, v, a) - released
+        assert_close(got, wanted, BY_DIFFERENCES)
+
+    @staticmethod
+    def released_rows(system, q):
+        """The part of the rows that does not come from the constraint."""
+        kept = system.level.copy()
+        system.level[:] = 0.0
+        found = forces(system, q)[system.multipliers]
+        system.level[:] = kept
+        return found
+
+    def test_stiffness_is_gradient_of_force(self, system):
+        """With C itself in the rows the whole matrix: forces of the joints change with q and s too."""
+        q, _, _ = moving(system)
+        assert_close(
+            matrix(system, q, stiffness=1.0), derivative(lambda x: forces(system, x), q), BY_DIFFERENCES
+        )
+
+    @pytest.mark.parametrize("level", LEVELS)
+    def test_gradient_of_the_rows_is_the_same_in_every_form(self, system, level):
+        """C_q, by q, v or a."""
+        q, v, a = moving(system)
+        wanted = derivative(lambda x: self.rows(system, x), q)
+        at_level(system, level)
+        part = {"position": "stiffness", "velocity": "damping", "acceleration": "mass"}[level]
+        got = matrix(system, q, **{part: 1.0})
+        C = got[system.multipliers]
+        if level != "position":  # what stands in released directions does not depend on the form
+            x = v if level == "velocity" else a
+            by = {
+                "velocity": lambda x: self.rows(system, q, x, a),
+                "acceleration": lambda x: self.rows(system, q, v, x),
+            }
+            wanted = derivative(by[level], x)
+            C, wanted = (np.delete(m, system.multipliers, axis=1) for m in (C, wanted))
+        assert_close(C, wanted, BY_DIFFERENCES)
+        assert_close(got, got.T, BY_ROUND_OFF)
+
+    def test_forces_do_no_work_in_motions_that_the_joints_allow(self, system):
+        """v . C_q^T lambda = lambda . dC/dt for every v."""
+        q, v, _ = moving(system)
+        none = q.copy()
+        none[system.multipliers] = 0.0
+        power = v @ (forces(system, q) - forces(system, none))
+        at_level(system, "velocity")
+        rows = self.rows(system, q, v) - self.released_rows(system, q)
+        assert power == pytest.approx(q[system.multipliers] @ rows, rel=1e-11)
+        assert abs(power) > 0.1
+
+    def test_whole_matrix_at_rest(self):
+        """With alpha, where the constraints hold: alpha C_q^T C_q is the gradient of its forces."""
+        system = mechanism()
+        q, _ = system.initial_state()
+        q[system.multipliers] = np.random.default_rng(1).uniform(-1, 1, len(system.multipliers))
+        A = matrix(system, q, stiffness=1.0)  # sets alpha
+        rows, _ = joints_of(system)
+        assert np.all(rows.alpha > 0)
+        assert_close(A, derivative(lambda x: forces(system, x), q, step=1e-4), BY_DIFFERENCES)
+
+    @pytest.mark.parametrize("mode", [FROZEN, FREE])
+    def test_held_or_let_go(self, mode):
+        """s keeps its value; let go, the joint has no force either."""
+        system = bare(mechanism())
+        q, v, a = moving(system)
+        _, sliding = joints_of(system)
+        lam = system.joints["on wire"][:3]
+        unheld = q.copy()
+        unheld[lam] = 0.0
+        before = forces(system, q) - forces(system, unheld)
+        sliding.mode[0] = mode
+        r, A = forces(system, q, v, a), matrix(system, q, stiffness=1.0)
+        s = system.numbering.arcs["on wire"]
+        assert r[s] == 0.0
+        assert np.array_equal(A[s], np.eye(system.n)[s])
+        now = forces(system, q) - forces(system, unheld)
+        others = np.setdiff1d(np.arange(system.n), [*lam, s])
+        if mode == FREE:
+            assert not np.any(now[others])
+            assert A[np.ix_(lam, lam)] == pytest.approx(A[lam[0], lam[0]] * np.eye(3))
+            assert A[lam[0], lam[0]] != 0.0  # the multipliers stay zero
+        else:
+            assert np.array_equal(now[others], before[others])
+
+    def test_open_contact_has_no_force(self):
+        system = bare(mechanism(unilateral=(0, 0, 1)))
+        q, _, _ = moving(system)
+        closed = matrix(system, q, stiffness=1.0)
+        _, sliding = joints_of(system)
+        sliding.open[0] = 1
+        lam, tip = system.joints["on wire"][:3], system.slots["tip"][0, 0] + np.arange(3)
+        opened = matrix(system, q, stiffness=1.0)
+        assert closed[lam][:, tip] == pytest.approx(np.eye(3))
+        assert opened[lam][:, tip] == pytest.approx(np.diag([1.0, 1.0, 0.0]))
+
+    def test_friction(self):
+        """c |t|^2 s' + mu N |t| tanh(|t| s'/v0) with the force N across the line."""
+        mu, v0, c = 0.3, 0.7, 0.25
+        plain = mechanism(viscous=0.0)
+        rough = mechanism(viscous=c, friction=mu, friction_velocity=v0)
+        q, v, _ = moving(rough)
+        s = rough.numbering.arcs["on wire"]
+        t = rough.probe(rough.model.bodies["wire"].at(float(q[s]))).field(q, 1)
+        lam, size = q[rough.joints["on wire"][:3]], np.linalg.norm(t)
+        normal = np.linalg.norm(lam - (lam @ t) * t / size**2)
+        wanted = c * size**2 * v[s] + mu * normal * size * np.tanh(size * v[s] / v0)
+        difference = forces(rough, q, v) - forces(plain, q, v)
+        assert difference[s] == pytest.approx(wanted, rel=1e-12)
+        assert not np.any(np.delete(difference, s))
+        C = matrix(rough, q, damping=1.0)[s, s]  # at rest
+        slope = derivative(lambda x: forces(rough, q, x)[[s]], np.zeros_like(q))[0, s]
+        assert slope == pytest.approx(C, rel=1e-7)
+
+    @pytest.mark.parametrize(
+        ("element", "place"), [("cable", ()), ("original", (0.02, -0.03)), ("nonlocking", (0.01, 0.04))]
+    )
+    def test_line_is_that_of_the_carrier(self, element, place):
+        """The point of the carrier at s, on every element and beyond the ends, from the results' formulas."""
         model = ancf.Model()
-        kinds = list(product(STRAINS, SHAPES, [False, True]))
-        for k, (strain, shape, damped) in enumerate(kinds):
-            cable(
-                shape, model=model, name=f"c{k}", strain=strain, damped=damped, gauss=(5 - k % 3, 3 + k % 2)
-            )
+        section = ancf.Section.rectangle(0.1, 0.1, E=1e4, rho=100.0)
+        beam = model.add_beam(
+            "beam", start=(0, 0, 0), end=(2, 0, 0), nodes=(0, 0.5, 1.4, 2.0), section=section, element=element
+        )
+        given = {"offset": place} if place else {}
+        mass = model.add_point_mass("mass", at=beam.at(0.7, *place).initial_position, mass=1.0)
+        joint = model.slide(mass, along=beam, s=0.7, **given)
         system = System(model)
-        q, v, a = shaken(system), random_rate(system), random_rate(system, 5)
-        whole, tangent = forces(system, q, v, a), matrix(system, q, 1.0, 1.0, 1.0)
-        for k, (strain, shape, damped) in enumerate(kinds):
-            alone = System(
-                cable(shape, name=f"c{k}", strain=strain, damped=damped, gauss=(5 - k % 3, 3 + k % 2))[0]
-            )
-            here, there = (s.slots[f"c{k}"].ravel()[:, None] + np.arange(3) for s in (system, alone))
-            x, dx, ddx = (np.zeros(alone.size) for _ in range(3))
-            for one, many in ((x, q), (dx, v), (ddx, a)):
-                one[there] = many[here]
-            assert_close(forces(alone, x, dx, ddx)[there], whole[here], BY_ROUND_OFF)
-            mine, theirs = here.ravel(), there.ravel()
-            block = matrix(alone, x, 1.0, 1.0, 1.0)[np.ix_(theirs, theirs)]
-            assert_close(tangent[np.ix_(mine, mine)], block, BY_ROUND_OFF)
+        q = shaken(system)
+        arc, lam = system.numbering.arcs[joint.name], system.joints[joint.name][:3]
+        for s in (0.0, 0.2, 0.5, 0.9, 1.4, 1.7, 2.0):
+            q[arc] = s
+            gap = forces(system, q)[lam]
+            state = ancf.State(system, 0.0, q, np.zeros_like(q))
+            assert gap == pytest.approx(state.position(mass) - state.position(beam.at(s, *place)), abs=1e-13)
+
+
+class TestInertia:
+    """Point masses and rigid bodies."""
+
+    def test_kinetic_energy_of_rigid_motions(self):
+        inertia = np.array([[0.5, 0.1, -0.05], [0.1, 0.6, 0.02], [-0.05, 0.02, 0.7]])
+        model, R = ancf.Model(), rotation((1, -2, 0.5), 0.8)
+        body = model.add_rigid_body("body", at=(1, 2, 3), mass=2.0, inertia=inertia, axes=R)
+        mass = model.add_point_mass("mass", at=(0, 1, 0), mass=0.7)
+        w, u, p = np.array([0.3, -1.2, 2.0]), np.array([0.5, 0.1, -0.4]), np.array([1.0, 0, 2.0])
+        body.set_motion(velocity=u, angular_velocity=w, about=(0, 0, 0))
+        mass.set_motion(velocity=p)
+        system = System(model)
+        q, v = system.initial_state()
+        M = matrix(system, q, mass=1.0)
+        centre = u + np.cross(w, (1, 2, 3))
+        wanted = centre @ centre + 0.5 * w @ R @ inertia @ R.T @ w + 0.35 * p @ p
+        assert 0.5 * v[: system.n] @ M @ v[: system.n] == pytest.approx(wanted, rel=1e-13)
+
+    def test_inertia_is_mass_times_acceleration(self):
+        system = bare(mechanism())
+        q, _, a = moving(system)
+        M = matrix(system, q, mass=1.0)
+        r = np.empty_like(q)
+        inertia(system.core.batches, system.core.ws, a, r)
+        assert_close(r, M @ a, BY_ROUND_OFF)
+        assert_close(forces(system, q, a=a) - forces(system, q), M @ a, 1e-11)
+        assert not np.any(M[system.multipliers])
+        s = system.numbering.arcs["on wire"]
+        assert M[s, s] == pytest.approx(0.2)

@@ -9,12 +9,20 @@ import pytest
 
 import ancf
 from ancf.linalg.block_ldl import allocate
-from ancf.linalg.ordering import fill_pattern, order
-from ancf.solvers.modal import to_sparse
-from ancf.system.core import apply_supports, assemble, factorise_matrix, restrict, solve_matrix
+from ancf.linalg.ordering import behind, fill_pattern, order
+from ancf.linalg.sparse import to_sparse
+from ancf.system.core import (
+    apply_supports,
+    assemble,
+    factorise_matrix,
+    factorise_tail,
+    restrict,
+    solve_matrix,
+)
 from ancf.system.matrix import Places
 from ancf.system.system import System
 from helpers import SOFT, cable, matrix, shaken
+from mechanisms import LEVELS, at_level, mechanism, moving
 
 RNG = np.random.default_rng(7)
 
@@ -144,6 +152,48 @@ class TestFactorisation:
         A = definite(pairs, n)
         A[20, 20] = np.nan
         assert factorised(A, pairs, n)[1] < 0
+
+
+class TestRenewedRows:
+    """When the last rows alone have changed, the rows before keep their factors."""
+
+    @pytest.mark.parametrize("first", [0, 1, 5, -1])
+    def test_equals_a_whole_factorisation(self, pattern, first):
+        pairs, n = pattern
+        first %= n
+        A = definite(pairs, n)
+        factor, _ = factorised(A, pairs, n)
+        changed = A.copy()
+        change = random_symmetric(pairs, n, seed=3)
+        rows = np.arange(6 * n) >= 6 * first
+        changed[np.ix_(rows, np.ones(6 * n, bool))] += change[rows]
+        changed[np.ix_(~rows, rows)] = changed[np.ix_(rows, ~rows)].T
+        places = Places(*fill_pattern(pairs, n))
+        negative = int(factorise_tail(values(changed, places), factor, first))
+        whole, expected = factorised(changed, pairs, n)
+        assert negative == expected  # all rows before are positive definite
+        for one, two in zip(factor[2:4], whole[2:4], strict=True):
+            assert np.array_equal(one, two)
+        b = RNG.standard_normal(6 * n)
+        x = b.copy()
+        solve_matrix(factor, x)
+        growth = max(np.max(np.abs(factor.L)), 1.0) ** 2
+        assert backward_error(changed, x, b) < 1e-13 * growth
+
+    def test_rows_before_are_not_read(self):
+        pairs, n = PATTERNS["wires"]
+        A = definite(pairs, n)
+        factor, _ = factorised(A, pairs, n)
+        places = Places(*fill_pattern(pairs, n))
+        spoiled = values(A, places)
+        spoiled[: 36 * 9] = np.nan
+        below = 36 * (n + int(places.row_start[9]))
+        spoiled[36 * n : below] = np.nan
+        assert factorise_tail(spoiled, factor, 9) == 0
+        b = RNG.standard_normal(6 * n)
+        x = b.copy()
+        solve_matrix(factor, x)
+        assert backward_error(A, x, b) < 1e-14
 
 
 @pytest.fixture(scope="module")
@@ -318,3 +368,82 @@ class TestSystems:
         slot = supports.rot_slot[0]
         assert r[slot] == pytest.approx(beam.node_tangent[0] @ physical)
         assert not np.any(r[supports.held])
+
+
+class TestBehind:
+    """Blocks of multipliers come behind what they are coupled with."""
+
+    @pytest.mark.parametrize("seed", range(5))
+    def test_order(self, seed):
+        rng = np.random.default_rng(seed)
+        n, bodies = 20, 14
+        later, last = [14, 15, 16, 17], [18, 19]
+        inner = rng.integers(0, bodies, (25, 2))
+        joints = np.array([(block, k) for block in later for k in rng.choice(bodies, 3, replace=False)])
+        pairs = np.concatenate([inner, joints])
+        place = behind(rng.permutation(n), pairs, np.array(later), last)
+        assert sorted(place.tolist()) == list(range(n))
+        for block in later:
+            met = np.unique(joints[joints[:, 0] == block, 1])
+            assert place[block] > place[met].max()
+        assert place[last].tolist() == [18, 19]
+
+    def test_others_keep_their_order(self):
+        rank = np.random.default_rng(2).permutation(12)
+        place = behind(rank, np.array([(11, 3), (11, 7)]), np.array([11]), [])
+        others = np.arange(11)
+        assert np.array_equal(np.argsort(place[others]), np.argsort(rank[others]))
+        first_after = np.max(place[[3, 7]])
+        assert place[11] == first_after + 1
+
+
+@pytest.fixture(scope="module")
+def jointed():
+    """Every kind of joint, with local axes at a support."""
+    return mechanism(stretch="free")
+
+
+class TestJoints:
+    """Matrices with multipliers, which have zeros on the diagonal: no pivoting, bodies first."""
+
+    def assembled(self, system, level, mass):
+        at_level(system, level)
+        core = system.core
+        q, v, _ = moving(system)
+        weights = {"position": (mass, 0.0, 1.0), "velocity": (mass, 1.0, 0.0), "acceleration": (1.0, 0, 0)}
+        assemble(core.batches, core.ws, q, v, core.A, *weights[level])
+        restrict(core.supports, core.A)
+        return to_sparse(core.A, system.places).toarray()
+
+    @pytest.mark.parametrize("level", LEVELS)
+    @pytest.mark.parametrize("mass", [1e2, 1e6])
+    def test_solve(self, jointed, level, mass):
+        A = self.assembled(jointed, level, mass)
+        core = jointed.core
+        code = int(factorise_matrix(core.A, core.factor))
+        free_rows = np.setdiff1d(jointed.multipliers, core.supports.held)
+        assert code == len(free_rows) == np.sum(np.linalg.eigvalsh(A) < 0)
+        b = RNG.standard_normal(jointed.n)
+        b[core.supports.held] = 0.0
+        x = b.copy()
+        solve_matrix(core.factor, x)
+        for _ in range(2):  # as the iterations of a step refine it
+            rest = b - A @ x
+            solve_matrix(core.factor, rest)
+            x += rest
+        wanted = np.linalg.solve(A, b)
+        scale = np.abs(wanted) + np.abs(wanted).max() * 1e-9
+        assert np.max(np.abs(x - wanted) / scale) < 1e-6
+
+    def test_sliding_rows_come_last(self, jointed):
+        first = jointed.core.joints.first
+        blocks = {int(jointed.joints[name][0]) // 6 for name in ("on wire", "on arm")}
+        assert blocks == {jointed.n // 6 - 2, jointed.n // 6 - 1}
+        assert first == jointed.n // 6 - 2
+
+    def test_multipliers_come_behind_their_bodies(self, jointed):
+        slots = jointed.numbering.slots
+        for name, bodies in (("clamp", ("wire", "hub")), ("hinge", ("hub", "arm")), ("hub", ("hub",))):
+            mine = jointed.joints[name].min() // 6
+            near = [slots[body][-1 if body == "wire" else 0].max() // 6 for body in bodies]
+            assert mine > max(near)

@@ -9,16 +9,17 @@ import pytest
 from scipy.optimize import brentq
 
 import ancf
+from ancf.elements.registry import ELEMENTS
 from ancf.model.beam import STRAINS
 from ancf.system.drive import STENCIL, differences
-from helpers import rate
+from helpers import SOLIDS, rate, square
 
 #: Tolerances of the step errors below: Newton's share stays far under them.
 EXACT = ancf.Newton(tolerance=1e-14, modified=False)
 LENGTH, EA, EI, RHO_A = 1.3, 2e4, 0.5, 0.4
 
 
-def straight(elements, strain="material", gravity=(0, 0, 0), **section):
+def straight(elements, strain=None, gravity=(0, 0, 0), element="cable", **section):
     model = ancf.Model(gravity=gravity)
     given = {"EA": EA, "EI": EI, "rhoA": RHO_A} | section
     beam = model.add_beam(
@@ -26,14 +27,15 @@ def straight(elements, strain="material", gravity=(0, 0, 0), **section):
         start=(0, 0, 0),
         end=(LENGTH, 0, 0),
         elements=elements,
-        section=ancf.Section(**given),
+        section=square(element, **given),
+        element=element,
         strain=strain,
     )
     return model, beam
 
 
 class TestElementLength:
-    """Bending frequencies and the roll-up: order 4."""
+    """Bending frequencies and the roll-up of the cable: order 4."""
 
     @staticmethod
     def beta_l(n):
@@ -41,7 +43,7 @@ class TestElementLength:
         middle = (n - 0.5) * np.pi
         return brentq(lambda b: np.cos(b) + 1 / np.cosh(b), middle - 0.5, middle + 0.5, xtol=1e-14)
 
-    @pytest.mark.parametrize("strain", STRAINS)
+    @pytest.mark.parametrize("strain", STRAINS["cable"])
     @pytest.mark.parametrize("stretch", ["free", "fixed"])
     def test_cantilever_frequencies(self, strain, stretch):
         wanted = np.array([self.beta_l(n) for n in (1, 2, 3)]) ** 2 / LENGTH**2 * np.sqrt(EI / RHO_A)
@@ -54,7 +56,7 @@ class TestElementLength:
         assert np.all(np.array(errors) > 0)  # from above: the elements are stiffer than the beam
         assert np.abs(rate(errors) - 4).max() < 0.2
 
-    @pytest.mark.parametrize("strain", STRAINS)
+    @pytest.mark.parametrize("strain", STRAINS["cable"])
     def test_simply_supported_frequencies(self, strain):
         wanted = (np.arange(1, 4) * np.pi / LENGTH) ** 2 * np.sqrt(EI / RHO_A)
         errors = []
@@ -81,8 +83,61 @@ class TestElementLength:
             assert errors[-1] < 1e-4 * LENGTH
 
 
-#: Soft and coarse: the fastest of its waves, about 200 rad/s, is resolved by all steps.
+#: Of the beams: r_y is linear in the original element, which spoils the cubic r, quadratic in the other.
+ORDER = {"original": 2, "nonlocking": 4}
+
+
+def timoshenko(k, side, nu, factor=1.0):
+    """Bending frequencies of a square simply supported beam, rad/s, with the wave numbers k, 1/m.
+
+    EI k^4 - rhoA (1 + I/A k^2 (1 + E/(k_s G))) omega^2 + rho^2 I/(k_s G) omega^4 = 0
+    """
+    E_kG = 2 * (1 + nu) / factor
+    radius2 = side**2 / 12  # I/A
+    a, b, c = RHO_A * radius2 * RHO_A * E_kG / (EI / radius2), 1 + radius2 * k**2 * (1 + E_kG), EI * k**4
+    b = b * RHO_A
+    return np.sqrt((b - np.sqrt(b**2 - 4 * a * c)) / (2 * a))
+
+
+@pytest.mark.parametrize("element", SOLIDS)
+class TestElementLengthOfBeams:
+    """Thick enough that the meshes resolve shear: then the original element does not lock."""
+
+    @staticmethod
+    def cantilever(element, elements, thick=0.4):
+        """Bent far by a force and a load; only its section is held, so that it shears at the wall too."""
+        model, beam = straight(elements, element=element, EA=12 * EI / thick**2)
+        model.hold(beam.start, position="xyz", slope_y="xyz", slope_z="xyz")
+        model.add_force(beam.end, (0, 0.2, 0.4))
+        model.add_distributed_load(beam, (0, 0.1, -0.3))
+        return ancf.equilibrium(model).position(beam.end)
+
+    def test_large_deflection(self, element):
+        wanted = self.cantilever("nonlocking", 96)
+        errors = [np.linalg.norm(self.cantilever(element, n) - wanted) for n in (6, 12, 24)]
+        assert np.linalg.norm(wanted - (LENGTH, 0, 0)) > 0.3
+        assert errors[-1] > 1e-8  # far above what the finest mesh leaves
+        assert rate(errors)[-1] == pytest.approx(ORDER[element], abs=0.25)
+
+    def test_timoshenko_frequencies(self, element):
+        """Simply supported; each frequency stands for the two planes."""
+        side, nu = 0.15, 0.3
+        wanted = timoshenko(np.arange(1, 4) * np.pi / LENGTH, side, nu)
+        errors = []
+        for elements in (8, 16):
+            model, beam = straight(elements, element=element, EA=12 * EI / side**2, nu=nu)
+            model.pin(beam.start)
+            model.hold(beam.start, twist=True)
+            model.hold(beam.end, position="yz")
+            found = ancf.modes(model, count=14).frequencies
+            errors.append([np.min(np.abs(found - w)) / w for w in wanted])
+        assert np.abs(rate(errors)[-1] - ORDER[element]).max() < 0.1
+
+
+#: Soft and coarse: the fastest of its waves, about 200 rad/s, is resolved by all steps; the waves across
+#: the section of a beam are three times as fast.
 SLOW = {"EA": 30.0, "EI": 0.02}
+FIRST_STEP = {"cable": 1e-3, "original": 5e-4, "nonlocking": 5e-4}
 
 
 def step_rates(build, integrator, steps=(1e-3, 5e-4, 2.5e-4, 1.25e-4), t_end=0.24):
@@ -105,28 +160,30 @@ METHODS = {
 }
 
 
+@pytest.mark.parametrize("element", ELEMENTS)
 @pytest.mark.parametrize("stretch", ["free", "fixed"])
 @pytest.mark.parametrize("method", METHODS)
 class TestStep:
     """Order 2, with axial waves slow enough to be resolved by the steps."""
 
-    def test_falling_cantilever(self, method, stretch):
+    def test_falling_cantilever(self, method, stretch, element):
         def build():
-            model, beam = straight(3, "paper", (0, 0, -4.0), **SLOW, damping=0.3)
+            strain = "paper" if element == "cable" else None
+            model, beam = straight(3, strain, (0, 0, -4.0), element, **SLOW, damping=0.3)
             model.clamp(beam.start, stretch=stretch)
             return model, beam
 
-        rates = step_rates(build, METHODS[method])
+        rates = step_rates(build, METHODS[method], FIRST_STEP[element] / 2 ** np.arange(4))
         assert rates == pytest.approx([2, 2], abs=0.1)
 
-    def test_driven_clamp(self, method, stretch):
+    def test_driven_clamp(self, method, stretch, element):
         def build():
-            model, beam = straight(3, "material", **SLOW)
+            model, beam = straight(3, element=element, **SLOW)
             turn = {"rotation": "0.5*(1 - cos(8*t))", "axis": (0, 1, 0.2)}
             model.clamp(beam.start, stretch=stretch, displacement=["0", "0.1*sin(7*t)**3", "0"], **turn)
             return model, beam
 
-        rates = step_rates(build, METHODS[method])
+        rates = step_rates(build, METHODS[method], FIRST_STEP[element] / 2 ** np.arange(4))
         assert rates == pytest.approx([2, 2], abs=0.1)
 
 
@@ -233,26 +290,30 @@ class TestRatesOfGivenMotions:
         assert tips[0] == pytest.approx(tips[1], abs=1e-8)
 
 
+@pytest.mark.parametrize("element", ELEMENTS)
 class TestNewtonVariants:
     """However the equations are solved, the solution is the same, to Newton's tolerance per step."""
 
     @staticmethod
-    def run(newton, contraction=0.5):
-        model, beam = straight(6, "paper", (0, 0, -9.81), EA=5e3, EI=0.05, damping=0.2)
+    def run(element, newton):
+        EA = 5e3 if element == "cable" else 60.0  # thick: the step resolves the waves across the section
+        model, beam = straight(6, None, (0, 0, -9.81), element, EA=EA, EI=0.05, damping=0.2)
         model.pin(beam.start)
         model.add_spring(beam.end, (LENGTH, 0.2, 0.3), stiffness=40.0, length=0.2, slack=True)
         beam.set_motion(angular_velocity=(0, 0, 5.0))
         result = ancf.simulate(model, t_end=0.3, step=5e-4, integrator=ancf.Trapezoidal(newton=newton))
         return result.position(beam.end), result.stats
 
-    def test_agree(self):
-        wanted, full = self.run(EXACT)
+    def test_agree(self, element):
+        wanted, full = self.run(element, EXACT)
         for corotate in (True, False):
-            got, stats = self.run(ancf.Newton(corotate=corotate))
+            got, stats = self.run(element, ancf.Newton(corotate=corotate))
             assert got == pytest.approx(wanted, abs=2e-7)
             assert stats.jacobians < 0.2 * full.jacobians
 
-    def test_tighter_tolerance_comes_closer(self):
-        wanted, _ = self.run(EXACT)
-        gaps = [np.abs(self.run(ancf.Newton(tolerance=t))[0] - wanted).max() for t in (1e-6, 1e-9, 1e-12)]
+    def test_tighter_tolerance_comes_closer(self, element):
+        wanted, _ = self.run(element, EXACT)
+        gaps = [
+            np.abs(self.run(element, ancf.Newton(tolerance=t))[0] - wanted).max() for t in (1e-6, 1e-9, 1e-12)
+        ]
         assert gaps[0] > 20 * gaps[1] > 400 * gaps[2]

@@ -12,17 +12,21 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.elements.registry import ELEMENTS
 from ancf.results.store import FileStore
-from helpers import arc
+from helpers import SOLIDS, arc, square
 
 
-def model_of_two():
-    """Two different cables, joined, damped, loaded and driven: everything that a file must keep."""
+def model_of_two(element="cable"):
+    """Two different bodies, joined, damped, loaded and driven: everything that a file must keep."""
     model = ancf.Model(gravity=(0, 0, -9.81), title="two cables")
-    damped = ancf.Section(EA=2e3, EI=0.1, rhoA=0.4, damping=0.1, axial_damping=0.3, bending_damping=0.01)
-    one = model.add_beam("one", path=arc, elements=4, section=damped, strain="paper", gauss=(4, 3))
+    damping = {"damping": 0.1, "axial_damping": 0.3, "bending_damping": 0.01}
+    damped = square(element, EA=2e3, EI=0.1, rhoA=0.4, **damping)
+    given = {"poisson": "full"} if element in SOLIDS else {"strain": "paper"}
+    one = model.add_beam("one", path=arc, elements=4, section=damped, element=element, gauss=(4, 3), **given)
     plain = ancf.Section.circle(diameter=0.01, E=1e7, rho=3000.0)
-    two = model.add_beam("two", start=arc(1.0), end=(3, 0, 0), elements=3, section=plain, length=2.2)
+    more = {"elements": 3, "length": 2.2, "element": element, "y_axis": (0, 0.3, 1)}
+    two = model.add_beam("two", start=arc(1.0), end=(3, 0, 0), section=plain, **more)
     model.clamp(one.start, rotation="0.2*sin(3*t)", axis=(0, 1, 0))
     model.connect(one.end, two.start)
     model.pin(two.end)
@@ -31,26 +35,36 @@ def model_of_two():
     return model
 
 
-@pytest.fixture(scope="module")
-def run(tmp_path_factory):
+@pytest.fixture(scope="module", params=ELEMENTS)
+def run(request, tmp_path_factory):
     """The same run in memory and in a file."""
     given = {"t_end": 0.1, "step": 1e-3, "output_step": 2e-3}
     path = tmp_path_factory.mktemp("run") / "run.h5"
     with pytest.warns(UserWarning, match="the support wins"):
-        memory = ancf.simulate(model_of_two(), **given)
+        memory = ancf.simulate(model_of_two(request.param), **given)
     with pytest.warns(UserWarning, match="the support wins"):
-        file = ancf.simulate(model_of_two(), file=path, **given)
+        file = ancf.simulate(model_of_two(request.param), file=path, **given)
     return memory, file, path
 
 
 FIELDS = ("position", "velocity", "slope", "strain", "tension", "curvature", "bending_moment")
 POINTS = ("one.start", "one.at(0.5)", "one.end", "two.start", "two.at(1.1)", "two.end")
+#: What beams with a cross-section have beyond that.
+OF_SECTIONS = ("section_moment", "torque", "twist", "section_rotation", "strain_tensor", "stress_tensor")
+IN_SECTIONS = ("one.at(0.5, 0.01, -0.012)", "two.at(1.1, 0.003, 0.002)")
+
+
+def asked(result):
+    """Fields and points that the bodies of a result have."""
+    solid = result.bodies["one"].element in SOLIDS
+    return (*FIELDS, *OF_SECTIONS * solid), (*POINTS, *IN_SECTIONS * solid)
 
 
 def assert_same(a, b):
     assert np.array_equal(a.t, b.t)
-    for field in FIELDS:
-        for point in POINTS:
+    fields, points = asked(a)
+    for field in fields:
+        for point in points:
             assert np.array_equal(getattr(a, field)(point), getattr(b, field)(point)), (field, point)
     for part in ("kinetic", "strain", "potential", "dissipated", "supplied", "total", "balance"):
         assert getattr(a.energy, part) == pytest.approx(getattr(b.energy, part), rel=1e-14), part
@@ -119,7 +133,7 @@ class TestStates:
             for index in (0, 17, -1):
                 state = result.state(index)
                 assert state.t == result.t[index]
-                for field in FIELDS:
+                for field in asked(result)[0]:
                     got, wanted = (
                         getattr(state, field)("one.at(0.7)"),
                         getattr(result, field)("one.at(0.7)")[index],

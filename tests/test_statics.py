@@ -5,11 +5,14 @@ import pytest
 from scipy.optimize import brentq
 
 import ancf
+from ancf.elements.registry import ELEMENTS
 from ancf.model.beam import STRAINS
 from ancf.system.core import apply_load, apply_supports, residual
 from helpers import cable as free_cable
+from helpers import square
 
 GRAVITY = 9.81
+FINE = {"original": 160}  # elements that keep r_y, linear in each of them, from locking
 
 
 def out_of_balance(state):
@@ -45,7 +48,7 @@ def lowest_of_catenary(span, length):
 
 
 class TestSlackCables:
-    @pytest.mark.parametrize("strain", STRAINS)
+    @pytest.mark.parametrize("strain", STRAINS["cable"])
     @pytest.mark.parametrize("drop", [0.0, 2.5])
     @pytest.mark.parametrize("EI", [0.0, 1e-3, 0.05])
     @pytest.mark.parametrize("ratio", [1.0002, 1.005, 1.05, 1.5, 3.0])
@@ -101,18 +104,19 @@ class TestParts:
     """equilibrium(of=...) moves some bodies and leaves the others in their initial shape."""
 
     @staticmethod
-    def pair():
-        model, low = free_cable("straight", elements=3, name="low")
+    def pair(element="cable"):
+        model, low = free_cable("straight", elements=3, name="low", element=element)
         model.gravity[:] = 0, 0, -GRAVITY
-        section = low.section
-        high = model.add_beam("high", start=(0.1, 0.2, 1), end=(1.5, 0.2, 1), elements=4, section=section)
+        given = {"elements": 4, "section": low.section, "element": element}
+        high = model.add_beam("high", start=(0.1, 0.2, 1), end=(1.5, 0.2, 1), **given)
         for beam in (low, high):
             model.pin(beam.start)
             model.pin(beam.end)
         return model, low, high
 
-    def test_moves_only_what_is_asked(self):
-        model, low, high = self.pair()
+    @pytest.mark.parametrize("element", ELEMENTS)
+    def test_moves_only_what_is_asked(self, element):
+        model, low, high = self.pair(element)
         state = ancf.equilibrium(model, of=[high])
         alone = ancf.equilibrium(model)
         assert state.position(low.at(0.4)) == pytest.approx(low.initial_position(0.4), abs=1e-14)
@@ -151,8 +155,9 @@ class TestParts:
 
 class TestSettings:
     @pytest.mark.parametrize("load_steps", [1, 3, 10])
-    def test_load_steps_do_not_change_the_result(self, load_steps):
-        model, beam = free_cable("curved", elements=5)
+    @pytest.mark.parametrize("element", ELEMENTS)
+    def test_load_steps_do_not_change_the_result(self, load_steps, element):
+        model, beam = free_cable("curved", element=element, elements=5)
         model.gravity[:] = 0, 0, -GRAVITY
         model.clamp(beam.start)
         model.add_force(beam.end, (1.0, 2.0, 0.5))
@@ -166,17 +171,19 @@ class TestSettings:
         with pytest.raises(ancf.ModelError, match=r"equilibrium.load_steps: must be"):
             ancf.equilibrium(model, load_steps=load_steps)
 
-    def test_time_of_the_loads(self):
-        model, beam = free_cable(elements=4)
+    @pytest.mark.parametrize("element", ELEMENTS)
+    def test_time_of_the_loads(self, element):
+        model, beam = free_cable(element=element, elements=4)
         model.clamp(beam.start)
         model.add_force(beam.end, lambda t: (0, 0, 0.3 * t))
         at_rest, loaded = (ancf.equilibrium(model, time=t).position(beam.end) for t in (0.0, 2.0))
         assert at_rest == pytest.approx((0.9, 0.6, 0.5), abs=1e-12)
         assert loaded[2] > 0.52
 
-    def test_state_knows_its_initial_motion(self):
+    @pytest.mark.parametrize("element", ELEMENTS)
+    def test_state_knows_its_initial_motion(self, element):
         """Velocities of set_motion at the deformed shape."""
-        model, beam = free_cable(elements=4)
+        model, beam = free_cable(element=element, elements=4)
         model.gravity[:] = 0, 0, -GRAVITY
         model.pin(beam.start)
         beam.set_motion(angular_velocity=(0, 0, 2.0))
@@ -214,15 +221,17 @@ class TestSupports:
         assert caught.value.where == "supports"
         return caught.value.what
 
-    def test_free_body(self):
-        model, _ = free_cable()
+    @pytest.mark.parametrize("element", ELEMENTS)
+    def test_free_body(self, element):
+        model, _ = free_cable(element=element)
         model.gravity[:] = 0, 0, -1.0
         assert (
             self.float_message(model) == 'nothing holds "beam" in x, y, z: it floats and has no equilibrium'
         )
 
-    def test_free_in_one_direction(self):
-        model, beam = free_cable()
+    @pytest.mark.parametrize("element", ELEMENTS)
+    def test_free_in_one_direction(self, element):
+        model, beam = free_cable(element=element)
         model.hold(beam.start, position="xz")
         assert 'nothing holds "beam" in y:' in self.float_message(model)
 
@@ -253,23 +262,34 @@ class TestSupports:
 
 
 class TestStability:
-    def test_leaves_an_unstable_start(self):
+    @pytest.mark.parametrize("element", ELEMENTS)
+    def test_leaves_an_unstable_start(self, element):
         """A cable that stands upright on its pin falls over and hangs."""
         model = ancf.Model(gravity=(0, 0, -GRAVITY))
-        section = ancf.Section(EA=1e4, EI=0.5, rhoA=0.3)
-        beam = model.add_beam("beam", start=(0, 0, 0), end=(0, 0, 1), elements=6, section=section)
+        section = square(element, EA=1e4, EI=0.5, rhoA=0.3)
+        beam = model.add_beam(
+            "beam", start=(0, 0, 0), end=(0, 0, 1), elements=6, section=section, element=element
+        )
         model.pin(beam.start)
         state = ancf.equilibrium(model)
         assert state.position(beam.end) == pytest.approx((0, 0, -1.0), abs=1e-3)
         assert out_of_balance(state) < 1e-7
 
     @pytest.mark.parametrize("share", [0.9, 1.5])
-    def test_euler_column(self, share):
+    @pytest.mark.parametrize("element", ELEMENTS)
+    def test_euler_column(self, share, element):
         """Below P = pi^2 EI/(4 L^2) a column stands, above it buckles to the elastica."""
         EI, L = 0.5, 1.0
         model = ancf.Model()
-        section = ancf.Section(EA=1e6, EI=EI, rhoA=0.3)
-        beam = model.add_beam("beam", start=(0, 0, 0), end=(0, 0, L), elements=20, section=section)
+        section = square(element, EA=1e6, EI=EI, rhoA=0.3)
+        beam = model.add_beam(
+            "beam",
+            start=(0, 0, 0),
+            end=(0, 0, L),
+            elements=FINE.get(element, 20),
+            section=section,
+            element=element,
+        )
         model.clamp(beam.start)
         model.add_force(beam.end, (0, 0, -share * np.pi**2 * EI / (4 * L**2)))
         tip = ancf.equilibrium(model).position(beam.end)
@@ -277,10 +297,13 @@ class TestStability:
         # P/P_cr = 1.5: 4 K(k)^2/pi^2 with K(k) = 1.9237, k = 0.7887, tip aside by 2 k/sqrt(P/EI) L
         k = brentq(lambda k: (_elliptic(k) * 2 / np.pi) ** 2 - 1.5, 0.1, 0.99)
         wanted = 2 * k / np.sqrt(1.5 * np.pi**2 / 4) if share > 1 else 0.0
-        assert side == pytest.approx(wanted, abs=1e-4)
+        # P/P_cr of 1.5 is that of a beam without shear; a beam 400 times longer than thick is near it
+        assert side == pytest.approx(wanted, abs=1e-4 if element == "cable" else 1e-3)
 
-    def test_equilibrium_stays_when_time_runs(self):
-        model, beam = free_cable("curved", elements=5)
+    @pytest.mark.parametrize("element", ELEMENTS)
+    def test_equilibrium_stays_when_time_runs(self, element):
+        section = square(element, EA=1e3, EI=2.0, rhoA=0.7)
+        model, beam = free_cable("curved", element=element, elements=5, section=section)
         model.gravity[:] = 0, 0, -GRAVITY
         model.clamp(beam.start)
         model.add_moment(beam.end, (0.2, 0.1, 0.3))
@@ -289,9 +312,10 @@ class TestStability:
         moved = np.linalg.norm(result.position(beam.end) - state.position(beam.end), axis=1)
         assert np.max(moved) < 1e-8
 
-    def test_neutral_equilibrium(self):
+    @pytest.mark.parametrize("element", ELEMENTS)
+    def test_neutral_equilibrium(self, element):
         """Nothing holds the direction of a pinned cable without weight: it stays where it is."""
-        model, beam = free_cable("straight")
+        model, beam = free_cable("straight", element=element)
         model.pin(beam.start)
         assert ancf.equilibrium(model).position(beam.end) == pytest.approx((0.9, 0.6, 0.5), abs=1e-9)
 
@@ -299,9 +323,12 @@ class TestStability:
 class TestMoments:
     """A moment has no potential: it does work on rotations, wherever they take the slope."""
 
-    def test_balances_reaction(self):
+    @pytest.mark.parametrize("element", ELEMENTS)
+    def test_balances_reaction(self, element):
         """The bending moment is the one applied, all along, whatever the shape."""
-        model, beam = free_cable("straight", elements=16)
+        section = square(element, EA=1e3, EI=2.0, rhoA=0.7)
+        elements = FINE.get(element, 16)
+        model, beam = free_cable("straight", element=element, elements=elements, section=section)
         model.clamp(beam.start)
         t = beam.node_tangent[0]
         M = 1.7 * np.cross(t, (0, 0, 1.0)) / np.linalg.norm(np.cross(t, (0, 0, 1.0)))
@@ -310,17 +337,26 @@ class TestMoments:
         for x in (0.2, 0.5, 0.9):
             assert state.bending_moment(beam.at(x)) == pytest.approx(1.7, rel=1e-3)
 
-    def test_with_weight(self):
+    @pytest.mark.parametrize("element", ELEMENTS)
+    def test_with_weight(self, element):
         """Moment at the clamp: the applied one less the weight's."""
         model = ancf.Model(gravity=(0, 0, -GRAVITY))
-        section = ancf.Section(EA=1e5, EI=5.0, rhoA=0.2)
-        beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=16, section=section)
+        section = square(element, EA=1e5, EI=5.0, rhoA=0.2)
+        beam = model.add_beam(
+            "beam",
+            start=(0, 0, 0),
+            end=(1, 0, 0),
+            elements=FINE.get(element, 16),
+            section=section,
+            element=element,
+        )
         model.clamp(beam.start)
         model.add_moment(beam.end, (0, -3.0, 0))
         state = ancf.equilibrium(model)
         x = np.linspace(0, 1, 401)
         arm = np.trapezoid([state.position(beam.at(s))[0] for s in x], x)
-        assert state.bending_moment(beam.start) == pytest.approx(3.0 - 0.2 * GRAVITY * arm, rel=2e-3)
+        bar = 5e-3 if element == "original" else 2e-3  # its moment is constant in an element
+        assert state.bending_moment(beam.start) == pytest.approx(3.0 - 0.2 * GRAVITY * arm, rel=bar)
 
 
 def _elliptic(k):

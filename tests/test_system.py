@@ -6,32 +6,34 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.elements.registry import ELEMENTS
 from ancf.model.beam import STRAINS
 from ancf.system.system import System
-from helpers import SHAPES, SOFT, arc, cable, random_rate, shaken
+from helpers import SHAPES, SOFT, SOLIDS, arc, cable, random_rate, shaken
 
 
-def joined():
-    """Two cables that share a node, and a third one hung on them by a spring."""
-    model, one = cable("curved", elements=3, name="one")
-    section = one.section
-    two = model.add_beam("two", start=arc(1.0), end=(3, 1, 0), elements=4, section=section)
-    three = model.add_beam("three", start=(0, 0, -2), end=(2, 0, -2), elements=2, section=section)
+def joined(element="cable"):
+    """Two bodies that share a node, and a third one hung on them by a spring."""
+    model, one = cable("curved", elements=3, name="one", element=element)
+    given = {"section": one.section, "element": element}
+    two = model.add_beam("two", start=arc(1.0), end=(3, 1, 0), elements=4, **given)
+    three = model.add_beam("three", start=(0, 0, -2), end=(2, 0, -2), elements=2, **given)
     model.connect(one.end, two.start)
     model.add_spring(two.at(0.7), three.at(1.3), stiffness=5.0)
     return model, one, two, three
 
 
+@pytest.mark.parametrize("element", ELEMENTS)
 class TestNumbering:
-    def test_every_unknown_belongs_to_one_node(self):
-        system = System(joined()[0])
+    def test_every_unknown_belongs_to_one_node(self, element):
+        system = System(joined(element)[0])
         slots = np.concatenate([s.ravel() for s in system.numbering.slots.values()])
         assert len(np.unique(slots)) == len(slots) - 1  # one shared position
         assert slots.max() < system.n
         assert np.all(slots % 3 == 0)
 
-    def test_joint_shares_the_position_not_the_slope(self):
-        model, one, two, _ = joined()
+    def test_joint_shares_the_position_not_the_slope(self, element):
+        model, one, two, _ = joined(element)
         system = System(model)
         assert system.slots["one"][-1, 0] == system.slots["two"][0, 0]
         assert system.slots["one"][-1, 1] != system.slots["two"][0, 1]
@@ -44,18 +46,21 @@ class TestNumbering:
         turned = result.slope(one.end) - result.slope(two.start)
         assert np.ptp(turned, axis=0).max() > 1e-3
 
-    def test_names_of_unknowns(self):
-        model, _ = cable("straight", elements=3)
+    def test_names_of_unknowns(self, element):
+        model, _ = cable("straight", elements=3, element=element)
         system = System(model)
-        slot = system.numbering.slots["beam"][2]
-        assert system.numbering.describe(int(slot[0]) + 1) == "beam node 2 position y"
-        assert system.numbering.describe(int(slot[1]) + 2) == "beam node 2 slope r_x z"
+        names = ("position", "slope r_x", "slope r_y", "slope r_z", "internal r_yx", "internal r_zx")
+        kind = ELEMENTS[element]
+        assert system.numbering.slots["beam"].shape == (4, kind.vectors + kind.internal)
+        for slot, name in zip(system.numbering.slots["beam"][2], names, strict=False):
+            for c, component in enumerate("xyz"):
+                assert system.numbering.describe(int(slot) + c) == f"beam node 2 {name} {component}"
 
-    def test_numbering_does_not_change_results(self):
+    def test_numbering_does_not_change_results(self, element):
         """A spring at another place gives another order of elimination."""
         tips = []
         for extra in (False, True):
-            model, one, _, three = joined()
+            model, one, _, three = joined(element)
             model.gravity[:] = 0, 0, -9.81
             model.clamp(one.start)
             model.pin(three.start)
@@ -66,9 +71,10 @@ class TestNumbering:
 
 
 @pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("element", ELEMENTS)
 class TestPoints:
-    def test_initial_shape(self, shape):
-        model, beam = cable(shape, elements=5)
+    def test_initial_shape(self, shape, element):
+        model, beam = cable(shape, element=element, elements=5)
         state = ancf.simulate(model, t_end=1e-4, step=1e-4).state(0)
         for x in np.linspace(0, beam.length, 13):
             assert state.position(beam.at(x)) == pytest.approx(beam.initial_position(x), abs=1e-13)
@@ -76,9 +82,9 @@ class TestPoints:
             assert slope / np.linalg.norm(slope) == pytest.approx(beam.initial_tangent(x), abs=1e-13)
         assert np.linalg.norm(state.slope(beam.start)) == pytest.approx(beam.stretch, rel=1e-13)
 
-    def test_fields_are_smooth_between_elements(self, shape):
+    def test_fields_are_smooth_between_elements(self, shape, element):
         """Position and slope are continuous at nodes."""
-        system = System(cable(shape, elements=4)[0])
+        system = System(cable(shape, element=element, elements=4)[0])
         beam = system.model.bodies["beam"]
         state = ancf.State(system, 0.0, shaken(system), random_rate(system))
         for x in beam.node_x[1:-1]:
@@ -86,8 +92,8 @@ class TestPoints:
                 before, after = (field(beam.at(x + d)) for d in (-1e-9, 1e-9))
                 assert before == pytest.approx(after, abs=1e-7)
 
-    def test_points_by_name_and_object(self, shape):
-        model, beam = cable(shape)
+    def test_points_by_name_and_object(self, shape, element):
+        model, beam = cable(shape, element=element)
         state = ancf.simulate(model, t_end=1e-4, step=1e-4).state(0)
         for point, name in (
             (beam.start, "beam.start"),
@@ -98,7 +104,7 @@ class TestPoints:
 
 
 class TestFields:
-    @pytest.mark.parametrize("strain", STRAINS)
+    @pytest.mark.parametrize("strain", STRAINS["cable"])
     def test_uniform_stretch(self, strain):
         model, beam = cable("straight", strain=strain)
         system = System(model)
@@ -111,7 +117,7 @@ class TestFields:
             assert state.tension(beam.at(x)) == pytest.approx(force, rel=1e-12)
             assert state.curvature(beam.at(x)) == pytest.approx(0, abs=1e-12)
 
-    @pytest.mark.parametrize("strain", STRAINS)
+    @pytest.mark.parametrize("strain", STRAINS["cable"])
     @pytest.mark.parametrize("shape", ["curved", "curved and stretched"])
     def test_natural_shape_carries_nothing(self, strain, shape):
         """Strains and moments are counted from the natural shape; a stretched start is in tension."""
@@ -150,33 +156,34 @@ class TestFields:
                 assert history[k] == pytest.approx(one, rel=1e-7, abs=1e-9), name
 
 
+@pytest.mark.parametrize("element", ELEMENTS)
 class TestSupports:
     def run(self, model):
         model.gravity[:] = 1.0, 2.0, -9.81
         return ancf.simulate(model, t_end=0.1, step=1e-3)
 
-    def test_pin(self):
-        model, beam = cable("curved")
+    def test_pin(self, element):
+        model, beam = cable("curved", element=element)
         model.pin(beam.at(beam.node_x[1]))
         r = self.run(model).position(beam.at(beam.node_x[1]))
         assert np.max(np.abs(r - beam.node_position[1])) == 0
 
-    def test_clamp_free_stretch_holds_the_direction(self):
-        model, beam = cable("curved")
+    def test_clamp_free_stretch_holds_the_direction(self, element):
+        model, beam = cable("curved", element=element)
         model.clamp(beam.end)
         slope = self.run(model).slope(beam.end)
         stretch = np.linalg.norm(slope, axis=1)
         assert np.ptp(stretch) > 1e-4
         assert slope / stretch[:, None] == pytest.approx(np.tile(beam.node_tangent[-1], (101, 1)), abs=1e-13)
 
-    def test_clamp_fixed_stretch_holds_all(self):
-        model, beam = cable("curved and stretched")
+    def test_clamp_fixed_stretch_holds_all(self, element):
+        model, beam = cable("curved and stretched", element=element)
         model.clamp(beam.end, stretch="fixed")
         slope = self.run(model).slope(beam.end)
         assert slope == pytest.approx(np.tile(beam.stretch * beam.node_tangent[-1], (101, 1)), abs=1e-14)
 
-    def test_hold(self):
-        model, beam = cable("curved")
+    def test_hold(self, element):
+        model, beam = cable("curved", element=element)
         point = beam.at(beam.node_x[2])
         model.hold(point, position="xz", slope="y")
         result = self.run(model)
@@ -186,9 +193,9 @@ class TestSupports:
         assert min(moved[1], turned[0], turned[2]) > 1e-3
 
     @pytest.mark.parametrize("stretch", ["free", "fixed"])
-    def test_moving_clamp(self, stretch):
+    def test_moving_clamp(self, stretch, element):
         """Position and direction follow the functions; velocities are their derivatives."""
-        model, beam = cable("curved and stretched")
+        model, beam = cable("curved and stretched", element=element)
         axis = np.array([1.0, -2.0, 0.5]) / np.sqrt(5.25)
         motion = {"rotation": "0.3*sin(9*t)", "displacement": ["0.1*sin(8*t)", "0.2*t**2", "-0.1*t"]}
         model.clamp(beam.start, stretch=stretch, axis=axis, **motion)
@@ -209,11 +216,11 @@ class TestSupports:
         if stretch == "fixed":
             assert slope == pytest.approx(beam.stretch * across, abs=1e-12)
 
-    def test_moving_pin_accelerates_the_cable(self):
+    def test_moving_pin_accelerates_the_cable(self, element):
         """A support that moves with constant acceleration: seen from it, gravity the other way."""
         tips = []
         for moving in (True, False):
-            model, beam = cable("straight", elements=3)
+            model, beam = cable("straight", element=element, elements=3)
             g = np.array([1.5, -2.0, 1.0])
             model.pin(beam.start, displacement=(lambda t, g=g: 0.5 * g * t**2) if moving else None)
             model.gravity[:] = 0.0 if moving else -g
@@ -221,18 +228,19 @@ class TestSupports:
             tips.append(result.position(beam.end) - result.position(beam.start))
         assert tips[0] == pytest.approx(tips[1], abs=1e-9)
 
-    def test_two_clamps_refine_each_other(self):
+    def test_two_clamps_refine_each_other(self, element):
         """The second clamp of a node adds what the first one left open."""
-        model, beam = cable("straight")
+        model, beam = cable("straight", element=element)
         model.clamp(beam.start, stretch="fixed")
         model.clamp(beam.start, rotation="0.2*t", axis=(0, 0, 1), name="turn")
         system = System(model)
-        assert len(system.constraints.rotations) == 1
+        assert len(system.constraints.rotations) == (3 if element in SOLIDS else 1)
 
 
+@pytest.mark.parametrize("element", ELEMENTS)
 class TestInitialMotion:
-    def test_rigid_motion(self):
-        model, beam = cable("curved")
+    def test_rigid_motion(self, element):
+        model, beam = cable("curved", element=element)
         motion = {"velocity": (1.0, 2.0, 3.0), "angular_velocity": (0.5, -1.0, 2.0), "about": (0.3, 0.1, 0.0)}
         beam.set_motion(**motion)
         state = ancf.simulate(model, t_end=1e-4, step=1e-4).state(0)
@@ -241,8 +249,8 @@ class TestInitialMotion:
             wanted = motion["velocity"] + np.cross(motion["angular_velocity"], arm)
             assert state.velocity(beam.at(x)) == pytest.approx(wanted, abs=1e-12)
 
-    def test_support_wins_and_says_so(self):
-        model, beam = cable("straight")
+    def test_support_wins_and_says_so(self, element):
+        model, beam = cable("straight", element=element)
         model.pin(beam.start)
         beam.set_motion(velocity=(0, 0, 2.0))
         with pytest.warns(UserWarning, match=r"beam node 0 position z: set_motion asks for 2.*support wins"):
@@ -250,20 +258,22 @@ class TestInitialMotion:
         assert np.max(np.abs(result.velocity(beam.start))) == 0
         assert result.velocity(beam.at(beam.node_x[1]))[0] == pytest.approx((0, 0, 2.0))
 
-    def test_motion_that_fits_is_silent(self):
-        model, beam = cable("straight")
+    def test_motion_that_fits_is_silent(self, element):
+        model, beam = cable("straight", element=element)
         model.pin(beam.start)
         beam.set_motion(angular_velocity=(0, 0, 2.0))
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             ancf.simulate(model, t_end=0.01, step=1e-3)
 
-    def test_motion_of_one_body_says_nothing_of_others(self):
+    def test_motion_of_one_body_says_nothing_of_others(self, element):
         """The other body's support moves: nobody asked it not to."""
-        model, beam = cable("straight")
+        model, beam = cable("straight", element=element)
         model.pin(beam.start)
         beam.set_motion(angular_velocity=(0, 0, 2.0))
-        other = model.add_beam("other", start=(0, 0, 3), end=(1, 0, 3), elements=2, section=beam.section)
+        other = model.add_beam(
+            "other", start=(0, 0, 3), end=(1, 0, 3), elements=2, section=beam.section, element=element
+        )
         model.clamp(other.start, rotation="0.5*t", displacement=["0.3*t", "0", "0"])
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -271,19 +281,20 @@ class TestInitialMotion:
         assert result.velocity(other.start)[0] == pytest.approx((0.3, 0, 0), abs=1e-9)
 
 
+@pytest.mark.parametrize("element", ELEMENTS)
 class TestLoads:
-    def test_weight(self):
+    def test_weight(self, element):
         """Sum of the nodal weights, whatever the shape and the stretch."""
         for shape in SHAPES:
-            model, beam = cable(shape)
+            model, beam = cable(shape, element=element)
             model.gravity[:] = 1.0, -2.0, 3.0
             system = System(model)
             f = system.core.loads.gravity.reshape(-1, 3)[system.slots["beam"][:, 0] // 3].sum(axis=0)
             assert f == pytest.approx(beam.section.rhoA * beam.length * model.gravity, rel=1e-12)
 
-    def test_loads_of_time_are_taken_at_the_end_of_a_step(self):
+    def test_loads_of_time_are_taken_at_the_end_of_a_step(self, element):
         """A force on a free cable: the momentum is the trapezoidal sum of the forces."""
-        model, beam = cable("straight", elements=2)
+        model, beam = cable("straight", element=element, elements=2)
         model.add_force(beam.at(0.5 * beam.length), ["0", "0", "sin(40*t)"])
         result = ancf.simulate(model, t_end=0.1, step=1e-3)
         F = np.sin(40 * result.t)
