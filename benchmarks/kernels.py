@@ -1,7 +1,7 @@
 """Time of our kernels by themselves: force, tangent, factorisation, solve; microseconds per element.
 
 ``python benchmarks/kernels.py [ELEMENTS ...]``. The loops are compiled, so that calls from Python do not
-count. The state is a cable bent into an arc and a little stretched.
+count. The state is a beam bent into half a circle and a little stretched. The force includes the inertia.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import numpy as np
 
 from ancf import Model, Section
 from ancf.compiled import kernel
+from ancf.elements.registry import ELEMENTS
 from ancf.system.core import assemble, factorise_matrix, residual, restrict, solve_matrix
 from ancf.system.system import System
 
@@ -49,14 +50,20 @@ def repeat_solve(factor, b, x, times):  # type: ignore[no-untyped-def]
         solve_matrix(factor, x)
 
 
-def system(elements: int) -> System:
-    """A cable bent into half a circle, hinged at one end."""
+def system(elements: int, element: str) -> System:
+    """A beam bent into half a circle, hinged at one end."""
     angle = np.linspace(0.0, np.pi, max(elements, 3) + 1)
     path = np.stack([np.sin(angle), np.zeros_like(angle), np.cos(angle)], axis=1)
-    section = Section(EA=1e4, EI=1.0 / 12.0, rhoA=0.05)
+    section = Section.rectangle(width=0.01, height=0.01, E=1e8, rho=500.0, nu=0.3)
     model = Model(gravity=(0.0, 0.0, -9.81))
     beam = model.add_beam(
-        "cable", path=path, elements=elements, section=section, length=3.14, natural_shape="straight"
+        "beam",
+        path=path,
+        elements=elements,
+        element=element,
+        section=section,
+        length=3.14,
+        natural_shape="straight",
     )
     model.pin(beam.start)
     return System(model)
@@ -95,17 +102,18 @@ def cpu(loop: Callable[[int], Any], times: int) -> float:
     return time.process_time() - start
 
 
-def kernels(elements: int) -> dict[str, float]:
+def kernels(elements: int, element: str = "cable") -> dict[str, float]:
     """Microseconds per element of each kernel, in the order in which a step needs them."""
-    runs = loops(system(elements))
+    runs = loops(system(elements, element))
     return {name: 1e6 * best_time(runs[name]) / elements for name in NAMES}
 
 
 def main() -> None:
-    print(f"{'elements':>8}" + "".join(f"{name:>12}" for name in NAMES) + "   us per element")
-    for elements in [int(text) for text in sys.argv[1:]] or [8, 100, 1000, 10000]:
-        times = kernels(elements)
-        print(f"{elements:8d}" + "".join(f"{times[name]:12.4f}" for name in NAMES))
+    print(f"{'':12}{'elements':>8}" + "".join(f"{name:>12}" for name in NAMES) + "   us per element")
+    for element in ELEMENTS:
+        for elements in [int(text) for text in sys.argv[1:]] or [8, 100, 1000, 10000]:
+            times = kernels(elements, element)
+            print(f"{element:12}{elements:8d}" + "".join(f"{times[name]:12.4f}" for name in NAMES))
 
 
 if __name__ == "__main__":

@@ -172,7 +172,7 @@ def compare(ours: Worker, peers: dict[str, Worker], case: Case, pairs: int, seco
         taken.round(seconds)
         if k == 0 and case.long:
             taken.prune()
-    row: Sample = {"name": case.name, "title": case.title, "elements": case.elements}
+    row: Sample = {"name": case.name, "title": case.title, "elements": case.elements, "size": case.size}
     row["ancf"] = {**summary(taken.own), "newton_error": newton_error(ours, case, taken.own[-1])}
     row["exudyn"] = {
         name: {**summary([a for a, _ in both]), **ratios(both), "options": chosen[name][1]}

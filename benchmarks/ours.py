@@ -11,7 +11,7 @@ from typing import Any
 
 import ancf
 from ancf.solvers.stepping import Run
-from cases import GRAVITY, Case
+from cases import GRAVITY, Cable, Case, Sliding
 
 spent = {"start": 0.0}  # CPU seconds of the initial accelerations in the last solve
 _start = Run.start
@@ -31,6 +31,11 @@ def version() -> str:
 
 
 def build(case: Case) -> ancf.Model:
+    assert isinstance(case, Cable | Sliding)
+    return build_cable(case) if isinstance(case, Cable) else build_sliding(case)
+
+
+def build_cable(case: Cable) -> ancf.Model:
     section = ancf.Section(EA=case.EA, EI=case.EI, rhoA=case.rhoA)
     model = ancf.Model(gravity=(0.0, 0.0, -GRAVITY))
     beam = model.add_beam(
@@ -44,13 +49,34 @@ def build(case: Case) -> ancf.Model:
     return model
 
 
+def build_sliding(case: Sliding) -> ancf.Model:
+    section = ancf.Section(EA=case.EA, EI=case.EI, rhoA=case.rhoA)
+    model = ancf.Model(gravity=(0.0, 0.0, -GRAVITY))
+    carrier = model.add_beam(
+        "carrier", start=case.start, end=case.joint, elements=case.carrier, section=section
+    )
+    beam = model.add_beam("beam", start=case.joint, end=case.tip, elements=case.slider, section=section)
+    mass = model.add_point_mass("mass", at=case.tip, mass=case.mass)
+    model.pin(carrier.start)
+    model.pin(carrier.end)
+    model.connect(mass, beam.end)
+    model.slide(beam.start, along=carrier)
+    return model
+
+
 def solve(case: Case, options: dict[str, Any]) -> dict[str, Any]:
     """Build and solve; CPU seconds of the solve (start and steps) and of everything."""
     start = time.process_time()
     model = build(case)
+    state = ancf.equilibrium(model, of=["carrier"]) if isinstance(case, Sliding) else None
     integrator = ancf.Trapezoidal(newton=ancf.Newton(**options.get("newton", {})))
     result = ancf.simulate(
-        model, t_end=case.t_end, step=case.step, integrator=integrator, output_step=case.t_end
+        model,
+        t_end=case.t_end,
+        step=case.step,
+        start=state,
+        integrator=integrator,
+        output_step=case.t_end,
     )
     tip = result.position("beam.end")[-1]
     stats = result.stats

@@ -17,7 +17,12 @@ def show(results: Results, console: Console) -> None:
     console.print(counters(results["cases"]))
     if any(row["exudyn"] for row in results["cases"]):
         console.print(peers(results["cases"]))
-    for key, table in (("memory", memory), ("kernels", kernels), ("startup_s", startup)):
+    for key, table in (
+        ("memory", memory),
+        ("elements", elements),
+        ("kernels", kernels),
+        ("startup_s", startup),
+    ):
         if results.get(key):
             console.print(table(results[key]))
     if results["growth"]["us_per_step_and_element"]:
@@ -38,7 +43,7 @@ def number(value: float | None, form: str = ".4g") -> str:
 
 
 def name(row: Results) -> str:
-    return f"{row['title']} {row['elements']}"
+    return f"{row['title']} {row.get('size', row['elements'])}"
 
 
 def both(row: Results, key: str) -> str:
@@ -99,7 +104,8 @@ def described(options: Results) -> str:
         "modifiedNewtonContractivity": "contr.",
     }
     parts = [f"{short[key]} {value:g}" for key, value in options.get("newton", {}).items()]
-    return ", ".join([options.get("solver", ""), *parts])
+    radius = [f"rho {options['rho']:g}"] if "rho" in options else []
+    return ", ".join([options.get("solver", ""), *radius, *parts])
 
 
 def memory(rows: list[Results]) -> Table:
@@ -112,10 +118,24 @@ def memory(rows: list[Results]) -> Table:
     return made
 
 
-def kernels(rows: list[Results]) -> Table:
-    made = table("Our kernels, µs per element", "elements", *[key for key in rows[0] if key != "elements"])
+def elements(rows: list[Results]) -> Table:
+    """Cost of each kind of element."""
+    made = table("Our elements: 7.1 with 8 of them", "element", "steps", "Newton", "Jacobians",
+                 "CPU s", "µs/step", "to the cable")  # fmt: skip
     for row in rows:
-        made.add_row(str(row["elements"]), *(f"{v:.3f}" for key, v in row.items() if key != "elements"))
+        work = (str(row[key]) for key in ("steps", "newton_iterations", "jacobians"))
+        each = 1e6 * row["cpu_median"] / row["steps"]
+        made.add_row(
+            row["element"], *work, number(row["cpu_median"]), number(each), number(row["ratio"], ".1f")
+        )
+    return made
+
+
+def kernels(rows: list[Results]) -> Table:
+    names = [key for key in rows[0] if key not in ("element", "elements")]
+    made = table("Our kernels, µs per element", "element, elements", *names)
+    for row in rows:
+        made.add_row(f"{row['element']} {row['elements']}", *(f"{row[key]:.3f}" for key in names))
     return made
 
 

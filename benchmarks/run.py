@@ -116,10 +116,11 @@ def growth(rows: list[dict[str, Any]]) -> dict[str, Any]:
     return {"us_per_step_and_element": each, **ratios}
 
 
-def our_kernels() -> list[dict[str, Any]]:
-    from kernels import kernels
+def our_elements(quick: bool) -> dict[str, Any]:
+    """Costs and kernels of our kinds of elements; imported late, when one thread is set."""
+    from elements import all_kernels, costs
 
-    return [{"elements": size, **kernels(size)} for size in (8, 100, 1000, 10000)]
+    return {"elements": costs(3) if quick else costs(), "kernels": [] if quick else all_kernels()}
 
 
 def main() -> None:
@@ -137,9 +138,9 @@ def main() -> None:
         "cases": rows,
         "growth": growth(rows),
     }
-    console.print("[dim]memory, kernels, start[/]")
+    console.print("[dim]memory, elements, start[/]")
     results["memory"] = memories(cases)
-    results["kernels"] = [] if options.only or options.quick else our_kernels()
+    results |= {} if options.only else our_elements(options.quick)
     results["startup_s"] = {} if options.only else startup(2 if options.quick else 3, not options.quick)
     results["seconds"] = time.perf_counter() - begin
     options.output.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
