@@ -1,18 +1,23 @@
-"""Make docs/_static/overview.png, the picture of the README, from three short simulations.
+"""Make the pictures in docs/_static: overview.png of the README, figures of the paper for the theory pages.
 
 Run from the repository root: python docs/pictures.py
 """
 
 from __future__ import annotations
 
+import shutil
+import tempfile
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 import ancf
+from ancf.paper import reproduce
 
 BLUE, GREY = "#005ca9", "#b0b0b0"
+STATIC = Path(__file__).parent / "_static"
+FIGURES = ("fig1", "fig2")
 
 
 def nodes(result: ancf.Result | ancf.State, beam: str, length: float, count: int = 41) -> np.ndarray:
@@ -69,7 +74,15 @@ def hanging(axes: plt.Axes) -> None:
     axes.set(title="slack cables: length, tension at the left end", xlabel="x [m]", ylabel="z [m]")
 
 
-def main() -> None:
+def figures() -> None:
+    """Copy figures of the paper."""
+    with tempfile.TemporaryDirectory() as folder:
+        reproduce(FIGURES, folder)
+        for name in FIGURES:
+            shutil.copy(Path(folder) / f"{name}.png", STATIC)
+
+
+def overview() -> None:
     """Draw the three panels."""
     plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "lines.linewidth": 1.6})
     figure = plt.figure(figsize=(9.6, 3.3), layout="constrained")
@@ -78,8 +91,9 @@ def main() -> None:
     cantilever(figure.add_subplot(grid[0]))
     pendulum(figure.add_subplot(grid[1], projection="3d"))
     hanging(figure.add_subplot(grid[2]))
-    figure.savefig(Path(__file__).parent / "_static" / "overview.png", dpi=160)
+    figure.savefig(STATIC / "overview.png", dpi=160)
 
 
 if __name__ == "__main__":
-    main()
+    overview()
+    figures()
