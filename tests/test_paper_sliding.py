@@ -135,9 +135,9 @@ class TestCable:
 class TestBeams:
     """6+2 elements of both beams, mass within 2e-5 m.
 
-    Near 1 s two runs that differ by round-off alone part by some 1e-5 m, see the note in the data; that hides
-    what formulation and tolerance make. There the reference's own formulation is compared, with a new matrix in
-    every iteration.
+    Near 1 s two runs that differ by round-off alone part by some 1e-5 m, see the note in the data; that
+    hides what formulation and tolerance make. There the reference's own formulation is compared, with a new
+    matrix in every iteration.
     """
 
     CASES = (("original", "orig", 0.3), ("original", "orig", 0.0), ("nonlocking", "ho", 0.0))
