@@ -32,6 +32,7 @@ from .lanes import (
     MASS,
     NODAL,
     REFERENCE,
+    SLOPE,
     SMOOTHING,
     VD,
     VISCOUS,
@@ -43,9 +44,20 @@ from .lanes import (
     clear,
     inertia_force,
 )
-from .lanes_damping import axial_damping, bending_damping, bending_damping_tangent, dot, shape_at
+from .lanes_damping import (
+    bending_damping,
+    bending_damping_tangent,
+    damped_axial_force,
+    dot,
+    shape_at,
+    slope_damping,
+    slope_damping_tangent,
+)
 from .lanes_tangent import BLOCKS, PLACES, add_block, spread_axial, spread_bending
 from .shapes import FloatArray
+
+#: Bits of the column ``damped`` of the groups.
+VISCOUSLY, AXIALLY, IN_BENDING, IN_SLOPE = 1, 2, 4, 8
 
 
 class CableBatch(NamedTuple):
@@ -59,6 +71,7 @@ class CableBatch(NamedTuple):
     first: NDArray[np.int64]  # (chunks + 1,) first element of each chunk
     lane_base: NDArray[np.int64]  # (chunks, 4 LANES) base by slot and lane
     lane_data: FloatArray  # (chunks, CONSTANTS LANES) rows LENGTH ... VISCOUS
+    lane_slope: FloatArray  # (chunks, LANES) row SLOPE, apart: undamped elements do not load it
     lane_reference: FloatArray  # (chunks, 20 LANES) strain at axial, then at 10.. curvature at bending gp
     groups: NDArray[np.int64]  # (k, 8) first chunk, end, paper, first gp, axial, bending, damped, curved
     gp: FloatArray  # (m, 7) coefficients of the Gauss points
@@ -77,6 +90,13 @@ def load_reference(batch, ws, chunk, k, curved):
     if curved:
         for m in range(LANES):
             ws[REFERENCE * LANES + m] = batch.lane_reference[chunk, k * LANES + m]
+
+
+@inline_kernel
+def load_slope(batch, ws, chunk):
+    """Row SLOPE of a damped chunk."""
+    for m in range(LANES):
+        ws[SLOPE * LANES + m] = batch.lane_slope[chunk, m]
 
 
 @inline_kernel
@@ -126,25 +146,30 @@ def cable_force(batch, q, v, a, r, ws):
     for n in range(batch.groups.shape[0]):
         group = batch.groups[n]
         paper, g0, axial, bending = group[2] != 0, group[3], group[4], group[5]
-        damped, curved = group[6] != 0, group[7] != 0
+        damped, curved = group[6], group[7] != 0
         clear(ws, REFERENCE, 1)
         for chunk in range(group[0], group[1]):
             load_data(batch, ws, chunk)
             load_shape(batch, q, ws, chunk, D)
-            load_acceleration(batch, v, a, ws, chunk, damped)
+            load_acceleration(batch, v, a, ws, chunk, damped & VISCOUSLY != 0)
             clear(ws, FD, 9)
+            if damped & ~VISCOUSLY:
+                load_shape(batch, v, ws, chunk, VD)
             for g in range(axial):
                 load_reference(batch, ws, chunk, g, curved)
-                axial_force(ws, gp, g0 + g, paper)
+                if damped & AXIALLY:
+                    damped_axial_force(ws, gp, g0 + g, paper)
+                else:
+                    axial_force(ws, gp, g0 + g, paper)
             for g in range(bending):
                 load_reference(batch, ws, chunk, 10 + g, curved)
                 bending_force(ws, gp, g0 + axial + g, paper, curved)
-            if damped:
-                load_shape(batch, v, ws, chunk, VD)
-                for g in range(axial):
-                    axial_damping(ws, gp, g0 + g, paper)
+            if damped & IN_BENDING:
                 for g in range(bending):
                     bending_damping(ws, gp, g0 + axial + g, paper)
+            if damped & IN_SLOPE:
+                load_slope(batch, ws, chunk)
+                slope_damping(ws)
             inertia_force(ws)
             store_nodal(batch, r, ws, chunk)
 
@@ -196,7 +221,7 @@ def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     for n in range(batch.groups.shape[0]):
         group = batch.groups[n]
         paper, g0, axial, bending = group[2] != 0, group[3], group[4], group[5]
-        damped, curved = group[6] != 0 and c_damping != 0.0, group[7] != 0
+        damped, curved = group[6] if c_damping != 0.0 else 0, group[7] != 0
         clear(ws, REFERENCE, 1)
         for chunk in range(group[0], group[1]):
             load_data(batch, ws, chunk)
@@ -211,9 +236,12 @@ def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
             for g in range(bending):
                 load_reference(batch, ws, chunk, 10 + g, curved)
                 bending_tangent(ws, gp, g0 + axial + g, paper, curved)
-                if damped:
+                if damped & IN_BENDING:
                     bending_damping_tangent(ws, gp, g0 + axial + g, paper, c_damping)
                 spread_bending(ws, gp, g0 + axial + g)
+            if damped & IN_SLOPE:
+                load_slope(batch, ws, chunk)
+                slope_damping_tangent(ws, c_damping)
             store_tangent(batch, A, ws, chunk, c_mass, c_damping)
 
 

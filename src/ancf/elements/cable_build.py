@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.beam import Beam
-from .cable import CableBatch
+from .cable import AXIALLY, IN_BENDING, IN_SLOPE, VISCOUSLY, CableBatch
 from .chunks import in_lanes
 from .lanes import LANES, gauss_table
 from .measures import axial_strain, curvature
@@ -40,7 +40,7 @@ def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> CableBatch:
         tables.append(gauss_table(axial, bending))
         groups.append([chunk, chunk + len(ends), paper, first_gp, axial, bending, damped, curved])
         start, chunk, first_gp = start + count, chunk + len(ends), first_gp + axial + bending
-    base, data, reference = (np.concatenate([part[k] for part in parts]) for k in range(1, 4))
+    base, data, slope, reference = (np.concatenate([part[k] for part in parts]) for k in range(1, 5))
     bounds = np.concatenate(first)
     return CableBatch(
         base=np.ascontiguousarray(base, dtype=np.int64),
@@ -48,6 +48,7 @@ def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> CableBatch:
         first=bounds,
         lane_base=in_lanes(base, bounds).astype(np.int64),
         lane_data=in_lanes(data, bounds, empty=2),
+        lane_slope=in_lanes(slope, bounds, empty=0),
         lane_reference=in_lanes(reference, bounds),
         groups=np.array(groups, dtype=np.int64).reshape(-1, 8),
         gp=np.ascontiguousarray(np.concatenate(tables)),
@@ -92,8 +93,8 @@ def _is_straight(beam: Beam) -> bool:
     return bool(np.all(np.abs(beam.node_tangent - beam.node_tangent[0]) < 1e-12))
 
 
-def _part(beam: Beam, slot: IntArray) -> tuple[tuple[int, ...], IntArray, FloatArray, FloatArray]:
-    """Key of the group, base, constants and reference strains of one beam."""
+def _part(beam: Beam, slot: IntArray) -> tuple[tuple[int, ...], IntArray, FloatArray, FloatArray, FloatArray]:
+    """Key of the group, base, constants, slope damping and reference strains of one beam."""
     s, h = beam.section, np.diff(beam.node_x)
     one = np.ones_like(h)
     data = np.stack(
@@ -110,10 +111,12 @@ def _part(beam: Beam, slot: IntArray) -> tuple[tuple[int, ...], IntArray, FloatA
         axis=1,
     )
     eps0, kappa0 = reference_strains(beam)
-    damped = bool(s.damping or s.axial_damping or s.bending_damping)
+    kinds = (VISCOUSLY, s.damping), (AXIALLY, s.axial_damping), (IN_BENDING, s.bending_damping)
+    damped = sum(bit for bit, value in (*kinds, (IN_SLOPE, s.slope_damping)) if value)
+    slope = s.slope_damping * h[:, None] / 30
     curved = bool(np.any(eps0) or np.any(kappa0))
-    key = (int(beam.strain == "paper"), *beam.gauss, int(damped), int(curved))
-    return key, np.hstack([slot[:-1], slot[1:]]), data, np.hstack([eps0, kappa0])
+    key = (int(beam.strain == "paper"), *beam.gauss, damped, int(curved))
+    return key, np.hstack([slot[:-1], slot[1:]]), data, slope, np.hstack([eps0, kappa0])
 
 
 def compression(batch: CableBatch, q: FloatArray) -> FloatArray:

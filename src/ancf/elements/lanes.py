@@ -30,6 +30,7 @@ MASS, VISCOUS = 33, 34  # rhoA L/420, external damping / rhoA
 CONSTANTS = 8  # rows from LENGTH to VISCOUS
 A1, AS1, A2, AS2 = 35, 38, 41, 44  # accelerations of the four slots
 NODAL = 47  # forces on the four slots: 12 rows
+SLOPE = 59  # slope damping L/30, of damped elements
 REFERENCE = 60  # reference axial strain or curvature at the Gauss point at hand
 KPP, KPS, KSS = 61, 67, 76  # second derivatives at a Gauss point: 6, 9, 6 rows
 KDD, KD1, KD2, K11, K12, K22 = 82, 91, 100, 109, 118, 127  # 3x3 blocks

@@ -94,6 +94,9 @@ def _check_section(section: Any, element: str, where: str) -> None:
         )
         hint = "make it with ancf.Section.rectangle(...), .circle(...) or .from_moments(...)"
         raise ModelError(where, what, hint)
+    elif section.slope_damping:
+        what = f'has no effect on element "{element}", it damps cables only'
+        raise ModelError(f"{where}.slope_damping", what, "leave it out")
 
 
 def _strain(given: Any, element: str, where: str) -> str:

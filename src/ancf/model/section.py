@@ -17,7 +17,7 @@ MATERIAL = ("A", "I_y", "I_z", "J", "E", "nu", "rho")
 FOURTH_MOMENTS = ("I_yyyy", "I_zzzz", "I_yyzz")
 #: Keywords of ``Section.from_moments`` that are integrals over the area.
 MOMENTS = ("A", "I_y", "I_z", "J", *FOURTH_MOMENTS)
-DAMPINGS = ("damping", "axial_damping", "bending_damping")
+DAMPINGS = ("damping", "axial_damping", "bending_damping", "slope_damping")
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -41,6 +41,10 @@ class Section:
         Kelvin-Voigt, N s: ``N = EA eps + axial_damping d eps/dt``.
     bending_damping : float
         Kelvin-Voigt, N m^2 s: ``M = EI kappa + bending_damping d kappa/dt``.
+    slope_damping : float
+        Force per length ``d/dx(slope_damping dv/dx)``, N s, of cables only: what is proportional to the
+        stiffness that a wire has from its tension T is ``beta T``. It is not objective: a cable that
+        turns as a whole is damped too.
 
     Attributes
     ----------
@@ -79,6 +83,7 @@ class Section:
     damping: float
     axial_damping: float
     bending_damping: float
+    slope_damping: float
     shape: Rectangle | Circle | None
     E: float | None
     nu: float | None
@@ -101,6 +106,7 @@ class Section:
         damping: float = 0.0,
         axial_damping: float = 0.0,
         bending_damping: float = 0.0,
+        slope_damping: float = 0.0,
     ) -> None:
         stiffness = checks.non_negative(EI, "Section.EI")
         _fill(
@@ -109,7 +115,7 @@ class Section:
             EI_y=stiffness,
             EI_z=stiffness,
             rhoA=checks.positive(rhoA, "Section.rhoA"),
-            **_dampings(damping, axial_damping, bending_damping),
+            **_dampings(damping, axial_damping, bending_damping, slope_damping),
         )
 
     @classmethod
@@ -126,6 +132,7 @@ class Section:
         damping: float = 0.0,
         axial_damping: float = 0.0,
         bending_damping: float = 0.0,
+        slope_damping: float = 0.0,
     ) -> Section:
         """Rectangle of a material.
 
@@ -139,12 +146,12 @@ class Section:
             Torsion constant; default Saint-Venant's exact one.
         shear_factors : (float, float)
             Of the shear stiffnesses along local y and z; 5/6 for a rectangle in most textbooks.
-        damping, axial_damping, bending_damping : float
+        damping, axial_damping, bending_damping, slope_damping : float
             As for ``Section``.
 
         """
         b, h = checks.positive(width, "Section.width"), checks.positive(height, "Section.height")
-        dampings = _dampings(damping, axial_damping, bending_damping)
+        dampings = _dampings(damping, axial_damping, bending_damping, slope_damping)
         return _of_shape(Rectangle(b, h), E, rho, nu, J, shear_factors, dampings)
 
     @classmethod
@@ -160,6 +167,7 @@ class Section:
         damping: float = 0.0,
         axial_damping: float = 0.0,
         bending_damping: float = 0.0,
+        slope_damping: float = 0.0,
     ) -> Section:
         """Full circle of a material.
 
@@ -172,12 +180,12 @@ class Section:
             Torsion constant; default pi diameter^4/32.
         shear_factors : (float, float)
             Of the shear stiffnesses along local y and z; 9/10 for a circle in most textbooks.
-        damping, axial_damping, bending_damping : float
+        damping, axial_damping, bending_damping, slope_damping : float
             As for ``Section``.
 
         """
         shape = Circle(checks.positive(diameter, "Section.diameter"))
-        dampings = _dampings(damping, axial_damping, bending_damping)
+        dampings = _dampings(damping, axial_damping, bending_damping, slope_damping)
         return _of_shape(shape, E, rho, nu, J, shear_factors, dampings)
 
     @classmethod
@@ -198,6 +206,7 @@ class Section:
         damping: float = 0.0,
         axial_damping: float = 0.0,
         bending_damping: float = 0.0,
+        slope_damping: float = 0.0,
     ) -> Section:
         """Section of any shape with two axes of symmetry, from the integrals over its area.
 
@@ -217,7 +226,7 @@ class Section:
             ``width^2 = 12 I_z/A``, which makes them 1.8 I_z^2/A, 1.8 I_y^2/A and I_y I_z/A.
         shear_factors : (float, float)
             Of the shear stiffnesses along local y and z.
-        damping, axial_damping, bending_damping : float
+        damping, axial_damping, bending_damping, slope_damping : float
             As for ``Section``.
 
         Raises
@@ -233,7 +242,7 @@ class Section:
             moments[key] = checks.positive(default if value is None else value, f"Section.{key}")
         _check_moments(moments)
         torsion = checks.positive(J, "Section.J")
-        dampings = _dampings(damping, axial_damping, bending_damping)
+        dampings = _dampings(damping, axial_damping, bending_damping, slope_damping)
         return _of_material(None, moments, torsion, E, rho, nu, shear_factors, dampings)
 
     @property
@@ -254,6 +263,11 @@ class Section:
                 "give Section(EA=, EI=, rhoA=) directly with the EI of the plane in which it bends",
             )
         return self.EI_y
+
+    @property
+    def damped(self) -> bool:
+        """Whether any of the dampings is there."""
+        return any(getattr(self, key) for key in DAMPINGS)
 
     @property
     def G(self) -> float | None:
@@ -287,8 +301,8 @@ def _check_moments(m: dict[str, float]) -> None:
         raise ModelError("Section.I_yyzz", what, hint)
 
 
-def _dampings(damping: float, axial: float, bending: float) -> dict[str, float]:
-    given = dict(zip(DAMPINGS, (damping, axial, bending), strict=True))
+def _dampings(*values: float) -> dict[str, float]:
+    given = dict(zip(DAMPINGS, values, strict=True))
     return {key: checks.non_negative(value, f"Section.{key}") for key, value in given.items()}
 
 

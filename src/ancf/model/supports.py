@@ -76,7 +76,7 @@ class Clamp:
 class Hold:
     """Holds single components of position and slopes of a node at their initial values.
 
-    Also of the position of a point mass or a rigid body's centre of mass.
+    Those of the position may move. Also of the position of a point mass or a rigid body's centre of mass.
 
     Attributes
     ----------
@@ -86,6 +86,8 @@ class Hold:
     twist : bool
         Holds the component of r_y along the initial local z axis: the section does not turn about the
         tangent and is free to bend.
+    displacement : TimeFunction or None
+        (3,), m, of the components in `position`, relative to their initial values.
 
     """
 
@@ -96,6 +98,7 @@ class Hold:
     slope_y: str = ""
     slope_z: str = ""
     twist: bool = False
+    displacement: TimeFunction | None = None
 
     @property
     def held(self) -> frozenset[str]:
@@ -160,13 +163,17 @@ def _check_derivatives(where: str, rotation: Any, rate: Any, acceleration: Any) 
         raise ModelError(f"{where}.rotation", "is missing: rotation_rate is its derivative")
 
 
-def make_hold(where: str, name: str, point: Point, *, twist: Any, **letters: Any) -> Hold:
+def make_hold(where: str, name: str, point: Point, *, twist: Any, displacement: Any, **letters: Any) -> Hold:
     """Check everything that ``Model.hold`` was given."""
     clean = {key: _letters(value, f"{where}.{key}") for key, value in letters.items()}
-    hold = Hold(name, point, **clean, twist=checks.flag(twist, f"{where}.twist"))
+    motion = optional(displacement, 3, f"{where}.displacement")
+    hold = Hold(name, point, **clean, twist=checks.flag(twist, f"{where}.twist"), displacement=motion)
     if not hold.held:
         what = "nothing is held: give position, slope, slope_y, slope_z or twist"
         raise ModelError(f"{where}.position", what, 'such as position="xz"')
+    if motion is not None and not hold.position:
+        what = "moves nothing: no component of the position is held"
+        raise ModelError(f"{where}.displacement", what, 'give position too, such as position="xy"')
     _check_slopes(where, hold, point.body)
     if hold.twist and hold.slope_y:
         what = "holds a component of r_y already: give slope_y or twist, not both"

@@ -8,12 +8,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import ModelError
 from ..model.beam import Beam
 from ..model.bodies import Body, RigidBody
 from ..model.functions import TimeFunction
 from ..model.joints import Slide
 from ..model.model import Model
-from ..model.supports import Clamp, Hold, Pin
+from ..model.supports import Clamp, Hold, Pin, Support
 from .nodes import node_of, start_vectors
 from .numbering import Numbering
 
@@ -57,11 +58,12 @@ class Constraints:
     rotations: list[Rotation] = field(default_factory=list)
     motions: list[Motion] = field(default_factory=list)
     driven: set[int] = field(default_factory=set)  # slots
+    positions: dict[str, list[int]] = field(default_factory=dict)  # by support, see _held_positions
 
 
 def collect(model: Model, numbering: Numbering) -> Constraints:
     """All supports of the model; a later clamp of the same node refines the earlier one."""
-    constraints = Constraints()
+    constraints = Constraints(positions=_held_positions(model, numbering))
     clamps: dict[int, Clamp] = {}
     for support in model.supports:
         body = support.point.body
@@ -84,6 +86,27 @@ def collect(model: Model, numbering: Numbering) -> Constraints:
     return constraints
 
 
+def _held_positions(model: Model, numbering: Numbering) -> dict[str, list[int]]:
+    """Unknowns of the position that each support holds; the first of two that hold the same one has it.
+
+    Raises
+    ------
+    ModelError
+        Supports of bodies that share a node hold the same component, and one of them moves it.
+    """
+    owner: dict[int, Support] = {}
+    for support in model.supports:
+        body = support.point.body
+        slot = int(numbering.slots[body.name][node_of(body, support.point.x), 0])
+        for i in (slot + c for c in range(3) if f"position {'xyz'[c]}" in support.held):
+            other = owner.setdefault(i, support)
+            moved = support.displacement is not None or other.displacement is not None
+            if moved and other.point.body is not body:
+                what = f'"{other.name}" and "{support.name}" both hold {numbering.describe(i)}'
+                raise ModelError("supports", f"{what}, and one of them moves it", "keep one of them")
+    return {s.name: [i for i, first in owner.items() if first is s] for s in model.supports}
+
+
 def _clamp(constraints: Constraints, numbering: Numbering, clamp: Clamp) -> None:
     body: Body = clamp.point.body
     node = node_of(body, clamp.point.x)
@@ -102,6 +125,9 @@ def _hold_components(constraints: Constraints, numbering: Numbering, hold: Hold,
     letters = (hold.position, hold.slope, hold.slope_y, hold.slope_z)
     for slot, components in zip(slots, letters, strict=False):  # a cable has the first two
         constraints.held |= {slot + "xyz".index(c) for c in components}
+    if hold.displacement is not None:
+        place = start_vectors(hold.point.body)[node, 0]
+        _move(constraints, slots[0], ["xyz".index(c) for c in hold.position], place, hold.displacement)
     if hold.twist:
         body = hold.point.body
         assert isinstance(body, Beam)
@@ -128,12 +154,19 @@ def _refined(earlier: Clamp | None, later: Clamp) -> Clamp:
 def _hold_position(
     constraints: Constraints, slot: int, position: FloatArray, displacement: TimeFunction | None
 ) -> None:
-    unknowns = [slot, slot + 1, slot + 2]
-    constraints.held |= set(unknowns)
+    constraints.held |= {slot, slot + 1, slot + 2}
     if displacement is not None:
-        table = displacement.table
-        constraints.motions.append(Motion(unknowns, lambda t: position + table(t)))
-        constraints.driven.add(slot)
+        _move(constraints, slot, [0, 1, 2], position, displacement)
+
+
+def _move(
+    constraints: Constraints, slot: int, parts: list[int], position: FloatArray, displacement: TimeFunction
+) -> None:
+    """Let the held components ``parts`` of a position follow a displacement from its initial value."""
+    table = displacement.table
+    unknowns = [slot + c for c in parts]
+    constraints.motions.append(Motion(unknowns, lambda t: (position + table(t))[:, parts]))
+    constraints.driven.add(slot)
 
 
 def _hold_slope(constraints: Constraints, slot: int, clamp: Clamp, vector: FloatArray) -> None:

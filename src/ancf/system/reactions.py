@@ -1,0 +1,82 @@
+"""Forces that supports exert on nodes at rest."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ModelError
+from ..model.connections import Spring
+from ..model.names import unknown
+from .core import apply_load, residual
+from .system import System
+
+FloatArray = NDArray[np.float64]
+
+AT_REST = 1e-9  # largest velocity, of a position in sizes of the model per s
+BALANCED = 1e-3  # out-of-balance force of a body's nodes, of the largest force
+ROUND_OFF = 1e-8  # the same, of the largest stiffness, N
+
+
+def reaction(system: System, q: FloatArray, v: FloatArray, time: float, support: Any) -> FloatArray:
+    """Force of a support on its node in an equilibrium, N, shape (3,), global components.
+
+    It is what the rows of the held unknowns, which the solver drops, are out of balance.
+
+    Raises
+    ------
+    ModelError
+        There is no such support, or the state is in motion or not in equilibrium.
+    """
+    name = getattr(support, "name", support)
+    positions = system.constraints.positions
+    if not isinstance(name, str) or name not in positions:
+        raise unknown("State.reaction", "support", name, positions)
+    moving = np.abs(v[: system.n]) * system.core.weight
+    worst = int(np.argmax(moving))
+    if moving[worst] > AT_REST:
+        what = f"{system.numbering.describe(worst)} moves: reactions are known of a state at rest only"
+        hint = "ask the state of ancf.equilibrium(model) without set_motion and at a time without motion"
+        raise ModelError("State.reaction", what, hint)
+    r, load = _out_of_balance(system, q.copy(), time)
+    _check_balance(system, name, r, load)
+    force = np.zeros(3)
+    for i in positions[name]:
+        force[i % 3] = r[i]
+    return force
+
+
+def _out_of_balance(system: System, q: FloatArray, time: float) -> tuple[FloatArray, FloatArray]:
+    """Internal forces less loads, and the loads, in physical components."""
+    zero, f, r = np.zeros(system.size), np.zeros(system.size), np.zeros(system.size)
+    h = 1e-3
+    system.place(time, q, zero.copy(), zero.copy())
+    apply_load(system.core.loads, system.drive.tables(time - h, h, 1, time, np.inf).load[0], f)
+    residual(system.core.batches, system.core.ws, q, zero, zero, f, r)
+    return r, f
+
+
+def _check_balance(system: System, name: str, r: FloatArray, load: FloatArray) -> None:
+    """Raise ModelError if the free nodes of the support's body are not in equilibrium.
+
+    Nodes shared with other bodies do not count: those may have been left out of the equilibrium.
+    """
+    body = next(s for s in system.model.supports if s.name == name).point.body.name
+    slots = {key: table[:, 0] for key, table in system.numbering.slots.items()}
+    others = np.concatenate([[-1], *(table for key, table in slots.items() if key != body)])
+    mine = (np.setdiff1d(slots[body], others)[:, None] + np.arange(3)).ravel()
+    mine = np.setdiff1d(mine, system.core.supports.held)
+    held = [i for unknowns in system.constraints.positions.values() for i in unknowns]
+    largest = max(float(np.max(np.abs(r[held]))), float(np.max(np.abs(load))))
+    loose = float(np.max(np.abs(r[mine]), initial=0.0))
+    if loose > BALANCED * largest + ROUND_OFF * _stiffness(system):
+        what = f'"{body}" is not in equilibrium: {loose:.3g} N are out of balance'
+        raise ModelError("State.reaction", what, "ask the state of ancf.equilibrium(model)")
+
+
+def _stiffness(system: System) -> float:
+    """Largest EA of a body and stiffness times length of a spring, N."""
+    springs = [c.stiffness * system.model.size for c in system.model.connections if isinstance(c, Spring)]
+    return max([0.0, *springs, *(beam.section.EA for beam in system.model.beams.values())])
