@@ -25,6 +25,7 @@ from .solvers.modal import natural_modes
 from .solvers.stability import stable_limit
 from .solvers.stepping import Progress
 from .system.consistency import check_gaps, check_independent
+from .system.sensors import Listing, listing
 from .system.system import System
 
 __all__ = ["equilibrium", "load", "modes", "simulate", "stable_step"]
@@ -73,6 +74,8 @@ def simulate(
     start: State | None = None,
     integrator: Integrator | None = None,
     output_step: float | None = None,
+    sensors: Sequence[Any] | None = None,
+    energy: bool = True,
     file: str | Path | None = None,
     progress: Callable[[Progress], None] | None = None,
 ) -> Result:
@@ -90,6 +93,13 @@ def simulate(
         Default the trapezoidal rule.
     output_step : float, optional
         Time between stored states, s, a multiple of ``step``; default every step.
+    sensors : sequence, optional
+        Points, springs and joints, as objects or by name, that are recorded at every step, which
+        :attr:`Result.sensors` answers for; :class:`ancf.Radau` chooses its own steps and interpolates.
+    energy : bool
+        Account for the energies dissipated and supplied. Without it a step is faster, by a third where
+        there is damping, :attr:`Result.energy` is not to be had, and a run that creates energy from
+        nothing is not noticed.
     file : path, optional
         HDF5 file that takes the states while they are computed; default in memory.
     progress : callable, optional
@@ -121,7 +131,12 @@ def simulate(
     system = _system(model)  # anew: the model may have changed since the start was computed
     q, v = system.initial_state(t0) if start is None else _adopted(start, system, "simulate.start")
     check_gaps(system, q, "simulate.start")
+    system.sensors = _sensors(system, sensors)
+    if not checks.flag(energy, "simulate.energy"):
+        system.skip_energies()
     header = _header(model, method, t0, t_end, step, output_step)
+    header["settings"]["energy"] = bool(energy)
+    header["settings"]["sensors"] = [str(p) for p in system.sensors.points] + [*system.sensors.connections]
     run = method.run(system, t0, t_end, step, every)
     run.start(q, v)
     store = MemoryStore(system) if file is None else FileStore(file, system, header)
@@ -206,6 +221,17 @@ def stable_step(model: Model, *, about: State | None = None, safety: float = 0.9
             "stable_step.about", f"must be a State, is {checks.shown(about)}", "see ancf.equilibrium"
         )
     return method.safety * stable_limit(system, q, v)
+
+
+def _sensors(system: System, given: Any) -> Listing:
+    """What ``sensors`` lists."""
+    where = "simulate.sensors"
+    if given is None:
+        return Listing()
+    if not isinstance(given, Sequence) or isinstance(given, str | bytes):
+        what = f"must be a list of points, springs and joints, is {checks.shown(given)}"
+        raise ModelError(where, what, 'such as sensors=["wire.at(3)", dropper]')
+    return listing(system, [system.model.sensor(item, f"{where}[{k}]") for k, item in enumerate(given)])
 
 
 def _names(model: Model, of: Any) -> list[str]:

@@ -87,6 +87,11 @@ def no_event(batch, q):
     return -1
 
 
+def measure(batch, q, v):
+    """Renew what the batch leaves for sensors, see :class:`ancf.solvers.taps.Taps`, in the state q, v."""
+    raise TypeError(f"nothing to measure on {type(batch).__name__}")
+
+
 def inverted(batch, q, ws):
     """Slot of r_y at the start of the first element with a collapsed or inverted section, else -1."""
     raise TypeError(f"no check of {type(batch).__name__}")
@@ -106,6 +111,7 @@ def implements(
     energy: Callable[..., Any],
     event: Callable[..., Any] = no_event,
     inverted: Callable[..., Any] = never_inverted,
+    measure: Callable[..., Any] | None = None,
 ) -> None:
     """Register the operations of a kind of batch (see the functions above for arguments)."""
 
@@ -130,9 +136,11 @@ def implements(
         (_inverted, inverted),
     ):
         bind(stub, function)
+    if measure is not None:
+        bind(_measure, measure)
 
 
-_inverted = inverted  # the parameter of implements hides the name
+_inverted, _measure = inverted, measure  # the parameters of implements hide the names
 
 
 class _Announcer(event.Listener):
@@ -168,6 +176,11 @@ def find_events(batches, q):
     raise TypeError("only in compiled code")
 
 
+def measure_all(batches: Any, q: Any, v: Any) -> None:
+    """:func:`measure` of a tuple of batches, which may be empty."""
+    raise TypeError("only in compiled code")
+
+
 def _force_of_each(batches, q, v, a, r, ws):
     for batch in literal_unroll(batches):
         add_force(batch, q, v, a, r, ws)
@@ -186,6 +199,11 @@ def _event_of_each(batches, q):
     return code
 
 
+def _measure_each(batches, q, v):
+    for batch in literal_unroll(batches):
+        measure(batch, q, v)
+
+
 @overload(add_forces, jit_options=_JIT, strict=False)
 def _add_forces(batches, q, v, a, r, ws):
     return _force_of_each if len(batches) else lambda batches, q, v, a, r, ws: None
@@ -201,3 +219,8 @@ def _add_tangents(batches, q, v, A, c_mass, c_damping, c_stiffness, ws):
 @overload(find_events, jit_options=_JIT, strict=False)
 def _find_events(batches, q):
     return _event_of_each if len(batches) else lambda batches, q: -1
+
+
+@overload(measure_all, jit_options=_JIT, strict=False)
+def _measure_all(batches, q, v):
+    return _measure_each if len(batches) else lambda batches, q, v: None

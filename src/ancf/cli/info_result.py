@@ -55,9 +55,15 @@ def _facts(result: Result, plain: dict[str, Any]) -> list[tuple[str, str]]:
     return [
         ("status", f"{STATUS.get(result.status, result.status)}{_how_far(result, plain)}"),
         ("times", f"{plural(len(t), 'state')}, t = {t[0]:g} ... {t[-1]:g} s" if len(t) else "none"),
+        *_sensors(plain),
         ("counters", ", ".join(f"{key} {value:g}" for key, value in counters.items())),
         ("versions", ", ".join(f"{key} {value}" for key, value in versions.items())),
     ]
+
+
+def _sensors(plain: dict[str, Any]) -> list[tuple[str, str]]:
+    listed = plain.get("settings", {}).get("sensors", [])
+    return [("sensors", f"at every step: {', '.join(listed)}")] if listed else []
 
 
 def _how_far(result: Result, plain: dict[str, Any]) -> str:

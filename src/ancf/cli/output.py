@@ -59,6 +59,11 @@ class OutputFolder:
         """Where the summary goes."""
         return self.path / "summary.json"
 
+    @property
+    def sensors(self) -> Path:
+        """Where the table of the sensors goes."""
+        return self.path / "sensors.csv"
+
     @contextmanager
     def locked(self) -> Iterator[None]:
         """No other run writes to the folder meanwhile; a killed run leaves no lock."""
@@ -79,11 +84,12 @@ class OutputFolder:
             raise ModelError(f"output folder {self.path}", what, "choose another with -o") from None
 
     def clear(self) -> None:
-        """Take away the summary of an earlier run, and check that both files can be written."""
-        for path in (self.results, self.summary):
+        """Take away summary and table of an earlier run, and check that all files can be written."""
+        for path in (self.results, self.summary, self.sensors):
             if path.is_dir() or (path.exists() and not os.access(path, os.W_OK)):
                 raise ModelError(str(path), "cannot be written: it is a folder or write-protected")
         self.summary.unlink(missing_ok=True)
+        self.sensors.unlink(missing_ok=True)
 
     def write_summary(self, summary: dict[str, Any]) -> None:
         """Write the summary; the file is complete or absent."""

@@ -1,4 +1,4 @@
-"""``ancf run``: from a model file to OUT/results.h5, OUT/summary.json and a short table."""
+"""``ancf run``: from a model file to OUT/results.h5, OUT/summary.json, OUT/sensors.csv and a short table."""
 
 from __future__ import annotations
 
@@ -74,6 +74,7 @@ class Run:
                 start=start,
                 integrator=integrator(settings.integrator),
                 output_step=settings.output_step,
+                sensors=settings.sensors,
                 file=self.output.results,
                 progress=report,
             )
@@ -91,15 +92,20 @@ class Run:
         return store(self.study, self._equilibrium(), self.output.results)
 
     def _finish(self, result: Result, error: BaseException | None = None) -> None:
+        from ancf.cli.sensors import write_table
         from ancf.cli.summary import print_summary, summarise
 
         wall, cpu = time.perf_counter() - self.start[0], time.process_time() - self.start[1]
         seconds = {"wall_seconds": wall, "cpu_seconds": result.stats.cpu_seconds, "process_cpu_seconds": cpu}
         summary = summarise(self.study, self.path, result, seconds, error)
         self.output.write_summary(summary)
+        written = [self.output.results, self.output.summary]
+        if self.study.simulation is not None and self.study.simulation.sensors:
+            write_table(self.output.sensors, result.sensors)
+            written.append(self.output.sensors)
         if error is None and not self.screen.quiet:
             print_summary(console(), summary)
-            console().print(f"written: {self.output.results}, {self.output.summary}", soft_wrap=True)
+            console().print(f"written: {', '.join(map(str, written))}", soft_wrap=True)
 
     def _check_storage(self, error: Exception) -> None:
         problem = storage_problem(error)
@@ -116,7 +122,8 @@ class Run:
         try:
             self._finish(result, error)
         except OSError as other:
-            error.add_note(f"{self.output.summary} cannot be written: {other.strerror or other}")
+            note = "summary and table cannot be written"
+            error.add_note(f"{self.output.path}: {note}: {other.strerror or other}")
 
 
 def integrator(settings: IntegratorSettings) -> Integrator:

@@ -33,7 +33,8 @@ def springs(model: Model, locate: Callable[[Point], Any]) -> SpringBatch:
                 base[e, columns] = np.where(S != 0.0, probe.slots, -1)
             else:
                 offset[e] = end
-    return SpringBatch(base, np.full((n, 4 * k * k), -1, dtype=np.int64), factor, offset, data)
+    dest, inside = np.full((n, 4 * k * k), -1, dtype=np.int64), np.zeros(n, dtype=np.int64)
+    return SpringBatch(base, dest, factor, offset, data, inside)
 
 
 def _slots(spring: Spring) -> int:

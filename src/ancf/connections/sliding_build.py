@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..elements.shapes import hermite
 from ..elements.solid_shapes import shape
+from ..model.beam import Beam
 from ..model.bodies import RigidBody
 from ..model.joints import Slide
 from ..model.points import Point
@@ -76,8 +77,14 @@ def carrier_line(joint: Slide, slots: dict[str, IntArray]) -> tuple[FloatArray, 
         line = np.full((1, COLUMNS), -1)
         line[0, :4] = slots[body.name][0, :4]
         return np.array([[0.0, length]]), line, poly
+    return beam_line(body, slots[body.name], *joint.offset)
+
+
+def beam_line(
+    body: Beam, seen: IntArray, y: float = 0.0, z: float = 0.0
+) -> tuple[FloatArray, IntArray, FloatArray]:
+    """The same of a beam's line at the place (y, z) of the section; ``seen`` are the beam's slots."""
     h = np.diff(body.node_x)
-    seen, (y, z) = slots[body.name], joint.offset
     columns = [seen[:-1, :4], seen[1:, :4]] if seen.shape[1] > 2 else [seen[:-1, :2], seen[1:, :2]]
     used = np.hstack([*columns, seen[:-1, 4:]])
     line = np.full((len(h), COLUMNS), -1)

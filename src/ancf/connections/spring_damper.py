@@ -25,6 +25,7 @@ class SpringBatch(NamedTuple):
     factor: FloatArray  # (n, k) shape functions, negative at the first end
     offset: FloatArray  # (n, 3) position of a fixed second end
     data: FloatArray  # (n, 4) stiffness, damping, length, 1 if slack
+    inside: NDArray[np.int64]  # (n,) 1: its stiffness is in the matrix that was assembled last
 
 
 @inline_kernel
@@ -56,6 +57,19 @@ def spring_state(batch, e, q, v):
 
 
 @inline_kernel
+def spring_gradient(batch, e, q, b):
+    """Add the gradient of the length of spring e to b."""
+    x, y, z = spring_vector(batch, e, q, 1.0)
+    il = 1.0 / max(math.sqrt(x * x + y * y + z * z), 1e-100)
+    n = (x * il, y * il, z * il)
+    for k in range(batch.base.shape[1]):
+        i = batch.base[e, k]
+        if i >= 0:
+            for c in range(3):
+                b[i + c] += batch.factor[e, k] * n[c]
+
+
+@inline_kernel
 def spring_force(batch, q, v, a, r, ws):
     """Add the spring forces to r."""
     for e in range(batch.base.shape[0]):
@@ -79,6 +93,7 @@ def spring_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add stiffness and damping of the springs that carry to A."""
     for e in range(batch.base.shape[0]):
         n, length, _, tension, carries = spring_state(batch, e, q, v)
+        batch.inside[e] = carries
         if not carries:
             continue
         across = c_stiffness * tension / length

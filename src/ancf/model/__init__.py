@@ -3,6 +3,7 @@
 from ancf.model.beam import Beam
 from ancf.model.bodies import PointMass, RigidBody
 from ancf.model.connections import Spring
+from ancf.model.contact import Contact
 from ancf.model.functions import TimeFunction
 from ancf.model.joints import Fixation, Revolute, Slide, Spherical
 from ancf.model.loads import DistributedLoad, Force, Moment
@@ -15,6 +16,7 @@ __all__ = [
     "Beam",
     "Circle",
     "Clamp",
+    "Contact",
     "DistributedLoad",
     "Fixation",
     "Force",

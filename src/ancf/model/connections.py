@@ -9,6 +9,7 @@ from typing import Any
 from ancf.errors import ModelError
 from ancf.model import checks
 from ancf.model.checks import FloatArray
+from ancf.model.contact import Contact
 from ancf.model.joints import Fixation, Revolute, Slide, Spherical
 from ancf.model.points import Point, initial_position
 
@@ -41,7 +42,7 @@ class Spring:
     slack: bool
 
 
-Connection = Spherical | Revolute | Fixation | Slide | Spring
+Connection = Spherical | Revolute | Fixation | Slide | Spring | Contact
 
 
 def make_spring(

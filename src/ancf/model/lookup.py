@@ -12,8 +12,8 @@ from ancf.model import checks
 from ancf.model.beam import Beam
 from ancf.model.bodies import Body, PointMass, RigidBody, kind
 from ancf.model.checks import FloatArray
-from ancf.model.connections import Connection, initial_position
-from ancf.model.names import Names, numbers_of, split_label, unknown
+from ancf.model.connections import Connection, Spherical, initial_position
+from ancf.model.names import POINT_LABEL, Names, numbers_of, split_label, unknown
 from ancf.model.points import Point
 
 
@@ -78,6 +78,24 @@ class Lookup:
             if item.name == name:
                 return item
         raise unknown(where, "joint or spring", name, [item.name for item in self.connections])
+
+    def sensor(self, item: object, where: str = "Model.sensor") -> Point | Connection:
+        """Return the point, spring or joint that a sensor may record, given as an object or by its name."""
+        if isinstance(item, Point | PointMass | RigidBody | Beam):
+            return self._point(item, where)
+        found = next((c for c in self.connections if item is c or item == c.name), None)
+        if isinstance(found, Spherical) and found.shared:
+            what = f'"{found.name}" joins two nodes that share their unknowns: it has no force of its own'
+            raise ModelError(where, what, "list one of its points")
+        if found is not None:
+            return found
+        if not isinstance(item, str):
+            what = f"must be a point, spring or joint of this model, or its name, is {checks.shown(item)}"
+            raise ModelError(where, what)
+        if POINT_LABEL.fullmatch(item.strip()) or item.strip() in self.bodies:
+            return self._point(item, where)
+        names = [*self.bodies, *(c.name for c in self.connections)]
+        raise unknown(where, "point, spring or joint", item, names)
 
     @contextmanager
     def located(self, place: str) -> Iterator[None]:

@@ -11,6 +11,7 @@ from ancf.model.bodies import Body, PointMass, RigidBody, make_point_mass, make_
 from ancf.model.checks import FloatArray
 from ancf.model.connecting import Connecting, PointLike
 from ancf.model.connections import Spring
+from ancf.model.contact import Contact
 from ancf.model.functions import TimeFunction
 from ancf.model.joints import Fixation, Revolute, Slide, Spherical
 from ancf.model.layout import make_beam
@@ -254,9 +255,10 @@ class Model(Connecting):
         slope_y: str = "",
         slope_z: str = "",
         twist: bool = False,
+        displacement: Any = None,
         name: str | None = None,
     ) -> Hold:
-        """Keep single components of position and slopes of a node at their initial values.
+        """Keep single components of position and slopes of a node at their initial values, or move the first.
 
         Parameters
         ----------
@@ -269,6 +271,9 @@ class Model(Connecting):
         twist : bool
             Hold the component of r_y along the initial local z axis: the section does not turn about
             the tangent and is free to bend. Of beams only, and not together with slope_y.
+        displacement : function of time, (3,) m
+            The components in `position` follow it from the initial place; those that are not held stay
+            free, whatever it says of them.
         name : str
             Default "hold at beam.start".
 
@@ -276,7 +281,8 @@ class Model(Connecting):
         where, clean = self._at_node("hold", point, name)
         label = self._names.of_item(name, f"hold at {clean}", where)
         letters = {"position": position, "slope": slope, "slope_y": slope_y, "slope_z": slope_z}
-        return self._add_support(where, make_hold(where, label, clean, **letters, twist=twist))
+        item = make_hold(where, label, clean, **letters, twist=twist, displacement=displacement)
+        return self._add_support(where, item)
 
     def add_force(self, point: PointLike, force: Any, name: str | None = None) -> Force:
         """Add a force (3,) in N at a point, in fixed directions."""
@@ -319,6 +325,7 @@ class Model(Connecting):
             Fixation: "fixation",
             Slide: "slide",
             Spring: "spring",
+            Contact: "contact",
         }
         plain: dict[str, Any] = {"title": self.title, "gravity": self.gravity.tolist()}
         plain["bodies"] = [describe.body(body) for body in self.bodies.values()]

@@ -145,6 +145,8 @@ class SimulationSettings:
         Time between stored states, s, a multiple of `step`; None stores every step.
     outputs : tuple of str
         Points that the summary prints.
+    sensors : tuple of str
+        Points, springs and joints that are recorded at every step.
 
     Raises
     ------
@@ -160,6 +162,7 @@ class SimulationSettings:
     equilibrium_of: tuple[str, ...] | None = None
     output_step: float | None = None
     outputs: tuple[str, ...] = ()
+    sensors: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         checks.positive(self.t_end, "simulation.t_end")

@@ -3,6 +3,7 @@
 from ..solvers.stepping import Progress, Stats
 from .modes import Modes
 from .result import Result
+from .sensors import Sensors
 from .state import Energy, State
 
-__all__ = ["Energy", "Modes", "Progress", "Result", "State", "Stats"]
+__all__ = ["Energy", "Modes", "Progress", "Result", "Sensors", "State", "Stats"]

@@ -9,21 +9,21 @@ from numpy.typing import NDArray
 
 from ..model.beam import Beam
 from ..model.bodies import Body, PointMass, RigidBody
-from ..model.section import Circle, Rectangle, Section
+from ..model.section import DAMPINGS, Circle, Rectangle, Section
 from ..system.system import System
+from .layout_springs import write_springs
 
 IntArray = NDArray[np.int64]
 
 _WORDS = ("element", "strain", "natural_shape", "poisson")
 _NODES = ("node_x", "node_position", "node_tangent", "node_y")
 _RIGID = ("inertia", "axes", "angular_velocity", "about")
-_DAMPINGS = ("damping", "axial_damping", "bending_damping")
 _MATERIAL = ("E", "rho", "nu", "J", "shear_factors")
 _MOMENTS = ("A", "I_y", "I_z", "I_yyyy", "I_zzzz", "I_yyzz")
 
 
 def write_layout(file: Any, system: System) -> None:
-    """Write the groups ``bodies`` and ``joints`` of an HDF5 file."""
+    """Write the groups ``bodies``, ``joints`` and ``springs`` of an HDF5 file."""
     group = file.create_group("bodies")
     for name, beam in system.model.bodies.items():
         body = group.create_group(name)
@@ -44,6 +44,7 @@ def write_layout(file: Any, system: System) -> None:
     for name, unknowns in system.joints.items():
         joints[name] = unknowns
         joints[name].attrs["slides"] = name in system.numbering.arcs
+    write_springs(file, system.model)
 
 
 def read_joints(file: Any) -> tuple[dict[str, IntArray], dict[str, int]]:
@@ -104,7 +105,7 @@ def _nodes(body: Any, key: str) -> Any:
 def _write_section(attrs: Any, beam: Beam) -> None:
     """Stiffnesses of a cable; material and shape, or moments, of a beam with a section."""
     section = beam.section
-    keys = [*_DAMPINGS]
+    keys = [*DAMPINGS]
     if beam.element == "cable":
         keys += ["EA", "EI", "rhoA"]
     else:
@@ -121,9 +122,10 @@ def _read_section(attrs: Any) -> Section:
     def numbers(*keys: str) -> dict[str, Any]:
         return {key: float(attrs[key]) for key in keys}
 
+    dampings = numbers(*(key for key in DAMPINGS if key in attrs))  # older files have fewer
     if "EA" in attrs:
-        return Section(**numbers("EA", "EI", "rhoA", *_DAMPINGS))
-    given = numbers("E", "rho", "nu", "J", *_DAMPINGS)
+        return Section(**numbers("EA", "EI", "rhoA"), **dampings)
+    given = {**numbers("E", "rho", "nu", "J"), **dampings}
     given["shear_factors"] = tuple(attrs["shear_factors"].tolist())
     shape = attrs["shape"].tolist() if "shape" in attrs else []
     if len(shape) == 2:

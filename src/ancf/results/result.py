@@ -12,27 +12,35 @@ from numpy.typing import NDArray
 from ..errors import ModelError
 from ..model import checks
 from ..solvers.stepping import Stats
-from ..system.fields import Fields
-from ..system.joint_fields import JointFields
+from ..system.contact_fields import ContactFields
+from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 from .layout import read_joints, read_layout
+from .layout_springs import read_springs
+from .sensors import Sensors
 from .state import Energy, State
 from .store import FileStore, MemoryStore, ReadStore
 
 FloatArray = NDArray[np.float64]
 
 
-class Result(Fields, JointFields):
+class Result(SpringFields, ContactFields):
     """History of a simulation; see :class:`Fields` for positions, velocities, strains, tensions, ..."""
 
     def __init__(self, store: MemoryStore | ReadStore, header: dict[str, Any], system: System | None) -> None:
         self._store, self._header, self._system = store, header, system
+        self._recorded: Sensors | None = None
         if system is not None:
             self._bodies, self._slots = system.model.bodies, system.slots
             self._joints, self._arcs = system.joints, system.numbering.arcs
+            self._springs = springs_of(system.model.connections)
         elif isinstance(store, ReadStore):
             self._bodies, self._slots = read_layout(store.layout)
             self._joints, self._arcs = read_joints(store.layout.parent)
+            self._springs = read_springs(store.layout.parent, self._bodies)
+
+    def _contact_system(self) -> System | None:
+        return self._system
 
     @property
     def t(self) -> FloatArray:
@@ -51,8 +59,35 @@ class Result(Fields, JointFields):
         return self._store.arrays["v"]
 
     @property
+    def sensors(self) -> Sensors:
+        """What was recorded at every step.
+
+        Raises
+        ------
+        ModelError
+            The simulation was given no sensors.
+        """
+        if self._recorded is None:
+            listing = self._store.listing(self._bodies)
+            if not listing:
+                hint = 'give simulate(..., sensors=["wire.at(3)", spring])'
+                raise ModelError("Result.sensors", "the simulation had no sensors", hint)
+            self._recorded = Sensors(listing, lambda: self._store.samples, self)
+        return self._recorded
+
+    @property
     def energy(self) -> Energy:
-        """Energies at the stored times, J."""
+        """Energies at the stored times, J.
+
+        Raises
+        ------
+        ModelError
+            The simulation did not account for them; a state has its own, ``result.state(k).energy``.
+        """
+        if not self._header["settings"].get("energy", True):
+            raise ModelError(
+                "Result.energy", "was not accounted for", "leave out simulate(..., energy=False)"
+            )
         arrays = self._store.arrays
         energy, work = arrays["energy"][:], arrays["work"][:]
         return Energy(energy[:, 0], energy[:, 1], energy[:, 2], work[:, 0], work[:, 1])
@@ -96,6 +131,10 @@ class Result(Fields, JointFields):
             raise ModelError(str(path), "there is nothing to save")
         file = FileStore(path, self._system, self._header)
         arrays = self._store.arrays
+        if self._system.sensors:
+            samples = self._store.samples
+            parts = [samples[name] for name in ("q", "v", "measured")]
+            file.record(samples["time"], np.concatenate(parts, axis=1))
         file.append(arrays["time"], arrays["q"], arrays["v"], arrays["work"])
         file.update(self.stats, self.status)
         file.close()

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.supports import Support
 from ..solvers.stepping import Stats
+from ..system.contact_fields import ContactFields
 from ..system.energy import energies
-from ..system.fields import Fields
-from ..system.joint_fields import JointFields
+from ..system.reactions import reaction
+from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 
 FloatArray = NDArray[np.float64]
@@ -41,7 +43,7 @@ class Energy:
         return self.total + self.dissipated - self.supplied
 
 
-class State(Fields, JointFields):
+class State(SpringFields, ContactFields):
     """Positions and velocities of a model at one time; see :class:`Fields` for what it answers.
 
     Parameters
@@ -63,6 +65,10 @@ class State(Fields, JointFields):
         self._q, self._v = q, v
         self._bodies, self._slots = system.model.bodies, system.slots
         self._joints, self._arcs = system.joints, system.numbering.arcs
+        self._springs = springs_of(system.model.connections)
+
+    def _contact_system(self) -> System | None:
+        return self.system
 
     @property
     def energy(self) -> Energy:
@@ -70,3 +76,21 @@ class State(Fields, JointFields):
         kinetic, strain, potential = energies(self.system, self.q[None], self.v[None])[0]
         zero = np.float64(0.0)
         return Energy(kinetic, strain, potential, zero, zero)  # type: ignore[arg-type]
+
+    def reaction(self, support: Support | str) -> FloatArray:
+        """Force of the ground on the node of a support in an equilibrium, N, shape (3,), global components.
+
+        Components that the support does not hold are zero; of a clamp it is the force, without the
+        moment. Of two supports that hold the same component of a node that bodies share, the one that
+        was added first has it.
+
+        Parameters
+        ----------
+        support : Pin, Clamp, Hold or its name
+
+        Raises
+        ------
+        ModelError
+            There is no such support, something moves, or the support's body is not in equilibrium.
+        """
+        return reaction(self.system, self.q, self.v, self.t, support)

@@ -16,11 +16,14 @@ from numpy.typing import NDArray
 
 from ..errors import ModelError
 from ..model import checks
+from ..model.bodies import Body
 from ..solvers.newmark import COUNTS
 from ..solvers.stepping import Stats
 from ..system.energy import energies
+from ..system.sensors import Listing
 from ..system.system import System
 from .layout import write_layout
+from .layout_sensors import DATA, read_listing, write_listing
 
 FloatArray = NDArray[np.float64]
 
@@ -36,6 +39,15 @@ class Store(Protocol):
     @property
     def arrays(self) -> dict[str, Any]:
         """The arrays ``time q v work energy`` (energy: kinetic, strain, potential)."""
+        ...
+
+    @property
+    def samples(self) -> dict[str, Any]:
+        """What sensors took: the arrays ``time q v measured``, one row per step."""
+        ...
+
+    def listing(self, bodies: dict[str, Body]) -> Listing:
+        """What the sensors recorded."""
         ...
 
     @property
@@ -56,12 +68,30 @@ class MemoryStore:
         self._system = system
         self._parts: list[tuple[FloatArray, ...]] = []
         self._joined: dict[str, FloatArray] = {}
+        self._samples: list[tuple[FloatArray, FloatArray]] = []
         self.stats, self.status = Stats(), "running"
 
     def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
         """Add states; see :class:`ancf.solvers.stepping.Recorder`."""
         self._parts.append((t, q, v, work))
         self._joined = {}
+
+    def record(self, t: FloatArray, samples: FloatArray) -> None:
+        """Add samples."""
+        self._samples.append((t, samples))
+
+    @property
+    def samples(self) -> dict[str, FloatArray]:
+        """See :class:`Store`."""
+        if len(self._samples) > 1:
+            t, samples = (np.concatenate(column) for column in zip(*self._samples, strict=True))
+            self._samples = [(t, samples)]
+        [(t, samples)] = self._samples
+        return {"time": t, **_split(samples, self._system.sensors)}
+
+    def listing(self, bodies: dict[str, Body]) -> Listing:
+        """See :class:`Store`."""
+        return self._system.sensors
 
     def update(self, stats: Stats, status: str) -> None:
         """Counters and status so far."""
@@ -128,6 +158,7 @@ class FileStore:
         file.create_dataset("stats", data=np.zeros(len(COUNTS) + 1))
         file.create_dataset("status", data=0)
         write_layout(file, self._system)
+        write_listing(file, self._system.sensors)
         file.flush()
 
     def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
@@ -136,11 +167,13 @@ class FileStore:
             return
         columns = {"q": q, "v": v, "work": work, "energy": energies(self._system, q, v), "time": t}
         for name, values in columns.items():
-            data = self._file[name]
-            first = data.shape[0]
-            data.resize(first + len(t), axis=0)
-            data[first:] = values
-            data.flush()
+            _extend(self._file[name], values)
+
+    def record(self, t: FloatArray, samples: FloatArray) -> None:
+        """Add samples."""
+        columns = _split(samples, self._system.sensors) | {"time": t}
+        for name in DATA:
+            _extend(self._file["sensors"][name], columns[name])
 
     def update(self, stats: Stats, status: str) -> None:
         """Counters and status so far; everything until now reaches the disk."""
@@ -152,6 +185,20 @@ class FileStore:
     def close(self) -> None:
         """Close the file; the states are read from it from now on."""
         self._file.close()
+
+
+def _extend(data: Any, values: FloatArray) -> None:
+    """Add rows to a data set."""
+    first = data.shape[0]
+    data.resize(first + len(values), axis=0)
+    data[first:] = values
+    data.flush()
+
+
+def _split(samples: FloatArray, listing: Listing) -> dict[str, FloatArray]:
+    """Rows of samples as entries of q, of v, and what was measured."""
+    k = len(listing.index)
+    return {"q": samples[:, :k], "v": samples[:, k : 2 * k], "measured": samples[:, 2 * k :]}
 
 
 class ReadStore:
@@ -176,6 +223,11 @@ class ReadStore:
             self._file[name].refresh()
             if name == "time":
                 self._rows: int = self._file[name].shape[0]
+        self._sensors = self._file.get("sensors")
+        for name in DATA[::-1] if self._sensors else ():
+            self._sensors[name].refresh()
+            if name == "time":
+                self._samples: int = self._sensors[name].shape[0]
 
     @property
     def arrays(self) -> dict[str, Any]:
@@ -183,6 +235,17 @@ class ReadStore:
         rows = self._rows
         whole = {name: self._file[name] for name in ("q", "v", "work", "energy")}
         return {"time": self._file["time"][:rows], **{k: Rows(d, rows) for k, d in whole.items()}}
+
+    @property
+    def samples(self) -> dict[str, Any]:
+        """See :class:`Store`."""
+        rows = self._samples
+        whole = {name: Rows(self._sensors[name], rows) for name in DATA[:-1]}
+        return {"time": self._sensors["time"][:rows], **whole}
+
+    def listing(self, bodies: dict[str, Body]) -> Listing:
+        """See :class:`Store`."""
+        return read_listing(self._sensors, bodies) if self._sensors else Listing()
 
     @property
     def layout(self) -> Any:

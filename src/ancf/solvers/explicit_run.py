@@ -19,6 +19,7 @@ from .newton import Newton
 from .stability import stable_limit
 from .start import consistent_start
 from .stepping import Run
+from .taps import Output
 
 if TYPE_CHECKING:
     from .integrators.explicit import Explicit
@@ -81,14 +82,12 @@ class ExplicitRun(Run):
         balance(system.core, m, 0.0)
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         none = np.zeros(0, dtype=np.int64)  # no steps yet: this compiles, outside the CPU time of the run
-        advance_explicit(system.core, m, first, self.h, self.turning, none, *self._nothing())
+        advance_explicit(system.core, m, first, self.h, self.turning, none, self.taps, self._room(0, 0))
         self._estimated, self._pause = clock.perf_counter(), RARE * (clock.perf_counter() - begin)
 
-    def _advance(
-        self, t: float, h: float, row: NDArray[np.int64], out: tuple[FloatArray, FloatArray, FloatArray]
-    ) -> tuple[int, int]:
-        tables = self.system.drive.tables(t, h, len(row), self.t_start, self.t_end)
-        n, self._status = advance_explicit(self.system.core, self.memory, tables, h, self.turning, row, *out)
+    def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
+        core, tables = self.system.core, self.system.drive.tables(t, h, len(row), self.t_start, self.t_end)
+        n, self._status = advance_explicit(core, self.memory, tables, h, self.turning, row, self.taps, out)
         return int(n), int(self._status)
 
     def _bridge(self, t: float, h: float, number: int) -> None:

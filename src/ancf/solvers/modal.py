@@ -11,6 +11,7 @@ from scipy.sparse.linalg import eigsh
 from ..errors import SolveError
 from ..linalg.sparse import to_sparse
 from ..model import checks
+from ..system.contacts import touching
 from ..system.core import assemble, follow_supports, restrict
 from ..system.system import System
 
@@ -42,6 +43,7 @@ def natural_modes(system: System, q: FloatArray, count: int) -> tuple[FloatArray
     checks.integer(count, "modes.count", 1, len(free) - len(lam))
     system.level[:] = 1.0, 0.0, 0.0
     whole = _matrix(system, q, 0.0, 1.0)
+    whole = csc_array(whole + touching(system.core, q, system.n).matrix())
     K, C = whole[free][:, free], csc_array(whole[lam][:, free])
     M = _matrix(system, q, 1.0, 0.0)[free][:, free]
     values, vectors = _eigen(csc_array(K), csc_array(M), C, count)

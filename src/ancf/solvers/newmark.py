@@ -18,6 +18,7 @@ derivative of a constraint its row asks for is the formulation's choice (:mod:`a
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -40,13 +41,17 @@ from ..system.core import (
     to_local,
 )
 from .frames import Frames, remember, turn, turn_back, turn_forth, turn_rows
+from .patches import Patches, correct, forget, move_on
+from .taps import sample
 
 FloatArray = NDArray[np.float64]
 
 #: Least theta/(1 - theta) that is believed before a step has shown its own contraction.
 STALE = 0.03
-#: Corrections up to this multiple of the tolerance that a new matrix does not reduce are round-off.
+#: Corrections up to this multiple of the tolerance, and up to this size, that a new matrix does not reduce
+#: are round-off.
 ROUND_OFF = 1e4
+LARGEST_ROUND_OFF = 1e-7
 
 #: Share of the tolerance up to which constraints need no shift.
 HELD = 0.1
@@ -106,17 +111,19 @@ class Memory(NamedTuple):
     memo: FloatArray  # (8,) see below
     work: FloatArray  # (2,) energy dissipated and supplied since the start, J
     frames: Frames
+    patches: Patches
 
 
 # entries of Memory.memo
 H_FACTOR, ETA, H_PREV, WORST, NORM, POWER, NOISE, KNOWN = range(8)
 
 
-def allocate(n: int, frames: Frames) -> Memory:
+def allocate(n: int, frames: Frames, patches: Patches) -> Memory:
     """Memory for state vectors of length n."""
     vectors: Any = {name: np.zeros(n) for name in Memory._fields[:14]}
     counts = np.zeros(len(COUNTS), dtype=np.int64)
-    memory = Memory(**vectors, counts=counts, memo=np.zeros(8), work=np.zeros(2), frames=frames)
+    own: Any = {"counts": counts, "memo": np.zeros(8), "work": np.zeros(2)}
+    memory = Memory(**vectors, **own, frames=frames, patches=patches)
     memory.memo[ETA] = 1.0
     return memory
 
@@ -257,17 +264,20 @@ def newton(core, s, h, rule, modified, B, G):
     """Solve the equations of one step from the prediction in s; returns a status."""
     renew, fresh = s.memo[H_FACTOR] != h, False  # fresh: the matrix was renewed in this step
     has_joints = core.joints.multipliers.shape[0] > 0
+    taut = s.patches.back.shape[0] > 0 and not has_joints  # a line of wires, as a rule
     if rule.corotate and not renew:
         turn(s.frames, s.q)
     if not renew and core.joints.first < core.factor.row_start.shape[0] - 1:
         renew = not renew_tail(core, s, rule, B, G)
+        forget(s.patches)
+    move_on(s.patches)
     eta = max(s.memo[ETA] ** 0.8, STALE)
     tolerance = rule.tolerance
     if has_joints:
         tolerance = max(min(tolerance, JOINTED * B * largest(s.a, core.weight)), 1e-15)
     tolerance = max(tolerance, s.memo[NOISE])
     s.memo[NOISE] *= 0.99
-    old, since = -1.0, 0
+    older, old, since = -1.0, -1.0, 0
     for iteration in range(rule.max_iterations):
         if renew:
             assemble(core.batches, core.ws, s.q, s.v, core.A, 1.0 / B, G / B, 1.0)
@@ -280,9 +290,12 @@ def newton(core, s, h, rule, modified, B, G):
                 s.memo[WORST] = 6.0 * (-bad - 1)
                 return SINGULAR
             s.memo[H_FACTOR] = h
-            renew, fresh, old, eta, since = False, True, -1.0, 1.0, 0
+            forget(s.patches)
+            renew, fresh, older, old, eta, since = False, True, -1.0, -1.0, 1.0, 0
         residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)
         solve_turned(core, s, rule)
+        if s.patches.back.shape[0] > 0 and not rule.corotate:
+            correct(core, s.patches, s.q, s.v, G / B, s.r)
         norm = update(s, core.weight, G / B, 1.0 / B)
         if has_joints:
             still(core.joints, s.v, s.a)
@@ -299,13 +312,16 @@ def newton(core, s, h, rule, modified, B, G):
         if eta * norm <= tolerance:
             s.memo[ETA] = eta
             return OK
-        if fresh and theta > rule.contraction and norm <= ROUND_OFF * rule.tolerance:
+        noise = min(ROUND_OFF * rule.tolerance, LARGEST_ROUND_OFF)
+        if fresh and theta > rule.contraction and norm <= noise:
             s.memo[NOISE], s.memo[ETA] = 2.0 * norm, 1.0
             return OK
         if norm > 1e3 or theta >= 2.0 or (theta >= 1.0 and fresh and iteration > 3):
             return DIVERGED
-        old = norm
-        renew = not modified or (theta > rule.contraction and since > 1) or theta > 1.0 or since == 7
+        # of a taut wire position and slope take turns: two corrections tell how fast they shrink
+        rate = math.sqrt(norm / older) if older > 0.0 and taut else theta
+        older, old = old, norm
+        renew = not modified or (rate > rule.contraction and since > 1) or rate > 1.0 or since == 7
         since += 1
     return SLOW
 
@@ -372,13 +388,13 @@ def balance(core, s, h):
 
 
 @kernel
-def advance(core, s, tables, h, scheme, rule, keep, out_q, out_v, out_work):
+def advance(core, s, tables, h, scheme, rule, keep, taps, out):
     """Take the steps of one block.
 
-    ``keep[n]`` is the row of the outputs that takes the state at the end of step n, or -1.
-    A step that fails is tried again with a new matrix, and then with one for every iteration.  Returns
-    the number of steps done and the status of the last one; a failed step leaves the state at its start,
-    an event ends the block after a step.
+    ``keep[n]`` is the row of the outputs that takes the state at the end of step n, or -1; its samples
+    are row n of theirs, if there is one.  A step that fails is tried again with a new matrix, and then
+    with one for every iteration.  Returns the number of steps done and the status of the last one; a
+    failed step leaves the state at its start, an event ends the block after a step.
     """
     c = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
     B, G = scheme.beta * h * h * c, scheme.gamma * h * c
@@ -402,12 +418,14 @@ def advance(core, s, tables, h, scheme, rule, keep, out_q, out_v, out_work):
         if status != OK:
             return n, status
         finish(s, h, scheme)
-        if core.damped or core.loaded:
+        if core.accounted and (core.damped or core.loaded):
             balance(core, s, h)
         if keep[n] >= 0:
             for i in range(s.q.shape[0]):
-                out_q[keep[n], i], out_v[keep[n], i] = s.q[i], s.v[i]
-            out_work[keep[n], 0], out_work[keep[n], 1] = s.work[0], s.work[1]
+                out.q[keep[n], i], out.v[keep[n], i] = s.q[i], s.v[i]
+            out.work[keep[n], 0], out.work[keep[n], 1] = s.work[0], s.work[1]
+        if n < out.samples.shape[0]:
+            sample(taps, s.q, s.v, out.samples[n])
         event = find_events(core.joints.tail, s.q)
         if event >= 0:
             return n + 1, EVENT + event

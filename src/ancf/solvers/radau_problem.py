@@ -102,7 +102,7 @@ class SystemProblem:
         """Power dissipated and supplied, shape (m, 2), W."""
         core, states = self.system.core, self.full(q, v, a)
         power = np.zeros((len(t), 2))
-        if core.damped or core.loaded:
+        if core.accounted and (core.damped or core.loaded):
             r = np.empty_like(states[0])
             stage_powers(core, self.tables(t), *states, self._f, r, self._zero, power)
         return power

@@ -18,13 +18,17 @@ from .radau import DIVERGED, NOT_FINITE, OK, SINGULAR, Step, Stepper
 from .radau_problem import SystemProblem
 from .start import consistent_start
 from .stepping import BLOCK_SECONDS, MOST_HALVINGS, MOST_RETRIED, Progress, Recorder, Stats
+from .taps import sample_rows, taps_of
 
 if TYPE_CHECKING:
     from .integrators.radau import Radau
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
-BLOCK_BYTES = 32e6  # of stored states
+BLOCK_BYTES = 32e6  # of stored states, and of samples
+#: Times of samples at which whole states are interpolated at once.
+AT_ONCE = 64
 #: Least step, in units of the last digit of the time: a load that jumps needs very small ones.
 LEAST_STEP = 16.0
 #: Error that Newton's method leaves when the steps are constant.
@@ -34,7 +38,12 @@ LONGEST_STEP = 0.1
 
 
 class RadauRun:
-    """One simulation of a System; outputs at every ``every``-th multiple of ``step`` and at the end."""
+    """One simulation of a System; outputs at every ``every``-th multiple of ``step`` and at the end.
+
+    Steps have sizes of their own.  Sensors are therefore recorded at every multiple of ``step``, where the
+    state is interpolated as it is for the outputs; at the end of a step at which a sliding joint opens,
+    closes or ends, both hold the state before that.
+    """
 
     def __init__(
         self,
@@ -56,8 +65,10 @@ class RadauRun:
         newton = 0.1 * NEWTON_TOLERANCE if method.adaptive else NEWTON_TOLERANCE
         self.stepper = Stepper(self.problem, method.stages, method.tolerance, newton, span)
         self.seconds, self.work = 0.0, np.zeros(2)
-        self._stored = 0  # outputs so far, the start not counted
+        self.taps = taps_of(system)
+        self._stored = self._sampled = 0  # outputs and samples so far, the start not counted
         self._buffer: list[tuple[FloatArray, ...]] = []
+        self._samples: list[tuple[FloatArray, FloatArray]] = []
 
     @property
     def stats(self) -> Stats:
@@ -85,7 +96,10 @@ class RadauRun:
 
     def go(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
         """Take all steps."""
-        recorder.append(np.array([self.t_start]), *self._first, self.work[None].copy())
+        begin = np.array([self.t_start])
+        if self.taps.width:
+            recorder.record(begin, self._sample(*self._first))
+        recorder.append(begin, *self._first, self.work[None].copy())
         self._looked, self._cpu = clock.perf_counter(), clock.process_time()
         try:
             if self.method.adaptive:
@@ -184,29 +198,71 @@ class RadauRun:
 
     def _output(self, step: Step, t: float, power: FloatArray) -> None:
         """States at the output times of a step that ends at t."""
-        last = -(-self.steps // self.every)  # number of the last output
-        near = int((t - self.t_start) / (self.every * self.h) * (1 + 1e-12) + 1e-9)
-        number = np.arange(self._stored + 1, (last if t >= self.t_end else min(near, last - 1)) + 1)
-        if len(number) == 0:
-            return
-        times = np.where(number == last, self.t_end, self.t_start + number * self.every * self.h)
-        tau = np.minimum((times - step.t) / step.h, 1.0)
+        number, times = self._grid(self.every, self._stored, t)
+        states = None
+        if len(number):
+            tau = self._places(step, t, times)
+            states = self._states(step, times, tau)
+            once = self.stepper.method.integrals(tau)[1]
+            self._buffer.append((times, *states, self.work + step.h * (once @ power)))
+            self._stored = int(number[-1])
+        if self.taps.width:
+            self._record(step, t, number, states)
+
+    def _grid(self, every: int, done: int, t: float) -> tuple[IntArray, FloatArray]:
+        """Numbers after ``done`` and times until t of the multiples of every ``every``-th step."""
+        last = -(-self.steps // every)  # number of the last one
+        near = int((t - self.t_start) / (every * self.h) * (1 + 1e-12) + 1e-9)
+        number = np.arange(done + 1, (last if t >= self.t_end else min(near, last - 1)) + 1)
+        return number, np.where(number == last, self.t_end, self.t_start + number * every * self.h)
+
+    def _places(self, step: Step, t: float, times: FloatArray) -> FloatArray:
+        """Where times are in a step that ends at t, 0 to 1."""
+        tau: FloatArray = np.minimum((times - step.t) / step.h, 1.0)
         tau[np.abs(times - t) < 1e-9 * step.h] = 1.0
+        return tau
+
+    def _states(self, step: Step, times: FloatArray, tau: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Interpolated states."""
         q, v, a = step.at(tau)
         q[tau == 1.0], v[tau == 1.0], a[tau == 1.0] = step.Q[-1], step.V[-1], step.A[-1]
         q, v, _ = self.problem.placed(times, q, v, a)
-        once = self.stepper.method.integrals(tau)[1]
-        self._buffer.append((times, q, v, self.work + step.h * (once @ power)))
-        self._stored = int(number[-1])
+        return q, v
+
+    def _record(
+        self, step: Step, t: float, outputs: IntArray, states: tuple[FloatArray, FloatArray] | None
+    ) -> None:
+        """Samples of a step that ends at t; at the outputs those of their states, to the last bit."""
+        number, times = self._grid(1, self._sampled, t)
+        if len(number) == 0:
+            return
+        tau = self._places(step, t, times)
+        rows = []
+        for k in range(0, len(number), AT_ONCE):
+            part = slice(k, k + AT_ONCE)
+            rows.append(self._sample(*self._states(step, times[part], tau[part])))
+        samples = np.concatenate(rows)
+        if states is not None:
+            samples[np.minimum(outputs * self.every, self.steps) - number[0]] = self._sample(*states)
+        self._samples.append((times, samples))
+        self._sampled = int(number[-1])
+
+    def _sample(self, q: FloatArray, v: FloatArray) -> FloatArray:
+        samples = np.empty((len(q), self.taps.width))
+        sample_rows(self.taps, q, v, samples)
+        return samples
 
     @property
     def _bytes(self) -> int:
-        return sum(2 * q.nbytes for _, q, _, _ in self._buffer)
+        return sum(2 * q.nbytes for _, q, _, _ in self._buffer) + sum(x.nbytes for _, x in self._samples)
 
     def _flush(self, recorder: Recorder) -> None:
         now = clock.process_time()
         self.seconds += now - self._cpu
         self._cpu = now
+        if self._samples:
+            recorder.record(*(np.concatenate(c) for c in zip(*self._samples, strict=True)))
+            self._samples = []
         if self._buffer:
             recorder.append(*(np.concatenate(c) for c in zip(*self._buffer, strict=True)))
             self._buffer = []

@@ -32,6 +32,7 @@ from ..errors import SolveError
 from ..linalg.sparse import to_sparse
 from ..model.beam import Beam
 from ..model.joints import Slide
+from ..system.contacts import touching
 from ..system.core import (
     Core,
     apply_load,
@@ -127,6 +128,7 @@ class Iteration:
         core = self.core
         self.jacobians += 1
         self.lu = None
+        self.touching = touching(core, self.q, self.system.n)
         self._assemble(mass, stiffness, spin)
         if core.joints.tail:
             try:
@@ -156,7 +158,18 @@ class Iteration:
         restrict(core.supports, core.A)
 
     def solve(self, r: FloatArray) -> FloatArray:
-        """Solution for a residual, with the last factorisation."""
+        """Solution for a residual, with the last factorisation and the contacts."""
+        x = self._back(r)
+        if len(self.touching.stiffness) == 0:
+            return x
+        B = self.touching.rows
+        Z = np.array([self._back(b) for b in B]).T
+        small = np.diag(1.0 / self.touching.stiffness) + B @ Z  # Woodbury's formula
+        corrected: FloatArray = x - Z @ np.linalg.solve(small, B @ x)
+        return corrected
+
+    def _back(self, r: FloatArray) -> FloatArray:
+        """Solution with the last factorisation alone."""
         if self.lu is not None:
             solution: FloatArray = self.lu.solve(r)
             return solution

@@ -38,12 +38,14 @@ from .newmark import (
     allocate,
     balance,
 )
+from .patches import room_for_patches
 from .start import consistent_start
+from .taps import Output, sample, taps_of
 
 FloatArray = NDArray[np.float64]
 
 BLOCK_SECONDS = 0.1  # between two looks at the keyboard, the progress and the file
-BLOCK_BYTES = 32e6  # of stored states
+BLOCK_BYTES = 32e6  # of stored states, and of samples
 MOST_HALVINGS = 10
 MOST_MADE = 0.5  # energy from nowhere, as a share of the energy exchanged
 MOST_RETRIED = 0.2  # share of steps that may need halving
@@ -54,6 +56,10 @@ class Recorder(Protocol):
 
     def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
         """States at the times t, shape (m,), (m, size), (m, size), (m, 2)."""
+        ...
+
+    def record(self, t: FloatArray, samples: FloatArray) -> None:
+        """What sensors take at the times t, shape (m,), (m, width); see :class:`ancf.solvers.taps.Taps`."""
         ...
 
     def update(self, stats: Stats, status: str) -> None:
@@ -116,7 +122,8 @@ class Run:
         n = integrator.newton
         self.newton = (n.tolerance, n.contraction, n.max_iterations, n.modified, n.corotate)
         self.formulation = FORMULATIONS[integrator.formulation]
-        self.memory: Memory = allocate(system.size, turning_nodes(system))
+        self.memory: Memory = allocate(system.size, turning_nodes(system), room_for_patches(system))
+        self.taps = taps_of(system)
         self.seconds = 0.0
 
     def rule(self, h: float) -> Rule:
@@ -144,7 +151,8 @@ class Run:
             self._event(int(code), self.t_start, 0)
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         none = np.zeros(0, dtype=np.int64)  # no steps yet: this compiles, outside the CPU time of the run
-        advance(system.core, m, first, self.h, self.scheme, self.rule(self.h), none, *self._nothing())
+        rule, nothing = self.rule(self.h), self._room(0, 0)
+        advance(system.core, m, first, self.h, self.scheme, rule, none, self.taps, nothing)
 
     def _restart(self, t: float) -> Tables:
         """Consistent velocities, accelerations and multipliers at t; the memory of earlier steps is lost."""
@@ -159,17 +167,20 @@ class Run:
 
     def go(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
         """Take all steps."""
-        m = self.memory
-        recorder.append(np.array([self.t_start]), m.q[None].copy(), m.v[None].copy(), m.work[None].copy())
+        begin, out = np.array([self.t_start]), self._room(1, 1)
+        self._store(0, 0, out)
+        if self.taps.width:
+            recorder.record(begin, out.samples)
+        recorder.append(begin, out.q, out.v, out.work)
         done, size = 0, 8
-        most = max(1, int(BLOCK_BYTES / (16 * len(m.q)))) * self.every
+        most = max(1, int(BLOCK_BYTES / (16 * self.system.size + 8 * self.every * self.taps.width)))
         while done < self.steps:
-            count = min(size, most, (self.full if done < self.full else self.steps) - done)
-            begin = clock.perf_counter()
+            count = min(size, most * self.every, (self.full if done < self.full else self.steps) - done)
+            before = clock.perf_counter()
             self._block(done, count, recorder)
             done += count
             self._check_energy(done)
-            seconds = clock.perf_counter() - begin
+            seconds = clock.perf_counter() - before
             size = int(np.clip(count * BLOCK_SECONDS / max(seconds, 1e-6), 1, 4 * size))
             recorder.update(self.stats, "running")
             if progress is not None:
@@ -184,15 +195,15 @@ class Run:
         number = np.arange(done + 1, done + count + 1)
         keep = (number % self.every == 0) | (number == self.steps)
         row = np.where(keep, np.cumsum(keep) - 1, -1)
-        size = self.system.size
-        q, v, work = (np.empty((int(keep.sum()), k)) for k in (size, size, 2))
+        out = self._room(int(keep.sum()), count)
         cpu = clock.process_time()
         first, most = 0, count
         try:
             while first < count:
                 t = self._time(done + first)
                 try:
-                    n, status = self._advance(t, h, row[first : first + most], (q, v, work))
+                    rest = out._replace(samples=out.samples[first:])
+                    n, status = self._advance(t, h, row[first : first + most], rest)
                 except ModelError:  # a function of time failed: go as far as it works
                     if most == 1:
                         raise
@@ -201,28 +212,31 @@ class Run:
                 first += n
                 if status >= EVENT:
                     self._event(status - EVENT, self._time(done + first), done + first)
-                    self._store(row[first - 1], (q, v, work))
+                    self._store(row[first - 1], first - 1, out)
                 elif status != OK:
                     self._bridge(self._time(done + first), h, done + first + 1)
-                    self._store(row[first], (q, v, work))
+                    self._store(row[first], first, out)
                     first += 1
         finally:
             self.seconds += clock.process_time() - cpu
             stored = int(keep[:first].sum())
+            if self.taps.width:
+                times = np.array([self._time(int(k)) for k in number[:first]])
+                recorder.record(times, out.samples[:first])
             times = np.array([self._time(int(k)) for k in number[keep]])
-            recorder.append(times[:stored], q[:stored], v[:stored], work[:stored])
+            recorder.append(times[:stored], out.q[:stored], out.v[:stored], out.work[:stored])
 
-    def _store(self, k: int, out: tuple[FloatArray, FloatArray, FloatArray]) -> None:
-        """The state now as row k of the outputs, -1: not wanted."""
+    def _store(self, k: int, n: int, out: Output) -> None:
+        """The state now as row k of the outputs, -1: not wanted, and its samples as row n of theirs."""
+        m = self.memory
         if k >= 0:
-            m = self.memory
-            out[0][k], out[1][k], out[2][k] = m.q, m.v, m.work
+            out.q[k], out.v[k], out.work[k] = m.q, m.v, m.work
+        if self.taps.width:
+            sample(self.taps, m.q, m.v, out.samples[n])
 
-    def _advance(
-        self, t: float, h: float, row: NDArray[np.int64], out: tuple[FloatArray, FloatArray, FloatArray]
-    ) -> tuple[int, int]:
-        tables = self.system.drive.tables(t, h, len(row), self.t_start, self.t_end)
-        n, status = advance(self.system.core, self.memory, tables, h, self.scheme, self.rule(h), row, *out)
+    def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
+        core, tables = self.system.core, self.system.drive.tables(t, h, len(row), self.t_start, self.t_end)
+        n, status = advance(core, self.memory, tables, h, self.scheme, self.rule(h), row, self.taps, out)
         return int(n), int(status)
 
     def _bridge(self, t: float, h: float, number: int) -> None:
@@ -232,7 +246,7 @@ class Run:
         halved, done = int(m.counts[RETRIES]), int(m.counts[STEPS])
         if halved > 2 + MOST_RETRIED * self.steps or (halved > 20 and halved > MOST_RETRIED * done):
             raise self._failure(t, number, f"{halved} of {done + 1} steps had to be halved", h)
-        nothing = self._nothing()
+        nothing = self._room(0, 0)
         left, part = h, h
         while left > 1e-9 * h:
             _, status = self._advance(t + h - left, part, np.full(1, -1), nothing)
@@ -258,14 +272,15 @@ class Run:
         self._restart(t)
         m.work[0] += before - float(energies(self.system, m.q[None], m.v[None]).sum())  # an impact
 
-    def _nothing(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Room for no output."""
-        size = self.system.size
-        return np.empty((0, size)), np.empty((0, size)), np.empty((0, 2))
+    def _room(self, stored: int, steps: int) -> Output:
+        """Room for so many stored states and so many steps with samples."""
+        return Output.of(stored, self.system.size, steps, self.taps.width)
 
     def _check_energy(self, done: int) -> None:
         """A step that is far too large can converge to nonsense: it makes energy from nothing."""
         m = self.memory
+        if not self.system.core.accounted:
+            return
         now = energies(self.system, m.q[None], m.v[None])[0]
         dissipated, supplied = m.work
         made = float(np.sum(now - self.energy0) + dissipated - supplied)

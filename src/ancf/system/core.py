@@ -88,6 +88,7 @@ class Core(NamedTuple):
     loads: Loads
     damped: bool  # something dissipates
     loaded: bool  # something but gravity does work
+    accounted: bool  # a run is to integrate what is dissipated and supplied
 
 
 class Tables(NamedTuple):

@@ -42,7 +42,7 @@ class Drive:
         ``first`` and ``last`` are the times of the whole run, s: rates are differences of values
         between them.
         """
-        times: FloatArray = start + step * np.arange(1, steps + 1, dtype=np.float64)
+        times = on_grid(start, step, np.arange(1, steps + 1), first)
         motion = [self._motion(k, times, step, first, last) for k in range(len(self.motions))]
         rotation = [self._rotation(r, times, step, first, last) for r in self.rotations]
         return Tables(
@@ -70,6 +70,21 @@ class Drive:
         return r.matrices(*(c[:, 0] for c in columns))
 
 
+def on_grid(start: float, step: float, number: NDArray[np.int64], first: float) -> FloatArray:
+    """Times start + step * number, counted from ``first`` where they are steps from there.
+
+    They are then the same to the last bit however the run is divided into blocks, which depends on how fast
+    the machine is.
+    """
+    steps = (start - first) / step
+    whole = np.round(steps)
+    if np.isfinite(steps) and abs(steps - whole) < 1e-6:
+        counted: FloatArray = first + step * (float(whole) + number.astype(np.float64))
+        return counted
+    times: FloatArray = start + step * number.astype(np.float64)
+    return times
+
+
 def differences(
     function: Callable[[FloatArray], FloatArray], times: FloatArray, step: float, first: float, last: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -86,7 +101,7 @@ def differences(
     below = min(lowest, half)
     room = int(min(np.floor((last - times[-1]) / step + 1e-9), half))
     above = max(room, STENCIL - (below + n))
-    grid: FloatArray = times[0] + step * np.arange(-below, n + above, dtype=np.float64)
+    grid = on_grid(times[0], step, np.arange(-below, n + above), first)
     grid[below : below + n] = times
     values = function(grid)
     rate, second = np.empty((n, values.shape[1])), np.empty((n, values.shape[1]))

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from ..bodies.build import inertia
 from ..connections import joint_build
 from ..connections.build import springs
+from ..connections.contact import ContactBatch
+from ..connections.contact_build import contacts
 from ..connections.joint import JointBatch
 from ..connections.sliding import SlidingBatch
 from ..connections.sliding_build import sliding
@@ -26,6 +28,7 @@ from ..loads.moment import MomentBatch
 from ..loads.section_moment import SectionMomentBatch
 from ..model.beam import Beam
 from ..model.bodies import PointMass, RigidBody
+from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.loads import Moment
 from ..model.model import Model
@@ -39,6 +42,7 @@ from .matrix import Places, block_pairs
 from .nodes import start_vectors
 from .numbering import Numbering
 from .probe import Probe, locate
+from .sensors import Listing
 from .supports import Constraints, collect
 
 FloatArray = NDArray[np.float64]
@@ -64,6 +68,14 @@ class System:
         How the nodes were ordered: "as given", "band" or "minimum degree".
     half_bandwidth : int
         Of the matrix, in unknowns.
+    sensors : Listing
+        What a run records at every step.
+    measuring : tuple
+        Batches with an operation ``measure``.
+    measured : ndarray, shape (m,)
+        What these leave beside the state, for sensors; shared with them.
+    measures : dict of str to ndarray
+        Entries of ``measured`` by connection.
     """
 
     def __init__(self, model: Model) -> None:
@@ -72,6 +84,9 @@ class System:
         self.model = model
         self.numbering = Numbering(model)
         self.level = np.array([1.0, 0.0, 0.0])
+        self.contacts = [c for c in model.connections if isinstance(c, Contact)]
+        self.measured = np.zeros(4 * len(self.contacts))
+        self.measures = {c.name: 4 * k + np.arange(4) for k, c in enumerate(self.contacts)}
         self.moment = np.zeros((sum(isinstance(load, Moment) for load in model.loads), 3))
         self._order(self._batches(self.numbering.slots))
         self.constraints = collect(model, self.numbering)
@@ -87,6 +102,12 @@ class System:
         self.drive = Drive(load_functions, moment_functions, self.constraints)
         self.core = self._core(batches)
         set_scales(self)
+        self.measuring = tuple(b for b in self.core.batches if isinstance(b, ContactBatch))
+        self.sensors = Listing()
+
+    def skip_energies(self) -> None:
+        """Do not account for what is dissipated and supplied in a run."""
+        self.core = self.core._replace(accounted=False)
 
     def probe(self, point: Point) -> Probe:
         """Where the state of a point of the model is found."""
@@ -107,6 +128,8 @@ class System:
         undeformed = [b for b in model.bodies.values() if not isinstance(b, Beam)]
         if undeformed:
             batches.append(inertia(undeformed, slots))
+        if self.contacts:
+            batches.append(contacts(self.contacts, find, slots, self.measured.reshape(-1, 4)))
         return [*batches, *self._joint_batches(slots, find)]
 
     def _joint_batches(self, slots: dict[str, IntArray], find: Callable[[Point], Probe]) -> list[Any]:
@@ -130,7 +153,8 @@ class System:
         """Number the blocks so that L stays thin."""
         fixed = [joint_pairs(b) for b in batches if isinstance(b, JointBatch)]
         moving = [sliding_pairs(b) for b in batches if isinstance(b, SlidingBatch)]
-        plain = block_pairs([b for b in batches if not isinstance(b, JointBatch | SlidingBatch)])
+        special = JointBatch | SlidingBatch | ContactBatch
+        plain = block_pairs([b for b in batches if not isinstance(b, special)])
         pairs = np.concatenate([plain, *fixed])
         rank, self.ordering = order(pairs, self.numbering.blocks)
         joints = np.unique(self.numbering.all_multipliers() // 6)
@@ -153,12 +177,10 @@ class System:
         batches = [self._bound(plain, shadowed) for plain, shadowed in zip(batches, seen, strict=True)]
         followers = tuple(b for b in batches if isinstance(b, MomentBatch | SectionMomentBatch))
         springs_batch = next(b for b in batches if isinstance(b, SpringBatch))
-        damped = any(
-            b.section.damping or b.section.axial_damping or b.section.bending_damping
-            for b in self.model.beams.values()
-        )
+        damped = any(beam.section.damped for beam in self.model.beams.values())
         slides = [joint for joint in self.model.connections if isinstance(joint, Slide)]
         rubbed = any(joint.viscous or joint.friction for joint in slides)
+        rubbed |= any(contact.damping for contact in self.contacts)
         driven = np.array(sorted(self.constraints.driven), dtype=np.int64)
         supports = Supports(
             **_held_arrays(self._held(), self.places),
@@ -184,6 +206,7 @@ class System:
             ),
             damped=damped or rubbed or bool(np.any(springs_batch.data[:, 1])),
             loaded=bool(self.patterns or len(self.moment) or len(driven)),
+            accounted=True,
         )
 
     def _bound(self, plain: Any, seen: Any) -> Any:
@@ -192,6 +215,8 @@ class System:
             return bind_joints(plain, seen, self.places)
         if isinstance(plain, SlidingBatch):
             return bind_sliding(plain, seen, self.places)
+        if isinstance(plain, ContactBatch):  # it does not enter the matrix
+            return seen
         return seen._replace(dest=self.places.dest(plain.base))
 
     def _held(self) -> IntArray:
@@ -199,16 +224,16 @@ class System:
         return np.unique(np.concatenate([unused, sorted(self.constraints.held)])).astype(np.int64)
 
     def _weight(self) -> FloatArray:
-        weight = np.ones(self.n)
+        weight, size = np.ones(self.n), self.model.size
         for slots in self.numbering.slots.values():
             for c in range(3):
-                weight[slots[:, 0] + c] = 1.0 / self.model.size
+                weight[slots[:, 0] + c] = 1.0 / size
         for name, beam in self.model.beams.items():
             internal = self.numbering.slots[name][:-1, self.numbering.shared[name] :]
             for c in range(3):
                 weight[internal + c] = np.diff(beam.node_x)[:, None]
         weight[self.numbering.all_multipliers()] = 0.0
-        weight[list(self.numbering.arcs.values())] = 1.0 / self.model.size
+        weight[list(self.numbering.arcs.values())] = 1.0 / size
         return weight
 
     def holding(self, bodies: list[str]) -> Core:

@@ -18,7 +18,7 @@ from ancf.model.file.messages import combined, of_validation
 from ancf.model.model import Model
 from ancf.model.settings import EquilibriumSettings, SimulationSettings
 
-__all__ = ["Study", "parse_study", "read_study", "schema"]
+__all__ = ["Study", "parse_study", "read_study", "read_toml", "schema"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,8 +52,20 @@ def read_study(path: str | Path) -> Study:
         The file cannot be read, is no TOML, or describes no valid model; all problems in one error.
 
     """
-    text = _read_text(Path(path))
+    text = _read_text(Path(path), "model file")
     return replace(parse_study(_toml(text, str(path)), str(path)), source_text=text)
+
+
+def read_toml(path: Path, kind: str) -> dict[str, Any]:
+    """Tables of a TOML file; `kind` says in a message what the file should be.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read or is no TOML.
+
+    """
+    return _toml(_read_text(path, kind), str(path))
 
 
 def parse_study(data: dict[str, Any], source: str = "model") -> Study:
@@ -91,14 +103,14 @@ def schema() -> dict[str, Any]:
     return FileEntry.model_json_schema()
 
 
-def _read_text(path: Path) -> str:
+def _read_text(path: Path, kind: str) -> str:
     try:
         return path.read_bytes().decode("utf-8-sig")
     except FileNotFoundError:
         found = [p.name for p in path.parent.glob("*.toml")] if path.parent.is_dir() else []
         raise ModelError(str(path), "no such file", nearest(path.name, found)) from None
     except IsADirectoryError:
-        raise ModelError(str(path), "is a folder, not a model file") from None
+        raise ModelError(str(path), f"is a folder, not a {kind}") from None
     except UnicodeDecodeError as error:
         raise ModelError(str(path), f"is not UTF-8 text: byte {error.start} cannot be read") from None
     except (OSError, ValueError) as error:

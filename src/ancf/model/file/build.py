@@ -77,6 +77,8 @@ class Builder:
             self._check(self.model.body, body, f"simulation.equilibrium_of[{i}]")
         for i, label in enumerate(settings.outputs):
             self._check(self.model.point, label, f"simulation.outputs[{i}]")
+        for i, name in enumerate(settings.sensors):
+            self._check(self.model.sensor, name, f"simulation.sensors[{i}]")
         return settings
 
     def _equilibrium(self, given: EquilibriumEntry) -> EquilibriumSettings:
@@ -125,6 +127,7 @@ class Builder:
             "fixation": model.clamp,
             "slide": model.slide,
             "spring": model.add_spring,
+            "contact": model.add_contact,
         }
         groups: dict[str, Sequence[AnySupport | AnyLoad | AnyConnection]] = {
             "supports": entry.supports,
@@ -165,11 +168,12 @@ def _set_motion(set_motion: Callable[..., None], given: dict[str, Any], where: s
 
 
 def _simulation(given: SimulationEntry) -> SimulationSettings:
-    values = given.given("integrator", "equilibrium_of", "outputs")
+    values = given.given("integrator", "equilibrium_of", "outputs", "sensors")
     of = given.equilibrium_of
     return SimulationSettings(
         integrator=IntegratorSettings.of(given.integrator),
         equilibrium_of=None if of is None else tuple(of),
         outputs=tuple(given.outputs),
+        sensors=tuple(given.sensors),
         **values,
     )

@@ -33,6 +33,7 @@ class SectionEntry(Entry):
     damping: NonNegative = Field(0.0, description="External viscous force per length and velocity [N s/m^2].")
     axial_damping: NonNegative = Field(0.0, description="Axial Kelvin-Voigt damping [N s].")
     bending_damping: NonNegative = Field(0.0, description="Bending Kelvin-Voigt damping [N m^2 s].")
+    slope_damping: NonNegative = Field(0.0, description="Damping of the slopes' rates, of cables only [N s].")
 
 
 class MaterialEntry(Entry):
@@ -47,6 +48,7 @@ class MaterialEntry(Entry):
     damping: NonNegative = Field(0.0, description="External viscous force per length and velocity [N s/m^2].")
     axial_damping: NonNegative = Field(0.0, description="Axial Kelvin-Voigt damping [N s].")
     bending_damping: NonNegative = Field(0.0, description="Bending Kelvin-Voigt damping [N m^2 s].")
+    slope_damping: NonNegative = Field(0.0, description="Damping of the slopes' rates, of cables only [N s].")
 
 
 class RectangleEntry(MaterialEntry):
@@ -135,6 +137,9 @@ class HoldEntry(Entry):
     slope_y: str = Field("", description='Components of a beam\'s r_y that are held, letters of "xyz".')
     slope_z: str = Field("", description='Components of a beam\'s r_z that are held, letters of "xyz".')
     twist: bool = Field(False, description="Hold a beam's section against turning about the tangent.")
+    displacement: VectorFunction = Field(
+        None, description="Prescribed displacement of the position's held components, function of t [m]."
+    )
     name: ItemName = None
 
 
@@ -242,6 +247,20 @@ class SpringEntry(Entry):
     name: ItemName = None
 
 
+class ContactEntry(Entry):
+    """A wire rests on a straight strip through a point."""
+
+    type: Literal["contact"] = Field(description="Kind of connection.")
+    point: PointLabel
+    along: str = Field(description="Name of the wire: a cable or a beam.")
+    stiffness: Positive = Field(description="Force per overlap [N/m].")
+    damping: NonNegative = Field(0.0, description="Force per rate of overlap [N s/m].")
+    strip: Vector = Field([0.0, 1.0, 0.0], description="Direction of the strip [-].")
+    normal: Vector = Field([0.0, 0.0, 1.0], description="Direction of the force on the wire [-].")
+    s: NonNegative | None = Field(None, description="Arc length near which it starts [m].")
+    name: ItemName = None
+
+
 class SimulationEntry(Entry):
     """Settings of a simulation."""
 
@@ -256,6 +275,9 @@ class SimulationEntry(Entry):
         None, description="Time between stored states, a multiple of step [s]."
     )
     outputs: list[str] = Field([], description="Points that the summary prints.")
+    sensors: list[str] = Field(
+        [], description="Points, springs and joints, by name, that are recorded at every step."
+    )
 
 
 class EquilibriumEntry(Entry):
@@ -281,6 +303,7 @@ TAGGED: dict[str, type[Entry]] = {
     "<fixation>": FixationEntry,
     "<slide>": SlideEntry,
     "<spring>": SpringEntry,
+    "<contact>": ContactEntry,
 }
 
 
@@ -328,8 +351,9 @@ AnyConnection = Annotated[
     | Annotated[HingeEntry, Tag("<hinge>")]
     | Annotated[FixationEntry, Tag("<fixation>")]
     | Annotated[SlideEntry, Tag("<slide>")]
-    | Annotated[SpringEntry, Tag("<spring>")],
-    _by_type("spherical", "hinge", "fixation", "slide", "spring"),
+    | Annotated[SpringEntry, Tag("<spring>")]
+    | Annotated[ContactEntry, Tag("<contact>")],
+    _by_type("spherical", "hinge", "fixation", "slide", "spring", "contact"),
 ]
 
 

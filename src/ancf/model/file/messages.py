@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from typing import Any
 
 from pydantic import ValidationError
@@ -24,6 +25,7 @@ WANTED = {
     "model_type": "a table",
     "finite_number": "a finite number",
 }
+Tables = Callable[[tuple[int | str, ...]], type[Entry]]
 BOUNDS = {"greater_than": ("gt", ">"), "greater_than_equal": ("ge", ">="), "less_than": ("lt", "<")}
 
 
@@ -37,9 +39,10 @@ def combined(problems: list[ModelError], source: str) -> ModelError:
     return ModelError(source, f"{len(problems)} problems:" + "".join(lines))
 
 
-def of_validation(error: ValidationError) -> list[ModelError]:
-    """ModelErrors out of what pydantic found."""
-    return [_of_detail(dict(detail)) for detail in error.errors(include_url=False)]
+def of_validation(error: ValidationError, tables: Tables | None = None) -> list[ModelError]:
+    """ModelErrors out of what pydantic found; `tables` gives the table at a place, default a model file's."""
+    entry_at = _entry if tables is None else tables
+    return [_of_detail(dict(detail), entry_at) for detail in error.errors(include_url=False)]
 
 
 def place(parts: tuple[int | str, ...]) -> str:
@@ -53,7 +56,7 @@ def place(parts: tuple[int | str, ...]) -> str:
     return text.removeprefix(".")
 
 
-def _of_detail(detail: dict[str, Any]) -> ModelError:
+def _of_detail(detail: dict[str, Any], entry_at: Tables) -> ModelError:
     kind, where, given = detail["type"], place(detail["loc"]) or "the file", detail["input"]
     context = detail.get("ctx", {})
     if kind == "model":
@@ -61,10 +64,10 @@ def _of_detail(detail: dict[str, Any]) -> ModelError:
     if kind == "wrong_kind":
         return _wrong_kind(where, given, context["key"], context["allowed"].split())
     if kind == "extra_forbidden":
-        key, allowed = str(detail["loc"][-1]), _allowed(detail["loc"][:-1])
+        key, allowed = str(detail["loc"][-1]), list(entry_at(detail["loc"][:-1]).model_fields)
         return ModelError(where, f"unknown key, allowed: {listed(allowed, 30)}", nearest(key, allowed))
     if kind == "missing":
-        field = _entry(detail["loc"][:-1]).model_fields[str(detail["loc"][-1])]
+        field = entry_at(detail["loc"][:-1]).model_fields[str(detail["loc"][-1])]
         return ModelError(where, "is missing", (field.description or "").rstrip("."))
     return ModelError(where, *_of_value(kind, given, context, detail["msg"]))
 
@@ -100,7 +103,3 @@ def _entry(parts: tuple[int | str, ...]) -> type[Entry]:
     for part in parts:
         entry = TAGGED.get(str(part), NESTED.get(str(part), entry))
     return entry
-
-
-def _allowed(parts: tuple[int | str, ...]) -> list[str]:
-    return list(_entry(parts).model_fields)

@@ -1,0 +1,190 @@
+"""Contact of a wire with a straight strip by a penalty: it pushes, never pulls, and knows no friction.
+
+The strip runs along u through the point p, the wire receives a force near n.  It crosses the plane through
+p across e = u x n at the arc length s, which follows from the positions alone:
+
+    e . (p - r(s)) = 0,      overlap g = n . (p - r(s)),      F = max(k g + c dg/dt, 0) where g > 0.
+
+With ds = e . (dp - dr)/(e . r_x) the variation of g is m . (dp - dr(s)),
+
+    m = n - (n . r_x)/(e . r_x) e,
+
+so that the force on the wire is F m, normal to the wire and to the strip, and on the point -F m: the part
+along e is what drives the strip uphill.  Nothing is added to the iteration matrix: in a time step the
+stiffness is small against the inertia of what touches, and Newton's iteration makes up for it.
+:func:`contact_row` gives m S(s) where there is no inertia (equilibria and modes).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..compiled import implements, inline_kernel, kernel
+from .sliding import COLUMNS, dot3, element_at, line, shape, slider
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+# columns of ContactBatch.data
+STIFFNESS, DAMPING = range(2)
+#: Columns of ContactBatch.found.
+FORCE, OVERLAP, ARC, ASIDE = range(4)
+#: Iterations for the crossing; a nearly straight wire takes two.
+MOST = 20
+
+
+class ContactBatch(NamedTuple):
+    """All contacts of a System; n contacts, m elements of their wires."""
+
+    slot: IntArray  # (n, COLUMNS) slots of the point, -1: none
+    factor: FloatArray  # (n, COLUMNS)
+    offset: FloatArray  # (n, 3) constant part of the point's position
+    first: IntArray  # (n + 1,) elements of the wire of each contact
+    x: FloatArray  # (m, 2) start and length of the element, m
+    line_slot: IntArray  # (m, COLUMNS)
+    line_poly: FloatArray  # (m, COLUMNS, 4) factors as powers of xi = (s - start)/length
+    data: FloatArray  # (n, 2) STIFFNESS, DAMPING
+    travel: FloatArray  # (n, 3) e
+    normal: FloatArray  # (n, 3) n
+    found: FloatArray  # (n, 4) FORCE ... ASIDE where it was evaluated last; the next search starts at ARC
+
+
+@inline_kernel
+def crossing(batch, j, q, p):
+    """Whether the wire crosses the strip's plane, and s there; s is kept for the next search."""
+    start, stop = batch.first[j], batch.first[j + 1] - 1
+    low, high = batch.x[start, 0], batch.x[stop, 0] + batch.x[stop, 1]
+    tau = (batch.travel[j, 0], batch.travel[j, 1], batch.travel[j, 2])
+    s = batch.found[j, ARC]
+    if not (s >= low and s <= high):
+        s = 0.5 * (low + high)
+    for _ in range(MOST):
+        e = element_at(batch, j, s)
+        xi = (s - batch.x[e, 0]) / batch.x[e, 1]
+        o, t = line(batch, e, xi, q, 0), line(batch, e, xi, q, 1)
+        rise = dot3(tau, t)
+        if not rise > 0.0:
+            return False, s
+        step = dot3(tau, (p[0] - o[0], p[1] - o[1], p[2] - o[2])) / rise
+        s += step
+        if abs(step) <= 1e-12 * (high - low):
+            if s < low or s > high:
+                return False, s
+            batch.found[j, ARC] = s
+            return True, s
+        s = min(max(s, low - batch.x[start, 1]), high + batch.x[stop, 1])
+    return False, s
+
+
+@inline_kernel
+def touch(batch, j, q, v):
+    """Whether contact j pushes, with the element, xi, m and the force; fills ``found``."""
+    p = slider(batch, j, q, 1.0)
+    crosses, s = crossing(batch, j, q, p)
+    e = element_at(batch, j, s)
+    xi = (s - batch.x[e, 0]) / batch.x[e, 1]
+    batch.found[j, FORCE], batch.found[j, OVERLAP] = 0.0, -np.inf
+    m = (0.0, 0.0, 0.0)
+    if not crosses:
+        return False, e, xi, m, 0.0
+    n = (batch.normal[j, 0], batch.normal[j, 1], batch.normal[j, 2])
+    tau = (batch.travel[j, 0], batch.travel[j, 1], batch.travel[j, 2])
+    o, t = line(batch, e, xi, q, 0), line(batch, e, xi, q, 1)
+    d = (p[0] - o[0], p[1] - o[1], p[2] - o[2])
+    u = (n[1] * tau[2] - n[2] * tau[1], n[2] * tau[0] - n[0] * tau[2], n[0] * tau[1] - n[1] * tau[0])
+    overlap = dot3(n, d)
+    batch.found[j, OVERLAP], batch.found[j, ASIDE] = overlap, -dot3(u, d)
+    slope = dot3(n, t) / dot3(tau, t)
+    m = (n[0] - slope * tau[0], n[1] - slope * tau[1], n[2] - slope * tau[2])
+    if not overlap > 0.0:
+        return False, e, xi, m, 0.0
+    force = batch.data[j, STIFFNESS] * overlap
+    if batch.data[j, DAMPING] != 0.0:
+        w, o = slider(batch, j, v, 0.0), line(batch, e, xi, v, 0)
+        force += batch.data[j, DAMPING] * dot3(m, (w[0] - o[0], w[1] - o[1], w[2] - o[2]))
+    force = max(force, 0.0)
+    batch.found[j, FORCE] = force
+    return force > 0.0, e, xi, m, force
+
+
+@inline_kernel
+def add_row(batch, j, e, xi, m, weight, r):
+    """Add ``weight`` times the gradient of the overlap to r."""
+    for k in range(COLUMNS):
+        i, o = batch.slot[j, k], batch.line_slot[e, k]
+        if i >= 0:
+            w = weight * batch.factor[j, k]
+            for c in range(3):
+                r[i + c] += w * m[c]
+        if o >= 0:
+            w = weight * shape(batch, e, k, xi, 0)
+            for c in range(3):
+                r[o + c] -= w * m[c]
+
+
+@inline_kernel
+def contact_force(batch, q, v, a, r, ws):
+    """Add the contact forces to r."""
+    for j in range(batch.slot.shape[0]):
+        pushes, e, xi, m, force = touch(batch, j, q, v)
+        if pushes:
+            add_row(batch, j, e, xi, m, force, r)
+
+
+@inline_kernel
+def contact_inertia(batch, a, r, ws):
+    """Contacts have no mass."""
+
+
+@inline_kernel
+def contact_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    """Nothing, see the text above."""
+
+
+@inline_kernel
+def contact_energy(batch, q, ws):
+    """Energy of the overlaps, J."""
+    energy = 0.0
+    for j in range(batch.slot.shape[0]):
+        touch(batch, j, q, q)
+        energy += 0.5 * batch.data[j, STIFFNESS] * max(batch.found[j, OVERLAP], 0.0) ** 2
+    return energy
+
+
+@inline_kernel
+def contact_measure(batch, q, v):
+    """Fill ``found`` for the state (q, v)."""
+    for j in range(batch.slot.shape[0]):
+        touch(batch, j, q, v)
+
+
+implements(
+    ContactBatch,
+    force=contact_force,
+    inertia=contact_inertia,
+    tangent=contact_tangent,
+    energy=contact_energy,
+    measure=contact_measure,
+)
+
+
+@kernel
+def contact_row(batch, j, q, v, row):
+    """Gradient of the overlap of contact j in ``row``; its stiffness, 0 while it does not touch."""
+    pushes, e, xi, m, _ = touch(batch, j, q, v)
+    if not pushes:
+        return 0.0
+    add_row(batch, j, e, xi, m, 1.0, row)
+    return batch.data[j, STIFFNESS]
+
+
+@kernel
+def contact_values(batch, j, q, v, out):
+    """What ``found`` says of contact j in each state, rows of ``out``, shape (n, 4)."""
+    for n in range(q.shape[0]):
+        touch(batch, j, q[n], v[n])
+        for c in range(4):
+            out[n, c] = batch.found[j, c]

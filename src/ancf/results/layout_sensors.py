@@ -1,0 +1,46 @@
+"""Sensors of a results file: what was listed, and room for what is recorded."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+
+from ..model.bodies import Body
+from ..model.points import Point
+from ..system.sensors import Listing
+
+#: Rows and columns of a chunk: few columns, so that one sensor is read without the others.
+ROWS, COLUMNS = 512, 24
+#: Data sets by name; the time is written last, so that each of its rows is complete.
+DATA = ("q", "v", "measured", "time")
+
+
+def write_listing(file: Any, listing: Listing) -> None:
+    """Write the group ``sensors`` with empty data sets; none without sensors."""
+    if not listing:
+        return
+    group = file.create_group("sensors")
+    points = [{"body": p.body.name, "label": p.label, "place": (p.x, p.y, p.z)} for p in listing.points]
+    columns = {name: places.tolist() for name, places in listing.columns.items()}
+    listed = {"points": points, "connections": listing.connections, "columns": columns}
+    group.attrs["listed"] = json.dumps(listed)
+    group["index"], group["entries"] = listing.index, listing.entries
+    for name, width in zip(DATA, (len(listing.index),) * 2 + (len(listing.entries), None), strict=True):
+        tail = () if width is None else (width,)
+        chunk = () if width is None else (max(1, min(width, COLUMNS)),)
+        most = () if width is None else (width or None,)
+        group.create_dataset(name, (0, *tail), "f8", maxshape=(None, *most), chunks=(ROWS, *chunk))
+
+
+def read_listing(group: Any, bodies: dict[str, Body]) -> Listing:
+    """What the group ``sensors`` lists."""
+    listed = json.loads(group.attrs["listed"])
+    points = []
+    for item in listed["points"]:
+        x, y, z = item["place"]
+        points.append(Point(bodies[item["body"]], x, item["label"], y, z))
+    columns = {name: np.array(places, dtype=np.int64) for name, places in listed["columns"].items()}
+    connections = tuple(listed["connections"])
+    return Listing(tuple(points), connections, group["index"][:], group["entries"][:], columns)

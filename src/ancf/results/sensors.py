@@ -1,0 +1,100 @@
+"""Sensors: the history at every step of what a simulation was asked to record."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ModelError
+from ..model.bodies import PointMass, RigidBody
+from ..model.points import Point
+from ..system.contact_fields import ContactFields
+from ..system.probe import BeamProbe, Probe
+from ..system.sensors import Listing
+from ..system.spring_fields import SpringFields
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+class Sensors(SpringFields, ContactFields):
+    """What was recorded, at all steps; it answers as a :class:`ancf.Result` does.
+
+    Points, springs and joints that were not recorded give a ModelError that lists those that were.
+
+    Parameters
+    ----------
+    listing : Listing
+    arrays : callable
+        Gives ``time`` (n,), ``q`` (n, k), ``v`` (n, k) and ``measured`` (n, j) by name.  They are asked for
+        anew each time: data sets of a file that grows must not stay open when it is loaded again.
+    whole : SpringFields and ContactFields
+        The result, for its bodies, slots, joints and springs.
+    """
+
+    def __init__(self, listing: Listing, arrays: Callable[[], dict[str, Any]], whole: Any) -> None:
+        self.listing, self._arrays = listing, arrays
+        self._bodies = whole.bodies
+        self._slots = {name: listing.places(slots) for name, slots in whole.slots.items()}
+        mine = listing.connections
+        self._springs = {name: item for name, item in whole.springs.items() if name in mine}
+        self._joints = {name: listing.places(u) for name, u in whole.joints.items() if name in mine}
+        self._arcs = {name: int(self._joints[name][-1]) for name in whole.arcs if name in mine}
+        ends = [end for s in self._springs.values() for end in (s.a, s.b) if isinstance(end, Point)]
+        self._listed = frozenset(listing.points)
+        self._placed = self._listed.union(ends)
+
+    @property
+    def t(self) -> FloatArray:
+        """Times of all steps, s, shape (n,); with the start."""
+        t: FloatArray = self._arrays()["time"]
+        return t
+
+    @property
+    def q(self) -> Any:
+        """Recorded entries of the state vectors, shape (n, k)."""
+        return self._arrays()["q"]
+
+    @property
+    def v(self) -> Any:
+        """Their rates, shape (n, k)."""
+        return self._arrays()["v"]
+
+    @property
+    def names(self) -> list[str]:
+        """Points, springs and joints that were recorded."""
+        return [*map(str, self.listing.points), *self.listing.connections]
+
+    def _contacts(self) -> list[str]:
+        return [*self.listing.columns]
+
+    def _contact(self, contact: Any) -> FloatArray:
+        name = getattr(contact, "name", contact)
+        if name not in self.listing.columns:
+            raise ModelError(str(name), "is no contact that the sensors have recorded", self._recorded())
+        measured = self._arrays()["measured"]
+        return np.stack([measured[..., int(column)] for column in self.listing.columns[name]], axis=-1)
+
+    def _probe(self, point: Point | PointMass | RigidBody | str) -> Probe:
+        probe = super()._probe(point)
+        self._check(probe, point, self._placed)
+        return probe
+
+    def _beam(self, point: Point | RigidBody | str) -> BeamProbe:
+        probe = super()._beam(point)
+        self._check(probe, point, self._listed)
+        return probe
+
+    def _check(self, probe: Probe, point: Any, known: frozenset[Point]) -> None:
+        place = Point(probe.body, probe.x, "", probe.y, probe.z)
+        if place not in known:
+            name = (
+                str(point) if isinstance(point, str) or str(point) else f"{probe.body.name}.at({probe.x:g})"
+            )
+            raise ModelError(name, "was not recorded by the sensors", self._recorded())
+
+    def _recorded(self) -> str:
+        return "recorded are: " + ", ".join(self.names)

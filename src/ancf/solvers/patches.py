@@ -1,0 +1,216 @@
+"""What has changed since the matrix was factorised, or never was in it, as a small correction.
+
+A dropper that goes slack takes c b b^T out of the iteration matrix K, with b the gradient of its length and
+c = k + (G/B) d; a contact that pushes adds the same with the gradient of its overlap.  Instead of a new
+factorisation Woodbury's formula corrects the solution x = K^-1 r:
+
+    (K + sum c_j b_j b_j^T)^-1 r = x - Z (diag(1/c) + B^T Z)^-1 B^T x,      z_j = K^-1 b_j,
+
+where c is negative for what went slack.  The z_j of springs are kept as long as the factorisation is,
+those of contacts, which move on, for a few steps.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..compiled import inline_kernel
+from ..connections.contact import (
+    DAMPING,
+    FORCE,
+    STIFFNESS,
+    ContactBatch,
+    add_row,
+    touch,
+)
+from ..connections.contact_build import no_contacts
+from ..connections.spring_damper import SpringBatch, spring_gradient, spring_state
+from ..linalg.block_ldl import solve
+from ..system.core import to_local
+from ..system.system import System
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+#: Springs that are corrected at once; beyond them the iteration slows down and the matrix is renewed.
+MOST = 24
+#: Steps for which the row of a contact is kept: it moves by a part of an element.
+KEPT = 2
+#: Unknowns on which a spring or a contact depends, at most.
+WIDEST = 60
+
+
+class Patches(NamedTuple):
+    """Rows b_j, z_j and products b_i . z_j of all contacts, then of springs that differ from the matrix."""
+
+    contacts: Any  # ContactBatch
+    springs: Any  # SpringBatch
+    entry: IntArray  # (MOST, WIDEST) unknowns of b_j
+    value: FloatArray  # (MOST, WIDEST)
+    width: IntArray  # (MOST,) their number
+    back: FloatArray  # (MOST, size) z_j
+    gram: FloatArray  # (MOST, MOST)
+    spring: IntArray  # (MOST,) which spring, of rows behind those of the contacts
+    used: IntArray  # (2,) rows in use, and the age of those of the contacts in steps
+    active: IntArray  # (MOST,) workspace
+    small: FloatArray  # (MOST, MOST + 1) workspace
+
+
+def room_for_patches(system: System) -> Patches:
+    """Room for the contacts and slack springs of a system; none if it has none."""
+    springs = next(b for b in system.core.batches if isinstance(b, SpringBatch))
+    contacts = next((b for b in system.core.batches if isinstance(b, ContactBatch)), no_contacts())
+    size, touching = system.size, len(contacts.slot)
+    most = touching + min(MOST, int(np.count_nonzero(springs.data[:, 3])))
+    return Patches(
+        contacts,
+        springs,
+        np.zeros((most, WIDEST), dtype=np.int64),
+        np.zeros((most, WIDEST)),
+        np.zeros(most, dtype=np.int64),
+        np.zeros((most, size)),
+        np.zeros((most, most)),
+        np.zeros(most, dtype=np.int64),
+        np.array([touching, KEPT], dtype=np.int64),
+        np.zeros(most, dtype=np.int64),
+        np.zeros((most, most + 1)),
+    )
+
+
+@inline_kernel
+def forget(p):
+    """The matrix is new."""
+    p.used[0], p.used[1] = p.contacts.slot.shape[0], KEPT
+
+
+@inline_kernel
+def move_on(p):
+    """A new step begins."""
+    p.used[1] += 1
+
+
+@inline_kernel
+def times(p, k, x):
+    """b_k . x."""
+    total = 0.0
+    for i in range(p.width[k]):
+        total += p.value[k, i] * x[p.entry[k, i]]
+    return total
+
+
+@inline_kernel
+def fill(core, p, k, n):
+    """Row k of B, of Z and of the products; z_k holds b_k in physical components."""
+    z, w = p.back[k], 0
+    to_local(core.supports, z)
+    for i in range(n):
+        if z[i] != 0.0:
+            p.entry[k, w], p.value[k, w] = i, z[i]
+            w += 1
+    p.width[k] = w
+    solve(core.factor, z)
+    for j in range(p.used[0]):
+        p.gram[j, k] = times(p, j, z)
+        p.gram[k, j] = p.gram[j, k]
+
+
+@inline_kernel
+def renew_contacts(core, p, q, v, n):
+    """Rows of the contacts in the state q, v."""
+    for j in range(p.contacts.slot.shape[0]):
+        p.back[j, :] = 0.0
+        p.width[j] = 0
+        pushes, e, xi, m, _ = touch(p.contacts, j, q, v)
+        if pushes:
+            add_row(p.contacts, j, e, xi, m, 1.0, p.back[j])
+            fill(core, p, j, n)
+        p.spring[j] = pushes
+    p.used[1] = 0
+
+
+@inline_kernel
+def place_of(core, p, e, q, n):
+    """Row of spring e, which is made if it is not there; -1 if there is no room."""
+    for k in range(p.contacts.slot.shape[0], p.used[0]):
+        if p.spring[k] == e:
+            return k
+    k = p.used[0]
+    if k == p.back.shape[0]:
+        return -1
+    p.back[k, :] = 0.0
+    spring_gradient(p.springs, e, q, p.back[k])
+    p.spring[k], p.used[0] = e, k + 1
+    fill(core, p, k, n)
+    return k
+
+
+@inline_kernel
+def changed(core, p, q, v, gb, n):
+    """Rows that differ from the matrix in ``active``, 1/c on the diagonal of ``small``; their number."""
+    m = 0
+    for j in range(p.contacts.slot.shape[0]):
+        closed = p.spring[j] == 0 and p.contacts.found[j, FORCE] > 0.0
+        if p.used[1] >= KEPT or (closed and p.used[1] > 0):
+            renew_contacts(core, p, q, v, n)
+    for j in range(p.contacts.slot.shape[0]):
+        if p.spring[j] != 0 and p.contacts.found[j, FORCE] > 0.0:
+            p.active[m] = j
+            p.small[m, m] = 1.0 / (p.contacts.data[j, STIFFNESS] + gb * p.contacts.data[j, DAMPING])
+            m += 1
+    for e in range(p.springs.data.shape[0]):
+        if p.springs.data[e, 3] == 0.0:
+            continue
+        _, _, _, _, carries = spring_state(p.springs, e, q, v)
+        if carries == (p.springs.inside[e] != 0) or m == p.back.shape[0]:
+            continue
+        k = place_of(core, p, e, q, n)
+        if k < 0:
+            continue
+        c = p.springs.data[e, 0] + gb * p.springs.data[e, 1]
+        p.active[m] = k
+        p.small[m, m] = 1.0 / (c if carries else -c)
+        m += 1
+    return m
+
+
+@inline_kernel
+def eliminate(A, m):
+    """Solve the m equations A[:, :m] y = A[:, m] with pivoting; y replaces the column m."""
+    for k in range(m):
+        pivot = k
+        for i in range(k + 1, m):
+            if abs(A[i, k]) > abs(A[pivot, k]):
+                pivot = i
+        for j in range(k, m + 1):
+            A[k, j], A[pivot, j] = A[pivot, j], A[k, j]
+        for i in range(k + 1, m):
+            f = A[i, k] / A[k, k]
+            for j in range(k + 1, m + 1):
+                A[i, j] -= f * A[k, j]
+    for k in range(m - 1, -1, -1):
+        for j in range(k + 1, m):
+            A[k, m] -= A[k, j] * A[j, m]
+        A[k, m] /= A[k, k]
+
+
+@inline_kernel
+def correct(core, p, q, v, gb, x):
+    """Correct the solution x of the factorised matrix for contacts and for what has changed since."""
+    n = core.weight.shape[0]
+    m = changed(core, p, q, v, gb, n)
+    if m == 0:
+        return
+    for i in range(m):
+        for j in range(m):
+            g = p.gram[p.active[i], p.active[j]]
+            p.small[i, j] = g + p.small[i, i] if i == j else g
+    for i in range(m):
+        p.small[i, m] = times(p, p.active[i], x)
+    eliminate(p.small, m)
+    for j in range(m):
+        y, z = p.small[j, m], p.back[p.active[j]]
+        for i in range(n):
+            x[i] -= y * z[i]

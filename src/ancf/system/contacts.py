@@ -1,0 +1,51 @@
+"""What contacts add to a matrix where there is no inertia: equilibria and modes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_array
+
+from ..connections.contact import ContactBatch, contact_row
+from .core import Core, apply_supports
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Touching:
+    """Contacts that push in a state: rows b_j with the stiffness k_j, which add k_j b_j b_j^T to the matrix.
+
+    Attributes
+    ----------
+    rows : ndarray, shape (m, n)
+        Gradients of the overlaps, zero for held unknowns.
+    stiffness : ndarray, shape (m,)
+    """
+
+    rows: FloatArray
+    stiffness: FloatArray
+
+    def matrix(self) -> csc_array:
+        """Sum of k_j b_j b_j^T, shape (n, n)."""
+        B = csc_array(self.rows)
+        return csc_array(B.T @ (self.stiffness[:, None] * B))
+
+
+def touching(core: Core, q: FloatArray, n: int) -> Touching:
+    """Contacts that push in the state q; n unknowns."""
+    rows, stiffness = [], []
+    still = np.zeros_like(q)
+    for batch in core.batches:
+        if not isinstance(batch, ContactBatch):
+            continue
+        for j in range(len(batch.slot)):
+            row = np.zeros_like(q)
+            k = float(contact_row(batch, j, q, still, row))
+            if k > 0.0:
+                apply_supports(core.supports, row)
+                rows.append(row[:n])
+                stiffness.append(k)
+    return Touching(np.array(rows).reshape(len(rows), n), np.array(stiffness))
