@@ -1,0 +1,45 @@
+"""The lines that come with the package, and how a line is called by name or path."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ancf.errors import ModelError
+from ancf.model.checks import listed, nearest
+
+from .file import read_file
+from .line import Line
+
+FOLDER = Path(__file__).parent / "data"
+
+
+def line_names() -> list[str]:
+    """Names of the lines of the catalogue."""
+    return sorted(path.stem for path in FOLDER.glob("*.toml") if path.stem != "pantographs")
+
+
+def line_file(name: str) -> Path:
+    """File of a line of the catalogue, to copy and change; ModelError for an unknown name."""
+    if name not in line_names():
+        what = f'unknown line "{name}", known: {listed(line_names())}'
+        raise ModelError("line", what, nearest(name, line_names()))
+    return FOLDER / f"{name}.toml"
+
+
+def read_line(name_or_path: str | Path) -> Line:
+    """Line of the catalogue by its name, or from a line file by its path.
+
+    Raises
+    ------
+    ModelError
+        There is no such line or file, or the file is wrong.
+
+    """
+    text = str(name_or_path)
+    if text in line_names():
+        return read_file(line_file(text))
+    path = Path(name_or_path)
+    if not path.exists() and path.suffix != ".toml" and len(path.parts) == 1:
+        what = f"no line of the catalogue and no file, the catalogue has: {listed(line_names())}"
+        raise ModelError(text, what, nearest(text, line_names()))
+    return read_file(path)

@@ -1,0 +1,199 @@
+"""The pantographs in the model: chains of masses that travel under the contact wire."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ancf.errors import ModelError
+from ancf.model import checks
+from ancf.model.beam import Beam
+from ancf.model.bodies import PointMass
+from ancf.model.contact import Contact
+from ancf.model.joints import Slide
+from ancf.model.model import Model
+
+from .pantograph import Pantograph
+from .travel import Travel
+
+CONTACTS = ("penalty", "joint")
+#: Distance of the masses in the model, m; only their motion matters.
+APART = 1.0
+#: Contact stiffness of EN 50318, N/m.
+STANDARD = 50e3
+#: Mass of a strip on a spring of its own, kg: its vibration against the head is far above 20 Hz.
+STRIP = 0.05
+#: Distance of the strip from the wire up to which the sliding joint finds its place on it, m.
+NEAR = 2.0
+#: Stiffness of a contact that only measures, N/m.
+WEIGHTLESS = 1e-9
+
+
+@dataclass(frozen=True)
+class Touch:
+    """How a strip touches the wire.
+
+    Attributes
+    ----------
+    kind : "penalty" or "joint"
+        A penalty, or the sliding joint, which is unilateral and free along the strip.
+    stiffness : float or None
+        Of the penalty, default that of the standards; of a spring between head and strip under a joint,
+        default none: the joint is rigid. N/m.
+    damping : float
+        Beside this stiffness, N s/m.
+
+    """
+
+    kind: str = "penalty"
+    stiffness: float | None = None
+    damping: float = 0.0
+
+    def __post_init__(self) -> None:
+        checks.choice(self.kind, "run.contact", CONTACTS)
+        if self.kind == "penalty" and self.stiffness is None:
+            object.__setattr__(self, "stiffness", STANDARD)
+        if self.stiffness is not None:
+            checks.positive(self.stiffness, "run.contact_stiffness")
+        checks.non_negative(self.damping, "run.contact_damping")
+        if self.stiffness is None and self.damping:
+            raise ModelError("run.contact_damping", "has no effect without contact_stiffness")
+
+    def overlap(self, force: float) -> float:
+        """By how much head and wire approach under a force, m."""
+        return 0.0 if self.stiffness is None else force / self.stiffness
+
+
+@dataclass(frozen=True)
+class Collector:
+    """One pantograph in the model.
+
+    Attributes
+    ----------
+    touch : Contact or Slide
+    meter : Contact
+        Tells where the wire lies on the strip: the contact itself, or one of no weight beside the joint.
+
+    """
+
+    name: str
+    pantograph: Pantograph
+    start: float
+    head: PointMass
+    touch: Contact | Slide
+    meter: Contact
+
+    @property
+    def slides(self) -> bool:
+        """Whether the sliding joint takes the force."""
+        return self.touch is not self.meter
+
+    def sensors(self) -> list[Any]:
+        """What is recorded at every step."""
+        return [self.head, self.touch, self.meter] if self.slides else [self.head, self.touch]
+
+
+def add_pantograph(
+    model: Model,
+    wire: Beam,
+    pantograph: Pantograph,
+    travel: Travel,
+    *,
+    label: str,
+    start: float,
+    height: float,
+    raised: float,
+    touch: Touch,
+) -> Collector:
+    """Add a pantograph at the track position ``start`` with its strip where it comes to rest.
+
+    ``raised`` is by how much its lowest spring is relaxed above the place that it gives, m.
+    """
+    motion = _motion(travel)
+    count, sprung = len(pantograph.masses), touch.kind == "joint" and touch.stiffness is not None
+    top = height - APART if sprung else height
+    masses = [
+        model.add_point_mass(
+            f"{label} mass {k + 1}", at=(start, 0.0, top - APART * (count - 1 - k)), mass=mass
+        )
+        for k, mass in enumerate(pantograph.masses)
+    ]
+    roof = model.add_point_mass(f"{label} roof", at=(start, 0.0, top - APART * count), mass=1.0)
+    model.pin(roof, displacement=motion)
+    for mass in masses:
+        model.hold(mass, position="xy", displacement=motion)
+        model.add_force(mass, (0.0, 0.0, mass.mass * -float(model.gravity[2])), name=f"{mass.name} balance")
+    for mass in (roof, *masses):
+        mass.set_motion(velocity=(float(travel.speed(0.0)), 0.0, 0.0))
+    above = height if pantograph.relaxed_at == "nominal" else -raised
+    _add_springs(model, pantograph, travel, [roof, *masses], above, label)
+    model.add_force(masses[0], _lift(pantograph, travel), name=f"{label} lift")
+    head = masses[-1]
+    if sprung:
+        head = _add_strip(model, head, touch, motion, pantograph.force(float(travel.speed(0.0))), label)
+    name = f"{label} contact"
+    if touch.kind == "penalty":
+        assert touch.stiffness is not None
+        contact = model.add_contact(head, wire, stiffness=touch.stiffness, damping=touch.damping, name=name)
+        return Collector(label, pantograph, start, head, contact, contact)
+    joint = model.slide(
+        head, wire, release=(0, 1, 0), unilateral=(0, 0, 1), tolerance=NEAR, at_end="release", name=name
+    )
+    meter = model.add_contact(head, wire, stiffness=WEIGHTLESS, name=f"{label} meter")
+    return Collector(label, pantograph, start, head, joint, meter)
+
+
+def _motion(travel: Travel) -> Any:
+    if travel.constant:
+        return (f"{travel.top!r}*t", 0.0, 0.0)
+    return lambda t: (float(travel.distance(t)), 0.0, 0.0)
+
+
+def _lift(pantograph: Pantograph, travel: Travel) -> Any:
+    """Static and aerodynamic force, constant or over time."""
+    if travel.constant:
+        return (0.0, 0.0, pantograph.force(travel.top))
+    force: Callable[[float], Sequence[float]] = lambda t: (0.0, 0.0, pantograph.force(float(travel.speed(t))))  # noqa: E731
+    return force
+
+
+def _add_springs(
+    model: Model,
+    pantograph: Pantograph,
+    travel: Travel,
+    masses: list[PointMass],
+    above: float,
+    label: str,
+) -> None:
+    """Springs and dampers, as short as the lift makes them.
+
+    The lowest carries nothing when all is ``above`` lower than at the start.
+    """
+    for k, (stiffness, damping) in enumerate(zip(pantograph.stiffness, pantograph.damping, strict=True)):
+        shortened = -above if k == 0 else pantograph.force(float(travel.speed(0.0))) / stiffness
+        ends = masses[k], masses[k + 1]
+        name = f"{label} spring {k + 1}"
+        model.add_spring(*ends, stiffness=stiffness, damping=damping, length=APART + shortened, name=name)
+
+
+def _add_strip(
+    model: Model, head: PointMass, touch: Touch, motion: Any, force: float, label: str
+) -> PointMass:
+    """A light strip above the head, on a spring with the stiffness of the contact."""
+    assert touch.stiffness is not None
+    x, y, z = head.position
+    place = (x, y, z + APART - force / touch.stiffness)
+    strip = model.add_point_mass(f"{label} strip", at=place, mass=STRIP)
+    model.hold(strip, position="xy", displacement=motion)
+    strip.set_motion(velocity=head.velocity)
+    model.add_force(strip, (0.0, 0.0, STRIP * -float(model.gravity[2])), name=f"{strip.name} balance")
+    model.add_spring(
+        head,
+        strip,
+        stiffness=touch.stiffness,
+        damping=touch.damping,
+        length=APART,
+        name=f"{label} strip spring",
+    )
+    return strip

@@ -1,0 +1,146 @@
+"""Static elasticity: how far an upward force lifts the contact wire, along a span."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import ancf
+from ancf.errors import ModelError
+from ancf.model import checks
+from ancf.model.checks import FloatArray
+from ancf.model.points import Point
+
+from .assemble import Overhead, assemble
+from .form import form
+from .line import Line
+from .mesh import Mesh
+
+
+@dataclass(frozen=True, slots=True)
+class Elasticity:
+    """Static elasticity along one span.
+
+    Attributes
+    ----------
+    span : int
+        Index of the span.
+    x : (n,) m
+        Places from the start of the span.
+    force : (k,) N
+    lift : (k, n) m
+        Displacement of the place under the force.
+
+    """
+
+    span: int
+    x: FloatArray
+    force: FloatArray
+    lift: FloatArray
+
+    @property
+    def value(self) -> FloatArray:
+        """Elasticity (k, n), mm/N."""
+        return 1e3 * self.lift / self.force[:, None]
+
+    @property
+    def nonuniformity(self) -> FloatArray:
+        """(e_max - e_min)/(e_max + e_min) of each force (k,)."""
+        high, low = self.value.max(axis=1), self.value.min(axis=1)
+        ratio: FloatArray = (high - low) / (high + low)
+        return ratio
+
+    def save(self, path: str | Path) -> Path:
+        """Write a CSV file, one row for each place."""
+        target = Path(path)
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            with target.open("w", newline="", encoding="utf-8") as file:
+                writer = csv.writer(file)
+                writer.writerow(["x_m", *(f"elasticity_{f:g}N_mm_per_N" for f in self.force)])
+                for x, values in zip(self.x, self.value.T, strict=True):
+                    writer.writerow([f"{x:.4f}", *(f"{v:.6f}" for v in values)])
+        except OSError as error:
+            raise ModelError(str(target), f"cannot be written: {error.strerror or error}") from None
+        return target
+
+
+def elasticity(
+    line: Line,
+    forces: Sequence[float] = (100.0, 200.0),
+    points: int = 20,
+    span: int | None = None,
+    beside: int | None = None,
+    mesh: Mesh | None = None,
+) -> Elasticity:
+    """Lift the contact wire at points of a span and read the displacements; droppers go slack as they do.
+
+    Parameters
+    ----------
+    line : Line
+    forces : sequence of float, N
+        Upward, > 0.
+    points : int
+        Number of equal distances; the droppers are added.
+    span : int
+        Index of the span, default the middle one.
+    beside : int
+        Spans kept on either side, to be quick; default the whole line. Two make it some 2 % stiffer with
+        fixed anchors, which are then nearer.
+    mesh : Mesh
+
+    Raises
+    ------
+    ModelError
+        A force or an index is out of range, or the line has no form.
+
+    """
+    force = checks.array(list(forces), "elasticity.forces", (None,))
+    for k, value in enumerate(force):
+        checks.positive(value, f"elasticity.forces[{k}]")
+    checks.integer(points, "elasticity.points", 2, 10_000)
+    count = len(line.spans)
+    middle = count // 2 if span is None else checks.integer(span, "elasticity.span", 0, count - 1)
+    reach = count if beside is None else checks.integer(beside, "elasticity.beside", 0, 1000)
+    first, last = max(0, middle - reach), min(count, middle + reach + 1)
+    overhead = assemble(form(line.excerpt(first, last - first), mesh))
+    places = np.union1d(
+        np.linspace(0.0, 1.0, points + 1) * line.spans[middle].length, line.spans[middle].droppers
+    )
+    start = float(overhead.form.line.supports[middle - first])
+    lift = _lifts(overhead, start + places, force)
+    return Elasticity(middle, places, force, lift)
+
+
+def elasticity_beside(line: Line) -> Elasticity:
+    """Elasticity of the middle span at 100 and 200 N as reports show it, with three spans on either side."""
+    return elasticity(line, points=10, beside=3)
+
+
+def _lifts(overhead: Overhead, track: FloatArray, force: FloatArray) -> FloatArray:
+    """Displacements (k, n) at track positions (n,) under forces (k,), each alone: at times 1, 2, ..."""
+    model, sample = overhead.model, [overhead.contact_at(float(x)) for x in track]
+    for k, point in enumerate(sample):
+        model.add_force(point, _only_at([1 + k + len(sample) * i for i in range(force.size)], force))
+    rest = ancf.equilibrium(model)
+    lift = np.empty((force.size, track.size))
+    for i in range(force.size):
+        for k, point in enumerate(sample):
+            state = ancf.equilibrium(model, time=float(1 + k + len(sample) * i))
+            lift[i, k] = _height(state, point) - _height(rest, point)
+    return lift
+
+
+def _height(state: ancf.State, point: Point) -> float:
+    return float(state.position(point)[2])
+
+
+def _only_at(times: Sequence[int], force: FloatArray) -> Callable[[float], Any]:
+    """An upward force of each size at its time."""
+    sizes = {time: float(f) for time, f in zip(times, force, strict=True)}
+    return lambda t: (0.0, 0.0, sizes.get(round(t), 0.0))

@@ -1,0 +1,97 @@
+"""What joins the wires to each other and to the masts: droppers and steady arms."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ancf.errors import ModelError
+from ancf.model import checks
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Droppers:
+    """The droppers of a line, all alike but for their lengths.
+
+    Parameters
+    ----------
+    stiffness : float, N/m
+        Of each dropper whatever its length; give this or EA.
+    EA : float, N
+        Axial stiffness; the stiffness is EA over the unstretched length.
+    mass : float, kg/m
+        Mass per length; half of a dropper's mass stands at each end.
+    damping : float, N s/m
+    slack : bool
+        They carry tension only.
+    clamp_contact, clamp_messenger : float, kg
+        Clamp on each wire.
+
+    """
+
+    stiffness: float | None = None
+    EA: float | None = None
+    mass: float = 0.0
+    damping: float = 0.0
+    slack: bool = True
+    clamp_contact: float = 0.0
+    clamp_messenger: float = 0.0
+
+    def check(self, where: str) -> None:
+        """Raise ModelError if a value is out of range."""
+        if (self.stiffness is None) == (self.EA is None):
+            what = "is missing: give stiffness or EA" if self.EA is None else "give stiffness or EA, not both"
+            raise ModelError(f"{where}.stiffness", what)
+        for key in ("stiffness", "EA"):
+            if getattr(self, key) is not None:
+                checks.positive(getattr(self, key), f"{where}.{key}")
+        for key in ("mass", "damping", "clamp_contact", "clamp_messenger"):
+            checks.non_negative(getattr(self, key), f"{where}.{key}")
+        checks.flag(self.slack, f"{where}.slack")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SteadyArm:
+    """What holds the contact wire sideways at a support: springs, or a hinged arm.
+
+    Parameters
+    ----------
+    vertical : float, N/m
+        Vertical stiffness about the place at rest; 0 for none. Give this or `length`.
+    lateral : float, N/m
+        Sideways stiffness about the place at rest; default held.
+    length : float, m
+        Of an arm hinged to the mast, which pulls the wire sideways and stiffens it by its inclination.
+    mass : float, kg
+        Of the arm or of the spring's moving part; half of it moves with the wire.
+    stiffness : float, N/m
+        Of a hinged arm along itself.
+
+    """
+
+    vertical: float | None = None
+    lateral: float | None = None
+    length: float | None = None
+    mass: float = 0.0
+    stiffness: float = 1e6
+
+    @property
+    def hinged(self) -> bool:
+        """Whether it is a hinged arm."""
+        return self.length is not None
+
+    def check(self, where: str) -> None:
+        """Raise ModelError if a value is out of range, or the two kinds are mixed."""
+        if (self.vertical is None) == (self.length is None):
+            missing = self.vertical is None
+            what = "is missing: give vertical or length" if missing else "give vertical or length, not both"
+            raise ModelError(f"{where}.vertical", what)
+        if self.vertical is not None:
+            checks.non_negative(self.vertical, f"{where}.vertical")
+        if self.length is not None:
+            checks.positive(self.length, f"{where}.length")
+        if self.lateral is not None:
+            checks.positive(self.lateral, f"{where}.lateral")
+            if self.hinged:
+                raise ModelError(f"{where}.lateral", "has no effect on a hinged arm", "leave it out")
+        checks.non_negative(self.mass, f"{where}.mass")
+        checks.positive(self.stiffness, f"{where}.stiffness")

@@ -1,0 +1,169 @@
+"""Form finding: the line at rest with prescribed heights and tensions, and the lengths of its droppers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ancf.errors import ModelError, SolveError
+from ancf.model.checks import FloatArray
+
+from .begin import begin
+from .hang import Hung, hang_contact, hang_messenger, hang_stitches
+from .line import Line
+from .mesh import Mesh
+from .schedule import Row, rows, write
+from .shape import WireShape
+
+TOLERANCE = 1e-8  # m
+MOST_ITERATIONS = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """A line at rest.
+
+    Attributes
+    ----------
+    line : Line
+    mesh : Mesh
+        With which it was found, and with which the wires keep their heights exactly.
+    contact, messenger : WireShape
+        The wires with their natural lengths.
+    stitches : tuple of WireShape
+        Stitch wires at the supports but the first and the last, if the line has them.
+    dropper_load : (n,) N
+        Tension of each dropper at its lower end.
+    dropper_force : (n,) N
+        Its force between the two wires' clamps; half of the dropper's weight is at each.
+    dropper_length, dropper_natural : (n,) m
+        From clamp to clamp under this force, and without force.
+    dropper_stiffness : (n,) N/m
+    contact_height, messenger_height : (n,) m
+        Of the contact wire and of what the droppers hang from, at the droppers.
+    support_load, support_side : (supports,) N
+        Upward and sideways forces of the supports on the messenger; zero at the two anchors.
+    arm_force : (supports, 3) N
+        Force on the contact wire at the supports; zero at the two anchors.
+    iterations : int
+
+    """
+
+    line: Line
+    mesh: Mesh
+    contact: WireShape
+    messenger: WireShape
+    stitches: tuple[WireShape, ...]
+    dropper_load: FloatArray
+    dropper_force: FloatArray
+    dropper_length: FloatArray
+    dropper_natural: FloatArray
+    dropper_stiffness: FloatArray
+    contact_height: FloatArray
+    messenger_height: FloatArray
+    support_load: FloatArray
+    support_side: FloatArray
+    arm_force: FloatArray
+    iterations: int
+
+    def schedule(self) -> list[Row]:
+        """The dropper schedule, one row for each dropper."""
+        return rows(self)
+
+    def save_schedule(self, path: str | Path) -> Path:
+        """Write the dropper schedule as CSV, lengths in mm."""
+        return write(self.schedule(), Path(path))
+
+
+def form(line: Line, mesh: Mesh | None = None) -> Form:
+    """Find a line's form.
+
+    The contact wire alone, held at its heights, tells the forces of the droppers; the messenger alone
+    under these and all weights finds its shape; the distances are the lengths of the droppers. What each
+    wire needs from the others, such as where the droppers point to, is iterated.
+
+    Parameters
+    ----------
+    line : Line
+    mesh : Mesh
+        Of both wires, default ``Mesh()``.
+
+    Raises
+    ------
+    ModelError
+        A dropper would have to push, or the messenger hangs too low; span and dropper are named.
+    SolveError
+        The iteration did not converge.
+
+    """
+    mesh = Mesh() if mesh is None else mesh
+    now = begin(line, mesh)
+    for iteration in range(1, MOST_ITERATIONS + 1):
+        _check_reach(line, now)
+        before = now
+        now = hang_contact(now)
+        contact_error = now.error
+        now = hang_stitches(hang_messenger(now))
+        change = float(np.max(np.abs(now.dropper - before.dropper)))
+        left = max(change, contact_error, now.error)
+        if left < TOLERANCE:
+            return _finished(line, mesh, now, iteration)
+    what = f"no convergence in {MOST_ITERATIONS} iterations, the last is off by {left:.2e} m"
+    raise SolveError("catenary.form", what, "wires that sag much, or droppers very close to each other")
+
+
+def _check_reach(line: Line, now: Hung) -> None:
+    """Raise ModelError where the messenger is not above the contact wire."""
+    gap = now.dropper[:, 2]
+    worst = int(np.argmin(gap))
+    if gap[worst] <= 0.0:
+        what = (
+            f"the messenger hangs {-gap[worst]:.3f} m below the contact wire there, the dropper cannot reach"
+        )
+        raise ModelError(line.dropper_label(worst), what, "give more system_height or more tension")
+
+
+def _finished(line: Line, mesh: Mesh, now: Hung, iterations: int) -> Form:
+    length, force = now.length, now.force
+    own = line.droppers.mass * length * line.gravity
+    load = force - 0.5 * own
+    worst = int(np.argmin(load))
+    if load[worst] <= 0.0:
+        what = f"would carry {load[worst]:.1f} N at rest: it has to push the contact wire down"
+        raise ModelError(line.dropper_label(worst), what, "change its place or the pre_sag around it")
+    natural, stiffness = _unstretched(line, length, force)
+    return Form(
+        line=line,
+        mesh=mesh,
+        contact=now.contact,
+        messenger=now.messenger,
+        stitches=now.stitches,
+        dropper_load=load,
+        dropper_force=force,
+        dropper_length=length,
+        dropper_natural=natural,
+        dropper_stiffness=stiffness,
+        contact_height=now.contact.position[now.contact.nodes.dropper, 2],
+        messenger_height=now.upper[:, 2],
+        support_load=now.support,
+        support_side=now.side,
+        arm_force=now.arm,
+        iterations=iterations,
+    )
+
+
+def _unstretched(line: Line, length: FloatArray, force: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Natural lengths, m, and stiffnesses, N/m, of the droppers."""
+    droppers = line.droppers
+    if droppers.EA is not None:
+        natural = length / (1.0 + force / droppers.EA)
+        return natural, droppers.EA / natural
+    assert droppers.stiffness is not None
+    natural = length - force / droppers.stiffness
+    worst = int(np.argmin(natural))
+    if natural[worst] <= 0.0:
+        stretch = f"{1e3 * (length - natural)[worst]:.1f} mm of its {1e3 * length[worst]:.1f} mm"
+        raise ModelError(line.dropper_label(worst), f"is stretched by {stretch}", "give stiffer droppers")
+    return natural, np.full(length.size, droppers.stiffness)

@@ -1,0 +1,208 @@
+"""One wire of a line in equilibrium, with what the other wires do to it taken from before."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import ancf
+from ancf.model.checks import FloatArray
+
+from .line import Line
+from .mesh import IntArray
+from .rods import add_leans, along
+from .shape import Strung, WireShape
+
+
+@dataclass(frozen=True, slots=True)
+class Hung:
+    """The wires on the way to their form.
+
+    Attributes
+    ----------
+    line : Line
+    contact, messenger : WireShape
+    stitches : tuple of WireShape
+        At the supports but the first and the last; may be empty.
+    lift : (n,) N
+        Vertical forces of the droppers between their clamps.
+    arm : (supports, 3) N
+        Of the steady arms on the contact wire.
+    support, side : (supports,) N
+        Upward and sideways forces of the supports on the messenger.
+    ends : (stitches, 2, 3) N
+        Of the messenger on the two ends of each stitch wire.
+    error : float, m
+        Largest distance of a prescribed place from where the point came to rest.
+
+    """
+
+    line: Line
+    contact: WireShape
+    messenger: WireShape
+    stitches: tuple[WireShape, ...]
+    lift: FloatArray
+    arm: FloatArray
+    support: FloatArray
+    side: FloatArray
+    ends: FloatArray
+    error: float = np.inf
+
+    @property
+    def upper(self) -> FloatArray:
+        """Upper ends (n, 3) of the droppers, m."""
+        position = self.messenger.position[self.messenger.nodes.dropper]
+        for k, shape in enumerate(self.stitches):
+            position[self.line.dropper_stitch == k + 1] = shape.position[shape.nodes.dropper]
+        return position
+
+    @property
+    def dropper(self) -> FloatArray:
+        """Vectors (n, 3) of the droppers from the contact wire up, m."""
+        vector: FloatArray = self.upper - self.contact.position[self.contact.nodes.dropper]
+        return vector
+
+    @property
+    def length(self) -> FloatArray:
+        """Lengths (n,) of the droppers from clamp to clamp, m."""
+        length: FloatArray = np.linalg.norm(self.dropper, axis=1)
+        return length
+
+    @property
+    def force(self) -> FloatArray:
+        """Forces (n,) of the droppers along themselves, N."""
+        force: FloatArray = self.lift * self.length / self.dropper[:, 2]
+        return force
+
+    @property
+    def lean(self) -> FloatArray:
+        """Sideways force of a dropper by its sideways extent (n,), N/m."""
+        lean: FloatArray = self.lift / self.dropper[:, 2]
+        return lean
+
+    @property
+    def down(self) -> FloatArray:
+        """Vertical forces (n, 3) on what the droppers hang from, their weight and clamp included, N."""
+        load = self.lift + self.weight(self.line.droppers.clamp_messenger)
+        return -np.outer(load, [0.0, 0.0, 1.0])
+
+    def weight(self, clamp: float) -> FloatArray:
+        """Weights (n,) at one end of the droppers, N: half of the dropper and a clamp in kg."""
+        weight: FloatArray = (0.5 * self.line.droppers.mass * self.length + clamp) * self.line.gravity
+        return weight
+
+
+def hang_contact(now: Hung) -> Hung:
+    """The contact wire held at its heights at the droppers, which lean to where the messenger is."""
+    line, shape, nodes, inner = now.line, now.contact, now.contact.nodes, slice(1, -1)
+    model, wire = _pulled(line, shape)
+    model.hold(wire.start, position="yz")
+    model.hold(wire.end, position="yz")
+    weight = -np.outer(now.weight(line.droppers.clamp_contact), [0.0, 0.0, 1.0])
+    _add_forces(model, wire, nodes.dropper, weight)
+    target = shape.position[nodes.dropper].copy()
+    target[:, 2] = line.dropper_height
+    points = [wire.point(i) for i in nodes.dropper]
+    hangers = along(target, 2, now.lift)
+    hangers.add_to(model, points)
+    add_leans(model, points, target, now.upper[:, 1], now.lean)
+    held = shape.position[nodes.support[inner]].copy()
+    held[:, 1] = line.stagger[inner]
+    axes = [1, 2] if line.contact_support == "held" else [1]
+    if 2 in axes:
+        held[:, 2] = 0.0
+    arms = {axis: along(held, axis, now.arm[inner, axis]) for axis in axes}
+    for rods in arms.values():
+        rods.add_to(model, [wire.point(i) for i in nodes.support[inner]])
+    state = ancf.equilibrium(model)
+    position = wire.positions(state)
+    arm = np.zeros_like(now.arm)
+    for axis, rods in arms.items():
+        arm[inner, axis] = rods.forces(state)
+    height = position[nodes.dropper, 2] - target[:, 2]
+    side = (position[nodes.support[inner]] - held)[:, axes]
+    error = max(_largest(height), _largest(side), _misplaced(shape, position))
+    return replace(now, contact=shape.moved(position), lift=hangers.forces(state), arm=arm, error=error)
+
+
+def hang_messenger(now: Hung) -> Hung:
+    """The messenger under the forces of droppers and stitch wires and all weights, held at its supports."""
+    line, shape, nodes, inner = now.line, now.messenger, now.messenger.nodes, slice(1, -1)
+    model, wire = _pulled(line, shape)
+    model.hold(wire.start, position="yz")
+    model.hold(wire.end, position="yz")
+    own = line.dropper_stitch < 0
+    _add_forces(model, wire, nodes.dropper[own], now.down[own])
+    points = [wire.point(i) for i in nodes.dropper[own]]
+    below = now.contact.position[now.contact.nodes.dropper[own], 1]
+    add_leans(model, points, shape.position[nodes.dropper[own]], below, now.lean[own])
+    _add_forces(model, wire, nodes.stitch, -now.ends.reshape(-1, 3))
+    held = shape.position[nodes.support[inner]].copy()
+    held[:, 1], held[:, 2] = line.messenger_y[inner], line.system_height[inner]
+    rods = [along(held, 1, now.side[inner]), along(held, 2, now.support[inner])]
+    for group in rods:
+        group.add_to(model, [wire.point(i) for i in nodes.support[inner]])
+    state = ancf.equilibrium(model)
+    position = wire.positions(state)
+    side, support = (np.concatenate([[0.0], group.forces(state), [0.0]]) for group in rods)
+    error = max(_largest((position[nodes.support[inner]] - held)[:, 1:]), _misplaced(shape, position))
+    return replace(now, messenger=shape.moved(position), support=support, side=side, error=error)
+
+
+def hang_stitches(now: Hung) -> Hung:
+    """The stitch wires, whose ends are where the messenger is, under their droppers and weights."""
+    error, ends = now.error, now.ends.copy()
+    shapes = []
+    for k, shape in enumerate(now.stitches):
+        held = now.messenger.position[now.messenger.nodes.stitch[2 * k : 2 * k + 2]]
+        shape, ends[k], off = _hang_stitch(now, k, shape, held)
+        shapes.append(shape)
+        error = max(error, off)
+    return replace(now, stitches=tuple(shapes), ends=ends, error=error)
+
+
+def _hang_stitch(
+    now: Hung, k: int, shape: WireShape, held: FloatArray
+) -> tuple[WireShape, FloatArray, float]:
+    """Shape of one stitch wire, forces (2, 3) of the messenger on its ends, error."""
+    model, wire = _pulled(now.line, shape)
+    own = now.line.dropper_stitch == k + 1
+    _add_forces(model, wire, shape.nodes.dropper, now.down[own])
+    points = [wire.point(i) for i in shape.nodes.dropper]
+    below = now.contact.position[now.contact.nodes.dropper[own], 1]
+    add_leans(model, points, shape.position[shape.nodes.dropper], below, now.lean[own])
+    rods = [along(held, axis, now.ends[k, :, axis]) for axis in (1, 2)]
+    for group in rods:
+        group.add_to(model, [wire.start, wire.end])
+    state = ancf.equilibrium(model)
+    position = wire.positions(state)
+    along_track = shape.wire.tension * np.array([-1.0, 1.0])
+    force = np.stack([along_track, *(group.forces(state) for group in rods)], axis=1)
+    error = max(_largest((position[[0, -1]] - held)[:, 1:]), _misplaced(shape, position))
+    return shape.moved(position), force, error
+
+
+def _pulled(line: Line, shape: WireShape) -> tuple[ancf.Model, Strung]:
+    """A model of a wire alone under its weight and its tension, held along the track at its start."""
+    model = ancf.Model(gravity=(0.0, 0.0, -line.gravity))
+    wire = shape.add_to(model, "wire")
+    model.hold(wire.start, position="x")
+    model.add_force(wire.end, (shape.wire.tension, 0.0, 0.0))
+    return model, wire
+
+
+def _add_forces(model: ancf.Model, wire: Strung, nodes: IntArray, force: FloatArray) -> None:
+    """Forces (n, 3) in N at nodes of a wire."""
+    for node, f in zip(nodes.tolist(), force, strict=True):
+        if np.any(f):
+            model.add_force(wire.point(node), f)
+
+
+def _misplaced(shape: WireShape, position: FloatArray) -> float:
+    marks = shape.nodes.marks
+    return _largest(position[marks, 0] - shape.nodes.x[marks])
+
+
+def _largest(values: FloatArray) -> float:
+    return float(np.max(np.abs(values), initial=0.0))

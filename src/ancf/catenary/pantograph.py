@@ -1,0 +1,111 @@
+"""Pantograph: a chain of lumped masses that carries the collector strip."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, field
+from importlib.resources import files
+from typing import Any
+
+from ancf.errors import ModelError
+from ancf.model import checks
+
+RELAXED = ("start", "nominal", "mean")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pantograph:
+    """A chain of masses, springs and dampers between the roof and the collector strip.
+
+    Its weight is balanced, as that of a real one is by its main spring: what pushes the strip up is the
+    static force F0 and the aerodynamic force k v^2, both on the lowest mass.
+
+    Parameters
+    ----------
+    masses : sequence of float, kg
+        From the lowest to the head with the strip.
+    stiffness, damping : sequence of float, N/m and N s/m
+        Of the springs and dampers below each mass; the first stands on the roof.
+    static_force : float, N
+        Contact force at standstill.
+    aerodynamic : float, N s^2/m^2
+        k of the force k v^2.
+    strip_length : float, m
+        Length of the collector strip across the track.
+    relaxed_at : "start", "nominal" or "mean"
+        Height of the strip at which the lowest spring carries nothing: where the pantograph stands in
+        equilibrium at the start, the nominal height of the contact wire, or the mean height over the
+        window, found in a short trial run. The mean contact force is then the static and the aerodynamic
+        force, as the standards want it.
+    name, title, source : str
+    tags : mapping of str to str
+        How sure a value is, by its key.
+
+    Raises
+    ------
+    ModelError
+        A value is out of range, or lists of different lengths.
+
+    """
+
+    masses: tuple[float, ...]
+    stiffness: tuple[float, ...]
+    damping: tuple[float, ...]
+    static_force: float
+    aerodynamic: float = 0.0
+    strip_length: float = 1.45
+    relaxed_at: str = "start"
+    name: str = "pantograph"
+    title: str = ""
+    source: str = ""
+    tags: Any = field(default=None, hash=False)
+
+    def __post_init__(self) -> None:
+        where = f"pantograph.{self.name}"
+        for key, check in (
+            ("masses", checks.positive),
+            ("stiffness", checks.non_negative),
+            ("damping", checks.non_negative),
+        ):
+            values = tuple(check(x, f"{where}.{key}[{k}]") for k, x in enumerate(getattr(self, key)))
+            object.__setattr__(self, key, values)
+        for key in ("stiffness", "damping"):
+            if len(getattr(self, key)) != len(self.masses) or not self.masses:
+                what = f"has {len(getattr(self, key))} values for {len(self.masses)} masses"
+                raise ModelError(f"{where}.{key}", what, "give one for each mass, the lowest first")
+        for k, (c, d) in enumerate(zip(self.stiffness, self.damping, strict=True)):
+            if c == 0.0 and (k > 0 or d == 0.0):
+                raise ModelError(f"{where}.stiffness[{k}]", "is 0: nothing carries the masses above")
+        checks.positive(self.static_force, f"{where}.static_force")
+        checks.non_negative(self.aerodynamic, f"{where}.aerodynamic")
+        checks.positive(self.strip_length, f"{where}.strip_length")
+        checks.choice(self.relaxed_at, f"{where}.relaxed_at", RELAXED)
+        object.__setattr__(self, "tags", dict(self.tags or {}))
+
+    def force(self, speed: float) -> float:
+        """Static and aerodynamic force at a speed in m/s, N."""
+        return self.static_force + self.aerodynamic * speed**2
+
+
+def pantographs() -> dict[str, Pantograph]:
+    """Pantographs of the catalogue by name."""
+    text = files("ancf.catenary").joinpath("data/pantographs.toml").read_text(encoding="utf-8")
+    entries = tomllib.loads(text)
+    return {name: Pantograph(name=name, **entry) for name, entry in entries.items()}
+
+
+def find_pantograph(given: Pantograph | str) -> Pantograph:
+    """A pantograph, or that of the catalogue with this name.
+
+    Raises
+    ------
+    ModelError
+        There is none of this name.
+
+    """
+    if isinstance(given, Pantograph):
+        return given
+    known = pantographs()
+    if given not in known:
+        raise ModelError("pantograph", f'there is no "{given}", there are: {", ".join(known)}')
+    return known[given]

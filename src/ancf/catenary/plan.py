@@ -1,0 +1,204 @@
+"""Plan of a run: which pantographs start where, how fast they go, and what of their way is evaluated."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ancf.errors import ModelError
+from ancf.model import checks
+
+from .catalogue import read_line
+from .current import Touch
+from .form import Form, form
+from .line import Line
+from .mesh import Mesh
+from .pantograph import Pantograph, find_pantograph
+from .travel import Travel
+
+#: Where the last pantograph starts, as a share of the first span.
+START = 1.0 / 3.0
+#: Track beyond the window that the last pantograph still runs, m: a filter needs to see it.
+BEYOND = 40.0
+#: Track that the first pantograph runs before a window that is not given, m: its start dies away.
+RUN_IN = 50.0
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is to be run, checked.
+
+    Attributes
+    ----------
+    form : Form
+    travel : Travel
+    pantographs : list of Pantograph
+        The first one runs ahead.
+    places : list of float
+        Track positions at t = 0, m.
+    raised : list of float
+        By how much the lowest spring is relaxed above the place that its pantograph gives, m.
+    window : (float, float)
+        Track interval that is evaluated, m.
+    until : float
+        Track position at which the last pantograph stops, m.
+    touch : Touch
+    step : float
+        s.
+
+    """
+
+    form: Form
+    travel: Travel
+    pantographs: list[Pantograph]
+    places: list[float]
+    raised: list[float]
+    window: tuple[float, float]
+    until: float
+    touch: Touch
+    step: float
+
+    @property
+    def duration(self) -> float:
+        """Whole steps until the last pantograph stops, s."""
+        seconds = self.travel.time(self.until - self.places[-1])
+        return float(np.ceil(seconds / self.step - 1e-9) * self.step)
+
+    def lift(self, k: int) -> float:
+        """Static and aerodynamic force of a pantograph at the start, N."""
+        return self.pantographs[k].force(float(self.travel.speed(0.0)))
+
+
+def make_plan(
+    shape: Form,
+    travel: Travel,
+    pantograph: Any,
+    spacing: Any,
+    start: float | None,
+    window: tuple[float, float] | None,
+    until: float | None,
+    touch: Touch,
+    step: float,
+) -> Plan:
+    """Check what ``run`` was given."""
+    line, units = shape.line, _units(pantograph, spacing)
+    behind, train = _start(line, start), units[-1][1]
+    kinds = [unit for unit, _ in units]
+    _check_strips(line, kinds)
+    _check_speed(line, travel)
+    interval = _window(line, window, behind + train, train, until)
+    return Plan(
+        form=shape,
+        travel=travel,
+        pantographs=kinds,
+        places=[behind + train - distance for _, distance in units],
+        raised=[0.0] * len(units),
+        window=interval,
+        until=interval[1] + BEYOND if until is None else until,
+        touch=touch,
+        step=checks.positive(step, "run.step"),
+    )
+
+
+def formed(line: Line | Form | str | Path, mesh: Mesh | None) -> Form:
+    """Form of a line, of a name or a path, or as given."""
+    if isinstance(line, Form):
+        if mesh is not None:
+            raise ModelError("run.mesh", "has no effect: a form has its mesh", "give the line instead")
+        return line
+    return form(line if isinstance(line, Line) else read_line(line), mesh)
+
+
+def _units(pantograph: Any, spacing: Any) -> list[tuple[Pantograph, float]]:
+    """Pantographs and their distances behind the first, m."""
+    behind = [0.0]
+    if spacing is not None:
+        given = spacing if isinstance(spacing, Sequence) else [spacing]
+        for k, value in enumerate(given):
+            where = "run.spacing" if len(given) == 1 else f"run.spacing[{k}]"
+            behind.append(behind[-1] + checks.positive(value, where))
+    many = isinstance(pantograph, Sequence) and not isinstance(pantograph, str)
+    kinds = [find_pantograph(p) for p in (pantograph if many else [pantograph] * len(behind))]
+    if len(kinds) != len(behind):
+        what = f"{len(kinds)} pantographs with {len(behind) - 1} distances between them"
+        raise ModelError("run.spacing", what, "give one less than pantographs")
+    return list(zip(kinds, behind, strict=True))
+
+
+def _start(line: Line, given: float | None) -> float:
+    """Track position of the last pantograph at t = 0."""
+    place = START * line.spans[0].length if given is None else checks.number(given, "run.start")
+    if not 0.0 < place < line.length:
+        what = f"the last pantograph starts at {place:g} m, the line reaches from 0 to {line.length:g} m"
+        raise ModelError("run.start", what)
+    return place
+
+
+def _window(
+    line: Line, given: tuple[float, float] | None, first: float, train: float, until: float | None
+) -> tuple[float, float]:
+    """Interval that is evaluated; all pantographs must come to it from outside and pass it on the line.
+
+    ``first`` is where the first pantograph starts, ``train`` its distance from the last one, which goes on
+    ``until`` there, or BEYOND the window.
+    """
+    if until is not None and checks.number(until, "run.until") + train > line.length:
+        what = f"is {until:g} m, the first pantograph is then at {until + train:g} m"
+        raise ModelError("run.until", what, f"the line ends at {line.length:g} m")
+    if given is None:
+        return _middle(line, first, BEYOND + train)
+    low, high = checks.array(given, "run.window", (2,)).tolist()
+    if not 0.0 <= low < high <= line.length:
+        what = f"is {low:g} m to {high:g} m, the line reaches from 0 to {line.length:g} m"
+        raise ModelError("run.window", what)
+    if first > low:
+        what = f"the first pantograph starts at {first:g} m, behind the start of the window at {low:g} m"
+        raise ModelError("run.start", what, "use a longer line, or a window further on")
+    if until is not None and high > until:
+        raise ModelError("run.until", f"is {until:g} m, inside the window that ends at {high:g} m")
+    ahead = high + BEYOND + train
+    if until is None and ahead > line.length:
+        what = (
+            f"the first pantograph is at {ahead:g} m when the last one has passed the window, "
+            f"beyond the end of the line at {line.length:g} m"
+        )
+        raise ModelError("run.window", what, "use a longer line or an earlier window")
+    return low, high
+
+
+def _middle(line: Line, first: float, room: float) -> tuple[float, float]:
+    """A third of the spans, fewer if need be, as near the middle as the train allows; never the end spans."""
+    supports, spans = line.supports, len(line.spans)
+    for count in range(max(1, spans // 3), 0, -1):
+        starts = [
+            k
+            for k in range(1, spans - count)
+            if supports[k] >= first + RUN_IN and supports[k + count] + room <= line.length
+        ]
+        if starts:
+            best = min(starts, key=lambda k: abs(supports[k] + supports[k + count] - line.length))
+            return float(supports[best]), float(supports[best + count])
+    what = f"no span is left to evaluate: the train starts up to {first:g} m and needs {room:g} m beyond"
+    raise ModelError("run.window", what, f"use a line longer than {line.length:g} m, or less spacing")
+
+
+def _check_strips(line: Line, pantographs: list[Pantograph]) -> None:
+    for pantograph in pantographs:
+        for k, side in enumerate(line.stagger):
+            if abs(side) > 0.5 * pantograph.strip_length:
+                reach = 0.5 * pantograph.strip_length
+                what = f"is {side:g} m, the strip of {pantograph.name} reaches to {reach:g} m"
+                raise ModelError(f"line.stagger[{k}]", what, "give less stagger or a longer strip")
+
+
+def _check_speed(line: Line, travel: Travel) -> None:
+    """Warn where the train is faster than the waves."""
+    if travel.top >= line.wave_speed:
+        text = f"run.speed: {3.6 * travel.top:.0f} km/h is not below the wave speed of the contact wire"
+        text += f", {3.6 * line.wave_speed:.0f} km/h: no wave runs ahead of the pantograph"
+        warnings.warn(text, UserWarning, stacklevel=4)

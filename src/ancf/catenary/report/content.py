@@ -1,0 +1,58 @@
+"""Content: what a report is made of, read by its figures and tables."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..statistics import Statistics, statistics
+
+if TYPE_CHECKING:
+    from ..elasticity import Elasticity
+    from ..quantity import Quantity
+    from ..references import Reference
+    from ..run_data import Run
+
+
+@dataclass(frozen=True)
+class Content:
+    """What a report is made of.
+
+    Parameters
+    ----------
+    run : Run
+    found : sequence of Statistics
+        One for each pantograph.
+    reference : Reference, optional
+        The published ranges to compare with.
+    elasticity : Elasticity, optional
+        Static elasticity along one span.
+
+    """
+
+    run: Run
+    found: tuple[Statistics, ...]
+    reference: Reference | None = None
+    elasticity: Elasticity | None = None
+
+    @classmethod
+    def of(
+        cls, run: Run, reference: Reference | None = None, elasticity: Elasticity | None = None
+    ) -> Content:
+        """Content of a report on a run, with the statistics of all its pantographs."""
+        found = tuple(statistics(run, k) for k in range(len(run.recordings)))
+        return cls(run, found, reference, elasticity)
+
+    @property
+    def several(self) -> bool:
+        """Whether there is more than one pantograph."""
+        return len(self.found) > 1
+
+    def name(self, k: int) -> str:
+        """Name of a pantograph, its number behind it when another one has the same name."""
+        names = [found.pantograph for found in self.found]
+        return names[k] if names.count(names[k]) == 1 else f"{names[k]} ({k + 1})"
+
+    def compared(self, k: int) -> list[Quantity]:
+        """Quantities of the reference with their ranges; nothing without a reference."""
+        return self.reference.compare(self.found[k], self.run.speed_kmh) if self.reference else []

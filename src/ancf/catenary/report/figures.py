@@ -1,0 +1,113 @@
+"""The figures of a report, by name: caption, size and picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ...viz import style
+from . import droppers, force, frequency, line_answer, marks
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from .content import Content
+
+
+@dataclass(frozen=True)
+class FigureKind:
+    """One figure of a report.
+
+    Parameters
+    ----------
+    title, caption : str
+    size : callable
+        Width and height of the figure of a content, mm.
+    draw : callable
+        Draws a content into an empty figure.
+
+    """
+
+    title: str
+    caption: str
+    size: Callable[[Content], tuple[float, float]]
+    draw: Callable[[Content, Figure], None]
+
+
+FIGURES = {
+    "force": FigureKind(
+        "Contact force over the track",
+        "Unfiltered and below 20 Hz; the evaluated window is shaded.",
+        force.size,
+        force.draw,
+    ),
+    "force-window": FigureKind(
+        "Contact force in the evaluated window",
+        "Mean force and three standard deviations to each side are those of the force below 20 Hz.",
+        force.size,
+        force.draw_window,
+    ),
+    "histogram": FigureKind(
+        "Histogram of the contact force",
+        "Force below 20 Hz in the evaluated window; dotted: normal distribution of equal mean and deviation.",
+        frequency.size,
+        frequency.draw_histogram,
+    ),
+    "spectrum": FigureKind(
+        "Spectrum of the contact force",
+        "One-sided amplitude of the unfiltered force without its mean, in the evaluated window, Hann window.",
+        frequency.size,
+        frequency.draw_spectrum,
+    ),
+    "uplift": FigureKind(
+        "Uplift at the supports",
+        "Above: largest uplift while the pantograph passes. Below: history at supports of the window.",
+        line_answer.uplift_size,
+        line_answer.draw_uplift,
+    ),
+    "dropper-extremes": FigureKind(
+        "Dropper forces",
+        "Of each dropper over the whole run.",
+        droppers.extremes_size,
+        droppers.draw_extremes,
+    ),
+    "dropper-history": FigureKind(
+        "Dropper forces over time",
+        "Droppers of the first span of the window.",
+        droppers.history_size,
+        droppers.draw_history,
+    ),
+    "height": FigureKind(
+        "Height of the contact point",
+        "Below 20 Hz, above the nominal height of the contact wire.",
+        line_answer.height_size,
+        line_answer.draw_height,
+    ),
+    "elasticity": FigureKind(
+        "Static elasticity",
+        "Uplift per force where a constant force lifts the contact wire, along one span.",
+        line_answer.height_size,
+        line_answer.draw_elasticity,
+    ),
+}
+
+
+def figure_names(content: Content) -> list[str]:
+    """Names of the figures that a content has: all of them, elasticity only when it is given."""
+    return [name for name in FIGURES if name != "elasticity" or content.elasticity is not None]
+
+
+def picture(name: str, content: Content) -> str:
+    """SVG of a figure.
+
+    Raises
+    ------
+    ModelError
+        matplotlib is missing.
+
+    """
+    kind = FIGURES[name]
+    with style.new_figure(*kind.size(content)) as figure:
+        kind.draw(content, figure)
+        return marks.svg(figure)

@@ -1,0 +1,74 @@
+"""Elements of a page: small builders on the standard library's tree, so that all text is escaped."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterable, Sequence
+from importlib.resources import files
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
+
+#: What an element holds.
+Piece = Element | str
+
+
+def element(tag: str, *pieces: Piece, **attributes: str) -> Element:
+    """Element with text and elements inside; ``class_`` stands for the attribute ``class``."""
+    made = Element(tag, {key.rstrip("_").replace("_", "-"): value for key, value in attributes.items()})
+    for piece in pieces:
+        if isinstance(piece, Element):
+            made.append(piece)
+        elif len(made):
+            made[-1].tail = (made[-1].tail or "") + piece
+        else:
+            made.text = (made.text or "") + piece
+    return made
+
+
+def section(title: str, name: str, *pieces: Piece) -> Element:
+    """Section with a heading, to which ``#name`` leads."""
+    return element("section", element("h2", title), *pieces, id=name)
+
+
+def table(
+    head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Iterable[int] = (), **more: str
+) -> Element:
+    """Table of texts; columns whose place is in `numbers` are aligned to the right."""
+    right = set(numbers)
+    cells = [{"class_": "number"} if i in right else {} for i in range(len(head))]
+    top = element("tr", *(element("th", text, scope="col", **a) for text, a in zip(head, cells, strict=True)))
+    body = [
+        element("tr", *(element("td", text, **a) for text, a in zip(row, cells, strict=True))) for row in rows
+    ]
+    return element(
+        "div", element("table", element("thead", top), element("tbody", *body), **more), class_="scroll"
+    )
+
+
+def pairs(rows: Iterable[tuple[str, str]]) -> Element:
+    """Table of names and values without a head."""
+    lines = [element("tr", element("th", name, scope="row"), element("td", value)) for name, value in rows]
+    return element("div", element("table", element("tbody", *lines), class_="pairs"), class_="scroll")
+
+
+def figure(name: str, title: str, caption: str, svg: str) -> Element:
+    """Figure with its picture inside the page; a picture of its own keeps its ids apart from others."""
+    coded = base64.b64encode(svg.encode("utf-8")).decode("ascii")
+    image = element("img", src=f"data:image/svg+xml;base64,{coded}", alt=f"{title}. {caption}")
+    text = element("figcaption", element("strong", f"{title}. "), caption)
+    return element("figure", image, text, id=f"figure-{name}")
+
+
+def page(title: str, *pieces: Piece) -> str:
+    """Whole page; it needs no other file and no network."""
+    css = files(__package__).joinpath("page.css").read_text(encoding="utf-8")
+    head = element(
+        "head",
+        element("meta", charset="utf-8"),
+        element("meta", name="viewport", content="width=device-width, initial-scale=1"),
+        element("title", title),
+        element("link", rel="icon", href="data:,"),
+        element("style", css),
+    )
+    tree = element("html", head, element("body", element("main", *pieces)), lang="en")
+    return "<!DOCTYPE html>\n" + ElementTree.tostring(tree, encoding="unicode", method="html") + "\n"

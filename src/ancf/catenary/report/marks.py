@@ -1,0 +1,87 @@
+"""What figures of a report share: looks of pantographs, masts, droppers, the evaluated window, SVG."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...viz import style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from ..run_data import Run
+    from .content import Content
+
+WIDTH = 180.0  # mm, of all figures
+SHADE = "#EDEDED"
+#: Of each pantograph: its colour and its line, which a grey copy keeps apart.
+LOOKS = (
+    (style.BLUE, "-"),
+    (style.ORANGE, "--"),
+    (style.GREEN, "-."),
+    (style.GREY, ":"),
+)
+RAW: dict[str, Any] = {"color": style.LIGHT, "linewidth": 0.5}
+FINE: dict[str, Any] = {"color": style.GREY, "linewidth": 0.7}
+
+
+def look(k: int) -> dict[str, Any]:
+    """Colour and line of pantograph k."""
+    colour, line = LOOKS[k % len(LOOKS)]
+    return {"color": colour, "linestyle": line}
+
+
+def shade_window(axes: Axes, run: Run) -> None:
+    """Shade the track interval that is evaluated."""
+    axes.axvspan(*run.window, color=SHADE, linewidth=0, zorder=0, label="evaluated")
+
+
+def mark_line(axes: Axes, run: Run) -> None:
+    """Masts as triangles and droppers as ticks along the lower edge, masts as thin lines above."""
+    line, edge = run.form.line, axes.get_xaxis_transform()
+    axes.vlines(line.supports, 0, 1, transform=edge, color=style.LIGHT, linewidth=0.4, zorder=0.5)
+    at: dict[str, Any] = {
+        "transform": edge,
+        "clip_on": False,
+        "linestyle": "none",
+        "color": "black",
+        "zorder": 5,
+    }
+    supports, droppers = _seen(axes, line.supports), _seen(axes, line.dropper_x)
+    axes.plot(supports, np.zeros(len(supports)), marker="^", markersize=4.5, label="mast", **at)
+    axes.plot(droppers, np.zeros(len(droppers)), marker="|", markersize=4, label="dropper", **at)
+
+
+def along_track(axes: Axes, content: Content, limits: tuple[float, float] | None = None) -> None:
+    """Make x the track position, over the whole run or some limits, in m, with masts and droppers marked."""
+    positions = [recording.position for recording in content.run.recordings]
+    whole = (min(float(x.min()) for x in positions), max(float(x.max()) for x in positions))
+    axes.set_xlim(limits or whole)
+    mark_line(axes, content.run)
+
+
+def legend(figure: Figure, axes: Axes, columns: int = 6) -> None:
+    """One legend above all panels, each label once."""
+    handles, labels = axes.get_legend_handles_labels()
+    unique = dict(zip(labels, handles, strict=True))
+    figure.legend(unique.values(), unique.keys(), loc="outside upper center", ncols=min(columns, len(unique)))
+
+
+def svg(figure: Figure) -> str:
+    """Text of an SVG picture whose letters are shapes, so that it looks the same everywhere."""
+    from matplotlib import rc_context
+
+    file = io.BytesIO()
+    with rc_context({"svg.fonttype": "path", "svg.hashsalt": "ancf"}):
+        figure.savefig(file, format="svg", metadata={"Date": None})
+    return file.getvalue().decode("utf-8")
+
+
+def _seen(axes: Axes, x: Any) -> Any:
+    low, high = axes.get_xlim()
+    places = np.asarray(x)
+    return places[(places >= low - 1e-6) & (places <= high + 1e-6)]

@@ -1,0 +1,199 @@
+"""Tables of a report: quantities against their ranges, supports, droppers, line, pantograph and run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..passing import DropperForces, dropper_places
+from ..quantity import TAGS, shown
+from ..table import texts
+from .html import element, pairs, table
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
+
+    from ..quantity import Quantity
+    from .content import Content
+
+MM = 1e3
+
+
+def quantities(rows: Iterable[Quantity]) -> Element:
+    """Each quantity against its range."""
+    made = table(
+        ("quantity", "value", "unit", "accepted", "", "tag"), [texts(q) for q in rows], numbers=(1, 3)
+    )
+    for row in made.iter("tr"):
+        if len(row) == 6 and row[4].text in ("inside", "outside"):
+            row[4].set("class", str(row[4].text))
+    return made
+
+
+def tags(rows: Iterable[Quantity]) -> Element:
+    """What the tags of some quantities mean."""
+    used = dict.fromkeys(q.tag for q in rows if q.tag)
+    text = "; ".join(f"{tag}: {TAGS.get(tag, tag)}" for tag in used)
+    return element("p", f"Tags of the limits: {text}." if text else "", class_="faint")
+
+
+def supports(content: Content) -> Element:
+    """Largest uplift at each support, one column for each pantograph."""
+    passed = [{s.number: shown(MM * s.uplift, "mm") for s in found.supports} for found in content.found]
+    heads = [
+        f"uplift [mm], {content.name(k)}" if content.several else "uplift [mm]" for k in range(len(passed))
+    ]
+    rows = [
+        (str(j + 1), f"{x:g}", *(p.get(j + 1, "not passed") for p in passed))
+        for j, x in enumerate(content.run.form.line.supports)
+    ]
+    return table(("support", "position [m]", *heads), rows, numbers=range(2 + len(heads)))
+
+
+def droppers(content: Content, k: int) -> Element:
+    """Forces of the droppers of the window while a pantograph is in it."""
+    head = ("span", "dropper", "position [m]", "at rest [N]", "largest [N]", "smallest [N]")
+    slack = ("slack intervals", "slack together [ms]", "longest [ms]")
+    rows = [_dropper(d) for d in content.found[k].droppers]
+    return table((*head, *slack), rows, numbers=range(9))
+
+
+def _dropper(d: DropperForces) -> tuple[str, ...]:
+    forces = (shown(force, "N") for force in (d.rest, d.largest, d.smallest))
+    slack = (shown(1e3 * time, "ms") for time in (d.slack.seconds, d.slack.longest))
+    return (str(d.span), str(d.number), f"{d.position:g}", *forces, str(d.slack.number), *slack)
+
+
+def schedule(content: Content) -> Element:
+    """The dropper schedule: lengths and loads of all droppers at rest."""
+    form = content.run.form
+    heights = (form.contact_height, form.messenger_height)
+    numbers = np.column_stack(
+        [MM * np.asarray(a) for a in (form.dropper_length, form.dropper_natural, *heights)]
+    )
+    rows = [
+        (str(span), str(number), f"{x:g}", *(shown(v, "mm") for v in lengths), shown(float(load), "N"))
+        for (span, number, x), lengths, load in zip(
+            dropper_places(content.run), numbers.tolist(), form.dropper_load, strict=True
+        )
+    ]
+    lengths = ("length [mm]", "unstretched [mm]", "contact wire at [mm]", "messenger at [mm]")
+    return table(("span", "dropper", "position [m]", *lengths, "load [N]"), rows, numbers=range(8))
+
+
+def run_data(content: Content) -> Element:
+    """Speed, window, filter, times and settings of the run."""
+    run = content.run
+    rows = [
+        ("speed", f"{run.speed_kmh:.4g} km/h ({run.speed:.4g} m/s)"),
+        ("evaluated window", f"{run.window[0]:g} m to {run.window[1]:g} m"),
+        ("filter", content.found[0].filter.text),
+        ("simulated time", f"{run.simulated_seconds:.3f} s"),
+        ("CPU time", f"{run.cpu_seconds:.3f} s"),
+        ("real-time factor (simulated / CPU time)", f"{run.real_time_factor:.3g}"),
+        *flattened(run.settings),
+    ]
+    return pairs(rows)
+
+
+def line_data(content: Content) -> Element:
+    """The line, with the tags of its values where it has some."""
+    known: Mapping[str, str] = content.run.form.line.tags or {}
+    return pairs((name, value + _tagged(key, known)) for name, key, value in _line(content))
+
+
+def _tagged(key: str, known: Mapping[str, str]) -> str:
+    """Tags of a value and of its parts, in brackets: ``[EA U, EI V2]``."""
+    own = [tag for name, tag in known.items() if name == key]
+    parts = [
+        f"{name.removeprefix(f'{key}.')} {tag}" for name, tag in known.items() if name.startswith(f"{key}.")
+    ]
+    return f"  [{', '.join(own + parts)}]" if own or parts else ""
+
+
+def _line(content: Content) -> Iterator[tuple[str, str, str]]:
+    line = content.run.form.line
+    spans = [f"{span.length:g}" for span in line.spans]
+    yield "line", "title", line.title
+    yield (
+        "spans [m]",
+        "spans",
+        f"{len(spans)} x {spans[0]}" if len(set(spans)) == 1 else ", ".join(spans),
+    )
+    yield "number of droppers", "", f"{len(line.dropper_x)}"
+    for key, name in (("contact_wire", "contact wire"), ("messenger_wire", "messenger")):
+        wire = getattr(line, key)
+        values = f"{wire.mass:g} kg/m, tension {wire.tension:g} N, EA {wire.EA:g} N, EI {wire.EI:g} N m²"
+        yield name, key, values + (f", damping {wire.damping:g} N s/m²" if wire.damping else "")
+    yield "damping of the wires", "damping", f"alpha {line.damping.alpha:g} 1/s, beta {line.damping.beta:g} s"
+    yield "droppers", "droppers", _droppers(line.droppers)
+    yield "system height [m]", "system_height", _few(line.system_height)
+    yield "stagger [m]", "stagger", _few(line.stagger)
+    stiffness = line.messenger_support
+    yield "messenger support", "messenger_support", "rigid" if stiffness is None else f"{stiffness:g} N/m"
+    yield "steady arm", "steady_arm", _given(line.steady_arm, ("vertical", "lateral", "length", "mass"))
+    yield "contact wire at the supports, at rest", "contact_support", line.contact_support
+    yield "anchors", "anchors", line.anchors
+    yield "source", "source", line.source or "not given"
+
+
+def _droppers(droppers: Any) -> str:
+    kind = f"EA {droppers.EA:g} N" if droppers.EA is not None else f"stiffness {droppers.stiffness:g} N/m"
+    slack = "slack in compression" if droppers.slack else "carry compression too"
+    clamps = f"clamps {droppers.clamp_contact:g} and {droppers.clamp_messenger:g} kg"
+    return f"{kind}, {droppers.mass:g} kg/m, damping {droppers.damping:g} N s/m, {clamps}, {slack}"
+
+
+def pantograph_data(content: Content, k: int) -> Element:
+    """Masses, springs, dampers and forces of one pantograph."""
+    p = content.run.pantographs[k]
+    rows = [
+        ("name", "name", p.name),
+        ("title", "title", p.title or "not given"),
+        ("masses, base to head [kg]", "masses", _few(p.masses)),
+        ("stiffness [N/m]", "stiffness", _few(p.stiffness)),
+        ("damping [N s/m]", "damping", _few(p.damping)),
+        ("static force [N]", "static_force", f"{p.static_force:g}"),
+        ("aerodynamic force over v² [N s²/m²]", "aerodynamic", f"{p.aerodynamic:g}"),
+        ("length of the strip [m]", "strip_length", f"{p.strip_length:g}"),
+    ]
+    known: Mapping[str, str] = getattr(p, "tags", None) or {}
+    return pairs((name, value + _tagged(key, known)) for name, key, value in rows)
+
+
+def elasticity(content: Content) -> Element:
+    """Extremes and non-uniformity of the static elasticity along its span, at each force."""
+    found = content.elasticity
+    assert found is not None
+    rows = [
+        (f"{force:g}", f"{np.min(e):.4f}", f"{np.max(e):.4f}", f"{100 * uneven:.1f}")
+        for force, e, uneven in zip(found.force, found.value, found.nonuniformity, strict=True)
+    ]
+    return table(
+        ("force [N]", "smallest [mm/N]", "largest [mm/N]", "non-uniformity [%]"), rows, numbers=range(4)
+    )
+
+
+def flattened(settings: Mapping[str, Any], before: str = "") -> list[tuple[str, str]]:
+    """Names and texts of settings; those of a group get its name before them."""
+    found: list[tuple[str, str]] = []
+    for key, value in settings.items():
+        name = f"{before}{str(key).replace('_', ' ')}"
+        if isinstance(value, Mapping):
+            found += flattened(value, f"{name}, ")
+        elif value is not None:
+            found.append((name, f"{value:.6g}" if isinstance(value, float) else str(value)))
+    return found
+
+
+def _few(values: Any) -> str:
+    texts = [f"{value:g}" for value in np.atleast_1d(values)]
+    return texts[0] if len(set(texts)) == 1 and len(texts) > 2 else ", ".join(texts)
+
+
+def _given(thing: Any, keys: Iterable[str]) -> str:
+    units = {"vertical": "N/m vertically", "lateral": "N/m sideways", "length": "m long", "mass": "kg"}
+    values = [(getattr(thing, key, None), units[key]) for key in keys]
+    return ", ".join(f"{value:g} {unit}" for value, unit in values if value) or "none"

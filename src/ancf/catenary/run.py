@@ -1,0 +1,239 @@
+"""Run pantographs along a line, from the form that it has at rest."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import ancf
+from ancf.model.checks import FloatArray
+
+from .assemble import Overhead, assemble
+from .current import Collector, Touch, add_pantograph
+from .form import Form, form
+from .line import Line
+from .mesh import Mesh
+from .pantograph import Pantograph
+from .plan import Plan, formed, make_plan
+from .run_data import Recording, Run
+from .travel import make_travel
+
+STEP = 1e-3
+#: Newton's tolerance at a step of 1 ms; it grows with the square of the step, up to the second number.
+TOLERANCE, LOOSEST = 1e-8, 1e-7
+#: Mesh and step of the trial run that finds a mean height.
+TRIAL, TRIAL_STEP = Mesh(contact=2.0, messenger=3.0), 2e-3
+
+Speed = float | Sequence[Sequence[float]]
+
+
+def run(
+    line: Line | Form | str | Path,
+    *,
+    speed: Speed,
+    pantograph: Pantograph | str | Sequence[Pantograph | str] = "benchmark-2015",
+    spacing: float | Sequence[float] | None = None,
+    start: float | None = None,
+    window: tuple[float, float] | None = None,
+    until: float | None = None,
+    contact: str = "penalty",
+    contact_stiffness: float | None = None,
+    contact_damping: float = 0.0,
+    step: float = STEP,
+    mesh: Mesh | None = None,
+    integrator: Any = None,
+    progress: Callable[[Any], None] | None = None,
+) -> Run:
+    """Run pantographs along a line from its equilibrium.
+
+    Parameters
+    ----------
+    line : Line, Form, str or path
+        A line, its form, the name of one of the catalogue, or a line file.
+    speed : float, m/s, or (n, 2)
+        Of the train; or a profile, rows of time in s and speed in m/s, linear between them.
+    pantograph : Pantograph, str or a sequence of them
+        All alike, or one after the other from the first that passes on.
+    spacing : float or sequence, m
+        Distance of a second pantograph behind the first; a sequence for more.
+    start : float, m
+        Track position of the last pantograph at t = 0, default a third of the first span.
+    window : (float, float), m
+        Track interval that is evaluated; default a third of the spans, in the middle if the train allows.
+    until : float, m
+        Track position at which the last pantograph stops, default 40 m beyond the window.
+    contact : "penalty" or "joint"
+        Stiffness of the contact, or the sliding joint, which takes no overlap. Both only push.
+    contact_stiffness, contact_damping : float, N/m, N s/m
+        Of the penalty, default 50 kN/m; or of a spring between head and strip, on which the strip slides
+        in a joint. A joint without them is rigid.
+    step : float, s
+    mesh : Mesh
+        Of a line or its name; a Form has its own.
+    integrator : integrator
+        Default generalised-alpha with a spectral radius of 0.9, of 0.5 and GGL constraints with the joint.
+    progress : callable
+        Called with a :class:`ancf.results.Progress` between blocks of steps.
+
+    Returns
+    -------
+    Run
+        Recorded at every step.
+
+    Raises
+    ------
+    ModelError
+        What was given is wrong, such as a pantograph outside the line.
+    SolveError
+        A step failed.
+
+    Warns
+    -----
+    UserWarning
+        The speed is not below the wave speed of the contact wire.
+
+    """
+    plan = make_plan(
+        formed(line, mesh),
+        make_travel(speed),
+        pantograph,
+        spacing,
+        start,
+        window,
+        until,
+        Touch(contact, contact_stiffness, contact_damping),
+        step,
+    )
+    if any(unit.relaxed_at == "mean" for unit in plan.pantographs):
+        plan = replace(plan, raised=_raised(plan))
+    return _simulated(plan, integrator, progress)
+
+
+def _raised(plan: Plan) -> list[float]:
+    """Mean rise of the lowest masses over the window, from a trial run on a coarse mesh, m.
+
+    A spring that is relaxed at the mean height takes nothing from the mean of the contact force.
+    """
+    trial = replace(plan, form=form(plan.form.line, TRIAL), step=TRIAL_STEP)
+    done = _simulated(trial, None, None)
+    raised = []
+    for k, (unit, recording) in enumerate(zip(plan.pantographs, done.recordings, strict=True)):
+        passing = (recording.position >= plan.window[0]) & (recording.position <= plan.window[1])
+        missing = plan.lift(k) - float(np.mean(recording.force[passing]))
+        wanted = unit.relaxed_at == "mean" and unit.stiffness[0] > 0.0
+        raised.append(missing / unit.stiffness[0] if wanted else 0.0)
+    return raised
+
+
+def _simulated(plan: Plan, integrator: Any, progress: Callable[[Any], None] | None) -> Run:
+    overhead = assemble(plan.form)
+    collectors = _collectors(overhead, plan)
+    model, duration = overhead.model, plan.duration
+    result = ancf.simulate(
+        model,
+        t_end=duration,
+        step=plan.step,
+        start=ancf.equilibrium(model),
+        integrator=_integrator(plan) if integrator is None else integrator,
+        output_step=duration,
+        sensors=[*overhead.droppers, *overhead.supports, *(s for c in collectors for s in c.sensors())],
+        energy=False,
+        progress=progress,
+    )
+    return _recorded(result, overhead, collectors, plan)
+
+
+def _integrator(plan: Plan) -> ancf.GeneralizedAlpha:
+    """Generalised-alpha; a joint, which has no mass of its own, needs more damping not to chatter."""
+    tolerance = min(max(TOLERANCE * (plan.step / STEP) ** 2, 1e-2 * TOLERANCE), LOOSEST)
+    newton = ancf.Newton(tolerance=tolerance, corotate=False)
+    if plan.touch.kind == "joint":
+        return ancf.GeneralizedAlpha(0.5, formulation="ggl", newton=newton)
+    return ancf.GeneralizedAlpha(0.9, newton=newton)
+
+
+def _collectors(overhead: Overhead, plan: Plan) -> list[Collector]:
+    """Add the pantographs where they come to rest."""
+    heights, count = _lifted(plan), len(plan.places)
+    collectors = []
+    for k, place in enumerate(plan.places):
+        collectors.append(
+            add_pantograph(
+                overhead.model,
+                overhead.contact_wire,
+                plan.pantographs[k],
+                plan.travel,
+                label="pantograph" if count == 1 else f"pantograph {k + 1}",
+                start=place,
+                height=heights[k] + plan.touch.overlap(plan.lift(k)),
+                raised=plan.raised[k],
+                touch=plan.touch,
+            )
+        )
+    return collectors
+
+
+def _lifted(plan: Plan) -> list[float]:
+    """Heights of the wire at the pantographs' places when it is lifted by their forces."""
+    overhead = assemble(plan.form)
+    points = [overhead.contact_at(place) for place in plan.places]
+    for k, point in enumerate(points):
+        overhead.model.add_force(point, (0.0, 0.0, plan.lift(k)))
+    state = ancf.equilibrium(overhead.model)
+    return [float(state.position(point)[2]) for point in points]
+
+
+def _recorded(result: ancf.Result, overhead: Overhead, collectors: list[Collector], plan: Plan) -> Run:
+    sensors, line = result.sensors, overhead.form.line
+    t: FloatArray = sensors.t
+    nodes = overhead.form.contact.nodes.support
+    rest = overhead.form.contact.position[nodes, 2]
+    uplift = np.stack([sensors.position(p)[:, 2] for p in overhead.supports], axis=1) - rest
+    simulated = float(t[-1] - t[0])
+    cpu = result.stats.cpu_seconds
+    return Run(
+        form=overhead.form,
+        pantographs=[c.pantograph for c in collectors],
+        speed=(float(plan.travel.distance(t[-1])) / simulated),
+        t=t,
+        recordings=[_recording(sensors, c) for c in collectors],
+        uplift=uplift,
+        dropper_force=np.stack([sensors.spring_force(d) for d in overhead.droppers], axis=1),
+        window=plan.window,
+        cpu_seconds=cpu,
+        simulated_seconds=simulated,
+        real_time_factor=simulated / max(cpu, 1e-9),
+        settings={
+            "line": line.title,
+            "step [s]": plan.step,
+            "steps": result.stats.steps,
+            "Newton iterations": result.stats.newton_iterations,
+            "factorisations": result.stats.factorizations,
+            "elements of the contact wire": overhead.contact_wire.elements,
+            "elements of the messenger wire": sum(b.elements for b in overhead.messenger.beams),
+            "contact": plan.touch.kind,
+            "contact stiffness [N/m]": plan.touch.stiffness,
+            "integrator": result.provenance["settings"]["integrator"],
+        },
+    )
+
+
+def _recording(sensors: Any, collector: Collector) -> Recording:
+    head, meter = sensors.position(collector.head), collector.meter
+    if collector.slides:
+        force = np.maximum(sensors.multiplier(collector.touch)[:, 2], 0.0)
+    else:
+        force = sensors.contact_force(meter)
+    gap = sensors.contact_gap(meter)
+    return Recording(
+        name=collector.name,
+        position=head[:, 0],
+        force=force,
+        height=head[:, 2] + np.where(np.isfinite(gap), gap, 0.0),
+        stagger=head[:, 1] + sensors.contact_offset(meter),
+        strip=head[:, 2],
+    )

@@ -1,0 +1,131 @@
+"""What a finished run is: one recording per pantograph, the line's answer, and how it was computed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import ModelError
+
+if TYPE_CHECKING:
+    from .form import Form
+    from .pantograph import Pantograph
+
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Recording:
+    """What one pantograph did, at every step of the run.
+
+    Parameters
+    ----------
+    name : str
+        Name of the pantograph in tables and figures.
+    position : (n,) float
+        Track position of the strip, m.
+    force : (n,) float
+        Contact force, unfiltered, N; 0 while contact is lost.
+    height : (n,) float
+        Height of the contact wire at the contact point, above its nominal height, m.
+    stagger : (n,) float
+        Sideways position of the contact point, m.
+    strip : (n,) float
+        Height of the strip, m.
+
+    Raises
+    ------
+    ModelError
+        Histories of different lengths, or a value that is not finite.
+
+    """
+
+    name: str
+    position: FloatArray
+    force: FloatArray
+    height: FloatArray
+    stagger: FloatArray
+    strip: FloatArray
+
+    def __post_init__(self) -> None:
+        where = f'recording "{self.name}"'
+        count = (np.size(self.position),)
+        for field in ("position", "force", "height", "stagger", "strip"):
+            _check(getattr(self, field), count, f"{where}.{field}")
+
+
+@dataclass(frozen=True)
+class Run:
+    """A finished run of pantographs along a line.
+
+    Parameters
+    ----------
+    form : Form
+        The line at rest.
+    pantographs : list of Pantograph
+        In the order of `recordings`; the first one runs ahead.
+    speed : float
+        m/s.
+    t : (n,) float
+        Times, s.
+    recordings : list of Recording
+        One for each pantograph.
+    uplift : (n, n_supports) float
+        Height of the contact wire at each support above its place at rest, m.
+    dropper_force : (n, n_droppers) float
+        Tension of each dropper, N.
+    window : (float, float)
+        Track interval that is evaluated, m.
+    cpu_seconds, simulated_seconds, real_time_factor : float
+        CPU time, simulated time and their ratio (simulated over CPU).
+    settings : mapping
+        How it was computed: step, mesh, contact, integrator and so on.
+
+    Raises
+    ------
+    ModelError
+        Arrays that do not fit together, a value that is not finite, an empty window.
+
+    """
+
+    form: Form
+    pantographs: list[Pantograph]
+    speed: float
+    t: FloatArray
+    recordings: list[Recording]
+    uplift: FloatArray
+    dropper_force: FloatArray
+    window: tuple[float, float]
+    cpu_seconds: float
+    simulated_seconds: float
+    real_time_factor: float
+    settings: Mapping[str, Any]
+
+    def __post_init__(self) -> None:
+        count, line = np.size(self.t), self.form.line
+        _check(self.t, (count,), "run.t")
+        _check(self.uplift, (count, len(line.supports)), "run.uplift")
+        _check(self.dropper_force, (count, len(line.dropper_x)), "run.dropper_force")
+        for k, recording in enumerate(self.recordings):
+            _check(recording.position, (count,), f"run.recordings[{k}].position")
+        if not self.recordings or len(self.recordings) != len(self.pantographs):
+            what = f"{len(self.recordings)} recordings of {len(self.pantographs)} pantographs"
+            raise ModelError("run.recordings", what)
+        if not self.window[0] < self.window[1]:
+            raise ModelError("run.window", f"is empty: {self.window[0]:g} m to {self.window[1]:g} m")
+
+    @property
+    def speed_kmh(self) -> float:
+        """Speed in km/h."""
+        return 3.6 * self.speed
+
+
+def _check(array: FloatArray, shape: tuple[int, ...], where: str) -> None:
+    if np.shape(array) != shape:
+        raise ModelError(where, f"must have the shape {shape}, has {np.shape(array)}")
+    if not np.all(np.isfinite(array)):
+        raise ModelError(where, "holds a value that is not finite")

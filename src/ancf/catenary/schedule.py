@@ -1,0 +1,101 @@
+"""The dropper schedule: what droppers are cut and hung by."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ancf.errors import ModelError
+
+if TYPE_CHECKING:
+    from .form import Form
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One dropper.
+
+    Attributes
+    ----------
+    span, dropper : int
+        Counted from 1.
+    position : float, m
+        From the start of the span.
+    track : float, m
+        From the first support.
+    length : float, mm
+        From clamp to clamp, hanging under its load.
+    natural : float, mm
+        From clamp to clamp, unstretched: what is cut.
+    load : float, N
+        Tension at the lower end.
+    contact_height, messenger_height : float, mm
+        Of the wires there, over the nominal height of the contact wire.
+
+    """
+
+    span: int
+    dropper: int
+    position: float
+    track: float
+    length: float
+    natural: float
+    load: float
+    contact_height: float
+    messenger_height: float
+
+
+#: Heads of the columns of the CSV file, in the order of the fields.
+COLUMNS = (
+    "span",
+    "dropper",
+    "position_m",
+    "track_m",
+    "length_mm",
+    "natural_length_mm",
+    "load_N",
+    "contact_height_mm",
+    "messenger_height_mm",
+)
+DECIMALS = (0, 0, 3, 3, 1, 1, 1, 1, 1)
+
+
+def rows(form: Form) -> list[Row]:
+    """Rows in the order of the droppers along the track."""
+    line = form.line
+    places = [x for span in line.spans for x in span.droppers]
+    return [
+        Row(
+            span=int(line.dropper_span[j]) + 1,
+            dropper=int(line.dropper_number[j]) + 1,
+            position=places[j],
+            track=float(line.dropper_x[j]),
+            length=1e3 * float(form.dropper_length[j]),
+            natural=1e3 * float(form.dropper_natural[j]),
+            load=float(form.dropper_load[j]),
+            contact_height=1e3 * float(form.contact_height[j]),
+            messenger_height=1e3 * float(form.messenger_height[j]),
+        )
+        for j in range(line.dropper_x.size)
+    ]
+
+
+def texts(row: Row) -> list[str]:
+    """A row as it is printed and written."""
+    values = [getattr(row, item.name) for item in fields(Row)]
+    return [f"{round(value, n) + 0.0:.{n}f}" for value, n in zip(values, DECIMALS, strict=True)]
+
+
+def write(schedule: list[Row], path: Path) -> Path:
+    """Write a schedule as CSV; ModelError if the file cannot be written."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with path.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            writer.writerow(COLUMNS)
+            writer.writerows(texts(row) for row in schedule)
+    except OSError as error:
+        raise ModelError(str(path), f"cannot be written: {error.strerror or error}") from None
+    return path

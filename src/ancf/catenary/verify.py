@@ -1,0 +1,70 @@
+"""Verification of a form: the whole line in equilibrium against what was prescribed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import ancf
+from ancf.model.checks import FloatArray
+from ancf.model.points import Point
+
+from .assemble import Overhead
+from .shape import Strung
+
+
+@dataclass(frozen=True, slots=True)
+class Verified:
+    """Largest differences between a line at rest and its form.
+
+    Attributes
+    ----------
+    state : State
+        The line at rest.
+    height, place : float, m
+        Heights of the contact wire at the droppers; positions of all nodes of all wires.
+    tension : float, N
+        Components along the track of the tensions in the ends of both wires.
+    load : float, N
+        Forces of the droppers.
+
+    """
+
+    state: ancf.State
+    height: float
+    place: float
+    tension: float
+    load: float
+
+
+def verify(overhead: Overhead) -> Verified:
+    """Bring a line to rest and compare."""
+    found, wires = overhead.form, (overhead.contact, overhead.messenger, *overhead.stitches)
+    state = ancf.equilibrium(overhead.model)
+    low = overhead.contact.positions(state)[found.contact.nodes.dropper]
+    ends = np.array(
+        [[state.position(p) for p in (d.a, d.b) if isinstance(p, Point)] for d in overhead.droppers]
+    )
+    stretch = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) - found.dropper_natural
+    tensions = [
+        end_force(state, wire, last) - wire.shape.wire.tension for wire in wires[:2] for last in (False, True)
+    ]
+    return Verified(
+        state=state,
+        height=_largest(low[:, 2] - found.line.dropper_height),
+        place=max(_largest(wire.positions(state) - wire.shape.position) for wire in wires),
+        tension=_largest(np.array(tensions)),
+        load=_largest(found.dropper_stiffness * stretch - found.dropper_force),
+    )
+
+
+def end_force(state: ancf.State, wire: Strung, last: bool) -> float:
+    """Component of a wire's tension along the track at one of its ends, N."""
+    point = wire.end if last else wire.start
+    slope = state.slope(point)
+    return float(state.tension(point) * slope[0] / np.linalg.norm(slope))
+
+
+def _largest(values: FloatArray) -> float:
+    return float(np.max(np.abs(values), initial=0.0))

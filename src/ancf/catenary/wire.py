@@ -1,0 +1,90 @@
+"""Wire: contact wire or messenger, and the Rayleigh damping that a line's wires share."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import ancf
+from ancf.model import checks
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rayleigh:
+    """Damping proportional to mass and to stiffness.
+
+    Parameters
+    ----------
+    alpha : float, 1/s
+        Of the mass.
+    beta : float, s
+        Of the stiffness, that of the tension included.
+
+    """
+
+    alpha: float = 0.0
+    beta: float = 0.0
+
+    def check(self, where: str) -> None:
+        """Raise ModelError if a value is no finite number >= 0."""
+        checks.non_negative(self.alpha, f"{where}.alpha")
+        checks.non_negative(self.beta, f"{where}.beta")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wire:
+    """A wire under tension.
+
+    Parameters
+    ----------
+    EA : float, N
+        Axial stiffness.
+    EI : float, N m^2
+        Bending stiffness.
+    mass : float, kg/m
+        Mass per length of the wire as it hangs, under its tension.
+    tension : float, N
+        Component along the track of the force at the anchors; it is the same all along the line at rest.
+    damping : float, N s/m^2
+        Viscous force per length and velocity, besides Rayleigh's.
+
+    """
+
+    EA: float
+    EI: float
+    mass: float
+    tension: float
+    damping: float = 0.0
+
+    @property
+    def wave_speed(self) -> float:
+        """Speed of transverse waves, m/s: sqrt(T/rhoA)."""
+        return math.sqrt(self.tension / self.mass)
+
+    def check(self, where: str) -> None:
+        """Raise ModelError if a value is out of range, or the wire would stretch by more than 5 %."""
+        for key in ("EA", "mass", "tension"):
+            checks.positive(getattr(self, key), f"{where}.{key}")
+        for key in ("EI", "damping"):
+            checks.non_negative(getattr(self, key), f"{where}.{key}")
+        if self.tension > 0.05 * self.EA:
+            what = f"is {self.tension:g} N, it stretches a wire of EA = {self.EA:g} N by more than 5 %"
+            raise ancf.ModelError(f"{where}.tension", what, "units are N")
+
+    def section(self, rayleigh: Rayleigh | None = None) -> ancf.Section:
+        """Section of the wire as a cable with this damping, or without any damping.
+
+        Rayleigh's damping of a wire under tension T: ``alpha rhoA`` against the velocity, ``beta EA`` and
+        ``beta EI`` in the strains, and ``beta T`` against the rate of the slope. A section speaks of the
+        unstretched wire, which has more mass per length.
+        """
+        stretch = 1.0 + self.tension / self.EA
+        given: dict[str, Any] = {"EA": self.EA, "EI": self.EI, "rhoA": stretch * self.mass}
+        if rayleigh is None:
+            return ancf.Section(**given)
+        given["damping"] = stretch * (self.damping + rayleigh.alpha * self.mass)
+        given["axial_damping"] = rayleigh.beta * self.EA
+        given["bending_damping"] = rayleigh.beta * self.EI
+        given["slope_damping"] = rayleigh.beta * self.tension
+        return ancf.Section(**given)

@@ -1,0 +1,187 @@
+"""Write a run as JSON and CSV files."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._version import __version__
+from ..errors import ModelError
+from .passing import dropper_forces
+from .signals import Intervals
+from .statistics import Statistics, statistics
+
+if TYPE_CHECKING:
+    from .run_data import Run
+
+Cell = str | int | float | bool | None
+#: Significant digits of a number in a history.
+DIGITS = 9
+
+
+def write_run(run: Run, folder: Path, found: Sequence[Statistics] | None = None) -> list[Path]:
+    """Write ``statistics.csv``, ``statistics.json``, ``force_N.csv``, ``uplift.csv`` and ``droppers.csv``.
+
+    Parameters
+    ----------
+    run : Run
+    folder : Path
+        Made when it does not exist.
+    found : sequence of Statistics, optional
+        One for each pantograph; computed when not given.
+
+    Returns
+    -------
+    list of Path
+        The files written.
+
+    Raises
+    ------
+    ModelError
+        A file cannot be written.
+
+    """
+    chosen = [statistics(run, k) for k in range(len(run.recordings))] if found is None else found
+    files = [write_statistics(chosen, folder / "statistics.csv")]
+    files.append(write_json(summary(run, chosen), folder / "statistics.json"))
+    for k in range(len(run.recordings)):
+        files.append(write_force(run, k, chosen[k], folder / f"force_{k + 1}.csv"))
+    files.append(write_uplift(run, chosen, folder / "uplift.csv"))
+    files.append(write_droppers(run, folder / "droppers.csv"))
+    return files
+
+
+def summary(run: Run, found: Sequence[Statistics]) -> dict[str, Any]:
+    """What there is to know about a run in a few numbers, for JSON."""
+    return {
+        "ancf": __version__,
+        "line": run.form.line.title,
+        "speed_kmh": round(run.speed_kmh, 6),
+        "window_m": list(run.window),
+        "filter": found[0].filter.text,
+        "real_time_factor": run.real_time_factor,
+        "cpu_seconds": run.cpu_seconds,
+        "simulated_seconds": run.simulated_seconds,
+        "settings": dict(run.settings),
+        "pantographs": [_of_pantograph(run, k, statistic) for k, statistic in enumerate(found)],
+    }
+
+
+def _of_pantograph(run: Run, k: int, found: Statistics) -> dict[str, Any]:
+    return {
+        "name": found.pantograph,
+        "title": run.pantographs[k].title,
+        "statistics": [{"key": q.key, **q.row} for q in found.quantities],
+        "uplift_mm": [
+            {"support": s.number, "position_m": s.position, "uplift_mm": 1e3 * s.uplift}
+            for s in found.supports
+        ],
+    }
+
+
+def write_json(data: dict[str, Any], path: Path) -> Path:
+    """Write JSON that any reader takes: null instead of NaN and infinity."""
+    text = json.dumps(_plain(data), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    return write_text(path, text)
+
+
+def write_statistics(found: Sequence[Statistics], path: Path) -> Path:
+    """One row for each quantity of each pantograph."""
+    head = ("pantograph", "key", "quantity", "unit", "value", "low", "high", "inside", "tag")
+    rows = [
+        (s.pantograph, q.key, q.name, q.unit, q.value, q.low, q.high, q.inside, q.tag)
+        for s in found
+        for q in s.quantities
+    ]
+    return _write_csv(path, head, rows)
+
+
+def write_force(run: Run, pantograph: int, found: Statistics, path: Path) -> Path:
+    """Contact force of one pantograph, unfiltered and below 20 Hz, over time and track position."""
+    recording = run.recordings[pantograph]
+    columns = {
+        "t_s": run.t,
+        "position_m": recording.position,
+        "force_raw_N": recording.force,
+        "force_20hz_N": found.force,
+        "height_m": recording.height,
+        "stagger_m": recording.stagger,
+        "strip_m": recording.strip,
+    }
+    return _write_columns(path, columns)
+
+
+def write_uplift(run: Run, found: Sequence[Statistics], path: Path) -> Path:
+    """One row for each support: largest uplift while each pantograph passes; empty where it does not."""
+    supports = run.form.line.supports
+    passed = [{s.number: 1e3 * s.uplift for s in statistic.supports} for statistic in found]
+    head = ["support", "position_m", *(f"uplift_{k + 1}_mm" for k in range(len(found)))]
+    rows = [(j + 1, float(x), *(p.get(j + 1) for p in passed)) for j, x in enumerate(supports)]
+    return _write_csv(path, head, rows)
+
+
+def write_droppers(run: Run, path: Path) -> Path:
+    """One row for each dropper: force at rest, extremes and slack over the whole run."""
+    head = ("span", "dropper", "position_m", "rest_N", "largest_N", "smallest_N")
+    slack = ("slack_count", "slack_s", "longest_slack_s")
+    rows = [
+        (d.span, d.number, d.position, d.rest, d.largest, d.smallest, *_slack(d.slack))
+        for d in dropper_forces(run)
+    ]
+    return _write_csv(path, (*head, *slack), rows)
+
+
+def _slack(slack: Intervals) -> tuple[int, float, float]:
+    return slack.number, slack.seconds, slack.longest
+
+
+def write_text(path: Path, text: str) -> Path:
+    """Write a text file; the folder is made when it does not exist."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ModelError(str(path), f"cannot be written: {error.strerror or error}") from None
+    return path
+
+
+def _write_columns(path: Path, columns: dict[str, Any]) -> Path:
+    numbers = np.column_stack(list(columns.values()))
+    lines = [",".join(f"{value:.{DIGITS}g}" for value in row) for row in numbers.tolist()]
+    return write_text(path, "\n".join([",".join(columns), *lines]) + "\n")
+
+
+def _write_csv(path: Path, head: Sequence[str], rows: Iterable[Sequence[Cell]]) -> Path:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(head)
+    writer.writerows([_cell(value) for value in row] for row in rows)
+    return write_text(path, text.getvalue())
+
+
+def _cell(value: Cell) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return f"{value:.{DIGITS}g}" if isinstance(value, float) else str(value)
+
+
+def _plain(value: Any) -> Any:
+    """The same in types that JSON has."""
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if hasattr(value, "tolist"):
+        return _plain(value.tolist())
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    return value if isinstance(value, str | int | bool | None) else str(value)
