@@ -1,4 +1,4 @@
-"""The command line: run, check, schema, info, reproduce."""
+"""The command line: run, check, schema, info, reproduce, validate."""
 
 from ancf.cli.app import app, main
 

@@ -31,9 +31,46 @@ Names = Annotated[
     typer.Argument(metavar="NAMES", help="Figures, such as fig2, or all.", show_default="all"),
 ]
 Short = Annotated[bool, typer.Option("--short", help="Fewer and shorter runs, to try it out.")]
+LineName = Annotated[
+    str, typer.Argument(metavar="LINE", help="Line of the catalogue, or a line file.", show_default=False)
+]
+OptionalFolder = Annotated[
+    Path | None, typer.Option("--output", "-o", metavar="OUT", help="Folder for a CSV file.")
+]
+Forces = Annotated[list[float] | None, typer.Option("--force", help="Upward force, N; may be repeated.")]
+Case = Annotated[
+    str, typer.Argument(metavar="CASE", help="Reference case, such as en50318-2002.", show_default=False)
+]
+Speed = Annotated[float, typer.Option("--speed", metavar="KMH", help="Speed, km/h.", show_default=False)]
+Pantographs = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--pantograph",
+        metavar="NAME",
+        help="Of the catalogue; once for all, or once for each, the first ahead.",
+        show_default="benchmark-2015",
+    ),
+]
+Spacing = Annotated[
+    list[float] | None,
+    typer.Option(metavar="M", help="Distance to another pantograph behind, m; may be repeated."),
+]
+Start = Annotated[
+    float | None,
+    typer.Option(metavar="M", help="Track position of the last pantograph at the start, m."),
+]
+Window = Annotated[
+    tuple[float, float] | None, typer.Option(metavar="FROM TO", help="Track interval that is evaluated, m.")
+]
+ContactKind = Annotated[str, typer.Option("--contact", metavar="KIND", help='"penalty" or "joint".')]
+Step = Annotated[float | None, typer.Option(metavar="S", help="Time step, s.", show_default="0.001")]
+Report = Annotated[bool, typer.Option(help="Write OUT/report.html as well, which needs matplotlib.")]
 SchemaFile = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="FILE", help="File to write, instead of printing it.")
 ]
+
+catenary = typer.Typer(help="Overhead lines.", no_args_is_help=True, rich_markup_mode=None)
+app.add_typer(catenary, name="catenary")
 
 
 def _show_version(wanted: bool) -> None:
@@ -107,6 +144,72 @@ def reproduce(
         from ancf.cli.reproduce import reproduce_figures
 
         reproduce_figures(names or ["all"], output, short, quiet)
+
+
+@catenary.command("form")
+def catenary_form(line: LineName, output: OptionalFolder = None, quiet: Quiet = False) -> None:
+    """Find the form of an overhead line and print its dropper schedule.
+
+    With -o writes OUT/schedule.csv, lengths in mm.
+    """
+    with reported():
+        from ancf.cli.catenary import show_form
+
+        show_form(line, output, quiet)
+
+
+@catenary.command("run")
+def catenary_run(
+    line: LineName,
+    speed: Speed,
+    output: Folder = Path("out"),
+    pantograph: Pantographs = None,
+    spacing: Spacing = None,
+    start: Start = None,
+    window: Window = None,
+    contact: ContactKind = "penalty",
+    step: Step = None,
+    report: Report = True,
+    quiet: Quiet = False,
+) -> None:
+    """Run pantographs along an overhead line.
+
+    Writes OUT/run.json, CSV files and OUT/report.html, and prints the statistics of the contact force.
+    """
+    with reported():
+        from ancf.cli.catenary_run import run_line
+
+        options = {"spacing": spacing, "start": start, "window": window, "contact": contact, "step": step}
+        run_line(line, speed, pantograph, options, output, report, quiet)
+
+
+@catenary.command("elasticity")
+def catenary_elasticity(
+    line: LineName, output: OptionalFolder = None, force: Forces = None, quiet: Quiet = False
+) -> None:
+    """Lift the contact wire along the middle span of an overhead line and print how far it gives.
+
+    Forces of 100 and 200 N by default. With -o writes OUT/elasticity.csv.
+    """
+    with reported():
+        from ancf.cli.catenary import show_elasticity
+
+        show_elasticity(line, output, force or [100.0, 200.0], quiet)
+
+
+@app.command()
+def validate(
+    case: Case, speed: Speed, output: Folder = Path("out"), report: Report = True, quiet: Quiet = False
+) -> None:
+    """Run a reference case of a standard and compare it with the published ranges.
+
+    Writes OUT/validate.json, CSV files and OUT/report.html. Quantities outside their ranges are reported and
+    are no error: the exit code is 0 when all was computed.
+    """
+    with reported():
+        from ancf.cli.validate import validate_case
+
+        validate_case(case, speed, output, report, quiet)
 
 
 def main() -> None:

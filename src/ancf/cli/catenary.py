@@ -1,0 +1,81 @@
+"""``ancf catenary``: form and static elasticity of an overhead line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ancf.cli.output import OutputFolder
+from ancf.cli.screen import Screen, console, table
+
+if TYPE_CHECKING:
+    from ancf.catenary import Elasticity, Form, Line
+
+
+def show_form(name: str, output: Path | None, quiet: bool = False) -> None:
+    """Find the form of a line and print its dropper schedule; with a folder also ``schedule.csv`` there."""
+    from ancf import catenary
+
+    line = catenary.read_line(name)
+    folder = None if output is None else OutputFolder(output)
+    Screen(quiet).announce_compilation()
+    found = catenary.form(line)
+    if not quiet:
+        _print_schedule(line, found)
+    if folder is not None:
+        _written(found.save_schedule(folder.path / "schedule.csv"), quiet)
+
+
+def show_elasticity(name: str, output: Path | None, forces: list[float], quiet: bool = False) -> None:
+    """Compute the static elasticity and print it; with a folder also ``elasticity.csv`` there."""
+    from ancf import catenary
+
+    line = catenary.read_line(name)
+    folder = None if output is None else OutputFolder(output)
+    Screen(quiet).announce_compilation()
+    found = catenary.elasticity(line, forces)
+    if not quiet:
+        _print_elasticity(line, found)
+    if folder is not None:
+        _written(found.save(folder.path / "elasticity.csv"), quiet)
+
+
+def _print_schedule(line: Line, found: Form) -> None:
+    from ancf.catenary.schedule import texts
+
+    heads = ("span", "dropper", "at [m]", "track [m]", "length [mm]", "unstretched [mm]", "load [N]")
+    shown = table(*heads, "wire height [mm]", "messenger height [mm]")
+    for row in found.schedule():
+        shown.add_row(*texts(row))
+    where = console()
+    where.print(_title(line), soft_wrap=True)
+    where.print(shown)
+    total = float(found.dropper_natural.sum())
+    shortest = float(found.dropper_length.min())
+    where.print(
+        f"{found.dropper_length.size} droppers, {total:.3f} m unstretched in all, "
+        f"the shortest {1e3 * shortest:.1f} mm, contact wire {line.contact_support} at the supports",
+        soft_wrap=True,
+    )
+
+
+def _print_elasticity(line: Line, found: Elasticity) -> None:
+    shown = table("at [m]", *(f"{force:g} N [mm/N]" for force in found.force))
+    for x, values in zip(found.x, found.value.T, strict=True):
+        shown.add_row(f"{x:.2f}", *(f"{value:.4f}" for value in values))
+    where = console()
+    where.print(_title(line), soft_wrap=True)
+    where.print(f"elasticity along span {found.span + 1}", soft_wrap=True)
+    where.print(shown)
+    for force, ratio in zip(found.force, found.nonuniformity, strict=True):
+        where.print(f"non-uniformity at {force:g} N: {100 * ratio:.1f} %", soft_wrap=True)
+
+
+def _title(line: Line) -> str:
+    size = f"{len(line.spans)} spans, {line.length:g} m, wave speed {3.6 * line.wave_speed:.0f} km/h"
+    return f"{line.title}: {size}" if line.title else size
+
+
+def _written(path: Path, quiet: bool) -> None:
+    if not quiet:
+        console().print(str(path), soft_wrap=True)

@@ -1,0 +1,89 @@
+"""``ancf catenary run``: pantographs along a line, as a table, JSON, CSV and a report."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ancf.cli.output import OutputFolder
+from ancf.cli.screen import Screen, console
+
+if TYPE_CHECKING:
+    from ancf.catenary.run_data import Run
+
+
+def run_line(
+    name: str,
+    speed_kmh: float,
+    pantographs: list[str] | None,
+    options: dict[str, Any],
+    folder: Path,
+    report: bool = True,
+    quiet: bool = False,
+) -> None:
+    """Run, write and print.
+
+    Raises
+    ------
+    ModelError
+        Something given is wrong, or matplotlib is missing for the report; nothing was computed.
+
+    """
+    from ancf.catenary.catalogue import read_line
+    from ancf.catenary.run import run
+    from ancf.model.checks import positive
+    from ancf.viz.style import require_matplotlib
+
+    speed = positive(speed_kmh, "--speed") / 3.6
+    line = read_line(name)
+    if report:
+        require_matplotlib()
+    given = {key: value for key, value in options.items() if value}
+    if pantographs:
+        given["pantograph"] = pantographs[0] if len(pantographs) == 1 else pantographs
+    output, screen = OutputFolder(folder), Screen(quiet)
+    with output.locked():
+        screen.announce_compilation()
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            with screen.progress(1) as progress:
+                done = run(line, speed=speed, progress=progress, **given)
+        files = _written(done, folder, report)
+    if not quiet:
+        for warning in caught:
+            console().print(f"warning: {warning.message}", soft_wrap=True)
+        show(done)
+        console().print("written: " + ", ".join(str(file) for file in files), soft_wrap=True)
+
+
+def _written(done: Run, folder: Path, report: bool) -> list[Path]:
+    from ancf.catenary.statistics import statistics
+    from ancf.catenary.write import summary, write_json, write_run
+
+    found = [statistics(done, k) for k in range(len(done.recordings))]
+    files = [write_json(summary(done, found), folder / "run.json"), *write_run(done, folder, found)]
+    if report:
+        from ancf.catenary.elasticity import elasticity_beside
+        from ancf.catenary.report import write_report
+
+        gives = elasticity_beside(done.form.line)
+        files.append(gives.save(folder / "elasticity.csv"))
+        files.append(write_report(done, folder / "report.html", elasticity=gives))
+    return files
+
+
+def show(done: Run) -> None:
+    """Print the statistics of each pantograph."""
+    from ancf.catenary.statistics import statistics
+    from ancf.catenary.table import table
+
+    screen = console()
+    for k, recording in enumerate(done.recordings):
+        screen.print(f"{recording.name}, {done.speed_kmh:.4g} km/h", style="bold", soft_wrap=True)
+        screen.print(table(statistics(done, k).quantities))
+    screen.print(
+        f"real-time factor {done.real_time_factor:.3g}: {done.simulated_seconds:.3g} s simulated in "
+        f"{done.cpu_seconds:.3g} s of CPU time",
+        soft_wrap=True,
+    )

@@ -1,0 +1,66 @@
+"""``ancf validate``: a reference case against its published ranges, as a table, JSON, CSV and a report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ancf.cli.output import OutputFolder
+from ancf.cli.screen import Screen, console
+
+if TYPE_CHECKING:
+    from ancf.catenary.references import Reference
+    from ancf.catenary.run_data import Run
+
+
+def validate_case(
+    case: str, speed_kmh: float, folder: Path, report: bool = True, quiet: bool = False
+) -> None:
+    """Run, compare, write and print.
+
+    Raises
+    ------
+    ModelError
+        Unknown case, wrong speed, a folder that cannot be written, or matplotlib is missing for the report;
+        nothing was computed.
+
+    """
+    from ancf.catenary import validate
+    from ancf.catenary.references import reference_case
+    from ancf.model.checks import positive
+    from ancf.viz.style import require_matplotlib
+
+    reference = reference_case(case)
+    positive(speed_kmh, "--speed")
+    if report:
+        require_matplotlib()
+    output, screen = OutputFolder(folder), Screen(quiet)
+    with output.locked():
+        screen.announce_compilation()
+        with screen.progress(1) as progress:
+            run = validate.reference_run(case, speed_kmh, progress=progress)
+        files = validate.write_validation(run, reference, folder, report)
+    if not quiet:
+        show(run, reference)
+        console().print("written: " + ", ".join(str(file) for file in files), soft_wrap=True)
+
+
+def show(run: Run, reference: Reference) -> None:
+    """Print the table of the reference's quantities."""
+    from ancf.catenary.statistics import statistics
+    from ancf.catenary.table import table
+
+    screen = console()
+    rows = reference.compare(statistics(run), run.speed_kmh)
+    screen.print(f"{reference.title}, {run.speed_kmh:.4g} km/h", style="bold", soft_wrap=True)
+    screen.print(table(rows))
+    if note := reference.note(run.speed_kmh):
+        screen.print(note, soft_wrap=True)
+    judged = [q.inside for q in rows if q.inside is not None]
+    if judged:
+        screen.print(f"{sum(judged)} of {len(judged)} inside the accepted ranges", soft_wrap=True)
+    screen.print(
+        f"real-time factor {run.real_time_factor:.3g}: {run.simulated_seconds:.3g} s simulated in "
+        f"{run.cpu_seconds:.3g} s of CPU time",
+        soft_wrap=True,
+    )
