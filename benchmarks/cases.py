@@ -54,6 +54,11 @@ class Case:
         return round(self.t_end / self.step)
 
     @property
+    def once(self) -> bool:
+        """One solve of the peer takes a minute: each variant is measured once, and may cut its steps."""
+        return False
+
+    @property
     def long(self) -> bool:
         """One solve takes seconds: it is measured by single solves, and less often."""
         return self.steps * self.elements > 300_000
@@ -115,6 +120,56 @@ class Sliding(Case):
         return f"{self.carrier}+{self.slider}"
 
 
+@dataclass(frozen=True, kw_only=True)
+class Overhead(Case):
+    """A pantograph runs along an overhead line; EA, EI, rhoA are those of the contact wire.
+
+    Line and pantograph are those of example 7.5 as the peer can have them: droppers without mass at the nodes
+    of both meshes, a contact wire that the masts hold sideways alone, a carrier that bends over the masts.
+
+    Parameters
+    ----------
+    contact, carrier : int
+        Numbers of elements of the two wires.
+    speed : float
+        m/s.
+    start : float
+        Of the pantograph, m.
+    """
+
+    contact: int
+    carrier: int
+    speed: float
+    start: float
+    carrier_rhoA: float = 0.446  # kg/m
+    spans: int = 4
+    span: float = 60.0  # m
+    droppers: int = 7  # in a span
+    height: float = 1.5  # of the carrier at the masts, m
+    zigzag: float = 0.3  # m
+    tension: float = 10e3  # of both wires, N
+    dropper_EA: float = 1.342e6  # N
+    dropper_damping: float = 8.0  # N s/m
+    damping: float = 0.03  # of both wires, N s/m^2
+    masses: tuple[float, float] = (15.0, 7.2)  # frame and head, kg
+    stiffness: tuple[float, float] = (50.0, 4200.0)  # N/m
+    dampers: tuple[float, float] = (90.0, 10.0)  # N s/m
+    force: float = 100.0  # N
+    rho: float = 0.6  # spectral radius of the generalised-alpha method
+
+    @property
+    def elements(self) -> int:
+        return self.contact + self.carrier
+
+    @property
+    def size(self) -> str:
+        return f"{self.contact}+{self.carrier}"
+
+    @property
+    def once(self) -> bool:
+        return True
+
+
 def square(side: float, E: float, rho: float) -> dict[str, float]:
     """Stiffnesses and mass of a square section."""
     A = side * side
@@ -157,6 +212,17 @@ def sliding(carrier: int, slider: int, quick: bool) -> Sliding:
     )  # fmt: skip
 
 
+def overhead(speed: float) -> Overhead:
+    """Example 7.5: along 97 % of the line in steps of 1 ms."""
+    start = 240.0 / 224 * 2
+    steps = round((0.97 * 240.0 - start) / speed / 1e-3)
+    return Overhead(
+        name=f"overhead-{speed:g}", title=f"7.5 overhead line, {speed:g} m/s", contact=224, carrier=112,
+        EA=1.342e7, EI=150.0, rhoA=0.89, speed=speed, start=start, step=1e-3, t_end=1e-3 * steps,
+        accuracy=1e-3, quick=False,
+    )  # fmt: skip
+
+
 CASES: dict[str, Case] = {
     case.name: case
     for case in (
@@ -172,5 +238,6 @@ CASES: dict[str, Case] = {
         cable(100, quick=True),
         cable(1000, quick=True),
         cable(10000, quick=False),
+        overhead(32.0),
     )
 }

@@ -103,7 +103,7 @@ def attempt(worker: Worker, case: Case, options: Sample, seconds: float, steps: 
         sample = worker.solve(case, options, seconds, steps)
     except RefusedError:
         return None
-    return sample if sample["steps"] == steps else None
+    return sample if sample["steps"] == steps or case.once else None
 
 
 def tune(peer: Worker, case: Case, choices: list[Sample]) -> Sample:
@@ -170,10 +170,13 @@ def compare(ours: Worker, peers: dict[str, Worker], case: Case, pairs: int, seco
     taken = Pairs(ours, chosen, case)
     for k in range(pairs):
         taken.round(seconds)
+        if case.once:
+            break
         if k == 0 and case.long:
             taken.prune()
     row: Sample = {"name": case.name, "title": case.title, "elements": case.elements, "size": case.size}
-    row["ancf"] = {**summary(taken.own), "newton_error": newton_error(ours, case, taken.own[-1])}
+    error = None if case.once else newton_error(ours, case, taken.own[-1])
+    row["ancf"] = {**summary(taken.own), "newton_error": error}
     row["exudyn"] = {
         name: {**summary([a for a, _ in both]), **ratios(both), "options": chosen[name][1]}
         for name, both in taken.by_variant.items()
@@ -194,6 +197,7 @@ def summary(samples: list[Sample]) -> Sample:
         "cpu_stepping": last.get("cpu_stepping"),
         "us_per_step": 1e6 * median / last["steps"],
         **{key: last[key] for key in ("steps", "newton_iterations", "jacobians", "tip")},
+        **{key: last[key] for key in ("force",) if key in last},
         "samples": len(samples),
         "solves_per_sample": last["solves"],
     }
@@ -220,6 +224,14 @@ def verdict(row: Sample, case: Case) -> Sample:
     best = min(fit, key=lambda name: float(peers[name]["cpu_median"]))
     gap = distance(row["ancf"], next(iter(peers.values())))
     return {"best": best, "ratio": peers[best]["ratio"], "tip_difference": gap}
+
+
+def contacts(ours: Worker, case: Case) -> dict[str, Sample]:
+    """Our side with each kind of contact, a burst of a second each, after one that may compile."""
+    kinds = ("joint", "penalty")
+    for kind in kinds:
+        ours.solve(case, {"contact": kind}, 0.0)
+    return {kind: ours.solve(case, {"contact": kind}, 1.0) for kind in kinds}
 
 
 def newton_error(ours: Worker, case: Case, sample: Sample) -> float | None:

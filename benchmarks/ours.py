@@ -10,8 +10,9 @@ import time
 from typing import Any
 
 import ancf
+import overhead
 from ancf.solvers.stepping import Run
-from cases import GRAVITY, Cable, Case, Sliding
+from cases import GRAVITY, Cable, Case, Overhead, Sliding
 
 spent = {"start": 0.0}  # CPU seconds of the initial accelerations in the last solve
 _start = Run.start
@@ -66,6 +67,8 @@ def build_sliding(case: Sliding) -> ancf.Model:
 
 def solve(case: Case, options: dict[str, Any]) -> dict[str, Any]:
     """Build and solve; CPU seconds of the solve (start and steps) and of everything."""
+    if isinstance(case, Overhead):
+        return solve_overhead(case, options)
     start = time.process_time()
     model = build(case)
     state = ancf.equilibrium(model, of=["carrier"]) if isinstance(case, Sliding) else None
@@ -88,4 +91,24 @@ def solve(case: Case, options: dict[str, Any]) -> dict[str, Any]:
         "newton_iterations": stats.newton_iterations,
         "jacobians": stats.jacobians,
         "tip": [float(x) for x in tip],
+    }
+
+
+def solve_overhead(case: Overhead, options: dict[str, Any]) -> dict[str, Any]:
+    """The same for the overhead line; "cpu_rest" is the time of form finding and equilibria."""
+    start = time.process_time()
+    run = overhead.run(case, overhead.form(case), options.get("contact", "joint"))
+    whole = time.process_time() - start
+    recording, settings = run.recordings[0], run.settings
+    inside = (recording.position > 20.0) & (recording.position < 220.0)
+    force = recording.force[inside]
+    return {
+        "cpu": spent["start"] + run.cpu_seconds,
+        "cpu_stepping": run.cpu_seconds,
+        "cpu_whole": whole,
+        "steps": settings["steps"],
+        "newton_iterations": settings["Newton iterations"],
+        "jacobians": settings["factorisations"],
+        "tip": [float(recording.position[-1]), 0.0, float(recording.strip[-1])],
+        "force": overhead.summary(force),
     }

@@ -17,6 +17,9 @@ def show(results: Results, console: Console) -> None:
     console.print(counters(results["cases"]))
     if any(row["exudyn"] for row in results["cases"]):
         console.print(peers(results["cases"]))
+    for row in results["cases"]:
+        if "contacts" in row:
+            console.print(contacts(row))
     for key, table in (
         ("memory", memory),
         ("elements", elements),
@@ -106,6 +109,23 @@ def described(options: Results) -> str:
     parts = [f"{short[key]} {value:g}" for key, value in options.get("newton", {}).items()]
     radius = [f"rho {options['rho']:g}"] if "rho" in options else []
     return ", ".join([options.get("solver", ""), *radius, *parts])
+
+
+def contacts(row: Results) -> Table:
+    """Each kind of contact of ours, and the peer's joint, which also pulls."""
+    made = table(f"{name(row)}: kinds of contact (force in N between 20 and 220 m)", "contact", "µs/step",
+                 "Newton/step", "Jacobians", "whole s", "ratio", "mean", "σ", "least", "largest")  # fmt: skip
+    peer = row["exudyn"].get(row["best"])
+    sides = [(kind, sample, sample["cpu"], sample["cpu_whole"]) for kind, sample in row["contacts"].items()]
+    if peer is not None:
+        sides.append(("Exudyn's joint", peer, peer["cpu_median"], peer["cpu_whole_median"]))
+    for kind, sample, cpu, whole in sides:
+        each, force = 1.0 / sample["steps"], sample["force"]
+        ratio = None if peer is None or sample is peer else peer["cpu_median"] / cpu
+        work = (number(1e6 * cpu * each), number(sample["newton_iterations"] * each, ".2f"))
+        forces = (number(force.get(key), ".1f") for key in ("mean", "deviation", "least", "largest"))
+        made.add_row(kind, *work, str(sample["jacobians"]), number(whole), number(ratio, ".1f"), *forces)
+    return made
 
 
 def memory(rows: list[Results]) -> Table:

@@ -15,9 +15,9 @@ from typing import Any
 
 from rich.console import Console
 
-from cases import CASES, Case
+from cases import CASES, Case, Overhead
 from machine import load, machine
-from measure import ONE_THREAD, RefusedError, Worker, compare, memory, workers
+from measure import ONE_THREAD, RefusedError, Worker, compare, contacts, memory, workers
 from report import show
 from startup import startup
 
@@ -72,6 +72,8 @@ def measure(cases: list[Case], pairs: int, seconds: float, console: Console) -> 
         for case in cases:
             console.print(f"[dim]{case.title}, {case.elements} elements[/]")
             rows.append(checked(own, peers, case, pairs, seconds))
+            if isinstance(case, Overhead):
+                rows[-1]["contacts"] = contacts(own, case)
     return rows
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Protocol, cast
 
-from . import fig1, fig2, fig3, fig4, fig5, fig6, fig7, fig8, fig9, fig10, fig11, table2
+from . import fig1, fig2, fig3, fig4, fig5, fig6, fig7, fig8, fig9, fig10, fig11, fig12, fig13, fig14, table2
 from .table import Table
 
 if TYPE_CHECKING:
@@ -38,6 +38,9 @@ FIGURES: Mapping[str, FigureModule] = {
         "fig9": fig9,
         "fig10": fig10,
         "fig11": fig11,
+        "fig12": fig12,
+        "fig13": fig13,
+        "fig14": fig14,
         "table2": table2,
     }.items()
 }
