@@ -23,6 +23,7 @@ LAYERS = (
     {"results"},
     {"analysis"},
     {"viz"},
+    {"catenary"},
     {"paper"},
     {"cli"},
 )

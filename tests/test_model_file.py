@@ -89,7 +89,7 @@ outputs = ["beam.end", "beam.at(0.5)"]
 load_steps = 5
 """
 DATA = tomllib.loads(TEXT)
-MISSING = object()
+MISSING = type("Missing", (), {"__repr__": lambda self: "missing"})()  # the same name in every process
 
 
 def changed(*changes):

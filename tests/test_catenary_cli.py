@@ -1,0 +1,127 @@
+"""``ancf catenary run`` and ``ancf validate``: files, what is printed, exit codes."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+from ancf.cli.app import app
+from overhead_lines import TOML
+
+
+@pytest.fixture
+def call(tmp_path, monkeypatch, capsys):
+    """Run a command in this process, in a folder with the line file; returns exit code, stdout, stderr."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "200")
+    monkeypatch.delenv("ANCF_TRACEBACK", raising=False)
+    Path("line.toml").write_text(TOML, encoding="utf-8")
+
+    def run(*arguments):
+        with pytest.raises(SystemExit) as stop:
+            app([str(a) for a in arguments], prog_name="ancf")
+        said = capsys.readouterr()
+        assert "Traceback" not in said.err
+        return int(stop.value.code or 0), said.out, " ".join(said.err.split())
+
+    return run
+
+
+QUICK = ("catenary", "run", "line.toml", "--speed", "140", "--step", "0.002")
+
+
+def read(path):
+    return json.loads(Path(path).read_text(encoding="utf-8"))
+
+
+def test_run_writes_json_tables_and_report(call):
+    code, out, _ = call(*QUICK, "-o", "out")
+    assert code == 0
+    done = read("out/run.json")
+    assert done["speed_kmh"] == pytest.approx(140.0, rel=1e-9)
+    assert done["real_time_factor"] > 0.0
+    tables = sorted(path.name for path in Path("out").glob("*.csv"))
+    assert tables
+    for name in tables:
+        with Path("out", name).open(encoding="utf-8", newline="") as file:
+            table = list(csv.reader(file))
+        assert len(table) > 1
+        assert {len(row) for row in table} == {len(table[0])}
+    page = Path("out/report.html").read_text(encoding="utf-8")
+    assert "Short line" in page
+    assert "http" not in page.split("<body")[0]  # nothing is fetched
+    for text in ("mean force Fm", "uplift at support", "real-time factor", "written: "):
+        assert text in out
+
+
+def test_run_without_a_report(call):
+    code, _, _ = call(*QUICK, "--no-report", "-o", "out")
+    assert code == 0
+    assert Path("out/run.json").exists()
+    assert not Path("out/report.html").exists()
+
+
+def test_quiet_run_prints_nothing(call):
+    code, out, err = call(*QUICK, "--no-report", "--quiet", "-o", "out")
+    assert (code, out, err) == (0, "", "")
+
+
+def test_run_of_two_different_pantographs(call):
+    both = ("--pantograph", "benchmark-2015", "--pantograph", "dsa380", "--spacing", "30")
+    place = ("--start", "10", "--window", "60", "80")
+    code, out, _ = call(*QUICK, *both, *place, "--no-report", "-o", "out")
+    assert code == 0
+    assert out.count("mean force Fm") == 2
+    assert len(read("out/run.json")["pantographs"]) == 2
+
+
+def test_run_by_the_joint(call):
+    code, _, _ = call(*QUICK, "--contact", "joint", "--no-report", "-o", "out")
+    assert code == 0
+    assert "joint" in Path("out/run.json").read_text(encoding="utf-8")
+
+
+def test_validate_prints_and_writes_the_rows(call):
+    code, out, _ = call("validate", "en50318-2002", "--speed", "250", "--no-report", "-o", "out")
+    assert code == 0
+    done = read("out/validate.json")
+    assert (done["case"], done["speed_kmh"]) == ("en50318-2002", 250.0)
+    assert done["real_time_factor"] > 0.0
+    assert len(done["rows"]) == 8
+    for row in done["rows"]:
+        assert set(row) == {"quantity", "unit", "value", "low", "high", "inside", "tag"}
+        assert row["inside"] is (row["low"] <= row["value"] <= row["high"])
+        assert row["quantity"] in out
+    assert done["all_inside"] is True
+    assert "8 of 8 inside" in out
+
+
+WRONG = {
+    "unknown line": (("catenary", "run", "en50318-2003", "--speed", "100"), "en50318-2002"),
+    "unknown pantograph": ((*QUICK, "--pantograph", "dsa"), "dsa380"),
+    "speed below zero": (("catenary", "run", "line.toml", "--speed", "-5"), "--speed"),
+    "window outside": ((*QUICK, "--window", "100", "400"), "run.window"),
+    "start outside": ((*QUICK, "--start", "400"), "run.start"),
+    "spacing too long": ((*QUICK, "--spacing", "200"), "run.window"),
+    "unknown contact": ((*QUICK, "--contact", "glue"), "run.contact"),
+    "unknown case": (("validate", "en50318", "--speed", "250"), "en50318-2002"),
+    "validate at no speed": (("validate", "en50318-2002", "--speed", "0"), "--speed"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_wrong_input_ends_with_2_and_names_it(call, case):
+    arguments, text = WRONG[case]
+    code, out, err = call(*arguments, "-o", "out")
+    assert code == 2
+    assert text in err
+    assert "written" not in out
+    assert not list(Path().glob("out/*.json"))
+
+
+def test_a_field_wrong_in_the_file_is_named(call):
+    Path("line.toml").write_text(TOML.replace("tension = 20e3", "tension = 0.0"), encoding="utf-8")
+    code, _, err = call(*QUICK, "-o", "out")
+    assert code == 2
+    assert "contact_wire.tension" in err

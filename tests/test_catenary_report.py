@@ -1,0 +1,263 @@
+"""The HTML report and ``ancf validate``, on a made-up run."""
+
+import base64
+import dataclasses
+import json
+import subprocess
+import sys
+from html.parser import HTMLParser
+from types import SimpleNamespace
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import catenary_stand_in as stand_in
+from ancf import ModelError
+from ancf.catenary import Elasticity, validate
+from ancf.catenary.quantity import shown
+from ancf.catenary.references import reference_case
+from ancf.catenary.report import Content, write_report
+from ancf.catenary.report.figures import FIGURES, figure_names
+from ancf.catenary.statistics import statistics
+from ancf.cli import app
+
+ROW = ["quantity", "unit", "value", "low", "high", "inside", "tag"]
+NAMES = (
+    "mean force Fm",
+    "standard deviation 0-20 Hz",
+    "Fm + 3 sigma",
+    "Fm - 3 sigma",
+    "actual maximum",
+    "actual minimum",
+    "uplift at support",
+    "loss of contact",
+)
+VOID = {"meta", "link", "img", "br", "hr"}
+
+
+@pytest.fixture(scope="module")
+def run():
+    return stand_in.run()
+
+
+@pytest.fixture(scope="module")
+def two():
+    return stand_in.run(count=2)
+
+
+def at_speed(run, kmh):
+    return dataclasses.replace(run, speed=kmh / 3.6)
+
+
+class Page(HTMLParser):
+    """Reads a page; every element must be closed in order."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.tags, self.texts = [], [], []
+        self.feed(text)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.texts.append(data)
+
+    def all(self, tag):
+        return [attributes for name, attributes in self.tags if name == tag]
+
+
+@pytest.fixture(scope="module")
+def text(run, tmp_path_factory):
+    path = tmp_path_factory.mktemp("report") / "deep" / "report.html"
+    write_report(run, path, reference=reference_case("en50318-2002"), elasticity=stand_in.elasticity())
+    return path.read_text(encoding="utf-8")
+
+
+class TestReport:
+    def test_needs_nothing_else(self, text):
+        assert text.startswith("<!DOCTYPE html>\n<html lang=")
+        page = Page(text)
+        assert "http" not in text
+        assert page.all("script") == []
+        sources = [a.get("src") or a.get("href") for tag in ("img", "link", "a") for a in page.all(tag)]
+        assert all(source.startswith(("data:", "#")) for source in sources)
+        assert "url(" not in text
+        assert "@import" not in text
+
+    def test_links_lead_somewhere(self, text):
+        page = Page(text)
+        ids = [a["id"] for _, a in page.tags if "id" in a]
+        assert len(ids) == len(set(ids))
+        assert {a["href"][1:] for a in page.all("a")} <= set(ids)
+
+    def test_has_every_figure(self, text):
+        page = Page(text)
+        assert [a["id"] for a in page.all("figure")] == [f"figure-{name}" for name in FIGURES]
+        for image in page.all("img"):
+            svg = base64.b64decode(image["src"].removeprefix("data:image/svg+xml;base64,"))
+            assert ElementTree.fromstring(svg).tag.endswith("svg")
+            assert image["alt"]
+
+    def test_has_every_row(self, text, run):
+        cells = [t.strip() for t in Page(text).texts]
+        for q in statistics(run).quantities:
+            assert cells.count(q.name) >= 1, q.name
+            assert shown(q.value, q.unit) in cells
+        for name in NAMES:
+            assert cells.count(name) == 2, name
+        assert {"inside", "outside", "V2", "190 to 210", "20 to 40"} <= set(cells)
+        assert "Butterworth" in text
+        assert "real-time factor" in text
+        assert "contact stiffness" in text
+        assert "998.0" in cells  # length of the first dropper in mm
+        assert any("3 of 8 quantities inside" in c for c in cells)
+
+    def test_escapes(self, run, tmp_path):
+        made = dataclasses.replace(run, settings={"<b>": "a & b </td>"})
+        Page(write_report(made, tmp_path / "r.html").read_text())
+
+    def test_several_pantographs(self, two, tmp_path):
+        text = write_report(two, tmp_path / "r.html", reference=reference_case("en50318-2002")).read_text()
+        page = Page(text)
+        ids = {a["id"] for a in page.all("section")}
+        assert {"statistics-1", "statistics-2", "droppers-1", "droppers-2"} <= ids
+        assert "Statistics, leading" in page.texts
+        assert "Statistics, trailing 1" in page.texts
+        assert page.texts.count("uplift at support") == 4
+
+    def test_equal_names_are_told_apart(self, two):
+        same = [dataclasses.replace(r, name="twin") for r in two.recordings]
+        content = Content.of(dataclasses.replace(two, recordings=same))
+        assert [content.name(0), content.name(1)] == ["twin (1)", "twin (2)"]
+
+    def test_speed_without_ranges(self, run, tmp_path):
+        reference = reference_case("en50318-2002")
+        text = write_report(at_speed(run, 260.0), tmp_path / "r.html", reference=reference).read_text()
+        assert "no accepted ranges at 260 km/h" in text
+
+    def test_figures_without_elasticity(self, run):
+        assert set(FIGURES) - set(figure_names(Content.of(run))) == {"elasticity"}
+
+    def test_elasticity(self, text):
+        cells = Page(text).texts
+        assert "Static elasticity of span 5" in cells
+        at = cells.index("non-uniformity [%]")
+        row = [c for c in cells[at + 1 :] if c.strip()][:8]
+        assert row == ["100", "0.4000", "0.6000", "20.0", "200", "0.4400", "0.6600", "20.0"]
+
+    def test_a_line_without_losses_and_slack(self, run, tmp_path):
+        calm = [dataclasses.replace(r, force=np.full(run.t.size, 120.0)) for r in run.recordings]
+        forces = np.full_like(run.dropper_force, 80.0)
+        made = dataclasses.replace(run, recordings=calm, dropper_force=forces, uplift=0 * run.uplift)
+        Page(write_report(made, tmp_path / "r.html").read_text())
+        assert statistics(made)["loss"].value == 0.0
+        assert statistics(made)["slack_droppers"].value == 0
+
+
+class TestWindow:
+    @pytest.mark.parametrize(
+        ("spans", "count", "window"), [(10, 2, (240, 360)), (9, 3, (180, 360)), (10, 3, (180, 360))]
+    )
+    def test_middle(self, spans, count, window):
+        assert validate.middle_spans(stand_in.line(spans), count) == window
+
+    def test_end_spans_are_dropped(self):
+        with pytest.raises(ModelError, match="cannot evaluate 9 of 10 spans"):
+            validate.middle_spans(stand_in.line(10), 9)
+
+
+class TestCommand:
+    def validate(self, monkeypatch, run, *arguments):
+        calls = []
+
+        def reference_run(case, speed_kmh, progress=None):
+            calls.append((case, speed_kmh))
+            if progress:
+                progress(SimpleNamespace(step=1, steps=1, t=1.0))
+            return at_speed(run, speed_kmh)
+
+        monkeypatch.setattr(validate, "reference_run", reference_run)
+        made = Elasticity(4, np.array([0.0, 30.0, 60.0]), np.array([100.0]), np.array([[0.02, 0.04, 0.02]]))
+        monkeypatch.setattr(validate, "elasticity_beside", lambda line: made)
+        return CliRunner().invoke(app, ["validate", *arguments]), calls
+
+    def test_writes_and_prints(self, monkeypatch, run, tmp_path):
+        arguments = ("en50318-2002", "--speed", "250", "-o", str(tmp_path))
+        done, calls = self.validate(monkeypatch, run, *arguments)
+        assert done.exit_code == 0, done.output
+        assert calls == [("en50318-2002", 250.0)]
+        assert "standard deviation 0-20 Hz" in done.stdout
+        assert "3 of 8 inside the accepted ranges" in done.stdout
+        assert "real-time factor" in done.stdout
+        found = json.loads((tmp_path / "validate.json").read_text())
+        assert (found["case"], found["speed_kmh"]) == ("en50318-2002", 250.0)
+        assert found["real_time_factor"] == run.real_time_factor
+        assert [list(row) for row in found["rows"]] == [ROW] * 8
+        assert found["all_inside"] is False
+        assert found["note"] == ""
+        written = {"report.html", "elasticity.csv", "statistics.csv", "force_1.csv"}
+        assert written <= {p.name for p in tmp_path.iterdir()}
+
+    def test_speed_without_ranges(self, monkeypatch, run, tmp_path):
+        arguments = ("en50318-2002", "--speed", "260", "-o", str(tmp_path), "--no-report")
+        done, _ = self.validate(monkeypatch, run, *arguments)
+        assert done.exit_code == 0
+        assert "no accepted ranges at 260 km/h" in done.stdout
+        found = json.loads((tmp_path / "validate.json").read_text())
+        assert found["all_inside"] is None
+        assert {row["inside"] for row in found["rows"]} == {None}
+        assert not (tmp_path / "report.html").exists()
+
+    def test_quiet(self, monkeypatch, run, tmp_path):
+        arguments = ("en50318-2002", "--speed", "250", "-o", str(tmp_path), "-q", "--no-report")
+        done, _ = self.validate(monkeypatch, run, *arguments)
+        assert (done.exit_code, done.output) == (0, "")
+
+    @pytest.mark.parametrize(
+        ("arguments", "message"),
+        [
+            (("en50318-202", "--speed", "250"), 'there is no "en50318-202"'),
+            (("en50318-2002", "--speed", "-5"), "--speed: must be > 0"),
+            (("en50318-2002", "--speed", "nan"), "--speed: must be a finite number"),
+            (("en50318-2002",), "--speed"),
+        ],
+    )
+    def test_wrong_input(self, monkeypatch, run, tmp_path, arguments, message):
+        done, calls = self.validate(monkeypatch, run, *arguments, "-o", str(tmp_path / "out"))
+        assert done.exit_code == 2
+        assert message in done.output
+        assert calls == []
+
+
+def test_without_matplotlib_it_says_what_to_install(tmp_path):
+    """Tables and files need no matplotlib; the report stops before anything is written."""
+    code = f"""
+import sys
+sys.modules["matplotlib"] = None
+sys.path.insert(0, {str(stand_in.__file__.rsplit("/", 1)[0])!r})
+import catenary_stand_in
+from pathlib import Path
+from ancf.catenary.report import write_report
+from ancf.catenary.write import write_run
+run, folder = catenary_stand_in.run(), Path({str(tmp_path)!r})
+write_run(run, folder)
+try:
+    write_report(run, folder / "report.html")
+except Exception as error:
+    print(error)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "figures: matplotlib is not installed (pip install 'ancf[plot]')\n"
+    assert (tmp_path / "statistics.csv").exists()
+    assert not (tmp_path / "report.html").exists()

@@ -1,0 +1,239 @@
+"""Contact of a wire with a strip: equilibrium, moving contact, loss, energy, bad input."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import ancf
+
+TENSION, LENGTH, EA = 20e3, 30.0, 15e6
+G = 9.81
+
+
+def wire_over(strip_z: float, x: float = 12.0, *, mass: float = 7.2, spring: float = 4200.0, **contact):
+    """A tensioned wire without weight over a strip on a spring whose lower end is held."""
+    model = ancf.Model()
+    section = ancf.Section(EA=EA, EI=0.0, rhoA=1.35)
+    natural = LENGTH / (1.0 + TENSION / EA)
+    wire = model.add_beam(
+        "wire", section=section, start=(0, 0, 0), end=(LENGTH, 0, 0), elements=300, length=natural
+    )
+    model.pin(wire.start)
+    model.pin(wire.end)
+    head = model.add_point_mass("head", at=(x, 0, strip_z), mass=mass)
+    model.hold(head, position="xy")
+    model.add_spring(head, (x, 0, strip_z - 1.0), stiffness=spring, length=1.0)
+    touch = model.add_contact(head, wire, stiffness=50e3, **contact)
+    return model, wire, head, touch
+
+
+def test_equilibrium_is_that_of_three_springs_in_a_row():
+    """Head spring, contact and the string's stiffness T/x + T/(L - x) under a prescribed overlap."""
+    x = 12.0
+    model, wire, head, touch = wire_over(0.02, x)
+    state = ancf.equilibrium(model)
+    string = TENSION / x + TENSION / (LENGTH - x)
+    force = 0.02 / (1 / 4200.0 + 1 / 50e3 + 1 / string)
+    # smooth elements cannot kink: 300 of them are 5e-4 too stiff under a point
+    assert state.contact_force(touch) == pytest.approx(force, rel=1e-3)
+    assert state.contact_gap(touch) == pytest.approx(-state.contact_force(touch) / 50e3, rel=1e-9)
+    s = float(state.arc_length(touch))
+    assert state.position(wire.at(s))[0] == pytest.approx(x, abs=1e-9)
+    balance = 4200.0 * (0.02 - state.position(head)[2])
+    assert state.contact_force(touch) == pytest.approx(balance, rel=1e-9)
+
+
+def test_an_open_contact_does_nothing():
+    model, wire, _, touch = wire_over(-0.01)
+    state = ancf.equilibrium(model)
+    assert state.contact_force(touch) == 0.0
+    assert state.contact_gap(touch) == pytest.approx(0.01, abs=1e-9)
+    assert abs(state.position(wire.at(12.0))[2]) < 1e-12
+
+
+def test_modes_know_the_contact():
+    """A heavy head on the string vibrates as on the head spring and the string in parallel."""
+    model, _, _, _ = wire_over(0.02, 15.0, mass=2000.0)
+    state = ancf.equilibrium(model)
+    string = 1 / (1 / (4 * TENSION / LENGTH) + 1 / 50e3)
+    moved = 2000.0 + 1.35 * LENGTH / 3 * (string * LENGTH / 4 / TENSION) ** 2
+    expected = np.sqrt((4200.0 + string) / moved)
+    assert ancf.modes(model, about=state, count=1).frequencies[0] == pytest.approx(expected, rel=2e-3)
+
+
+def test_a_turned_model_gives_the_turned_result():
+    """Strip along x, wire along -z, force along y: the same equilibrium."""
+    turn = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])  # x->z, y->x, z->y
+    forces = []
+    for R in (np.eye(3), turn):
+        model = ancf.Model()
+        section = ancf.Section(EA=EA, EI=100.0, rhoA=1.35)
+        natural = LENGTH / (1.0 + TENSION / EA)
+        wire = model.add_beam(
+            "wire", section=section, start=(0, 0, 0), end=R @ (LENGTH, 0.3, 0), elements=12, length=natural
+        )
+        model.pin(wire.start)
+        model.pin(wire.end)
+        head = model.add_point_mass("head", at=R @ (11.3, 0.05, 0.03), mass=5.0)
+        model.pin(head)
+        touch = model.add_contact(head, wire, stiffness=50e3, strip=R @ (0, 1, 0), normal=R @ (0, 0, 1))
+        state = ancf.equilibrium(model)
+        forces.append((float(state.contact_force(touch)), float(state.contact_offset(touch))))
+    assert forces[0][0] > 50.0
+    assert forces[1] == pytest.approx(forces[0], rel=1e-9)
+    assert forces[0][1] == pytest.approx(0.3 * 11.3 / LENGTH - 0.05, abs=1e-5)
+
+
+def moving(speed: float, lift: float, *, damping: float = 0.0, t_end: float = 0.2, step: float = 2.5e-4):
+    """A strip held at a height above the wire's line runs along it."""
+    model = ancf.Model()
+    section = ancf.Section(EA=EA, EI=0.0, rhoA=1.35)
+    wire = model.add_beam(
+        "wire",
+        section=section,
+        start=(0, 0, 0),
+        end=(60, 0, 0),
+        elements=60,
+        length=60.0 / (1.0 + TENSION / EA),
+    )
+    model.pin(wire.start)
+    model.pin(wire.end)
+    head = model.add_point_mass("head", at=(20, 0, 0), mass=7.2)
+    model.hold(head, position="xy", displacement=[f"{speed}*t", 0, 0])
+    head.set_motion(velocity=(speed, 0, 0))
+    model.add_force(head, (0, 0, lift))
+    touch = model.add_contact(head, wire, stiffness=50e3, damping=damping)
+    result = ancf.simulate(model, t_end=t_end, step=step)
+    return wire, head, touch, result
+
+
+def test_a_head_pushed_against_an_infinite_string():
+    """A long string answers to a force with the speed F c/(2 T), until a wave comes back from an end."""
+    c = np.sqrt(TENSION / 1.35)
+    _, head, touch, result = moving(0.0, 120.0, t_end=0.15)
+    force, velocity = result.contact_force(touch)[-1], result.velocity(head)[-1, 2]
+    assert velocity == pytest.approx(120.0 * c / (2.0 * TENSION), rel=0.02)
+    assert force == pytest.approx(120.0, rel=0.01)
+
+
+def test_energy_balance_of_a_moving_contact():
+    """The drive supplies what head and wire gain, also with the contact's own damping."""
+    for damping in (0.0, 60.0):
+        _, _, touch, result = moving(60.0, 120.0, damping=damping)
+        energy = result.energy
+        assert np.max(result.contact_force(touch)) > 50.0
+        gained = np.ptp(energy.total)
+        assert np.max(np.abs(energy.balance - energy.balance[0])) < 2e-3 * gained
+        assert (energy.dissipated[-1] > 0.0) == (damping > 0.0)
+
+
+def test_the_contact_runs_on_along_the_wire():
+    wire, head, touch, result = moving(60.0, 120.0)
+    s = result.arc_length(touch)
+    last = result.state(-1)
+    assert last.position(wire.at(float(s[-1])))[0] == pytest.approx(last.position(head)[0], abs=1e-9)
+    assert last.position(head)[0] == pytest.approx(20.0 + 60.0 * 0.2, abs=1e-12)
+
+
+def test_contact_is_lost_and_regained_without_a_pull():
+    """A head thrown down from the wire comes back by its spring."""
+    model, _, head, touch = wire_over(0.0, mass=7.2, spring=4200.0)
+    head.set_motion(velocity=(0, 0, -0.5))
+    result = ancf.simulate(model, t_end=0.16, step=2.5e-4)
+    force = result.contact_force(touch)
+    period = 2 * np.pi * np.sqrt(7.2 / 4200.0)
+    free = result.t < 0.49 * period
+    assert np.all(force >= 0.0)
+    assert np.all(force[free] == 0.0)
+    assert np.max(force[~free]) > 50.0
+    expected = -0.5 * np.sqrt(7.2 / 4200.0) * np.sin(2 * np.pi * result.t / period)
+    assert result.position(head)[free, 2] == pytest.approx(expected[free], abs=2e-6)
+
+
+def test_beyond_the_end_of_the_wire_there_is_no_contact():
+    _, _, touch, result = moving(200.0, 120.0, t_end=0.3)
+    assert result.contact_force(touch)[-1] == 0.0
+    assert np.isinf(result.contact_gap(touch)[-1])
+
+
+def test_second_order_in_the_step():
+    """Differences of the head's height on halving the step, while the contact stays closed."""
+    heights = []
+    for step in (2e-3, 1e-3, 5e-4):
+        _, head, _, result = moving(40.0, 120.0, t_end=0.1, step=step)
+        heights.append(result.position(head)[-1, 2])
+    order = np.log2(abs(heights[1] - heights[0]) / abs(heights[2] - heights[1]))
+    assert order > 1.5
+
+
+def test_a_file_says_the_same(tmp_path):
+    from ancf.model.file import read_study
+
+    text = """
+    [[bodies]]
+    name = "wire"
+    start = [0, 0, 0]
+    end = [30, 0, 0]
+    elements = 6
+    section = {EA = 15e6, EI = 0.0, rhoA = 1.35}
+    [[bodies]]
+    type = "point_mass"
+    name = "head"
+    at = [10, 0, 0]
+    mass = 7.2
+    [[connections]]
+    type = "contact"
+    point = "head"
+    along = "wire"
+    stiffness = 5e4
+    """
+    path = tmp_path / "model.toml"
+    path.write_text(text)
+    model = read_study(path).model
+    contact = model.connections[0]
+    assert (contact.stiffness, contact.s) == (5e4, 10.0)
+    assert model.to_dict()["connections"][0]["type"] == "contact"
+
+
+BAD = [
+    ({"stiffness": 0.0}, "stiffness", "must be"),
+    ({"stiffness": 1.0, "damping": -1.0}, "damping", "must"),
+    ({"stiffness": 1.0, "normal": (0, 1, 0)}, "normal", "perpendicular to strip"),
+    ({"stiffness": 1.0, "strip": (1, 0, 0)}, "along", "does not run along"),
+    ({"stiffness": 1.0, "strip": (0, -1, 0)}, "along", "turn the strip round"),
+    ({"stiffness": 1.0, "s": 31.0}, "s", "off the wire"),
+]
+
+
+@pytest.mark.parametrize(("given", "key", "text"), BAD)
+def test_bad_input_names_the_place(given, key, text):
+    model = ancf.Model()
+    wire = model.add_beam(
+        "wire", section=ancf.Section(EA=EA, EI=1.0, rhoA=1.0), start=(0, 0, 0), end=(30, 0, 0), elements=2
+    )
+    head = model.add_point_mass("head", at=(1, 0, 0), mass=1.0)
+    with pytest.raises(ancf.ModelError) as caught:
+        model.add_contact(head, wire, **given)
+    assert caught.value.where.endswith(key)
+    assert text in str(caught.value)
+
+
+def test_other_bodies_cannot_be_the_wire():
+    model = ancf.Model()
+    wire = model.add_beam(
+        "wire", section=ancf.Section(EA=EA, EI=1.0, rhoA=1.0), start=(0, 0, 0), end=(30, 0, 0), elements=2
+    )
+    head = model.add_point_mass("head", at=(1, 0, 0), mass=1.0)
+    with pytest.raises(ancf.ModelError, match="point mass, must be a cable"):
+        model.add_contact(wire.start, head, stiffness=1.0)
+    with pytest.raises(ancf.ModelError, match="cannot touch itself"):
+        model.add_contact(wire.start, wire, stiffness=1.0)
+
+
+def test_unknown_contact_lists_the_right_ones():
+    model, _, _, touch = wire_over(0.0)
+    state = ancf.equilibrium(model)
+    with pytest.raises(ancf.ModelError, match="contact of head and wire"):
+        state.contact_force("no such")
+    assert state.contact_force(touch.name) == state.contact_force(touch)
