@@ -63,9 +63,10 @@ def report(content: Content) -> str:
 
 def _top(content: Content, title: str) -> Iterator[Element]:
     yield element("h1", title)
-    names = ", ".join(content.name(k) for k in range(len(content.found)))
+    names = ", ".join(unit.title or unit.name for unit in content.run.pantographs)
+    head = "Pantographs, the first ahead" if content.several else "Pantograph"
     low, high = content.run.window
-    what = f"Pantograph{'s' if content.several else ''} {names}. Evaluated from {low:g} m to {high:g} m."
+    what = f"{head}: {names}. Evaluated from {low:g} m to {high:g} m."
     yield element("p", what, class_="faint")
     if content.reference is None:
         return
