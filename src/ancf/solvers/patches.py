@@ -7,7 +7,7 @@ factorisation Woodbury's formula corrects the solution x = K^-1 r:
     (K + sum c_j b_j b_j^T)^-1 r = x - Z (diag(1/c) + B^T Z)^-1 B^T x,      z_j = K^-1 b_j,
 
 where c is negative for what went slack.  The z_j of springs are kept as long as the factorisation is,
-those of contacts, which move on, for a few steps.
+those of contacts, which move on, for one step.
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ IntArray = NDArray[np.int64]
 
 #: Springs that are corrected at once; beyond them the iteration slows down and the matrix is renewed.
 MOST = 24
-#: Steps for which the row of a contact is kept: it moves by a part of an element.
-KEPT = 2
+#: Steps for which the row of a contact is kept.
+KEPT = 1
 #: Unknowns on which a spring or a contact depends, at most.
 WIDEST = 60
 
