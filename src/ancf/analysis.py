@@ -97,8 +97,8 @@ def simulate(
         Points, springs and joints, as objects or by name, that are recorded at every step, which
         :attr:`Result.sensors` answers for; :class:`ancf.Radau` chooses its own steps and interpolates.
     energy : bool
-        Account for the energies dissipated and supplied. Without it a step is faster, by a third where
-        there is damping, :attr:`Result.energy` is not to be had, and a run that creates energy from
+        Account for the energies dissipated and supplied. Without it a step takes up to two evaluations
+        of all forces less, :attr:`Result.energy` is not to be had, and a run that creates energy from
         nothing is not noticed.
     file : path, optional
         HDF5 file that takes the states while they are computed; default in memory.
