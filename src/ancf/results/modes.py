@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.bodies import PointMass, RigidBody
 from ..model.points import Point
 from ..system.fields import Fields
 from .state import State
@@ -44,6 +45,6 @@ class Modes:
         """Frequencies, Hz."""
         return self.frequencies / (2 * np.pi)
 
-    def position(self, point: Point | str) -> FloatArray:
+    def position(self, point: Point | PointMass | RigidBody | str) -> FloatArray:
         """Displacement of a point in each mode, shape (count, 3), m for a modal mass of 1 kg."""
         return _Shapes(self.about, self.shapes).position(point)

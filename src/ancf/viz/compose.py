@@ -1,0 +1,271 @@
+"""From a result, a state or modes to a Scene."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ModelError
+from ..model import checks
+from ..model.beam import Beam
+from ..model.bodies import PointMass, RigidBody
+from ..model.points import Point
+from ..results.modes import Modes
+from ..results.result import Result
+from ..results.state import State
+from ..system.spring_fields import SpringFields
+from . import sampling
+from .scene import FloatArray, Link, Marker, Scene, Strip, Thread, Triad
+
+IntArray = NDArray[np.int64]
+
+FRAMES, POINTS = 240, 1500
+#: Largest displacement of a mode as it is drawn, of the model's size.
+MODE_SIZE = 0.1
+#: A spring whose fixed end is farther outside the bodies than this many of their middle extents is a support.
+FAR = 2.0
+#: Names of supports and joints in a model's description, and the fields with their points.
+SUPPORTS = ("pin", "clamp", "hold")
+JOINTS = {"spherical": "a", "hinge": "a", "fixation": "point", "slide": "point"}
+
+
+class Frames(SpringFields):
+    """The states that are drawn, in memory; they answer as a Result does.
+
+    Parameters
+    ----------
+    source : Result or State
+        For its bodies, slots and springs.
+    t : (n,) s
+    q, v : (n, size)
+    plain : dict
+        The model's description, ``Model.to_dict()``.
+    """
+
+    def __init__(self, source: Any, t: FloatArray, q: FloatArray, v: FloatArray, plain: Any) -> None:
+        self._bodies, self._slots, self._springs = source.bodies, source.slots, source.springs
+        self.t, self._q, self._v, self.plain = t, q, v, plain
+
+    @property
+    def masses(self) -> set[str]:
+        """Names of the point masses."""
+        return {name for name, body in self._bodies.items() if isinstance(body, PointMass)}
+
+    def place(self, point: Any) -> FloatArray:
+        """Positions (n, 3) of a point's label, or of a fixed position, m."""
+        if isinstance(point, str):
+            return self.position(point)
+        fixed: FloatArray = np.broadcast_to(np.asarray(point, dtype=np.float64), (len(self.t), 3))
+        return fixed
+
+
+class Picked(NamedTuple):
+    """States that are drawn, and of how many they are."""
+
+    frames: Frames
+    stored: int
+
+
+def make_scene(
+    source: Result | State | Modes,
+    *,
+    frames: int = FRAMES,
+    points: int = POINTS,
+    start: float | None = None,
+    end: float | None = None,
+    mode: int = 0,
+) -> Scene:
+    """What there is to draw of a result, a state or a mode.
+
+    Parameters
+    ----------
+    source : Result, State or Modes
+        A loaded, failed or unfinished result as well.
+    frames : int
+        At most so many stored states, evenly spaced in time; of a mode: times of one period.
+    points : int
+        About so many points on all centrelines together, at least the ends of each.
+    start, end : float, s
+        Times between which states are taken; default all.
+    mode : int
+        Which one, from 0; it is drawn with a displacement of a tenth of the model's size.
+
+    Raises
+    ------
+    ModelError
+        A wrong number, nothing was stored between the times, or there is no such mode.
+    """
+    checks.integer(frames, "make_scene.frames", 1, 1_000_000)
+    checks.integer(points, "make_scene.points", 2, 10_000_000)
+    if isinstance(source, Modes):
+        picked, moving = _of_mode(source, frames, mode), False
+    else:
+        picked, moving = _of_states(source, frames, start, end), True
+    shown, stored = picked
+    threads = sampling.threads(shown, points, moving)
+    triads, markers = _triads(shown), _masses(shown)
+    drawn = [thread.position for thread in threads] + [marker.position for marker in markers]
+    extent = _extent(drawn)
+    links, footed = _links(shown, extent, drawn)
+    items = [*_supports(shown), *footed, *_joints(shown)]
+    return Scene(
+        title=str(shown.plain.get("title") or ""),
+        t=shown.t,
+        threads=threads,
+        links=links,
+        markers=[*markers, *items],
+        triads=triads,
+        strips=_strips(shown, source, threads, extent),
+        stored=stored,
+    )
+
+
+def _of_states(source: Any, frames: int, start: float | None, end: float | None) -> Picked:
+    if isinstance(source, State):
+        plain, t = source.system.model.to_dict(), np.array([source.t])
+        return Picked(Frames(source, t, source.q[None], source.v[None], plain), 1)
+    if not isinstance(source, Result):
+        what = f"must be a Result, a State or Modes, is {checks.shown(source)}"
+        raise ModelError("make_scene.source", what)
+    chosen = chosen_times(source.t, frames, start, end)
+    q, v = (np.stack([data[k] for k in chosen.tolist()]) for data in (source.q, source.v))
+    shown = Frames(source, source.t[chosen], q, v, source.provenance["model"])
+    return Picked(shown, len(source.t))
+
+
+def chosen_times(t: FloatArray, frames: int, start: float | None, end: float | None) -> IntArray:
+    """Places of at most so many stored times, evenly spaced between two times."""
+    low = -np.inf if start is None else checks.number(start, "make_scene.start")
+    high = np.inf if end is None else checks.number(end, "make_scene.end")
+    inside = np.flatnonzero((t >= low - 1e-12) & (t <= high + 1e-12))
+    if inside.size == 0:
+        there = f"there are states from t = {t[0]:g} to {t[-1]:g} s" if len(t) else "nothing was stored"
+        raise ModelError("make_scene", f"no state between start and end: {there}")
+    if inside.size <= frames:
+        return inside
+    wanted = np.linspace(t[inside[0]], t[inside[-1]], frames)
+    after = np.clip(np.searchsorted(t, wanted), 1, len(t) - 1)
+    near = after - (wanted - t[after - 1] < t[after] - wanted)
+    return np.unique(near)
+
+
+def _of_mode(modes: Modes, frames: int, mode: int) -> Picked:
+    """One period of a mode about its state."""
+    count = len(modes.frequencies)
+    checks.integer(mode, "make_scene.mode", 0, count - 1)
+    about, shape = modes.about, modes.shapes[mode]
+    largest = max(float(np.linalg.norm(modes.position(point)[mode])) for point in _nodes(about))
+    size = about.system.model.size
+    scale = MODE_SIZE * size / largest if largest > 0.0 else 0.0
+    phase = np.linspace(0.0, 2 * np.pi, frames) if frames > 1 else np.array([np.pi / 2])
+    q = about.q + scale * np.sin(phase)[:, None] * shape
+    plain = about.system.model.to_dict()
+    plain["title"] = f"{plain['title'] or 'mode'}: mode {mode + 1}, {modes.frequencies_hz[mode]:.4g} Hz"
+    return Picked(Frames(about, phase / modes.frequencies[mode], q, 0.0 * q, plain), frames)
+
+
+def _nodes(about: State) -> Iterator[Point | PointMass | RigidBody]:
+    """All nodes of beams, point masses and rigid bodies' centres."""
+    for body in about.bodies.values():
+        if isinstance(body, Beam):
+            yield from (body.at(x) for x in body.node_x.tolist())
+        else:
+            yield body
+
+
+def _masses(shown: Frames) -> list[Marker]:
+    """Point masses and the centres of rigid bodies."""
+    found = []
+    for name, body in shown.bodies.items():
+        if not isinstance(body, Beam):
+            kind = "rigid body" if isinstance(body, RigidBody) else "point mass"
+            found.append(Marker(name, kind, shown.position(name)))
+    return found
+
+
+def _triads(shown: Frames) -> list[Triad]:
+    found = []
+    for name, body in shown.bodies.items():
+        if isinstance(body, RigidBody):
+            axes = shown.section_rotation(body)
+            found.append(Triad(name, shown.position(name), axes, 2.0 * body.gyration_radius))
+    return found
+
+
+def _supports(shown: Frames) -> list[Marker]:
+    given = shown.plain.get("supports", [])
+    return [Marker(s["name"], s["type"], shown.place(s["point"])) for s in given if s["type"] in SUPPORTS]
+
+
+def _joints(shown: Frames) -> list[Marker]:
+    """Joints, but those that only fasten a point mass, which is drawn itself."""
+    found = []
+    for item in shown.plain.get("connections", []):
+        ends = [item.get(key) for key in ("a", "b")]
+        fastens = any(isinstance(end, str) and end in shown.masses for end in ends)
+        if item["type"] in JOINTS and not (item["type"] == "spherical" and fastens):
+            place = shown.place(item[JOINTS[item["type"]]])
+            found.append(Marker(item["name"], item["type"], place))
+    return found
+
+
+def _links(shown: Frames, extent: float, drawn: list[FloatArray]) -> tuple[list[Link], list[Marker]]:
+    """Springs as lines; those to a far fixed point, which only stand for a support, as markers."""
+    points = np.concatenate([part.reshape(-1, 3) for part in drawn])
+    box = points.min(axis=0), points.max(axis=0)
+    links, footed = [], []
+    for name, spring in shown.springs.items():
+        a, b = shown.place(_label(spring.a)), shown.place(_label(spring.b))
+        if not isinstance(spring.b, Point) and _outside(b[0], box) > FAR * extent > 0.0:
+            footed.append(Marker(name, "spring support", a))
+            continue
+        force = shown.spring_force(name)
+        loose = np.full(force.shape, spring.slack) & (force == 0.0)
+        links.append(Link(name, np.stack([a, b], axis=1), force, loose))
+    return links, footed
+
+
+def _label(end: Any) -> Any:
+    """A point's label, or a fixed position."""
+    return end.label if isinstance(end, Point) else end
+
+
+def _outside(place: FloatArray, box: tuple[FloatArray, FloatArray]) -> float:
+    """Distance of a place from a box, m."""
+    return float(np.linalg.norm(np.maximum(np.maximum(box[0] - place, place - box[1]), 0.0)))
+
+
+def _extent(drawn: list[FloatArray]) -> float:
+    """Middle one of the three extents of all that moves, m: the size across a long line."""
+    points = np.concatenate([part.reshape(-1, 3) for part in drawn])
+    extents = np.sort(np.ptp(points, axis=0))
+    return float(extents[1]) or float(extents[2])
+
+
+def _strips(shown: Frames, source: Any, threads: list[Thread], extent: float) -> list[Strip]:
+    """Strips somewhat longer than the wires move along them: the model does not bound them."""
+    found = []
+    for item in shown.plain.get("connections", []):
+        if item["type"] == "contact":
+            along = np.asarray(item["strip"])
+            swept = max(float(np.ptp(thread.position @ along)) for thread in threads)
+            half = (0.6 * swept or 0.5 * extent or 0.5) * along
+            middle = shown.place(item["point"])
+            ends = np.stack([middle - half, middle + half], axis=1)
+            found.append(Strip(item["name"], ends, _contact_force(shown, source, item["name"])))
+    return found
+
+
+def _contact_force(shown: Frames, source: Any, name: str) -> FloatArray | None:
+    """Force of a contact at the times that are drawn, from the sensors or from the states."""
+    try:
+        whole = source.sensors if isinstance(source, Result) else source
+        force = np.atleast_1d(whole.contact_force(name))
+    except (ModelError, AttributeError):
+        return None
+    times = np.atleast_1d(whole.t)
+    interpolated: FloatArray = np.interp(shown.t, times, force)
+    return interpolated

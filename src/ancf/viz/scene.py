@@ -1,0 +1,167 @@
+"""Scene: a result as things to draw at some times, for viewer, movies and exports; it knows no library."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+#: What the points of a thread know beside their place, with units.
+QUANTITIES = {"tension": "N", "curvature": "1/m", "speed": "m/s"}
+#: Kinds of markers, in the order of a legend.
+KINDS = (
+    "point mass",
+    "rigid body",
+    "pin",
+    "clamp",
+    "hold",
+    "spring support",
+    "spherical",
+    "hinge",
+    "fixation",
+    "slide",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Thread:
+    """The centreline of a beam or cable.
+
+    Parameters
+    ----------
+    name : str
+    element : "cable", "original" or "nonlocking"
+    x : (m,) m
+        Reference arc lengths of the points.
+    position : (n, m, 3) m
+    values : dict of str to (n, m)
+        The QUANTITIES; a mode has none.
+    outline : (n, m, k, 3) m, optional
+        Corners of the cross-sections, in order; cables have none.
+    """
+
+    name: str
+    element: str
+    x: FloatArray
+    position: FloatArray
+    values: dict[str, FloatArray] = field(default_factory=dict)
+    outline: FloatArray | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """A spring or dropper.
+
+    Parameters
+    ----------
+    name : str
+    ends : (n, 2, 3) m
+    force : (n,) N
+        Positive in tension.
+    slack : (n,) of bool
+        A spring that cannot push and carries nothing.
+    """
+
+    name: str
+    ends: FloatArray
+    force: FloatArray
+    slack: BoolArray
+
+
+@dataclass(frozen=True, slots=True)
+class Marker:
+    """A point mass, a rigid body's centre, a support or a joint; `kind` is one of KINDS.
+
+    Parameters
+    ----------
+    name, kind : str
+    position : (n, 3) m
+    """
+
+    name: str
+    kind: str
+    position: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Triad:
+    """The axes of a rigid body.
+
+    Parameters
+    ----------
+    name : str
+    centre : (n, 3) m
+    axes : (n, 3, 3)
+        Body axes as columns.
+    size : float, m
+        Length to draw.
+    """
+
+    name: str
+    centre: FloatArray
+    axes: FloatArray
+    size: float
+
+
+@dataclass(frozen=True, slots=True)
+class Strip:
+    """The strip of a contact, drawn as long as it has to be.
+
+    Parameters
+    ----------
+    name : str
+    ends : (n, 2, 3) m
+    force : (n,) N, optional
+        A result loaded from a file without sensors does not know it.
+    """
+
+    name: str
+    ends: FloatArray
+    force: FloatArray | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What there is to draw, at n times.
+
+    Parameters
+    ----------
+    title : str
+    t : (n,) s
+    threads, links, markers, triads, strips : list
+    stored : int
+        Number of states of the result, of which these are some.
+    """
+
+    title: str
+    t: FloatArray
+    threads: list[Thread] = field(default_factory=list)
+    links: list[Link] = field(default_factory=list)
+    markers: list[Marker] = field(default_factory=list)
+    triads: list[Triad] = field(default_factory=list)
+    strips: list[Strip] = field(default_factory=list)
+    stored: int = 1
+
+    @property
+    def box(self) -> FloatArray:
+        """Smallest and largest coordinates of all that is drawn, at all times, (2, 3), m."""
+        parts = [thread.position for thread in self.threads]
+        parts += [thread.outline for thread in self.threads if thread.outline is not None]
+        parts += [link.ends for link in self.links] + [strip.ends for strip in self.strips]
+        parts += [marker.position for marker in self.markers]
+        points = np.concatenate([part.reshape(-1, 3) for part in parts])
+        return np.stack([points.min(axis=0), points.max(axis=0)])
+
+    @property
+    def size(self) -> float:
+        """Largest extent of the box, m, 1 m for a single point."""
+        return float(np.max(self.box[1] - self.box[0])) or 1.0
+
+    def limits(self, quantity: str) -> tuple[float, float]:
+        """Smallest and largest value of a quantity over all threads and times."""
+        values = [thread.values[quantity] for thread in self.threads if quantity in thread.values]
+        return min(float(v.min()) for v in values), max(float(v.max()) for v in values)
