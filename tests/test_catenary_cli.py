@@ -4,9 +4,12 @@ import csv
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import ancf
 from ancf.cli.app import app
+from ancf.viz.compose import make_scene
 from overhead_lines import TOML
 
 
@@ -56,10 +59,24 @@ def test_run_writes_json_tables_and_report(call):
 
 
 def test_run_without_a_report(call):
-    code, _, _ = call(*QUICK, "--no-report", "-o", "out")
+    code, _, _ = call(*QUICK, "--no-report", "--no-states", "-o", "out")
     assert code == 0
     assert Path("out/run.json").exists()
     assert not Path("out/report.html").exists()
+    assert not Path("out/results.h5").exists()
+
+
+def test_states_show_the_pantograph_passing(call):
+    code, _, _ = call(*QUICK, "--no-report", "-o", "out")
+    assert code == 0
+    result = ancf.load("out/results.h5")
+    assert np.diff(result.t)[:-1] == pytest.approx(0.02)
+    scene = make_scene(result)
+    [strip] = scene.strips
+    with Path("out/force_1.csv").open(encoding="utf-8", newline="") as file:
+        t, x, raw = np.array([[float(cell) for cell in row[:3]] for row in list(csv.reader(file))[1:]]).T
+    assert strip.ends[:, :, 0].mean(axis=1) == pytest.approx(np.interp(scene.t, t, x), abs=1e-6)
+    assert strip.force == pytest.approx(np.interp(scene.t, t, raw), abs=1e-3)
 
 
 def test_quiet_run_prints_nothing(call):

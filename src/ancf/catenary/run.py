@@ -46,6 +46,8 @@ def run(
     step: float = STEP,
     mesh: Mesh | None = None,
     integrator: Any = None,
+    output_step: float | None = None,
+    file: str | Path | None = None,
     progress: Callable[[Any], None] | None = None,
 ) -> Run:
     """Run pantographs along a line from its equilibrium.
@@ -76,6 +78,11 @@ def run(
         Of a line or its name; a Form has its own.
     integrator : integrator
         Default generalised-alpha with a spectral radius of 0.9, of 0.5 and GGL constraints with the joint.
+    output_step : float, s
+        Time between stored states of the whole line, a multiple of `step`, for pictures and animations;
+        default the first and the last one alone.
+    file : path
+        HDF5 file that takes the states and what is recorded while it is computed; default in memory.
     progress : callable
         Called with a :class:`ancf.results.Progress` between blocks of steps.
 
@@ -110,7 +117,7 @@ def run(
     )
     if any(unit.relaxed_at == "mean" for unit in plan.pantographs):
         plan = replace(plan, raised=_raised(plan))
-    return _simulated(plan, integrator, progress)
+    return _simulated(plan, integrator, progress, output_step=output_step, file=file)
 
 
 def _raised(plan: Plan) -> list[float]:
@@ -129,7 +136,13 @@ def _raised(plan: Plan) -> list[float]:
     return raised
 
 
-def _simulated(plan: Plan, integrator: Any, progress: Callable[[Any], None] | None) -> Run:
+def _simulated(
+    plan: Plan,
+    integrator: Any,
+    progress: Callable[[Any], None] | None,
+    output_step: float | None = None,
+    file: str | Path | None = None,
+) -> Run:
     overhead = assemble(plan.form)
     collectors = _collectors(overhead, plan)
     model, duration = overhead.model, plan.duration
@@ -139,9 +152,10 @@ def _simulated(plan: Plan, integrator: Any, progress: Callable[[Any], None] | No
         step=plan.step,
         start=ancf.equilibrium(model),
         integrator=_integrator(plan) if integrator is None else integrator,
-        output_step=duration,
+        output_step=duration if output_step is None else output_step,
         sensors=[*overhead.droppers, *overhead.supports, *(s for c in collectors for s in c.sensors())],
         energy=False,
+        file=file,
         progress=progress,
     )
     return _recorded(result, overhead, collectors, plan)
@@ -206,6 +220,7 @@ def _recorded(result: ancf.Result, overhead: Overhead, collectors: list[Collecto
         window=plan.window,
         cpu_seconds=cpu,
         simulated_seconds=simulated,
+        result=result,
         real_time_factor=simulated / max(cpu, 1e-9),
         settings={
             "line": line.title,

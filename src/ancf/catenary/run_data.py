@@ -12,6 +12,8 @@ import numpy.typing as npt
 from ..errors import ModelError
 
 if TYPE_CHECKING:
+    from ancf import Result
+
     from .form import Form
     from .pantograph import Pantograph
 
@@ -84,6 +86,8 @@ class Run:
         CPU time, simulated time and their ratio (simulated over CPU).
     settings : mapping
         How it was computed: step, mesh, contact, integrator and so on.
+    result : Result, optional
+        States of the whole line, to plot and to animate, and what was recorded.
 
     Raises
     ------
@@ -104,6 +108,7 @@ class Run:
     simulated_seconds: float
     real_time_factor: float
     settings: Mapping[str, Any]
+    result: Result | None = None
 
     def __post_init__(self) -> None:
         count, line = np.size(self.t), self.form.line

@@ -64,6 +64,13 @@ Window = Annotated[
 ]
 ContactKind = Annotated[str, typer.Option("--contact", metavar="KIND", help='"penalty" or "joint".')]
 Step = Annotated[float | None, typer.Option(metavar="S", help="Time step, s.", show_default="0.001")]
+OutputStep = Annotated[
+    float | None,
+    typer.Option(metavar="S", help="Time between stored states of the line, s.", show_default="0.02"),
+]
+States = Annotated[
+    bool, typer.Option(help="Write OUT/results.h5 as well, some 10 to 100 MB for ancf view and ancf export.")
+]
 Report = Annotated[bool, typer.Option(help="Write OUT/report.html as well, which needs matplotlib.")]
 SchemaFile = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="FILE", help="File to write, instead of printing it.")
@@ -169,18 +176,22 @@ def catenary_run(
     window: Window = None,
     contact: ContactKind = "penalty",
     step: Step = None,
+    output_step: OutputStep = None,
+    states: States = True,
     report: Report = True,
     quiet: Quiet = False,
 ) -> None:
     """Run pantographs along an overhead line.
 
-    Writes OUT/run.json, CSV files and OUT/report.html, and prints the statistics of the contact force.
+    Writes OUT/results.h5 for ancf view and ancf export, OUT/run.json, CSV files and OUT/report.html, and
+    prints the statistics of the contact force.
     """
     with reported():
         from ancf.cli.catenary_run import run_line
 
         options = {"spacing": spacing, "start": start, "window": window, "contact": contact, "step": step}
-        run_line(line, speed, pantograph, options, output, report, quiet)
+        options["output_step"] = output_step
+        run_line(line, speed, pantograph, options, output, report, states, quiet)
 
 
 @catenary.command("elasticity")

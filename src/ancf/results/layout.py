@@ -24,7 +24,7 @@ _MOMENTS = ("A", "I_y", "I_z", "I_yyyy", "I_zzzz", "I_yyzz")
 
 def write_layout(file: Any, system: System) -> None:
     """Write the groups ``bodies``, ``joints`` and ``springs`` of an HDF5 file."""
-    group = file.create_group("bodies")
+    group = file.create_group("bodies", track_order=True)
     for name, beam in system.model.bodies.items():
         body = group.create_group(name)
         if not isinstance(beam, Beam):
@@ -40,7 +40,7 @@ def write_layout(file: Any, system: System) -> None:
             body[key] = getattr(beam, key)
         body.attrs["motion"] = np.concatenate([beam.velocity, beam.angular_velocity, beam.about])
 
-    joints = file.create_group("joints")
+    joints = file.create_group("joints", track_order=True)
     for name, unknowns in system.joints.items():
         joints[name] = unknowns
         joints[name].attrs["slides"] = name in system.numbering.arcs

@@ -1,0 +1,231 @@
+"""What is drawn is what the result says, at the times and places that it says."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import ancf
+from ancf.viz.compose import FAR, chosen_times, make_scene
+from ancf.viz.sampling import FINEST, corners, places
+from ancf.viz.scene import KINDS, QUANTITIES
+
+CABLE = ancf.Section(EA=1e4, EI=0.01, rhoA=0.1)
+SQUARE = ancf.Section.rectangle(width=0.02, height=0.05, E=2e9, rho=1200.0, nu=0.3)
+
+
+def swing():
+    """A cable between a pin and a mass on a slack spring, and a bar with a hub at its end."""
+    model = ancf.Model(gravity=(0, 0, -9.81), title="Swing")
+    wire = model.add_beam("wire", start=(0, 0, 0), end=(2, 0, 0), elements=4, section=CABLE)
+    model.pin(wire.start)
+    bob = model.add_point_mass("bob", at=(2, 0, 0), mass=0.5)
+    model.connect(bob, wire.end)
+    model.add_spring(bob, (2.0, 0.0, 0.5), stiffness=50.0, length=0.6, slack=True, name="tie")
+    bar = model.add_beam(
+        "bar", start=(0, 1, 0), end=(1, 1, 0), elements=2, section=SQUARE, element="nonlocking"
+    )
+    model.clamp(bar.start)
+    hub = model.add_rigid_body("hub", at=(1, 1, 0), mass=0.2, inertia=(1e-3, 2e-3, 2e-3))
+    model.clamp(bar.end, to=hub)
+    return model
+
+
+@cache
+def result():
+    return ancf.simulate(swing(), t_end=0.2, step=1e-3, output_step=2e-3)
+
+
+@cache
+def scene():
+    return make_scene(result(), frames=26)
+
+
+def named(items, name):
+    return next(item for item in items if item.name == name)
+
+
+class TestTimes:
+    def test_all_when_there_are_few(self):
+        assert make_scene(result()).t == pytest.approx(result().t)
+        assert scene().stored == 101
+
+    def test_evenly_spaced_from_first_to_last(self):
+        assert scene().t == pytest.approx(np.linspace(0.0, 0.2, 26))
+
+    def test_nearest_of_uneven_times(self):
+        t = np.array([0.0, 0.1, 0.11, 0.5, 0.9, 1.0])
+        assert chosen_times(t, 3, None, None).tolist() == [0, 3, 5]
+        assert chosen_times(t, 2, 0.1, 0.95).tolist() == [1, 4]
+        assert chosen_times(t, 5, 0.05, 0.3).tolist() == [1, 2]
+
+    def test_from_and_to(self):
+        part = make_scene(result(), start=0.05, end=0.1)
+        assert (part.t[0], part.t[-1]) == pytest.approx((0.05, 0.1), abs=2.1e-3)
+
+    @pytest.mark.parametrize(
+        ("given", "message"),
+        [
+            ({"start": 3.0}, "no state between start and end: there are states from t = 0 to 0.2 s"),
+            ({"frames": 0}, r"make_scene.frames"),
+            ({"points": 1}, r"make_scene.points"),
+            ({"end": float("nan")}, r"make_scene.end"),
+        ],
+    )
+    def test_wrong_input(self, given, message):
+        with pytest.raises(ancf.ModelError, match=message):
+            make_scene(result(), **given)
+
+    def test_something_else(self):
+        with pytest.raises(ancf.ModelError, match="must be a Result, a State or Modes, is 3"):
+            make_scene(3)
+
+
+class TestThreads:
+    def test_position_and_values_are_those_of_the_result(self):
+        wire = named(scene().threads, "wire")
+        at = [int(np.argmin(np.abs(result().t - t))) for t in scene().t]
+        for j in (0, 17, len(wire.x) - 1):
+            point = f"wire.at({float(wire.x[j])!r})"
+            assert wire.position[:, j] == pytest.approx(result().position(point)[at], abs=1e-14)
+            speed = np.linalg.norm(result().velocity(point)[at], axis=1)
+            assert wire.values["speed"][:, j] == pytest.approx(speed, abs=1e-12)
+            for name in ("tension", "curvature"):
+                wanted = getattr(result(), name)(point)[at]
+                assert wire.values[name][:, j] == pytest.approx(wanted, rel=1e-12, abs=1e-12)
+        assert set(wire.values) == set(QUANTITIES)
+
+    def test_limits_are_over_all_threads(self):
+        values = np.concatenate([thread.values["speed"].ravel() for thread in scene().threads])
+        assert scene().limits("speed") == (values.min(), values.max())
+
+    def test_outline_is_the_cross_section(self):
+        wire, bar = (named(scene().threads, name) for name in ("wire", "bar"))
+        assert wire.outline is None
+        assert bar.outline.shape == (26, len(bar.x), 4, 3)
+        assert bar.outline.mean(axis=2) == pytest.approx(bar.position, abs=1e-12)
+        width, height = (bar.outline[0, 3, i] - bar.outline[0, 3, 0] for i in (1, 3))
+        assert np.linalg.norm(width) == pytest.approx(0.02)
+        assert np.linalg.norm(height) == pytest.approx(0.05)
+        corner = result().position("bar.at(0.5, 0.01, 0.025)")
+        j = int(np.argmin(np.abs(bar.x - 0.5)))
+        assert bar.outline[-1, j, 2] == pytest.approx(corner[-1], abs=1e-12)
+
+    def test_outlines_of_other_shapes(self):
+        y, z = corners(ancf.Section.circle(0.04, E=1e9, rho=1.0))
+        assert np.hypot(y, z) == pytest.approx(0.02)
+        moments = SQUARE.shape.moments()
+        same = ancf.Section.from_moments(E=2e9, rho=1200.0, J=1e-8, **moments)
+        assert corners(same)[0] == pytest.approx(corners(SQUARE)[0])
+        assert corners(same)[1] == pytest.approx(corners(SQUARE)[1])
+
+    @pytest.mark.parametrize(
+        ("share", "count"), [(100.0, 4 * FINEST + 1), (3.7, 13), (1.0, 5), (0.5, 2), (0.01, 2)]
+    )
+    def test_places(self, share, count):
+        beam = swing().beams["wire"]
+        x = places(beam, share)
+        assert len(x) == count
+        assert (x[0], x[-1]) == (0.0, 2.0)
+        assert np.all(np.diff(x) > 0.0)
+        assert set(x[:: max(1, (count - 1) // 4)]) <= set(np.linspace(0, 2, 65))
+
+
+class TestOthers:
+    def test_spring_is_a_link_and_slackens(self):
+        [tie] = scene().links
+        assert tie.ends[:, 1] == pytest.approx(np.tile([2.0, 0.0, 0.5], (26, 1)))
+        assert tie.ends[:, 0] == pytest.approx(named(scene().markers, "bob").position)
+        length = np.linalg.norm(tie.ends[:, 1] - tie.ends[:, 0], axis=1)
+        assert tie.force == pytest.approx(np.maximum(50.0 * (length - 0.6), 0.0), abs=1e-9)
+        assert tie.slack[0]
+        assert not tie.slack[-1]
+        assert np.array_equal(tie.slack, length <= 0.6)
+
+    def test_spring_to_a_far_point_is_a_support(self):
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        wire = model.add_beam("wire", start=(0, 0, 0), end=(50, 0, 1), elements=4, section=CABLE)
+        near, far = (wire.at(12.5), (12.5, 0, 0.25 + FAR)), (wire.at(25.0), (25.0, 0.0, 20.0))
+        for name, (a, b) in {"near": near, "far": far}.items():
+            model.add_spring(a, b, stiffness=1e3, length=1.0, name=name)
+        model.pin(wire.start)
+        model.pin(wire.end)
+        drawn = make_scene(ancf.simulate(model, t_end=1e-3, step=1e-3).state(0))
+        assert [link.name for link in drawn.links] == ["near"]
+        assert named(drawn.markers, "far").kind == "spring support"
+        assert named(drawn.markers, "far").position[0] == pytest.approx(wire.at(25.0).initial_position)
+
+    def test_markers(self):
+        kinds = {marker.name: marker.kind for marker in scene().markers}
+        assert kinds == {
+            "bob": "point mass",
+            "hub": "rigid body",
+            "pin at wire.start": "pin",
+            "clamp at bar.start": "clamp",
+            **{name: kind for name, kind in kinds.items() if kind == "fixation"},
+        }
+        assert len(kinds) == 5
+        assert set(kinds.values()) <= set(KINDS)
+
+    def test_rigid_body_has_axes(self):
+        [hub] = scene().triads
+        assert hub.axes[0] == pytest.approx(np.eye(3))
+        assert np.einsum("nij,nik->njk", hub.axes, hub.axes) == pytest.approx(
+            np.tile(np.eye(3), (26, 1, 1)), abs=1e-9
+        )
+        assert hub.centre == pytest.approx(result().position("hub")[::4])
+
+    def test_box_holds_everything(self):
+        low, high = scene().box
+        for part in (scene().threads[0].position, scene().threads[1].outline, scene().links[0].ends):
+            assert np.all(part >= low - 1e-12)
+            assert np.all(part <= high + 1e-12)
+        assert high[2] == pytest.approx(0.5)
+        assert scene().size == pytest.approx((high - low).max())
+
+
+class TestSources:
+    def test_file_is_drawn_as_the_result_that_wrote_it(self, tmp_path):
+        result().save(tmp_path / "run.h5")
+        again = make_scene(ancf.load(tmp_path / "run.h5"), frames=26)
+        assert again.title == "Swing"
+        for mine, theirs in zip(scene().threads, again.threads, strict=True):
+            assert np.array_equal(mine.position, theirs.position)
+            assert np.array_equal(mine.values["tension"], theirs.values["tension"])
+        assert [m.name for m in again.markers] == [m.name for m in scene().markers]
+        assert np.array_equal(again.links[0].slack, scene().links[0].slack)
+
+    def test_state(self):
+        drawn = make_scene(result().state(-1))
+        assert drawn.t == pytest.approx([0.2])
+        assert drawn.threads[0].position[0] == pytest.approx(scene().threads[0].position[-1])
+
+    def test_mode_swings_by_a_tenth_of_the_size(self):
+        model = ancf.Model()
+        wire = model.add_beam("wire", start=(0, 0, 0), end=(2, 0, 0), elements=8, section=CABLE)
+        model.clamp(wire.start)
+        modes = ancf.modes(model, count=3)
+        drawn = make_scene(modes, frames=41, mode=2)
+        [thread] = drawn.threads
+        still = np.column_stack([thread.x, 0 * thread.x, 0 * thread.x])
+        assert np.linalg.norm(thread.position - still, axis=2).max() == pytest.approx(0.2, rel=1e-3)
+        assert thread.position[[0, 20, 40]] == pytest.approx(np.stack([still] * 3), abs=1e-12)
+        assert drawn.t[-1] == pytest.approx(1.0 / modes.frequencies_hz[2])
+        assert "mode 3" in drawn.title
+        with pytest.raises(ancf.ModelError, match=r"make_scene.mode"):
+            make_scene(modes, mode=3)
+
+    def test_strip_knows_its_force(self):
+        model = ancf.Model()
+        wire = model.add_beam("wire", start=(0, 0, 1), end=(4, 0, 1), elements=4, length=3.99, section=CABLE)
+        model.pin(wire.start)
+        model.pin(wire.end)
+        head = model.add_point_mass("head", at=(1, 0, 0.9995), mass=1.0)
+        model.add_force(head, (0, 0, 50.0))
+        contact = model.add_contact(head, wire, stiffness=1e4, name="contact")
+        done = ancf.simulate(model, t_end=0.02, step=1e-3, sensors=[contact], output_step=2e-3)
+        [strip] = make_scene(done).strips
+        assert strip.force == pytest.approx(done.sensors.contact_force("contact")[::2])
+        assert strip.force.max() > 0.0
+        assert strip.ends.mean(axis=1) == pytest.approx(done.position(head))
+        assert np.abs(strip.ends[:, 1] - strip.ends[:, 0])[:, [0, 2]].max() < 1e-12
