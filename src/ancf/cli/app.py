@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from ancf.cli import export_options as exporting
 from ancf.cli.guard import reported
 
 app = typer.Typer(
@@ -137,6 +138,33 @@ def info(file: AnyFile) -> None:
         from ancf.cli.info import show_info
 
         show_info(file)
+
+
+@app.command()
+def export(
+    results: exporting.ResultsFile,
+    to: exporting.Kind,
+    output: exporting.Target = None,
+    points: exporting.Points = None,
+    frames: exporting.Frames = None,
+    start: exporting.FromTime = None,
+    end: exporting.ToTime = None,
+    color: exporting.Color = None,
+    fps: exporting.Fps = None,
+    view: exporting.View = None,
+    quiet: Quiet = False,
+) -> None:
+    """Write a results file for other programs.
+
+    vtk: one file with all times for ParaView. csv: tables of sensors, points, springs, joints and energies.
+    mp4, gif: a movie. The run may have failed, been stopped or still go on.
+    """
+    with reported():
+        from ancf.cli.export import export_file
+
+        times = {"frames": frames, "start": start, "end": end}
+        chosen = {**times, "points": points, "color": color, "fps": fps, "view": view}
+        export_file(results, to, output, chosen, quiet)
 
 
 @app.command()

@@ -92,8 +92,8 @@ class Run:
         return store(self.study, self._equilibrium(), self.output.results)
 
     def _finish(self, result: Result, error: BaseException | None = None) -> None:
-        from ancf.cli.sensors import write_table
         from ancf.cli.summary import print_summary, summarise
+        from ancf.viz.export.tables import sensor_columns, write_table
 
         wall, cpu = time.perf_counter() - self.start[0], time.process_time() - self.start[1]
         seconds = {"wall_seconds": wall, "cpu_seconds": result.stats.cpu_seconds, "process_cpu_seconds": cpu}
@@ -101,7 +101,7 @@ class Run:
         self.output.write_summary(summary)
         written = [self.output.results, self.output.summary]
         if self.study.simulation is not None and self.study.simulation.sensors:
-            write_table(self.output.sensors, result.sensors)
+            write_table(self.output.sensors, sensor_columns(result.sensors))
             written.append(self.output.sensors)
         if error is None and not self.screen.quiet:
             print_summary(console(), summary)

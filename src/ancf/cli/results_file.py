@@ -1,0 +1,40 @@
+"""A results file that a command is given, with one message for whatever is wrong with it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ancf.errors import ModelError
+
+if TYPE_CHECKING:
+    from ancf import Result
+
+
+def open_result(path: Path) -> Result:
+    """Result from a file, finished or not.
+
+    Raises
+    ------
+    ModelError
+        There is no such file, it is a folder, no results file, or has no states yet.
+
+    """
+    import ancf
+
+    if path.is_dir():
+        inside = path / "results.h5"
+        raise ModelError(str(path), "is a folder", f"its results file: {inside}" if inside.exists() else "")
+    if path.suffix.lower() == ".toml" and path.exists():
+        hint = f"ancf run {path} -o out writes out/results.h5"
+        raise ModelError(str(path), "is a model file, not a results file", hint)
+    try:
+        result = ancf.load(path)
+        states = len(result.t)
+    except ModelError:
+        raise
+    except (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError) as error:
+        raise ModelError(str(path), f"is not a results file of ancf: {error}") from None
+    if states == 0:
+        raise ModelError(str(path), "holds no states yet", f"ancf info {path} says how far the run is")
+    return result

@@ -1,0 +1,101 @@
+"""Columns of tables, with names and units, and a table as a CSV file."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...model.beam import Beam
+from ...model.points import Point
+from ...results.result import Result
+from ...results.sensors import Sensors
+from .files import drafted
+
+FloatArray = NDArray[np.float64]
+Column = tuple[str, FloatArray]
+
+#: Components of multipliers by unit: forces come first, what holds axes follows.
+FORCES = "xyz"
+ENERGIES = ("kinetic", "strain", "potential", "total", "dissipated", "supplied", "balance")
+#: What the points of beams and cables know beside position and velocity.
+INSIDE = {"tension": "N", "curvature": "1/m"}
+
+
+def write_table(path: Path, columns: Iterable[Column]) -> Path:
+    """Write a CSV file with names and units in its first row; numbers read back to the last bit."""
+    listed = list(columns)
+    with drafted(path) as draft, draft.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow([name for name, _ in listed])
+        writer.writerows(zip(*(values.tolist() for _, values in listed), strict=True))
+    return path
+
+
+def sensor_columns(sensors: Sensors) -> Iterator[Column]:
+    """Everything that was recorded at every step."""
+    yield "t [s]", sensors.t
+    for point in sensors.listing.points:
+        yield from motion_columns(sensors, point, str(point))
+    for name in sensors.listing.connections:
+        if name in sensors.springs:
+            yield f"{name} force [N]", sensors.spring_force(name)
+            yield f"{name} length [m]", sensors.spring_length(name)
+        if name in sensors.joints:
+            yield from _joint(sensors, name)
+        if name in sensors.listing.columns:
+            yield f"{name} force [N]", sensors.contact_force(name)
+            yield f"{name} gap [m]", sensors.contact_gap(name)
+            yield f"{name} s [m]", sensors.arc_length(name)
+
+
+def motion_columns(known: Any, point: Point | str, label: str) -> Iterator[Column]:
+    """Position and velocity of a point."""
+    for quantity, unit in (("position", "m"), ("velocity", "m/s")):
+        values = getattr(known, quantity)(point)
+        yield from ((f"{label} {quantity} {c} [{unit}]", values[:, k]) for k, c in enumerate("xyz"))
+
+
+def point_columns(result: Result, labels: Sequence[str]) -> Iterator[Column]:
+    """Points at the stored times; those of beams and cables with tension and curvature."""
+    yield "t [s]", result.t
+    for label in labels:
+        yield from motion_columns(result, label, label)
+        if isinstance(result._probe(label).body, Beam):
+            yield from (
+                (f"{label} {name} [{unit}]", getattr(result, name)(label)) for name, unit in INSIDE.items()
+            )
+
+
+def spring_columns(result: Result) -> Iterator[Column]:
+    """Forces of all springs at the stored times."""
+    yield "t [s]", result.t
+    yield from ((f"{name} force [N]", result.spring_force(name)) for name in result.springs)
+
+
+def joint_columns(result: Result, names: Sequence[str]) -> Iterator[Column]:
+    """Forces of joints, and arc lengths of sliding joints, at the stored times."""
+    yield "t [s]", result.t
+    for name in names:
+        yield from _joint(result, name)
+
+
+def energy_columns(result: Result) -> Iterator[Column]:
+    """Energies at the stored times."""
+    energy = result.energy
+    yield "t [s]", result.t
+    yield from ((f"{name} [J]", getattr(energy, name)) for name in ENERGIES)
+
+
+def _joint(known: Any, name: str) -> Iterator[Column]:
+    """Multipliers, and s of a sliding joint."""
+    values = known.multiplier(name)
+    for k in range(values.shape[1]):
+        label = f"force {FORCES[k]} [N]" if k < len(FORCES) else f"moment {k - len(FORCES) + 1} [N m]"
+        yield f"{name} {label}", values[:, k]
+    if name in known.arcs:
+        yield f"{name} s [m]", known.arc_length(name)
