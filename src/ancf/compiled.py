@@ -18,7 +18,11 @@ from numba import literal_unroll, types
 from numba.core import event
 from numba.extending import overload
 
+from . import kernel_cache
+
 F = TypeVar("F", bound=Callable[..., Any])
+
+kernel_cache.share()
 
 # IEEE special values must survive (they are how a diverged step is seen), so no "nnan", no "ninf".
 _OPTIONS: dict[str, Any] = {"fastmath": {"contract", "nsz", "arcp"}, "error_model": "numpy", "_nrt": False}

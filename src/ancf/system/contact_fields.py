@@ -73,7 +73,7 @@ class ContactFields(JointFields):
             raise ModelError(str(name), f"is no contact here; {there}")
         batch = next(b for b in system.core.batches if isinstance(b, ContactBatch))
         mine = batch._replace(found=batch.found.copy())  # a question must not move where a run goes on
-        q, v = np.atleast_2d(self.q), np.atleast_2d(self.v)  # type: ignore[attr-defined]
+        q, v = np.atleast_2d(self.q[...]), np.atleast_2d(self.v[...])  # type: ignore[attr-defined]
         out = np.empty((len(q), 4))
         contact_values(mine, names.index(name), np.ascontiguousarray(q), np.ascontiguousarray(v), out)
         values: FloatArray = out if self.q.ndim > 1 else out[0]  # type: ignore[attr-defined]
