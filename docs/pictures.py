@@ -9,15 +9,16 @@ import shutil
 import tempfile
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 
 import ancf
 from ancf.paper import reproduce
+from ancf.viz import style
 
-BLUE, GREY = "#005ca9", "#b0b0b0"
 STATIC = Path(__file__).parent / "_static"
 FIGURES = ("fig1", "fig2")
+SIZE = (244.0, 84.0)  # mm
 
 
 def nodes(result: ancf.Result | ancf.State, beam: str, length: float, count: int = 41) -> np.ndarray:
@@ -25,7 +26,7 @@ def nodes(result: ancf.Result | ancf.State, beam: str, length: float, count: int
     return np.array([result.position(f"{beam}.at({x})") for x in np.linspace(0, length, count)])
 
 
-def cantilever(axes: plt.Axes) -> None:
+def cantilever(axes: Axes) -> None:
     """Shapes of the falling cantilever of the paper's example 7.1."""
     model = ancf.Model(gravity=(0, 0, -9.81))
     section = ancf.Section.rectangle(width=0.01, height=0.01, E=1e8, rho=500)
@@ -34,11 +35,12 @@ def cantilever(axes: plt.Axes) -> None:
     result = ancf.simulate(model, t_end=0.4, step=2.5e-4, output_step=0.05)
     shapes = nodes(result, "beam", 1.0)
     for k in range(len(result.t)):
-        axes.plot(shapes[:, k, 0], shapes[:, k, 2], color=BLUE, alpha=0.25 + 0.75 * k / (len(result.t) - 1))
+        shade = 0.25 + 0.75 * k / (len(result.t) - 1)
+        axes.plot(shapes[:, k, 0], shapes[:, k, 2], color=style.BLUE, alpha=shade)
     axes.set(title="falling cantilever, every 0.05 s", xlabel="x [m]", ylabel="z [m]", aspect="equal")
 
 
-def pendulum(axes: plt.Axes) -> None:
+def pendulum(axes: Axes) -> None:
     """Path of the tip of the soft three-dimensional pendulum of example 7.2."""
     model = ancf.Model(gravity=(0, 0, -9.81))
     section = ancf.Section(EA=40.0, EI=8.333e-5, rhoA=0.008)
@@ -47,18 +49,20 @@ def pendulum(axes: plt.Axes) -> None:
     beam.set_motion(angular_velocity=(0, 0, 4))
     result = ancf.simulate(model, t_end=2.0, step=2e-4, output_step=2e-3)
     tip = result.position(beam.end)
-    axes.plot(*tip.T, color=GREY, lw=1)
+    axes.plot(*tip.T, color=style.LIGHT, lw=1)
     shapes = nodes(result, "rope", 1.0)
     for k in range(0, len(result.t), 125):
-        axes.plot(*shapes[:, k].T, color=BLUE)
+        axes.plot(*shapes[:, k].T, color=style.BLUE)
     axes.set(title="soft 3D pendulum, path of the tip", xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
     axes.view_init(22, -60)
+    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
+        axis.get_major_locator().set_params(nbins=4)
     axes.set_box_aspect(None, zoom=0.82)
 
 
-def hanging(axes: plt.Axes) -> None:
+def hanging(axes: Axes) -> None:
     """Slack cables: start shapes and equilibria."""
-    for length, colour in ((10.1, "#7fb0dd"), (10.5, "#3f86c0"), (12.0, BLUE)):
+    for number, length in enumerate((10.1, 10.5, 12.0)):
         model = ancf.Model(gravity=(0, 0, -9.81))
         section = ancf.Section(EA=1e6, EI=1.0, rhoA=1.0)
         model.add_beam("c", start=(0, 0, 0), end=(10, 0, 1), elements=40, section=section, length=length)
@@ -67,9 +71,9 @@ def hanging(axes: plt.Axes) -> None:
         state = ancf.equilibrium(model)
         shape = nodes(state, "c", length)
         label = f"{length:g} m, {state.tension('c.start'):.0f} N"
-        axes.plot(shape[:, 0], shape[:, 2], color=colour, label=label)
-    axes.plot([0, 10], [0, 1], color=GREY, ls="--", label="start")
-    axes.legend(frameon=False, fontsize=7, loc="upper left", bbox_to_anchor=(0.0, 1.0))
+        axes.plot(shape[:, 0], shape[:, 2], label=label, **style.line(number))
+    axes.plot([0, 10], [0, 1], color=style.LIGHT, lw=1, label="start")
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, 1.0))
     axes.set_ylim(-2.7, 3.2)
     axes.set(title="slack cables: length, tension at the left end", xlabel="x [m]", ylabel="z [m]")
 
@@ -84,14 +88,13 @@ def figures() -> None:
 
 def overview() -> None:
     """Draw the three panels."""
-    plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "lines.linewidth": 1.6})
-    figure = plt.figure(figsize=(9.6, 3.3), layout="constrained")
-    grid = figure.add_gridspec(1, 3, width_ratios=(1, 1.25, 1.2))
-    figure.get_layout_engine().set(w_pad=0.15)
-    cantilever(figure.add_subplot(grid[0]))
-    pendulum(figure.add_subplot(grid[1], projection="3d"))
-    hanging(figure.add_subplot(grid[2]))
-    figure.savefig(STATIC / "overview.png", dpi=160)
+    with style.new_figure(*SIZE) as figure:
+        grid = figure.add_gridspec(1, 3, width_ratios=(1, 1.25, 1.2))
+        figure.get_layout_engine().set(w_pad=0.15)
+        cantilever(figure.add_subplot(grid[0]))
+        pendulum(figure.add_subplot(grid[1], projection="3d"))
+        hanging(figure.add_subplot(grid[2]))
+        (STATIC / "overview.png").write_bytes(style.png(figure, dpi=160))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import pytest
 
 import ancf
 from ancf.cli.app import app
-from ancf.viz.compose import make_scene
+from ancf.viz.scene import make_scene
 from overhead_lines import TOML
 
 

@@ -477,7 +477,7 @@ class TestCommand:
         assert said in ran.err
 
     def test_movie(self, call, file):
-        pytest.importorskip("ancf.viz.movie")
+        pytest.importorskip("ancf.viz.pictures.movie")
         ran = call(file, "--to", "gif", "--frames", 4, "--fps", 5, "--color", "speed", "--view", "xz")
         assert ran.code == 0
         assert Path("out/results.gif").read_bytes()[:4] == b"GIF8"

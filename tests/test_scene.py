@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.viz.compose import FAR, chosen_times, make_scene
-from ancf.viz.sampling import FINEST, corners, places
 from ancf.viz.scene import KINDS, QUANTITIES
+from ancf.viz.scene.compose import FAR, chosen_times, make_scene
+from ancf.viz.scene.sampling import FINEST, corners, places
 
 CABLE = ancf.Section(EA=1e4, EI=0.01, rhoA=0.1)
 SQUARE = ancf.Section.rectangle(width=0.02, height=0.05, E=2e9, rho=1200.0, nu=0.3)

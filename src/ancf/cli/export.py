@@ -97,8 +97,8 @@ def _moving(result: Result, to: str, target: Path, given: dict[str, Any]) -> Pat
         from ancf.viz.export import write_vtk
 
         return write_vtk(result, target, **given)
-    from ancf.viz.compose import make_scene
-    from ancf.viz.movie import write_movie
+    from ancf.viz.pictures.movie import write_movie
+    from ancf.viz.scene import make_scene
 
     times = {name: given.pop(name) for name in TIMES if name in given}
     write_movie(make_scene(result, **times), target, **given)

@@ -29,13 +29,14 @@ from ancf.model.supports import (
     optional,
     require_node,
 )
+from ancf.model.tables import Readable, Sheet
 
 SupportT = TypeVar("SupportT", bound=Support)
 LoadT = TypeVar("LoadT", bound=Load)
 BodyT = TypeVar("BodyT", bound=Body)
 
 
-class Model(Connecting):
+class Model(Connecting, Readable):
     """Bodies, supports, loads and connections in a field of gravity.
 
     Points are given as ``beam.start``, ``beam.end``, ``beam.at(x)``, on a beam with a cross-section also
@@ -43,7 +44,8 @@ class Model(Connecting):
     mass, or a rigid body for its centre of mass, stands for its point, as an object or by its name.
     Values that may depend on time are constants, functions of t in s, or formulas such as
     ``"10*sin(2*pi*t)"``. Every method that adds something takes a unique ``name`` and returns the new
-    item; each raises ModelError, with the place, when something given is wrong.
+    item; each raises ModelError, with the place, when something given is wrong. ``print(model)`` shows it
+    all in tables.
 
     Parameters
     ----------
@@ -70,6 +72,11 @@ class Model(Connecting):
         counts = ("bodies", "supports", "loads", "connections")
         inside = ", ".join(f"{len(getattr(self, key))} {key}" for key in counts)
         return f"Model({self.title!r}, {inside})" if self.title else f"Model({inside})"
+
+    def _sheet(self) -> Sheet:
+        from ancf.model.overview import of_model
+
+        return of_model(self)
 
     def add_beam(
         self,

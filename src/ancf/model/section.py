@@ -9,6 +9,7 @@ from typing import Any
 from ancf.errors import ModelError
 from ancf.model import checks
 from ancf.model.shapes import Circle, Rectangle
+from ancf.model.tables import Readable, Sheet
 
 __all__ = ["MATERIAL", "Circle", "Rectangle", "Section"]
 
@@ -21,7 +22,7 @@ DAMPINGS = ("damping", "axial_damping", "bending_damping", "slope_damping")
 
 
 @dataclass(frozen=True, slots=True, init=False)
-class Section:
+class Section(Readable):
     """Stiffnesses, mass and damping per length of a beam; every argument by keyword.
 
     ``Section(EA=, EI=, rhoA=)`` is enough for a cable. The two beams need a section of a material:
@@ -263,6 +264,11 @@ class Section:
                 "give Section(EA=, EI=, rhoA=) directly with the EI of the plane in which it bends",
             )
         return self.EI_y
+
+    def _sheet(self) -> Sheet:
+        from ancf.model.overview import of_section
+
+        return of_section(self)
 
     @property
     def damped(self) -> bool:

@@ -9,7 +9,10 @@ from numpy.typing import NDArray
 
 from ..model.bodies import PointMass, RigidBody
 from ..model.points import Point
+from ..model.tables import Readable, Sheet
 from ..system.fields import Fields
+from .overview import line_of_modes, of_modes
+from .pictures import ModesPlotted
 from .state import State
 
 FloatArray = NDArray[np.float64]
@@ -24,7 +27,7 @@ class _Shapes(Fields):
 
 
 @dataclass(frozen=True)
-class Modes:
+class Modes(ModesPlotted, Readable):
     """Undamped natural modes about a state.
 
     Parameters
@@ -39,6 +42,12 @@ class Modes:
     frequencies: FloatArray
     shapes: FloatArray
     about: State
+
+    def __repr__(self) -> str:
+        return line_of_modes(self)
+
+    def _sheet(self) -> Sheet:
+        return of_modes(self)
 
     @property
     def frequencies_hz(self) -> FloatArray:

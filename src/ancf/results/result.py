@@ -11,12 +11,16 @@ from numpy.typing import NDArray
 
 from ..errors import ModelError
 from ..model import checks
+from ..model.tables import Readable, Sheet
 from ..solvers.stepping import Stats
 from ..system.contact_fields import ContactFields
+from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 from .layout import read_joints, read_layout
 from .layout_springs import read_springs
+from .overview import line_of_result, of_result
+from .pictures import Filmed
 from .sensors import Sensors
 from .state import Energy, State
 from .store import FileStore, MemoryStore, ReadStore
@@ -24,8 +28,11 @@ from .store import FileStore, MemoryStore, ReadStore
 FloatArray = NDArray[np.float64]
 
 
-class Result(SpringFields, ContactFields):
-    """History of a simulation; see :class:`Fields` for positions, velocities, strains, tensions, ..."""
+class Result(SpringFields, ContactFields, Filmed, Readable):
+    """History of a simulation; see :class:`Fields` for positions, velocities, strains, tensions, ...
+
+    ``print(result)`` says how it went.
+    """
 
     def __init__(self, store: MemoryStore | ReadStore, header: dict[str, Any], system: System | None) -> None:
         self._store, self._header, self._system = store, header, system
@@ -38,6 +45,12 @@ class Result(SpringFields, ContactFields):
             self._bodies, self._slots = read_layout(store.layout)
             self._joints, self._arcs = read_joints(store.layout.parent)
             self._springs = read_springs(store.layout.parent, self._bodies)
+
+    def __repr__(self) -> str:
+        return line_of_result(self)
+
+    def _sheet(self) -> Sheet:
+        return of_result(self)
 
     def _contact_system(self) -> System | None:
         return self._system
@@ -91,6 +104,18 @@ class Result(SpringFields, ContactFields):
         arrays = self._store.arrays
         energy, work = arrays["energy"][:], arrays["work"][:]
         return Energy(energy[:, 0], energy[:, 1], energy[:, 2], work[:, 0], work[:, 1])
+
+    def _end_energies(self) -> tuple[FloatArray, FloatArray]:
+        """Energies and work at the first and the last stored time, J, shapes (2, 3) and (2, 2).
+
+        The columns are kinetic, strain, potential, and dissipated, supplied; a long history is not read.
+        """
+        arrays, ends = self._store.arrays, (0, -1)
+        work = np.stack([np.asarray(arrays["work"][k]) for k in ends])
+        if self._system is None or isinstance(self._store, ReadStore):
+            return np.stack([np.asarray(arrays["energy"][k]) for k in ends]), work
+        q, v = (np.stack([data[k] for k in ends]) for data in (arrays["q"], arrays["v"]))
+        return energies(self._system, q, v), work
 
     @property
     def stats(self) -> Stats:

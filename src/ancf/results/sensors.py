@@ -15,12 +15,13 @@ from ..system.contact_fields import ContactFields
 from ..system.probe import BeamProbe, Probe
 from ..system.sensors import Listing
 from ..system.spring_fields import SpringFields
+from .pictures import Plotted
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 
-class Sensors(SpringFields, ContactFields):
+class Sensors(SpringFields, ContactFields, Plotted):
     """What was recorded, at all steps; it answers as a :class:`ancf.Result` does.
 
     Points, springs and joints that were not recorded give a ModelError that lists those that were.

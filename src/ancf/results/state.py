@@ -8,12 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.supports import Support
+from ..model.tables import Readable, Sheet
 from ..solvers.stepping import Stats
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.reactions import reaction
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
+from .overview import line_of_state, of_state
+from .pictures import StatePlotted
 
 FloatArray = NDArray[np.float64]
 
@@ -43,7 +46,7 @@ class Energy:
         return self.total + self.dissipated - self.supplied
 
 
-class State(SpringFields, ContactFields):
+class State(SpringFields, ContactFields, StatePlotted, Readable):
     """Positions and velocities of a model at one time; see :class:`Fields` for what it answers.
 
     Parameters
@@ -66,6 +69,12 @@ class State(SpringFields, ContactFields):
         self._bodies, self._slots = system.model.bodies, system.slots
         self._joints, self._arcs = system.joints, system.numbering.arcs
         self._springs = springs_of(system.model.connections)
+
+    def __repr__(self) -> str:
+        return line_of_state(self)
+
+    def _sheet(self) -> Sheet:
+        return of_state(self)
 
     def _contact_system(self) -> System | None:
         return self.system

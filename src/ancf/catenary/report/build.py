@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 
 from ..._version import __version__
 from ...viz import style
+from ...viz.html import element, figure, page, section
 from ..write import write_text
 from . import tables
 from .content import Content
 from .figures import FIGURES, figure_names, picture
-from .html import element, figure, page, section
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ...viz import style
-from . import droppers, force, frequency, line_answer, marks
+from . import droppers, force, frequency, line_answer
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -110,4 +110,4 @@ def picture(name: str, content: Content) -> str:
     kind = FIGURES[name]
     with style.new_figure(*kind.size(content)) as figure:
         kind.draw(content, figure)
-        return marks.svg(figure)
+        return style.svg(figure)

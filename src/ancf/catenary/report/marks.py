@@ -1,8 +1,7 @@
-"""What figures of a report share: looks of pantographs, masts, droppers, the evaluated window, SVG."""
+"""What figures of a report share: looks of pantographs, masts, droppers, the evaluated window."""
 
 from __future__ import annotations
 
-import io
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,27 +16,18 @@ if TYPE_CHECKING:
     from .content import Content
 
 WIDTH = 180.0  # mm, of all figures
-SHADE = "#EDEDED"
-#: Of each pantograph: its colour and its line, which a grey copy keeps apart.
-LOOKS = (
-    (style.BLUE, "-"),
-    (style.ORANGE, "--"),
-    (style.GREEN, "-."),
-    (style.GREY, ":"),
-)
 RAW: dict[str, Any] = {"color": style.LIGHT, "linewidth": 0.5}
 FINE: dict[str, Any] = {"color": style.GREY, "linewidth": 0.7}
 
 
 def look(k: int) -> dict[str, Any]:
     """Colour and line of pantograph k."""
-    colour, line = LOOKS[k % len(LOOKS)]
-    return {"color": colour, "linestyle": line}
+    return style.line(k)
 
 
 def shade_window(axes: Axes, run: Run) -> None:
     """Shade the track interval that is evaluated."""
-    axes.axvspan(*run.window, color=SHADE, linewidth=0, zorder=0, label="evaluated")
+    axes.axvspan(*run.window, color=style.SHADE, linewidth=0, zorder=0, label="evaluated")
 
 
 def mark_line(axes: Axes, run: Run) -> None:
@@ -66,19 +56,7 @@ def along_track(axes: Axes, content: Content, limits: tuple[float, float] | None
 
 def legend(figure: Figure, axes: Axes, columns: int = 6) -> None:
     """One legend above all panels, each label once."""
-    handles, labels = axes.get_legend_handles_labels()
-    unique = dict(zip(labels, handles, strict=True))
-    figure.legend(unique.values(), unique.keys(), loc="outside upper center", ncols=min(columns, len(unique)))
-
-
-def svg(figure: Figure) -> str:
-    """Text of an SVG picture whose letters are shapes, so that it looks the same everywhere."""
-    from matplotlib import rc_context
-
-    file = io.BytesIO()
-    with rc_context({"svg.fonttype": "path", "svg.hashsalt": "ancf"}):
-        figure.savefig(file, format="svg", metadata={"Date": None})
-    return file.getvalue().decode("utf-8")
+    style.legend_above(figure, axes, columns)
 
 
 def _seen(axes: Axes, x: Any) -> Any:

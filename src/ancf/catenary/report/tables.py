@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...viz.html import element, pairs, table
 from ..passing import DropperForces, dropper_places
 from ..quantity import TAGS, shown
 from ..table import texts
-from .html import element, pairs, table
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element

@@ -13,9 +13,8 @@ from ...errors import ModelError
 from ...model import checks
 from ...model.beam import Beam
 from ...results.modes import Modes
-from ..compose import make_scene
-from ..sampling import CORNERS
-from ..scene import QUANTITIES, FloatArray, Scene
+from ..scene import QUANTITIES, FloatArray, Scene, make_scene
+from ..scene.sampling import CORNERS
 from .files import drafted, writing
 from .parts import PART_KINDS, IntArray, Part, parts
 from .vtkhdf import TOPOLOGIES, Mesh, TemporalFile

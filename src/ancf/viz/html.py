@@ -53,22 +53,42 @@ def pairs(rows: Iterable[tuple[str, str]]) -> Element:
 
 def figure(name: str, title: str, caption: str, svg: str) -> Element:
     """Figure with its picture inside the page; a picture of its own keeps its ids apart from others."""
-    coded = base64.b64encode(svg.encode("utf-8")).decode("ascii")
-    image = element("img", src=f"data:image/svg+xml;base64,{coded}", alt=f"{title}. {caption}")
+    image = picture(svg.encode("utf-8"), "svg+xml", f"{title}. {caption}")
     text = element("figcaption", element("strong", f"{title}. "), caption)
     return element("figure", image, text, id=f"figure-{name}")
 
 
-def page(title: str, *pieces: Piece) -> str:
-    """Whole page; it needs no other file and no network."""
-    css = files(__package__).joinpath("page.css").read_text(encoding="utf-8")
+def picture(content: bytes, kind: str, alt: str, **more: str) -> Element:
+    """Picture inside the page; `kind` is ``png`` or ``svg+xml``, `alt` is what it shows, in words."""
+    coded = base64.b64encode(content).decode("ascii")
+    return element("img", src=f"data:image/{kind};base64,{coded}", alt=alt, **more)
+
+
+def folded(title: str, *pieces: Piece) -> Element:
+    """Block that shows its title alone until it is opened."""
+    return element("details", element("summary", title), *pieces)
+
+
+def page(title: str, *pieces: Piece, css: str = "") -> str:
+    """Whole page; it needs no other file and no network.
+
+    Parameters
+    ----------
+    title : str
+    pieces : elements and texts
+        What the page shows.
+    css : str
+        Rules beyond those that all pages share.
+
+    """
+    shared = files(__package__).joinpath("page.css").read_text(encoding="utf-8")
     head = element(
         "head",
         element("meta", charset="utf-8"),
         element("meta", name="viewport", content="width=device-width, initial-scale=1"),
         element("title", title),
         element("link", rel="icon", href="data:,"),
-        element("style", css),
+        element("style", shared + css),
     )
     tree = element("html", head, element("body", element("main", *pieces)), lang="en")
     return "<!DOCTYPE html>\n" + ElementTree.tostring(tree, encoding="unicode", method="html") + "\n"

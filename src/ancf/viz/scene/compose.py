@@ -8,17 +8,17 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ModelError
-from ..model import checks
-from ..model.beam import Beam
-from ..model.bodies import PointMass, RigidBody
-from ..model.points import Point
-from ..results.modes import Modes
-from ..results.result import Result
-from ..results.state import State
-from ..system.spring_fields import SpringFields
+from ...errors import ModelError
+from ...model import checks
+from ...model.beam import Beam
+from ...model.bodies import PointMass, RigidBody
+from ...model.points import Point
+from ...results.modes import Modes
+from ...results.result import Result
+from ...results.state import State
+from ...system.spring_fields import SpringFields
 from . import sampling
-from .scene import FloatArray, Link, Marker, Scene, Strip, Thread, Triad
+from .parts import FloatArray, Link, Marker, Scene, Strip, Thread, Triad
 
 IntArray = NDArray[np.int64]
 

@@ -6,13 +6,13 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ..errors import ModelError
-from ..model.beam import Beam
-from ..model.section import Section
-from ..model.shapes import Circle, Rectangle
-from ..system.fields import Fields
-from ..system.probe import R_Y, R_Z
-from .scene import FloatArray, Thread
+from ...errors import ModelError
+from ...model.beam import Beam
+from ...model.section import Section
+from ...model.shapes import Circle, Rectangle
+from ...system.fields import Fields
+from ...system.probe import R_Y, R_Z
+from .parts import FloatArray, Thread
 
 #: Points per element, at most: a cubic looks smooth.
 FINEST = 16

@@ -1,0 +1,156 @@
+"""Overview of a result, a state and modes: the sheets that ``print`` and notebooks show."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.beam import Beam
+from ..model.bodies import Body, PointMass
+from ..model.overview import body_table, sizes
+from ..model.points import Point
+from ..model.tables import Sheet, Table, number, plural
+
+if TYPE_CHECKING:
+    from .modes import Modes
+    from .result import Result
+    from .state import State
+
+FloatArray = NDArray[np.float64]
+
+STATUS = {
+    "complete": "complete",
+    "failed": "failed",
+    "interrupted": "stopped by Ctrl-C",
+    "running": "not finished: it goes on, or was killed",
+}
+POINT_COLUMNS = ("point", "x [m]", "y [m]", "z [m]", "speed [m/s]", "tension [N]")
+
+
+def of_result(result: Result) -> Sheet:
+    """How a run ended, its times, bodies, settings, cost, energies' drift and sensors."""
+    plain = result.provenance
+    settings = plain.get("settings", {})
+    bodies = [*result.bodies.values()]
+    facts = [
+        ("status", STATUS.get(result.status, result.status) + _how_far(result, settings)),
+        ("times", times(result)),
+        ("steps", _steps(result, settings)),
+        ("bodies", sizes(bodies)),
+        ("cost", _cost(result)),
+        ("energy", _drift(result, settings)),
+        ("sensors", _sensors(settings.get("sensors", []))),
+    ]
+    return Sheet(f"Result{_quoted(plain.get('title'))}", facts, [body_table(bodies)])
+
+
+def of_state(state: State) -> Sheet:
+    """Time, energies, and the ends of bodies with speed and tension."""
+    energy = state.energy
+    parts = (f"{key} {number(float(getattr(energy, key)))} J" for key in ("kinetic", "strain", "potential"))
+    model = state.system.model
+    facts = [
+        ("time", f"{state.t:g} s"),
+        ("bodies", sizes(model.bodies.values())),
+        ("energy", ", ".join(parts)),
+    ]
+    points = [_at(state, point) for body in model.bodies.values() for point in _points(body)]
+    return Sheet(f"State{_quoted(model.title)}", facts, [Table(POINT_COLUMNS, points)])
+
+
+def of_modes(modes: Modes) -> Sheet:
+    """Frequencies and periods."""
+    rows = [
+        (str(k), number(hz), number(omega), number(1.0 / hz) if hz > 0.0 else "")
+        for k, (hz, omega) in enumerate(zip(modes.frequencies_hz, modes.frequencies, strict=True), 1)
+    ]
+    columns = ("mode", "frequency [Hz]", "angular frequency [rad/s]", "period [s]")
+    about = f"{plural(len(rows), 'mode')} about the state at t = {modes.about.t:g} s"
+    return Sheet(
+        f"Modes{_quoted(modes.about.system.model.title)}", [("count", about)], [Table(columns, rows, 40)]
+    )
+
+
+def line_of_result(result: Result) -> str:
+    """One line: title, states, times, status."""
+    title = result.provenance.get("title")
+    return f"Result({f'{title!r}, ' if title else ''}{times(result)}, {result.status})"
+
+
+def line_of_state(state: State) -> str:
+    """One line: time and bodies."""
+    return f"State(t = {state.t:g} s, {sizes(state.bodies.values())})"
+
+
+def line_of_modes(modes: Modes) -> str:
+    """One line: how many, lowest and highest frequency."""
+    hz = modes.frequencies_hz
+    ends = f", {hz[0]:.4g} to {hz[-1]:.4g} Hz" if len(hz) else ""
+    return f"Modes({plural(len(hz), 'mode')}{ends})"
+
+
+def times(result: Result) -> str:
+    """``41 states, t = 0 to 0.4 s``."""
+    t = result.t
+    return f"{plural(len(t), 'state')}, t = {t[0]:g} to {t[-1]:g} s" if len(t) else "no states"
+
+
+def _quoted(title: Any) -> str:
+    return f' "{title}"' if title else ""
+
+
+def _how_far(result: Result, settings: dict[str, Any]) -> str:
+    t_end = settings.get("t_end")
+    if result.status == "complete" or t_end is None or not len(result.t):
+        return ""
+    return f" at t = {result.t[-1]:g} s of {t_end:g} s"
+
+
+def _steps(result: Result, settings: dict[str, Any]) -> str:
+    method = str(settings.get("integrator", "")).replace("_", "-")
+    step = f" of {settings['step']:g} s" if "step" in settings else ""
+    return f"{result.stats.steps}{step}" + (f", {method}" if method else "")
+
+
+def _cost(result: Result) -> str:
+    stats = result.stats
+    parts = [plural(stats.newton_iterations, "Newton iteration"), plural(stats.jacobians, "Jacobian")]
+    if stats.retries:
+        parts.append(plural(stats.retries, "retry", "retries"))
+    return ", ".join([*parts, f"{stats.cpu_seconds:.3g} s CPU"])
+
+
+def _drift(result: Result, settings: dict[str, Any]) -> str:
+    """Change of the balance from the first to the last stored time; only these two states are looked at."""
+    if not settings.get("energy", True) or not len(result.t):
+        return ""
+    energy, work = result._end_energies()
+    balance = energy.sum(axis=1) + work[:, 0] - work[:, 1]
+    largest = float(np.max(np.abs(np.concatenate([energy, work], axis=1))))
+    return f"the balance drifts by {balance[-1] - balance[0]:.2g} J, largest part {largest:.3g} J"
+
+
+def _sensors(names: list[str]) -> str:
+    if not names:
+        return ""
+    first = ", ".join(names[:6])
+    return f"{first}, and {len(names) - 6} more" if len(names) > 6 else first
+
+
+def _points(body: Body) -> Iterable[Point]:
+    """Start, middle and end of a beam, the one point of another body."""
+    if isinstance(body, Beam):
+        return body.start, body.at(0.5 * body.length), body.end
+    return (body.point if isinstance(body, PointMass) else body.centre,)
+
+
+def _at(state: State, point: Point) -> tuple[str, ...]:
+    place = state.position(point)
+    noise = 1e-12 * float(np.max(np.abs(place)))
+    coordinates = [number(x if abs(x) > noise else 0.0) for x in place.tolist()]
+    speed = number(float(np.linalg.norm(state.velocity(point))))
+    tension = number(float(state.tension(point))) if isinstance(point.body, Beam) else ""
+    return str(point), *coordinates, speed, tension

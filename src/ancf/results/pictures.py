@@ -1,0 +1,165 @@
+"""Pictures: the methods of results that draw. What draws lies above and is imported when it is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:  # names for annotations; at run time only the methods import from above
+    from ..viz.pictures.animation import Animation
+    from ..viz.pictures.picture import Picture
+
+
+class Plotted:
+    """What has a history: a Result and its sensors."""
+
+    def plot(
+        self,
+        *what: Any,
+        quantity: str | None = None,
+        x: str = "t",
+        plane: str | None = None,
+        size: tuple[float, float] | None = None,
+    ) -> Picture:
+        """Draw curves over time, or paths; without anything given the energies and how their balance drifts.
+
+        Parameters
+        ----------
+        *what : Point, PointMass, RigidBody, Spring, Contact, joint or str
+            Points, springs, contacts or joints, as objects of the model or by name: "beam.end".
+        quantity : str
+            What to ask of them: "position" (default of points), "velocity", "speed", "tension", "strain",
+            "curvature", "bending_moment", "torque" or "twist" of points; "spring_force" (default) or
+            "spring_length" of springs; "contact_force" (default), "contact_gap" or "arc_length" of
+            contacts; "arc_length" (default) or "arc_rate" of sliding joints; "multiplier" of joints;
+            "energy" of the whole.
+        x : str
+            Along the axis of x: "t", or a scalar quantity of the same items.
+        plane : str
+            Two or three letters of "xyz": the points' paths in this plane, or in space.
+        size : (float, float), mm
+            Width and height; default by the number of panels.
+
+        Returns
+        -------
+        Picture
+            Shows in a notebook; ``.save("x.png")``, ``.figure``.
+
+        Raises
+        ------
+        ModelError
+            A name, quantity or plane is wrong, nothing was stored, or matplotlib is missing.
+        """
+        from ..viz.pictures.plot import plot
+
+        return plot(self, what, quantity=quantity, x=x, plane=plane, size=size)
+
+
+class Filmed(Plotted):
+    """What moves: a Result."""
+
+    def plot_shape(
+        self,
+        times: int | Sequence[float] = 5,
+        *,
+        plane: str | None = None,
+        color: str = "t",
+        size: tuple[float, float] | None = None,
+    ) -> Picture:
+        """Draw the shape of the model at some times in one picture.
+
+        Parameters
+        ----------
+        times : int or sequence of float, s
+            So many stored times, evenly spaced, or the stored times nearest to these.
+        plane : str
+            Two or three letters of "xyz": seen in this plane, or in space; default as the model moves.
+        color : "t", "tension", "curvature", "speed" or "plain"
+            What the bodies are coloured by.
+        size : (float, float), mm
+            Width and height; default by what is drawn.
+
+        Raises
+        ------
+        ModelError
+            A time, plane or colour is wrong, nothing was stored, or matplotlib is missing.
+        """
+        from ..viz.pictures.shape import plot_shapes
+
+        return plot_shapes(self, times, plane=plane, color=color, size=size)
+
+    def animate(
+        self,
+        color: str = "tension",
+        *,
+        trace: Sequence[Any] = (),
+        frames: int = 240,
+        start: float | None = None,
+        end: float | None = None,
+    ) -> Animation:
+        """Moving picture: shows in a notebook; ``.save("x.html")``, ``.save("x.mp4")``, ``.save("x.gif")``.
+
+        Parameters
+        ----------
+        color : "tension", "curvature", "speed" or "plain"
+            What the bodies are coloured by.
+        trace : sequence of points
+            Whose paths are drawn.
+        frames : int
+            Stored states that are shown, at most.
+        start, end : float, s
+            Part of the run; default all.
+
+        Raises
+        ------
+        ModelError
+            There is no such colour or point; later, when a part is missing that draws or saves.
+        """
+        from ..viz.pictures.animation import animate
+
+        return animate(self, color, trace=trace, frames=frames, start=start, end=end)
+
+
+class StatePlotted:
+    """What has a shape: a State."""
+
+    def plot(
+        self, *, plane: str | None = None, color: str = "tension", size: tuple[float, float] | None = None
+    ) -> Picture:
+        """Draw the shape of the model; see :meth:`ancf.Result.plot_shape`."""
+        from ..viz.pictures.shape import plot_state
+
+        return plot_state(self, plane=plane, color=color, size=size)
+
+
+class ModesPlotted:
+    """What has shapes that swing: Modes."""
+
+    def plot(
+        self, count: int = 4, *, plane: str | None = None, size: tuple[float, float] | None = None
+    ) -> Picture:
+        """Draw the lowest modes over the state they are about, each with its frequency.
+
+        Parameters
+        ----------
+        count : int
+            How many.
+        plane : str
+            Two or three letters of "xyz"; default for each mode the one in which it moves.
+        size : (float, float), mm
+            Width and height; default by the number of modes.
+
+        Raises
+        ------
+        ModelError
+            A count or plane is wrong, or matplotlib is missing.
+        """
+        from ..viz.pictures.shape import plot_modes
+
+        return plot_modes(self, count, plane=plane, size=size)
+
+    def animate(self, mode: int = 0, *, frames: int = 60) -> Animation:
+        """Moving picture of a mode, counted from 0, over one period; see :meth:`ancf.Result.animate`."""
+        from ..viz.pictures.animation import animate
+
+        return animate(self, "plain", frames=frames, mode=mode)

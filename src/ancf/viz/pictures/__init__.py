@@ -1,0 +1,1 @@
+"""Figures and movies of results with matplotlib; needs the extra `plot`."""

@@ -1,0 +1,132 @@
+"""What can be drawn over time: the questions that a result answers, by name, and what they are asked of."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import ModelError
+from ...model import checks
+from ...model.beam import Beam
+from ...model.bodies import PointMass, RigidBody
+from ...model.connections import Spring
+from ...model.contact import Contact
+from ...model.joints import Fixation, Revolute, Slide, Spherical
+from ...model.names import POINT_LABEL
+from ...model.points import Point
+
+FloatArray = NDArray[np.float64]
+
+
+class Question(NamedTuple):
+    """A method of a result, what it is asked of, and whether the answer has components."""
+
+    method: str
+    nouns: tuple[str, ...]
+    vector: bool = False
+
+
+POINT, SPRING, CONTACT, SLIDE, JOINT = "point", "spring", "contact", "sliding joint", "joint"
+
+QUANTITIES: dict[str, Question] = {
+    "position": Question("position", (POINT,), vector=True),
+    "velocity": Question("velocity", (POINT,), vector=True),
+    "speed": Question("velocity", (POINT,)),
+    "tension": Question("tension", (POINT,)),
+    "strain": Question("strain", (POINT,)),
+    "curvature": Question("curvature", (POINT,)),
+    "bending_moment": Question("bending_moment", (POINT,)),
+    "torque": Question("torque", (POINT,)),
+    "twist": Question("twist", (POINT,)),
+    "spring_force": Question("spring_force", (SPRING,)),
+    "spring_length": Question("spring_length", (SPRING,)),
+    "contact_force": Question("contact_force", (CONTACT,)),
+    "contact_gap": Question("contact_gap", (CONTACT,)),
+    "arc_length": Question("arc_length", (SLIDE, CONTACT)),
+    "arc_rate": Question("arc_rate", (SLIDE,)),
+    "multiplier": Question("multiplier", (JOINT, SLIDE), vector=True),
+}
+SCALARS = [name for name, question in QUANTITIES.items() if not question.vector]
+#: What is asked when no quantity is given.
+DEFAULTS = {
+    POINT: "position",
+    SPRING: "spring_force",
+    CONTACT: "contact_force",
+    SLIDE: "arc_length",
+    JOINT: "multiplier",
+}
+_KINDS = (
+    ((Point, PointMass, RigidBody, Beam), POINT),
+    ((Spring,), SPRING),
+    ((Contact,), CONTACT),
+    ((Slide,), SLIDE),
+    ((Spherical, Revolute, Fixation), JOINT),
+)
+
+
+def ask(source: Any, quantity: str, item: Any) -> FloatArray:
+    """History (n,) or (n, k) of a quantity of an item.
+
+    Raises
+    ------
+    ModelError
+        What the result itself raises, for a wrong name or point.
+    """
+    answer: FloatArray = np.asarray(getattr(source, QUANTITIES[quantity].method)(item))
+    if quantity == "speed":
+        answer = np.linalg.norm(answer, axis=-1)
+    return np.where(np.isfinite(answer), answer, np.nan)
+
+
+def quantity_of(source: Any, item: Any, quantity: str | None) -> str:
+    """The quantity that is asked of an item: the given one if it suits, or the default.
+
+    Raises
+    ------
+    ModelError
+        There is no such quantity, it does not suit, or the item is nothing that can be drawn.
+    """
+    noun = noun_of(source, item)
+    if quantity is None:
+        return DEFAULTS[noun]
+    checks.choice(quantity, "plot.quantity", (*QUANTITIES, "energy"))
+    wanted = QUANTITIES[quantity].nouns if quantity in QUANTITIES else ()
+    if noun not in wanted:
+        what = f'"{quantity}" is not asked of a {noun}, which "{label(item)}" is'
+        suits = [name for name, question in QUANTITIES.items() if noun in question.nouns]
+        raise ModelError("plot.quantity", what, f"of a {noun} there are: {', '.join(suits)}")
+    return quantity
+
+
+def noun_of(source: Any, item: Any) -> str:
+    """What an item is: "point", "spring", "contact", "sliding joint" or "joint"."""
+    for kinds, noun in _KINDS:
+        if isinstance(item, kinds):
+            return noun
+    if not isinstance(item, str):
+        what = f"must be a point, spring, contact or joint, or its name, is {checks.shown(item)}"
+        raise ModelError("plot", what, 'such as result.plot("beam.end")')
+    named = known(source)
+    if item in named:
+        return named[item]
+    if item.strip() not in source.bodies and not POINT_LABEL.fullmatch(item.strip()):
+        what = f'"{item}" is no point, spring, contact or joint here'
+        names = [*source.bodies, *named]
+        raise ModelError("plot", what, checks.nearest(item, names) or f"there are: {checks.listed(names)}")
+    return POINT
+
+
+def known(source: Any) -> dict[str, str]:
+    """Names of springs, contacts and joints, with what they are."""
+    found = {name: JOINT for name in source.joints if name not in source.bodies}
+    found |= dict.fromkeys(source.arcs, SLIDE) | dict.fromkeys(source.springs, SPRING)
+    plain = getattr(source, "provenance", {}).get("model", {})
+    contacts = [item["name"] for item in plain.get("connections", []) if item["type"] == "contact"]
+    return found | dict.fromkeys([*contacts, *source._contacts()], CONTACT)
+
+
+def label(item: Any) -> str:
+    """Text of an item for a legend."""
+    return str(item) if isinstance(item, str | Point) else str(item.name)

@@ -1,0 +1,18 @@
+"""A result as things to draw at some times; viewer, movies and exports share it. Needs no extra."""
+
+from .compose import chosen_times, make_scene
+from .parts import KINDS, QUANTITIES, FloatArray, Link, Marker, Scene, Strip, Thread, Triad
+
+__all__ = [
+    "KINDS",
+    "QUANTITIES",
+    "FloatArray",
+    "Link",
+    "Marker",
+    "Scene",
+    "Strip",
+    "Thread",
+    "Triad",
+    "chosen_times",
+    "make_scene",
+]
