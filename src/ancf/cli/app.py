@@ -29,9 +29,13 @@ Folder = Annotated[Path, typer.Option("--output", "-o", metavar="OUT", help="Fol
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
 Names = Annotated[
     list[str] | None,
-    typer.Argument(metavar="NAMES", help="Figures, such as fig2, or all.", show_default="all"),
+    typer.Argument(metavar="NAMES", help="Figures and tables, such as fig2, or all.", show_default="all"),
 ]
-Short = Annotated[bool, typer.Option("--short", help="Fewer and shorter runs, to try it out.")]
+Quick = Annotated[bool, typer.Option("--quick", help="Fewer and shorter runs, in a few minutes.")]
+Jobs = Annotated[
+    int | None,
+    typer.Option("--jobs", "-j", metavar="N", help="Processes at once.", show_default="one for each core"),
+]
 LineName = Annotated[
     str, typer.Argument(metavar="LINE", help="Line of the catalogue, or a line file.", show_default=False)
 ]
@@ -73,6 +77,27 @@ States = Annotated[
     bool, typer.Option(help="Write OUT/results.h5 as well, some 10 to 100 MB for ancf view and ancf export.")
 ]
 Report = Annotated[bool, typer.Option(help="Write OUT/report.html as well, which needs matplotlib.")]
+ResultsFile = Annotated[
+    Path, typer.Argument(metavar="RESULTS.h5", help="Results file, or its folder.", show_default=False)
+]
+Page = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", metavar="FILE", help="HTML file.", show_default="view.html beside it"),
+]
+Frames = Annotated[int, typer.Option(metavar="N", help="States that are shown, at most.")]
+Color = Annotated[
+    str, typer.Option(metavar="WHAT", help='"tension", "curvature", "speed" or "plain" when it opens.')
+]
+Traced = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--trace",
+        metavar="POINT",
+        help="Point whose path is drawn; may be repeated.",
+        show_default="up to three that move most",
+    ),
+]
+Open = Annotated[bool, typer.Option("--open/--no-open", help="Open it in a browser.")]
 SchemaFile = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="FILE", help="File to write, instead of printing it.")
 ]
@@ -169,16 +194,40 @@ def export(
 
 @app.command()
 def reproduce(
-    names: Names = None, output: Folder = Path("out"), short: Short = False, quiet: Quiet = False
+    names: Names = None,
+    output: Folder = Path("out"),
+    quick: Quick = False,
+    jobs: Jobs = None,
+    quiet: Quiet = False,
 ) -> None:
-    """Compute figures of the paper.
+    """Recompute the paper and compare every number that has a reference.
 
-    Writes OUT/NAME.png, OUT/NAME.csv and OUT/NAME.json for each.
+    Writes OUT/NAME.png, OUT/NAME.csv and OUT/NAME.json for each figure, OUT/checks.json, and OUT/index.html
+    with all of it. The exit code is 1 when a check fails.
     """
     with reported():
         from ancf.cli.reproduce import reproduce_figures
 
-        reproduce_figures(names or ["all"], output, short, quiet)
+        reproduce_figures(names or ["all"], output, quick, jobs, quiet)
+
+
+@app.command()
+def view(
+    results: ResultsFile,
+    output: Page = None,
+    frames: Frames = 240,
+    color: Color = "tension",
+    trace: Traced = None,
+    show: Open = False,
+) -> None:
+    """Make a moving picture of a results file: one HTML page that works without a network.
+
+    Prints the path of the page.
+    """
+    with reported():
+        from ancf.cli.view import view_file
+
+        view_file(results, output, {"frames": frames, "color": color, "trace": trace}, show)
 
 
 @catenary.command("form")

@@ -1,0 +1,170 @@
+"""A scene, traces and curves as plain data for the page: names, and numbers in one text of base64."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import KINDS, QUANTITIES, FloatArray, Scene, Thread
+from .curve import Curve
+from .traces import Trace
+
+#: Colours run over these quantiles when the extremes are this many times farther apart.
+QUANTILES, FAR = (0.005, 0.995), 3.0
+#: Supports that may move with a mass.
+GUIDES = ("pin", "hold")
+Plain = dict[str, Any]
+
+
+class Numbers:
+    """Arrays one after the other: 32-bit numbers, or 16-bit shares of a range.
+
+    What is at rest, and an array that is given again, is kept once.
+    """
+
+    def __init__(self) -> None:
+        self._parts: list[bytes] = []
+        self._size = 0
+        self._known: dict[int, tuple[Any, Plain]] = {}
+
+    def floats(self, values: NDArray[Any]) -> Plain:
+        """Place and shape of an array with time first; a single row if all rows are the same."""
+        known = self._known.get(id(values))
+        if known is None:
+            rows = np.asarray(values, dtype="<f4")
+            kept = rows[:1] if rows.ndim > 1 and _at_rest(rows) else rows
+            known = self._known[id(values)] = (values, self._add(kept, {"kind": "f4"}))
+        return known[1]
+
+    def shares(self, values: NDArray[Any]) -> Plain:
+        """The same in steps of 1/65535 of the array's own range, for what is seen and not measured."""
+        low, high = float(values.min()), float(values.max())
+        shares = np.round((values - low) * (65535.0 / ((high - low) or 1.0))).astype("<u2")
+        return self._add(shares, {"kind": "u2", "low": low, "high": high})
+
+    def _add(self, values: NDArray[Any], plain: Plain) -> Plain:
+        data = values.tobytes()
+        data += bytes(-len(data) % 4)
+        found = {"at": self._size, "shape": list(values.shape), **plain}
+        self._parts.append(data)
+        self._size += len(data)
+        return found
+
+    def text(self) -> str:
+        """All of them."""
+        return base64.b64encode(b"".join(self._parts)).decode("ascii")
+
+
+def plain_scene(scene: Scene, numbers: Numbers) -> Plain:
+    """The scene; what is alike is put together, time first: (n, count, ...)."""
+    links = scene.links
+    return {
+        "t": numbers.floats(scene.t),
+        "box": scene.box.tolist(),
+        "quantities": quantities(scene),
+        "threads": [_thread(thread, numbers) for thread in scene.threads],
+        "links": _stacked(
+            numbers,
+            names=[link.name for link in links],
+            ends=[link.ends for link in links],
+            force=[link.force for link in links],
+            slack=[link.slack for link in links],
+        ),
+        "markers": _markers(scene, numbers),
+        "triads": _stacked(
+            numbers,
+            names=[triad.name for triad in scene.triads],
+            centre=[triad.centre for triad in scene.triads],
+            axes=[triad.size * triad.axes for triad in scene.triads],
+        ),
+        "strips": _stacked(
+            numbers,
+            names=[strip.name for strip in scene.strips],
+            ends=[strip.ends for strip in scene.strips],
+            force=[_known(strip.force, scene.t) for strip in scene.strips],
+        ),
+    }
+
+
+def quantities(scene: Scene) -> list[Plain]:
+    """Quantities that all threads know, with the limits of their colours over the whole run."""
+    found = []
+    for name, unit in QUANTITIES.items():
+        if scene.threads and all(name in thread.values for thread in scene.threads):
+            low, high, clipped = color_limits([thread.values[name] for thread in scene.threads])
+            found.append({"name": name, "unit": unit, "low": low, "high": high, "clipped": clipped})
+    return found
+
+
+def color_limits(values: Sequence[FloatArray]) -> tuple[float, float, bool]:
+    """Limits of a colour scale, and whether rare values lie outside them."""
+    flat = np.concatenate([v.ravel() for v in values])
+    low, high = float(flat.min()), float(flat.max())
+    inner = np.quantile(flat, QUANTILES)
+    if high - low > FAR * (inner[1] - inner[0]) > 0.0:
+        return float(inner[0]), float(inner[1]), True
+    if high - low <= 1e-9 * max(abs(low), abs(high)):
+        high = low + (1e-3 * abs(low) or 1.0)
+    return low, high, False
+
+
+def plain_trace(trace: Trace, numbers: Numbers) -> Plain:
+    """A trace."""
+    return {"name": trace.name, "t": numbers.floats(trace.t), "position": numbers.floats(trace.position)}
+
+
+def plain_curve(curve: Curve, numbers: Numbers) -> Plain:
+    """A curve."""
+    pair = {"t": numbers.floats(curve.t), "values": numbers.floats(curve.values)}
+    return {"name": curve.name, "unit": curve.unit, "panel": curve.panel, **pair}
+
+
+def _known(force: FloatArray | None, t: FloatArray) -> FloatArray:
+    """The force of a strip, or what stands for an unknown one."""
+    return np.full(t.shape, np.nan) if force is None else force
+
+
+def _at_rest(rows: NDArray[Any]) -> bool:
+    return np.array_equal(rows, np.broadcast_to(rows[0], rows.shape), equal_nan=True)
+
+
+def _thread(thread: Thread, numbers: Numbers) -> Plain:
+    found = {
+        "name": thread.name,
+        "element": thread.element,
+        "x": numbers.floats(thread.x),
+        "position": numbers.floats(thread.position),
+        "values": {name: numbers.shares(thread.values[name]) for name in QUANTITIES if name in thread.values},
+    }
+    if thread.outline is not None:
+        # from the centreline, so that 16 bits are fine enough
+        found["outline"] = numbers.shares(thread.outline - thread.position[:, :, None])
+    return found
+
+
+def _markers(scene: Scene, numbers: Numbers) -> list[Plain]:
+    """Markers by kind, in the order of the legend; what only guides a moving mass would hide it."""
+    ways = [m.position for m in scene.markers if m.kind == "point mass" and not _at_rest(m.position)]
+    seen = [m for m in scene.markers if m.kind not in GUIDES or not _among(m.position, ways)]
+    found = []
+    for kind in sorted({m.kind for m in seen}, key=KINDS.index):
+        mine = [m for m in seen if m.kind == kind]
+        stacked = _stacked(numbers, [m.name for m in mine], position=[m.position for m in mine])
+        found.append({"kind": kind, **(stacked or {})})
+    return found
+
+
+def _among(position: FloatArray, others: Sequence[FloatArray]) -> bool:
+    return any(np.array_equal(position, other) for other in others)
+
+
+def _stacked(numbers: Numbers, names: list[str], **columns: list[NDArray[Any]]) -> Plain | None:
+    """Histories (n, ...) of several things as one (n, count, ...); None if there is none."""
+    if not names:
+        return None
+    stacked = {key: numbers.floats(np.stack(parts, axis=1)) for key, parts in columns.items()}
+    return {"names": names, **stacked}

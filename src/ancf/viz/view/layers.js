@@ -1,0 +1,199 @@
+// Layers of the three-dimensional picture: a trace for Plotly each, and what changes in it from state to state.
+// `at(k, color)` gives its coordinates at state k, and its colours; a layer that is still is drawn once.
+
+// Coordinates of points and lines, one after the other; a gap ends a line.
+class Path {
+  constructor() { this.x = []; this.y = []; this.z = []; }
+  add(xyz, i = 0) { this.x.push(xyz[i]); this.y.push(xyz[i + 1]); this.z.push(xyz[i + 2]); }
+  gap() { this.x.push(null); this.y.push(null); this.z.push(null); }
+}
+
+const NAMED = "%{text}<extra></extra>";
+
+function line(name, look, more = {}) {
+  return { type: "scatter3d", mode: "lines", name, line: look, hovertemplate: NAMED, x: [], y: [], z: [], ...more };
+}
+
+function layersOf(scene, traces) {
+  const solids = scene.threads.filter((thread) => thread.outline);
+  return [
+    ...solids.length ? [solidLayer(solids)] : [],
+    ...threadGroups(scene.threads).map(([name, threads], i) => threadLayer(name, threads, i === 0)),
+    ...scene.links ? [linkLayer(scene.links, false), linkLayer(scene.links, true)] : [],
+    ...scene.strips ? [stripLayer(scene.strips)] : [],
+    ...scene.triads ? [triadLayer(scene.triads)] : [],
+    ...scene.markers.map(markerLayer),
+    ...traces.flatMap(traceLayers),
+  ];
+}
+
+// A few bodies have a line of the legend each, many share one.
+function threadGroups(threads) {
+  if (threads.length <= 6) return threads.map((thread) => [thread.name, [thread]]);
+  const groups = [["cables", threads.filter((t) => t.element === "cable")],
+                  ["beams", threads.filter((t) => t.element !== "cable")]];
+  return groups.filter(([, members]) => members.length);
+}
+
+function threadLayer(name, threads, first) {
+  const text = threads.flatMap((t) => [...Array.from(t.x.values, (x) => `${t.name}, s = ${written(x)} m`), ""]);
+  const more = { text, kind: "thread", first };
+  const trace = line(name, { width: 8, color: LOOKS.blue }, more);
+  return {
+    trace,
+    at(k, color) {
+      const path = new Path(), values = [];
+      for (const thread of threads) {
+        const row = thread.position.row(k);
+        for (let i = 0; i < row.length; i += 3) path.add(row, i);
+        path.gap();
+        if (color) values.push(...thread.values[color].row(k), null);
+      }
+      return { ...path, ...color ? { "line.color": lastKnown(values), customdata: values } : {} };
+    },
+  };
+}
+
+// A gap takes the colour before it: a missing one would spoil the line's end.
+function lastKnown(values) {
+  return values.map((value, i) => value === null ? values[i - 1] : value);
+}
+
+function solidLayer(threads) {
+  const faces = { i: [], j: [], k: [] };
+  let base = 0;
+  for (const { outline } of threads) {
+    const [sections, corners] = outline.shape;
+    for (let s = 0; s + 1 < sections; s++) {
+      for (let c = 0; c < corners; c++) {
+        const a = base + s * corners + c, b = base + s * corners + (c + 1) % corners;
+        faces.i.push(a, b); faces.j.push(b, b + corners); faces.k.push(a + corners, a + corners);
+      }
+    }
+    for (const end of [base, base + (sections - 1) * corners]) {
+      for (let c = 1; c + 1 < corners; c++) { faces.i.push(end); faces.j.push(end + c); faces.k.push(end + c + 1); }
+    }
+    base += sections * corners;
+  }
+  const trace = {
+    type: "mesh3d", name: "cross-sections", ...faces, x: [], y: [], z: [], color: LOOKS.light, flatshading: true,
+    hoverinfo: "skip", kind: "solid", showscale: false,
+    lighting: { ambient: 0.65, diffuse: 0.6, specular: 0.1 },
+  };
+  return {
+    trace,
+    at(k, color) {
+      const path = new Path(), values = [];
+      for (const { position, outline, values: known } of threads) {
+        const centres = position.row(k), offsets = outline.row(k), corners = outline.shape[1];
+        for (let p = 0; p < offsets.length / 3; p++) {
+          const s = Math.floor(p / corners);
+          path.add([0, 1, 2].map((d) => centres[3 * s + d] + offsets[3 * p + d]));
+          if (color) values.push(known[color].row(k)[s]);
+        }
+      }
+      return { ...path, intensity: color ? values : null };
+    },
+  };
+}
+
+function linkLayer(links, slack) {
+  const look = slack ? { width: 2, color: LOOKS.grey, dash: "dash" } : { width: 3, color: LOOKS.grey };
+  const ever = links.slack.values.some((value) => value > 0.5);
+  const trace = line(slack ? "slack springs" : "springs", look, { text: [] });
+  return {
+    trace,
+    absent: slack && !ever,
+    at(k) {
+      const path = new Path(), text = [], ends = links.ends.row(k);
+      links.names.forEach((name, i) => {
+        if ((links.slack.row(k)[i] > 0.5) !== slack) return;
+        path.add(ends, 6 * i); path.add(ends, 6 * i + 3); path.gap();
+        const said = `${name}: ${slack ? "slack" : written(links.force.row(k)[i]) + " N"}`;
+        text.push(said, said, "");
+      });
+      return { ...path, text };
+    },
+  };
+}
+
+function stripLayer(strips) {
+  const trace = line(strips.names.length > 1 ? "strips" : "strip", { width: 10, color: LOOKS.curves[4] }, { text: [] });
+  return {
+    trace,
+    at(k) {
+      const path = new Path(), text = [], ends = strips.ends.row(k), force = strips.force.row(k);
+      strips.names.forEach((name, i) => {
+        path.add(ends, 6 * i); path.add(ends, 6 * i + 3); path.gap();
+        const said = Number.isFinite(force[i]) ? `${name}: ${written(force[i])} N` : name;
+        text.push(said, said, "");
+      });
+      return { ...path, text };
+    },
+  };
+}
+
+function triadLayer(triads) {
+  const colors = [LOOKS.orange, LOOKS.green, LOOKS.blue];
+  const color = triads.names.flatMap(() => colors.flatMap((c) => [c, c, c]));
+  const text = triads.names.flatMap((name) => ["first", "second", "third"].flatMap((which) => {
+    const said = `${name}: ${which} axis`;
+    return [said, said, ""];
+  }));
+  return {
+    trace: line("body axes", { width: 5, color }, { text }),
+    at(k) {
+      const path = new Path(), centres = triads.centre.row(k), axes = triads.axes.row(k);
+      triads.names.forEach((_, b) => {
+        for (let j = 0; j < 3; j++) {
+          const centre = centres.subarray(3 * b, 3 * b + 3);
+          path.add(centre);
+          path.add([0, 1, 2].map((i) => centre[i] + axes[9 * b + 3 * i + j]));
+          path.gap();
+        }
+      });
+      return { ...path };
+    },
+  };
+}
+
+const SYMBOLS = {
+  "point mass": ["circle", 5, "#1a1a1a"], "rigid body": ["circle", 6, LOOKS.grey],
+  pin: ["diamond", 6, "#1a1a1a"], clamp: ["square", 6, "#1a1a1a"], hold: ["diamond-open", 7, "#1a1a1a"],
+  "spring support": ["cross", 5, LOOKS.grey], spherical: ["circle-open", 7, LOOKS.green],
+  hinge: ["cross", 6, LOOKS.green], fixation: ["square-open", 7, LOOKS.green], slide: ["circle-open", 10, LOOKS.orange],
+};
+
+function markerLayer(group) {
+  const [symbol, size, color] = SYMBOLS[group.kind] ?? ["circle", 6, LOOKS.grey];
+  const small = group.names.length > 30 ? 0.5 : 1;
+  return {
+    still: group.position.count === 1,
+    trace: {
+      type: "scatter3d", mode: "markers", name: group.kind, text: group.names, hovertemplate: NAMED,
+      marker: { symbol, size: small * size, color, opacity: 1 }, x: [], y: [], z: [],
+    },
+    at(k) {
+      const path = new Path(), row = group.position.row(k);
+      for (let i = 0; i < row.length; i += 3) path.add(row, i);
+      return { ...path };
+    },
+  };
+}
+
+// The whole path is faint, what was passed is bold.
+function traceLayers(trace, i) {
+  const color = [LOOKS.orange, LOOKS.green, LOOKS.blue][i % 3], times = trace.t.values;
+  const upTo = (last) => {
+    const path = new Path();
+    for (let k = 0; k <= last; k++) path.add(trace.position.row(k));
+    return { ...path };
+  };
+  const name = `path of ${trace.name}`, more = { hoverinfo: "skip", hovertemplate: null };
+  const whole = upTo(times.length - 1);
+  return [
+    { trace: line(name, { width: 1.5, color: LOOKS.light }, { ...more, ...whole }), still: true,
+      at: () => ({}) },
+    { trace: line(name, { width: 3, color }, more), at: (k) => upTo(placeAt(times, TIMES[k])) },
+  ];
+}
