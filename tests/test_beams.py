@@ -4,18 +4,15 @@ Small deflections are linear up to their square, 1e-7 here.  Discrete values of 
 implementation hold to round-off.
 """
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
 import ancf
+from ancf.paper import references
 from helpers import SOLIDS, VARIANTS, square
 
-DATA = json.loads((Path(__file__).parent / "data" / "reference.json").read_text(encoding="utf-8"))
-REFERENCE = {entry["key"]: entry["value"] for entry in DATA["entries"]}
+REFERENCE = references.values()
 SHORT = {"original": "orig", "nonlocking": "ho"}  # in the keys
 SOLID_VARIANTS = [name for name in VARIANTS if VARIANTS[name]["element"] in SOLIDS]
 LENGTH, E = 2.0, 1e9

@@ -431,27 +431,6 @@ def test_version_and_help(call):
 # reproduce
 
 
-def test_reproduce_calls_the_paper(call, monkeypatch):
-    from ancf import paper
-
-    seen = {}
-
-    def fake(names, folder, short=False, progress=None):
-        seen.update(names=names, folder=Path(folder), short=short)
-        for i, name in enumerate(["fig2", "fig7"]):
-            progress(name, i, 2)
-        progress("fig7", 2, 2)
-        return [Path(folder) / "fig2.png"]
-
-    monkeypatch.setattr(paper, "reproduce", fake)
-    ran = call("reproduce", "fig2", "fig7", "-o", "pictures", "--short")
-    assert (ran.code, ran.out) == (0, "pictures/fig2.png\n")
-    assert seen == {"names": ["fig2", "fig7"], "folder": Path("pictures"), "short": True}
-    assert ran.err == "fig2 (1 of 2) ...\nfig7 (2 of 2) ...\n"
-    call("reproduce")
-    assert seen["names"] == ["all"]
-
-
 def test_reproduce_of_an_unknown_figure(call):
     ran = call("reproduce", "fig99")
     assert ran.code == 2

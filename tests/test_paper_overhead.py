@@ -12,12 +12,9 @@ import ancf
 from ancf import catenary
 from ancf.paper import FIGURES, fig12, fig13, fig14, overhead, reproduce
 
-# An independent plane linear model (strings with bending, slack droppers, penalty, Newmark) of the same line:
-# wire held at the masts, arms of 300 N/m, carrier bending over the masts, start at 2 m, 0.5 m, 1 ms.
-#: Heights of the carrier above the contact wire at the droppers of half an inner section, m.
-PLANE_HEIGHTS = (1.2443, 1.0584, 0.9469, 0.9098)
-#: Mean force and standard deviation over the middle sections, Butterworth order 4, 20 Hz, by speed, N.
-PLANE = {32.0: (97.18, 13.20), 45.0: (96.74, 18.56)}
+PLANE, PLANE_HEIGHTS = overhead.PLANE, overhead.PLANE_HEIGHTS
+#: Columns of Fig. 14.
+FORCES = ("speed", "t", "position", "force_raw", "force_20hz", "penalty_20hz")
 
 
 @cache
@@ -116,7 +113,7 @@ class TestSketch:
 class TestForceTable:
     def test_position_and_never_a_pull(self):
         table = short()
-        assert table.columns == ("speed", "t", "position", "force_raw", "force_20hz")
+        assert table.columns == FORCES
         t, x, raw = (table.values(column) for column in ("t", "position", "force_raw"))
         assert x == pytest.approx(overhead.START + 32.0 * t, abs=1e-4)
         assert x[-1] > 115.0
@@ -141,7 +138,7 @@ class TestForceTable:
             f"fig{n}.{kind}" for n in (12, 13, 14) for kind in ("png", "csv", "json")
         ]
         full = json.loads((tmp_path / "fig14.json").read_text(encoding="utf-8"))
-        assert full["columns"] == ["speed", "t", "position", "force_raw", "force_20hz"]
+        assert full["columns"] == list(FORCES)
         assert len(full["rows"]) == len(short().rows)
         assert any("tension of both wires 10 kN" in note for note in full["notes"])
         assert {"fig12", "fig13", "fig14"} <= set(FIGURES)

@@ -13,6 +13,7 @@ from rich.progress import Progress as Bar
 from rich.table import Table
 
 WIDTH_OF_A_FILE = 120
+COMPILING = "compiling the numerical core: this happens only once on this machine ..."
 Report = Callable[[Any], None]
 
 
@@ -57,9 +58,7 @@ class Screen:
         """Say it once when kernels must be compiled."""
         from ancf.compiled import announce_compilation
 
-        announce_compilation(
-            lambda: self.say("compiling the numerical core: this happens only once on this machine ...")
-        )
+        announce_compilation(lambda: self.say(COMPILING))
 
     @contextmanager
     def progress(self, steps: int) -> Iterator[Report | None]:
@@ -72,26 +71,11 @@ class Screen:
         else:
             yield _Lines(self.say)
 
-    @contextmanager
-    def counted(self) -> Iterator[Callable[[str, int, int], None] | None]:
-        """What ``paper.reproduce(progress=...)`` gets: name, done, count."""
-        if self.quiet:
-            yield None
-        elif self.console.is_terminal:
-            with _count_bar(self.console) as bar:
-                task = bar.add_task("", name="")
-                yield lambda name, done, count: bar.update(task, completed=done, total=count, name=name)
-        else:
-            yield self._count
 
-    def _count(self, name: str, done: int, count: int) -> None:
-        if done < count:
-            self.say(f"{name} ({done + 1} of {count}) ...")
-
-
-def _count_bar(where: Console) -> Bar:
-    text = "{task.fields[name]}, {task.completed:.0f} of {task.total:.0f} done"
-    return Bar(BarColumn(bar_width=24), TextColumn(text), TimeElapsedColumn(), console=where, transient=True)
+def exhibits_bar(where: Console) -> Bar:
+    """Bars with a name, a text and the time since they began."""
+    text = TextColumn("{task.description}: {task.fields[text]}")
+    return Bar(BarColumn(bar_width=24), text, TimeElapsedColumn(), console=where, transient=True)
 
 
 def _bar(where: Console) -> Bar:

@@ -3,26 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..viz import style
 from .table import Table, Value
 
-
-class Look(NamedTuple):
-    """How a kind of element is drawn; line and marker tell them apart in a grey copy."""
-
-    color: str
-    line: Any
-    marker: str
-
-
 #: Look of each kind of element.
-LOOKS: dict[str, Look] = {
-    "cable": Look(style.BLUE, "-", "o"),
-    "nonlocking": Look(style.ORANGE, "--", "s"),
-    "original": Look(style.GREEN, (0, (5, 1.2, 1, 1.2)), "^"),
-}
+LOOKS = dict(zip(("cable", "nonlocking", "original"), style.LOOKS, strict=False))
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +59,7 @@ def counted(number: int, noun: str) -> str:
     return f"{number} {noun}" + ("" if number == 1 else "s")
 
 
-def look_of(element: str) -> Look:
+def look_of(element: str) -> style.Look:
     """Colour, line and marker of a kind of element."""
     return LOOKS[element]
 

@@ -13,6 +13,7 @@ import numpy as np
 from ..elements.solid_shapes import shape
 from ..viz import style
 from .boxes import CORNERS, draw_box, draw_directions, draw_frame, eye
+from .check import Check
 from .curves import look_of
 from .kinds import NONLOCKING, ORIGINAL
 from .table import FloatArray, Table, Value
@@ -21,6 +22,13 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+TITLE = "Fig. 1: modes of the original and the nonlocking element"
+EXAMPLE = ""
+CLAIM = (
+    "Each nodal coordinate by itself: axial modes, bending modes that are cubic along the axis, and modes of "
+    "the section that are linear only, so that the section cannot follow the axis. That is why thin original "
+    "elements lock; the nonlocking element adds modes that are quadratic along the axis."
+)
 LENGTH, WIDTH = 1.0, 0.3  # m, of the element and of its square section
 LARGEST = 0.15  # m, displacement of a corner in the picture
 STATIONS = 13  # along the element
@@ -90,6 +98,45 @@ def draw(table: Table, figure: Figure) -> None:
         _finish(axes, mode)
     draw_directions(panels[0], np.array([0.8, 0.0, 0.29]), 0.13)
     _legend(figure)
+
+
+def checks(table: Table) -> list[Check]:
+    """Identities of the shape functions, from the points of the table alone."""
+    counts = [len({row[1] for row in table.rows if row[0] == element}) for element in (ORIGINAL, NONLOCKING)]
+    numbers = zip((ORIGINAL, NONLOCKING), counts, (12.0, 6.0), strict=True)
+    said = "the paper, section 3 and eq. 15"
+    found = [Check(f"Fig. 1: modes drawn, {e}", float(n), wanted, 0.0, "", said) for e, n, wanted in numbers]
+    return [*found, *_identities(table)]
+
+
+def _identities(table: Table) -> list[Check]:
+    """Sums of shapes with their mirror images, the shapes of the second node, are known fields.
+
+    A unit translation of both nodes moves all by one. With r and r_x of a rotated rigid element the points
+    turn, which stretches nothing. r_y of both nodes moves a point by its y. Inner shapes keep the ends.
+    """
+    x = _places()[0, :, 0]
+    move, turn, section = (_factor(table, mode) for mode in (2, 5, 7))
+    inner = np.array([_factor(table, mode) for mode in range(25, 31)])
+    far = {
+        "translation moves all points by one": move + move[:, ::-1] - 1.0,
+        "rotation moves points by their distance": LENGTH * move[:, ::-1] + turn - turn[:, ::-1] - x,
+        "constant r_y moves points by their y": section + section[:, ::-1] - _places()[:, :, 1],
+        "inner modes leave both ends at rest": inner[..., [0, -1]],
+        "inner modes leave the axis at rest": inner.mean(axis=1),
+    }
+    where = "identity of the shape functions"
+    return [
+        Check(f"Fig. 1: {name}", float(np.abs(gap).max()), 0.0, 1e-12, "", where) for name, gap in far.items()
+    ]
+
+
+def _factor(table: Table, mode: int) -> FloatArray:
+    """Shape function (4, STATIONS) of a mode at the points of the long edges."""
+    component = "xyz".index(next(str(row[3]) for row in table.rows if row[1] == mode))
+    before, after = (table.values("xyzXYZ"[3 * i + component], mode=mode) for i in (0, 1))
+    factor: FloatArray = (after - before) / table.values("change", mode=mode)
+    return factor.reshape(4, STATIONS)
 
 
 def _places() -> FloatArray:

@@ -5,11 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from . import trajectory
+from .check import Check
 from .table import Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+TITLE = "Fig. 11: path of the sliding beam's mass, seen from its end"
+EXAMPLE, CLAIM = trajectory.EXAMPLE, trajectory.CLAIM
 COLUMNS = trajectory.COLUMNS
 SIZE = trajectory.SIZE
 
@@ -22,3 +25,8 @@ def data(short: bool = False) -> Table:
 def draw(table: Table, figure: Figure) -> None:
     """Z over Y of the mass; it starts at Y = 3 m, Z = 1 m."""
     trajectory.draw(table, figure, "y", "z")
+
+
+def checks(table: Table) -> list[Check]:
+    """Y of the mass and the place of the joint beside the references; x and z are judged in Fig. 10."""
+    return trajectory.checks(table, "ys")

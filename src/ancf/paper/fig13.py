@@ -8,6 +8,7 @@ import numpy as np
 
 from ..viz import style
 from . import overhead
+from .check import Check
 from .table import FloatArray, Table, Value
 
 if TYPE_CHECKING:
@@ -16,6 +17,12 @@ if TYPE_CHECKING:
 
     from ancf.catenary import Form
 
+TITLE = "Fig. 13: the overhead line at rest"
+EXAMPLE = "7.5"
+CLAIM = (
+    "Four sections of 60 m with a zigzag contact wire of 224 elements under a carrier, seven droppers in "
+    "each, no stitch wires. All is in static equilibrium before the pantograph starts."
+)
 COLUMNS = ("part", "number", "x", "y", "z")
 SIZE = (170.0, 196.0)  # mm
 VIEW = {"elev": 22.0, "azim": -72.0}  # degrees
@@ -37,8 +44,11 @@ BELOW = 0.35  # m, distance of the pantograph's masses in the drawing
 
 
 def data(short: bool = False) -> Table:
-    """Positions of the nodes in m; a dropper has its lower and its upper end, a mast both supports."""
-    form = overhead.form(short)
+    """Positions of the nodes in m; a dropper has its lower and its upper end, a mast both supports.
+
+    The short form is the same: nothing is simulated.
+    """
+    form = overhead.form()
     rows: list[tuple[Value, ...]] = []
     for part, places in _parts(form):
         for number, place in enumerate(places, start=1):
@@ -62,6 +72,52 @@ def draw(table: Table, figure: Figure) -> None:
         axes.set_title(letter, loc="left", x=-0.07, fontweight="bold")
         axes.set(ylim=limits, ylabel=f"{'xyz'[across]} [m]", xlabel="x [m]" if across == 1 else "")
         low += height + GAP
+
+
+def checks(table: Table) -> list[Check]:
+    """Counts and places of the paper, and the heights of an independent plane model."""
+    contact, mast = _points(table, "contact wire"), _points(table, "mast")
+    paper, rest = "the paper, table 3", "the line was found with the wire at zero height at the droppers"
+    lowest = _points(table, "dropper")[::2, 2]
+    numbers: tuple[tuple[str, float, float, float, str, str], ...] = (
+        ("elements of the contact wire", len(contact) - 1.0, 224.0, 0.0, "", paper),
+        ("droppers", len(lowest), 28.0, 0.0, "", paper),
+        ("length", np.ptp(contact[:, 0]), 240.0, 1e-6, "m", paper),
+        ("largest zigzag at the masts", np.abs(mast[:, 1]).max(), 0.3, 1e-6, "m", paper),
+        ("height of the carrier at the masts", mast[1::2, 2].min(), 1.5, 1e-6, "m", paper),
+        ("farthest lower end of a dropper from zero height", np.abs(lowest).max(), 0.0, 1e-6, "m", rest),
+    )
+    counted = [
+        Check(f"7.5 line: {name}", float(value), wanted, bar, unit, where)
+        for name, value, wanted, bar, unit, where in numbers
+    ]
+    return [*counted, *_heights(table)]
+
+
+def _heights(table: Table) -> list[Check]:
+    """Carrier above the contact wire at the droppers of the inner sections, each and its mirror images."""
+    ends = _points(table, "dropper").reshape(4, 7, 2, 3)[1:3]
+    height = np.ptp(ends[..., 2], axis=2)
+    where = "independent plane linear model of the line, less the bend of the carrier over its hinges"
+    found = []
+    for k, wanted in enumerate(overhead.PLANE_HEIGHTS):
+        value = float(np.mean([height[:, k], height[:, 6 - k]]))
+        name = f"7.5 line, inner sections: carrier above dropper {k + 1}"
+        found.append(Check(name, value, wanted - _bend(), 2e-3, "m", where))
+    return found
+
+
+def _bend() -> float:
+    """How much lower a carrier that is hinged at the masts hangs than one that bends over them, m.
+
+    It has the slope w L/(2 T) there, with the weight w of all that hangs on it, and a bend of the length
+    (EI/T)^(1/2).
+    """
+    heights = overhead.PLANE_HEIGHTS
+    dropper = float(np.mean([*heights, *heights[2::-1]]))
+    weight = 9.81 * (0.89 + 0.446 + 0.089 * dropper / 7.5)  # N/m
+    tension, EI = 10e3, 150.0
+    return float(0.5 * 60.0 * weight / tension * np.sqrt(EI / tension))
 
 
 def _notes(form: Form) -> list[str]:

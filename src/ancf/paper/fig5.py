@@ -6,11 +6,15 @@ from typing import TYPE_CHECKING
 
 from ..viz import style
 from . import fig4
+from .check import Check
 from .table import Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+TITLE = "Fig. 5: sideways motion of the pendulum's midpoint"
+EXAMPLE = "7.2"
+CLAIM = fig4.CLAIM
 COLUMNS = fig4.COLUMNS
 SIZE = (110.0, 72.0)  # mm
 
@@ -29,3 +33,8 @@ def draw(table: Table, figure: Figure) -> None:
     axes.set(xlabel="$t$ [s]", ylabel="$Y$ of the midpoint [m]", xlim=(0.0, t[-1]))
     axes.locator_params("x", nbins=5)
     style.legend_above(figure, axes, columns=2)
+
+
+def checks(table: Table) -> list[Check]:
+    """Midpoints beside the reference's, at the times that are determinate."""
+    return fig4.places(table, "mid")

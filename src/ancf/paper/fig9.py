@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..viz import style
-from . import sliding
+from . import compare, sliding, trajectory
+from .check import Check
+from .references import origin, reference
 from .table import Table, sampled_rows
 
 if TYPE_CHECKING:
@@ -17,18 +20,28 @@ if TYPE_CHECKING:
 
     from .table import FloatArray
 
+TITLE = "Fig. 9: configurations of the sliding beam"
+EXAMPLE = "7.4"
+CLAIM = (
+    "Views at several times show how slender the cable is, and therefore that more elements are needed than "
+    "in the literature before."
+)
 MESH = sliding.MESHES[0]
 TIMES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)  # s
 SAMPLES = {"carrier": 193, "slider": 65}
+DRIFT = 2e-4  # m, of the joint within 1 s
 COLUMNS = (*sliding.KEYS, "t", "body", "arc_length", "x", "y", "z")
 SIZE = (110.0, 92.0)  # mm
 VIEW = {"elev": 18.0, "azim": -52.0}  # degrees
 
 
 def data(short: bool = False) -> Table:
-    """Points of both centrelines at six times, m; the short form shows the first 20 ms."""
+    """Points of both centrelines at six times, m, and of the carrier where the joint is.
+
+    The short form shows the first 0.25 s.
+    """
     result = sliding.history(MESH, short)
-    table = Table("fig9", COLUMNS, [], [*sliding.NOTES])
+    table = Table("fig9", COLUMNS, [], [*sliding.NOTES, sliding.SENSITIVE])
     for share in TIMES:
         i = int(np.argmin(np.abs(result.t - share * result.t[-1])))
         for body in SAMPLES:
@@ -36,6 +49,8 @@ def data(short: bool = False) -> Table:
             head = (*MESH.key, float(result.t[i]), body)
             table.rows.extend(sampled_rows(head, arc, places))
         s = float(result.arc_length("joint")[i])
+        there: list[float] = result.state(i).position(f"carrier.at({s!r})").tolist()
+        table.rows.append((*MESH.key, float(result.t[i]), "joint", s, *there))
         table.notes.append(f"Measured, {MESH.label}, t = {result.t[i]:g} s: s = {s:.6f} m.")
     return table
 
@@ -54,6 +69,45 @@ def draw(table: Table, figure: Figure) -> None:
         axes.text(x[-1] + 0.07, y[-1], z[-1] - 0.02, f"{t:.4g} s", fontsize=6.5)
     axes.set(xlabel="$X$ [m]", ylabel="$Y$ [m]", zlabel="$Z$ [m]")
     _arrange(axes)
+
+
+def checks(table: Table) -> list[Check]:
+    """The carrier at rest, the mass at the end of the run, and the joint at all times."""
+    return [*_at_rest(table), *_at_the_end(table), _joint(table)]
+
+
+def _at_rest(table: Table) -> list[Check]:
+    key = "7.4.static.converged.midpoint"
+    middle = _line(table, "carrier", 0.0)[SAMPLES["carrier"] // 2]
+    found = {f"middle of the carrier {axis}": value for axis, value in zip("xyz", middle, strict=True)}
+    return compare.numbers(f"7.4 {MESH.label}, at rest", found, reference(key), 2e-8, "m", origin(key))
+
+
+def _at_the_end(table: Table) -> list[Check]:
+    t = float(table.values("t").max())
+    key, mass = f"{trajectory.LIMIT}.t{t:g}", _line(table, "slider", t)[-1]
+    bar = trajectory.BARS[trajectory.LIMIT][trajectory.TIMES.index(t)]
+    found = {f"mass {axis}": value for axis, value in zip("xyz", mass, strict=True)}
+    name = f"7.4 {MESH.label}, last configuration"
+    return compare.numbers(name, found, reference(key)[:3], bar, "m", origin(key))
+
+
+def _joint(table: Table) -> Check:
+    """Distance of the slider's first point from the carrier's at s, at all times."""
+    gaps = [math.dist(_line(table, "slider", t)[0], _line(table, "joint", t)[0]) for t in _times(table)]
+    where = "identity: the joint keeps the slider on the carrier; constraints of index 2 let it drift"
+    name = f"7.4 {MESH.label}: largest gap in the joint"
+    return Check(name, max(gaps), DRIFT, 0.0, "m", where, "at most")
+
+
+def _times(table: Table) -> list[float]:
+    times: list[float] = np.unique(table.values("t")).tolist()
+    return times
+
+
+def _line(table: Table, body: str, t: float) -> FloatArray:
+    """Points (n, 3) of a body at a time."""
+    return np.column_stack([table.values(column, t=t, body=body) for column in "xyz"])
 
 
 def _arrange(axes: Any) -> None:

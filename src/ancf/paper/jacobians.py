@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import ancf
 
 from ..viz import style
+from .check import Check
 from .curves import counted, look_of, points_of
+from .references import SHORT, origin, reference
 from .table import Table, Value
 
 if TYPE_CHECKING:
@@ -21,6 +24,7 @@ if TYPE_CHECKING:
 COLUMNS = ("element", "f", "E", "jacobians", "newton_iterations", "steps", "status", "t_reached")
 COMPLETE, FAILED = "complete", "failed"
 ELEMENTS = 4
+FACTOR = 3.0  # between counts of two implementations with the same limits
 SIZE = (100.0, 76.0)  # mm
 
 
@@ -72,6 +76,23 @@ class Sweep:
 def factors(low: float, high: float, count: int) -> list[float]:
     """Values of f from high to low, evenly spaced on a logarithmic axis, to four digits."""
     return [float(f"{high * (low / high) ** (i / (count - 1)):.4g}") for i in range(count)]
+
+
+def count(table: Table, element: str, f: float) -> float:
+    """Jacobians of a run; not a number where there is no such run or it was given up."""
+    row = table.row(element=element, f=f)
+    return math.nan if row is None or row["status"] != COMPLETE else float(row["jacobians"])
+
+
+def counts(table: Table, example: str, cases: Iterable[tuple[str, float]]) -> list[Check]:
+    """Counts of runs (element, f) within a factor of 3 of the references with the same contraction."""
+    found = []
+    for element, f in cases:
+        key = f"jac.{example}.{SHORT[element]}.f{f:g}.theta{plain_newton().contraction:g}.tol1e-08"
+        name = f"{example} {element}, f = {f:g}: Jacobians"
+        where = origin(key) + "; two rules differ by up to a factor of 3"
+        found.append(Check(name, count(table, element, f), reference(key), FACTOR, "", where, "factor"))
+    return found
 
 
 def plain_newton() -> Newton:

@@ -1,16 +1,23 @@
-"""Write figures of the paper: a picture, a table and its JSON for each."""
+"""Write figures and tables of the paper, and judge them: pictures, numbers, checks and a page with all."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+import time
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from pathlib import Path
+from typing import Any
 
-from .. import __version__
-from ..errors import ModelError
+from ..compiled import announce_compilation
+from ..errors import ModelError, SolveError
 from ..model.checks import listed, nearest
 from ..viz import style
+from . import exhibit, schedule
+from .entry import Entry, Reproduction
 from .figures import FIGURES
+from .report import write_page, write_summary
+from .workers import Kind, Watch, run_groups
 
 #: Called with the name of a figure, how many are done and how many there are.
 Progress = Callable[[str, int, int], None]
@@ -22,7 +29,7 @@ def reproduce(
     short: bool = False,
     progress: Progress | None = None,
 ) -> list[Path]:
-    """Compute figures and write NAME.png, NAME.csv and NAME.json.
+    """Compute figures and write NAME.png, NAME.csv and NAME.json; an error ends it.
 
     Parameters
     ----------
@@ -46,15 +53,57 @@ def reproduce(
         An unknown name, a folder that cannot be written, or matplotlib is missing.
 
     """
-    wanted = resolve(names)
-    style.require_matplotlib()
-    target = _writable(Path(folder))
+    wanted, target = _prepared(names, folder)
     files: list[Path] = []
     for done, name in enumerate(wanted):
         _report(progress, name, done, len(wanted))
-        files += _write(name, target, short)
+        files += exhibit.make(name, target, short).files
     _report(progress, wanted[-1], len(wanted), len(wanted))
     return files
+
+
+def verify(
+    names: Iterable[str],
+    folder: str | os.PathLike[str],
+    short: bool = False,
+    jobs: int | None = 1,
+    watch: Watch | None = None,
+) -> Reproduction:
+    """Reproduce figures, judge them, and write ``index.html`` and ``checks.json`` as well.
+
+    Parameters
+    ----------
+    names, folder, short
+        As for :func:`reproduce`.
+    jobs : int, optional
+        Processes that compute; None takes one for each core. With more than one a script needs its
+        ``if __name__ == "__main__":``.
+    watch : callable, optional
+        Called with ("start", name, None), ("done", name, entry), and ("compiling", "", None).
+
+    Returns
+    -------
+    Reproduction
+        An exhibit that could not be computed is an entry with its error; the others go on.
+
+    Raises
+    ------
+    ModelError
+        An unknown name, fewer than one process, a folder that cannot be written, or matplotlib is missing.
+
+    """
+    wanted, target = _prepared(names, folder)
+    count = _checked(jobs, wanted)
+    found, start = _Found(watch, target), time.perf_counter()
+    for old in ("index.html", "checks.json"):
+        (target / old).unlink(missing_ok=True)
+    make = partial(exhibit.attempt, folder=target, short=short)
+    _run(wanted, count, make, found)
+    entries = tuple(found.entries[name] for name in wanted)
+    made = Reproduction(entries, target, short, count, time.perf_counter() - start)
+    write_summary(made)
+    write_page(made)
+    return made
 
 
 def resolve(names: Iterable[str]) -> list[str]:
@@ -69,15 +118,47 @@ def resolve(names: Iterable[str]) -> list[str]:
     return list(dict.fromkeys(n for name in given for n in (FIGURES if name == "all" else [name])))
 
 
-def _write(name: str, folder: Path, short: bool) -> list[Path]:
-    module = FIGURES[name]
-    table = module.data(short)
-    table.notes.append(f"ancf {__version__}" + (", short form: fewer and shorter runs." if short else "."))
-    picture = folder / f"{name}.png"
-    with style.new_figure(*module.SIZE) as figure:
-        module.draw(table, figure)
-        figure.savefig(picture)
-    return [picture, *table.write(folder)]
+class _Found:
+    """Collects the entries and tells who watches."""
+
+    def __init__(self, watch: Watch | None, folder: Path) -> None:
+        self.watch, self.folder = watch, folder
+        self.entries: dict[str, Entry] = {}
+
+    def __call__(self, kind: Kind, name: str, made: Any) -> None:
+        if kind == "died":
+            error = SolveError(
+                "reproduce", f"its process ended with code {made}", "out of memory, or killed?"
+            )
+            kind, made = "done", exhibit.failed(name, error, self.folder, 0.0, 0.0)
+        if kind == "done":
+            self.entries[name] = made
+        if self.watch is not None:
+            self.watch(kind, name, made)
+
+
+def _run(names: Sequence[str], jobs: int, make: Callable[[str], Entry], watch: Watch) -> None:
+    if jobs > 1:
+        run_groups(schedule.grouped(names), make, jobs, watch)
+        return
+    announce_compilation(lambda: watch("compiling", "", None))
+    for name in names:
+        watch("start", name, None)
+        watch("done", name, make(name))
+
+
+def _checked(jobs: int | None, names: Sequence[str]) -> int:
+    """As many processes as were asked for, or as there are cores; not more than have something to do."""
+    wanted = schedule.cores() if jobs is None else jobs
+    if wanted < 1:
+        raise ModelError("reproduce", f"jobs must be at least 1, is {jobs}", "leave it out for all cores")
+    return min(wanted, len(schedule.grouped(names)))
+
+
+def _prepared(names: Iterable[str], folder: str | os.PathLike[str]) -> tuple[list[str], Path]:
+    wanted = resolve(names)
+    style.require_matplotlib()
+    return wanted, _writable(Path(folder))
 
 
 def _writable(folder: Path) -> Path:

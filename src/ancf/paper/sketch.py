@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..viz import style
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 INK: dict[str, Any] = {"color": "black", "linewidth": 0.9, "solid_capstyle": "butt"}
 LEAD = 0.22  # share of a spring's or damper's length that is a straight line at each end
-FILL = "#E8EEF4"
 
 
 def ground(axes: Axes, y: float, width: float, strokes: int = 9) -> None:
@@ -26,7 +27,9 @@ def mass(axes: Axes, bottom: float, height: float, width: float, name: str) -> N
     """A box with its name inside, centred at x = 0."""
     from matplotlib.patches import Rectangle
 
-    box = Rectangle((-0.5 * width, bottom), width, height, facecolor=FILL, edgecolor="black", linewidth=0.9)
+    box = Rectangle(
+        (-0.5 * width, bottom), width, height, facecolor=style.FACE, edgecolor="black", linewidth=0.9
+    )
     axes.add_patch(box)
     axes.text(0.0, bottom + 0.5 * height, name, ha="center", va="center")
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 START, JOINT, TIP = (0.0, 0.0, 0.0), (0.0, 3.0, 1.0), (1.0, 3.0, 1.0)  # m
 SIDE, E, DENSITY, NU = 0.01, 1e6, 800.0, 0.3  # m, N/m^2, kg/m^3
 TIP_MASS = 1.0  # kg
-STEP, T_END = 2e-4, 1.0  # s
+STEP, T_END, SHORT_END = 2e-4, 1.0, 0.25  # s
 OUTPUT_STEP = 2e-3  # s
 GRAVITY = 9.81  # m/s^2
 
@@ -36,6 +36,14 @@ NOTES = [
     "Trapezoidal rule, step 0.2 ms, constraints of index 2 as in the paper (eq. 31); the original and the "
     "nonlocking element with a new Jacobian in every iteration.",
 ]
+
+
+SENSITIVE = (
+    "From 0.75 s on a bend of about 1 cm travels with the joint: the limit is known to about 0.5 mm at "
+    "0.75 s and 1 cm at 1 s. The step does not resolve the vibrations of the beams' cross-sections: two runs "
+    "that differ by round-off part by some 1e-5 m near 1 s, those of the nonlocking element by 1e-4 m, and s "
+    "of both shows it first. The tolerances of the checks follow that; s of the beams is compared at 0.25 s."
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,4 +163,5 @@ def history(mesh: Mesh, short: bool = False) -> Result:
     """
     newton = None if mesh.element == kinds.CABLE else ancf.Newton(modified=False, tolerance=1e-10)
     model = build(mesh.carrier, mesh.slider, mesh.element)
-    return run(model, 0.02 if short else T_END, OUTPUT_STEP, formulation="index2", newton=newton)
+    t_end = SHORT_END if short else T_END
+    return run(model, t_end, OUTPUT_STEP, formulation="index2", newton=newton)

@@ -7,6 +7,7 @@ import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -43,24 +44,39 @@ class Table:
         found = [row[at] for row in self.rows if all(row[i] == value for i, value in wanted.items())]
         return np.array(found, dtype=np.float64)
 
+    def row(self, **only: Value) -> dict[str, Any] | None:
+        """First row with these texts and, within 1e-9, these numbers, by column; None if there is none."""
+        wanted = [(self.columns.index(key), value) for key, value in only.items()]
+        for row in self.rows:
+            if all(_same(row[i], value) for i, value in wanted):
+                return dict(zip(self.columns, row, strict=True))
+        return None
+
     def kinds(self, column: str = "element") -> list[str]:
         """Different texts of a column, in the order of the rows."""
         at = self.columns.index(column)
         return list(dict.fromkeys(str(row[at]) for row in self.rows))
 
-    def write(self, folder: Path) -> list[Path]:
-        """Write NAME.csv and NAME.json."""
+    def write(self, folder: Path, checks: Iterable[dict[str, object]] = ()) -> list[Path]:
+        """Write NAME.csv, and NAME.json with the entries of the checks."""
         table, full = folder / f"{self.name}.csv", folder / f"{self.name}.json"
         with table.open("w", newline="", encoding="utf-8") as file:
             csv.writer(file).writerows([self.columns, *self.rows])
-        full.write_text(self._json(), encoding="utf-8")
+        full.write_text(self._json(list(checks)), encoding="utf-8")
         return [table, full]
 
-    def _json(self) -> str:
+    def _json(self, checks: list[dict[str, object]]) -> str:
         rows = ",\n".join("  " + json.dumps(row) for row in self.rows)
         head = json.dumps({"name": self.name, "columns": list(self.columns)}, ensure_ascii=False)
         notes = json.dumps(self.notes, indent=1, ensure_ascii=False)
-        return f'{head[:-1]},\n "rows": [\n{rows}\n ],\n "notes": {notes}\n}}\n'
+        judged = json.dumps(checks, indent=1, ensure_ascii=False, allow_nan=False)
+        return f'{head[:-1]},\n "rows": [\n{rows}\n ],\n "notes": {notes},\n "checks": {judged}\n}}\n'
+
+
+def _same(found: Value, wanted: Value) -> bool:
+    if isinstance(found, float) and isinstance(wanted, (int, float)):
+        return abs(found - wanted) < 1e-9
+    return found == wanted
 
 
 def sampled_rows(head: Iterable[Value], *histories: FloatArray) -> list[tuple[Value, ...]]:

@@ -1,0 +1,51 @@
+"""``checks.json``: all checks of a reproduction, for programs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..._version import __version__
+from ..entry import plain
+from .machine import machine, now
+
+if TYPE_CHECKING:
+    from ..entry import Entry, Reproduction
+
+
+def write_summary(made: Reproduction) -> Path:
+    """Write ``checks.json``; numbers that are none become null."""
+    text = json.dumps(summary(made), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    made.summary.write_text(text, encoding="utf-8")
+    return made.summary
+
+
+def summary(made: Reproduction) -> dict[str, Any]:
+    """What ``checks.json`` holds."""
+    checks = [{**plain(c), "figure": entry.name} for entry in made.entries for c in entry.checks]
+    return {
+        "version": __version__,
+        "date": now(),
+        "quick": made.quick,
+        "passed": made.passed,
+        "jobs": made.jobs,
+        "seconds": round(made.seconds, 3),
+        "machine": machine(),
+        "checks": checks,
+        "exhibits": [_exhibit(entry) for entry in made.entries],
+    }
+
+
+def _exhibit(entry: Entry) -> dict[str, Any]:
+    found: dict[str, Any] = {
+        "name": entry.name,
+        "title": entry.title,
+        "example": entry.example,
+        "seconds": round(entry.seconds, 3),
+        "cpu_seconds": round(entry.cpu_seconds, 3),
+        "checks": len(entry.checks),
+        "failed": len(entry.failed),
+        "error": entry.error or None,
+    }
+    return found | ({"traceback": entry.traceback} if entry.traceback else {})

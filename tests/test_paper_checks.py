@@ -1,0 +1,274 @@
+"""Every exhibit judges its numbers: the checks pass, they can fail, and they say what they compare with."""
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+
+from ancf.paper import FIGURES, Table, closed_forms, en50318, fig8, orders, references
+from ancf.paper.check import Check
+from ancf.paper.closed import statics, vibration
+from ancf.paper.order_studies import MESH, Study
+
+#: Columns that each exhibit judges, and a change that must be seen: a factor or what is added to each number.
+JUDGED = {
+    "fig1": [("X", "add", 1e-9), ("Y", "add", 1e-9), ("Z", "add", 1e-9)],
+    "fig2": [("tip_x", "add", 1e-5), ("tip_z", "add", 1e-5)],
+    "fig3": [("jacobians", "times", 4), ("jacobians", "times", 0.25)],
+    "fig4": [("tip_x", "add", 1e-5), ("tip_y", "add", 1e-5), ("tip_z", "add", 1e-5)],
+    "fig5": [("mid_x", "add", 1e-5), ("mid_y", "add", 1e-5), ("mid_z", "add", 1e-5)],
+    "fig6": [("jacobians", "times", 4), ("t_reached", "times", 0.9), ("steps", "times", 100)],
+    "fig7": [("u_transverse", "add", 1e-5), ("u_axial", "add", 1e-5)],
+    "fig8": [("u_transverse", "add", 1e-5), ("t", "add", 0.01)],
+    "fig9": [("x", "add", 1e-4), ("y", "add", 1e-4), ("z", "add", 1e-4)],
+    "fig10": [("x", "add", 1e-4), ("z", "add", 1e-4)],
+    "fig11": [("y", "add", 1e-4), ("s", "add", 1e-4)],
+    "fig12": [("value", "times", 1.001)],
+    "fig13": [("x", "times", 1.001), ("y", "add", 0.01), ("z", "times", 1.01)],
+    "fig14": [("force_raw", "add", -10.0), ("penalty_20hz", "times", 1.2), ("force_20hz", "add", 1.0)],
+    "table2": [("tip_x", "add", 1e-4), ("steps", "times", 2), ("jacobians", "times", 1e4)],
+    "closed-forms": [("value", "times", 1.001), ("reference", "times", 1.001)],
+    "orders": [("rate", "add", 0.3)],
+    "en50318": [("value", "times", 1.5)],
+}
+EXAMPLES = {"", "7.1", "7.2", "7.3", "7.4", "7.5"}
+
+
+@cache
+def short(name):
+    return FIGURES[name].data(short=True)
+
+
+@cache
+def judged(name):
+    return FIGURES[name].checks(short(name))
+
+
+def changed(table, column, how, size):
+    """The table with another column of numbers; what is None stays."""
+    at = table.columns.index(column)
+
+    def new(value):
+        if value is None:
+            return None
+        return value * size if how == "times" else value + size
+
+    rows = [(*row[:at], new(row[at]), *row[at + 1 :]) for row in table.rows]
+    return Table(table.name, table.columns, rows, table.notes)
+
+
+def failed(checks):
+    return [check.name for check in checks if not check.passed]
+
+
+class TestCheck:
+    @pytest.mark.parametrize(
+        ("value", "rule", "tolerance", "passed"),
+        [
+            (10.4, "within", 0.5, True),
+            (9.5, "within", 0.5, True),
+            (10.6, "within", 0.5, False),
+            (10.0, "within", 0.0, True),
+            (29.0, "factor", 3.0, True),
+            (3.4, "factor", 3.0, True),
+            (31.0, "factor", 3.0, False),
+            (3.3, "factor", 3.0, False),
+            (-10.0, "factor", 3.0, False),
+            (1e9, "at least", 0.0, True),
+            (9.9, "at least", 0.2, True),
+            (9.7, "at least", 0.2, False),
+            (-1e9, "at most", 0.0, True),
+            (10.1, "at most", 0.2, True),
+            (10.3, "at most", 0.2, False),
+        ],
+    )
+    def test_rules(self, value, rule, tolerance, passed):
+        assert Check("x", value, 10.0, tolerance, "m", "formula", rule).passed is passed
+
+    @pytest.mark.parametrize("rule", ["within", "factor", "at least", "at most"])
+    @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+    def test_what_is_no_number_fails(self, value, rule):
+        assert not Check("x", value, 10.0, 1e9, "m", "formula", rule).passed
+        assert not Check("x", 1.0, math.nan, 1.0, "m", "formula", rule).passed
+
+    def test_plain(self):
+        check = Check("x", 10.5, 10.0, 1.0, "m", "formula")
+        assert check.deviation == 0.5
+        assert check.plain() == {
+            "name": "x", "value": 10.5, "reference": 10.0, "tolerance": 1.0, "passed": True, "rule": "within",
+            "unit": "m", "origin": "formula",
+        }  # fmt: skip
+
+
+class TestExhibits:
+    def test_all_are_tested(self):
+        assert set(JUDGED) == set(FIGURES)
+
+    @pytest.mark.parametrize("name", FIGURES)
+    def test_says_what_it_is(self, name):
+        exhibit = FIGURES[name]
+        number = name.replace("fig", "Fig. ").replace("table", "Table ")
+        if name.startswith(("fig", "table")):
+            assert exhibit.TITLE.startswith(f"{number}: ")
+        assert exhibit.EXAMPLE in EXAMPLES
+        assert exhibit.CLAIM.endswith(".")
+        assert exhibit.CLAIM.startswith("Not in the paper.") == (not name.startswith(("fig", "table")))
+
+    @pytest.mark.parametrize("name", FIGURES)
+    def test_passes(self, name):
+        checks = judged(name)
+        assert checks
+        assert not failed(checks)
+
+    @pytest.mark.parametrize("name", FIGURES)
+    def test_can_fail(self, name):
+        """A wrong number in any column that is judged is seen."""
+        for column, how, size in JUDGED[name]:
+            assert failed(FIGURES[name].checks(changed(short(name), column, how, size))), column
+
+    @pytest.mark.parametrize("name", FIGURES)
+    def test_numbers_and_origins(self, name):
+        for check in judged(name):
+            assert check.origin
+            assert math.isfinite(check.reference)
+            assert check.tolerance >= (1.0 if check.rule == "factor" else 0.0)
+            assert isinstance(check.value, float)
+            assert isinstance(check.reference, float | int)
+
+    def test_names_are_unique(self):
+        names = [check.name for name in FIGURES for check in judged(name)]
+        assert len(names) > 150
+        assert len(set(names)) == len(names)
+
+    def test_times_are_not_judged(self):
+        table = changed(short("table2"), "cpu_seconds", "times", 1e6)
+        assert FIGURES["table2"].checks(table) == judged("table2")
+
+    def test_the_largest_lag_has_a_row(self):
+        """Rows every 20 ms would miss it."""
+        t = short("fig8").values("t", element="cable")
+        assert 6.747 in np.round(t, 9)
+        assert np.diff(t).max() < 0.02 + 1e-9
+        assert len(t) <= 352
+
+    def test_a_run_that_is_too_short_has_no_lag(self):
+        rows = [row for row in short("fig8").rows if row[2] < 5.0]
+        assert fig8.checks(Table("fig8", fig8.COLUMNS, rows, [])) == []
+
+
+class TestReferences:
+    def test_files_do_not_overlap(self):
+        count = sum(len(references._read(name)["entries"]) for name in references.FILES)
+        assert len(references.values()) == count > 150
+
+    def test_values(self):
+        assert references.reference("7.3.converged.uy7") == -0.531999
+        assert not references.exists("7.1.tip.ho.n64.h0.25ms")
+        with pytest.raises(KeyError):
+            references.reference("7.1.tip")
+
+    @pytest.mark.parametrize(
+        ("key", "text"),
+        [
+            ("7.1.tip.cable.n4.h0.25ms", "of the same discretisation"),
+            ("7.1.tip.cable.n4.step_converged", "limit of small steps"),
+            ("7.4.converged.t1", "limit of many elements"),
+            ("elastica.moment1.exact.solid3d", "by shooting"),
+            ("jac.7.1.cable.f1.theta0.5.tol1e-08", "same contraction"),
+        ],
+    )
+    def test_origins(self, key, text):
+        assert references.exists(key)
+        assert text in references.origin(key)
+        assert key in references.origin(key)
+
+    def test_about(self):
+        assert len(references.about()) > 8
+        assert all("independent implementation" in text for text in references.about()[::8])
+
+
+class TestClosedForms:
+    def test_elastica_is_that_of_the_tables(self):
+        """Mattiasson's table of 1981 for F L^2/EI = 1 and 10: drop and shortening of the tip."""
+        for load, drop, shortening in ((1.0, 0.30172, 0.05643), (10.0, 0.81061, 0.55500)):
+            found = statics._bent_by_a_force(load)
+            assert found == pytest.approx((drop, 1.0 - shortening), abs=6e-6)
+
+    def test_square_of_textbooks(self):
+        assert statics.square_torsion() / statics.SIDE**4 == pytest.approx(0.1406, abs=5e-5)
+
+    def test_stiff_catenary_does_not_stretch(self):
+        H, V, sag = statics._elastic(1e14)
+        a = H / statics.WEIGHT
+        assert 2 * a * math.sinh(5.0 / a) == pytest.approx(10.5, rel=1e-10)
+        assert sag == pytest.approx(a * (math.cosh(5.0 / a) - 1), rel=1e-10)
+        assert pytest.approx(0.5 * 10.5 * statics.WEIGHT) == V
+
+    def test_thin_timoshenko_beam_is_eulers(self, monkeypatch):
+        monkeypatch.setattr(vibration, "SIDE", 1e-4)
+        k = math.pi / 2.0
+        wanted = k**2 * math.sqrt(1e9 * 1e-8 / 12 / 1000.0)
+        assert vibration._shear_frequency(k, 5 / 6) == pytest.approx(wanted, rel=1e-7)
+
+    def test_deviation_is_that_of_the_row(self):
+        table = short("closed-forms")
+        for row in table.rows:
+            assert row[4] == pytest.approx(row[2] / row[3] - 1.0, abs=1e-15)
+        assert len(closed_forms.checks(table)) == len(table.rows) > 30
+
+
+class TestOrders:
+    def table(self, errors):
+        study = Study("s", MESH, "cable", 3, tuple(0.1 / 2**k for k in range(len(errors))), errors)
+        return Table("orders", orders.COLUMNS, orders._rows(study), [])
+
+    def test_rates(self):
+        table = self.table((0.8, 0.1, 0.0125))
+        assert [row[6] for row in table.rows] == [None, 3.0, 3.0]
+        assert not failed(orders.checks(table))
+
+    def test_the_last_rate_counts(self):
+        assert not failed(orders.checks(self.table((0.2, 0.1, 0.0125))))
+        assert failed(orders.checks(self.table((0.8, 0.1, 0.05))))
+
+    def test_methods_have_their_orders(self):
+        found = {row[0]: row[3] for row in short("orders").rows if row[1] == "step"}
+        assert sorted(found.values()) == [2, 2, 2, 3, 5]
+
+
+class TestStandard:
+    def row(self, case, value, low, high):
+        return (case, 250.0, "some force", "N", value, low, high, "inside", "V")
+
+    @pytest.mark.parametrize(
+        ("value", "passed"), [(110.0, True), (120.0, True), (109.9, False), (120.1, False)]
+    )
+    def test_limits_are_inside(self, value, passed):
+        table = Table("en50318", en50318.COLUMNS, [self.row(en50318.JUDGED, value, 110.0, 120.0)], [])
+        (check,) = en50318.checks(table)
+        assert check.passed is passed
+
+    def test_range_of_one_value(self):
+        table = Table("en50318", en50318.COLUMNS, [self.row(en50318.JUDGED, 0.0, 0.0, 0.0)], [])
+        assert not failed(en50318.checks(table))
+        assert failed(en50318.checks(changed(table, "value", "add", 0.1)))
+
+    def test_ranges_that_are_not_verified_are_not_judged(self):
+        table = Table("en50318", en50318.COLUMNS, [self.row(en50318.SHOWN, 1e9, 0.0, 1.0)], [])
+        assert en50318.checks(table) == []
+
+    def test_verdicts_are_those_of_the_checks(self):
+        table = short("en50318")
+        assert [check.passed for check in judged("en50318")] == [row[7] == "inside" for row in table.rows]
+        assert len(table.rows) == 8
+
+
+class TestTable:
+    table = Table("t", ("name", "t", "u"), [("a", 0.1 + 0.2, 1), ("a", 0.4, 2), ("b", 0.3, 3)], [])
+
+    def test_row(self):
+        assert self.table.row(name="a", t=0.3) == {"name": "a", "t": 0.1 + 0.2, "u": 1}
+        assert self.table.row(name="b")["u"] == 3
+        assert self.table.row(name="a", t=0.31) is None
+        assert self.table.row(name="c") is None
