@@ -6,6 +6,7 @@ import webbrowser
 from pathlib import Path
 from typing import Any
 
+from ancf.cli.results_file import open_result
 from ancf.cli.screen import console
 from ancf.errors import ModelError
 
@@ -39,14 +40,7 @@ def view_file(path: Path, output: Path | None, options: dict[str, Any], show: bo
     plotly_script()
     source = path / "results.h5" if path.is_dir() else path
     target = _target(source, output)
-    try:
-        import ancf
-
-        written = write_view(ancf.load(source), target, file=source.name, **options)
-    except ModelError:
-        raise
-    except (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError) as error:
-        raise ModelError(str(source), f"is not a results file of ancf: {error}") from None
+    written = write_view(open_result(source), target, file=source.name, **options)
     console().print(str(written), soft_wrap=True)
     if show:
         webbrowser.open(written.resolve().as_uri())
