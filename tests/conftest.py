@@ -1,6 +1,26 @@
-"""The option --slow: without it, tests marked slow are left out."""
+"""The option --slow: without it, tests marked slow are left out. And commands that run in this process."""
 
 import pytest
+
+from commands import Ran
+
+
+@pytest.fixture
+def call(tmp_path, monkeypatch, capsys):
+    """Run ``ancf ARGUMENTS`` in this process, in an empty folder."""
+    from ancf.cli.app import app
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("ANCF_TRACEBACK", raising=False)
+
+    def run(*arguments):
+        with pytest.raises(SystemExit) as stop:
+            app([str(argument) for argument in arguments], prog_name="ancf")
+        said = capsys.readouterr()
+        assert "Traceback" not in said.err
+        return Ran(int(stop.value.code or 0), said.out, said.err)
+
+    return run
 
 
 def pytest_addoption(parser):

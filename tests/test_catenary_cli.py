@@ -8,25 +8,19 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.cli.app import app
 from ancf.viz.scene import make_scene
 from overhead_lines import TOML
 
 
 @pytest.fixture
-def call(tmp_path, monkeypatch, capsys):
-    """Run a command in this process, in a folder with the line file; returns exit code, stdout, stderr."""
-    monkeypatch.chdir(tmp_path)
+def call(call, monkeypatch):
+    """Run a command in a folder with the line file; returns exit code, stdout, stderr as one line."""
     monkeypatch.setenv("COLUMNS", "200")
-    monkeypatch.delenv("ANCF_TRACEBACK", raising=False)
     Path("line.toml").write_text(TOML, encoding="utf-8")
 
     def run(*arguments):
-        with pytest.raises(SystemExit) as stop:
-            app([str(a) for a in arguments], prog_name="ancf")
-        said = capsys.readouterr()
-        assert "Traceback" not in said.err
-        return int(stop.value.code or 0), said.out, " ".join(said.err.split())
+        ran = call(*arguments)
+        return ran.code, ran.out, ran.said
 
     return run
 

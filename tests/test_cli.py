@@ -2,7 +2,6 @@
 
 import json
 import re
-from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -50,29 +49,6 @@ EQUILIBRIUM = "[equilibrium]\n"
 LONG = SIMULATION.replace("t_end = 0.4", "t_end = 100000.0").replace(
     "outputs", "output_step = 2.5e-3\noutputs"
 )
-
-
-@dataclass
-class Ran:
-    code: int
-    out: str
-    err: str
-
-
-@pytest.fixture
-def call(tmp_path, monkeypatch, capsys):
-    """Run a command in this process, in an empty folder."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.delenv("ANCF_TRACEBACK", raising=False)
-
-    def run(*arguments):
-        with pytest.raises(SystemExit) as stop:
-            app([str(a) for a in arguments], prog_name="ancf")
-        said = capsys.readouterr()
-        assert "Traceback" not in said.err
-        return Ran(int(stop.value.code or 0), said.out, said.err)
-
-    return run
 
 
 def write(text, name="model.toml"):

@@ -11,7 +11,8 @@ import time
 import pytest
 
 import ancf
-from test_cli import LONG, MODEL, SIMULATION, Ran
+from commands import Ran
+from test_cli import LONG, MODEL, SIMULATION
 
 
 def process(folder, *arguments, **environment):

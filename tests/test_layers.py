@@ -14,6 +14,7 @@ ROOT = Path(ancf.__file__).parent
 #: From the bottom to the top; a layer imports from lower ones and from itself.
 LAYERS = (
     {"errors", "_version", "kernel_cache"},
+    {"files"},
     {"compiled"},
     {"model"},
     {"elements", "bodies", "linalg"},

@@ -12,7 +12,6 @@ from pathlib import Path
 
 import pytest
 
-from ancf.cli.app import app
 from ancf.errors import ModelError
 from ancf.paper import FIGURES, verify
 from ancf.paper.check import Check
@@ -36,18 +35,8 @@ def made(fakes, tmp_path):
 
 
 @pytest.fixture
-def call(tmp_path, monkeypatch, capsys):
-    """Run ``ancf reproduce`` in this process, in an empty folder: exit code, stdout, stderr."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.delenv("ANCF_TRACEBACK", raising=False)
-
-    def run(*arguments):
-        with pytest.raises(SystemExit) as stop:
-            app(["reproduce", *arguments], prog_name="ancf")
-        said = capsys.readouterr()
-        return int(stop.value.code or 0), said.out, said.err
-
-    return run
+def call(call):
+    return lambda *arguments: call("reproduce", *arguments)
 
 
 class TestVerdicts:

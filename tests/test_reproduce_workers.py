@@ -111,7 +111,13 @@ class TestWorkers:
             path.touch()
         command = [sys.executable, "-m", "ancf.cli", "reproduce", "fig14", "fig6", "-j", "2"]
         ran = subprocess.Popen(
-            command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, start_new_session=True
+            command,
+            cwd=tmp_path,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+            # a process that was started in the background ignores Ctrl-C, and hands that on
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         )
         soon(lambda: not any(path.exists() for path in old))  # taken away when their figures begin
         os.killpg(ran.pid, signal.SIGINT)

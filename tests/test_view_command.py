@@ -7,7 +7,6 @@ import pytest
 
 import ancf
 import viewed
-from ancf.cli.app import app
 from ancf.viz.view import Options, view_page, write_view
 from viewed import array_of, data_of
 
@@ -61,18 +60,9 @@ class TestErrors:
 
 class TestCommand:
     @pytest.fixture
-    def call(self, tmp_path, monkeypatch, capsys, cantilever):
-        monkeypatch.chdir(tmp_path)
+    def call(self, call, cantilever):
         cantilever.save("out/results.h5")
-
-        def run(*arguments):
-            with pytest.raises(SystemExit) as stop:
-                app(["view", *map(str, arguments)], prog_name="ancf")
-            said = capsys.readouterr()
-            assert "Traceback" not in said.err
-            return int(stop.value.code or 0), said.out, said.err
-
-        return run
+        return lambda *arguments: call("view", *arguments)
 
     def test_page_beside_the_results(self, call, tmp_path):
         assert call("out/results.h5") == (0, "out/view.html\n", "")

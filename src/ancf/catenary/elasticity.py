@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 import ancf
-from ancf.errors import ModelError
+from ancf.files import writing
 from ancf.model import checks
 from ancf.model.checks import FloatArray
 from ancf.model.points import Point
@@ -58,15 +58,11 @@ class Elasticity:
     def save(self, path: str | Path) -> Path:
         """Write a CSV file, one row for each place."""
         target = Path(path)
-        try:
-            target.parent.mkdir(parents=True, exist_ok=True)
-            with target.open("w", newline="", encoding="utf-8") as file:
-                writer = csv.writer(file)
-                writer.writerow(["x_m", *(f"elasticity_{f:g}N_mm_per_N" for f in self.force)])
-                for x, values in zip(self.x, self.value.T, strict=True):
-                    writer.writerow([f"{x:.4f}", *(f"{v:.6f}" for v in values)])
-        except OSError as error:
-            raise ModelError(str(target), f"cannot be written: {error.strerror or error}") from None
+        with writing(target), target.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            writer.writerow(["x_m", *(f"elasticity_{f:g}N_mm_per_N" for f in self.force)])
+            for x, values in zip(self.x, self.value.T, strict=True):
+                writer.writerow([f"{x:.4f}", *(f"{v:.6f}" for v in values)])
         return target
 
 

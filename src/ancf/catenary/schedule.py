@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ancf.errors import ModelError
+from ancf.files import writing
 
 if TYPE_CHECKING:
     from .form import Form
@@ -90,12 +90,8 @@ def texts(row: Row) -> list[str]:
 
 def write(schedule: list[Row], path: Path) -> Path:
     """Write a schedule as CSV; ModelError if the file cannot be written."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
-            writer.writerow(COLUMNS)
-            writer.writerows(texts(row) for row in schedule)
-    except OSError as error:
-        raise ModelError(str(path), f"cannot be written: {error.strerror or error}") from None
+    with writing(path), path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(COLUMNS)
+        writer.writerows(texts(row) for row in schedule)
     return path

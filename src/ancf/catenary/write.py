@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
-import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._version import __version__
-from ..errors import ModelError
+from ..files import to_json, write_text
 from .passing import dropper_forces
 from .signals import Intervals
 from .statistics import Statistics, statistics
@@ -88,8 +86,7 @@ def _of_pantograph(run: Run, k: int, found: Statistics) -> dict[str, Any]:
 
 def write_json(data: dict[str, Any], path: Path) -> Path:
     """Write JSON that any reader takes: null instead of NaN and infinity."""
-    text = json.dumps(_plain(data), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-    return write_text(path, text)
+    return write_text(path, to_json(data))
 
 
 def write_statistics(found: Sequence[Statistics], path: Path) -> Path:
@@ -142,16 +139,6 @@ def _slack(slack: Intervals) -> tuple[int, float, float]:
     return slack.number, slack.seconds, slack.longest
 
 
-def write_text(path: Path, text: str) -> Path:
-    """Write a text file; the folder is made when it does not exist."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise ModelError(str(path), f"cannot be written: {error.strerror or error}") from None
-    return path
-
-
 def _write_columns(path: Path, columns: dict[str, Any]) -> Path:
     numbers = np.column_stack(list(columns.values()))
     lines = [",".join(f"{value:.{DIGITS}g}" for value in row) for row in numbers.tolist()]
@@ -172,16 +159,3 @@ def _cell(value: Cell) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     return f"{value:.{DIGITS}g}" if isinstance(value, float) else str(value)
-
-
-def _plain(value: Any) -> Any:
-    """The same in types that JSON has."""
-    if isinstance(value, dict):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    if hasattr(value, "tolist"):
-        return _plain(value.tolist())
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    return value if isinstance(value, str | int | bool | None) else str(value)

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import json
-import math
 import os
-import re
 import sys
-import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 from ancf.errors import ModelError, SolveError
+from ancf.files import drafted, to_json, writable
 
 if sys.platform != "win32":
     import fcntl
@@ -38,16 +35,7 @@ class OutputFolder:
     """
 
     def __init__(self, path: Path) -> None:
-        self.path = path
-        try:
-            path.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(dir=path):
-                pass
-        except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or error
-            raise ModelError(
-                f"output folder {path}", f"cannot be written: {reason}", "choose another with -o"
-            ) from None
+        self.path = writable(path, f"output folder {path}")
 
     @property
     def results(self) -> Path:
@@ -93,26 +81,5 @@ class OutputFolder:
 
     def write_summary(self, summary: dict[str, Any]) -> None:
         """Write the summary; the file is complete or absent."""
-        text = json.dumps(finite(summary), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-        draft = self.summary.with_suffix(".json.part")
-        draft.write_text(text, encoding="utf-8", errors="backslashreplace")
-        draft.replace(self.summary)
-
-
-def storage_problem(error: Exception) -> str:
-    """What the system says when HDF5 cannot write, such as "No space left on device"; else nothing."""
-    found = re.search(r"errno = \d+, error message = '([^']*)'", str(error))
-    if found:
-        return found[1]
-    return error.strerror or "" if isinstance(error, OSError) else ""
-
-
-def finite(value: Any) -> Any:
-    """The same with null instead of NaN and infinity, which JSON does not know."""
-    if isinstance(value, dict):
-        return {str(key): finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [finite(item) for item in value]
-    if hasattr(value, "tolist"):
-        return finite(value.tolist())
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+        with drafted(self.summary) as draft:
+            draft.write_text(to_json(summary, indent=2), encoding="utf-8", errors="backslashreplace")

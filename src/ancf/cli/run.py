@@ -6,9 +6,10 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ancf.cli.output import OutputFolder, StorageError, storage_problem
+from ancf.cli.output import OutputFolder, StorageError
 from ancf.cli.screen import Screen, console
 from ancf.errors import ModelError, SolveError
+from ancf.files import problem
 from ancf.model.file import Study, read_study
 from ancf.model.settings import IntegratorSettings, SimulationSettings
 
@@ -108,11 +109,11 @@ class Run:
             console().print(f"written: {', '.join(map(str, written))}", soft_wrap=True)
 
     def _check_storage(self, error: Exception) -> None:
-        problem = storage_problem(error)
-        if problem:
+        said = problem(error)
+        if said:
             file = self.output.results
             hint = f"make room or store less often (output_step); ancf info {file} says how far it got"
-            raise StorageError(str(file), f"cannot be written any more: {problem}", hint) from error
+            raise StorageError(str(file), f"cannot be written any more: {said}", hint) from error
 
     def _keep(self, error: BaseException) -> None:
         result = getattr(error, "result", None)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import typer
 
-from ancf.errors import ModelError
+from ancf.files import write_text
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
@@ -20,9 +20,4 @@ def write_schema(path: Path | None) -> None:
     if path is None:
         typer.echo(text)
         return
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text + "\n", encoding="utf-8")
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise ModelError(str(path), f"cannot be written: {reason}") from None
+    write_text(path, text + "\n")

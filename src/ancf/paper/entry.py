@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-import numpy as np
-
 from .check import Check
 
 Verdict = Literal["passed", "failed", "error", "no check"]
@@ -155,14 +153,3 @@ def _use_of_factor(check: Check) -> float:
     if not ratio > 0:
         return math.inf
     return abs(math.log(ratio)) / math.log(check.tolerance) if check.tolerance > 1 else float(ratio != 1)
-
-
-def plain(check: Check) -> dict[str, object]:
-    """Entry of a check in types that JSON has: null instead of NaN and infinity, no numbers of numpy."""
-    return {key: _plain(value) for key, value in check.plain().items()}
-
-
-def _plain(value: object) -> object:
-    if isinstance(value, np.generic):
-        value = value.item()
-    return None if isinstance(value, float) and not math.isfinite(value) else value

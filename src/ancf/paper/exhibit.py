@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from .. import __version__
 from ..errors import ModelError, SolveError
 from ..viz import style
-from .entry import Entry, plain
+from .entry import Entry
 from .figures import FIGURES
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def make(name: str, folder: Path, short: bool) -> Entry:
     table.notes.append(f"ancf {__version__}" + (", short form: fewer and shorter runs." if short else "."))
     _draw(module, table, folder / f"{name}.png")
     checks = tuple(module.checks(table))
-    table.write(folder, map(plain, checks))
+    table.write(folder, checks)
     wall, cpu = (now - then for now, then in zip(_clocks(), start, strict=True))
     files = tuple(_files(name, folder))
     made = Entry(name, checks=checks, notes=tuple(table.notes), files=files, seconds=wall, cpu_seconds=cpu)

@@ -11,6 +11,7 @@ from typing import Any
 
 from ..compiled import announce_compilation
 from ..errors import ModelError, SolveError
+from ..files import writable
 from ..model.checks import listed, nearest
 from ..viz import style
 from . import exhibit, schedule
@@ -158,18 +159,7 @@ def _checked(jobs: int | None, names: Sequence[str]) -> int:
 def _prepared(names: Iterable[str], folder: str | os.PathLike[str]) -> tuple[list[str], Path]:
     wanted = resolve(names)
     style.require_matplotlib()
-    return wanted, _writable(Path(folder))
-
-
-def _writable(folder: Path) -> Path:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        probe = folder / ".ancf-write-test"
-        probe.touch()
-        probe.unlink()
-    except OSError as error:
-        raise ModelError(str(folder), f"cannot be written: {error.strerror or error}") from None
-    return folder
+    return wanted, writable(Path(folder))
 
 
 def _report(progress: Progress | None, name: str, done: int, count: int) -> None:

@@ -12,6 +12,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..files import to_json
+from .check import Check
+
 FloatArray = npt.NDArray[np.float64]
 Value = str | int | float
 
@@ -57,19 +60,19 @@ class Table:
         at = self.columns.index(column)
         return list(dict.fromkeys(str(row[at]) for row in self.rows))
 
-    def write(self, folder: Path, checks: Iterable[dict[str, object]] = ()) -> list[Path]:
-        """Write NAME.csv, and NAME.json with the entries of the checks."""
+    def write(self, folder: Path, checks: Iterable[Check] = ()) -> list[Path]:
+        """Write NAME.csv, and NAME.json with the checks."""
         table, full = folder / f"{self.name}.csv", folder / f"{self.name}.json"
         with table.open("w", newline="", encoding="utf-8") as file:
             csv.writer(file).writerows([self.columns, *self.rows])
-        full.write_text(self._json(list(checks)), encoding="utf-8")
+        full.write_text(self._json(checks), encoding="utf-8")
         return [table, full]
 
-    def _json(self, checks: list[dict[str, object]]) -> str:
+    def _json(self, checks: Iterable[Check]) -> str:
         rows = ",\n".join("  " + json.dumps(row) for row in self.rows)
         head = json.dumps({"name": self.name, "columns": list(self.columns)}, ensure_ascii=False)
         notes = json.dumps(self.notes, indent=1, ensure_ascii=False)
-        judged = json.dumps(checks, indent=1, ensure_ascii=False, allow_nan=False)
+        judged = to_json([check.plain() for check in checks]).rstrip()
         return f'{head[:-1]},\n "rows": [\n{rows}\n ],\n "notes": {notes},\n "checks": {judged}\n}}\n'
 
 

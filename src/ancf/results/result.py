@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ModelError
+from ..files import writing
 from ..model import checks
 from ..model.tables import Readable, Sheet
 from ..solvers.stepping import Stats
@@ -186,9 +187,6 @@ def load(path: str | Path, system: System | None = None) -> Result:
 def _copy(source: Path, path: str | Path) -> None:
     if not isinstance(path, str | Path):
         raise ModelError("save", f"must be given a path, is given {checks.shown(path)}")
-    try:
-        Path(path).parent.mkdir(parents=True, exist_ok=True)
+    with writing(path):
         if Path(path).resolve() != source.resolve():
             shutil.copyfile(source, path)
-    except OSError as error:
-        raise ModelError(str(path), f"cannot be written: {error}", "choose another folder") from None

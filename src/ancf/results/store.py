@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ModelError
+from ..files import writing
 from ..model import checks
 from ..model.bodies import Body
 from ..solvers.newmark import COUNTS
@@ -137,12 +138,9 @@ class FileStore:
         if not isinstance(path, str | Path):
             raise ModelError("file", f"must be a path, is {checks.shown(path)}")
         self.path = Path(path)
-        try:
-            self.path.parent.mkdir(parents=True, exist_ok=True)
+        with writing(path):
             self.path.unlink(missing_ok=True)  # a result that still reads the old file keeps it
             self._file = h5py.File(self.path, "w", libver="latest")
-        except OSError as error:
-            raise ModelError(str(path), f"cannot be written: {error}", "choose another folder") from None
         self._create(header)
         self._file.swmr_mode = True
         self.stats, self.status = Stats(), "running"

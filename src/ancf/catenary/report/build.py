@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..._version import __version__
+from ...files import write_text
 from ...viz import style
 from ...viz.html import element, figure, page, section
-from ..write import write_text
 from . import tables
 from .content import Content
 from .figures import FIGURES, figure_names, picture

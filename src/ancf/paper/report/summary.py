@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..._version import __version__
-from ..entry import plain
+from ...files import to_json, write_text
 from .machine import machine, now
 
 if TYPE_CHECKING:
@@ -16,14 +15,12 @@ if TYPE_CHECKING:
 
 def write_summary(made: Reproduction) -> Path:
     """Write ``checks.json``; numbers that are none become null."""
-    text = json.dumps(summary(made), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-    made.summary.write_text(text, encoding="utf-8")
-    return made.summary
+    return write_text(made.summary, to_json(summary(made)))
 
 
 def summary(made: Reproduction) -> dict[str, Any]:
     """What ``checks.json`` holds."""
-    checks = [{**plain(c), "figure": entry.name} for entry in made.entries for c in entry.checks]
+    checks = [{**c.plain(), "figure": entry.name} for entry in made.entries for c in entry.checks]
     return {
         "version": __version__,
         "date": now(),

@@ -6,12 +6,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ...errors import ModelError
+from ...files import writing
 from ...model import checks
 from ...model.beam import Beam
 from ...model.bodies import PointMass
 from ...results.result import Result
 from . import tables
-from .files import writing
 
 #: Bodies whose points are written when none are named and there were no sensors.
 MOST_BODIES = 12

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 
 from ...errors import ModelError
+from ...files import drafted, writing
 from ...model import checks
 from ...model.beam import Beam
 from ...results.modes import Modes
 from ..scene import QUANTITIES, FloatArray, Scene, make_scene
 from ..scene.sampling import CORNERS
-from .files import drafted, writing
 from .parts import PART_KINDS, IntArray, Part, parts
 from .vtkhdf import TOPOLOGIES, Mesh, TemporalFile
 
@@ -83,7 +83,7 @@ def write_scene(scene: Scene, path: Path) -> Path:
     mesh, notes = _mesh(items), {"title": scene.title, **_names(items)}
     first, size = _points_of(items, slice(0, 1)), max(1, BLOCK // sum(p.points.shape[1] for p in items))
     with (
-        writing(path, path.parent),
+        writing(path),
         drafted(path) as draft,
         closing(TemporalFile(draft, mesh, scene.t, notes)) as file,
     ):

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...files import drafted
 from ...model.beam import Beam
 from ...model.points import Point
 from ...results.result import Result
 from ...results.sensors import Sensors
-from .files import drafted
 
 FloatArray = NDArray[np.float64]
 Column = tuple[str, FloatArray]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...errors import ModelError
+from ...files import writing
 from ...model import checks
 from .. import style
 from ..scene import Scene
@@ -83,19 +84,13 @@ def _write(figure: Figure, stage: Stage, target: Path, fps: int, dpi: float) -> 
     writer = _writer(target, fps)
     t = stage.scene.t
     digits = int(np.clip(np.ceil(-np.log10(max(float(np.ptp(t)), 1e-9) / 1000.0)), 0, 9))
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        with writer.saving(figure, str(target), dpi):
-            for k in range(len(t)):
-                stage.show(k)
-                clock.set_text(f"t = {t[k]:.{digits}f} s")
-                if k == 0:  # the first picture finds the place of everything
-                    _lay_out(figure, dpi)
-                writer.grab_frame()
-    except OSError as error:
-        raise ModelError(
-            str(target), f"cannot be written: {error.strerror}", "choose another folder"
-        ) from None
+    with writing(target), writer.saving(figure, str(target), dpi):
+        for k in range(len(t)):
+            stage.show(k)
+            clock.set_text(f"t = {t[k]:.{digits}f} s")
+            if k == 0:  # the first picture finds the place of everything
+                _lay_out(figure, dpi)
+            writer.grab_frame()
 
 
 def _lay_out(figure: Figure, dpi: float) -> None:

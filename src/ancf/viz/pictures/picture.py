@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...errors import ModelError
+from ...files import writing
 from ...model import checks
 from .. import style
 
@@ -55,14 +56,8 @@ class Picture:
             raise ModelError(
                 str(path), f'is no kind of picture: "{target.suffix}"', f"use {', '.join(FILES)}"
             )
-        try:
-            target.parent.mkdir(parents=True, exist_ok=True)
-            with style.settings():
-                self.figure.savefig(target)
-        except OSError as error:
-            raise ModelError(
-                str(path), f"cannot be written: {error.strerror}", "choose another folder"
-            ) from None
+        with writing(target), style.settings():
+            self.figure.savefig(target)
         return target
 
     def _repr_png_(self) -> tuple[bytes, dict[str, Any]]:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ModelError
+from ...files import write_text
 from ...model import checks
 from ...model.beam import Beam
 from ...results.modes import Modes
@@ -94,15 +95,7 @@ def write_view(source: Result | State | Modes, path: str | Path, **options: Any)
     ModelError
         As :func:`view_page`; or the file cannot be written.
     """
-    target = Path(path)
-    text = view_page(source, **options)
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(text, encoding="utf-8")
-    except OSError as error:
-        reason = error.strerror or error
-        raise ModelError(str(path), f"cannot be written: {reason}", "choose another file") from None
-    return target
+    return write_text(Path(path), view_page(source, **options))
 
 
 def _points(source: Any, frames: int) -> int:

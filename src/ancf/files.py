@@ -1,0 +1,114 @@
+"""What all writers of files share: one error for a place that cannot be written, drafts, JSON."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from .errors import ModelError
+
+#: How HDF5 reports what the system said.
+HDF5_PROBLEM = re.compile(r"errno = \d+, error message = '([^']*)'")
+
+
+@contextmanager
+def writing(path: str | Path, folder: Path | None = None) -> Iterator[None]:
+    """Make the folder of a file; within this context the system's errors become one about the file.
+
+    Parameters
+    ----------
+    path : path
+        What is written, as it stands in the message.
+    folder : Path, optional
+        Where it is written; default the folder that holds `path`.
+
+    Raises
+    ------
+    ModelError
+        The folder cannot be made, or something cannot be written.
+    """
+    try:
+        _make(Path(path).parent if folder is None else folder)
+        yield
+    except (FileExistsError, NotADirectoryError):
+        what = "cannot be written: a file stands in the way"
+        raise ModelError(str(path), what, "choose another place") from None
+    except OSError as error:
+        what = f"cannot be written: {problem(error) or error}"
+        raise ModelError(str(path), what, "choose another place") from None
+
+
+def writable(folder: Path, name: str = "") -> Path:
+    """Make a folder and try it, before anything is computed; `name` stands for it in the message.
+
+    Raises
+    ------
+    ModelError
+        It cannot be made or written.
+    """
+    with writing(name or folder, folder), tempfile.TemporaryFile(dir=folder):
+        return folder
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except ValueError as error:  # a name that no system takes
+        raise OSError(str(error)) from None
+
+
+@contextmanager
+def drafted(path: Path) -> Iterator[Path]:
+    """Place to write to; it becomes the file when all went well, and is gone otherwise."""
+    draft = path.with_name(path.name + ".part")
+    try:
+        yield draft
+        draft.replace(path)
+    except BaseException:
+        draft.unlink(missing_ok=True)
+        raise
+
+
+def write_text(path: Path, text: str) -> Path:
+    """Write a text file and make its folder.
+
+    Raises
+    ------
+    ModelError
+        It cannot be written.
+    """
+    with writing(path):
+        path.write_text(text, encoding="utf-8", errors="backslashreplace")
+    return path
+
+
+def problem(error: Exception) -> str:
+    """What the system says is wrong, such as "No space left on device", also through HDF5; else nothing."""
+    found = HDF5_PROBLEM.search(str(error))
+    if found:
+        return found[1]
+    return error.strerror or "" if isinstance(error, OSError) else ""
+
+
+def to_json(data: Any, indent: int = 1) -> str:
+    """JSON that any reader takes: null instead of NaN and infinity."""
+    return json.dumps(plain(data), indent=indent, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def plain(value: Any) -> Any:
+    """The same in types that JSON has; arrays become lists, and what JSON does not know its text."""
+    if isinstance(value, dict):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if hasattr(value, "tolist"):
+        return plain(value.tolist())
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    return value if isinstance(value, str | int | bool | None) else str(value)
