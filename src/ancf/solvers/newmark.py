@@ -25,7 +25,7 @@ import numpy as np
 from numba import literal_unroll
 from numpy.typing import NDArray
 
-from ..compiled import add_force, add_tangents, find_events, inline_kernel, kernel
+from ..compiled import add_force, add_tangents, find_events, inline_kernel, kernel, optional
 from ..system.core import (
     assemble,
     constraint_rows,
@@ -111,14 +111,14 @@ class Memory(NamedTuple):
     memo: FloatArray  # (8,) see below
     work: FloatArray  # (2,) energy dissipated and supplied since the start, J
     frames: Frames
-    patches: Patches
+    patches: tuple[Patches, ...]  # one or none
 
 
 # entries of Memory.memo
 H_FACTOR, ETA, H_PREV, WORST, NORM, POWER, NOISE, KNOWN = range(8)
 
 
-def allocate(n: int, frames: Frames, patches: Patches) -> Memory:
+def allocate(n: int, frames: Frames, patches: tuple[Patches, ...]) -> Memory:
     """Memory for state vectors of length n."""
     vectors: Any = {name: np.zeros(n) for name in Memory._fields[:14]}
     counts = np.zeros(len(COUNTS), dtype=np.int64)
@@ -200,25 +200,25 @@ def solve_turned(core, s, rule):
         turn_forth(s.frames, s.r)
 
 
-@inline_kernel
-def renew_tail(core, s, rule, B, G):
-    """Renew the rows of the sliding joints alone; whether that is possible."""
+def _renew_tail(tail, core, s, rule, B, G):
     joints, A = core.joints, core.A
     n = core.factor.row_start.shape[0] - 1
     for i in range(36 * joints.first, 36 * n):
         A[i] = 0.0
     for i in range(36 * (n + core.factor.row_start[joints.first]), A.shape[0]):
         A[i] = 0.0
-    add_tangents(joints.tail, s.q, s.v, A, 1.0 / B, G / B, 1.0, core.ws)
+    add_tangents(tail, s.q, s.v, A, 1.0 / B, G / B, 1.0, core.ws)
     restrict(joints.supports, A)
     if rule.corotate:
         turn_rows(s.frames, A)
     return factorise_tail(A, core.factor, joints.first) >= 0
 
 
-@inline_kernel
-def project(core, s, rule):
-    """Shift the positions onto C = 0; returns the norm of the shift."""
+#: Renew the rows of the sliding joints alone; whether that is possible.
+renew_tail = optional(_renew_tail, True)
+
+
+def _project(batches, core, s, rule):
     joints = core.joints
     joints.level[0], joints.level[1], joints.level[2] = 1.0, 0.0, 0.0
     constraint_rows(joints, s.q, s.v, s.a, s.r, core.ws)
@@ -235,6 +235,10 @@ def project(core, s, rule):
         s.q[i] -= d
         norm = max(norm, abs(d) * core.weight[i])
     return norm
+
+
+#: Shift the positions onto C = 0; the norm of the shift.
+project = optional(_project, 0.0)
 
 
 @inline_kernel
@@ -264,11 +268,11 @@ def newton(core, s, h, rule, modified, B, G):
     """Solve the equations of one step from the prediction in s; returns a status."""
     renew, fresh = s.memo[H_FACTOR] != h, False  # fresh: the matrix was renewed in this step
     has_joints = core.joints.multipliers.shape[0] > 0
-    taut = s.patches.back.shape[0] > 0 and not has_joints  # a line of wires, as a rule
+    taut = len(s.patches) > 0 and not has_joints  # a line of wires, as a rule
     if rule.corotate and not renew:
         turn(s.frames, s.q)
     if not renew and core.joints.first < core.factor.row_start.shape[0] - 1:
-        renew = not renew_tail(core, s, rule, B, G)
+        renew = not renew_tail(core.joints.tail, core, s, rule, B, G)
         forget(s.patches)
     move_on(s.patches)
     eta = max(s.memo[ETA] ** 0.8, STALE)
@@ -294,13 +298,13 @@ def newton(core, s, h, rule, modified, B, G):
             renew, fresh, older, old, eta, since = False, True, -1.0, -1.0, 1.0, 0
         residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)
         solve_turned(core, s, rule)
-        if s.patches.back.shape[0] > 0 and not rule.corotate:
-            correct(core, s.patches, s.q, s.v, G / B, s.r)
+        if not rule.corotate:
+            correct(s.patches, core, s.q, s.v, G / B, s.r)
         norm = update(s, core.weight, G / B, 1.0 / B)
         if has_joints:
             still(core.joints, s.v, s.a)
             if rule.projects:
-                norm = max(norm, project(core, s, rule))
+                norm = max(norm, project(core.joints.batches, core, s, rule))
         follow(core.supports, s.q, s.v, s.a)
         s.counts[ITERATIONS] += 1
         s.memo[NORM] = norm

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import inline_kernel
+from ..compiled import inline_kernel, optional
 from ..connections.contact import (
     DAMPING,
     FORCE,
@@ -59,13 +59,15 @@ class Patches(NamedTuple):
     small: FloatArray  # (MOST, MOST + 1) workspace
 
 
-def room_for_patches(system: System) -> Patches:
-    """Room for the contacts and slack springs of a system; none if it has none."""
+def room_for_patches(system: System) -> tuple[Patches, ...]:
+    """Room for the contacts and slack springs of a system, one item; none if it has none."""
     springs = next(b for b in system.core.batches if isinstance(b, SpringBatch))
     contacts = next((b for b in system.core.batches if isinstance(b, ContactBatch)), no_contacts())
     size, touching = system.size, len(contacts.slot)
     most = touching + min(MOST, int(np.count_nonzero(springs.data[:, 3])))
-    return Patches(
+    if most == 0:
+        return ()
+    room = Patches(
         contacts,
         springs,
         np.zeros((most, WIDEST), dtype=np.int64),
@@ -78,18 +80,16 @@ def room_for_patches(system: System) -> Patches:
         np.zeros(most, dtype=np.int64),
         np.zeros((most, most + 1)),
     )
+    return (room,)
 
 
-@inline_kernel
-def forget(p):
-    """The matrix is new."""
+def _forget(patches):
+    p = patches[0]
     p.used[0], p.used[1] = p.contacts.slot.shape[0], KEPT
 
 
-@inline_kernel
-def move_on(p):
-    """A new step begins."""
-    p.used[1] += 1
+def _move_on(patches):
+    patches[0].used[1] += 1
 
 
 @inline_kernel
@@ -196,10 +196,8 @@ def eliminate(A, m):
         A[k, m] /= A[k, k]
 
 
-@inline_kernel
-def correct(core, p, q, v, gb, x):
-    """Correct the solution x of the factorised matrix for contacts and for what has changed since."""
-    n = core.weight.shape[0]
+def _correct(patches, core, q, v, gb, x):
+    p, n = patches[0], core.weight.shape[0]
     m = changed(core, p, q, v, gb, n)
     if m == 0:
         return
@@ -214,3 +212,11 @@ def correct(core, p, q, v, gb, x):
         y, z = p.small[j, m], p.back[p.active[j]]
         for i in range(n):
             x[i] -= y * z[i]
+
+
+#: The matrix is new.
+forget = optional(_forget)
+#: A new step begins.
+move_on = optional(_move_on)
+#: ``correct(patches, core, q, v, gb, x)``: the solution x of the factorised matrix, corrected.
+correct = optional(_correct)

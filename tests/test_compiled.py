@@ -1,0 +1,62 @@
+"""The decorators of kernels: what Python may call, and what is left out where there is nothing to do."""
+
+from collections import namedtuple
+
+import pytest
+
+from ancf.compiled import formula, inline_kernel, kernel, optional
+
+Batch = namedtuple("Batch", "factor")
+
+
+@inline_kernel
+def twice(x):
+    return 2.0 * x
+
+
+@formula
+def thrice(x):
+    return 3.0 * x
+
+
+@kernel
+def six_times(x):
+    return twice(thrice(x))
+
+
+def _scaled(batches, x):
+    return batches[0].factor * x
+
+
+scaled = optional(_scaled, -1.0)
+
+
+@kernel
+def scaled_by(batches, x):
+    return scaled(batches, x)
+
+
+class TestParts:
+    @pytest.mark.parametrize("part", [twice, thrice])
+    def test_python_cannot_call_them(self, part):
+        """Whether they are compiled already or not: without the check the process would end."""
+        assert part.py_func(2.0) in (4.0, 6.0)
+        for _ in range(2):
+            with pytest.raises(TypeError, match=f"{part.py_func.__name__} is a part of kernels"):
+                part(2.0)
+            assert six_times(2.0) == 12.0
+
+    def test_other_types(self):
+        assert six_times(2) == 12.0
+
+
+class TestOptional:
+    def test_of_a_tuple(self):
+        assert scaled_by((Batch(4.0),), 2.0) == 8.0
+
+    def test_of_none(self):
+        assert scaled_by((), 2.0) == -1.0
+
+    def test_not_from_python(self):
+        with pytest.raises(TypeError, match="only in compiled code"):
+            scaled((), 2.0)
