@@ -9,7 +9,6 @@ from functools import partial
 
 import pytest
 
-from ancf import kernel_cache
 from ancf.paper import FIGURES, verify
 from ancf.paper.schedule import cores, grouped
 from ancf.paper.workers import run_groups
@@ -125,38 +124,3 @@ class TestWorkers:
         assert ran.returncode == 130
         assert said.splitlines()[-1] == "stopped by Ctrl-C"
         soon(lambda: not alive(ran.pid))
-
-
-SHARED = """
-import runpy, sys
-runpy.run_path(sys.argv[3])["share"]()  # by its path: the package takes long to import
-sys.path.insert(0, sys.argv[1])
-from kernels import twice
-value = {"int": 3, "float": 1.5}[sys.argv[2]]
-print(twice(value), sum(twice.stats.cache_hits.values()))
-"""
-
-
-class TestKernelCache:
-    def test_processes_at_once_keep_all_kernels(self, tmp_path):
-        (tmp_path / "kernels.py").write_text(
-            "import numba\n@numba.njit(cache=True)\ndef twice(x):\n    return 2 * x\n", encoding="utf-8"
-        )
-        values = {"int": "6", "float": "3.0"}
-        seen = [self.outputs(tmp_path, values) for _ in range(2)]
-        assert seen[0] == [f"{value} 0" for value in values.values()]
-        assert seen[1] == [f"{value} 1" for value in values.values()]
-
-    def outputs(self, folder, values):
-        """What processes print that run at once: the value, and how many kernels they found in the cache."""
-        environment = os.environ | {"NUMBA_CACHE_DIR": str(folder / "cache")}
-        ran = [
-            subprocess.Popen(
-                [sys.executable, "-c", SHARED, str(folder), kind, kernel_cache.__file__],
-                env=environment,
-                stdout=subprocess.PIPE,
-                text=True,
-            )
-            for kind in values
-        ]
-        return [process.communicate(timeout=120)[0].strip() for process in ran]

@@ -1,16 +1,20 @@
-"""The cache of compiled kernels when several processes fill it at once.
+"""The cache of compiled kernels when several processes fill it at once, and when it is of another version.
 
 Numba picks a name that its index does not have, enters it there, and then writes the file. Two processes that
 do so at the same time may take one name for two kernels; one that is killed in between leaves an entry whose
 file is missing or old. Here one process writes at a time, the file first and its entry afterwards.
+
+An index names the classes that kernels take. After an update one of them may have gone, and numba would fail
+while it reads; here what cannot be read is compiled anew.
 """
 
 from __future__ import annotations
 
 import itertools
 import os
+import pickle
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, cast
 
@@ -20,9 +24,26 @@ if sys.platform != "win32":
     import fcntl
 
 
+#: What reading classes that have gone, or a file that was cut off, ends in.
+UNREADABLE = (ImportError, AttributeError, EOFError, pickle.UnpicklingError)
+
+
 def share() -> None:
     """Let this process wait while another one writes; the system frees the lock of a killed process."""
-    cast(Any, IndexDataCacheFile).save = _save
+    numbas = cast(Any, IndexDataCacheFile)
+    numbas.save = _save
+    numbas._load_index = _or(numbas._load_index, dict)
+    numbas.load = _or(numbas.load, lambda: None)
+
+
+def _or(read: Callable[..., Any], nothing: Callable[[], Any]) -> Callable[..., Any]:
+    def readable(self: Any, *key: Any) -> Any:
+        try:
+            return read(self, *key)
+        except UNREADABLE:
+            return nothing()
+
+    return readable
 
 
 def _save(self: Any, key: Any, data: Any) -> None:
