@@ -5,7 +5,8 @@ import numpy as np
 import ancf
 from ancf.elements.registry import ELEMENTS
 from ancf.linalg.sparse import to_sparse
-from ancf.model.beam import POISSON, STRAINS
+from ancf.model.beam import POISSON
+from ancf.model.elements import KINDS
 from ancf.system.core import assemble, residual, total_strain_energy
 
 #: Soft enough that a test state far from the natural shape has forces of the order of 1 N.
@@ -14,11 +15,11 @@ DAMPINGS = {"damping": 0.3, "axial_damping": 0.5, "bending_damping": 0.2}
 #: The same for the elements that have a cross-section: rhoA = 0.6 kg/m, EA = 36 N, no symmetry left.
 SOFT_SOLID = {"width": 0.3, "height": 0.2, "E": 600.0, "rho": 10.0, "nu": 0.3, "shear_factors": (0.8, 0.9)}
 #: Elements with r_y and r_z, and keywords of ``add_beam`` for each kind of energy of each element.
-SOLIDS = [name for name, kind in ELEMENTS.items() if kind.vectors > 2]
+SOLIDS = [name for name, kind in KINDS.items() if kind.has_section]
 VARIANTS = {
     f"{name}-{poisson if name in SOLIDS else strain}": {"element": name, "strain": strain, "poisson": poisson}
     for name in ELEMENTS
-    for strain in STRAINS[name]
+    for strain in KINDS[name].strains
     for poisson in (POISSON if name in SOLIDS else POISSON[:1])
 }
 

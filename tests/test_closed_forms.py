@@ -12,7 +12,7 @@ from scipy.optimize import brentq, root
 
 import ancf
 from ancf.elements.registry import ELEMENTS
-from ancf.model.beam import STRAINS
+from ancf.model.elements import KINDS
 from helpers import SOLIDS, VARIANTS, square
 
 LENGTH = 2.0
@@ -31,7 +31,7 @@ class TestBending:
 
     SMALL = 2e-4  # N, for a deflection of about 1e-4 L
 
-    @pytest.mark.parametrize("strain", STRAINS["cable"])
+    @pytest.mark.parametrize("strain", KINDS["cable"].strains)
     def test_tip_force(self, strain):
         """Cubic elements give nodal values of the linear beam exactly."""
         model, beam = beam_model(2, strain=strain)
@@ -45,7 +45,7 @@ class TestBending:
             assert state.bending_moment(beam.at(x)) == pytest.approx(moment, rel=1e-6)
             assert state.curvature(beam.at(x)) == pytest.approx(moment / 3.0, rel=1e-6)
 
-    @pytest.mark.parametrize("strain", STRAINS["cable"])
+    @pytest.mark.parametrize("strain", KINDS["cable"].strains)
     def test_distributed_load_on_a_part(self, strain):
         """Load p from a to b: w(L) = p/(6 EI) int x^2 (3 L - x) dx."""
         a, b, p = 0.35, 1.3, 3e-4
@@ -55,7 +55,7 @@ class TestBending:
         w = p / (6 * 3.0) * (LENGTH * (b**3 - a**3) - (b**4 - a**4) / 4)
         assert ancf.equilibrium(model).position(beam.end)[2] == pytest.approx(w, rel=1e-6)
 
-    @pytest.mark.parametrize("strain", STRAINS["cable"])
+    @pytest.mark.parametrize("strain", KINDS["cable"].strains)
     def test_moment_inside_an_element(self, strain):
         """Moment M at a: w(L) = M a (L - a/2)/EI, and the rotation there is M a/EI."""
         a, M = 0.8, 3e-4

@@ -10,6 +10,8 @@ import pytest
 
 import ancf
 from ancf.compiled import add_force, add_inertia, add_tangent, strain_energy
+from ancf.elements.registry import ELEMENTS
+from ancf.model.elements import KINDS, ElementKind
 from helpers import derivative
 
 FILE = Path(__file__).parents[1] / "docs" / "howto" / "hencky.py"
@@ -117,3 +119,43 @@ def test_strain_is_logarithmic(batch):
     q = np.zeros((8, 3))
     q[0::2, 0], q[1::2, 0] = 2.0 * np.array(LENGTHS), 2.0
     assert energy(batch, q.ravel(), WS) == pytest.approx(0.5 * 40.0 * np.log(2.0) ** 2 * 1.2)
+
+
+class TestRegistered:
+    """One line is all that a model needs to have it."""
+
+    @pytest.fixture(autouse=True)
+    def registered(self, element, monkeypatch):
+        monkeypatch.setitem(KINDS, "hencky", ElementKind("hencky", ("material",), vectors=2, internal=0))
+        monkeypatch.setitem(ELEMENTS, "hencky", element)
+
+    def cantilever(self, element):
+        section = ancf.Section.rectangle(0.01, 0.01, E=1e8, rho=500.0)
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        ends = {"start": (0, 0, 0), "end": (1, 0, 0)}
+        beam = model.add_beam("beam", **ends, elements=8, section=section, element=element)
+        model.clamp(beam.start, stretch="fixed")
+        return model
+
+    def test_falls_as_the_cable_does(self):
+        """Strains are small: the measures agree."""
+        ours, cable = (
+            ancf.simulate(self.cantilever(kind), t_end=0.4, step=2.5e-4) for kind in ("hencky", "cable")
+        )
+        assert ours.position("beam.end")[-1] == pytest.approx(cable.position("beam.end")[-1], abs=4e-7)
+        energy = ours.energy.total
+        assert np.ptp(energy) < 1e-6 * np.ptp(ours.energy.kinetic)
+
+    def test_equilibrium_and_frequencies(self):
+        ours, cable = (ancf.equilibrium(self.cantilever(kind)) for kind in ("hencky", "cable"))
+        assert ours.position("beam.end") == pytest.approx(cable.position("beam.end"), abs=4e-7)
+        frequencies = [
+            ancf.modes(self.cantilever(kind), count=3).frequencies_hz for kind in ("hencky", "cable")
+        ]
+        assert frequencies[0] == pytest.approx(frequencies[1], rel=1e-9)
+
+    def test_prints_and_saves(self, tmp_path):
+        model = self.cantilever("hencky")
+        assert "hencky" in str(model)
+        ancf.simulate(model, t_end=1e-3, step=1e-3, file=tmp_path / "a.h5")
+        assert ancf.load(tmp_path / "a.h5").position("beam.end").shape == (2, 3)

@@ -15,7 +15,7 @@ import ancf
 from ancf.elements.measures import axial_strain, curvature
 from ancf.elements.registry import ELEMENTS
 from ancf.elements.shapes import gauss, hermite
-from ancf.model.beam import STRAINS
+from ancf.model.elements import KINDS
 from ancf.system.core import find_inverted, inertia, total_strain_energy
 from ancf.system.system import System
 from helpers import (
@@ -162,7 +162,7 @@ class TestCableFormulas:
         p, s, wb = self.at_gauss_points(system, q, 3)
         return axial_strain(r_x, strain), curvature(p, s, strain), wa, wb
 
-    @pytest.mark.parametrize("strain", STRAINS["cable"])
+    @pytest.mark.parametrize("strain", KINDS["cable"].strains)
     @pytest.mark.parametrize("shape", SHAPES)
     def test_energy(self, strain, shape):
         model, beam = cable(shape, elements=1, strain=strain)
@@ -176,7 +176,7 @@ class TestCableFormulas:
         wanted = 0.5 * SOFT["EA"] * wa @ (eps - eps0) ** 2 + 0.5 * SOFT["EI"] * wb @ (kappa - kappa0) ** 2
         assert energy(system, q) == pytest.approx(wanted, rel=1e-7)  # curved: kappa is rounded off by 1e-8
 
-    @pytest.mark.parametrize("strain", STRAINS["cable"])
+    @pytest.mark.parametrize("strain", KINDS["cable"].strains)
     def test_dissipation_in_a_plane(self, strain):
         """v.(damping force) is the integral of D_a (d eps/dt)^2 + D_b (d kappa/dt)^2 + c v^2."""
         system = System(cable(elements=1, strain=strain, damped=True)[0])

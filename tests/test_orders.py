@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 import ancf
 from ancf.elements.registry import ELEMENTS
-from ancf.model.beam import STRAINS
+from ancf.model.elements import KINDS
 from ancf.system.drive import STENCIL, differences
 from helpers import SOLIDS, rate, square
 
@@ -43,7 +43,7 @@ class TestElementLength:
         middle = (n - 0.5) * np.pi
         return brentq(lambda b: np.cos(b) + 1 / np.cosh(b), middle - 0.5, middle + 0.5, xtol=1e-14)
 
-    @pytest.mark.parametrize("strain", STRAINS["cable"])
+    @pytest.mark.parametrize("strain", KINDS["cable"].strains)
     @pytest.mark.parametrize("stretch", ["free", "fixed"])
     def test_cantilever_frequencies(self, strain, stretch):
         wanted = np.array([self.beta_l(n) for n in (1, 2, 3)]) ** 2 / LENGTH**2 * np.sqrt(EI / RHO_A)
@@ -56,7 +56,7 @@ class TestElementLength:
         assert np.all(np.array(errors) > 0)  # from above: the elements are stiffer than the beam
         assert np.abs(rate(errors) - 4).max() < 0.2
 
-    @pytest.mark.parametrize("strain", STRAINS["cable"])
+    @pytest.mark.parametrize("strain", KINDS["cable"].strains)
     def test_simply_supported_frequencies(self, strain):
         wanted = (np.arange(1, 4) * np.pi / LENGTH) ** 2 * np.sqrt(EI / RHO_A)
         errors = []

@@ -13,6 +13,7 @@ import pytest
 
 import ancf
 from ancf.elements.registry import ELEMENTS
+from ancf.model.elements import KINDS
 from ancf.results.store import FileStore
 from helpers import SOLIDS, arc, square
 
@@ -22,7 +23,7 @@ def model_of_two(element="cable"):
     model = ancf.Model(gravity=(0, 0, -9.81), title="two cables")
     damping = {"damping": 0.1, "axial_damping": 0.3, "bending_damping": 0.01}
     damped = square(element, EA=2e3, EI=0.1, rhoA=0.4, **damping)
-    given = {"poisson": "full"} if element in SOLIDS else {"strain": "paper"}
+    given = {"poisson": "full"} if element in SOLIDS else {"strain": KINDS[element].strains[-1]}
     one = model.add_beam("one", path=arc, elements=4, section=damped, element=element, gauss=(4, 3), **given)
     plain = ancf.Section.circle(diameter=0.01, E=1e7, rho=3000.0)
     more = {"elements": 3, "length": 2.2, "element": element, "y_axis": (0, 0.3, 1)}

@@ -6,7 +6,7 @@ from scipy.optimize import brentq
 
 import ancf
 from ancf.elements.registry import ELEMENTS
-from ancf.model.beam import STRAINS
+from ancf.model.elements import KINDS
 from ancf.system.core import apply_load, apply_supports, residual
 from helpers import cable as free_cable
 from helpers import square
@@ -48,7 +48,7 @@ def lowest_of_catenary(span, length):
 
 
 class TestSlackCables:
-    @pytest.mark.parametrize("strain", STRAINS["cable"])
+    @pytest.mark.parametrize("strain", KINDS["cable"].strains)
     @pytest.mark.parametrize("drop", [0.0, 2.5])
     @pytest.mark.parametrize("EI", [0.0, 1e-3, 0.05])
     @pytest.mark.parametrize("ratio", [1.0002, 1.005, 1.05, 1.5, 3.0])

@@ -7,7 +7,7 @@ import pytest
 
 import ancf
 from ancf.elements.registry import ELEMENTS
-from ancf.model.beam import STRAINS
+from ancf.model.elements import KINDS
 from ancf.system.system import System
 from helpers import SHAPES, SOFT, SOLIDS, arc, cable, random_rate, shaken
 
@@ -50,7 +50,7 @@ class TestNumbering:
         model, _ = cable("straight", elements=3, element=element)
         system = System(model)
         names = ("position", "slope r_x", "slope r_y", "slope r_z", "internal r_yx", "internal r_zx")
-        kind = ELEMENTS[element]
+        kind = KINDS[element]
         assert system.numbering.slots["beam"].shape == (4, kind.vectors + kind.internal)
         for slot, name in zip(system.numbering.slots["beam"][2], names, strict=False):
             for c, component in enumerate("xyz"):
@@ -104,7 +104,7 @@ class TestPoints:
 
 
 class TestFields:
-    @pytest.mark.parametrize("strain", STRAINS["cable"])
+    @pytest.mark.parametrize("strain", KINDS["cable"].strains)
     def test_uniform_stretch(self, strain):
         model, beam = cable("straight", strain=strain)
         system = System(model)
@@ -117,7 +117,7 @@ class TestFields:
             assert state.tension(beam.at(x)) == pytest.approx(force, rel=1e-12)
             assert state.curvature(beam.at(x)) == pytest.approx(0, abs=1e-12)
 
-    @pytest.mark.parametrize("strain", STRAINS["cable"])
+    @pytest.mark.parametrize("strain", KINDS["cable"].strains)
     @pytest.mark.parametrize("shape", ["curved", "curved and stretched"])
     def test_natural_shape_carries_nothing(self, strain, shape):
         """Strains and moments are counted from the natural shape; a stretched start is in tension."""

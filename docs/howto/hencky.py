@@ -13,8 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ancf.compiled import implements, inline_kernel
+from ancf.elements.cable_build import initial_vectors, shape
 from ancf.elements.shapes import gauss, hermite
 from ancf.model.beam import Beam
+
+__all__ = ["build", "initial_vectors", "shape"]
 
 POINTS = 5
 

@@ -87,7 +87,7 @@ def _counts(model: Model) -> str:
 
 def _bodies(model: Model) -> Any:
     """Sizes and stiffnesses of beams and cables; a cable has one bending stiffness and takes no torque."""
-    beams = any(b.element != "cable" for b in model.beams.values())
+    beams = any(b.has_section for b in model.beams.values())
     stiffnesses = ["EA [N]", *(["EI_y [N m^2]", "EI_z [N m^2]", "GJ [N m^2]"] if beams else ["EI [N m^2]"])]
     made = table("body", "element", "elements", "length [m]", "mass [kg]", *stiffnesses)
     for b in model.beams.values():

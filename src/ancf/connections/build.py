@@ -40,5 +40,5 @@ def springs(model: Model, locate: Callable[[Point], Any]) -> SpringBatch:
 def _slots(spring: Spring) -> int:
     """Columns for one end of a spring."""
     ends = [end for end in (spring.a, spring.b) if isinstance(end, Point)]
-    plain = all(not isinstance(end.body, Beam) or end.body.element == "cable" for end in ends)
+    plain = all(not isinstance(end.body, Beam) or not end.body.has_section for end in ends)
     return CABLE if plain else SOLID

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..elements.solid_shapes import initial_vectors
+from ..elements.registry import ELEMENTS
 from ..model.beam import Beam
 from ..model.bodies import RigidBody
 from ..model.connections import Spherical
+from ..model.elements import KINDS
 from ..model.joints import Fixation, Revolute
 from ..model.points import Point
 from .joint import JointBatch
@@ -74,10 +75,8 @@ def axis_of(end: Point | FloatArray, direction: FloatArray, slots: dict[str, Int
 
 def node_axes(beam: Beam, node: int) -> FloatArray:
     """Initial r_x, and r_y and r_z where there are, of a node as columns."""
-    if beam.element == "cable":
-        tangent: FloatArray = beam.stretch * beam.node_tangent[node][:, None]
-        return tangent
-    axes: FloatArray = initial_vectors(beam)[node, 1:4].T
+    vectors = ELEMENTS[beam.element].initial_vectors(beam)[node]
+    axes: FloatArray = vectors[1 : KINDS[beam.element].vectors].T
     return axes
 
 
@@ -150,7 +149,7 @@ def count(item: Any) -> int:
     if isinstance(item, Fixation):
         per_slope = 3 if item.stretch == "fixed" else 2
         beam = item.point.body
-        return 3 + per_slope * (3 if isinstance(beam, Beam) and beam.element != "cable" else 1)
+        return 3 + per_slope * (3 if isinstance(beam, Beam) and beam.has_section else 1)
     return 5 if isinstance(item, Revolute) else 3
 
 

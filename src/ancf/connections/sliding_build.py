@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..elements.shapes import hermite
-from ..elements.solid_shapes import shape
+from ..elements.registry import ELEMENTS
 from ..model.beam import Beam
 from ..model.bodies import RigidBody
 from ..model.joints import Slide
@@ -93,8 +92,7 @@ def beam_line(
     at = np.linspace(0.0, 1.0, 4)
     inverse = np.linalg.inv(np.vander(at, 4, increasing=True))
     for length in np.unique(h):
-        cable = body.element == "cable"
-        values = hermite(at, length) if cable else shape(body.element, at, length, y, z)  # (4, columns)
+        values = ELEMENTS[body.element].shape(body.element, at, length, y, z)  # (4, columns)
         poly[h == length, : used.shape[1]] = (inverse @ values).T
     if y == 0.0 and z == 0.0:  # columns that do not contribute
         line[np.all(poly == 0.0, axis=2)] = -1

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import groupby
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..model.beam import Beam
 from .cable import AXIALLY, IN_BENDING, IN_SLOPE, VISCOUSLY, CableBatch
@@ -53,6 +53,19 @@ def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> CableBatch:
         groups=np.array(groups, dtype=np.int64).reshape(-1, 8),
         gp=np.ascontiguousarray(np.concatenate(tables)),
     )
+
+
+def shape(
+    element: str, xi: ArrayLike, length: float, y: float = 0.0, z: float = 0.0, derivative: int | str = 0
+) -> FloatArray:
+    """Factors of r, r_x of both nodes in r, "r_x" or "r_xx", (..., 4); there are no points off the axis."""
+    order = derivative if isinstance(derivative, int) else ("r", "r_x", "r_xx").index(derivative)
+    return hermite(xi, length, order)
+
+
+def initial_vectors(beam: Beam) -> FloatArray:
+    """r (m) and r_x of the nodes in the initial shape, (nodes, 2, 3)."""
+    return np.stack([beam.node_position, beam.stretch * beam.node_tangent], axis=1)
 
 
 def reference_strains(beam: Beam) -> tuple[FloatArray, FloatArray]:

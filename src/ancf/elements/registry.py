@@ -1,36 +1,46 @@
-"""The elements by name: adding one is a file with its batch and a line here."""
+"""The numerics of each kind of element that a model may have."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Any, Protocol, cast
+
+from numpy.typing import ArrayLike
 
 from ..model.beam import Beam
-from . import cable_build, solid_build
+from ..model.elements import KINDS
+from .shapes import FloatArray
 
 
-@dataclass(frozen=True)
-class ElementKind:
-    """What the System needs to know of an element.
+class Element(Protocol):
+    """What the module of a kind of element offers; :data:`ancf.model.elements.KINDS` names it."""
 
-    Parameters
-    ----------
-    vectors : int
-        Three-component unknowns per node that neighbours share; the first two are r and r_x.
-    internal : int
-        Three-component unknowns per element, not shared.
-    build : callable
-        ``build(beams, slots)`` makes the batch of all such elements.
-    """
+    def build(self, beams: Sequence[Beam], slots: Sequence[Any]) -> Any:
+        """Batch of all such elements.
 
-    vectors: int
-    internal: int
-    build: Callable[[Sequence[Beam], Sequence[Any]], Any]
+        ``slots``: first unknown of each vector of each node of each beam, (nodes, vectors + internal).
+        """
+
+    def shape(
+        self,
+        element: str,
+        xi: ArrayLike,
+        length: float,
+        y: float = 0.0,
+        z: float = 0.0,
+        derivative: int | str = 0,
+    ) -> FloatArray:
+        """Factors of the element's vectors in r at (y, z), or in "r_x", "r_xx" or a vector of the section.
+
+        Shape (..., columns) for xi of shape (...): the vectors of the first node, of the second, the
+        internal ones.
+        """
+
+    def initial_vectors(self, beam: Beam) -> FloatArray:
+        """Vectors of the nodes and, in the row of its first node, of an element, (nodes, vectors, 3)."""
 
 
-ELEMENTS: dict[str, ElementKind] = {
-    "cable": ElementKind(vectors=2, internal=0, build=cable_build.build),
-    "original": ElementKind(vectors=4, internal=0, build=solid_build.build),
-    "nonlocking": ElementKind(vectors=4, internal=2, build=solid_build.build),
+ELEMENTS: dict[str, Element] = {
+    name: cast(Element, import_module(f".{kind.module}", __package__)) for name, kind in KINDS.items()
 }

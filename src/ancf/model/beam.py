@@ -10,11 +10,10 @@ import numpy as np
 from ancf.errors import ModelError
 from ancf.model import axes, checks
 from ancf.model.checks import FloatArray
+from ancf.model.elements import KINDS
 from ancf.model.points import Point
 from ancf.model.section import Section
 
-ELEMENTS = ("cable", "original", "nonlocking")
-STRAINS = {"cable": ("material", "paper"), "original": ("green",), "nonlocking": ("green",)}
 POISSON = ("centreline", "full")
 NATURAL_SHAPES = ("path", "straight")
 MOST_ELEMENTS = 1_000_000
@@ -78,6 +77,11 @@ class Beam:
         return self.node_x.size - 1
 
     @property
+    def has_section(self) -> bool:
+        """Whether it has cross-sections, which shear and twist; a cable has none."""
+        return KINDS[self.element].has_section
+
+    @property
     def node_z(self) -> FloatArray:
         """Initial unit vectors (n+1, 3) of the section's local z axis: node_tangent x node_y."""
         z: FloatArray = np.cross(self.node_tangent, self.node_y)
@@ -90,7 +94,7 @@ class Beam:
         0 for a cable; ``G J``, or ``G (I_y + I_z)`` with ``poisson = "full"``, where the section is plane.
         """
         s = self.section
-        if self.element == "cable" or s.G is None or s.J is None or s.I_y is None or s.I_z is None:
+        if not self.has_section or s.G is None or s.J is None or s.I_y is None or s.I_z is None:
             return 0.0
         return s.G * (s.J if self.poisson == "centreline" else s.I_y + s.I_z)
 
@@ -138,7 +142,7 @@ class Beam:
         return self.end if clean == self.length else Point(self, clean, f"{self.name}.at({clean:.12g})")
 
     def _check_place(self, y: float, z: float, where: str) -> None:
-        if self.element == "cable":
+        if not self.has_section:
             what = f"y = {y:g} m, z = {z:g} m: a cable has no cross-section to place a point in"
             raise ModelError(where, what, 'element = "original" or "nonlocking" has one')
         shape = self.section.shape

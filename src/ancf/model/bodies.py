@@ -165,7 +165,7 @@ Body = Beam | PointMass | RigidBody
 def kind(body: Body) -> str:
     """What a body is, for messages: ``cable``, ``beam``, ``point mass`` or ``rigid body``."""
     if isinstance(body, Beam):
-        return "cable" if body.element == "cable" else "beam"
+        return "beam" if body.has_section else "cable"
     return "point mass" if isinstance(body, PointMass) else "rigid body"
 
 

@@ -76,11 +76,10 @@ def beam(item: Beam) -> dict[str, Any]:
     plain["start"], plain["end"] = item.node_position[0].tolist(), item.node_position[-1].tolist()
     if not np.array_equal(item.node_x, np.linspace(0.0, item.length, item.elements + 1)):
         plain["nodes"] = item.node_x.tolist()
-    with_section = item.element != "cable"
-    if with_section:
+    if item.has_section:
         plain["y_axis"] = item.node_y[0].tolist()
     if not np.all(item.node_tangent == item.node_tangent[0]):
-        for key in ("node_position", "node_tangent", *(["node_y"] if with_section else [])):
+        for key in ("node_position", "node_tangent", *(["node_y"] if item.has_section else [])):
             plain[key] = getattr(item, key).tolist()
     plain["motion"] = {key: getattr(item, key).tolist() for key in MOTION}
     return plain

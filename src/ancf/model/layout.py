@@ -11,16 +11,15 @@ from ancf.errors import ModelError
 from ancf.model import axes, checks, path
 from ancf.model.axes import Sampler
 from ancf.model.beam import (
-    ELEMENTS,
     MOST_ELEMENTS,
     MOST_GAUSS_POINTS,
     NATURAL_SHAPES,
     NODE_TOLERANCE,
     POISSON,
-    STRAINS,
     Beam,
 )
 from ancf.model.checks import FloatArray
+from ancf.model.elements import KINDS
 from ancf.model.section import MATERIAL, Section
 from ancf.model.shapes import Rectangle
 
@@ -46,7 +45,7 @@ def make_beam(
     y_axis: Any,
 ) -> Beam:
     """Check everything that ``Model.add_beam`` was given and lay out the nodes."""
-    kind = checks.choice(element, f"{where}.element", ELEMENTS)
+    kind = checks.choice(element, f"{where}.element", tuple(KINDS))
     words = {
         "element": kind,
         "strain": _strain(strain, kind, f"{where}.strain"),
@@ -60,7 +59,7 @@ def make_beam(
         raise ModelError(f"{where}.length", f"is {natural:g} m for an initial shape of {arc_length:g} m")
     node_x = _node_x(where, elements, nodes, natural)
     position, tangent = shape(node_x / natural)
-    if kind != "cable":
+    if KINDS[kind].has_section:
         _check_turns(position, arc_length / natural * tangent, np.diff(node_x), where)
     return Beam(
         name=name,
@@ -83,7 +82,7 @@ def _check_section(section: Any, element: str, where: str) -> None:
     if not isinstance(section, Section):
         hint = "ancf.Section(EA=, EI=, rhoA=) or ancf.Section.rectangle(...)"
         raise ModelError(where, f"must be a Section, is {checks.shown(section)}", hint)
-    if element == "cable":
+    if not KINDS[element].has_section:
         try:
             _ = section.EI
         except ModelError as error:
@@ -100,10 +99,10 @@ def _check_section(section: Any, element: str, where: str) -> None:
 
 
 def _strain(given: Any, element: str, where: str) -> str:
-    allowed = STRAINS[element]
+    allowed = KINDS[element].strains
     if given is None:
         return allowed[0]
-    if element != "cable" and isinstance(given, str) and given in STRAINS["cable"]:
+    if KINDS[element].has_section and isinstance(given, str) and given in KINDS["cable"].strains:
         what = f'"{given}" is a strain measure of cables, element "{element}" has the "green" strain'
         raise ModelError(where, what, "leave strain out")
     return checks.choice(given, where, allowed)
@@ -183,7 +182,7 @@ def _check_turns(position: FloatArray, slope: FloatArray, length: FloatArray, wh
 
 
 def _gauss(given: Any, element: str, section: Section, where: str) -> tuple[int, int]:
-    cable = element == "cable"
+    cable = not KINDS[element].has_section
     if not isinstance(given, tuple | list) or len(given) != 2:
         counts = "axial, bending" if cable else "along the axis, across the section"
         raise ModelError(where, f"must be two counts ({counts}), is {checks.shown(given)}")

@@ -55,7 +55,7 @@ def make_moment(where: str, name: str, point: Point, moment: Any) -> Moment:
     if isinstance(body, PointMass):
         what = f'"{body.name}" is a point mass and has no orientation, no moment turns it'
         raise ModelError(f"{where}.point", what, "make it a rigid body")
-    if function.constant and isinstance(body, Beam) and body.element == "cable":
+    if function.constant and isinstance(body, Beam) and not body.has_section:
         value, tangent = function(0.0), body.initial_tangent(point.x)
         size = float(np.linalg.norm(value))
         if size > 0.0 and float(np.linalg.norm(np.cross(value / size, tangent))) <= 1e-9:

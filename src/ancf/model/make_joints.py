@@ -92,7 +92,7 @@ def _require_axes(point: Point, where: str) -> None:
     body = point.body
     if isinstance(body, PointMass):
         raise ModelError(where, *_without_axes(body))
-    if isinstance(body, Beam) and body.element == "cable":
+    if isinstance(body, Beam) and not body.has_section:
         what = f'"{body.name}" is a cable, which does not turn about its tangent, a hinge cannot hold it'
         hint = "hinge a rigid body and clamp the cable to it: model.clamp(point, to=body)"
         raise ModelError(where, what, hint)

@@ -130,7 +130,7 @@ def _body(body: Body) -> tuple[str, ...]:
     s = body.section
     bending = number(s.EI_y) if s.EI_y == s.EI_z else f"{number(s.EI_y)}, {number(s.EI_z)}"
     ends = (numbers(body.node_position[k], 4) for k in (0, -1))
-    name = "cable" if body.element == "cable" else f"{body.element} beam"
+    name = f"{body.element} beam" if body.has_section else body.element
     sizes = (str(body.elements), number(body.length), number(mass(body)))
     return body.name, name, *sizes, number(s.EA), bending, *ends
 

@@ -67,7 +67,7 @@ class Clamp:
         body = self.point.body
         if not isinstance(body, Beam):
             return components(AXES, "") | {"rotation"}
-        if body.element == "cable":
+        if not body.has_section:
             return components(AXES, AXES)
         return components(AXES, AXES, AXES, AXES, twist=True)
 
@@ -188,7 +188,7 @@ def _check_slopes(where: str, hold: Hold, body: Body) -> None:
     if not isinstance(body, Beam):
         missing = {"slope": "slope", "slope_y": "slope", "slope_z": "slope", "twist": "slope"}
         hint = "clamp holds a rigid body altogether" if isinstance(body, RigidBody) else ""
-    elif body.element != "cable":
+    elif body.has_section:
         return
     for key, slope in missing.items():
         if getattr(hold, key):

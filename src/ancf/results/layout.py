@@ -106,10 +106,7 @@ def _write_section(attrs: Any, beam: Beam) -> None:
     """Stiffnesses of a cable; material and shape, or moments, of a beam with a section."""
     section = beam.section
     keys = [*DAMPINGS]
-    if beam.element == "cable":
-        keys += ["EA", "EI", "rhoA"]
-    else:
-        keys += [*_MATERIAL, *_MOMENTS]
+    keys += [*_MATERIAL, *_MOMENTS] if beam.has_section else ["EA", "EI", "rhoA"]
     for key in keys:
         attrs[key] = getattr(section, key)
     if isinstance(section.shape, Rectangle):

@@ -53,7 +53,7 @@ class Spin:
         self._n = system.n
         self._parts: list[tuple[IntArray, float]] = []  # slots of r_y and r_z of the nodes, stiffness
         for name, beam in system.model.beams.items():
-            if beam.element == "cable":
+            if not beam.has_section:
                 continue
             section, slots = beam.section, system.numbering.slots[name][:, 2:4]
             assert section.G is not None  # the model has checked that there is a material

@@ -403,7 +403,7 @@ def settle(it: Iteration, share: float) -> str | None:
 def _slenderness(beam: Beam) -> float:
     """Share of the largest slenderness at which round-off keeps corrections below ACCEPTED."""
     section = beam.section
-    if beam.element == "cable" or section.G is None or section.J is None:
+    if not beam.has_section or section.G is None or section.J is None:
         return 0.0
     softest = min(section.EI_y, section.EI_z, section.G * section.J)
     return section.EA * beam.length**2 / softest / SLENDER

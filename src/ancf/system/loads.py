@@ -62,7 +62,7 @@ def moments(model: Model, locate: Locate, value: FloatArray) -> tuple[list[Any],
 
 
 def _is_cable(body: Body) -> bool:
-    return isinstance(body, Beam) and body.element == "cable"
+    return isinstance(body, Beam) and not body.has_section
 
 
 def _on_slopes(probes: list[Probe], value: FloatArray) -> MomentBatch:

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..elements.registry import ELEMENTS
-from ..elements.solid_shapes import initial_vectors
 from ..model.beam import Beam
 from ..model.bodies import Body, PointMass, RigidBody
+from ..model.elements import KINDS
 
 FloatArray = NDArray[np.float64]
 
@@ -30,7 +30,7 @@ def layout(body: Body) -> tuple[int, int, int]:
         return 1, 1, 0
     if isinstance(body, RigidBody):
         return 1, 4, 0
-    kind = ELEMENTS[body.element]
+    kind = KINDS[body.element]
     return body.elements + 1, kind.vectors, kind.internal
 
 
@@ -40,9 +40,7 @@ def start_vectors(body: Body) -> FloatArray:
         return body.position.reshape(1, 1, 3).copy()
     if isinstance(body, RigidBody):
         return np.vstack([body.position, body.axes.T])[None]
-    if body.element == "cable":
-        return np.stack([body.node_position, body.stretch * body.node_tangent], axis=1)
-    return initial_vectors(body)
+    return ELEMENTS[body.element].initial_vectors(body)
 
 
 def node_of(body: Body, x: float) -> int:

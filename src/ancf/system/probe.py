@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..elements.registry import ELEMENTS
-from ..elements.shapes import hermite
-from ..elements.solid_shapes import shape
 from ..model.beam import Beam
 from ..model.bodies import Body
+from ..model.elements import KINDS
 from ..model.points import Point
 
 FloatArray = NDArray[np.float64]
@@ -75,7 +74,7 @@ class BeamProbe(Probe):
     @property
     def solid(self) -> bool:
         """Whether the beam has cross-sections."""
-        return self.beam.element != "cable"
+        return self.beam.has_section
 
     @property
     def element_length(self) -> float:
@@ -109,7 +108,7 @@ def locate(point: Point, slots: IntArray) -> Probe:
     e = int(np.clip(np.searchsorted(body.node_x, x, side="right") - 1, 0, body.elements - 1))
     h = float(body.node_x[e + 1] - body.node_x[e])
     S = _factors(body, (x - body.node_x[e]) / h, h, y, z)
-    vectors = ELEMENTS[body.element].vectors
+    vectors = KINDS[body.element].vectors
     parts = (slots[e, :vectors], slots[e + 1, :vectors], slots[e, vectors:])
     return BeamProbe(body, x, y, z, np.concatenate(parts), S, body, e)
 
@@ -125,7 +124,6 @@ def _rigid_factors(point: Point, vectors: int) -> FloatArray:
 
 
 def _factors(beam: Beam, xi: float, h: float, y: float, z: float) -> FloatArray:
-    if beam.element == "cable":
-        return np.stack([hermite(xi, h, d) for d in range(3)])
-    rest = [shape(beam.element, xi, h, derivative=name) for name in _NAMES]
+    shape, names = ELEMENTS[beam.element].shape, _NAMES if beam.has_section else _NAMES[:2]
+    rest = [shape(beam.element, xi, h, derivative=name) for name in names]
     return np.stack([shape(beam.element, xi, h, y, z), *rest])

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag
 
 from ancf.model.file.fields import (
+    ElementName,
     Entry,
     Inertia,
     Integrator,
@@ -19,6 +20,7 @@ from ancf.model.file.fields import (
     PointOrPosition,
     Positive,
     ScalarFunction,
+    StrainName,
     Vector,
     VectorFunction,
 )
@@ -370,10 +372,10 @@ class BeamEntry(Entry):
     nodes: list[float] | None = Field(
         None, description="Reference arc lengths of the nodes, 0 to length [m]."
     )
-    element: Literal["cable", "original", "nonlocking"] = Field(
+    element: ElementName = Field(
         "cable", description="Kind of element: the cable, or a beam with shear, torsion and a cross-section."
     )
-    strain: Literal["material", "paper", "green"] | None = Field(
+    strain: StrainName | None = Field(
         None, description='Strain measures of a cable, default "material"; the beams have "green".'
     )
     poisson: Literal["centreline", "full"] = Field(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
 from pydantic_core import PydanticCustomError
@@ -11,8 +11,16 @@ from pydantic_core import PydanticCustomError
 from ancf.errors import ModelError
 from ancf.model import checks
 from ancf.model.bodies import as_inertia
+from ancf.model.elements import KINDS
 from ancf.model.functions import TimeFunction
 from ancf.model.settings import FORMULATIONS, INTEGRATORS, IntegratorSettings
+
+if TYPE_CHECKING:  # the names are known at run time alone
+    ElementName: TypeAlias = str
+    StrainName: TypeAlias = str
+else:
+    ElementName = Literal[tuple(KINDS)]
+    StrainName = Literal[tuple(dict.fromkeys(name for kind in KINDS.values() for name in kind.strains))]
 
 
 class Entry(BaseModel):

@@ -153,7 +153,7 @@ def _points(source: Any, count: int) -> int:
     """Number of points along the centrelines: all nodes, more as long as the file stays small."""
     known = getattr(source, "about", source)
     beams = [body for body in getattr(known, "bodies", {}).values() if isinstance(body, Beam)]
-    solid = any(beam.element != "cable" for beam in beams)
+    solid = any(beam.has_section for beam in beams)
     most = min(POINTS, TOTAL // (count * (1 + CORNERS * solid)))
     return max(2, most, sum(beam.elements for beam in beams))
 

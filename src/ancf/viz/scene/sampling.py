@@ -58,7 +58,7 @@ def _joined(columns: Iterable[FloatArray]) -> FloatArray:
 
 def _outline(shown: Fields, beam: Beam, x: FloatArray) -> FloatArray | None:
     """Corners of the cross-sections (n, m, k, 3); None for a cable."""
-    if beam.element == "cable":
+    if not beam.has_section:
         return None
     y, z = corners(beam.section)
     sections = []

@@ -101,6 +101,6 @@ def write_view(source: Result | State | Modes, path: str | Path, **options: Any)
 def _points(source: Any, frames: int) -> int:
     """Points on the centrelines for which the page does not grow too large."""
     bodies = source.about.bodies if isinstance(source, Modes) else source.bodies
-    solid = any(isinstance(body, Beam) and body.element != "cable" for body in bodies.values())
+    solid = any(isinstance(body, Beam) and body.has_section for body in bodies.values())
     each = OF_POINT + (CORNERS * OF_CORNER if solid else 0)
     return min(POINTS, max(2, BYTES // (frames * each)))
