@@ -18,6 +18,7 @@ from ancf.system.core import (
     factorise_tail,
     restrict,
     solve_matrix,
+    solve_sparse,
 )
 from ancf.system.matrix import Places
 from ancf.system.system import System
@@ -103,6 +104,17 @@ class TestFactorisation:
         assert negative == 0
         assert backward_error(A, x, b) < 1e-14
         assert x == pytest.approx(np.linalg.solve(A, b), rel=1e-9)
+
+    def test_zeros_at_the_start_are_left_out(self, pattern):
+        """To the last bit the same as with them, wherever the first number stands."""
+        pairs, n = pattern
+        factor, _ = factorised(definite(pairs, n), pairs, n)
+        for first in range(n + 1):
+            b = np.append(np.zeros(6 * first), RNG.standard_normal(6 * (n - first)))
+            wanted, x = b.copy(), b.copy()
+            solve_matrix(factor, wanted)
+            solve_sparse(factor, x, first)
+            assert np.array_equal(x, wanted)
 
     def test_counts_negative_eigenvalues(self, pattern):
         pairs, n = pattern

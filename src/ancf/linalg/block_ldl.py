@@ -160,11 +160,11 @@ def factorise(A, factor, start):
 
 
 @inline_kernel
-def solve(factor, x):
-    """Replace the right-hand side x, shape (6 n,), by the solution."""
+def solve(factor, x, first):
+    """Replace the right-hand side x, shape (6 n,), which is zero before block ``first``, by the solution."""
     row_start, column, L, D_inv, _, _ = factor
     n = row_start.shape[0] - 1
-    for i in range(n):
+    for i in range(first, n):
         s0, s1, s2, s3, s4, s5 = (
             x[6 * i],
             x[6 * i + 1],
@@ -191,7 +191,7 @@ def solve(factor, x):
             s4,
             s5,
         )
-    for i in range(n - 1, -1, -1):
+    for i in range(n - 1, first - 1, -1):
         o = 36 * i
         s0, s1, s2, s3, s4, s5 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         for c in range(6):  # D_inv is symmetric: rows serve as columns

@@ -38,6 +38,7 @@ from ..system.core import (
     residual,
     restrict,
     solve_matrix,
+    solve_sparse,
     to_local,
 )
 from .frames import Frames, remember, turn, turn_back, turn_forth, turn_rows
@@ -228,7 +229,10 @@ def _project(batches, core, s, rule):
         norm = max(norm, abs(s.r[joints.multipliers[k]]))
     if norm <= HELD * rule.tolerance:
         return 0.0
-    solve_turned(core, s, rule)
+    to_local(core.supports, s.r)
+    solve_sparse(core.factor, s.r, joints.lowest)
+    if rule.corotate:
+        turn_forth(s.frames, s.r)
     norm = 0.0
     for i in range(core.weight.shape[0]):
         d = s.r[i] * (1.0 - joints.mask[i])

@@ -111,7 +111,7 @@ def fill(core, p, k, n):
             p.entry[k, w], p.value[k, w] = i, z[i]
             w += 1
     p.width[k] = w
-    solve(core.factor, z)
+    solve(core.factor, z, p.entry[k, 0] // 6 if w > 0 else 0)
     for j in range(p.used[0]):
         p.gram[j, k] = times(p, j, z)
         p.gram[k, j] = p.gram[j, k]

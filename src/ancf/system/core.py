@@ -66,6 +66,7 @@ class Joints(NamedTuple):
     batches: tuple[Any, ...]  # with constraints
     tail: tuple[Any, ...]  # of them those whose rows come last
     first: int  # first block of these rows, the number of blocks if there are none
+    lowest: int  # first block with a multiplier, the number of blocks if there are none
     supports: Supports  # the part of the supports that concerns these rows
 
 
@@ -238,7 +239,13 @@ def constraints(joints, q, v, a, r, ws):
 @kernel
 def solve_matrix(factor, x):
     """Replace a residual that :func:`to_local` has prepared by the correction."""
-    solve(factor, x)
+    solve(factor, x, 0)
+
+
+@kernel
+def solve_sparse(factor, x, first):
+    """The same for an x that is zero before block ``first``."""
+    solve(factor, x, first)
 
 
 @kernel

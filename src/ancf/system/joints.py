@@ -78,6 +78,7 @@ def core_joints(batches: list[Any], system: System, supports: Supports) -> Joint
         batches=tuple(constrained),
         tail=tuple(b for b in constrained if isinstance(b, SlidingBatch)),
         first=first,
+        lowest=int(np.min(system.multipliers, initial=system.n)) // 6,
         supports=tail_supports(supports, system.places, first),
     )
 
