@@ -405,6 +405,32 @@ def test_plain_newton_on_stiff_beams(element, f):
         assert "try a step of" in error.hint
 
 
+class TestPressedStart:
+    """A rope that is longer than the distance of its ends, straight at the start."""
+
+    def fails(self, length, **more):
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        section = ancf.Section(EA=1e6, EI=0.01, rhoA=0.1)
+        rope = model.add_beam(
+            "rope", start=(0, 0, 0), end=(1, 0, 0), length=length, elements=8, section=section
+        )
+        model.pin(rope.start)
+        model.add_force(rope.end, lambda t: (0, 0, 0) if t < 0.05 else (1e300, 0, 0))
+        with pytest.raises(ancf.SolveError) as caught:
+            ancf.simulate(model, t_end=0.1, step=1e-3, **more)
+        return caught.value
+
+    def test_is_advised_to_hang_first(self):
+        error = self.fails(2.0)
+        assert error.hint.startswith('"rope" begins pressed to 50 % of its length: start=ancf.equilibrium(')
+        assert "; else try a step of" in error.hint
+        assert error.hint in str(error)
+        assert error.result.status == "failed"
+
+    def test_others_are_not(self):
+        assert "pressed" not in self.fails(1.0).hint
+
+
 class TestFiles:
     def run(self, path):
         return ancf.simulate(cantilever()[0], t_end=0.01, step=1e-3, file=path)

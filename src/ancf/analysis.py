@@ -28,6 +28,8 @@ from .system.consistency import check_gaps, check_independent
 from .system.sensors import Listing, listing
 from .system.system import System
 
+#: Share of its natural length above which a cable at its start is not called pressed.
+PRESSED = 0.999
 __all__ = ["equilibrium", "load", "modes", "simulate", "stable_step"]
 
 
@@ -152,10 +154,22 @@ def simulate(
         run.go(store, progress)
     except (SolveError, ModelError) as error:
         error.result = finished("failed")
+        if start is None and isinstance(error, SolveError):
+            _advise_rest(error, model)
         raise
     except KeyboardInterrupt as stop:
         raise Interrupted(finished("interrupted")) from stop
     return finished("complete")
+
+
+def _advise_rest(error: SolveError, model: Model) -> None:
+    """A cable that starts pressed together shoots off; its equilibrium is where it should start."""
+    pressed = min(model.beams.values(), key=lambda beam: beam.stretch, default=None)
+    if pressed is None or pressed.stretch > PRESSED:
+        return
+    begins = f'"{pressed.name}" begins pressed to {100 * pressed.stretch:.3g} % of its length'
+    files = 'start = "equilibrium" in a model file'
+    error.advise(f'{begins}: start=ancf.equilibrium(model, of=["{pressed.name}"]), or {files}')
 
 
 def modes(model: Model, *, about: State | None = None, count: int = 10) -> Modes:

@@ -55,6 +55,11 @@ class SolveError(RuntimeError):
         self.where, self.what, self.hint = where, what, hint
         super().__init__(_sentence(where, what, hint))
 
+    def advise(self, hint: str) -> None:
+        """Put a hint before the one that there is."""
+        self.hint = f"{hint}; else {self.hint}" if self.hint else hint
+        self.args = (_sentence(self.where, self.what, self.hint),)
+
 
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C during a simulation; ``result`` holds what was computed until then."""
