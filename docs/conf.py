@@ -1,6 +1,5 @@
 """Sphinx configuration: ``python -m sphinx -W -b html docs docs/_build/html``."""
 
-import os
 import sys
 from pathlib import Path
 
@@ -16,6 +15,7 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.mathjax",
     "sphinx.ext.napoleon",
+    "sphinx-mathjax-offline",  # equations are drawn without a network
 ]
 exclude_patterns = ["_build"]
 source_suffix = {".md": "markdown"}
@@ -27,11 +27,6 @@ napoleon_google_docstring = False
 napoleon_numpy_docstring = True
 autodoc_member_order = "bysource"
 autodoc_typehints = "description"
-
-# Equations are drawn in the reader's browser. To read the pages offline, point this at a copy
-# of MathJax 3 (the file es5/tex-mml-chtml.js of the npm package "mathjax").
-if "ANCF_DOCS_MATHJAX" in os.environ:
-    mathjax_path = os.environ["ANCF_DOCS_MATHJAX"]
 
 html_theme = "furo"
 html_title = f"ancf {release}"
