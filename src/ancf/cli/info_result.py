@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ancf.cli.results_file import reading
 from ancf.cli.screen import console, table
 from ancf.cli.summary import plural
-from ancf.errors import ModelError
 
 if TYPE_CHECKING:
     from ancf import Result
@@ -34,14 +34,10 @@ def show_result(path: Path) -> None:
 def _read(path: Path) -> tuple[str, list[tuple[str, str]], Any]:
     import ancf
 
-    try:
+    with reading(path):
         result = ancf.load(path)
         plain = result.provenance
         return _title(plain, path), _facts(result, plain), _bodies(plain)
-    except ModelError:
-        raise
-    except (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError) as error:
-        raise ModelError(str(path), f"is not a results file of ancf: {error}") from None
 
 
 def _title(plain: dict[str, Any], path: Path) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,13 +30,20 @@ def open_result(path: Path) -> Result:
     if path.suffix.lower() == ".toml" and path.exists():
         hint = f"ancf run {path} -o out writes out/results.h5"
         raise ModelError(str(path), "is a model file, not a results file", hint)
-    try:
+    with reading(path):
         result = ancf.load(path)
         states = len(result.t)
+    if states == 0:
+        raise ModelError(str(path), "holds no states yet", f"ancf info {path} says how far the run is")
+    return result
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[None]:
+    """Turn what goes wrong while a file is read into one message about the file."""
+    try:
+        yield
     except ModelError:
         raise
     except (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError) as error:
         raise ModelError(str(path), f"is not a results file of ancf: {error}") from None
-    if states == 0:
-        raise ModelError(str(path), "holds no states yet", f"ancf info {path} says how far the run is")
-    return result
