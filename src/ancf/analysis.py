@@ -28,9 +28,10 @@ from .system.consistency import check_gaps, check_independent
 from .system.sensors import Listing, listing
 from .system.system import System
 
+__all__ = ["equilibrium", "load", "modes", "simulate", "stable_step"]
+
 #: Share of its natural length above which a cable at its start is not called pressed.
 PRESSED = 0.999
-__all__ = ["equilibrium", "load", "modes", "simulate", "stable_step"]
 
 
 def equilibrium(
@@ -124,10 +125,7 @@ def simulate(
         raise ModelError(
             "simulate.start", f"must be a State, is {checks.shown(start)}", "see ancf.equilibrium"
         )
-    method = Trapezoidal() if integrator is None else integrator
-    if not isinstance(method, tuple(INTEGRATORS.values())):
-        known = "one of " + ", ".join(f"ancf.{kind.__name__}()" for kind in INTEGRATORS.values())
-        raise ModelError("simulate.integrator", f"must be {known}, is {checks.shown(method)}")
+    method = _integrator(integrator)
     t0 = 0.0 if start is None else start.t
     every = _check_times(t0, t_end, step, output_step)
     system = _system(model)  # anew: the model may have changed since the start was computed
@@ -136,9 +134,7 @@ def simulate(
     system.sensors = _sensors(system, sensors)
     if not checks.flag(energy, "simulate.energy"):
         system.skip_energies()
-    header = _header(model, method, t0, t_end, step, output_step)
-    header["settings"]["energy"] = bool(energy)
-    header["settings"]["sensors"] = [str(p) for p in system.sensors.points] + [*system.sensors.connections]
+    header = _header(system, method, t0, t_end, step, output_step)
     run = method.run(system, t0, t_end, step, every)
     run.start(q, v)
     store = MemoryStore(system) if file is None else FileStore(file, system, header)
@@ -160,6 +156,15 @@ def simulate(
     except KeyboardInterrupt as stop:
         raise Interrupted(finished("interrupted")) from stop
     return finished("complete")
+
+
+def _integrator(given: Integrator | None) -> Integrator:
+    if given is None:
+        return Trapezoidal()
+    if not isinstance(given, tuple(INTEGRATORS.values())):
+        known = "one of " + ", ".join(f"ancf.{kind.__name__}()" for kind in INTEGRATORS.values())
+        raise ModelError("simulate.integrator", f"must be {known}, is {checks.shown(given)}")
+    return given
 
 
 def _advise_rest(error: SolveError, model: Model) -> None:
@@ -299,9 +304,10 @@ def _check_times(t0: float, t_end: float, step: float, output_step: float | None
 
 
 def _header(
-    model: Model, method: Integrator, t0: float, t_end: float, step: float, output_step: float | None
+    system: System, method: Integrator, t0: float, t_end: float, step: float, output_step: float | None
 ) -> dict[str, Any]:
     """What made a result: model, settings, versions, time."""
+    model, listed = system.model, system.sensors
     return {
         "title": model.title,
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -313,6 +319,8 @@ def _header(
             "output_step": output_step or step,
             "integrator": method.name,
             **method.settings(),
+            "energy": system.core.accounted,
+            "sensors": [*map(str, listed.points), *listed.connections],
         },
         "versions": versions(),
     }

@@ -24,8 +24,16 @@ if sys.platform != "win32":
     import fcntl
 
 
-#: What reading classes that have gone, or a file that was cut off, ends in.
-UNREADABLE = (ImportError, AttributeError, EOFError, pickle.UnpicklingError)
+#: What reading classes that have gone or changed, or a file that was cut off, ends in.
+UNREADABLE = (
+    ImportError,
+    AttributeError,
+    LookupError,
+    TypeError,
+    ValueError,
+    EOFError,
+    pickle.UnpicklingError,
+)
 
 
 def share() -> None:

@@ -21,7 +21,6 @@ from .shapes import FloatArray
 
 #: Power of a in kappa^2, by strain measure.
 CURVATURE_POWER = {"paper": 3, "material": 2}
-STRAINS = tuple(CURVATURE_POWER)
 
 
 def axial_strain(r_x: FloatArray, strain: str) -> FloatArray:

@@ -229,7 +229,7 @@ def _project(batches, core, s, rule):
         norm = max(norm, abs(s.r[joints.multipliers[k]]))
     if norm <= HELD * rule.tolerance:
         return 0.0
-    to_local(core.supports, s.r)
+    to_local(core.supports, s.r)  # as in solve_turned, but there is nothing to turn back
     solve_sparse(core.factor, s.r, joints.lowest)
     if rule.corotate:
         turn_forth(s.frames, s.r)
