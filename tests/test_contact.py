@@ -237,3 +237,56 @@ def test_unknown_contact_lists_the_right_ones():
     with pytest.raises(ancf.ModelError, match="contact of head and wire"):
         state.contact_force("no such")
     assert state.contact_force(touch.name) == state.contact_force(touch)
+
+
+def on_an_incline(slope: float, *, speed: float, mass: float, damping: float, elements: int = 2):
+    """A head in a plane x = v t, lifted by 100 N against a rigid bar of some slope that it just touches."""
+    model = ancf.Model()
+    start, end = np.array([0.0, 0.0, 0.0]), np.array([1.0, 0.0, slope])
+    rigid = ancf.Section(EA=1e10, EI=1e7, rhoA=1.0)
+    bar = model.add_beam("bar", section=rigid, start=start, end=end, elements=elements)
+    model.clamp(bar.start)
+    model.clamp(bar.end)
+    head = model.add_point_mass("head", at=(0.3, 0.0, 0.3 * slope), mass=mass)
+    model.hold(head, position="xy", displacement=[f"{speed}*t", 0, 0])
+    head.set_motion(velocity=(speed, 0.0, speed * slope))
+    model.add_force(head, (0.0, 0.0, 100.0))
+    touch = model.add_contact(head, bar, stiffness=50e3, damping=damping)
+    return model, head, touch
+
+
+@pytest.mark.parametrize(
+    ("slope", "speed", "mass", "damping"),
+    [(0.0, 0.0, 7.2, 80.0), (0.3, 4.0, 7.2, 80.0), (-0.5, 3.0, 20.0, 150.0), (0.5, -2.0, 5.0, 40.0)],
+)
+def test_damping_acts_on_the_rate_of_the_overlap(slope, speed, mass, damping):
+    """m g" + c g' + k g = F for the overlap g, from rest: on any slope and at any speed along it.
+
+    A damper along the strip's normal would feel v times the slope all the time.
+    """
+    model, head, touch = on_an_incline(slope, speed=speed, mass=mass, damping=damping)
+    result = ancf.simulate(model, t_end=0.05, step=1e-4, sensors=[head, touch])
+    t, decay = result.t, 0.5 * damping / mass
+    omega = np.sqrt(50e3 / mass - decay**2)
+    sway = np.cos(omega * t) + decay / omega * np.sin(omega * t)
+    overlap = 100.0 / 50e3 * (1.0 - np.exp(-decay * t) * sway)
+    rate = 100.0 / (mass * omega) * np.exp(-decay * t) * np.sin(omega * t)
+    assert -result.contact_gap(touch) == pytest.approx(overlap, abs=4e-3 * overlap.max())
+    force = 50e3 * overlap + damping * rate
+    assert result.contact_force(touch)[1:] == pytest.approx(force[1:], abs=5e-3 * force.max())
+
+
+@pytest.mark.parametrize("output_step", [1e-4, 1e-3])
+def test_sensors_know_the_contact_of_their_own_step(output_step):
+    """Force, overlap and place of each step are those of the state at its end, not of the step before."""
+    model, head, touch = on_an_incline(0.3, speed=4.0, mass=7.2, damping=80.0)
+    result = ancf.simulate(model, t_end=0.02, step=1e-4, sensors=[head, touch], output_step=output_step)
+    sensors, at = result.sensors, np.searchsorted(result.sensors.t, result.t - 1e-9)
+    assert sensors.t[at] == pytest.approx(result.t, abs=1e-12)
+    for name in ("contact_force", "contact_gap", "arc_length"):
+        found, wanted = (getattr(whole, name)(touch) for whole in (sensors, result))
+        assert found[at][1:] == pytest.approx(wanted[1:], rel=1e-9)
+        assert np.ptp(wanted) > 0.0
+    height = sensors.position(head)
+    overlap = height[:, 2] - 0.3 * height[:, 0]  # the bar does not give
+    assert -sensors.contact_gap(touch) == pytest.approx(overlap, abs=1e-3 * overlap.max())

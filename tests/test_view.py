@@ -2,6 +2,7 @@
 
 import re
 from html.parser import HTMLParser
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
@@ -9,11 +10,14 @@ import pytest
 
 import ancf
 import viewed
+from ancf.system.system import System
 from ancf.viz.scene import Marker, Scene, Thread, make_scene
 from ancf.viz.view import page, view_page
 from ancf.viz.view.curve import decimated
 from ancf.viz.view.encode import color_limits
+from ancf.viz.view.histories import STATES, Histories
 from ancf.viz.view.page import plotly_script
+from helpers import rotation
 from viewed import STRIP, array_of, data_of
 
 
@@ -134,6 +138,57 @@ class TestPage:
         np.testing.assert_allclose(position[8] + position[24], 2 * position[0], atol=1e-6)
         assert data["scene"]["quantities"] == []
         assert [trace["name"] for trace in data["traces"]] == ["beam.end"]
+
+
+def bodies_that_turned():
+    """Two turned rigid bodies: a state, and the rotations."""
+    model, turns = ancf.Model(), (rotation((0, 0, 1), 0.7), rotation((1, 2, -0.5), 2.1))
+    for k, turn in enumerate(turns):
+        model.add_rigid_body(f"body {k}", at=(2.0 * k, 0, 0), mass=2.0, inertia=(0.1, 0.2, 0.25), axes=turn)
+    system = System(model)
+    return ancf.State(system, 0.0, *system.initial_state()), turns
+
+
+class TestBodyAxes:
+    def test_are_the_columns_of_the_rotation(self):
+        """From the centre to where a point of each axis is."""
+        state, turns = bodies_that_turned()
+        scene = make_scene(state)
+        data = data_of(page(scene, [], "x"))
+        triads = data["scene"]["triads"]
+        centre, axes = (array_of(data, triads[key])[0] for key in ("centre", "axes"))
+        for k, turn in enumerate(turns):
+            size = scene.triads[k].size
+            assert axes[k] / size == pytest.approx(turn, abs=1e-6)
+            for j, corner in enumerate(size * np.eye(3)):
+                point = state.system.model.bodies[f"body {k}"].at(*corner)
+                assert centre[k] + axes[k][:, j] == pytest.approx(state.position(point), abs=1e-5)
+
+
+class TestHistories:
+    @pytest.mark.parametrize("count", [STATES - 1, STATES, STATES + 1, 2 * STATES + 1, 70_000])
+    def test_velocities_are_those_of_the_times(self, count):
+        """Beyond so many states every second, third, ... one is kept, of all arrays alike."""
+        state, _ = bodies_that_turned()
+        t = np.linspace(0.0, 3.0, count)
+        q, v = (np.repeat(a[None, :3], count, axis=0) for a in (state.q, state.v))
+        q[:, 0], v[:, 0] = np.sin(5 * t), 5 * np.cos(5 * t)
+        model = ancf.Model()
+        body = model.add_point_mass("mass", at=(0, 0, 0), mass=1.0)
+        whole = SimpleNamespace(
+            bodies={"mass": body},
+            slots={"mass": np.array([[0]])},
+            springs={},
+            joints={},
+            arcs={},
+            t=t,
+            q=q,
+            v=v,
+        )
+        kept = Histories(whole)
+        assert count / 5 < len(kept.t) <= STATES
+        assert kept.position("mass")[:, 0] == pytest.approx(np.sin(5 * kept.t), abs=1e-12)
+        assert kept.velocity("mass")[:, 0] == pytest.approx(5 * np.cos(5 * kept.t), abs=1e-12)
 
 
 class TestChoice:

@@ -10,8 +10,9 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 import viewed
-from ancf.viz.scene import Link, Scene, Strip, Thread
+from ancf.viz.scene import Link, Marker, Scene, Strip, Thread, Triad
 from ancf.viz.view import Curve, page, write_view
+from helpers import rotation
 
 CHROMIUM = next(
     (
@@ -254,6 +255,24 @@ class TestOtherPages:
         path = folder / "line.html"
         path.write_text(page(scene, [curve], "Line"), encoding="utf-8")
         return path
+
+    def test_body_axes_are_columns(self, browser, tmp_path):
+        """From the centre along the columns of the rotation, the first axis first."""
+        t, turn = np.arange(3.0), rotation((1, 2, -0.5), 2.1)
+        centre = np.stack([t, 0 * t, 1 + 0 * t], axis=1)
+        triad = Triad("body", centre, np.stack([np.eye(3), turn, turn @ turn]), 0.5)
+        scene = Scene("body", t, triads=[triad], markers=[Marker("body", "rigid body", centre)], stored=3)
+        path = tmp_path / "body.html"
+        path.write_text(page(scene, [], "Body"), encoding="utf-8")
+        opened = Opened(browser, path)
+        for k, wanted in enumerate((np.eye(3), turn, turn @ turn)):
+            opened.seek(k)
+            drawn = opened.ask(
+                "(({x, y, z}) => [x, y, z])(picture.div.data.find((d) => d.name === 'body axes'))"
+            )
+            ends = np.array(drawn, dtype=float).reshape(3, 3, 3)[..., :2]  # xyz, axis, from and to
+            assert ends[..., 1] - ends[..., 0] == pytest.approx(0.5 * wanted, abs=1e-6)
+        opened.quiet()
 
     def test_without_webgl_a_message_is_seen(self, browser, cantilever, tmp_path):
         opened = Opened(browser, write_view(cantilever, tmp_path / "view.html", frames=5), NO_WEBGL)
