@@ -1,4 +1,4 @@
-"""A lowest spring that is relaxed at the mean height takes nothing from the mean force; whose uplift is whose.
+"""A spring relaxed at the mean height takes nothing from the mean force; whose uplift is whose.
 
 A pantograph of one mass on one spring is a closed form: the sum of its forces at every step is
 
