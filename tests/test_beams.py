@@ -189,6 +189,37 @@ class TestTorsion:
             assert state.twist(beam.at(x)) == pytest.approx(T * x / (s.G * J), rel=1e-2 if venant else 2e-3)
             assert state.torque(beam.at(x)) == pytest.approx(T, rel=2e-3)
 
+    @pytest.mark.parametrize("sides", [(6.0, 1.0), (1.0, 6.0), (30.0, 1.0), (1.0, 1.0)], ids=str)
+    @pytest.mark.parametrize("variant", SOLID_VARIANTS)
+    def test_loaded_section_is_not_sheared(self, variant, sides):
+        """A torque on unequal sides: T L/(G J) on any mesh, and r_y and r_z stay at right angles."""
+        given = {"width": 0.005 * sides[0], "height": 0.005 * sides[1], **VARIANTS[variant]}
+        misses = []
+        for elements in (2, 8, 128):
+            model, beam = beam_model(elements, end=(0.3, 0, 0), **given)
+            model.clamp(beam.start)
+            wanted = 1e-5  # rad: what is of second order stays below 1e-6 of it
+            model.add_moment(beam.end, (wanted * beam.torsional_stiffness / 0.3, 0, 0))
+            state = ancf.equilibrium(model)
+            misses.append(abs(state.twist(beam.end) / wanted - 1))
+            assert abs(state.strain_tensor(beam.end)[1, 2]) < 1e-6 * wanted
+        assert misses[0] < 1e-5
+        assert misses[1] < max(0.2 * misses[0], 1e-7)
+        assert misses[2] < max(0.2 * misses[1], 1e-7)
+
+    @pytest.mark.parametrize("sides", [(6.0, 1.0), (1.0, 6.0), (2.0, 3.0)], ids=str)
+    @pytest.mark.parametrize("element", SOLIDS)
+    def test_oblique_moment_on_unequal_sides(self, element, sides):
+        """Torque and both bending moments at once: each turns the end by M L/stiffness."""
+        model, beam = beam_model(4, width=0.01 * sides[0], height=0.01 * sides[1], nu=0.3, element=element)
+        model.clamp(beam.start)
+        s, turn = beam.section, np.array([1.0, -2.0, 1.5]) * 1e-8
+        stiffness = np.array([beam.torsional_stiffness, s.EI_y, s.EI_z])
+        model.add_moment(beam.end, turn * stiffness / LENGTH)
+        R = ancf.equilibrium(model).section_rotation(beam.end)
+        found = 0.5 * np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+        assert found == pytest.approx(turn, rel=2e-5)
+
     @pytest.mark.parametrize("element", SOLIDS)
     def test_beyond_a_turn(self, element):
         """Three turns, on elements so short that turned r_y between their nodes keep their length."""

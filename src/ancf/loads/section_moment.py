@@ -1,18 +1,24 @@
 """Moment M on the cross-section of a beam: the virtual work M . delta theta.
 
-The rotation of the section is the mean of what r_y and r_z turn, each counted once:
+The rotation of the section is that of the rigid turn nearest to what r_y and r_z do, weighted by what each
+of them carries of a torque, the section's second moments w_y = I_z/I_p and w_z = I_y/I_p, I_p = I_y + I_z:
 
-    delta theta = (I - t t^T/2) sum_i  r_i x delta r_i/|r_i|^2,   i = y, z,   t = r_y x r_z/|r_y x r_z|,
+    delta theta = J^-1 sum_i w_i r_i x delta r_i,     J = sum_i w_i (r_i.r_i I - r_i r_i^T),     i = y, z.
 
-which gives delta theta itself for a rigid rotation of a section whose r_y and r_z are at right angles, as
-they are up to the shear of the section.  M acts as the forces f_i = (m x r_i)/|r_i|^2 with
-m = M - t (t . M)/2 on r_i: a moment about r_z on r_y alone, a torque by halves on both.  The matrix
-takes the symmetric part of the derivative.
+It gives delta theta itself for a rigid rotation of any section, sheared and stretched ones included, so that
+the forces f_i = w_i (J^-1 M) x r_i on r_y and r_z have the moment sum r_i x f_i = M in every state.  With
+c = r_y x r_z they are
+
+    f_y = -(M.r_z) c/c.c + w_y s c x r_y,   f_z = (M.r_y) c/c.c + w_z s c x r_z,
+    s = (M.c)/(c.c (w_y r_y.r_y + w_z r_z.r_z)):
+
+a moment about r_z acts on r_y alone, and a torque in the shares in which the stress of pure torsion acts on
+r_y and r_z, so that it does not shear the section where it acts.  The matrix takes the symmetric part of
+the derivative.
 """
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -29,6 +35,7 @@ class SectionMomentBatch(NamedTuple):
     base: NDArray[np.int64]  # (n, 6), -1 unused
     dest: NDArray[np.int64]  # (n, 36) places of the 3x3 blocks in the matrix
     factor: FloatArray  # (n, 6) shape functions
+    share: FloatArray  # (n, 2) w_y, w_z, whose sum is 1
     value: FloatArray  # (n, 3) moment now, N m
 
 
@@ -58,14 +65,37 @@ def scalar(a, b):
 
 
 @inline_kernel
-def section_axis(batch, e, ry, rz):
-    """t, |r_y x r_z|, t . M and m."""
+def sum3(x, a, y, b, z, c):
+    """Sum of three vectors with factors."""
+    return (
+        x * a[0] + y * b[0] + z * c[0],
+        x * a[1] + y * b[1] + z * c[1],
+        x * a[2] + y * b[2] + z * c[2],
+    )
+
+
+@inline_kernel
+def turning(batch, e, ry, rz, M):
+    """J^-1 M."""
+    wy, wz = batch.share[e, 0], batch.share[e, 1]
     c = cross(ry, rz)
-    size = math.sqrt(scalar(c, c))
-    t = (c[0] / size, c[1] / size, c[2] / size)
+    cc = scalar(c, c)
+    s = scalar(c, M) / (cc * (wy * scalar(ry, ry) + wz * scalar(rz, rz)))
+    return sum3(s, c, scalar(ry, M) / (wz * cc), ry, scalar(rz, M) / (wy * cc), rz)
+
+
+@inline_kernel
+def section_forces(batch, e, ry, rz):
+    """f_y and f_z."""
+    wy, wz = batch.share[e, 0], batch.share[e, 1]
     M = (batch.value[e, 0], batch.value[e, 1], batch.value[e, 2])
-    s = scalar(t, M)
-    return t, size, s, (M[0] - 0.5 * s * t[0], M[1] - 0.5 * s * t[1], M[2] - 0.5 * s * t[2])
+    c = cross(ry, rz)
+    cc = scalar(c, c)
+    s = scalar(c, M) / (cc * (wy * scalar(ry, ry) + wz * scalar(rz, rz)))
+    ty, tz = cross(c, ry), cross(c, rz)
+    fy = sum3(-scalar(M, rz) / cc, c, wy * s, ty, 0.0, c)
+    fz = sum3(scalar(M, ry) / cc, c, wz * s, tz, 0.0, c)
+    return fy, fz
 
 
 @inline_kernel
@@ -73,12 +103,11 @@ def section_moment_force(batch, q, v, a, r, ws):
     """Subtract the moments' forces from r."""
     for e in range(batch.base.shape[0]):
         ry, rz = section_vector(batch, e, q, 0), section_vector(batch, e, q, 3)
-        _, _, _, m = section_axis(batch, e, ry, rz)
+        fy, fz = section_forces(batch, e, ry, rz)
         for k in range(6):
             i = batch.base[e, k]
             if i >= 0:
-                p = ry if k < 3 else rz
-                f, w = cross(m, p), batch.factor[e, k] / scalar(p, p)
+                f, w = fy if k < 3 else fz, batch.factor[e, k]
                 for c in range(3):
                     r[i + c] -= w * f[c]
 
@@ -92,29 +121,19 @@ def section_moment_inertia(batch, a, r, ws):
 def derivative_of_force(batch, e, ry, rz, ws):
     """ws[6 i + j] = derivative of component i of (f_y, f_z) by component j of (r_y, r_z).
 
-    What is skew, the change of f_i = (m x r_i)/|r_i|^2 at a constant m/|r_i|^2, is left out.
+    What is skew, the change of f_i = w_i m x r_i at a constant m = J^-1 M, is left out.
     """
-    t, size, s, m = section_axis(batch, e, ry, rz)
-    M = (batch.value[e, 0], batch.value[e, 1], batch.value[e, 2])
-    a, b = scalar(ry, ry), scalar(rz, rz)
-    fy, fz = cross(m, ry), cross(m, rz)
+    wy, wz = batch.share[e, 0], batch.share[e, 1]
+    m = turning(batch, e, ry, rz, (batch.value[e, 0], batch.value[e, 1], batch.value[e, 2]))
     for j in range(6):
-        unit = (1.0 if j % 3 == 0 else 0.0, 1.0 if j % 3 == 1 else 0.0, 1.0 if j % 3 == 2 else 0.0)
-        dc = cross(unit, rz) if j < 3 else cross(ry, unit)
-        along = scalar(t, dc)
-        dt = ((dc[0] - along * t[0]) / size, (dc[1] - along * t[1]) / size, (dc[2] - along * t[2]) / size)
-        ds = scalar(dt, M)
-        dm = (
-            -0.5 * (s * dt[0] + ds * t[0]),
-            -0.5 * (s * dt[1] + ds * t[1]),
-            -0.5 * (s * dt[2] + ds * t[2]),
-        )
+        p, w, k = ry if j < 3 else rz, wy if j < 3 else wz, j % 3
+        unit = (1.0 if k == 0 else 0.0, 1.0 if k == 1 else 0.0, 1.0 if k == 2 else 0.0)
+        # dm = -J^-1 dJ m
+        dm = turning(batch, e, ry, rz, sum3(-2.0 * w * p[k], m, w * scalar(p, m), unit, w * m[k], p))
         dy, dz = cross(dm, ry), cross(dm, rz)
-        ly = 2.0 * ry[j % 3] / a if j < 3 else 0.0
-        lz = 0.0 if j < 3 else 2.0 * rz[j % 3] / b
         for i in range(3):
-            ws[6 * i + j] = (dy[i] - ly * fy[i]) / a
-            ws[6 * (i + 3) + j] = (dz[i] - lz * fz[i]) / b
+            ws[6 * i + j] = wy * dy[i]
+            ws[6 * (i + 3) + j] = wz * dz[i]
 
 
 @inline_kernel

@@ -57,7 +57,8 @@ def moments(model: Model, locate: Locate, value: FloatArray) -> tuple[list[Any],
     sections = [load for load in items if not _is_cable(load.point.body)]
     batches: list[Any] = [_on_slopes([locate(m.point) for m in cables], value[: len(cables)])]
     if sections or any(not _is_cable(beam) for beam in model.beams.values()):
-        batches.append(_on_sections([locate(m.point) for m in sections], value[len(cables) :]))
+        shares = [_shares(m.point.body) for m in sections]
+        batches.append(_on_sections([locate(m.point) for m in sections], shares, value[len(cables) :]))
     return batches, [load.moment for load in cables + sections]
 
 
@@ -75,7 +76,17 @@ def _on_slopes(probes: list[Probe], value: FloatArray) -> MomentBatch:
     )
 
 
-def _on_sections(probes: list[Probe], value: FloatArray) -> SectionMomentBatch:
+def _shares(body: Body) -> tuple[float, float]:
+    """Of r_y and r_z in a torque: those of the stress in pure torsion."""
+    if not isinstance(body, Beam):
+        return 0.5, 0.5  # nothing shears a rigid body: any will do
+    y, z = body.section.EI_z, body.section.EI_y
+    return y / (y + z), z / (y + z)
+
+
+def _on_sections(
+    probes: list[Probe], shares: list[tuple[float, float]], value: FloatArray
+) -> SectionMomentBatch:
     n = len(probes)
     base, factor = np.full((n, 6), -1, dtype=np.int64), np.zeros((n, 6))
     for e, probe in enumerate(probes):
@@ -83,7 +94,8 @@ def _on_sections(probes: list[Probe], value: FloatArray) -> SectionMomentBatch:
             used = np.flatnonzero(probe.S[row])
             columns = slice(first, first + len(used))
             base[e, columns], factor[e, columns] = probe.slots[used], probe.S[row][used]
-    return SectionMomentBatch(base, np.full((n, 36), -1, dtype=np.int64), factor, value)
+    dest, share = np.full((n, 36), -1, dtype=np.int64), np.array(shares, dtype=np.float64).reshape(n, 2)
+    return SectionMomentBatch(base, dest, factor, share, value)
 
 
 def distributed(beam: Beam, slots: IntArray, x0: float, x1: float) -> Pattern:
