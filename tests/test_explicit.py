@@ -207,7 +207,8 @@ class TestTooLarge:
 
     def test_stops_when_the_cable_gets_stiffer(self, monkeypatch):
         """A force that stretches a cable to twice its length; the paper's strain stiffens it."""
-        monkeypatch.setattr("ancf.solvers.explicit_run.RARE", 0.0)
+        monkeypatch.setattr("ancf.solvers.explicit_run.RARE_STEPS", 0)
+        monkeypatch.setattr("ancf.solvers.explicit_run.RARE_WIDE", 0)
         model, beam = straight(4, "paper", EA=100.0, EI=1e-3, damping=1.0)
         model.pin(beam.start)
         model.add_force(beam.end, ["1000*ramp(t, 0, 0.2)", "0", "0"])
@@ -221,7 +222,8 @@ class TestTooLarge:
 
     def test_estimate_follows_the_run(self, monkeypatch):
         """With the step of the stretched cable the same run goes through."""
-        monkeypatch.setattr("ancf.solvers.explicit_run.RARE", 0.0)
+        monkeypatch.setattr("ancf.solvers.explicit_run.RARE_STEPS", 0)
+        monkeypatch.setattr("ancf.solvers.explicit_run.RARE_WIDE", 0)
         model, beam = straight(4, "paper", EA=100.0, EI=1e-3, damping=1.0)
         model.pin(beam.start)
         model.add_force(beam.end, ["1000*ramp(t, 0, 0.2)", "0", "0"])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time as clock
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,8 +27,8 @@ FloatArray = NDArray[np.float64]
 
 #: A step may be larger than asked for by this: estimates about two states differ a little.
 SLACK = 1.01
-#: Steps in as much time as an estimate takes, times this, come before the next estimate.
-RARE = 20.0
+#: Steps between two estimates, and unknowns times steps: they take about 20 times as long as an estimate.
+RARE_STEPS, RARE_WIDE = 8000, 2**21
 
 
 class CentralDifferences(NewmarkFamily):
@@ -71,7 +70,6 @@ class ExplicitRun(Run):
         m.q[:], m.v[:] = q, v
         first = system.drive.tables(self.t_start - self.h, self.h, 1, self.t_start, self.t_end)
         m.a[:] = consistent_start(system, m.q, m.v, first)
-        begin = clock.perf_counter()
         self.limit = stable_limit(system, m.q, m.v)  # leaves the factors of the mass matrix
         stable = self.method.safety * self.limit
         if self.method.check and self.h > SLACK * stable:
@@ -83,7 +81,7 @@ class ExplicitRun(Run):
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         none = np.zeros(0, dtype=np.int64)  # no steps yet: this compiles, outside the CPU time of the run
         advance_explicit(system.core, m, first, self.h, self.turning, none, self.taps, self._room(0, 0))
-        self._estimated, self._pause = clock.perf_counter(), RARE * (clock.perf_counter() - begin)
+        self._estimated = 0  # steps done at the last estimate
 
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
         core, tables = self.system.core, self.system.drive.tables(t, h, len(row), self.t_start, self.t_end)
@@ -96,12 +94,10 @@ class ExplicitRun(Run):
 
     def _check_energy(self, done: int) -> None:
         super()._check_energy(done)
-        now = clock.perf_counter()
-        if not self.method.check or now < self._estimated + self._pause:
+        if not self.method.check or done < self._estimated + RARE_STEPS + RARE_WIDE // self.system.size:
             return
         self.limit = stable_limit(self.system, self.memory.q, self.memory.v)
-        self._estimated = clock.perf_counter()
-        self._pause = RARE * (self._estimated - now)
+        self._estimated = done
         if self.h > self.limit:
             raise self._failure(self._time(done), done, "the step is no longer stable", self.h)
 

@@ -46,6 +46,9 @@ FloatArray = NDArray[np.float64]
 
 BLOCK_SECONDS = 0.1  # between two looks at the keyboard, the progress and the file
 BLOCK_BYTES = 32e6  # of stored states, and of samples
+#: Steps before the first look at the energy, the factor by which the next ones are further apart, and how
+#: far at most: so many steps, and so many unknowns times steps.  A look costs as much as a few steps.
+FIRST_LOOK, NEXT_LOOK, FAR_LOOK, WIDE_LOOK = 8, 4, 64, 2**17
 MOST_HALVINGS = 10
 MOST_MADE = 0.5  # energy from nowhere, as a share of the energy exchanged
 MOST_RETRIED = 0.2  # share of steps that may need halving
@@ -166,20 +169,29 @@ class Run:
         return now
 
     def go(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
-        """Take all steps."""
+        """Take all steps.
+
+        How many make a block follows the clock, so that the keyboard, the progress and the file are looked
+        at in time.  Nothing that is computed or said may depend on that: states, samples and the energy
+        are judged at numbers of steps that the model alone decides.
+        """
         begin, out = np.array([self.t_start]), self._room(1, 1)
         self._store(0, 0, out)
         if self.taps.width:
             recorder.record(begin, out.samples)
         recorder.append(begin, out.q, out.v, out.work)
-        done, size = 0, 8
+        done, size, look, apart = 0, FIRST_LOOK, FIRST_LOOK, FIRST_LOOK
         most = max(1, int(BLOCK_BYTES / (16 * self.system.size + 8 * self.every * self.taps.width)))
         while done < self.steps:
-            count = min(size, most * self.every, (self.full if done < self.full else self.steps) - done)
+            last = self.full if done < self.full else self.steps
+            count = min(size, most * self.every, look - done, last - done)
             before = clock.perf_counter()
             self._block(done, count, recorder)
             done += count
-            self._check_energy(done)
+            if done in (look, self.steps):
+                self._check_energy(done)
+                apart = min(NEXT_LOOK * apart, FAR_LOOK + WIDE_LOOK // self.system.size)
+                look += apart
             seconds = clock.perf_counter() - before
             size = int(np.clip(count * BLOCK_SECONDS / max(seconds, 1e-6), 1, 4 * size))
             recorder.update(self.stats, "running")
