@@ -24,6 +24,7 @@ LAYERS = (
     {"results"},
     {"analysis"},
     {"viz"},
+    {"verification"},
     {"catenary"},
     {"paper"},
     {"cli"},

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .results import Modes, Result, State
     from .solvers.integrators import Explicit, GeneralizedAlpha, Radau, Trapezoidal
     from .solvers.newton import Newton
+    from .verification import Verification, verify
 
 # the compiled parts are imported on first use: describing a model needs none of them
 _LATER = {
@@ -30,6 +31,8 @@ _LATER = {
     "GeneralizedAlpha": "solvers.integrators",
     "Radau": "solvers.integrators",
     "Newton": "solvers.newton",
+    "Verification": "verification",
+    "verify": "verification",
 }
 
 __all__ = [
@@ -46,12 +49,14 @@ __all__ = [
     "SolveError",
     "State",
     "Trapezoidal",
+    "Verification",
     "__version__",
     "equilibrium",
     "load",
     "modes",
     "simulate",
     "stable_step",
+    "verify",
 ]
 
 

@@ -27,6 +27,10 @@ AnyFile = Annotated[
 ]
 Folder = Annotated[Path, typer.Option("--output", "-o", metavar="OUT", help="Folder for what is written.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
+Verify = Annotated[
+    bool,
+    typer.Option("--verify", help="Compute again with half the step, with twice the elements, and compare."),
+]
 Names = Annotated[
     list[str] | None,
     typer.Argument(metavar="NAMES", help="Figures and tables, such as fig2, or all.", show_default="all"),
@@ -124,15 +128,16 @@ def _common(
 
 
 @app.command()
-def run(model: ModelFile, output: Folder = Path("out"), quiet: Quiet = False) -> None:
+def run(model: ModelFile, output: Folder = Path("out"), quiet: Quiet = False, verify: Verify = False) -> None:
     """Compute what a model file asks for.
 
-    Writes OUT/results.h5 while it runs, and OUT/summary.json at the end.
+    Writes OUT/results.h5 while it runs, and OUT/summary.json at the end. With --verify it computes again with
+    half the step and twice the elements, prints how much every output changes, and writes OUT/verify.json.
     """
     with reported():
         from ancf.cli.run import run_file
 
-        run_file(model, output, quiet)
+        run_file(model, output, quiet, verify)
 
 
 @app.command()

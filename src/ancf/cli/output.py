@@ -52,6 +52,16 @@ class OutputFolder:
         """Where the table of the sensors goes."""
         return self.path / "sensors.csv"
 
+    @property
+    def verification(self) -> Path:
+        """Where the verification goes."""
+        return self.path / "verify.json"
+
+    @property
+    def again(self) -> Path:
+        """Where a computation for the verification goes while it is needed."""
+        return self.path / "verify.h5"
+
     @contextmanager
     def locked(self) -> Iterator[None]:
         """No other run writes to the folder meanwhile; a killed run leaves no lock."""
@@ -73,13 +83,21 @@ class OutputFolder:
 
     def clear(self) -> None:
         """Take away summary and table of an earlier run, and check that all files can be written."""
-        for path in (self.results, self.summary, self.sensors):
+        for path in (self.results, self.summary, self.sensors, self.verification, self.again):
             if path.is_dir() or (path.exists() and not os.access(path, os.W_OK)):
                 raise ModelError(str(path), "cannot be written: it is a folder or write-protected")
-        self.summary.unlink(missing_ok=True)
-        self.sensors.unlink(missing_ok=True)
+        for path in (self.summary, self.sensors, self.verification, self.again):
+            path.unlink(missing_ok=True)
 
     def write_summary(self, summary: dict[str, Any]) -> None:
         """Write the summary; the file is complete or absent."""
-        with drafted(self.summary) as draft:
-            draft.write_text(to_json(summary, indent=2), encoding="utf-8", errors="backslashreplace")
+        _write(self.summary, summary)
+
+    def write_verification(self, found: dict[str, Any]) -> None:
+        """Write the verification; the file is complete or absent."""
+        _write(self.verification, found)
+
+
+def _write(path: Path, data: dict[str, Any]) -> None:
+    with drafted(path) as draft:
+        draft.write_text(to_json(data, indent=2), encoding="utf-8", errors="backslashreplace")

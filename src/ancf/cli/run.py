@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ from ancf.cli.screen import Screen, console
 from ancf.errors import ModelError, SolveError
 from ancf.files import problem
 from ancf.model.file import Study, read_study
+from ancf.model.model import Model
 from ancf.model.settings import IntegratorSettings, SimulationSettings
 
 if TYPE_CHECKING:
@@ -18,8 +20,8 @@ if TYPE_CHECKING:
     from ancf.solvers.integrators import Integrator
 
 
-def run_file(path: Path, folder: Path, quiet: bool = False) -> None:
-    """Read, compute, write and print.
+def run_file(path: Path, folder: Path, quiet: bool = False, verify: bool = False) -> None:
+    """Read, compute, write and print; with `verify` compute again, finer, and compare.
 
     Raises
     ------
@@ -36,7 +38,10 @@ def run_file(path: Path, folder: Path, quiet: bool = False) -> None:
     output = OutputFolder(folder)
     with output.locked():
         output.clear()
-        Run(study, path, output, Screen(quiet)).compute()
+        run = Run(study, path, output, Screen(quiet))
+        result = run.compute()
+        if verify:
+            run.verify(result)
 
 
 class Run:
@@ -46,7 +51,7 @@ class Run:
         self.study, self.path, self.output, self.screen = study, path, output, screen
         self.start = time.perf_counter(), time.process_time()
 
-    def compute(self) -> None:
+    def compute(self) -> Result:
         """Compute and write; the summary is written for a run that stops early as well."""
         self.screen.announce_compilation()
         try:
@@ -58,39 +63,72 @@ class Run:
             self._check_storage(error)
             raise
         self._finish(result)
+        return result
+
+    def verify(self, result: Result) -> None:
+        """Compute again with half the step and with twice the elements, write and print the changes."""
+        from ancf.cli.verification import print_verification, verified
+
+        try:
+            found = verified(self.study, result, self._again)
+        except (OSError, RuntimeError) as error:
+            self._check_storage(error)
+            raise
+        finally:
+            self.output.again.unlink(missing_ok=True)
+        self.output.write_verification(
+            {"title": self.study.title, "model_file": str(self.path), **found.as_dict()}
+        )
+        if not self.screen.quiet:
+            print_verification(console(), found)
+            console().print(f"written: {self.output.verification}", soft_wrap=True)
+
+    def _again(self, model: Model, step: float | None, method: Integrator) -> Result | State:
+        settings = self.study.simulation
+        if settings is None or step is None:
+            return self._equilibrium(model)
+        every = settings.output_step or settings.step
+        return self._simulation(
+            replace(settings, step=step, output_step=every), model, method, self.output.again
+        )
 
     def _result(self) -> Result:
         settings = self.study.simulation
-        return self._statics() if settings is None else self._simulation(settings)
+        if settings is None:
+            return self._statics()
+        method = integrator(settings.integrator)
+        return self._simulation(settings, self.study.model, method, self.output.results)
 
-    def _simulation(self, settings: SimulationSettings) -> Result:
+    def _simulation(
+        self, settings: SimulationSettings, model: Model, method: Integrator, file: Path
+    ) -> Result:
         import ancf
 
-        start = self._equilibrium(settings.equilibrium_of) if settings.start == "equilibrium" else None
+        start = self._equilibrium(model, settings.equilibrium_of) if settings.start == "equilibrium" else None
         with self.screen.progress(round(settings.t_end / settings.step)) as report:
             return ancf.simulate(
-                self.study.model,
+                model,
                 t_end=settings.t_end,
                 step=settings.step,
                 start=start,
-                integrator=integrator(settings.integrator),
+                integrator=method,
                 output_step=settings.output_step,
                 sensors=settings.sensors,
-                file=self.output.results,
+                file=file,
                 progress=report,
             )
 
-    def _equilibrium(self, of: tuple[str, ...] | None = None) -> State:
+    def _equilibrium(self, model: Model, of: tuple[str, ...] | None = None) -> State:
         import ancf
 
         given = self.study.equilibrium
         self.screen.say("looking for the equilibrium ...")
-        return ancf.equilibrium(self.study.model, of=of, load_steps=given.load_steps if given else 1)
+        return ancf.equilibrium(model, of=of, load_steps=given.load_steps if given else 1)
 
     def _statics(self) -> Result:
         from ancf.cli.statics import store
 
-        return store(self.study, self._equilibrium(), self.output.results)
+        return store(self.study, self._equilibrium(self.study.model), self.output.results)
 
     def _finish(self, result: Result, error: BaseException | None = None) -> None:
         from ancf.cli.summary import print_summary, summarise

@@ -13,17 +13,15 @@ from ancf import __version__
 from ancf.cli.screen import table
 from ancf.errors import ModelError, SolveError
 from ancf.model.beam import Beam
-from ancf.model.bodies import Body, PointMass
+from ancf.model.bodies import Body
 from ancf.model.file import Study
 from ancf.model.model import Model
-from ancf.model.points import Point
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from ancf import Result, State
 
-MOST_BODIES = 4
 ENERGIES = ("kinetic", "strain", "potential", "dissipated", "supplied", "total")
 
 
@@ -31,7 +29,10 @@ def summarise(
     study: Study, path: Path, result: Result, seconds: dict[str, float], error: BaseException | None
 ) -> dict[str, Any]:
     """Everything worth keeping of a run, ready for JSON."""
+    from ancf.results.tension import compressions, notes
+
     model = study.model
+    pressed = compressions(result)
     state, counters = result.state(), result.stats.as_dict()
     summary: dict[str, Any] = {
         "title": study.title,
@@ -44,6 +45,8 @@ def summarise(
         "stored_times": len(result.t),
         "outputs": {label: at_point(model, state, label) for label in outputs(study)},
         "energy": energies(result),
+        "compression": [item.as_dict() for item in pressed],
+        "notes": notes(pressed),
         "counters": {key: value for key, value in counters.items() if key != "cpu_seconds"},
         "versions": {**result.provenance.get("versions", {}), "ancf": __version__},
         **seconds,
@@ -97,15 +100,9 @@ def outputs(study: Study) -> list[str]:
     """
     if study.simulation is not None and study.simulation.outputs:
         return list(study.simulation.outputs)
-    return [
-        str(point) for body in list(study.model.bodies.values())[:MOST_BODIES] for point in _points_of(body)
-    ]
+    from ancf.results.overview import shown_points
 
-
-def _points_of(body: Body) -> tuple[Point, ...]:
-    if isinstance(body, Beam):
-        return body.start, body.at(0.5 * body.length), body.end
-    return (body.point if isinstance(body, PointMass) else body.centre,)
+    return [str(point) for point in shown_points(study.model)]
 
 
 def at_point(model: Model, state: State, label: str) -> dict[str, Any]:
@@ -141,6 +138,8 @@ def print_summary(to: Console, summary: dict[str, Any]) -> None:
         to.print()
         to.print(_energy(summary["energy"]))
     to.print()
+    for note in summary["notes"]:
+        to.print(f"note: {note}", soft_wrap=True)
     to.print(_cost(summary), soft_wrap=True)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,6 +14,8 @@ from ancf.model.checks import FloatArray
 from ancf.model.elements import KINDS
 from ancf.model.points import Point
 from ancf.model.section import Section
+
+Shape = Callable[[FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
 
 POISSON = ("centreline", "full")
 NATURAL_SHAPES = ("path", "straight")
@@ -48,6 +51,9 @@ class Beam:
         too but no use for them.
     velocity, angular_velocity, about : (3,) arrays
         Initial rigid motion, m/s, rad/s, m.
+    shape : callable, optional
+        Initial positions, tangents and local y axes (n, 3) at increasing fractions (n,) of the length,
+        from 0 to 1; a beam of a results file has none.
 
     """
 
@@ -67,6 +73,7 @@ class Beam:
     velocity: FloatArray
     angular_velocity: FloatArray
     about: FloatArray
+    shape: Shape | None = None
 
     def __repr__(self) -> str:
         return f"Beam({self.name!r}, elements={self.elements}, length={self.length:g})"

@@ -56,6 +56,9 @@ class TimeFunction:
         """Linear interpolation of values (n,) or (n, 3) at increasing times (n,), constant outside."""
         return cls({"t": t, "value": value}, size, where)
 
+    def __deepcopy__(self, memo: dict[int, Any]) -> TimeFunction:
+        return self  # it never changes, and what it calls may be anything
+
     def __repr__(self) -> str:
         return f"TimeFunction({checks.shown(self.describe())}, size={self.size})"
 

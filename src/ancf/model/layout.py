@@ -58,7 +58,13 @@ def make_beam(
     if not 1e-6 < arc_length / natural < 1e6:
         raise ModelError(f"{where}.length", f"is {natural:g} m for an initial shape of {arc_length:g} m")
     node_x = _node_x(where, elements, nodes, natural)
-    position, tangent = shape(node_x / natural)
+
+    def lay(fraction: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        position, tangent = shape(fraction)
+        y = _node_y(y_axis, tangent, None if path is None else shape, fraction, where)
+        return position, tangent, y
+
+    position, tangent, y = lay(node_x / natural)
     if KINDS[kind].has_section:
         _check_turns(position, arc_length / natural * tangent, np.diff(node_x), where)
     return Beam(
@@ -70,10 +76,11 @@ def make_beam(
         node_x=node_x,
         node_position=position,
         node_tangent=tangent,
-        node_y=_node_y(y_axis, tangent, shape if path is not None else None, node_x / natural, where),
+        node_y=y,
         velocity=np.zeros(3),
         angular_velocity=np.zeros(3),
         about=position[0].copy(),
+        shape=lay,
         **words,
     )
 

@@ -15,6 +15,7 @@ from ..model.points import Point
 from ..model.tables import Sheet, Table, number, plural
 
 if TYPE_CHECKING:
+    from ..model.model import Model
     from .modes import Modes
     from .result import Result
     from .state import State
@@ -27,6 +28,10 @@ STATUS = {
     "interrupted": "stopped by Ctrl-C",
     "running": "not finished: it goes on, or was killed",
 }
+#: Bodies that a summary shows when nothing was asked for.
+MOST_BODIES = 4
+#: Numbers of a history that a sheet reads for its notes.
+MOST_READ = 20_000_000
 POINT_COLUMNS = ("point", "x [m]", "y [m]", "z [m]", "speed [m/s]", "tension [N]")
 
 
@@ -43,6 +48,7 @@ def of_result(result: Result) -> Sheet:
         ("cost", _cost(result)),
         ("energy", _drift(result, settings)),
         ("sensors", _sensors(settings.get("sensors", []))),
+        *(("note", text) for text in _notes(result)),
     ]
     return Sheet(f"Result{_quoted(plain.get('title'))}", facts, [body_table(bodies)])
 
@@ -57,7 +63,7 @@ def of_state(state: State) -> Sheet:
         ("bodies", sizes(model.bodies.values())),
         ("energy", ", ".join(parts)),
     ]
-    points = [_at(state, point) for body in model.bodies.values() for point in _points(body)]
+    points = [_at(state, point) for body in model.bodies.values() for point in points_of(body)]
     return Sheet(f"State{_quoted(model.title)}", facts, [Table(POINT_COLUMNS, points)])
 
 
@@ -133,6 +139,11 @@ def _drift(result: Result, settings: dict[str, Any]) -> str:
     return f"the balance drifts by {balance[-1] - balance[0]:.2g} J, largest part {largest:.3g} J"
 
 
+def _notes(result: Result) -> list[str]:
+    """Notes of a history that is not long; print must not read gigabytes."""
+    return result.notes if len(result.t) and result.q.shape[0] * result.q.shape[1] <= MOST_READ else []
+
+
 def _sensors(names: list[str]) -> str:
     if not names:
         return ""
@@ -140,7 +151,12 @@ def _sensors(names: list[str]) -> str:
     return f"{first}, and {len(names) - 6} more" if len(names) > 6 else first
 
 
-def _points(body: Body) -> Iterable[Point]:
+def shown_points(model: Model) -> list[Point]:
+    """Start, middle and end of the first beams of a model, and its first other bodies."""
+    return [point for body in [*model.bodies.values()][:MOST_BODIES] for point in points_of(body)]
+
+
+def points_of(body: Body) -> Iterable[Point]:
     """Start, middle and end of a beam, the one point of another body."""
     if isinstance(body, Beam):
         return body.start, body.at(0.5 * body.length), body.end

@@ -18,6 +18,7 @@ from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
+from . import tension
 from .layout import read_joints, read_layout
 from .layout_springs import read_springs
 from .overview import line_of_result, of_result
@@ -117,6 +118,14 @@ class Result(SpringFields, ContactFields, Filmed, Readable):
             return np.stack([np.asarray(arrays["energy"][k]) for k in ends]), work
         q, v = (np.stack([data[k] for k in ends]) for data in (arrays["q"], arrays["v"]))
         return energies(self._system, q, v), work
+
+    @property
+    def notes(self) -> list[str]:
+        """What to know of the run that nobody asked for, one line each: cables that were pressed, and when.
+
+        All stored states are looked at, when it is asked for.
+        """
+        return tension.notes(tension.compressions(self))
 
     @property
     def stats(self) -> Stats:

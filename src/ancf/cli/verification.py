@@ -1,0 +1,52 @@
+"""``ancf run --verify``: the computation of a model file against two finer ones."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from ancf.cli.screen import table
+from ancf.cli.summary import outputs
+from ancf.model.file import Study
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ancf import Result, State, Verification
+    from ancf.model.model import Model
+    from ancf.solvers.integrators import Integrator
+
+#: Rows of the table; all are in the file.
+MOST_ROWS = 60
+
+
+def verified(
+    study: Study, result: Result, again: Callable[[Model, float | None, Integrator], Result | State]
+) -> Verification:
+    """Compare the result of a study with two finer computations, which `again` makes."""
+    from ancf.cli.run import integrator
+    from ancf.solvers.integrators import Trapezoidal
+    from ancf.verification import repeated
+
+    settings = study.simulation
+    if settings is None:
+        return repeated(study.model, result.state(), again, None, Trapezoidal(), outputs(study))
+    method = integrator(settings.integrator)
+    return repeated(study.model, result, again, settings.step, method, outputs(study))
+
+
+def print_verification(to: Console, found: Verification) -> None:
+    """Print what was computed, and how every output changes."""
+    from ancf.verification import COLUMNS
+
+    to.print()
+    for run in found.runs:
+        step = "" if run["step"] is None else f", {run['steps']} steps of {run['step']:g} s"
+        to.print(f"{run['what']}: {run['elements']} elements{step}", soft_wrap=True)
+    to.print()
+    made = table(*COLUMNS)
+    for row in found.rows()[:MOST_ROWS]:
+        made.add_row(*row)
+    to.print(made)
+    if len(found.changes) > MOST_ROWS:
+        to.print(f"... {len(found.changes) - MOST_ROWS} more in the file")

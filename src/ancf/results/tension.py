@@ -1,0 +1,214 @@
+"""Axial forces of whole cables over a history: their extremes, and where one is pressed.
+
+A cable that is pressed harder than a straight piece of its own length can stand, pi^2 EI/L^2, would buckle in
+half waves of pi sqrt(EI/N).  Elements that are longer than half of that cannot show it: they carry a
+compression that no rope has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..elements.shapes import gauss, hermite
+from ..model.beam import Beam
+
+if TYPE_CHECKING:
+    from .result import Result
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+Vectors = tuple[FloatArray, FloatArray, FloatArray]
+
+#: Element forces that are computed at once, and in all: of a longer history every second, third, ... state.
+CHUNK, MOST = 100_000, 2_000_000
+#: Share of the axial stiffness, and of the largest force, below which a compression is not spoken of.
+NOISE, SMALL = 1e-10, 1e-3
+#: Texts of a history; all are in ``summary.json``.
+MOST_NOTES = 5
+
+
+@dataclass(frozen=True)
+class Compression:
+    """The largest compression of a cable in a history.
+
+    Parameters
+    ----------
+    body, point : str
+        The cable, and the middle of an element.
+    arc_length : float
+        Reference arc length of that point, m.
+    t : float
+        Time, s.
+    tension, largest : float
+        The force there, N, below zero, and the largest force of this cable.
+    half_wave : float
+        Length at which a straight piece buckles under it, m; 0 without bending stiffness.
+    element : float
+        Length of the element, m.
+    """
+
+    body: str
+    point: str
+    arc_length: float
+    t: float
+    tension: float
+    largest: float
+    half_wave: float
+    element: float
+
+    def __str__(self) -> str:
+        where = f'"{self.body}" is pressed: {self.tension:.4g} N at {self.point}, t = {self.t:.6g} s'
+        wave = f"its largest force is {self.largest:.4g} N; a piece of {self.half_wave:.3g} m would buckle"
+        if self.half_wave < 2 * self.element:
+            return f"{where}; {wave}, which elements of {self.element:.3g} m cannot show"
+        return f"{where}; {wave}"
+
+    def as_dict(self) -> dict[str, Any]:
+        """All by name."""
+        return asdict(self)
+
+
+def compressions(result: Result) -> list[Compression]:
+    """The largest compression of each cable that is pressed harder than it can stand, the worst first.
+
+    Middles of the elements at the stored times; of a history with more than two million forces at times that
+    are evenly spaced.
+    """
+    beams = cables(result)
+    low = {beam.name: _Lowest() for beam in beams}
+    states, elements = len(result.t), sum(beam.elements for beam in beams)
+    for rows, forces in _pieces(result, beams, every=-(-states * elements // MOST)):
+        for name, force in forces.items():
+            low[name].see(rows, force)
+    found = [_compression(result, beam, low[beam.name]) for beam in beams if states]
+    return sorted((item for item in found if item is not None), key=lambda item: item.tension)
+
+
+def notes(found: list[Compression]) -> list[str]:
+    """The worst of them as texts, one line each."""
+    more = [f"{len(found) - MOST_NOTES} more cables are pressed"] if len(found) > MOST_NOTES else []
+    return [*map(str, found[:MOST_NOTES]), *more]
+
+
+def cables(known: Any) -> list[Beam]:
+    """Bodies without a cross-section."""
+    return [body for body in known.bodies.values() if isinstance(body, Beam) and not body.has_section]
+
+
+def extremes(known: Any, beams: list[Beam], parts: int = 1) -> dict[str, tuple[float, float]]:
+    """Smallest and largest force by cable over a history, N, averaged over so many elements in a row."""
+    found = {beam.name: (np.inf, -np.inf) for beam in beams}
+    for _, forces in _pieces(known, beams):
+        for name, force in forces.items():
+            mean = force.reshape(len(force), -1, parts).mean(axis=-1)
+            low, high = found[name]
+            found[name] = min(low, float(mean.min())), max(high, float(mean.max()))
+    return found
+
+
+def element_forces(beam: Beam, slots: IntArray, q: FloatArray, v: FloatArray | None) -> FloatArray:
+    """Forces of a cable in the middles of its elements, as ``tension`` gives them, N, shape (n_t, n).
+
+    ``q`` and, with axial damping, ``v`` are of shape (n_t, size).
+    """
+    section, strain = beam.section, beam.strain
+    vectors = _vectors(beam, slots, q)
+    force: FloatArray = section.EA * (_mean_strain(beam, vectors) - _natural(beam))
+    if strain == "material" and not section.axial_damping:
+        return force
+    r_x = [_slope(part) for part in vectors]
+    stretch = np.sqrt(sum(x * x for x in r_x))
+    if section.axial_damping and v is not None:
+        rate = sum(x * _slope(part) for x, part in zip(r_x, _vectors(beam, slots, v), strict=True))
+        force += section.axial_damping * (rate / stretch if strain == "material" else rate)
+    return force if strain == "material" else force * stretch
+
+
+class _Lowest:
+    """Smallest and largest force of a cable so far, and where the smallest is."""
+
+    def __init__(self) -> None:
+        self.low, self.high, self.row, self.element = np.inf, 0.0, 0, 0
+
+    def see(self, rows: IntArray, force: FloatArray) -> None:
+        self.high = max(self.high, float(force.max()))
+        row, element = divmod(int(np.argmin(force)), force.shape[1])
+        if force[row, element] < self.low:
+            self.low, self.row, self.element = float(force[row, element]), int(rows[row]), element
+
+
+def _compression(result: Result, beam: Beam, seen: _Lowest) -> Compression | None:
+    section, pressure = beam.section, -seen.low
+    if not pressure > max(np.pi**2 * section.EI / beam.length**2, NOISE * section.EA, SMALL * seen.high):
+        return None
+    x, h = middles(beam)[seen.element], float(np.diff(beam.node_x)[seen.element])
+    wave, t = float(np.pi * np.sqrt(section.EI / pressure)), float(result.t[seen.row])
+    return Compression(beam.name, str(beam.at(x)), x, t, seen.low, seen.high, wave, h)
+
+
+def _pieces(
+    known: Any, beams: list[Beam], every: int = 1
+) -> Iterator[tuple[IntArray, dict[str, FloatArray]]]:
+    """Rows of a history, or the one of a state, and the forces of each cable there, part after part."""
+    single, damped = len(known.q.shape) == 1, any(beam.section.axial_damping for beam in beams)
+    chosen = np.zeros(1, dtype=np.int64) if single else np.arange(0, known.q.shape[0], every)
+    count = max(1, CHUNK // max(1, sum(beam.elements for beam in beams)))
+    for begin in range(0, len(chosen) if beams else 0, count):
+        rows = chosen[begin : begin + count]
+        place = ... if single else slice(int(rows[0]), int(rows[-1]) + 1, every)
+        q, v = np.atleast_2d(known.q[place]), np.atleast_2d(known.v[place]) if damped else None
+        yield rows, {beam.name: element_forces(beam, known.slots[beam.name], q, v) for beam in beams}
+
+
+def middles(beam: Beam) -> list[float]:
+    """Arc lengths of the middles of the elements, m."""
+    places: list[float] = (0.5 * (beam.node_x[:-1] + beam.node_x[1:])).tolist()
+    return places
+
+
+def _vectors(beam: Beam, slots: IntArray, states: FloatArray) -> list[Vectors]:
+    """Chord per length and slopes at both ends of the elements: three components of three (n_t, n)."""
+    h, made = np.diff(beam.node_x), []
+    for k in range(3):
+        place, slope = (np.take(states, slots[:, vector] + k, axis=1) for vector in (0, 1))
+        made.append((np.diff(place, axis=1) / h, slope[:, :-1], slope[:, 1:]))
+    return made
+
+
+def _factors(xi: float) -> tuple[float, float, float]:
+    """r_x of the cubic as a sum of the chord and the two slopes."""
+    _, first, chord, last = hermite(xi, 1.0, 1).tolist()
+    return chord, first, last
+
+
+def _slope(part: Vectors, xi: float = 0.5) -> FloatArray:
+    """A component of r_x in the elements, shape (n_t, n)."""
+    chord, first, last = _factors(xi)
+    total: FloatArray = chord * part[0] + first * part[1] + last * part[2]
+    return total
+
+
+def _mean_strain(beam: Beam, vectors: list[Vectors]) -> FloatArray:
+    """Mean axial strain of each element, shape (n_t, n): its projection in the middle."""
+    paper = beam.strain == "paper"
+    total: FloatArray = np.zeros_like(vectors[0][0])
+    for xi, weight in zip(*(x.tolist() for x in gauss(5)), strict=True):
+        square = sum(np.square(_slope(part, xi)) for part in vectors)
+        total += 0.5 * weight * square if paper else weight * np.sqrt(square)
+    total -= 0.5 if paper else 1.0
+    return total
+
+
+def _natural(beam: Beam) -> FloatArray:
+    """Mean axial strains of the natural shape, shape (n,)."""
+    if beam.natural_shape == "straight":
+        return np.zeros(beam.elements)
+    row = np.stack([beam.node_position / beam.stretch, beam.node_tangent], axis=1).reshape(1, -1)
+    slots = 3 * np.arange(2 * (beam.elements + 1)).reshape(-1, 2)
+    strain: FloatArray = _mean_strain(beam, _vectors(beam, slots, row))[0]
+    return strain
