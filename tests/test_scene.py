@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.viz.scene import KINDS, QUANTITIES
+from ancf.viz.scene import QUANTITIES, looks
 from ancf.viz.scene.compose import FAR, chosen_times, make_scene
 from ancf.viz.scene.sampling import FINEST, corners, places
 
@@ -165,7 +165,7 @@ class TestOthers:
             **{name: kind for name, kind in kinds.items() if kind == "fixation"},
         }
         assert len(kinds) == 5
-        assert set(kinds.values()) <= set(KINDS)
+        assert set(kinds.values()) <= set(looks())
 
     def test_rigid_body_has_axes(self):
         [hub] = scene().triads

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -12,9 +13,8 @@ from numpy.typing import NDArray
 from ..elements.registry import ELEMENTS
 from ..model.beam import Beam
 from ..model.bodies import RigidBody
-from ..model.connections import Spherical
 from ..model.elements import KINDS
-from ..model.joints import Fixation, Revolute
+from ..model.kinds import kind_of
 from ..model.points import Point
 from .joint import JointBatch
 
@@ -99,58 +99,13 @@ def coincide(a: Point | FloatArray, b: Point | FloatArray, locate: Locate) -> li
     return [Row(gap, unit) for unit in UNITS]
 
 
-def spherical(joint: Spherical, locate: Locate, slots: dict[str, IntArray]) -> list[Row]:
-    """Rows of a spherical joint."""
-    return coincide(joint.a, joint.b, locate)
-
-
-def revolute(joint: Revolute, locate: Locate, slots: dict[str, IntArray]) -> list[Row]:
-    """The axis of a stays normal to two directions of b."""
-    axis = axis_of(joint.a, joint.axis, slots)
-    across = [axis_of(joint.b, n, slots) for n in normals(joint.axis)]
-    return [*coincide(joint.a, joint.b, locate), *(Row(axis, n) for n in across)]
-
-
-def fixation(joint: Fixation, locate: Locate, slots: dict[str, IntArray]) -> list[Row]:
-    """Position and slopes of a node go with a rigid body; with a free stretch only their directions."""
-    beam, hub = joint.point.body, joint.to
-    assert isinstance(beam, Beam)
-    node = int(np.argmin(np.abs(beam.node_x - joint.point.x)))
-    here = locate(joint.point)
-    arm = hub.axes.T @ (beam.node_position[node] - hub.position)
-    seat = Vector(tuple(slots[hub.name][0].tolist()), (1.0, *arm.tolist()))
-    gap = Vector(tuple(here.slots.tolist()), tuple(here.S[0].tolist())).minus(seat)
-    rows = [Row(gap, unit) for unit in UNITS]
-    axes = node_axes(beam, node)
-    for k in range(min(slots[beam.name].shape[1], 4) - 1):
-        slope = Vector((int(slots[beam.name][node, k + 1]),), (1.0,))
-        size = float(np.linalg.norm(axes[:, k]))
-        along = axes[:, k] / size
-        held = [(n, 0.0) for n in normals(along)]
-        if joint.stretch == "fixed":
-            held.append((along, size))
-        for direction, value in held:
-            turned = Vector(tuple(slots[hub.name][0, 1:4].tolist()), tuple((hub.axes.T @ direction).tolist()))
-            rows.append(Row(slope, turned, value))
-    return rows
-
-
-BUILDERS: dict[type, Callable[[Any, Locate, dict[str, IntArray]], list[Row]]] = {
-    Spherical: spherical,
-    Revolute: revolute,
-    Fixation: fixation,
-}
-
-
-def count(item: Any) -> int:
-    """Number of rows of a connection, 0 for those without multipliers."""
-    if type(item) not in BUILDERS:
-        return 0
-    if isinstance(item, Fixation):
-        per_slope = 3 if item.stretch == "fixed" else 2
-        beam = item.point.body
-        return 3 + per_slope * (3 if isinstance(beam, Beam) and beam.has_section else 1)
-    return 5 if isinstance(item, Revolute) else 3
+def rows_of(joint: Any, locate: Locate, slots: dict[str, IntArray]) -> list[Row]:
+    """Rows of a joint, from the module that its kind names; none of a connection that is not made of rows."""
+    module = kind_of(joint).rows
+    if not module:
+        return []
+    found: list[Row] = import_module(f"ancf.connections.{module}").rows(joint, locate, slots)
+    return found
 
 
 def batch(rows: Iterable[Row], unknowns: Iterable[int], level: FloatArray) -> JointBatch:

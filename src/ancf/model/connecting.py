@@ -13,10 +13,12 @@ from ancf.model.checks import FloatArray
 from ancf.model.connections import Connection, Spring, make_spring
 from ancf.model.contact import Contact, make_contact
 from ancf.model.joints import Fixation, Revolute, Slide, Spherical
+from ancf.model.kinds import kind_of
 from ancf.model.lookup import Lookup
-from ancf.model.make_joints import check_repeated, make_fixation, make_revolute, make_spherical
+from ancf.model.make_joints import make_fixation, make_revolute, make_spherical
 from ancf.model.make_slide import make_slide
 from ancf.model.points import Point
+from ancf.model.repeated import check_repeated
 
 ConnectionT = TypeVar("ConnectionT", bound=Connection)
 PointLike = Point | PointMass | RigidBody | str
@@ -38,12 +40,8 @@ class Connecting(Lookup):
             Default "joint of a.end and b.start".
 
         """
-        where = self._where("connect", name, a)
-        first, second = self._point(a, f"{where}.a"), self._end(b, f"{where}.b")
-        label = self._names.of_item(name, f"joint of {first} and {shown(second)}", where)
-        item = make_spherical(where, label, first, second, self.size)
-        check_repeated(where, item, self.connections)
-        return self._add_connection(item)
+        where, label, first, second = self.named_pair("connect", "joint", a, b, name)
+        return self.add_connection(where, make_spherical(where, label, first, second, self.size))
 
     def hinge(self, a: PointLike, b: Any, axis: Any, name: str | None = None) -> Revolute:
         """Join two coincident points so that their bodies turn about one axis against each other.
@@ -60,12 +58,8 @@ class Connecting(Lookup):
             Default "hinge of hub.centre and ground".
 
         """
-        where = self._where("hinge", name, a)
-        first, second = self._point(a, f"{where}.a"), self._end(b, f"{where}.b")
-        label = self._names.of_item(name, f"hinge of {first} and {shown(second)}", where)
-        item = make_revolute(where, label, first, second, axis, self.size)
-        check_repeated(where, item, self.connections)
-        return self._add_connection(item)
+        where, label, first, second = self.named_pair("hinge", "hinge", a, b, name)
+        return self.add_connection(where, make_revolute(where, label, first, second, axis, self.size))
 
     def slide(
         self,
@@ -152,8 +146,7 @@ class Connecting(Lookup):
             unilateral=unilateral,
             at_end=at_end,
         )
-        check_repeated(where, item, self.connections)
-        return self._add_connection(item)
+        return self.add_connection(where, item)
 
     def add_spring(
         self,
@@ -192,7 +185,7 @@ class Connecting(Lookup):
         item = make_spring(
             where, label, first, second, stiffness=stiffness, damping=damping, length=length, slack=slack
         )
-        return self._add_connection(item)
+        return self.add_connection(where, item)
 
     def add_contact(
         self,
@@ -246,7 +239,7 @@ class Connecting(Lookup):
             normal=normal,
             s=s,
         )
-        return self._add_connection(item)
+        return self.add_connection(where, item)
 
     def _fix(self, point: PointLike, to: Any, stretch: Any, name: str | None) -> Fixation:
         """``Model.clamp`` to a rigid body."""
@@ -254,19 +247,43 @@ class Connecting(Lookup):
         clean, body = self._point(point, f"{where}.point"), self._body(to, f"{where}.to")
         label = self._names.of_item(name, f"clamp of {clean} to {body.name}", where)
         item = make_fixation(where, label, clean, body, stretch)
-        check_repeated(where, item, self.connections)
-        return self._add_connection(item)
+        return self.add_connection(where, item)
+
+    def named_pair(
+        self, method: str, noun: str, a: PointLike, b: Any, name: str | None
+    ) -> tuple[str, str, Point, Point | FloatArray]:
+        """Where an error is, the name, a point and a point or fixed position (3,) in m, of a new connection.
+
+        Raises
+        ------
+        ModelError
+            One of them is no point, or the name is taken.
+        """
+        where = self._where(method, name, a)
+        first, second = self._point(a, f"{where}.a"), self._end(b, f"{where}.b")
+        label = self._names.of_item(name, f"{noun} of {first} and {shown(second)}", where)
+        return where, label, first, second
+
+    def add_connection(self, where: str, item: ConnectionT) -> ConnectionT:
+        """Add a checked connection; every method that makes one ends here.
+
+        Raises
+        ------
+        ModelError
+            A joint holds what another one holds already.
+        """
+        kind = kind_of(item)
+        if kind.constrains:
+            check_repeated(where, item, kind, self.connections)
+        self._names.take(item.name, "connection")
+        self.connections.append(item)
+        return item
 
     def _end(self, end: Any, where: str) -> Point | FloatArray:
         """A point, or a fixed position."""
         if isinstance(end, Point | PointMass | RigidBody | Beam | str):
             return self._point(end, where)
         return checks.place(end, where)
-
-    def _add_connection(self, item: ConnectionT) -> ConnectionT:
-        self._names.take(item.name, "connection")
-        self.connections.append(item)
-        return item
 
 
 def shown(end: Point | FloatArray, fixed: str = "ground") -> str:

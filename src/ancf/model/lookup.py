@@ -13,6 +13,7 @@ from ancf.model.beam import Beam
 from ancf.model.bodies import Body, PointMass, RigidBody, kind
 from ancf.model.checks import FloatArray
 from ancf.model.connections import Connection, Spherical, initial_position
+from ancf.model.kinds import kind_of
 from ancf.model.names import POINT_LABEL, Names, numbers_of, split_label, unknown
 from ancf.model.points import Point
 
@@ -140,7 +141,7 @@ class Lookup:
         return parse_point(self.bodies, point, where)
 
     def _reach(self, place: FloatArray) -> float:
-        ends = [getattr(item, key, None) for item in self.connections for key in ("b", "point")]
+        ends = [end for item in self.connections for end in kind_of(item).ends_of(item)]
         far = [float(np.max(np.abs(initial_position(e) - place))) for e in ends if isinstance(e, np.ndarray)]
         return max(far, default=0.0)
 

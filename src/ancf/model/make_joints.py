@@ -12,8 +12,7 @@ from ancf.model import checks
 from ancf.model.beam import NODE_TOLERANCE, Beam
 from ancf.model.bodies import Body, PointMass, RigidBody, kind
 from ancf.model.checks import FloatArray
-from ancf.model.connections import Connection
-from ancf.model.joints import STRETCH, Fixation, Joint, Revolute, Slide, Spherical
+from ancf.model.joints import STRETCH, Fixation, Revolute, Spherical
 from ancf.model.points import Point, initial_position
 from ancf.model.supports import node_of, require_node
 
@@ -24,7 +23,7 @@ End = Point | FloatArray
 
 def make_spherical(where: str, name: str, a: Point, b: End, size: float) -> Spherical:
     """Check what ``Model.connect`` was given; `size` is the size of the model in m."""
-    _check_pair(where, a, b, size)
+    check_pair(where, a, b, size)
     return Spherical(name, a, b)
 
 
@@ -33,8 +32,8 @@ def make_revolute(where: str, name: str, a: Point, b: End, axis: Any, size: floa
     direction = checks.direction(axis, f"{where}.axis")
     for key, end in (("a", a), ("b", b)):
         if isinstance(end, Point):
-            _require_axes(end, f"{where}.{key}")
-    _check_pair(where, a, b, size)
+            require_axes(end, f"{where}.{key}")
+    check_pair(where, a, b, size)
     return Revolute(name, a, b, direction)
 
 
@@ -53,20 +52,7 @@ def make_fixation(where: str, name: str, point: Point, to: Body, stretch: Any) -
     return Fixation(name, point, to, checks.choice(stretch, f"{where}.stretch", STRETCH))
 
 
-def check_repeated(where: str, new: Joint, others: list[Connection]) -> None:
-    """No second joint between the same two points: it holds what is held already."""
-    for other in others:
-        if not isinstance(other, Joint):
-            continue
-        mine, theirs = _ends(new), _ends(other)
-        slides = isinstance(new, Slide), isinstance(other, Slide)
-        if slides[0] == slides[1] and (_same(mine, theirs) or _same(mine, theirs[::-1])):
-            key = {Slide: "along", Fixation: "to"}.get(type(new), "b")
-            what = f'"{other.name}" connects {_text(mine[0])} and {_text(mine[1])} already'
-            raise ModelError(f"{where}.{key}", what)
-
-
-def _check_pair(where: str, a: Point, b: End, size: float) -> None:
+def check_pair(where: str, a: Point, b: End, size: float) -> None:
     """Two places that coincide and are not the same place of one body."""
     if isinstance(b, Point) and a.body is b.body:
         _check_same_body(where, a, b)
@@ -87,7 +73,7 @@ def _check_same_body(where: str, a: Point, b: Point) -> None:
         raise ModelError(f"{where}.b", f"{b} is the same {what} as {a}")
 
 
-def _require_axes(point: Point, where: str) -> None:
+def require_axes(point: Point, where: str) -> None:
     """A point of a body that can turn about every axis; of a beam a node."""
     body = point.body
     if isinstance(body, PointMass):
@@ -103,31 +89,3 @@ def _require_axes(point: Point, where: str) -> None:
 def _without_axes(body: PointMass) -> tuple[str, str]:
     what = f'"{body.name}" is a point mass and has no orientation'
     return what, "join it with model.connect(...), or make it a rigid body"
-
-
-def _ends(joint: Joint) -> tuple[End | Body, End | Body]:
-    if isinstance(joint, Slide):
-        return joint.point, joint.carrier
-    return (joint.point, joint.to) if isinstance(joint, Fixation) else (joint.a, joint.b)
-
-
-def _same(mine: tuple[End | Body, End | Body], theirs: tuple[End | Body, End | Body]) -> bool:
-    return _same_end(mine[0], theirs[0]) and _same_end(mine[1], theirs[1])
-
-
-def _same_end(one: End | Body, two: End | Body) -> bool:
-    """Whether two ends are the same place; a body stands for all its points."""
-    if isinstance(one, np.ndarray):
-        return isinstance(two, np.ndarray) and bool(np.array_equal(one, two))
-    if isinstance(two, np.ndarray):
-        return False
-    if isinstance(one, Point) and isinstance(two, Point):
-        return one == two
-    bodies = [end.body if isinstance(end, Point) else end for end in (one, two)]
-    return bodies[0] is bodies[1]
-
-
-def _text(end: End | Body) -> str:
-    if isinstance(end, np.ndarray):
-        return str(end.tolist())
-    return str(end) if isinstance(end, Point) else f'"{end.name}"'

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeVar
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ancf.errors import ModelError
 from ancf.model import checks, describe
@@ -10,10 +11,9 @@ from ancf.model.beam import Beam
 from ancf.model.bodies import Body, PointMass, RigidBody, make_point_mass, make_rigid_body
 from ancf.model.checks import FloatArray
 from ancf.model.connecting import Connecting, PointLike
-from ancf.model.connections import Spring
-from ancf.model.contact import Contact
 from ancf.model.functions import TimeFunction
-from ancf.model.joints import Fixation, Revolute, Slide, Spherical
+from ancf.model.joints import Fixation
+from ancf.model.kinds import GROUPS, all_kinds, kind_of
 from ancf.model.layout import make_beam
 from ancf.model.loads import DistributedLoad, Force, Load, Moment, make_distributed, make_moment
 from ancf.model.points import Point
@@ -72,6 +72,18 @@ class Model(Connecting, Readable):
         counts = ("bodies", "supports", "loads", "connections")
         inside = ", ".join(f"{len(getattr(self, key))} {key}" for key in counts)
         return f"Model({self.title!r}, {inside})" if self.title else f"Model({inside})"
+
+    if not TYPE_CHECKING:  # a misspelled method is an error
+
+        def __getattr__(self, name: str) -> Any:
+            """The method of a kind that is not written in this class, see :class:`ancf.model.kind.Kind`."""
+            for kind in all_kinds():
+                if kind.method == name and kind.add is not None:
+                    return partial(kind.add, self)
+            raise AttributeError(f"Model has no attribute {name!r}", name=name, obj=self)
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *(kind.method for kind in all_kinds())})
 
     def _sheet(self) -> Sheet:
         from ancf.model.overview import of_model
@@ -320,24 +332,10 @@ class Model(Connecting, Readable):
 
     def to_dict(self) -> dict[str, Any]:
         """Plain description, ready for JSON; Python functions as ``<function name>``."""
-        kinds = {
-            Pin: "pin",
-            Clamp: "clamp",
-            Hold: "hold",
-            Force: "force",
-            Moment: "moment",
-            DistributedLoad: "distributed",
-            Spherical: "spherical",
-            Revolute: "hinge",
-            Fixation: "fixation",
-            Slide: "slide",
-            Spring: "spring",
-            Contact: "contact",
-        }
         plain: dict[str, Any] = {"title": self.title, "gravity": self.gravity.tolist()}
         plain["bodies"] = [describe.body(body) for body in self.bodies.values()]
-        for key in ("supports", "loads", "connections"):
-            plain[key] = [describe.other(item, kinds[type(item)]) for item in getattr(self, key)]
+        for key in GROUPS:
+            plain[key] = [describe.other(item, kind_of(item).word) for item in getattr(self, key)]
         return plain
 
     def _at_node(self, method: str, point: object, name: object) -> tuple[str, Point]:

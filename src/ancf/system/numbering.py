@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..connections.joint_build import count
+from ..connections.joint_build import rows_of
 from ..model.bodies import RigidBody
 from ..model.connections import Spherical
 from ..model.joints import Slide
 from ..model.model import Model
 from ..model.points import Point
 from .nodes import layout, names_of, node_of
+from .probe import Probe, locate
 
 IntArray = NDArray[np.int64]
 
@@ -61,8 +62,11 @@ class Numbering:
                 self.arcs[joint.name] = int(self.multipliers[joint.name][0]) + 3
             elif isinstance(joint, Spherical) and joint.shared:
                 self._share(joint)
-            elif rows := count(joint):
-                self._rows(joint.name, rows)
+            elif rows := rows_of(joint, self._locate, self.slots):
+                self._rows(joint.name, len(rows))
+
+    def _locate(self, point: Point) -> Probe:
+        return locate(point, self.slots[point.body.name])
 
     def _rows(self, name: str, rows: int) -> None:
         """Blocks for a number of multipliers."""

@@ -141,7 +141,7 @@ class System:
             if isinstance(joint, Slide):
                 slides.append(joint)
             elif joint.name in self.numbering.multipliers:
-                rows += joint_build.BUILDERS[type(joint)](joint, find, slots)
+                rows += joint_build.rows_of(joint, find, slots)
                 unknowns += self.numbering.multipliers[joint.name].tolist()
         batches: list[Any] = [joint_build.batch(rows, unknowns, self.level)] if rows else []
         if slides:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
@@ -10,9 +10,6 @@ from ancf.errors import ModelError
 from ancf.model.bodies import Body
 from ancf.model.file.entries import (
     AnyBody,
-    AnyConnection,
-    AnyLoad,
-    AnySupport,
     BeamEntry,
     CircleEntry,
     EquilibriumEntry,
@@ -23,6 +20,7 @@ from ancf.model.file.entries import (
     SimulationEntry,
 )
 from ancf.model.file.messages import place
+from ancf.model.kinds import GROUPS, by_word
 from ancf.model.model import Model
 from ancf.model.names import unknown
 from ancf.model.section import Section
@@ -115,29 +113,12 @@ class Builder:
 
     def _add_items(self) -> None:
         model, entry = self.model, self.entry
-        add: dict[str, Callable[..., Any]] = {
-            "pin": model.pin,
-            "clamp": model.clamp,
-            "hold": model.hold,
-            "force": model.add_force,
-            "moment": model.add_moment,
-            "distributed": model.add_distributed_load,
-            "spherical": model.connect,
-            "hinge": model.hinge,
-            "fixation": model.clamp,
-            "slide": model.slide,
-            "spring": model.add_spring,
-            "contact": model.add_contact,
-        }
-        groups: dict[str, Sequence[AnySupport | AnyLoad | AnyConnection]] = {
-            "supports": entry.supports,
-            "loads": entry.loads,
-            "connections": entry.connections,
-        }
-        for key, items in groups.items():
-            for i, item in enumerate(items):
+        for key in GROUPS:
+            kinds = by_word(key)
+            for i, item in enumerate(getattr(entry, key)):
+                add = getattr(model, kinds[item.type].method)
                 with model.located(f"{key}[{i}]"):
-                    self._collected(lambda add, given: add(**given), add[item.type], item.given())
+                    self._collected(lambda add, given: add(**given), add, item.given())
 
     def _collected(self, work: Callable[..., T], *given: Any) -> T | None:
         try:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, Union
 
 from pydantic import Discriminator, Field, Tag
 
@@ -11,19 +11,14 @@ from ancf.model.file.fields import (
     Entry,
     Inertia,
     Integrator,
-    ItemName,
-    Line,
     Matrix,
     NonNegative,
-    Pair,
-    PointLabel,
-    PointOrPosition,
     Positive,
-    ScalarFunction,
     StrainName,
     Vector,
-    VectorFunction,
 )
+from ancf.model.kind import Kind
+from ancf.model.kinds import CONNECTIONS, LOADS, SUPPORTS
 
 
 class SectionEntry(Entry):
@@ -102,167 +97,6 @@ class MassMotionEntry(Entry):
     velocity: Vector = Field([0.0, 0.0, 0.0], description="Velocity [m/s].")
 
 
-class PinEntry(Entry):
-    """Holds the position of a node, a point mass or a rigid body's centre of mass."""
-
-    type: Literal["pin"] = Field(description="Kind of support.")
-    point: PointLabel
-    displacement: VectorFunction = Field(None, description="Prescribed displacement, function of t [m].")
-    name: ItemName = None
-
-
-class ClampEntry(Entry):
-    """Holds a node's position and slope, on a beam all three slopes, or a rigid body altogether."""
-
-    type: Literal["clamp"] = Field(description="Kind of support.")
-    point: PointLabel
-    stretch: Literal["free", "fixed"] = Field(
-        "free", description="Hold the slopes' directions, or all of them."
-    )
-    rotation: ScalarFunction = Field(None, description="Angle of the slopes about axis, function of t [rad].")
-    axis: Vector = Field([0.0, 0.0, 1.0], description="Axis of the rotation [-].")
-    rotation_rate: ScalarFunction = Field(None, description="First time derivative of rotation [rad/s].")
-    rotation_acceleration: ScalarFunction = Field(
-        None, description="Second derivative of rotation [rad/s^2]."
-    )
-    displacement: VectorFunction = Field(None, description="Prescribed displacement, function of t [m].")
-    name: ItemName = None
-
-
-class HoldEntry(Entry):
-    """Holds single components of a node, a point mass or a rigid body's centre of mass."""
-
-    type: Literal["hold"] = Field(description="Kind of support.")
-    point: PointLabel
-    position: str = Field("", description='Components of the position that are held, letters of "xyz".')
-    slope: str = Field("", description='Components of the slope r_x that are held, letters of "xyz".')
-    slope_y: str = Field("", description='Components of a beam\'s r_y that are held, letters of "xyz".')
-    slope_z: str = Field("", description='Components of a beam\'s r_z that are held, letters of "xyz".')
-    twist: bool = Field(False, description="Hold a beam's section against turning about the tangent.")
-    displacement: VectorFunction = Field(
-        None, description="Prescribed displacement of the position's held components, function of t [m]."
-    )
-    name: ItemName = None
-
-
-class ForceEntry(Entry):
-    """A force at a point."""
-
-    type: Literal["force"] = Field(description="Kind of load.")
-    point: PointLabel
-    force: VectorFunction = Field(description="Force, function of t [N].")
-    name: ItemName = None
-
-
-class MomentEntry(Entry):
-    """A moment at a point."""
-
-    type: Literal["moment"] = Field(description="Kind of load.")
-    point: PointLabel
-    moment: VectorFunction = Field(description="Moment, function of t [N m].")
-    name: ItemName = None
-
-
-class DistributedEntry(Entry):
-    """A load per length on a body."""
-
-    type: Literal["distributed"] = Field(description="Kind of load.")
-    body: str = Field(description="Name of the body.")
-    load: VectorFunction = Field(description="Load per reference length, function of t [N/m].")
-    between: Pair | None = Field(
-        None, description="Reference arc lengths of its first and last point, default the whole body [m]."
-    )
-    name: ItemName = None
-
-
-class SphericalEntry(Entry):
-    """Two coincident points keep the same position."""
-
-    type: Literal["spherical"] = Field(description="Kind of connection.")
-    a: PointLabel
-    b: PointOrPosition = Field(description="The other point, or a position in space [m].")
-    name: ItemName = None
-
-
-class HingeEntry(Entry):
-    """Two coincident points keep the same position, their bodies turn about one axis only."""
-
-    type: Literal["hinge"] = Field(description="Kind of connection.")
-    a: PointLabel
-    b: PointOrPosition = Field(description="The other point, or a position in space: the ground [m].")
-    axis: Vector = Field(description="Initial direction of the axis [-].")
-    name: ItemName = None
-
-
-class FixationEntry(Entry):
-    """A node of a beam or cable clamped to a rigid body."""
-
-    type: Literal["fixation"] = Field(description="Kind of connection.")
-    point: PointLabel
-    to: str = Field(description="Name of the rigid body.")
-    stretch: Literal["free", "fixed"] = Field(
-        "free", description="Hold the slopes' directions, or all of them."
-    )
-    name: ItemName = None
-
-
-class SlideEntry(Entry):
-    """A point slides along a beam, a cable or a line of a rigid body."""
-
-    type: Literal["slide"] = Field(description="Kind of connection.")
-    point: PointOrPosition = Field(description="The sliding point, or the position of a fixed ring [m].")
-    along: str = Field(description="Name of the carrier: a beam, a cable or a rigid body.")
-    line: Line | None = Field(
-        None, description="Of a rigid body: start and end of the line in body axes [m]."
-    )
-    offset: Pair = Field([0.0, 0.0], description="Of a beam: place (y, z) of the line in its section [m].")
-    s: float | None = Field(None, description="Initial arc length, default the nearest place [m].")
-    tolerance: NonNegative | None = Field(
-        None, description="Largest initial distance from the line, default 1e-6 of the model's size [m]."
-    )
-    mass: NonNegative = Field(0.0, description="Mass that moves along the line [kg].")
-    friction: NonNegative = Field(0.0, description="Coulomb's coefficient of friction [-].")
-    friction_velocity: Positive = Field(1e-3, description="Speed at which friction is full [m/s].")
-    viscous: NonNegative = Field(0.0, description="Viscous resistance to sliding [N s/m].")
-    force: ScalarFunction = Field(None, description="Drive force towards larger s, function of t [N].")
-    motion: ScalarFunction = Field(None, description="Prescribed arc length, function of t [m].")
-    release: Vector | None = Field(None, description="Direction in which no force acts [-].")
-    unilateral: Vector | None = Field(
-        None, description="Direction of the only force that the carrier receives [-]."
-    )
-    at_end: Literal["stop", "clamp", "release"] = Field(
-        "stop", description="At an end of the line: stop the computation, hold the point, let it go."
-    )
-    name: ItemName = None
-
-
-class SpringEntry(Entry):
-    """A spring and damper."""
-
-    type: Literal["spring"] = Field(description="Kind of connection.")
-    a: PointLabel
-    b: PointOrPosition = Field(description="The other point, or a position in space [m].")
-    stiffness: NonNegative = Field(description="Stiffness [N/m].")
-    damping: NonNegative = Field(0.0, description="Damping [N s/m].")
-    length: NonNegative | None = Field(None, description="Length without force, default the initial one [m].")
-    slack: bool = Field(False, description="It carries tension only.")
-    name: ItemName = None
-
-
-class ContactEntry(Entry):
-    """A wire rests on a straight strip through a point."""
-
-    type: Literal["contact"] = Field(description="Kind of connection.")
-    point: PointLabel
-    along: str = Field(description="Name of the wire: a cable or a beam.")
-    stiffness: Positive = Field(description="Force per overlap [N/m].")
-    damping: NonNegative = Field(0.0, description="Force per rate of overlap [N s/m].")
-    strip: Vector = Field([0.0, 1.0, 0.0], description="Direction of the strip [-].")
-    normal: Vector = Field([0.0, 0.0, 1.0], description="Direction of the force on the wire [-].")
-    s: NonNegative | None = Field(None, description="Arc length near which it starts [m].")
-    name: ItemName = None
-
-
 class SimulationEntry(Entry):
     """Settings of a simulation."""
 
@@ -294,18 +128,6 @@ TAGGED: dict[str, type[Entry]] = {
     "<rectangle>": RectangleEntry,
     "<circle>": CircleEntry,
     "<moments>": MomentsEntry,
-    "<pin>": PinEntry,
-    "<clamp>": ClampEntry,
-    "<hold>": HoldEntry,
-    "<force>": ForceEntry,
-    "<moment>": MomentEntry,
-    "<distributed>": DistributedEntry,
-    "<spherical>": SphericalEntry,
-    "<hinge>": HingeEntry,
-    "<fixation>": FixationEntry,
-    "<slide>": SlideEntry,
-    "<spring>": SpringEntry,
-    "<contact>": ContactEntry,
 }
 
 
@@ -336,27 +158,22 @@ AnySection = Annotated[DirectTag | RectangleTag | CircleTag | MomentsTag, _by_sh
 BodySection = Annotated[
     Annotated[str, Tag("<name>")] | DirectTag | RectangleTag | CircleTag | MomentsTag, _by_shape(named=True)
 ]
-AnySupport = Annotated[
-    Annotated[PinEntry, Tag("<pin>")]
-    | Annotated[ClampEntry, Tag("<clamp>")]
-    | Annotated[HoldEntry, Tag("<hold>")],
-    _by_type("pin", "clamp", "hold"),
-]
-AnyLoad = Annotated[
-    Annotated[ForceEntry, Tag("<force>")]
-    | Annotated[MomentEntry, Tag("<moment>")]
-    | Annotated[DistributedEntry, Tag("<distributed>")],
-    _by_type("force", "moment", "distributed"),
-]
-AnyConnection = Annotated[
-    Annotated[SphericalEntry, Tag("<spherical>")]
-    | Annotated[HingeEntry, Tag("<hinge>")]
-    | Annotated[FixationEntry, Tag("<fixation>")]
-    | Annotated[SlideEntry, Tag("<slide>")]
-    | Annotated[SpringEntry, Tag("<spring>")]
-    | Annotated[ContactEntry, Tag("<contact>")],
-    _by_type("spherical", "hinge", "fixation", "slide", "spring", "contact"),
-]
+
+
+def _any_of(kinds: list[Kind]) -> Any:
+    """A table of one of these kinds, by its `type`."""
+    entries = {f"<{kind.word}>": kind.entry() for kind in kinds}
+    TAGGED.update(entries)
+    tagged = tuple(Annotated[entry, Tag(tag)] for tag, entry in entries.items())
+    return Annotated[Union[tagged], _by_type(*(kind.word for kind in kinds))]  # noqa: UP007
+
+
+if TYPE_CHECKING:  # the kinds are known at run time alone
+    AnySupport: TypeAlias = Entry
+    AnyLoad: TypeAlias = Entry
+    AnyConnection: TypeAlias = Entry
+else:
+    AnySupport, AnyLoad, AnyConnection = map(_any_of, (SUPPORTS, LOADS, CONNECTIONS))
 
 
 class BeamEntry(Entry):

@@ -8,12 +8,15 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import KINDS, FloatArray, Link, Marker, Scene, Strip, Thread, Triad
+from ...model.elements import KINDS
+from ..scene import FloatArray, Link, Marker, Scene, Strip, Thread, Triad, looks
 
 IntArray = NDArray[np.int64]
 
-#: The array ``kind`` holds the number of one of these.
-PART_KINDS = ("cable", "original", "nonlocking", "surface", "spring", "strip", "axes", *KINDS)
+
+def part_kinds() -> tuple[str, ...]:
+    """Kinds of parts; the array ``kind`` holds the number of one of these."""
+    return (*KINDS, "surface", "spring", "strip", "axes", *looks())
 
 
 @dataclass(frozen=True)
@@ -25,7 +28,7 @@ class Part:
     name : str
         Of the beam, body, spring, support, joint or contact.
     kind : str
-        One of PART_KINDS.
+        One of ``part_kinds()``.
     points : (n, m, 3) m
     cells : dict of str to list of (k,)
         Numbers of points in this part, by topology of VTK.

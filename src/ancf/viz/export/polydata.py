@@ -16,7 +16,7 @@ from ...model.beam import Beam
 from ...results.modes import Modes
 from ..scene import QUANTITIES, FloatArray, Scene, make_scene
 from ..scene.sampling import CORNERS
-from .parts import PART_KINDS, IntArray, Part, parts
+from .parts import IntArray, Part, part_kinds, parts
 from .vtkhdf import TOPOLOGIES, Mesh, TemporalFile
 
 SUFFIXES = (".vtkhdf", ".hdf")
@@ -111,8 +111,9 @@ def _mesh(items: Sequence[Part]) -> Mesh:
 def _constant(items: Sequence[Part], counts: Sequence[int]) -> dict[str, Any]:
     numbers = {name: k for k, name in enumerate(_names(items)["parts"])}
     unknown = np.full(max(counts), np.nan)
+    kinds = part_kinds()
     return {
-        "kind": np.repeat([PART_KINDS.index(part.kind) for part in items], counts).astype(np.int32),
+        "kind": np.repeat([kinds.index(part.kind) for part in items], counts).astype(np.int32),
         "part": np.repeat([numbers[part.name] for part in items], counts).astype(np.int32),
         "s": np.concatenate(
             [unknown[:m] if part.s is None else part.s for part, m in zip(items, counts, strict=True)]
@@ -122,7 +123,7 @@ def _constant(items: Sequence[Part], counts: Sequence[int]) -> dict[str, Any]:
 
 def _names(items: Sequence[Part]) -> dict[str, Any]:
     """What the numbers and names in the file stand for."""
-    return {"kinds": PART_KINDS, "parts": list(dict.fromkeys(part.name for part in items)), "units": UNITS}
+    return {"kinds": part_kinds(), "parts": list(dict.fromkeys(part.name for part in items)), "units": UNITS}
 
 
 def _points_of(items: Sequence[Part], rows: slice) -> FloatArray:

@@ -11,9 +11,8 @@ from ...errors import ModelError
 from ...model import checks
 from ...model.beam import Beam
 from ...model.bodies import PointMass, RigidBody
-from ...model.connections import Spring
-from ...model.contact import Contact
-from ...model.joints import Fixation, Revolute, Slide, Spherical
+from ...model.kind import CONTACT, JOINT, SLIDE, SPRING
+from ...model.kinds import CONNECTIONS
 from ...model.names import POINT_LABEL
 from ...model.points import Point
 
@@ -28,7 +27,7 @@ class Question(NamedTuple):
     vector: bool = False
 
 
-POINT, SPRING, CONTACT, SLIDE, JOINT = "point", "spring", "contact", "sliding joint", "joint"
+POINT = "point"
 
 QUANTITIES: dict[str, Question] = {
     "position": Question("position", (POINT,), vector=True),
@@ -57,13 +56,6 @@ DEFAULTS = {
     SLIDE: "arc_length",
     JOINT: "multiplier",
 }
-_KINDS = (
-    ((Point, PointMass, RigidBody, Beam), POINT),
-    ((Spring,), SPRING),
-    ((Contact,), CONTACT),
-    ((Slide,), SLIDE),
-    ((Spherical, Revolute, Fixation), JOINT),
-)
 
 
 def ask(source: Any, quantity: str, item: Any) -> FloatArray:
@@ -102,9 +94,11 @@ def quantity_of(source: Any, item: Any, quantity: str | None) -> str:
 
 def noun_of(source: Any, item: Any) -> str:
     """What an item is: "point", "spring", "contact", "sliding joint" or "joint"."""
-    for kinds, noun in _KINDS:
-        if isinstance(item, kinds):
-            return noun
+    if isinstance(item, Point | PointMass | RigidBody | Beam):
+        return POINT
+    for kind in CONNECTIONS:
+        if isinstance(item, kind.item):
+            return kind.asked
     if not isinstance(item, str):
         what = f"must be a point, spring, contact or joint, or its name, is {checks.shown(item)}"
         raise ModelError("plot", what, 'such as result.plot("beam.end")')

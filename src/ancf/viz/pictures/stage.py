@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import astuple
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -11,7 +12,8 @@ from numpy.typing import NDArray
 from ...errors import ModelError
 from ...model import checks
 from .. import style
-from ..scene import QUANTITIES, Scene, Thread
+from ..scene import QUANTITIES, Scene, Thread, looks
+from ..scene.parts import BODIES
 from .projection import Projection
 
 if TYPE_CHECKING:
@@ -24,18 +26,14 @@ FloatArray = NDArray[np.float64]
 COLORS = (*QUANTITIES, "plain")
 #: How wide lines are drawn, points.
 BODY, EDGE, SPRING, STRIP, AXIS = 1.8, 0.4, 0.8, 2.4, 1.4
-#: Marker of each kind of item: its shape, face and size.
-MARKERS: dict[str, tuple[str, str, float]] = {
-    "point mass": ("o", style.BLACK, 5.0),
-    "rigid body": ("s", style.BLACK, 5.0),
-    "pin": ("^", style.BLACK, 5.5),
-    "clamp": ("s", style.LIGHT, 5.5),
-    "hold": ("v", "white", 4.0),
-    "spring support": ("d", "white", 4.0),
-    "spherical": ("o", "white", 4.0),
-    "hinge": ("o", style.LIGHT, 4.0),
-    "fixation": ("s", "white", 4.0),
-    "slide": ("D", style.ORANGE, 5.0),
+#: Shapes and fills of :class:`ancf.model.kind.Look` in matplotlib.
+SHAPES = {"circle": "o", "square": "s", "diamond": "d", "up": "^", "down": "v", "slider": "D"}
+FILLS = {
+    "black": style.BLACK,
+    "grey": "white",
+    "light": style.LIGHT,
+    "white": "white",
+    "orange": style.ORANGE,
 }
 
 
@@ -81,7 +79,7 @@ class Stage:
     def kinds(self) -> list[str]:
         """Kinds of markers that the scene has."""
         there = {marker.kind for marker in self.scene.markers}
-        return [kind for kind in MARKERS if kind in there]
+        return [kind for kind in looks() if kind in there]
 
     def show(self, k: int) -> None:
         """Move to time k of the scene."""
@@ -137,10 +135,10 @@ class Stage:
         return add_lines(self.axes, self.view, start, linewidths=BODY, capstyle="round", **look)
 
     def _marker(self, kind: str) -> Any:
-        shape, face, size = MARKERS[kind]
-        look: dict[str, Any] = {"marker": shape, "markersize": size, "markerfacecolor": face}
+        shape, fill, size = astuple(looks()[kind])
+        look: dict[str, Any] = {"marker": SHAPES[shape], "markersize": size, "markerfacecolor": FILLS[fill]}
         look |= {"markeredgecolor": style.BLACK, "markeredgewidth": 0.7, "linestyle": ""}
-        look["zorder"] = 5 if kind in ("point mass", "rigid body") else 4
+        look["zorder"] = 5 if kind in BODIES else 4
         return self.axes.plot([], [], *self._third(), label=kind, **look)[0]
 
 

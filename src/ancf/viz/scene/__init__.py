@@ -1,10 +1,9 @@
 """A result as things to draw at some times; viewer, movies and exports share it. Needs no extra."""
 
 from .compose import chosen_times, make_scene
-from .parts import KINDS, QUANTITIES, FloatArray, Link, Marker, Scene, Strip, Thread, Triad
+from .parts import QUANTITIES, FloatArray, Link, Marker, Scene, Strip, Thread, Triad, looks
 
 __all__ = [
-    "KINDS",
     "QUANTITIES",
     "FloatArray",
     "Link",
@@ -14,5 +13,6 @@ __all__ = [
     "Thread",
     "Triad",
     "chosen_times",
+    "looks",
     "make_scene",
 ]

@@ -12,6 +12,8 @@ from ...errors import ModelError
 from ...model import checks
 from ...model.beam import Beam
 from ...model.bodies import PointMass, RigidBody
+from ...model.joints import Spherical
+from ...model.kinds import by_word
 from ...model.points import Point
 from ...results.modes import Modes
 from ...results.result import Result
@@ -27,9 +29,6 @@ FRAMES, POINTS = 240, 1500
 MODE_SIZE = 0.1
 #: A spring whose fixed end is farther outside the bodies than this many of their middle extents is a support.
 FAR = 2.0
-#: Names of supports and joints in a model's description, and the fields with their points.
-SUPPORTS = ("pin", "clamp", "hold")
-JOINTS = {"spherical": "a", "hinge": "a", "fixation": "point", "slide": "point"}
 
 
 class Frames(SpringFields):
@@ -110,7 +109,7 @@ def make_scene(
     drawn = [thread.position for thread in threads] + [marker.position for marker in markers]
     extent = _extent(drawn)
     links, footed = _links(shown, extent, drawn)
-    items = [*_supports(shown), *footed, *_joints(shown)]
+    items = [*_items(shown, "supports"), *footed, *_items(shown, "connections")]
     return Scene(
         title=str(shown.plain.get("title") or ""),
         t=shown.t,
@@ -195,20 +194,15 @@ def _triads(shown: Frames) -> list[Triad]:
     return found
 
 
-def _supports(shown: Frames) -> list[Marker]:
-    given = shown.plain.get("supports", [])
-    return [Marker(s["name"], s["type"], shown.place(s["point"])) for s in given if s["type"] in SUPPORTS]
-
-
-def _joints(shown: Frames) -> list[Marker]:
-    """Joints, but those that only fasten a point mass, which is drawn itself."""
-    found = []
-    for item in shown.plain.get("connections", []):
-        ends = [item.get(key) for key in ("a", "b")]
-        fastens = any(isinstance(end, str) and end in shown.masses for end in ends)
-        if item["type"] in JOINTS and not (item["type"] == "spherical" and fastens):
-            place = shown.place(item[JOINTS[item["type"]]])
-            found.append(Marker(item["name"], item["type"], place))
+def _items(shown: Frames, group: str) -> list[Marker]:
+    """Marked supports or connections, but joints that only fasten a point mass, which is drawn itself."""
+    kinds, found = by_word(group), []
+    for item in shown.plain.get(group, []):
+        kind = kinds[item["type"]]
+        ends = [item[key] for key in kind.ends]
+        fastens = kind.item is Spherical and any(isinstance(end, str) and end in shown.masses for end in ends)
+        if kind.look is not None and not fastens:
+            found.append(Marker(item["name"], kind.word, shown.place(ends[0])))
     return found
 
 

@@ -7,24 +7,22 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ...model.kind import Look
+from ...model.kinds import marked
+
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 
 #: What the points of a thread know beside their place, with units.
 QUANTITIES = {"tension": "N", "curvature": "1/m", "speed": "m/s"}
-#: Kinds of markers, in the order of a legend.
-KINDS = (
-    "point mass",
-    "rigid body",
-    "pin",
-    "clamp",
-    "hold",
-    "spring support",
-    "spherical",
-    "hinge",
-    "fixation",
-    "slide",
-)
+#: Markers that are no support and no joint.
+BODIES = {"point mass": Look("circle", "black", 5.0), "rigid body": Look("square", "black", 5.0)}
+FOOTED = {"spring support": Look("diamond", "grey", 4.0)}
+
+
+def looks() -> dict[str, Look]:
+    """Kinds of markers and how they look, in the order of a legend."""
+    return BODIES | marked() | FOOTED
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +72,7 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class Marker:
-    """A point mass, a rigid body's centre, a support or a joint; `kind` is one of KINDS.
+    """A point mass, a rigid body's centre, a support or a joint; `kind` is one of ``looks()``.
 
     Parameters
     ----------

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import KINDS, QUANTITIES, FloatArray, Scene, Thread
+from ...model.kinds import by_word
+from ..scene import QUANTITIES, FloatArray, Scene, Thread, looks
 from .curve import Curve
 from .traces import Trace
 
@@ -151,10 +152,12 @@ def _markers(scene: Scene, numbers: Numbers) -> list[Plain]:
     ways = [m.position for m in scene.markers if m.kind == "point mass" and not _at_rest(m.position)]
     seen = [m for m in scene.markers if m.kind not in GUIDES or not _among(m.position, ways)]
     found = []
-    for kind in sorted({m.kind for m in seen}, key=KINDS.index):
+    for kind, look in looks().items():
         mine = [m for m in seen if m.kind == kind]
         stacked = _stacked(numbers, [m.name for m in mine], position=[m.position for m in mine])
-        found.append({"kind": kind, **(stacked or {})})
+        if stacked is not None:
+            joint = kind in by_word("connections")
+            found.append({"kind": kind, "joint": joint, "shape": look.shape, "fill": look.fill, **stacked})
     return found
 
 

@@ -157,15 +157,13 @@ function triadLayer(triads) {
   };
 }
 
-const SYMBOLS = {
-  "point mass": ["circle", 5, "#1a1a1a"], "rigid body": ["circle", 6, LOOKS.grey],
-  pin: ["diamond", 6, "#1a1a1a"], clamp: ["square", 6, "#1a1a1a"], hold: ["diamond-open", 7, "#1a1a1a"],
-  "spring support": ["cross", 5, LOOKS.grey], spherical: ["circle-open", 7, LOOKS.green],
-  hinge: ["cross", 6, LOOKS.green], fixation: ["square-open", 7, LOOKS.green], slide: ["circle-open", 10, LOOKS.orange],
-};
+// What plotly has in space; an outline is larger, a slider is a ring about what slides.
+const SHAPES3D = { circle: "circle", square: "square", diamond: "cross", up: "diamond", down: "diamond", slider: "circle" };
 
 function markerLayer(group) {
-  const [symbol, size, color] = SYMBOLS[group.kind] ?? ["circle", 6, LOOKS.grey];
+  const slider = group.shape === "slider", open = group.fill === "white" || slider;
+  const symbol = SHAPES3D[group.shape] + (open ? "-open" : ""), size = slider ? 10 : open ? 7 : 6;
+  const color = slider ? LOOKS.orange : group.joint ? LOOKS.green : group.fill === "grey" ? LOOKS.grey : "#1a1a1a";
   const small = group.names.length > 30 ? 0.5 : 1;
   return {
     still: group.position.count === 1,

@@ -1,0 +1,11 @@
+"""Spherical joint: two points stay together."""
+
+from __future__ import annotations
+
+from ..model.joints import Spherical
+from .joint_build import IntArray, Locate, Row, coincide
+
+
+def rows(joint: Spherical, locate: Locate, slots: dict[str, IntArray]) -> list[Row]:
+    """Rows of a spherical joint."""
+    return coincide(joint.a, joint.b, locate)

@@ -1,0 +1,144 @@
+"""The kinds of supports, loads and connections; a new one is its file and a line here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from importlib import import_module
+from typing import Any
+
+from ancf.model import sheets
+from ancf.model.connections import Spring
+from ancf.model.contact import Contact
+from ancf.model.joints import Fixation, Revolute, Slide, Spherical
+from ancf.model.kind import CONTACT, JOINT, SLIDE, SPRING, Kind, Look
+from ancf.model.loads import DistributedLoad, Force, Moment
+from ancf.model.supports import Clamp, Hold, Pin
+
+
+def _entry(name: str) -> Callable[[], Any]:
+    return lambda: getattr(import_module("ancf.model.file.items"), name)
+
+
+SUPPORTS: list[Kind] = [
+    Kind(Pin, "pin", "pin", "pin", _entry("PinEntry"), sheets.pin, look=Look("up", "black", 5.5)),
+    Kind(
+        Clamp,
+        "clamp",
+        "clamp",
+        "clamp",
+        _entry("ClampEntry"),
+        sheets.clamp,
+        look=Look("square", "light", 5.5),
+    ),
+    Kind(Hold, "hold", "hold", "hold", _entry("HoldEntry"), sheets.hold, look=Look("down", "white", 4.0)),
+]
+LOADS: list[Kind] = [
+    Kind(Force, "force", "force", "add_force", _entry("ForceEntry"), sheets.force),
+    Kind(Moment, "moment", "moment", "add_moment", _entry("MomentEntry"), sheets.moment),
+    Kind(
+        DistributedLoad,
+        "distributed",
+        "distributed load",
+        "add_distributed_load",
+        _entry("DistributedEntry"),
+        sheets.distributed,
+        ends=("body",),
+        between=sheets.part,
+    ),
+]
+CONNECTIONS: list[Kind] = [
+    Kind(
+        Spherical,
+        "spherical",
+        "spherical joint",
+        "connect",
+        _entry("SphericalEntry"),
+        sheets.nothing,
+        ends=("a", "b"),
+        asked=JOINT,
+        rows="spherical",
+        look=Look("circle", "white", 4.0),
+    ),
+    Kind(
+        Revolute,
+        "hinge",
+        "hinge",
+        "hinge",
+        _entry("HingeEntry"),
+        sheets.axis,
+        ends=("a", "b"),
+        asked=JOINT,
+        rows="hinge",
+        look=Look("circle", "light", 4.0),
+    ),
+    Kind(
+        Fixation,
+        "fixation",
+        "clamp to a body",
+        "clamp",
+        _entry("FixationEntry"),
+        sheets.nothing,
+        ends=("point", "to"),
+        asked=JOINT,
+        rows="fixation",
+        look=Look("square", "white", 4.0),
+    ),
+    Kind(
+        Slide,
+        "slide",
+        "sliding joint",
+        "slide",
+        _entry("SlideEntry"),
+        sheets.slide,
+        ends=("point", "carrier"),
+        keys=("point", "along"),
+        between=sheets.along,
+        asked=SLIDE,
+        look=Look("slider", "orange", 5.0),
+    ),
+    Kind(
+        Spring,
+        "spring",
+        "spring",
+        "add_spring",
+        _entry("SpringEntry"),
+        sheets.spring,
+        ends=("a", "b"),
+        asked=SPRING,
+    ),
+    Kind(
+        Contact,
+        "contact",
+        "contact",
+        "add_contact",
+        _entry("ContactEntry"),
+        sheets.contact,
+        ends=("point", "carrier"),
+        keys=("point", "along"),
+        between=sheets.along,
+        asked=CONTACT,
+    ),
+]
+#: By the key of a model file under which they stand, which is the attribute of a Model too.
+GROUPS: dict[str, list[Kind]] = {"supports": SUPPORTS, "loads": LOADS, "connections": CONNECTIONS}
+
+
+def all_kinds() -> Iterator[Kind]:
+    """Every kind, group by group."""
+    for kinds in GROUPS.values():
+        yield from kinds
+
+
+def kind_of(item: Any) -> Kind:
+    """The kind of a support, load or connection."""
+    return next(kind for kind in all_kinds() if kind.item is type(item))
+
+
+def by_word(group: str) -> dict[str, Kind]:
+    """The kinds of a group by their words in files."""
+    return {kind.word: kind for kind in GROUPS[group]}
+
+
+def marked() -> dict[str, Look]:
+    """Kinds of which pictures have markers, by word: supports, then joints."""
+    return {kind.word: kind.look for kind in all_kinds() if kind.look is not None}
