@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.cli.run import integrator
 from ancf.errors import ModelError, SolveError
-from ancf.model.settings import IntegratorSettings
+from ancf.model.integrators import integrator_of
 from ancf.paper import cantilever
 from ancf.solvers.stability import lanczos, limit
 from ancf.system.system import System
@@ -235,8 +234,8 @@ class TestTooLarge:
 
 
 def test_from_a_model_file():
-    settings = IntegratorSettings.of({"type": "explicit", "safety": 0.5, "check": False})
-    assert integrator(settings) == ancf.Explicit(0.5, False)
+    given = {"type": "explicit", "safety": 0.5, "check": False}
+    assert integrator_of(given) == ancf.Explicit(0.5, False)
 
 
 class TestBadInput:

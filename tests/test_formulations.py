@@ -173,7 +173,7 @@ class TestSettings:
     def test_weights_add_to_the_gradient(self, name):
         """d/dq of the weighted rows is C_q: w0 + w1 G/B + w2/B = 1."""
         for h in (1e-1, 1e-4):
-            for s in (METHODS["ggl"].scheme(), METHODS["alpha ggl"].scheme()):
+            for s in (METHODS["ggl"].coefficients(), METHODS["alpha ggl"].coefficients()):
                 c = (1 - s.alpha_f) / (1 - s.alpha_m)
                 B, gamma = s.beta * h * h * c, s.gamma * h * c
                 w0, w1, w2 = FORMULATIONS[name].weights(B, gamma, h)

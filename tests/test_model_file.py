@@ -9,9 +9,10 @@ import tomllib
 import numpy as np
 import pytest
 
+import ancf
 from ancf.errors import ModelError
 from ancf.model.file import parse_study, read_study, schema
-from ancf.model.settings import EquilibriumSettings, IntegratorSettings, SimulationSettings
+from ancf.model.settings import EquilibriumSettings, SimulationSettings
 
 TEXT = """
 title = "Two wires"
@@ -128,7 +129,7 @@ def test_a_whole_file(tmp_path):
     assert study.simulation == SimulationSettings(
         t_end=0.4,
         step=2.5e-4,
-        integrator=IntegratorSettings("generalized_alpha", 0.9),
+        integrator=ancf.GeneralizedAlpha(0.9),
         start="equilibrium",
         equilibrium_of=("arc",),
         output_step=1e-3,
@@ -157,15 +158,15 @@ def test_the_least_file():
 @pytest.mark.parametrize(
     ("given", "wanted"),
     [
-        ("trapezoidal", IntegratorSettings("trapezoidal")),
-        ("generalized_alpha", IntegratorSettings("generalized_alpha")),
-        ({"type": "generalized_alpha", "rho_inf": 0}, IntegratorSettings("generalized_alpha", 0)),
-        ("radau", IntegratorSettings("radau")),
+        ("trapezoidal", ancf.Trapezoidal()),
+        ("generalized_alpha", ancf.GeneralizedAlpha()),
+        ({"type": "generalized_alpha", "rho_inf": 0}, ancf.GeneralizedAlpha(0)),
+        ("radau", ancf.Radau()),
         (
             {"type": "radau", "stages": 2, "tolerance": 1e-5, "max_step": 0.01},
-            IntegratorSettings("radau", stages=2, tolerance=1e-5, max_step=0.01),
+            ancf.Radau(stages=2, tolerance=1e-5, max_step=0.01),
         ),
-        ({"type": "explicit", "check": False}, IntegratorSettings("explicit", check=False)),
+        ({"type": "explicit", "check": False}, ancf.Explicit(check=False)),
     ],
 )
 def test_integrator(given, wanted):

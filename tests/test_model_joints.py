@@ -6,10 +6,11 @@ import math
 import numpy as np
 import pytest
 
+import ancf
 from ancf.errors import ModelError
 from ancf.model import Model, Section, nearest
 from ancf.model.file import parse_study, schema
-from ancf.model.settings import IntegratorSettings
+from ancf.model.integrators import FORMULATIONS, INTEGRATORS, integrator_of, table_schema
 from helpers import arc
 
 NAN = float("nan")
@@ -569,13 +570,24 @@ class TestIntegratorSettings:
     def test_of_the_trapezoidal_rule(self, formulation):
         given = {"type": "trapezoidal", "formulation": formulation}
         settings = study(simulation={"t_end": 1.0, "step": 0.1, "integrator": given}).simulation.integrator
-        assert settings.formulation == formulation
-        assert settings.options() == {"formulation": formulation}
+        assert settings == ancf.Trapezoidal(formulation=formulation)
 
     def test_of_generalized_alpha(self):
-        settings = IntegratorSettings("generalized_alpha", rho_inf=0.5, formulation="index3")
-        assert settings.options() == {"rho_inf": 0.5, "formulation": "index3"}
-        assert IntegratorSettings().options() == {}
+        given = {"type": "generalized_alpha", "rho_inf": 0.5, "formulation": "index3"}
+        assert integrator_of(given) == ancf.GeneralizedAlpha(rho_inf=0.5, formulation="index3")
+
+    @pytest.mark.parametrize("name", INTEGRATORS)
+    def test_keys_are_the_fields(self, name):
+        """A setting of a method is a key of its table, with the same default."""
+        kind = INTEGRATORS[name]
+        given = {key: item.default for key, item in kind.options().items() if item.default is not None}
+        assert integrator_of({"type": name, **given}) == integrator_of(name) == kind()
+        assert set(kind.options()) <= set(table_schema()["properties"])
+
+    def test_formulations_are_those_of_the_solvers(self):
+        from ancf.solvers.formulations import FORMULATIONS as WEIGHTS
+
+        assert set(FORMULATIONS) == set(WEIGHTS)
 
     @pytest.mark.parametrize(
         ("given", "key", "phrase"),

@@ -10,9 +10,8 @@ from scipy.integrate import solve_ivp
 from scipy.sparse import csc_array
 
 import ancf
-from ancf.cli.run import integrator
 from ancf.errors import Interrupted, ModelError, SolveError
-from ancf.model.settings import IntegratorSettings
+from ancf.model.integrators import integrator_of
 from ancf.paper import cantilever
 from ancf.solvers.collocation import collocation
 from ancf.solvers.radau import OK, Matrices, Stepper
@@ -431,8 +430,8 @@ class TestStepControl:
 
 def test_from_a_model_file():
     given = {"type": "radau", "stages": 2, "tolerance": 1e-5, "max_step": 0.01}
-    assert integrator(IntegratorSettings.of(given)) == ancf.Radau(2, 1e-5, max_step=0.01)
-    assert integrator(IntegratorSettings.of("radau")) == ancf.Radau()
+    assert integrator_of(given) == ancf.Radau(2, 1e-5, max_step=0.01)
+    assert integrator_of("radau") == ancf.Radau()
 
 
 class TestFailures:

@@ -11,9 +11,8 @@ from .model import Model, Section
 
 if TYPE_CHECKING:
     from .analysis import equilibrium, load, modes, simulate, stable_step
+    from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
     from .results import Modes, Result, State
-    from .solvers.integrators import Explicit, GeneralizedAlpha, Radau, Trapezoidal
-    from .solvers.newton import Newton
     from .verification import Verification, verify
 
 # the compiled parts are imported on first use: describing a model needs none of them
@@ -26,11 +25,11 @@ _LATER = {
     "Result": "results",
     "State": "results",
     "Modes": "results",
-    "Trapezoidal": "solvers.integrators",
-    "Explicit": "solvers.integrators",
-    "GeneralizedAlpha": "solvers.integrators",
-    "Radau": "solvers.integrators",
-    "Newton": "solvers.newton",
+    "Trapezoidal": "model.integrators",
+    "Explicit": "model.integrators",
+    "GeneralizedAlpha": "model.integrators",
+    "Radau": "model.integrators",
+    "Newton": "model.integrators",
     "Verification": "verification",
     "verify": "verification",
 }

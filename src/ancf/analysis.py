@@ -13,6 +13,7 @@ from .errors import Interrupted, ModelError, SolveError
 from .model import checks
 from .model.beam import Beam
 from .model.bodies import PointMass, RigidBody
+from .model.integrators import INTEGRATORS, Explicit, Integrator, Trapezoidal
 from .model.model import Model
 from .results.modes import Modes
 from .results.provenance import versions
@@ -20,8 +21,8 @@ from .results.result import Result, load
 from .results.state import State
 from .results.store import FileStore, MemoryStore
 from .solvers import statics
-from .solvers.integrators import INTEGRATORS, Explicit, Integrator, Trapezoidal
 from .solvers.modal import natural_modes
+from .solvers.runs import run_of
 from .solvers.stability import stable_limit
 from .solvers.stepping import Progress
 from .system.consistency import check_gaps, check_independent
@@ -135,7 +136,7 @@ def simulate(
     if not checks.flag(energy, "simulate.energy"):
         system.skip_energies()
     header = _header(system, method, t0, t_end, step, output_step)
-    run = method.run(system, t0, t_end, step, every)
+    run = run_of(method, system, t0, t_end, step, every)
     run.start(q, v)
     store = MemoryStore(system) if file is None else FileStore(file, system, header)
 

@@ -13,6 +13,7 @@ from .analysis import equilibrium, simulate, stable_step
 from .errors import ModelError, SolveError
 from .model import checks
 from .model.beam import Beam
+from .model.integrators import Explicit, Integrator, Radau, Trapezoidal
 from .model.model import Model
 from .model.refine import refined
 from .model.tables import Readable, Sheet, Table, number
@@ -20,7 +21,6 @@ from .results.overview import shown_points
 from .results.result import Result
 from .results.state import State
 from .results.tension import cables, extremes, middles
-from .solvers.integrators import Explicit, Integrator, Radau, Trapezoidal
 from .viz.export.tables import sensor_columns
 
 __all__ = ["Change", "Verification", "repeated", "verify"]

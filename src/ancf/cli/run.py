@@ -12,12 +12,12 @@ from ancf.cli.screen import Screen, console
 from ancf.errors import ModelError, SolveError
 from ancf.files import problem
 from ancf.model.file import Study, read_study
+from ancf.model.integrators import Integrator
 from ancf.model.model import Model
-from ancf.model.settings import IntegratorSettings, SimulationSettings
+from ancf.model.settings import SimulationSettings
 
 if TYPE_CHECKING:
     from ancf import Result, State
-    from ancf.solvers.integrators import Integrator
 
 
 def run_file(path: Path, folder: Path, quiet: bool = False, verify: bool = False) -> None:
@@ -96,7 +96,7 @@ class Run:
         settings = self.study.simulation
         if settings is None:
             return self._statics()
-        method = integrator(settings.integrator)
+        method = settings.integrator
         return self._simulation(settings, self.study.model, method, self.output.results)
 
     def _simulation(
@@ -163,10 +163,3 @@ class Run:
         except OSError as other:
             note = "summary and table cannot be written"
             error.add_note(f"{self.output.path}: {note}: {other.strerror or other}")
-
-
-def integrator(settings: IntegratorSettings) -> Integrator:
-    """The integrator that the settings ask for."""
-    from ancf.solvers.integrators import INTEGRATORS
-
-    return INTEGRATORS[settings.type](**settings.options())

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from ancf import Result, State, Verification
+    from ancf.model.integrators import Integrator
     from ancf.model.model import Model
-    from ancf.solvers.integrators import Integrator
 
 #: Rows of the table; all are in the file.
 MOST_ROWS = 60
@@ -25,7 +25,7 @@ def verified(
 ) -> Verification:
     """Compare the result of a study with two finer computations, which `again` makes."""
     from ancf.cli.run import integrator
-    from ancf.solvers.integrators import Trapezoidal
+    from ancf.model.integrators import Trapezoidal
     from ancf.verification import repeated
 
     settings = study.simulation

@@ -51,6 +51,14 @@ def non_negative(value: object, where: str) -> float:
     return clean
 
 
+def between(value: object, where: str, low: float, high: float) -> float:
+    """A number between low and high, both included."""
+    clean = number(value, where)
+    if not low <= clean <= high:
+        raise ModelError(where, f"must be between {low:g} and {high:g}, is {clean:g}")
+    return clean
+
+
 def integer(value: object, where: str, low: int, high: int) -> int:
     """A whole number between low and high, both included."""
     if isinstance(value, bool | np.bool_) or not isinstance(value, int | np.integer):

@@ -17,7 +17,7 @@ from .closed.case import LENGTH
 from .table import FloatArray
 
 if TYPE_CHECKING:
-    from ..solvers.integrators import Integrator
+    from ..model.integrators import Integrator
 
 MESH, STEP = "element length", "step"
 COUNTS, SHORT_COUNTS = (4, 8, 16, 32), (8, 16)

@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ModelError, SolveError
+from ..model.integrators import Coefficients, Explicit, NewmarkFamily, Newton
 from ..system.core import apply_load
 from ..system.energy import energies
 from ..system.system import System
 from .explicit import advance_explicit
-from .integrators.base import NewmarkFamily
-from .newmark import DIVERGED, NORM, SINGULAR, WORST, Scheme, balance
-from .newton import Newton
+from .newmark import DIVERGED, NORM, SINGULAR, WORST, balance
 from .stability import stable_limit
 from .start import consistent_start
 from .stepping import Run
 from .taps import Output
-
-if TYPE_CHECKING:
-    from .integrators.explicit import Explicit
 
 FloatArray = NDArray[np.float64]
 
@@ -31,15 +27,17 @@ SLACK = 1.01
 RARE_STEPS, RARE_WIDE = 8000, 2**21
 
 
+@dataclass(frozen=True)
 class CentralDifferences(NewmarkFamily):
     """What the stepping asks of a method; Newton's method is not used."""
 
-    newton = Newton()
-    formulation = "index2"  # there are no constraints
+    newton: Newton = field(default_factory=Newton)
+    formulation: str = "index2"  # there are no constraints
+    name = "explicit"
 
-    def scheme(self) -> Scheme:
+    def coefficients(self) -> Coefficients:
         """Coefficients of the Newmark family."""
-        return Scheme(beta=0.0, gamma=0.5, alpha_m=0.0, alpha_f=0.0)
+        return Coefficients(beta=0.0, gamma=0.5, alpha_m=0.0, alpha_f=0.0)
 
 
 class ExplicitRun(Run):

@@ -78,7 +78,7 @@ class Scheme(NamedTuple):
 
 
 class Rule(NamedTuple):
-    """Newton's rule: see :class:`ancf.solvers.newton.Newton`."""
+    """Newton's rule: see :class:`ancf.Newton`."""
 
     tolerance: float
     contraction: float

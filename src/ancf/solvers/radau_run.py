@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SolveError
+from ..model.integrators import Radau
 from ..system.core import first_event
 from ..system.energy import energies
 from ..system.system import System
@@ -19,9 +19,6 @@ from .radau_problem import SystemProblem
 from .start import consistent_start
 from .stepping import BLOCK_SECONDS, MOST_HALVINGS, MOST_RETRIED, Progress, Recorder, Stats
 from .taps import sample_rows, taps_of
-
-if TYPE_CHECKING:
-    from .integrators.radau import Radau
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]

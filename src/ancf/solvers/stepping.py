@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ModelError, SolveError
+from ..model.integrators import NewmarkFamily
 from ..system.consistency import open_contacts
 from ..system.core import Tables, apply_load, first_event
 from ..system.energy import energies
@@ -18,7 +19,6 @@ from ..system.system import System
 from .events import happen
 from .formulations import FORMULATIONS
 from .frames import turning_nodes
-from .integrators.base import NewmarkFamily
 from .newmark import (
     COUNTS,
     EVENT,
@@ -34,6 +34,7 @@ from .newmark import (
     WORST,
     Memory,
     Rule,
+    Scheme,
     advance,
     allocate,
     balance,
@@ -121,7 +122,7 @@ class Run:
         rest = span - self.full * step
         self.rest = rest if rest > 1e-9 * step else 0.0
         self.steps = self.full + (self.rest > 0.0)
-        self.scheme = integrator.scheme()
+        self.scheme = Scheme(*integrator.coefficients())
         n = integrator.newton
         self.newton = (n.tolerance, n.contraction, n.max_iterations, n.modified, n.corotate)
         self.formulation = FORMULATIONS[integrator.formulation]

@@ -20,11 +20,12 @@ from ancf.model.file.entries import (
     SimulationEntry,
 )
 from ancf.model.file.messages import place
+from ancf.model.integrators import integrator_of
 from ancf.model.kinds import GROUPS, by_word
 from ancf.model.model import Model
 from ancf.model.names import unknown
 from ancf.model.section import Section
-from ancf.model.settings import EquilibriumSettings, IntegratorSettings, SimulationSettings
+from ancf.model.settings import EquilibriumSettings, SimulationSettings
 
 T = TypeVar("T")
 Shaped = SectionEntry | RectangleEntry | CircleEntry | MomentsEntry
@@ -152,7 +153,7 @@ def _simulation(given: SimulationEntry) -> SimulationSettings:
     values = given.given("integrator", "equilibrium_of", "outputs", "sensors")
     of = given.equilibrium_of
     return SimulationSettings(
-        integrator=IntegratorSettings.of(given.integrator),
+        integrator=integrator_of(given.integrator),
         equilibrium_of=None if of is None else tuple(of),
         outputs=tuple(given.outputs),
         sensors=tuple(given.sensors),

@@ -13,7 +13,7 @@ from ancf.model import checks
 from ancf.model.bodies import as_inertia
 from ancf.model.elements import KINDS
 from ancf.model.functions import TimeFunction
-from ancf.model.settings import FORMULATIONS, INTEGRATORS, IntegratorSettings
+from ancf.model.integrators import INTEGRATORS, integrator_of, table_schema
 
 if TYPE_CHECKING:  # the names are known at run time alone
     ElementName: TypeAlias = str
@@ -75,49 +75,6 @@ def _vector_schema(items: dict[str, Any]) -> dict[str, Any]:
 
 _NUMBER = {"type": "number"}
 _TERM = {"anyOf": [_NUMBER, {"type": "string"}]}
-_INTEGRATOR_TABLE = {
-    "type": "object",
-    "properties": {
-        "type": {"enum": list(INTEGRATORS), "description": "Kind of integrator."},
-        "rho_inf": {
-            "type": "number",
-            "minimum": 0,
-            "maximum": 1,
-            "description": "Spectral radius at infinite frequency, of generalized_alpha [-].",
-        },
-        "formulation": {
-            "enum": list(FORMULATIONS),
-            "description": "How joints with multipliers are kept; trapezoidal has no index3.",
-        },
-        "stages": {"enum": [2, 3], "description": "Stages of radau: order 3 or 5 [-]."},
-        "tolerance": {
-            "type": "number",
-            "minimum": 1e-12,
-            "maximum": 0.1,
-            "description": "Error of a step of radau, relative to the size of the model [-].",
-        },
-        "adaptive": {"type": "boolean", "description": "Whether radau chooses its steps [-]."},
-        "min_step": {
-            "type": "number",
-            "exclusiveMinimum": 0,
-            "description": "Smallest step of radau [s].",
-        },
-        "max_step": {
-            "type": "number",
-            "exclusiveMinimum": 0,
-            "description": "Largest step of radau [s].",
-        },
-        "safety": {
-            "type": "number",
-            "exclusiveMinimum": 0,
-            "maximum": 1,
-            "description": "Part of the stable step that explicit may take [-].",
-        },
-        "check": {"type": "boolean", "description": "Whether explicit refuses unstable steps [-]."},
-    },
-    "required": ["type"],
-    "additionalProperties": False,
-}
 
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
@@ -143,8 +100,8 @@ Inertia = Annotated[
 ]
 Integrator = Annotated[
     Any,
-    _checked(IntegratorSettings.of),
-    WithJsonSchema({"anyOf": [{"enum": list(INTEGRATORS)}, _INTEGRATOR_TABLE]}),
+    _checked(integrator_of),
+    WithJsonSchema({"anyOf": [{"enum": list(INTEGRATORS)}, table_schema()]}),
 ]
 PointLabel = Annotated[
     str,

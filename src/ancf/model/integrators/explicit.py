@@ -9,19 +9,15 @@ coordinates with the identity as mass matrix: reference [4] of the paper.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
 
-from ...errors import ModelError
-from ...model import checks
-
-if TYPE_CHECKING:
-    from ...system.system import System
-    from .base import AnyRun
+from ancf.errors import ModelError
+from ancf.model import checks
+from ancf.model.integrators.base import Integrator, option
 
 
 @dataclass(frozen=True)
-class Explicit:
+class Explicit(Integrator):
     """Central differences, order 2, stable up to :func:`ancf.stable_step`.
 
     Parameters
@@ -34,21 +30,14 @@ class Explicit:
         blows up.
     """
 
-    safety: float = 0.9
-    check: bool = True
+    safety: float = option(
+        0.9, "Part of the stable step that a step may take [-].", type="number", exclusiveMinimum=0, maximum=1
+    )
+    check: bool = option(True, "Whether it refuses unstable steps [-].", type="boolean")
     name = "explicit"
+    runner = "explicit_run:ExplicitRun"
 
     def __post_init__(self) -> None:
         if not 0.0 < checks.number(self.safety, "Explicit.safety") <= 1.0:
             raise ModelError("Explicit.safety", f"must be above 0 and at most 1, is {self.safety:g}")
         checks.flag(self.check, "Explicit.check")
-
-    def settings(self) -> dict[str, Any]:
-        """Settings by name."""
-        return {"explicit": asdict(self)}
-
-    def run(self, system: System, t_start: float, t_end: float, step: float, every: int) -> AnyRun:
-        """Run of a System with output every ``every`` steps."""
-        from ..explicit_run import ExplicitRun
-
-        return ExplicitRun(system, self, t_start, t_end, step, every)

@@ -9,19 +9,15 @@ IV.8 and VII; the method of index 3 that the paper uses for its sliding joint.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
 
-from ...errors import ModelError
-from ...model import checks
-
-if TYPE_CHECKING:
-    from ...system.system import System
-    from .base import AnyRun
+from ancf.errors import ModelError
+from ancf.model import checks
+from ancf.model.integrators.base import Integrator, option
 
 
 @dataclass(frozen=True)
-class Radau:
+class Radau(Integrator):
     """Radau IIA method, order 5 or 3, with step size control.
 
     Parameters
@@ -40,17 +36,23 @@ class Radau:
         on a model at rest, is only seen by chance.
     """
 
-    stages: int = 3
-    tolerance: float = 1e-6
-    adaptive: bool = True
-    min_step: float | None = None
-    max_step: float | None = None
+    stages: int = option(3, "Stages: order 3 or 5 [-].", enum=[2, 3])
+    tolerance: float = option(
+        1e-6,
+        "Error of a step, relative to the size of the model [-].",
+        type="number",
+        minimum=1e-12,
+        maximum=0.1,
+    )
+    adaptive: bool = option(True, "Whether it chooses its steps [-].", type="boolean")
+    min_step: float | None = option(None, "Smallest step [s].", type="number", exclusiveMinimum=0)
+    max_step: float | None = option(None, "Largest step [s].", type="number", exclusiveMinimum=0)
     name = "radau"
+    runner = "radau_run:RadauRun"
 
     def __post_init__(self) -> None:
         checks.integer(self.stages, "Radau.stages", 2, 3)
-        if not 1e-12 <= checks.number(self.tolerance, "Radau.tolerance") <= 1e-1:
-            raise ModelError("Radau.tolerance", f"must be between 1e-12 and 0.1, is {self.tolerance:g}")
+        checks.between(self.tolerance, "Radau.tolerance", 1e-12, 0.1)
         checks.flag(self.adaptive, "Radau.adaptive")
         for key in ("min_step", "max_step"):
             value = getattr(self, key)
@@ -58,17 +60,7 @@ class Radau:
                 continue
             checks.positive(value, f"Radau.{key}")
             if not self.adaptive:
-                raise ModelError(f"Radau.{key}", "is not used with adaptive=False", "leave it out")
+                raise ModelError(f"Radau.{key}", "is not used with adaptive = false", "leave it out")
         if self.min_step is not None and self.max_step is not None and self.min_step > self.max_step:
             what = f"is {self.min_step:g} s, larger than max_step = {self.max_step:g} s"
             raise ModelError("Radau.min_step", what)
-
-    def settings(self) -> dict[str, Any]:
-        """Settings by name."""
-        return {"radau": asdict(self)}
-
-    def run(self, system: System, t_start: float, t_end: float, step: float, every: int) -> AnyRun:
-        """Run of a System with output every ``every`` steps."""
-        from ..radau_run import RadauRun
-
-        return RadauRun(system, self, t_start, t_end, step, every)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..errors import ModelError
-from ..model import checks
+from ancf.errors import ModelError
+from ancf.model import checks
 
 
 @dataclass(frozen=True)
@@ -34,8 +34,7 @@ class Newton:
     corotate: bool = True
 
     def __post_init__(self) -> None:
-        if not 1e-15 <= checks.number(self.tolerance, "Newton.tolerance") <= 1e-3:
-            raise ModelError("Newton.tolerance", f"must be between 1e-15 and 1e-3, is {self.tolerance:g}")
+        checks.between(self.tolerance, "Newton.tolerance", 1e-15, 1e-3)
         if not 0.0 < checks.number(self.contraction, "Newton.contraction") < 1.0:
             raise ModelError("Newton.contraction", f"must be between 0 and 1, is {self.contraction:g}")
         checks.integer(self.max_iterations, "Newton.max_iterations", 2, 10_000)

@@ -9,11 +9,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ...errors import ModelError
-from ...model import checks
-from ..newmark import Scheme
-from ..newton import Newton
-from .base import NewmarkFamily
+from ancf.errors import ModelError
+from ancf.model import checks
+from ancf.model.integrators.base import Coefficients, NewmarkFamily, formulation
+from ancf.model.integrators.newton import Newton
 
 
 @dataclass(frozen=True)
@@ -29,18 +28,16 @@ class Trapezoidal(NewmarkFamily):
     """
 
     newton: Newton = field(default_factory=Newton)
-    formulation: str = "ggl"
+    formulation: str = formulation("ggl")
     name = "trapezoidal"
 
     def __post_init__(self) -> None:
         if self.formulation == "index3":
-            raise ModelError(
-                "Trapezoidal.formulation",
-                "the trapezoidal rule does not take index 3, its multipliers oscillate",
-                'take "ggl", which holds the positions as well, or GeneralizedAlpha',
-            )
+            what = 'is "index3": the trapezoidal rule damps no error of the multipliers, which oscillate'
+            hint = 'take "ggl", which holds the positions as well, or the generalised-alpha method'
+            raise ModelError("Trapezoidal.formulation", what, hint)
         checks.choice(self.formulation, "Trapezoidal.formulation", ("index1", "index2", "ggl"))
 
-    def scheme(self) -> Scheme:
+    def coefficients(self) -> Coefficients:
         """Coefficients of the Newmark family."""
-        return Scheme(beta=0.25, gamma=0.5, alpha_m=0.0, alpha_f=0.0)
+        return Coefficients(beta=0.25, gamma=0.5, alpha_m=0.0, alpha_f=0.0)

@@ -10,12 +10,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ...errors import ModelError
-from ...model import checks
-from ..formulations import FORMULATIONS
-from ..newmark import Scheme
-from ..newton import Newton
-from .base import NewmarkFamily
+from ancf.model import checks
+from ancf.model.integrators.base import FORMULATIONS, Coefficients, NewmarkFamily, formulation, option
+from ancf.model.integrators.newton import Newton
 
 
 @dataclass(frozen=True)
@@ -32,19 +29,20 @@ class GeneralizedAlpha(NewmarkFamily):
         How constraints with multipliers enter, see :mod:`ancf.solvers.formulations`.
     """
 
-    rho_inf: float = 0.9
+    rho_inf: float = option(
+        0.9, "Spectral radius at infinite frequency [-].", type="number", minimum=0, maximum=1
+    )
     newton: Newton = field(default_factory=Newton)
-    formulation: str = "index3"
+    formulation: str = formulation("index3")
     name = "generalized_alpha"
 
     def __post_init__(self) -> None:
-        if not 0.0 <= checks.number(self.rho_inf, "GeneralizedAlpha.rho_inf") <= 1.0:
-            raise ModelError("GeneralizedAlpha.rho_inf", f"must be between 0 and 1, is {self.rho_inf:g}")
-        checks.choice(self.formulation, "GeneralizedAlpha.formulation", tuple(FORMULATIONS))
+        checks.between(self.rho_inf, "GeneralizedAlpha.rho_inf", 0.0, 1.0)
+        checks.choice(self.formulation, "GeneralizedAlpha.formulation", FORMULATIONS)
 
-    def scheme(self) -> Scheme:
+    def coefficients(self) -> Coefficients:
         """Coefficients of the Newmark family."""
         alpha_m = (2 * self.rho_inf - 1) / (self.rho_inf + 1)
         alpha_f = self.rho_inf / (self.rho_inf + 1)
         gamma = 0.5 + alpha_f - alpha_m
-        return Scheme(beta=0.25 * (gamma + 0.5) ** 2, gamma=gamma, alpha_m=alpha_m, alpha_f=alpha_f)
+        return Coefficients(beta=0.25 * (gamma + 0.5) ** 2, gamma=gamma, alpha_m=alpha_m, alpha_f=alpha_f)
