@@ -24,14 +24,13 @@ def verified(
     study: Study, result: Result, again: Callable[[Model, float | None, Integrator], Result | State]
 ) -> Verification:
     """Compare the result of a study with two finer computations, which `again` makes."""
-    from ancf.cli.run import integrator
     from ancf.model.integrators import Trapezoidal
     from ancf.verification import repeated
 
     settings = study.simulation
     if settings is None:
         return repeated(study.model, result.state(), again, None, Trapezoidal(), outputs(study))
-    method = integrator(settings.integrator)
+    method = settings.integrator
     return repeated(study.model, result, again, settings.step, method, outputs(study))
 
 
