@@ -1,6 +1,7 @@
 """Make the pages in docs/verification from the numbers stored there.
 
-Run from the repository root: python docs/verification_book.py
+Run from the repository root: python docs/verification_book.py, or with the folder of an ``ancf reproduce``
+whose numbers are to be stored first.
 
 ========================  ==================================================================
 docs/verification/...     from
@@ -15,6 +16,8 @@ benchmarks/results.json   a run of ``python benchmarks/run.py``
 from __future__ import annotations
 
 import json
+import shutil
+import sys
 import tomllib
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -54,8 +57,10 @@ OPEN: dict[str, str] = {}
 OWN, OTHER = ("the same run",), ("independent",)
 
 
-def main() -> None:
-    """Write all pages."""
+def main(folder: str | None = None) -> None:
+    """Write all pages; first take over what ``ancf reproduce`` has written into a folder."""
+    if folder is not None:
+        take(Path(folder))
     for name, text in pages().items():
         (FOLDER / name).write_text(text, encoding="utf-8")
 
@@ -73,6 +78,27 @@ def pages() -> dict[str, str]:
     }
     found = {f"{name}.md": page(CHAPTERS[name][0], body) for name, body in bodies.items()}
     return {"index.md": page("Verification book", index(made)), **found}
+
+
+def take(folder: Path) -> None:
+    """Put the exhibits of a reproduction, all or some, in the place of the stored ones."""
+    new = json.loads((folder / "checks.json").read_text(encoding="utf-8"))
+    if new["quick"]:
+        raise SystemExit(f"{folder}: a short form is no verification")
+    merged = merge(read("checks.json"), new)
+    (FOLDER / "checks.json").write_text(json.dumps(merged, indent=1) + "\n", encoding="utf-8")
+    if "en50318" in (e["name"] for e in new["exhibits"]):
+        shutil.copy(folder / "en50318.json", FOLDER)
+
+
+def merge(old: dict[str, Any], new: dict[str, Any]) -> dict[str, Any]:
+    """The new reproduction, with what it does not have of the old one; each in the order of the old one."""
+    fresh = {e["name"]: e for e in new["exhibits"]}
+    names = list(dict.fromkeys([e["name"] for e in old["exhibits"]] + list(fresh)))
+    kept = {e["name"]: e for e in old["exhibits"]} | fresh
+    checks = [c for name in names for c in checks_of(new if name in fresh else old, [name])]
+    passed = all(c["passed"] for c in checks) and not any(e["error"] for e in kept.values())
+    return {**new, "passed": passed, "checks": checks, "exhibits": [kept[name] for name in names]}
 
 
 def read(name: str) -> dict[str, Any]:
@@ -109,7 +135,7 @@ def said_by(made: dict[str, Any], words: Sequence[str]) -> list[Check]:
 
 INTRO = """Every number of this package that is compared with another one, in one place: value, reference,
 deviation, what was accepted, and where the reference comes from. Tests assert the same numbers, so that a
-change that spoils one is seen."""
+change that spoils one is seen, and compute those of the short form again beside the ones that are stored."""
 
 KINDS = """| a reference is | it shows |
 |---|---|
@@ -139,12 +165,14 @@ def index(made: dict[str, Any]) -> list[str]:
     rows = [chapter_row(name, made) for name in JUDGED]
     total, passed = len(made["checks"]), sum(c["passed"] for c in made["checks"])
     form = "short form" if made["quick"] else "full form"
+    commits = sorted({str(e["commit"]) for e in made["exhibits"] if e.get("commit")})
+    said = ", commit " + ", ".join(f"`{text}`" for text in commits) if commits else ""
+    which = f"version {made['version']}{said}, {made['date'][:10]}"
     last = f"| all | {total} | {passed} | {total - passed} |"
     return [
         INTRO,
         KINDS,
-        f"## Summary\n\n`ancf reproduce all` of version {made['version']}, {made['date'][:10]}, {form}: "
-        f"**{passed} of {total} checks passed.**",
+        f"## Summary\n\n`ancf reproduce all` of {which}, {form}: **{passed} of {total} checks passed.**",
         "\n".join(["| chapter | checks | passed | open |", "|---|---|---|---|", *rows, last]),
         open_points(made),
         "Beside them stand [agreement across methods](methods.md) and [independent programs](peers.md), "
@@ -162,9 +190,11 @@ HOW = """*Use of the tolerance* is the deviation as a share of what is accepted:
 
 ```console
 ancf reproduce all -o out
-cp out/checks.json out/en50318.json docs/verification/
-python docs/verification_book.py
-```"""
+python docs/verification_book.py out
+```
+
+Some exhibits alone can be made again: `ancf reproduce fig13 en50318 -o out`. Each carries the commit that
+computed it."""
 
 
 def chapter_row(name: str, made: dict[str, Any]) -> str:
@@ -188,7 +218,7 @@ def exhibit_table(made: dict[str, Any]) -> str:
     rows = []
     for e in made["exhibits"]:
         found = checks_of(made, [e["name"]])
-        verdict = f"{sum(c['passed'] for c in found)} of {len(found)}"
+        verdict = f"{sum(c['passed'] for c in found)} of {len(found)}" if found else "shows what was given"
         tests = ", ".join(f"`{name}`" for name in tests_of(e["name"]))
         rows.append((f"`{e['name']}`", e["title"], verdict, percent(most_used(found)), tests))
     return table(("exhibit", "shows", "passed", "largest use of a tolerance", "also asserted by"), rows)
@@ -211,7 +241,7 @@ def exhibit(made: dict[str, Any], e: dict[str, Any]) -> list[str]:
     head = f"## {e['title']}\n\n`ancf reproduce {e['name']} -o out`. Tests that assert it too: {tests}."
     if e["error"]:
         return [head, f"It could not be computed: {e['error']}"]
-    return [head, check_table(found)]
+    return [head, check_table(found) if found else "It shows what was given, and is not judged."]
 
 
 def methods(made: dict[str, Any]) -> list[str]:
@@ -274,7 +304,8 @@ def peer_table(cases: list[dict[str, Any]]) -> str:
 
 def standard(made: dict[str, Any]) -> list[str]:
     """The cases of the standard, row by row."""
-    rows = read("en50318.json")["rows"]
+    stored = read("en50318.json")
+    rows, notes = stored["rows"], [n for n in stored["notes"] if n.startswith("Measured")]
     cases: dict[tuple[str, float], list[list[Any]]] = {}
     for row in rows:
         cases.setdefault((row[0], row[1]), []).append(row)
@@ -285,6 +316,8 @@ def standard(made: dict[str, Any]) -> list[str]:
         "Reference models for programs that simulate pantograph and overhead line. The ranges of 2002 are "
         "judged. Those of 2018 are shown and not judged: they carry the tag U, not yet checked against a "
         "copy of the standard. [](../theory/overhead_line.md) discusses each row that is outside.",
+        "What was measured, and whether a verdict depends on the order of the filter:\n\n"
+        + "\n".join(f"- {note.removeprefix('Measured, ')}" for note in notes),
         *exhibits(made, [], of("en50318", made)),
         "## All rows\n\nTags: V read in a public source, V2 in two, U not yet checked.",
         *parts,
@@ -292,4 +325,4 @@ def standard(made: dict[str, Any]) -> list[str]:
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:2])

@@ -13,7 +13,7 @@ from rich.console import Console
 import catenary_stand_in as stand_in
 from ancf import ModelError
 from ancf.catenary.quantity import Quantity, shown, shown_limits
-from ancf.catenary.references import reference_case, reference_names, rows
+from ancf.catenary.references import filter_note, reference_case, reference_names, rows, second_reading
 from ancf.catenary.report.tables import flattened
 from ancf.catenary.statistics import statistics
 from ancf.catenary.table import table
@@ -95,6 +95,47 @@ class TestReferences:
     def test_unknown(self):
         with pytest.raises(ModelError, match=r'no "en50318-2020".*did you mean "en50318-2002"'):
             reference_case("en50318-2020")
+
+
+def at_the_edge(highest, frequency=18.0):
+    """A run at 250 km/h whose force, 115 N and a sine near the cut-off, has this maximum below 20 Hz."""
+    made = stand_in.run(step=1e-3)
+    ratio = np.tan(np.pi * frequency / 1000.0) / np.tan(np.pi * 20.0 / 1000.0)
+    low = 1.0 + ratio**12  # gain of order 6, forward and backward
+    force = 115.0 + (highest - 115.0) * low * np.sin(2 * np.pi * frequency * made.t)
+    records = [dataclasses.replace(made.recordings[0], force=force)]
+    return dataclasses.replace(made, recordings=records), low / (1.0 + ratio**8)
+
+
+class TestSecondFilter:
+    """The same run with a filter of order 4, whose gain is less just below the cut-off."""
+
+    def read(self, run):
+        reference = reference_case("en50318-2002")
+        first, second = reference.compare(statistics(run), 250.0), second_reading(run, reference)
+        highest = [next(q for q in rows if q.key == "maximum") for rows in (first, second)]
+        return highest, filter_note(first, second)
+
+    def test_a_verdict_that_turns_is_told_with_its_number(self):
+        run, less = at_the_edge(175.5)
+        (six, four), note = self.read(run)
+        wanted = 115.0 + 60.5 * less
+        assert six.inside
+        assert six.value == pytest.approx(175.5, rel=3e-3)
+        assert not four.inside
+        assert four.value == pytest.approx(wanted, rel=3e-3)
+        assert f"actual maximum {four.value:.5g} N is outside 175 to 210" in note
+        assert note.startswith("with a filter of order 4 instead of 6 ")
+        assert " of 8 are inside: " in note
+
+    def test_a_verdict_that_does_not_turn(self):
+        run, _ = at_the_edge(195.0)
+        assert "actual maximum" not in self.read(run)[1]
+
+    def test_without_ranges_there_is_nothing_to_say(self, run):
+        reference = reference_case("en50318-2002")
+        fast = at_speed(run, 275.0)
+        assert filter_note(reference.compare(statistics(fast), 275.0), second_reading(fast, reference)) == ""
 
 
 class TestQuantity:

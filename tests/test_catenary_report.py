@@ -120,7 +120,7 @@ class TestReport:
         assert "real-time factor" in text
         assert "contact stiffness" in text
         assert "998.0" in cells  # length of the first dropper in mm
-        assert any("3 of 8 quantities inside" in c for c in cells)
+        assert any("3 of 8 quantities inside" in c and "with a filter of order 4" in c for c in cells)
 
     def test_escapes(self, run, tmp_path):
         made = dataclasses.replace(run, settings={"<b>": "a & b </td>"})
@@ -197,7 +197,7 @@ class TestCommand:
         assert done.exit_code == 0, done.output
         assert calls == [("en50318-2002", 250.0)]
         assert "standard deviation 0-20 Hz" in done.stdout
-        assert "3 of 8 inside the accepted ranges" in done.stdout
+        assert "3 of 8 inside the accepted ranges; with a filter of order 4 instead of 6" in done.stdout
         assert "real-time factor" in done.stdout
         found = json.loads((tmp_path / "validate.json").read_text())
         assert (found["case"], found["speed_kmh"]) == ("en50318-2002", 250.0)

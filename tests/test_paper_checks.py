@@ -24,10 +24,10 @@ JUDGED = {
     "fig9": [("x", "add", 1e-4), ("y", "add", 1e-4), ("z", "add", 1e-4)],
     "fig10": [("x", "add", 1e-4), ("z", "add", 1e-4)],
     "fig11": [("y", "add", 1e-4), ("s", "add", 1e-4)],
-    "fig12": [("value", "times", 1.001)],
-    "fig13": [("x", "times", 1.001), ("y", "add", 0.01), ("z", "times", 1.01)],
+    "fig12": [],
+    "fig13": [("z", "times", 1.01)],
     "fig14": [("force_raw", "add", -10.0), ("penalty_20hz", "times", 1.2), ("force_20hz", "add", 1.0)],
-    "table2": [("tip_x", "add", 1e-4), ("steps", "times", 2), ("jacobians", "times", 1e4)],
+    "table2": [("tip_x", "add", 1e-4), ("jacobians", "times", 1e4)],
     "closed-forms": [("value", "times", 1.001), ("reference", "times", 1.001)],
     "orders": [("rate", "add", 0.3)],
     "en50318": [("value", "times", 1.5)],
@@ -118,7 +118,7 @@ class TestExhibits:
     @pytest.mark.parametrize("name", FIGURES)
     def test_passes(self, name):
         checks = judged(name)
-        assert checks
+        assert bool(checks) == bool(JUDGED[name])  # what is only given, as in a sketch, is not judged
         assert not failed(checks)
 
     @pytest.mark.parametrize("name", FIGURES)
@@ -140,6 +140,23 @@ class TestExhibits:
         names = [check.name for name in FIGURES for check in judged(name)]
         assert len(names) > 150
         assert len(set(names)) == len(names)
+
+    def test_no_number_is_judged_twice(self):
+        """The same value against the same reference of the same origin would count for two."""
+        found = [check for name in FIGURES for check in judged(name) if check.rule == "within"]
+        for k, one in enumerate(found):
+            for other in found[:k]:
+                same = (one.origin, one.reference, one.unit) == (other.origin, other.reference, other.unit)
+                near = abs(one.value - other.value) < 0.05 * max(one.tolerance, other.tolerance)
+                known = one.reference == 0.0 or "EN 50318" in one.name
+                assert not (same and near and not known), (one.name, other.name)
+
+    def test_no_input_is_judged(self):
+        """What must be met exactly is counted in a run; what was given to it could not be missed."""
+        counted = ("Jacobians", "given up", "loss of contact")
+        for name in FIGURES:
+            exact = [c.name for c in judged(name) if c.rule == "within" and c.tolerance == 0.0]
+            assert all(any(word in text for word in counted) for text in exact), exact
 
     def test_times_are_not_judged(self):
         table = changed(short("table2"), "cpu_seconds", "times", 1e6)

@@ -12,7 +12,6 @@ import ancf
 from ancf import catenary
 from ancf.paper import FIGURES, fig12, fig13, fig14, overhead, reproduce
 
-PLANE, PLANE_HEIGHTS = overhead.PLANE, overhead.PLANE_HEIGHTS
 #: Columns of Fig. 14.
 FORCES = ("speed", "t", "position", "force_raw", "force_20hz", "penalty_20hz")
 
@@ -73,7 +72,7 @@ class TestLineAtRest:
 
     def test_heights_of_droppers_are_those_of_the_plane_model(self):
         """Within 1 mm; over hinges at the masts the carrier hangs lower by its bend there, 4 mm."""
-        wanted = np.array([*PLANE_HEIGHTS, *PLANE_HEIGHTS[2::-1]])
+        wanted = np.array(overhead.plane_heights())
         shape = plane_line()
         assert shape.messenger_height.reshape(4, 7)[1:3] == pytest.approx(np.stack([wanted] * 2), abs=1e-3)
         ends = points(fig13.data(), "dropper").reshape(4, 7, 2, 3)
@@ -151,14 +150,14 @@ class TestRuns:
     def test_without_zigzag_against_the_plane_model(self, speed, bar):
         """σ within 5 % and 12 %, mean force within 0.4 N: the plane model's wires keep their tension."""
         found = catenary.statistics(run(plane_line(), speed, overhead.STEP), 0, catenary.Butterworth(4))
-        mean, deviation = PLANE[speed]
+        mean, deviation = overhead.plane(speed)
         assert found["mean_force"].value == pytest.approx(mean, abs=0.4)
         assert found["deviation"].value == pytest.approx(deviation, rel=bar)
 
     @pytest.mark.parametrize(("speed", "bar"), [(32.0, 0.1), (45.0, 0.16)])
     def test_deviation_against_the_plane_model(self, speed, bar):
         """With the zigzag σ is 5 to 7 % lower, and as close to the plane model as this."""
-        assert value(penalty(speed), "deviation") == pytest.approx(PLANE[speed][1], rel=bar)
+        assert value(penalty(speed), "deviation") == pytest.approx(overhead.plane(speed)[1], rel=bar)
 
     @pytest.mark.parametrize("speed", overhead.SPEEDS)
     def test_force_never_pulls_and_its_mean_is_the_static_force(self, speed):

@@ -5,6 +5,8 @@ import math
 import os
 import platform
 import re
+import shutil
+import subprocess
 import sys
 import warnings
 from dataclasses import replace
@@ -17,6 +19,7 @@ from ancf.paper import FIGURES, verify
 from ancf.paper.check import Check
 from ancf.paper.entry import Entry, Reproduction, use_of_tolerance
 from ancf.paper.report import write_summary
+from ancf.paper.report.machine import commit
 from fake_exhibits import BAD, FAKES, GOOD, LOST, Fake, install, load
 
 pytest.importorskip("matplotlib")
@@ -127,7 +130,18 @@ class TestUseOfTolerance:
 class TestJSON:
     def test_summary(self, made):
         found = load(made.summary)
-        wanted = {"version", "date", "quick", "passed", "jobs", "seconds", "machine", "checks", "exhibits"}
+        wanted = {
+            "version",
+            "commit",
+            "date",
+            "quick",
+            "passed",
+            "jobs",
+            "seconds",
+            "machine",
+            "checks",
+            "exhibits",
+        }
         assert set(found) == wanted
         assert found["quick"] is True
         assert found["passed"] is False
@@ -138,6 +152,29 @@ class TestJSON:
         assert [check["figure"] for check in found["checks"]] == ["figgood", *["figbad"] * 3, "figlast"]
         assert found["checks"][2]["value"] == 0.5
         assert found["checks"][3]["value"] is None
+
+    def test_commit(self, made):
+        """Of the clone that computed, for all and for each exhibit."""
+        found = load(made.summary)
+        assert found["commit"] == commit()
+        assert {exhibit["commit"] for exhibit in found["exhibits"]} == {commit()}
+
+    def test_commit_is_none_outside_of_a_clone(self, tmp_path):
+        (tmp_path / "copied.py").write_text("")
+        assert commit(tmp_path / "copied.py") is None
+
+    def test_commit_of_a_changed_clone_says_so(self, tmp_path):
+        if shutil.which("git") is None:
+            pytest.skip("no git on this machine")
+        file = tmp_path / "module.py"
+        file.write_text("a = 1")
+        known = ("-c", "user.name=a", "-c", "user.email=a@b.c")
+        for command in (("init", "-q"), ("add", "."), (*known, "commit", "-qm", "first")):
+            subprocess.run(["git", *command], cwd=tmp_path, check=True)
+        clean = commit(file)
+        assert re.fullmatch(r"[0-9a-f]{12}", clean)
+        file.write_text("a = 2")
+        assert commit(file) == f"{clean}-dirty"
 
     def test_exhibits(self, made):
         exhibits = {exhibit["name"]: exhibit for exhibit in load(made.summary)["exhibits"]}

@@ -76,6 +76,31 @@ class TestNumbers:
             assert (low <= value <= high) == (verdict == "inside"), quantity
 
 
+class TestMerge:
+    """Some exhibits of another reproduction in the place of the stored ones."""
+
+    def made(self, commit, *names, passed=True):
+        return {
+            "commit": commit,
+            "passed": passed,
+            "checks": [{"name": f"{n} {k}", "figure": n, "passed": passed} for n in names for k in range(2)],
+            "exhibits": [{"name": n, "commit": commit, "error": None} for n in names],
+        }
+
+    def test_new_ones_replace_and_follow(self):
+        found = book.merge(self.made("a", "fig1", "fig2", "fig3"), self.made("b", "fig4", "fig2"))
+        assert [(e["name"], e["commit"]) for e in found["exhibits"]] == [
+            ("fig1", "a"), ("fig2", "b"), ("fig3", "a"), ("fig4", "b"),
+        ]  # fmt: skip
+        assert [c["figure"] for c in found["checks"]] == [f"fig{n}" for n in (1, 1, 2, 2, 3, 3, 4, 4)]
+        assert found["passed"]
+        assert found["commit"] == "b"
+
+    def test_an_old_failure_stays_one(self):
+        assert not book.merge(self.made("a", "fig1", passed=False), self.made("b", "fig2"))["passed"]
+        assert book.merge(self.made("a", "fig1", passed=False), self.made("b", "fig1"))["passed"]
+
+
 class TestTests:
     def test_files_exist(self, made):
         for entry in made["exhibits"]:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import ModelError
 from ..model.checks import listed, nearest
+from .signals import Butterworth
 from .statistics import Statistics, statistics
 
 if TYPE_CHECKING:
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 #: Two speeds are the same within this, km/h.
 SAME_SPEED = 1e-3
+#: The filter with which verdicts are read a second time: the standards name the cut-off and no order.
+SECOND_FILTER = Butterworth(4)
 
 
 @dataclass(frozen=True)
@@ -112,6 +115,36 @@ def rows(run: Run, reference: Reference | str, pantograph: int = 0) -> list[dict
     chosen = reference_case(reference) if isinstance(reference, str) else reference
     found = statistics(run, pantograph)
     return [quantity.row for quantity in chosen.compare(found, run.speed_kmh)]
+
+
+def second_reading(run: Run, reference: Reference, pantograph: int = 0) -> list[Quantity]:
+    """Compare once more, with :data:`SECOND_FILTER`."""
+    return reference.compare(statistics(run, pantograph, SECOND_FILTER), run.speed_kmh)
+
+
+def filter_note(first: list[Quantity], second: list[Quantity]) -> str:
+    """In a sentence whether verdicts depend on the order of the filter; nothing without verdicts.
+
+    Parameters
+    ----------
+    first, second : list of Quantity
+        The same quantities with the default filter and with :data:`SECOND_FILTER`.
+
+    """
+    judged = [q for q in second if q.inside is not None]
+    if not judged:
+        return ""
+    start = f"with a filter of order {SECOND_FILTER.order} instead of {Butterworth().order}"
+    turned = [q for q, before in zip(second, first, strict=True) if q.inside is not before.inside]
+    if not turned:
+        return f"{start} no verdict changes"
+    inside = sum(q.inside is True for q in judged)
+    return f"{start} {inside} of {len(judged)} are inside: {'; '.join(map(_turned, turned))}"
+
+
+def _turned(q: Quantity) -> str:
+    where = "inside" if q.inside else "outside"
+    return f"{q.name} {q.value:.5g} {q.unit} is {where} {q.low:g} to {q.high:g}"
 
 
 def reference_names() -> list[str]:

@@ -10,12 +10,13 @@ from .._version import __version__
 from ..errors import ModelError
 from ..model.checks import positive
 from .elasticity import elasticity_beside
-from .references import Reference, reference_case
+from .references import SECOND_FILTER, Reference, filter_note, reference_case, second_reading
 from .statistics import Statistics, statistics
 from .write import summary, write_json, write_run
 
 if TYPE_CHECKING:
     from .line import Line
+    from .quantity import Quantity
     from .run_data import Run
 
 
@@ -67,21 +68,33 @@ def reference_run(case: str, speed_kmh: float, progress: Callable[[Any], None] |
 def validation(run: Run, reference: Reference, found: Statistics) -> dict[str, Any]:
     """What ``validate.json`` holds: case, speed, real-time factor, rows, and all about the run.
 
-    ``all_inside`` is null at a speed without ranges; ``note`` says so then.
+    ``all_inside`` is null at a speed without ranges; ``note`` says so then. ``second_filter`` has the
+    verdicts with a filter of another order.
     """
-    rows = reference.compare(found, run.speed_kmh)
-    judged = [q.inside for q in rows if q.inside is not None]
+    rows, again = reference.compare(found, run.speed_kmh), second_reading(run, reference)
     return {
         "case": reference.name,
         "speed_kmh": round(run.speed_kmh, 6),
         "real_time_factor": run.real_time_factor,
+        "filter": found.filter.text,
         "rows": [q.row for q in rows],
-        "all_inside": all(judged) if judged else None,
+        "all_inside": _all_inside(rows),
+        "second_filter": {
+            "filter": SECOND_FILTER.text,
+            "rows": [q.row for q in again],
+            "all_inside": _all_inside(again),
+            "note": filter_note(rows, again),
+        },
         "note": reference.note(run.speed_kmh),
         "source": reference.source,
         "ancf": __version__,
         "run": summary(run, [found]),
     }
+
+
+def _all_inside(rows: list[Quantity]) -> bool | None:
+    judged = [q.inside for q in rows if q.inside is not None]
+    return all(judged) if judged else None
 
 
 def write_validation(run: Run, reference: Reference, folder: Path, report: bool = True) -> list[Path]:

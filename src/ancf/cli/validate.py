@@ -47,6 +47,7 @@ def validate_case(
 
 def show(run: Run, reference: Reference) -> None:
     """Print the table of the reference's quantities."""
+    from ancf.catenary.references import filter_note, second_reading
     from ancf.catenary.statistics import statistics
     from ancf.catenary.table import table
 
@@ -58,7 +59,8 @@ def show(run: Run, reference: Reference) -> None:
         screen.print(note, soft_wrap=True)
     judged = [q.inside for q in rows if q.inside is not None]
     if judged:
-        screen.print(f"{sum(judged)} of {len(judged)} inside the accepted ranges", soft_wrap=True)
+        note = filter_note(rows, second_reading(run, reference))
+        screen.print(f"{sum(judged)} of {len(judged)} inside the accepted ranges; {note}", soft_wrap=True)
     screen.print(
         f"real-time factor {run.real_time_factor:.3g}: {run.simulated_seconds:.3g} s simulated in "
         f"{run.cpu_seconds:.3g} s of CPU time",

@@ -75,32 +75,15 @@ def draw(table: Table, figure: Figure) -> None:
 
 
 def checks(table: Table) -> list[Check]:
-    """Counts and places of the paper, and the heights of an independent plane model."""
-    contact, mast = _points(table, "contact wire"), _points(table, "mast")
-    paper, rest = "the paper, table 3", "the line was found with the wire at zero height at the droppers"
-    lowest = _points(table, "dropper")[::2, 2]
-    numbers: tuple[tuple[str, float, float, float, str, str], ...] = (
-        ("elements of the contact wire", len(contact) - 1.0, 224.0, 0.0, "", paper),
-        ("droppers", len(lowest), 28.0, 0.0, "", paper),
-        ("length", np.ptp(contact[:, 0]), 240.0, 1e-6, "m", paper),
-        ("largest zigzag at the masts", np.abs(mast[:, 1]).max(), 0.3, 1e-6, "m", paper),
-        ("height of the carrier at the masts", mast[1::2, 2].min(), 1.5, 1e-6, "m", paper),
-        ("farthest lower end of a dropper from zero height", np.abs(lowest).max(), 0.0, 1e-6, "m", rest),
-    )
-    counted = [
-        Check(f"7.5 line: {name}", float(value), wanted, bar, unit, where)
-        for name, value, wanted, bar, unit, where in numbers
-    ]
-    return [*counted, *_heights(table)]
+    """Heights of the carrier at the droppers of the inner sections, each and its mirror images.
 
-
-def _heights(table: Table) -> list[Check]:
-    """Carrier above the contact wire at the droppers of the inner sections, each and its mirror images."""
+    Lengths, counts and places of the paper went in, and are no results.
+    """
     ends = _points(table, "dropper").reshape(4, 7, 2, 3)[1:3]
     height = np.ptp(ends[..., 2], axis=2)
-    where = "independent plane linear model of the line, less the bend of the carrier over its hinges"
+    where = f"{overhead.plane_origin()}; less the bend of the carrier over its hinges"
     found = []
-    for k, wanted in enumerate(overhead.PLANE_HEIGHTS):
+    for k, wanted in enumerate(overhead.plane_heights()[:4]):
         value = float(np.mean([height[:, k], height[:, 6 - k]]))
         name = f"7.5 line, inner sections: carrier above dropper {k + 1}"
         found.append(Check(name, value, wanted - _bend(), 2e-3, "m", where))
@@ -113,8 +96,7 @@ def _bend() -> float:
     It has the slope w L/(2 T) there, with the weight w of all that hangs on it, and a bend of the length
     (EI/T)^(1/2).
     """
-    heights = overhead.PLANE_HEIGHTS
-    dropper = float(np.mean([*heights, *heights[2::-1]]))
+    dropper = float(np.mean(overhead.plane_heights()))
     weight = 9.81 * (0.89 + 0.446 + 0.089 * dropper / 7.5)  # N/m
     tension, EI = 10e3, 150.0
     return float(0.5 * 60.0 * weight / tension * np.sqrt(EI / tension))

@@ -52,7 +52,7 @@ def _cable(table: Table) -> list[Check]:
     said = "the paper, section 7.2"
     return [
         Check("7.2 soft cable: most Jacobians of a run", float(count[E < SOFT].max()), 1.0, 0.0, "", said),
-        Check("7.2 cable, any stiffness: end of the shortest run", float(t.min()), T_END, 1e-9, "s", said),
+        Check("7.2 cable, any stiffness: runs that were given up", _given_up(t), 0.0, 0.0, "", said),
     ]
 
 
@@ -64,10 +64,15 @@ def _beams(table: Table) -> list[Check]:
         rate, t = _stiff(table, element)
         name = f"7.2 {element}, above 1e9 N/m^2: fewest Jacobians for a step"
         found.append(Check(name, float(rate.min()), 0.5, 0.0, "", said, "at least"))
-        given_up, why = float((t < T_END - 1e-9).sum()), "the paper, section 7.2: not computed there"
+        why = "the paper, section 7.2: not computed there"
         name = f"7.2 {element}, above 1e9 N/m^2: runs that were given up"
-        found.append(Check(name, given_up, 1.0, 0.0, "", why, "at least"))
+        found.append(Check(name, _given_up(t), 1.0, 0.0, "", why, "at least"))
     return found
+
+
+def _given_up(t: FloatArray) -> float:
+    """How many of the runs that reached t did not come to their end."""
+    return float((t < T_END - 1e-9).sum())
 
 
 def _stiff(table: Table, element: str) -> tuple[FloatArray, FloatArray]:

@@ -6,8 +6,10 @@ instead is in the catalogue of :mod:`ancf.catenary`, each value with a tag.
 
 from __future__ import annotations
 
+import json
 from functools import cache
-from typing import TYPE_CHECKING
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any
 
 import ancf
 from ancf import catenary
@@ -17,13 +19,6 @@ if TYPE_CHECKING:
 
 NAME = "paper-7.5"  # of line and pantograph in the catalogue
 SPEEDS = (32.0, 45.0)  # m/s
-# An independent plane linear model (strings with bending, slack droppers, penalty, Newmark) of the same line:
-# wire held at the masts, arms of 300 N/m, carrier bending over the masts, start at 2 m, 0.5 m, 1 ms.
-#: Heights of the carrier above the contact wire at the droppers of half an inner section, m.
-PLANE_HEIGHTS = (1.2443, 1.0584, 0.9469, 0.9098)
-#: Mean force and standard deviation over the middle sections, Butterworth order 4, 20 Hz, by speed in m/s, N.
-PLANE = {32.0: (97.18, 13.20), 45.0: (96.74, 18.56)}
-
 MESH = catenary.Mesh(contact=15.0 / 14.0, messenger=15.0 / 8.0)  # 224 elements of the contact wire, 128 above
 START = 2.0  # m, from the first support
 STEP, SHORT_STEP = 5e-4, 1e-3  # s
@@ -48,6 +43,31 @@ NOTES = [
     "Damping of table 3: 0.03 N s/m^2 as a viscous force per length and velocity, 8 N s/m as a damper beside "
     "each dropper's spring.",
 ]
+
+
+@cache
+def _plane() -> dict[str, Any]:
+    text = files(__package__).joinpath("data", "plane.json").read_text(encoding="utf-8")
+    found: dict[str, Any] = json.loads(text)
+    return found
+
+
+def plane(speed: float) -> tuple[float, float]:
+    """Mean force and standard deviation below 20 Hz of the independent plane linear model, N."""
+    row = _plane()["runs"][f"{speed:g}"]
+    return row["mean"], row["sigma"]
+
+
+def plane_heights() -> list[float]:
+    """Heights of its carrier above its contact wire at the droppers of an inner section, m."""
+    heights: list[float] = _plane()["heights"]
+    return heights
+
+
+def plane_origin() -> str:
+    """What that model is, for the origin of a check."""
+    origin: str = _plane()["origin"]
+    return origin
 
 
 def line(short: bool = False) -> Line:

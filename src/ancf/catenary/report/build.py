@@ -83,7 +83,8 @@ def _verdict(content: Content, k: int) -> str:
         return before + content.reference.note(content.run.speed_kmh) + "."
     outside = [q.name for q in judged if not q.inside]
     found = f"{len(judged) - len(outside)} of {len(judged)} quantities inside the accepted ranges"
-    return before + found + (f"; outside: {', '.join(outside)}." if outside else ".")
+    told = f"; outside: {', '.join(outside)}" if outside else ""
+    return f"{before}{found}{told}; {content.filter_note(k)}."
 
 
 def _statistics(content: Content) -> Iterator[Element]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ..references import filter_note, second_reading
 from ..statistics import Statistics, statistics
 
 if TYPE_CHECKING:
@@ -56,3 +57,9 @@ class Content:
     def compared(self, k: int) -> list[Quantity]:
         """Quantities of the reference with their ranges; nothing without a reference."""
         return self.reference.compare(self.found[k], self.run.speed_kmh) if self.reference else []
+
+    def filter_note(self, k: int) -> str:
+        """Whether the verdicts depend on the order of the filter; nothing without a reference."""
+        if self.reference is None:
+            return ""
+        return filter_note(self.compared(k), second_reading(self.run, self.reference, k))

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import datetime
 import platform
+import subprocess
 from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
 
 from ..._version import __version__
 from ..schedule import cores
@@ -23,6 +25,28 @@ def machine() -> dict[str, str | int]:
         "system": system,
         "cores": cores(),
     }
+
+
+def commit(file: Path = Path(__file__)) -> str | None:
+    """Commit of the clone that a file of the package lies in; None where there is none.
+
+    A changed clone has ``-dirty`` behind it: what it computes is nobody's.
+    """
+    found = None
+    for command in (
+        ("ls-files", "--error-unmatch", file.name),
+        ("describe", "--always", "--dirty", "--abbrev=12"),
+    ):
+        try:
+            done = subprocess.run(
+                ["git", *command], cwd=file.parent, capture_output=True, text=True, check=False
+            )
+        except OSError:
+            return None
+        if done.returncode:
+            return None
+        found = done.stdout.strip()
+    return found
 
 
 def now() -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..._version import __version__
 from ...files import to_json, write_text
-from .machine import machine, now
+from .machine import commit, machine, now
 
 if TYPE_CHECKING:
     from ..entry import Entry, Reproduction
@@ -23,6 +23,7 @@ def summary(made: Reproduction) -> dict[str, Any]:
     checks = [{**c.plain(), "figure": entry.name} for entry in made.entries for c in entry.checks]
     return {
         "version": __version__,
+        "commit": commit(),
         "date": now(),
         "quick": made.quick,
         "passed": made.passed,
@@ -30,7 +31,7 @@ def summary(made: Reproduction) -> dict[str, Any]:
         "seconds": round(made.seconds, 3),
         "machine": machine(),
         "checks": checks,
-        "exhibits": [_exhibit(entry) for entry in made.entries],
+        "exhibits": [{**_exhibit(entry), "commit": commit()} for entry in made.entries],
     }
 
 
