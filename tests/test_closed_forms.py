@@ -299,6 +299,54 @@ class TestVibration:
         assert np.max(frequencies[:5]) < 1e-2 * beam
         assert frequencies[5] == pytest.approx(beam, rel=1e-4)
 
+    @pytest.mark.parametrize(("elements", "EA"), [(1, 1e3), (6, 1e9), (120, 1e5)])
+    def test_neutral_motions_for_any_count(self, elements, EA):
+        """Free, or pinned at one end: rigid motions have no frequency, however many modes are asked for."""
+        bending = np.sqrt(3.0 / 0.6) / LENGTH**2
+        for pinned, neutral, first in ((False, 5, 4.730040744862704), (True, 2, 3.9266023120479185)):
+            model, beam = beam_model(elements, EA=EA)
+            if pinned:
+                model.pin(beam.start)
+            for count in (1, 2, 3, neutral, neutral + 1):
+                found = ancf.modes(model, count=count).frequencies / bending
+                assert np.all(found[:neutral] < 1e-2)
+                if elements > 1:
+                    assert found[neutral:] == pytest.approx(first**2, rel=1e-3)
+
+    @pytest.mark.parametrize(("elements", "E"), [(1, 2e11), (8, 1e6), (30, 1e9)])
+    @pytest.mark.parametrize("element", SOLIDS)
+    def test_free_beam_for_any_count(self, element, elements, E):
+        """Its six rigid motions, from the soft to the very stiff, also far from the origin."""
+        section = ancf.Section.rectangle(0.01, 0.02, E=E, rho=1000.0, nu=0.3)
+        for x in (0.0, 300.0):
+            model = ancf.Model()
+            ends = {"start": (x, 0, 0), "end": (x + 1, 0, 0)}
+            model.add_beam("beam", elements=elements, section=section, element=element, **ends)
+            bending = 22.4 * np.sqrt(section.EI_z / section.rhoA)
+            for count in (1, 2, 4, 6, 7):
+                frequencies = ancf.modes(model, count=count).frequencies
+                assert np.all(frequencies[:6] < 1e-2 * bending)
+                assert np.all(frequencies[6:] > 0.5 * bending)
+
+    @pytest.mark.parametrize(("elements", "EA", "length"), [(4, 1e6, 1.0), (17, 1e9, 0.1), (120, 1e7, 50.0)])
+    def test_column_about_its_buckling_load(self, elements, EA, length):
+        """omega_1^2 falls with 1 - P/P_cr; past it a column is refused, whatever the count and the load."""
+        EI, EA = 3.0, EA * 3.0 / length**2
+        for share, count in ((0.9, 1), (0.98, 3), (1.02, 1), (1.02, 3), (2.0, 1), (30.0, 2)):
+            P = share * np.pi**2 * EI / length**2
+            model = ancf.Model()
+            ends = {"start": (0, 0, 0), "end": (length, 0, 0), "length": length / (1 - P / EA)}
+            section = ancf.Section(EA=EA, EI=EI, rhoA=0.6)
+            beam = model.add_beam("column", elements=elements, section=section, **ends)
+            model.pin(beam.start)
+            model.pin(beam.end)
+            if share > 1.0:
+                with pytest.raises(ancf.SolveError, match="not a stable equilibrium"):
+                    ancf.modes(model, count=count)
+            else:
+                omega = (np.pi / length) ** 2 * np.sqrt(EI / 0.6 * (1 - share))
+                assert ancf.modes(model, count=count).frequencies[0] == pytest.approx(omega, rel=0.02)
+
     def test_sparse_and_dense_modes_agree(self):
         """The eigensolver changes with the number of unknowns; frequencies do not but for h^4."""
         found = []

@@ -327,6 +327,7 @@ class TestTables:
         assert energy["total [J]"] == pytest.approx(total, rel=1e-14)
         balance = total + energy["dissipated [J]"] - energy["supplied [J]"]
         assert energy["balance [J]"] == pytest.approx(balance, rel=1e-14)
+        assert np.array_equal(energy["drift [J]"], result.energy.drift)
 
     def test_without_sensors_and_energy(self, tmp_path):
         """Points that stand for the bodies; no table is empty."""

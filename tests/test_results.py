@@ -67,7 +67,7 @@ def assert_same(a, b):
     for field in fields:
         for point in points:
             assert np.array_equal(getattr(a, field)(point), getattr(b, field)(point)), (field, point)
-    for part in ("kinetic", "strain", "potential", "dissipated", "supplied", "total", "balance"):
+    for part in ("kinetic", "strain", "potential", "dissipated", "supplied", "total", "balance", "drift"):
         assert getattr(a.energy, part) == pytest.approx(getattr(b.energy, part), rel=1e-14), part
     assert a.status == b.status == "complete"
     assert (a.stats.steps, a.stats.newton_iterations) == (b.stats.steps, b.stats.newton_iterations)
@@ -119,6 +119,7 @@ class TestStores:
         e = run[1].energy
         assert np.array_equal(e.total, e.kinetic + e.strain + e.potential)
         assert np.array_equal(e.balance, e.total + e.dissipated - e.supplied)
+        assert np.array_equal(e.drift, e.balance - e.balance[0])
         assert np.ptp(e.balance) < 0.1 * np.ptp(e.total)  # waves that the step hardly resolves
 
     def test_unknown_points(self, run):

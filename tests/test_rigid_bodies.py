@@ -146,7 +146,7 @@ class TestLoads:
         wanted = 0.5 * t**2 * (np.array([1.5, 0, 1.0]) - (0, 0, G))
         assert result.position(body) == pytest.approx(wanted, abs=1e-11)
         assert axes_of(result, body) == pytest.approx(np.tile(np.eye(3), (len(t), 1, 1)), abs=1e-11)
-        assert result.energy.balance == pytest.approx(np.zeros(len(t)), abs=1e-9)
+        assert result.energy.drift == pytest.approx(np.zeros(len(t)), abs=1e-9)
 
     def test_moment_and_force_off_the_centre(self, method):
         """M(t) and F (both global) at the place p: Euler's equations with R^T M + p x R^T F."""

@@ -121,9 +121,8 @@ def energies(result: Result) -> dict[str, Any]:
     """Energies at the first and last stored time, and the drift of their balance, J."""
     energy = result.energy
     series = {name: np.asarray(getattr(energy, name)) for name in ENERGIES}
-    balance = np.asarray(energy.balance)
     ends = {key: {n: float(x[i]) for n, x in series.items()} for key, i in (("start", 0), ("end", -1))}
-    return {**ends, "balance_drift": float(np.max(np.abs(balance - balance[0])))}
+    return {**ends, "balance_drift": float(np.max(np.abs(energy.drift)))}
 
 
 def print_summary(to: Console, summary: dict[str, Any]) -> None:

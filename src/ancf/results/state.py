@@ -42,8 +42,15 @@ class Energy:
 
     @property
     def balance(self) -> FloatArray:
-        """Total + dissipated - supplied: constant but for the integration error."""
+        """Total + dissipated - supplied: constant but for the integration error; see :attr:`drift`."""
         return self.total + self.dissipated - self.supplied
+
+    @property
+    def drift(self) -> FloatArray:
+        """Change of the balance since the start: zero but for the integration error."""
+        balance = self.balance
+        drift: FloatArray = balance - np.ravel(balance)[:1].sum()  # a state is its own start
+        return drift
 
 
 class State(SpringFields, ContactFields, StatePlotted, Readable):

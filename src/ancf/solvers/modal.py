@@ -1,4 +1,11 @@
-"""Natural modes about an equilibrium: K x = omega^2 M x on the free unknowns."""
+"""Natural modes about an equilibrium: K x = omega^2 M x on the free unknowns.
+
+A neutral motion, such as a rigid one of a body that nothing holds, comes out with an omega^2 of round-off
+of either sign.  A negative one counts as such when x.K x is no larger than what it changes by with the last
+digits of the state and of the products, whatever the other modes are.  Whether the lowest mode has been
+found at all is a matter of inertia: K - sigma M has a negative pivot for each eigenvalue below sigma
+(Sylvester), and sigma is lowered until none is left.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, eigh, null_space
 from scipy.sparse import csc_array
-from scipy.sparse.linalg import eigsh
+from scipy.sparse.linalg import LinearOperator, SuperLU, eigsh, splu
 
 from ..errors import SolveError
 from ..linalg.sparse import to_sparse
@@ -14,11 +21,17 @@ from ..model import checks
 from ..system.contacts import touching
 from ..system.core import assemble, follow_supports, restrict
 from ..system.system import System
+from .roundoff import shaken
+from .softest import FREE_SPIN, Spin
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 MANY = 4000  # unknowns up to which joints are eliminated by dense algebra
 DENSE = 300  # unknowns up to which all modes are computed by dense algebra
+SHAKEN = 30.0  # changes of x.K x with the last digits that do not count
+PRODUCTS = 30.0  # units of the last digit that its terms lose in their sum
+LOWERED = 60  # times that the shift is lowered
 
 
 def natural_modes(system: System, q: FloatArray, count: int) -> tuple[FloatArray, FloatArray]:
@@ -44,13 +57,14 @@ def natural_modes(system: System, q: FloatArray, count: int) -> tuple[FloatArray
     system.level[:] = 1.0, 0.0, 0.0
     whole = _matrix(system, q, 0.0, 1.0)
     whole = csc_array(whole + touching(system.core, q, system.n).matrix())
-    K, C = whole[free][:, free], csc_array(whole[lam][:, free])
-    M = _matrix(system, q, 1.0, 0.0)[free][:, free]
-    values, vectors = _eigen(csc_array(K), csc_array(M), C, count)
-    scale = max(float(np.max(np.abs(values))), 1e-300)
-    if values[0] < -1e-6 * scale:
-        what = f"mode 1 has omega^2 = {values[0]:.4g} 1/s^2: the state is not a stable equilibrium"
-        raise SolveError("modes", what, "give about=ancf.equilibrium(model)")
+    K, C = csc_array(whole[free][:, free]), csc_array(whole[lam][:, free])
+    M = csc_array(_matrix(system, q, 1.0, 0.0)[free][:, free])
+    values, vectors = _eigen(K, M, C, count)
+    for k in np.flatnonzero(values < 0.0):
+        own = _own_stiffness(system, q, K, vectors[:, k], free)
+        if own < 0.0:
+            what = f"mode {k + 1} has omega^2 = {values[k]:.4g} 1/s^2: the state is not a stable equilibrium"
+            raise SolveError("modes", what, "give about=ancf.equilibrium(model)")
     shapes = np.zeros((count, system.size))
     shapes[:, free] = vectors.T
     for shape in shapes:
@@ -68,13 +82,47 @@ def _eigen(K: csc_array, M: csc_array, C: csc_array, count: int) -> tuple[FloatA
         K, M = csc_array(Z.T @ (K @ Z)), csc_array(Z.T @ (M @ Z))
         values, vectors = _eigen(K, M, csc_array((0, K.shape[0])), count)
         return values, Z @ vectors
-    shift = -1e-6 * abs(K).sum() / abs(M).sum()  # below zero: K alone may be singular
+    shift = -1e-6 * float(abs(K).sum() / abs(M).sum())  # below zero: K alone may be singular
     if n <= DENSE or count > n // 3:
         return _dense(K.toarray(), M.toarray(), count, shift)
+    lu, shift = _below_all(K, M, shift)
     start = np.random.default_rng(1).standard_normal(n)
-    values, vectors = eigsh(K, k=count, M=M, sigma=shift, which="LM", v0=start)
+    inverse = LinearOperator((n, n), matvec=lu.solve, dtype=np.float64)
+    values, vectors = eigsh(K, k=count, M=M, sigma=shift, which="LM", v0=start, OPinv=inverse)
     order = np.argsort(values)
     return values[order], vectors[:, order]
+
+
+def _below_all(K: csc_array, M: csc_array, shift: float) -> tuple[SuperLU, float]:
+    """Factors of K - shift M and a shift, the given one or less, below all eigenvalues."""
+    for _ in range(LOWERED):
+        try:  # pivots on the diagonal: their signs are those of the eigenvalues
+            lu = splu(
+                csc_array(K - shift * M),
+                permc_spec="MMD_AT_PLUS_A",
+                diag_pivot_thresh=0.0,
+                options={"SymmetricMode": True},
+            )
+        except RuntimeError:  # exactly singular
+            shift *= 3.0
+            continue
+        if np.all(lu.U.diagonal() > 0.0):
+            return lu, shift
+        shift *= 10.0
+    raise SolveError("modes", "there is no lowest mode", "check stiffnesses and masses")
+
+
+def _own_stiffness(system: System, q: FloatArray, K: csc_array, x: FloatArray, free: IntArray) -> float:
+    """x.K x, zero where round-off leaves nothing of it; x has the unknowns ``free``."""
+    own = float(x @ (K @ x))
+    terms = float(np.abs(x) @ (abs(K) @ np.abs(x)))
+    stiffness = [_matrix(system, near, 0.0, 1.0)[free][:, free] for near in (q, *shaken(system, q))]
+    first, *others = (float(x @ (A @ x)) for A in stiffness)
+    noise = SHAKEN * max(abs(other - first) for other in others) + PRODUCTS * np.finfo(float).eps * terms
+    spin, whole = Spin(system, system.core.supports.held), np.zeros(system.n)
+    whole[free] = x
+    noise += FREE_SPIN * float(whole @ spin.times(whole, q))  # which an equilibrium leaves open
+    return own if abs(own) > noise else 0.0
 
 
 def _dense(K: FloatArray, M: FloatArray, count: int, shift: float) -> tuple[FloatArray, FloatArray]:

@@ -78,10 +78,10 @@ class Spin:
         the mode of the least K/S.  Out of balance, a rotation that costs no energy has a stiffness of the
         size of the residual.
         """
-        b = self._times(np.ones(self._n), q)
+        b = self.times(np.ones(self._n), q)
         for _ in range(_ROUNDS):
             x = solve(b)
-            energy, last = float(x @ b), self._times(x, q)
+            energy, last = float(x @ b), self.times(x, q)
             own = float(x @ last)
             if not own > 0.0:
                 return False
@@ -89,7 +89,7 @@ class Spin:
             b = last / np.sqrt(own)
         return abs(ratio) <= FREE_SPIN + 3.0 * residual * share
 
-    def _times(self, x: FloatArray, q: FloatArray) -> FloatArray:
+    def times(self, x: FloatArray, q: FloatArray) -> FloatArray:
         """Stiffness times x, both (n,)."""
         b = np.zeros(self._n)
         for slots, mode, stiffness in self._modes(q):

@@ -21,7 +21,7 @@ Column = tuple[str, FloatArray]
 
 #: Components of multipliers by unit: forces come first, what holds axes follows.
 FORCES = "xyz"
-ENERGIES = ("kinetic", "strain", "potential", "total", "dissipated", "supplied", "balance")
+ENERGIES = ("kinetic", "strain", "potential", "total", "dissipated", "supplied", "balance", "drift")
 #: What the points of beams and cables know beside position and velocity.
 INSIDE = {"tension": "N", "curvature": "1/m"}
 

@@ -149,7 +149,7 @@ def _energies(source: Any, what: Sequence[Any], quantity: str | None, x: str) ->
     t, energy = np.asarray(source.t), source.energy
     shown = [Curve(name, t, getattr(energy, name)) for name in ENERGIES]
     shown += [Curve(name, t, getattr(energy, name)) for name in WORK if np.any(getattr(energy, name))]
-    drift = Curve("", t, energy.balance - energy.balance[0])
+    drift = Curve("", t, energy.drift)
     return [Panel(style.axis_label("energy"), shown), Panel("drift of the balance [J]", [drift])]
 
 
