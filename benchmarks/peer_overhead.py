@@ -153,8 +153,8 @@ def add_droppers(case: Overhead, wires: Wires) -> None:
         spring = ObjectConnectorSpringDamper(
             markerNumbers=[system.AddMarker(end) for end in ends],
             referenceLength=float(shape.dropper_natural[j]),
-            stiffness=float(shape.dropper_stiffness[j]),
-            damping=case.dropper_damping,
+            stiffness=float(shape.spring_stiffness[j]),
+            damping=float(shape.spring_damping[j]),
         )
         wires.droppers.append(system.AddObject(spring))
 

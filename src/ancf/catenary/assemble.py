@@ -140,6 +140,7 @@ def _add_droppers(overhead: Overhead) -> None:
     found, line, model = overhead.form, overhead.form.line, overhead.model
     lower, upper = found.contact.nodes.dropper, _uppers(overhead)
     half = 0.5 * line.droppers.mass * found.dropper_length
+    stiffness, damping = found.spring_stiffness, found.spring_damping
     for j in range(line.dropper_x.size):
         label = f"{line.dropper_span[j] + 1}-{line.dropper_number[j] + 1}"
         below, above = overhead.contact.point(lower[j]), upper[j]
@@ -147,8 +148,8 @@ def _add_droppers(overhead: Overhead) -> None:
             model.add_spring(
                 below,
                 above,
-                stiffness=float(found.dropper_stiffness[j]),
-                damping=line.droppers.damping,
+                stiffness=float(stiffness[j]),
+                damping=float(damping[j]),
                 length=float(found.dropper_natural[j]),
                 slack=line.droppers.slack,
                 name=f"dropper {label}",

@@ -7,6 +7,7 @@ import numpy as np
 from ancf.errors import ModelError
 from ancf.model.checks import FloatArray
 
+from .clamps import missing_give
 from .hang import Hung
 from .line import Line
 from .mesh import IntArray, Mesh, stitch_ends
@@ -41,7 +42,19 @@ def begin(line: Line, mesh: Mesh) -> Hung:
         support=np.zeros(count),
         side=np.zeros(count),
         ends=ends,
+        give=_give(line, contact, messenger, placed),
     )
+
+
+def _give(line: Line, contact: WireShape, messenger: WireShape, stitches: list[WireShape]) -> FloatArray:
+    """What the wires lack at both clamps of each dropper (2, n), m/N."""
+    give = np.zeros((2, line.dropper_x.size))
+    give[0] = missing_give(contact.wire, contact.nodes, contact.nodes.dropper)
+    give[1] = missing_give(messenger.wire, messenger.nodes, messenger.nodes.dropper, messenger.hinges)
+    for k, shape in enumerate(stitches):
+        own = line.dropper_stitch == k + 1
+        give[1, own] = missing_give(shape.wire, shape.nodes, shape.nodes.dropper)
+    return give
 
 
 def _contact(line: Line, mesh: Mesh) -> tuple[WireShape, FloatArray]:

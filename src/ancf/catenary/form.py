@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +19,8 @@ from .shape import WireShape
 
 TOLERANCE = 1e-8  # m
 MOST_ITERATIONS = 60
+#: Parts of a line that may change without finding its form again: it rests alike.
+WITHOUT_WEIGHT = ("damping", "title", "source", "tags")
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +43,8 @@ class Form:
     dropper_length, dropper_natural : (n,) m
         From clamp to clamp under this force, and without force.
     dropper_stiffness : (n,) N/m
+    clamp_give : (n,) m/N
+        What both wires give too little at the clamps on this mesh, see :mod:`ancf.catenary.clamps`.
     contact_height, messenger_height : (n,) m
         Of the contact wire and of what the droppers hang from, at the droppers.
     support_load, support_side : (supports,) N
@@ -48,6 +52,13 @@ class Form:
     arm_force : (supports, 3) N
         Force on the contact wire at the supports; zero at the two anchors.
     iterations : int
+    made_for : (Line, Mesh)
+        What it was found for.
+
+    Raises
+    ------
+    ModelError
+        It is given a line or a mesh that rests in another way (`dataclasses.replace`).
 
     """
 
@@ -61,12 +72,41 @@ class Form:
     dropper_length: FloatArray
     dropper_natural: FloatArray
     dropper_stiffness: FloatArray
+    clamp_give: FloatArray
     contact_height: FloatArray
     messenger_height: FloatArray
     support_load: FloatArray
     support_side: FloatArray
     arm_force: FloatArray
     iterations: int
+    made_for: tuple[Line, Mesh] | None = field(default=None, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        if self.made_for is None:
+            object.__setattr__(self, "made_for", (self.line, self.mesh))
+            return
+        line, mesh = self.made_for
+        hint = "find the form again, ancf.catenary.form(line, mesh)"
+        if self.mesh != mesh:
+            raise ModelError("form.mesh", "is not the one that the form was found with", hint)
+        for item in fields(Line):
+            if item.name not in WITHOUT_WEIGHT and getattr(self.line, item.name) != getattr(line, item.name):
+                what = "is not the one that the form was found for: the lengths of wires and droppers belong to it"
+                raise ModelError(f"form.line.{item.name}", what, hint)
+
+    @property
+    def spring_stiffness(self) -> FloatArray:
+        """Stiffnesses (n,) in N/m of the droppers between the nodes: with the give of their clamps."""
+        stiffness: FloatArray = self.dropper_stiffness / (1.0 + self.clamp_give * self.dropper_stiffness)
+        return stiffness
+
+    @property
+    def spring_damping(self) -> FloatArray:
+        """Dampers (n,) in N s/m beside these springs: in series with the give they brake less."""
+        damping: FloatArray = (
+            self.line.droppers.damping * (self.spring_stiffness / self.dropper_stiffness) ** 2
+        )
+        return damping
 
     def schedule(self) -> list[Row]:
         """The dropper schedule, one row for each dropper."""
@@ -145,8 +185,9 @@ def _finished(line: Line, mesh: Mesh, now: Hung, iterations: int) -> Form:
         dropper_length=length,
         dropper_natural=natural,
         dropper_stiffness=stiffness,
-        contact_height=now.contact.position[now.contact.nodes.dropper, 2],
-        messenger_height=now.upper[:, 2],
+        clamp_give=now.give.sum(axis=0),
+        contact_height=now.contact.position[now.contact.nodes.dropper, 2] + now.give[0] * now.lift,
+        messenger_height=now.upper[:, 2] - now.give[1] * now.lift,
         support_load=now.support,
         support_side=now.side,
         arm_force=now.arm,

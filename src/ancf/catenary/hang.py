@@ -33,6 +33,8 @@ class Hung:
         Upward and sideways forces of the supports on the messenger.
     ends : (stitches, 2, 3) N
         Of the messenger on the two ends of each stitch wire.
+    give : (2, n) m/N
+        What the contact wire and what the droppers hang from give too little at the clamps, on their meshes.
     error : float, m
         Largest distance of a prescribed place from where the point came to rest.
 
@@ -47,11 +49,12 @@ class Hung:
     support: FloatArray
     side: FloatArray
     ends: FloatArray
+    give: FloatArray
     error: float = np.inf
 
     @property
     def upper(self) -> FloatArray:
-        """Upper ends (n, 3) of the droppers, m."""
+        """Nodes (n, 3) from which the droppers hang, m."""
         position = self.messenger.position[self.messenger.nodes.dropper]
         for k, shape in enumerate(self.stitches):
             position[self.line.dropper_stitch == k + 1] = shape.position[shape.nodes.dropper]
@@ -59,20 +62,26 @@ class Hung:
 
     @property
     def dropper(self) -> FloatArray:
-        """Vectors (n, 3) of the droppers from the contact wire up, m."""
+        """Vectors (n, 3) of the droppers from node to node, up, m."""
         vector: FloatArray = self.upper - self.contact.position[self.contact.nodes.dropper]
         return vector
 
     @property
     def length(self) -> FloatArray:
-        """Lengths (n,) of the droppers from clamp to clamp, m."""
-        length: FloatArray = np.linalg.norm(self.dropper, axis=1)
+        """Lengths (n,) of the droppers from clamp to clamp, m: the clamps give more than the nodes."""
+        length: FloatArray = self.distance - self.give.sum(axis=0) * self.force
         return length
+
+    @property
+    def distance(self) -> FloatArray:
+        """Distances (n,) of the nodes that the droppers join, m."""
+        distance: FloatArray = np.linalg.norm(self.dropper, axis=1)
+        return distance
 
     @property
     def force(self) -> FloatArray:
         """Forces (n,) of the droppers along themselves, N."""
-        force: FloatArray = self.lift * self.length / self.dropper[:, 2]
+        force: FloatArray = self.lift * self.distance / self.dropper[:, 2]
         return force
 
     @property
@@ -94,7 +103,7 @@ class Hung:
 
 
 def hang_contact(now: Hung) -> Hung:
-    """The contact wire held at its heights at the droppers, which lean to where the messenger is."""
+    """The contact wire with its clamps at their heights, from droppers that lean to where the messenger is."""
     line, shape, nodes, inner = now.line, now.contact, now.contact.nodes, slice(1, -1)
     model, wire = _pulled(line, shape)
     model.hold(wire.start, position="yz")
@@ -102,7 +111,7 @@ def hang_contact(now: Hung) -> Hung:
     weight = -np.outer(now.weight(line.droppers.clamp_contact), [0.0, 0.0, 1.0])
     _add_forces(model, wire, nodes.dropper, weight)
     target = shape.position[nodes.dropper].copy()
-    target[:, 2] = line.dropper_height
+    target[:, 2] = line.dropper_height - now.give[0] * now.lift
     points = [wire.point(i) for i in nodes.dropper]
     hangers = along(target, 2, now.lift)
     hangers.add_to(model, points)
@@ -120,10 +129,11 @@ def hang_contact(now: Hung) -> Hung:
     arm = np.zeros_like(now.arm)
     for axis, rods in arms.items():
         arm[inner, axis] = rods.forces(state)
-    height = position[nodes.dropper, 2] - target[:, 2]
+    lift = hangers.forces(state)
+    height = position[nodes.dropper, 2] + now.give[0] * lift - line.dropper_height
     side = (position[nodes.support[inner]] - held)[:, axes]
     error = max(_largest(height), _largest(side), _misplaced(shape, position))
-    return replace(now, contact=shape.moved(position), lift=hangers.forces(state), arm=arm, error=error)
+    return replace(now, contact=shape.moved(position), lift=lift, arm=arm, error=error)
 
 
 def hang_messenger(now: Hung) -> Hung:

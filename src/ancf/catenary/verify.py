@@ -23,7 +23,7 @@ class Verified:
     state : State
         The line at rest.
     height, place : float, m
-        Heights of the contact wire at the droppers; positions of all nodes of all wires.
+        Heights of the contact wire at the droppers' clamps; positions of all nodes of all wires.
     tension : float, N
         Components along the track of the tensions in the ends of both wires.
     load : float, N
@@ -47,15 +47,17 @@ def verify(overhead: Overhead) -> Verified:
         [[state.position(p) for p in (d.a, d.b) if isinstance(p, Point)] for d in overhead.droppers]
     )
     stretch = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) - found.dropper_natural
+    clamps = low[:, 2] - found.contact.position[found.contact.nodes.dropper, 2] + found.contact_height
+    force = found.spring_stiffness * stretch
     tensions = [
         end_force(state, wire, last) - wire.shape.wire.tension for wire in wires[:2] for last in (False, True)
     ]
     return Verified(
         state=state,
-        height=_largest(low[:, 2] - found.line.dropper_height),
+        height=_largest(clamps - found.line.dropper_height),
         place=max(_largest(wire.positions(state) - wire.shape.position) for wire in wires),
         tension=_largest(np.array(tensions)),
-        load=_largest(found.dropper_stiffness * stretch - found.dropper_force),
+        load=_largest(force - found.dropper_force),
     )
 
 
