@@ -26,6 +26,9 @@ STANDARD = 50e3
 STRIP = 0.05
 #: Distance of the strip from the wire up to which the sliding joint finds its place on it, m.
 NEAR = 2.0
+#: Stiffness of a lowest spring of 0, N/m: the place where a pantograph stands is then unique, and over
+#: centimetres it carries some millinewtons.
+FAINT = 0.1
 #: Stiffness of a contact that only measures, N/m.
 WEIGHTLESS = 1e-9
 
@@ -171,6 +174,7 @@ def _add_springs(
     The lowest carries nothing when all is ``above`` lower than at the start.
     """
     for k, (stiffness, damping) in enumerate(zip(pantograph.stiffness, pantograph.damping, strict=True)):
+        stiffness = max(stiffness, FAINT)
         shortened = -above if k == 0 else pantograph.force(float(travel.speed(0.0))) / stiffness
         ends = masses[k], masses[k + 1]
         name = f"{label} spring {k + 1}"

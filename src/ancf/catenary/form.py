@@ -91,7 +91,7 @@ class Form:
             raise ModelError("form.mesh", "is not the one that the form was found with", hint)
         for item in fields(Line):
             if item.name not in WITHOUT_WEIGHT and getattr(self.line, item.name) != getattr(line, item.name):
-                what = "is not the one that the form was found for: the lengths of wires and droppers belong to it"
+                what = "is not what the form was found for: the lengths of wires and droppers belong to it"
                 raise ModelError(f"form.line.{item.name}", what, hint)
 
     @property

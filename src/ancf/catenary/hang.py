@@ -103,7 +103,7 @@ class Hung:
 
 
 def hang_contact(now: Hung) -> Hung:
-    """The contact wire with its clamps at their heights, from droppers that lean to where the messenger is."""
+    """The contact wire with its clamps at their heights, under droppers that lean to the messenger."""
     line, shape, nodes, inner = now.line, now.contact, now.contact.nodes, slice(1, -1)
     model, wire = _pulled(line, shape)
     model.hold(wire.start, position="yz")

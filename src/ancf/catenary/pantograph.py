@@ -82,8 +82,8 @@ class Pantograph:
         checks.choice(self.relaxed_at, f"{where}.relaxed_at", RELAXED)
         object.__setattr__(self, "tags", dict(self.tags or {}))
 
-    def force(self, speed: float) -> float:
-        """Static and aerodynamic force at a speed in m/s, N."""
+    def force(self, speed: Any) -> Any:
+        """Static and aerodynamic force at a speed in m/s, or at several, N."""
         return self.static_force + self.aerodynamic * speed**2
 
 

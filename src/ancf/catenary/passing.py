@@ -83,6 +83,12 @@ def in_window(run: Run, pantograph: int = 0) -> slice:
     return slice(int(inside[0]), int(inside[-1]) + 1)
 
 
+def speeds_in_window(run: Run, pantograph: int = 0) -> FloatArray:
+    """Speeds (n,) of a pantograph at the samples in which it is in the evaluated window, m/s."""
+    speeds: FloatArray = np.gradient(run.recordings[pantograph].position, run.t)
+    return speeds[in_window(run, pantograph)]
+
+
 def uplift_at_supports(run: Run, pantograph: int = 0) -> list[SupportUplift]:
     """Largest uplift at each support that a pantograph passes.
 
@@ -108,12 +114,18 @@ def uplift_in_window(run: Run, pantograph: int = 0) -> list[SupportUplift]:
 
 
 def dropper_forces(run: Run, over: slice | None = None) -> list[DropperForces]:
-    """Forces of all droppers over some samples; the whole run by default."""
-    step = 1.0 / sample_rate(run.t)
+    """Forces of all droppers over some samples, the whole run by default; those that push are never slack."""
+    step, slack = 1.0 / sample_rate(run.t), run.form.line.droppers.slack
     part = run.dropper_force[over if over is not None else slice(None)]
     places = dropper_places(run)
     return [
-        DropperForces(*place, float(rest), float(np.max(force)), float(np.min(force)), at_zero(force, step))
+        DropperForces(
+            *place,
+            float(rest),
+            float(np.max(force)),
+            float(np.min(force)),
+            at_zero(force if slack else np.ones_like(force), step),
+        )
         for place, rest, force in zip(places, run.form.dropper_load, part.T, strict=True)
     ]
 

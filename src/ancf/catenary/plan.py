@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +13,7 @@ from ancf.errors import ModelError
 from ancf.model import checks
 
 from .catalogue import read_line
+from .cautions import RUN_IN
 from .current import Touch
 from .form import Form, form
 from .line import Line
@@ -25,8 +25,6 @@ from .travel import Travel
 START = 1.0 / 3.0
 #: Track beyond the window that the last pantograph still runs, m: a filter needs to see it.
 BEYOND = 40.0
-#: Track that the first pantograph runs before a window that is not given, m: its start dies away.
-RUN_IN = 50.0
 
 
 @dataclass(frozen=True)
@@ -50,6 +48,8 @@ class Plan:
     touch : Touch
     step : float
         s.
+    spent : float
+        CPU time of what was computed to make it, s.
 
     """
 
@@ -62,6 +62,7 @@ class Plan:
     until: float
     touch: Touch
     step: float
+    spent: float = 0.0
 
     @property
     def duration(self) -> float:
@@ -69,9 +70,9 @@ class Plan:
         seconds = self.travel.time(self.until - self.places[-1])
         return float(np.ceil(seconds / self.step - 1e-9) * self.step)
 
-    def lift(self, k: int) -> float:
-        """Static and aerodynamic force of a pantograph at the start, N."""
-        return self.pantographs[k].force(float(self.travel.speed(0.0)))
+    def lift(self, k: int, t: Any = 0.0) -> Any:
+        """Static and aerodynamic force of a pantograph at times t, in s, by default at the start, N."""
+        return self.pantographs[k].force(self.travel.speed(t))
 
 
 def make_plan(
@@ -90,7 +91,6 @@ def make_plan(
     behind, train = _start(line, start), units[-1][1]
     kinds = [unit for unit, _ in units]
     _check_strips(line, kinds)
-    _check_speed(line, travel)
     interval = _window(line, window, behind + train, train, until)
     return Plan(
         form=shape,
@@ -194,11 +194,3 @@ def _check_strips(line: Line, pantographs: list[Pantograph]) -> None:
                 reach = 0.5 * pantograph.strip_length
                 what = f"is {side:g} m, the strip of {pantograph.name} reaches to {reach:g} m"
                 raise ModelError(f"line.stagger[{k}]", what, "give less stagger or a longer strip")
-
-
-def _check_speed(line: Line, travel: Travel) -> None:
-    """Warn where the train is faster than the waves."""
-    if travel.top >= line.wave_speed:
-        text = f"run.speed: {3.6 * travel.top:.0f} km/h is not below the wave speed of the contact wire"
-        text += f", {3.6 * line.wave_speed:.0f} km/h: no wave runs ahead of the pantograph"
-        warnings.warn(text, UserWarning, stacklevel=4)

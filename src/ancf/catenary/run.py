@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import warnings
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ import numpy as np
 import ancf
 from ancf.model.checks import FloatArray
 
+from . import cautions
 from .assemble import Overhead, assemble
 from .current import Collector, Touch, add_pantograph
 from .form import Form, form
@@ -101,7 +103,9 @@ def run(
     Warns
     -----
     UserWarning
-        The speed is not below the wave speed of the contact wire.
+        Numbers may not mean what they say: a speed near the wave speed of the contact wire or above it,
+        elements or steps too long for what is evaluated, a window right behind the start, a contact that
+        chatters.
 
     """
     plan = make_plan(
@@ -115,25 +119,35 @@ def run(
         Touch(contact, contact_stiffness, contact_damping),
         step,
     )
+    _warn(cautions.before(plan))
     if any(unit.relaxed_at == "mean" for unit in plan.pantographs):
-        plan = replace(plan, raised=_raised(plan))
-    return _simulated(plan, integrator, progress, output_step=output_step, file=file)
+        plan = _relaxed(plan)
+    done = _simulated(plan, integrator, progress, output_step=output_step, file=file)
+    _warn(cautions.after(done))
+    return done
 
 
-def _raised(plan: Plan) -> list[float]:
-    """Mean rise of the lowest masses over the window, from a trial run on a coarse mesh, m.
+def _warn(texts: Iterator[str]) -> None:
+    """Warnings at the line that called :func:`run`."""
+    for text in texts:
+        warnings.warn(text, UserWarning, stacklevel=3)
 
-    A spring that is relaxed at the mean height takes nothing from the mean of the contact force.
+
+def _relaxed(plan: Plan) -> Plan:
+    """The plan with springs relaxed at the mean heights over the window, from a trial run on a coarse mesh.
+
+    They take nothing from the mean of the contact force: what is missing there in the trial run, to the
+    mean over the window of what lifts the pantograph at its speeds, is how much higher they have to be.
     """
     trial = replace(plan, form=form(plan.form.line, TRIAL), step=TRIAL_STEP)
     done = _simulated(trial, None, None)
     raised = []
     for k, (unit, recording) in enumerate(zip(plan.pantographs, done.recordings, strict=True)):
         passing = (recording.position >= plan.window[0]) & (recording.position <= plan.window[1])
-        missing = plan.lift(k) - float(np.mean(recording.force[passing]))
+        missing = float(np.mean(plan.lift(k, done.t[passing]) - recording.force[passing]))
         wanted = unit.relaxed_at == "mean" and unit.stiffness[0] > 0.0
         raised.append(missing / unit.stiffness[0] if wanted else 0.0)
-    return raised
+    return replace(plan, raised=raised, spent=done.cpu_seconds)
 
 
 def _simulated(
@@ -208,7 +222,7 @@ def _recorded(result: ancf.Result, overhead: Overhead, collectors: list[Collecto
     rest = overhead.form.contact.position[nodes, 2]
     uplift = np.stack([sensors.position(p)[:, 2] for p in overhead.supports], axis=1) - rest
     simulated = float(t[-1] - t[0])
-    cpu = result.stats.cpu_seconds
+    cpu = plan.spent + result.stats.cpu_seconds
     return Run(
         form=overhead.form,
         pantographs=[c.pantograph for c in collectors],
@@ -226,6 +240,7 @@ def _recorded(result: ancf.Result, overhead: Overhead, collectors: list[Collecto
             "line": line.title,
             "step [s]": plan.step,
             "steps": result.stats.steps,
+            **({"CPU time of the trial run for the mean height [s]": plan.spent} if plan.spent else {}),
             "Newton iterations": result.stats.newton_iterations,
             "factorisations": result.stats.factorizations,
             "elements of the contact wire": overhead.contact_wire.elements,

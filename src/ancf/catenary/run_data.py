@@ -71,7 +71,7 @@ class Run:
     pantographs : list of Pantograph
         In the order of `recordings`; the first one runs ahead.
     speed : float
-        m/s.
+        m/s; of a profile the mean over the whole run, see :func:`ancf.catenary.passing.speeds_in_window`.
     t : (n,) float
         Times, s.
     recordings : list of Recording
@@ -83,7 +83,7 @@ class Run:
     window : (float, float)
         Track interval that is evaluated, m.
     cpu_seconds, simulated_seconds, real_time_factor : float
-        CPU time, simulated time and their ratio (simulated over CPU).
+        CPU time, that of a trial run included, simulated time and their ratio (simulated over CPU).
     settings : mapping
         How it was computed: step, mesh, contact, integrator and so on.
     result : Result, optional

@@ -95,7 +95,7 @@ def statistics(run: Run, pantograph: int = 0, filter: Butterworth | None = None)
         *_loss(recording.force[window], 1.0 / rate),
         *_line(run, passing.uplift_in_window(run, pantograph), droppers),
         *_height(recording.height, rate, window, chosen),
-        *_speed(run),
+        *_speed(run, passing.speeds_in_window(run, pantograph)),
     )
     return Statistics(recording.name, quantities, chosen, force, window, supports, droppers)
 
@@ -156,12 +156,15 @@ def _height(height: FloatArray, rate: float, window: slice, chosen: Butterworth)
     yield Quantity("raw_height_range", "range of contact-point height, unfiltered", "mm", raw)
 
 
-def _speed(run: Run) -> Iterator[Quantity]:
-    wave = float(run.form.line.wave_speed)
+def _speed(run: Run, speeds: FloatArray) -> Iterator[Quantity]:
+    """The law is the mean over the window of what it asks for at each speed (n,), m/s."""
+    wave, mean = float(run.form.line.wave_speed), float(np.mean(speeds))
+    yield Quantity("speed", "speed", "km/h", KMH * mean)
+    square = KMH * float(np.sqrt(np.mean(speeds**2)))
     for supply, (_, tag) in MEAN_FORCE_LAW.items():
         key = "mean_force_law_" + supply.lower().replace(" ", "_").replace(".", "_")
-        value = mean_force_target(run.speed_kmh, supply)
+        value = mean_force_target(square, supply)
         yield Quantity(key, f"mean-force law {supply}", "N", value, tag=tag)
     yield Quantity("wave_speed", "wave speed of the contact wire", "km/h", KMH * wave)
     name = "speed / wave speed"
-    yield Quantity("speed_ratio", name, "", run.speed / wave, high=LARGEST_SPEED_RATIO, tag="practice")
+    yield Quantity("speed_ratio", name, "", mean / wave, high=LARGEST_SPEED_RATIO, tag="practice")

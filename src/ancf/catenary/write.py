@@ -61,7 +61,7 @@ def summary(run: Run, found: Sequence[Statistics]) -> dict[str, Any]:
     return {
         "ancf": __version__,
         "line": run.form.line.title,
-        "speed_kmh": round(run.speed_kmh, 6),
+        "speed_kmh": round(found[0]["speed"].value, 6),
         "window_m": list(run.window),
         "filter": found[0].filter.text,
         "real_time_factor": run.real_time_factor,

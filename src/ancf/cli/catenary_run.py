@@ -104,8 +104,10 @@ def show(done: Run) -> None:
 
     screen = console()
     for k, recording in enumerate(done.recordings):
-        screen.print(f"{recording.name}, {done.speed_kmh:.4g} km/h", style="bold", soft_wrap=True)
-        screen.print(table(statistics(done, k).quantities))
+        found = statistics(done, k)
+        title = f"{recording.name}, {found['speed'].value:.4g} km/h"
+        screen.print(title, style="bold", soft_wrap=True)
+        screen.print(table(found.quantities))
     screen.print(
         f"real-time factor {done.real_time_factor:.3g}: {done.simulated_seconds:.3g} s simulated in "
         f"{done.cpu_seconds:.3g} s of CPU time",

@@ -55,7 +55,7 @@ def write_report(
 def report(content: Content) -> str:
     """HTML of the report."""
     run = content.run
-    title = f"{run.form.line.title}, {run.speed_kmh:.4g} km/h"
+    title = f"{run.form.line.title}, {content.speed_kmh:.4g} km/h"
     parts = [*_statistics(content), _figures(content), *_line_tables(content), _computed(content)]
     links = [element("a", str(part[0].text), href=f"#{part.get('id')}") for part in parts]
     return page(title, *_top(content, title), element("nav", *links), *parts, _foot())

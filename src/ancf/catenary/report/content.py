@@ -49,6 +49,11 @@ class Content:
         """Whether there is more than one pantograph."""
         return len(self.found) > 1
 
+    @property
+    def speed_kmh(self) -> float:
+        """Speed of the first pantograph in the window, km/h."""
+        return self.found[0]["speed"].value
+
     def name(self, k: int) -> str:
         """Name of a pantograph, its number behind it when another one has the same name."""
         names = [found.pantograph for found in self.found]

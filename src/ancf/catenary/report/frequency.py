@@ -68,7 +68,7 @@ def _passing(axes: Axes, content: Content) -> None:
     spans = np.diff([x for x in line.supports if low - 1e-6 <= x <= high + 1e-6])
     pitch = np.diff([x for x in line.dropper_x if low <= x <= high])
     for lengths, name in ((spans, "spans"), (pitch, "droppers")):
-        frequency = content.run.speed / float(np.median(lengths)) if len(lengths) else HIGHEST
+        frequency = content.speed_kmh / 3.6 / float(np.median(lengths)) if len(lengths) else HIGHEST
         if frequency >= HIGHEST:
             continue
         axes.axvline(frequency, linestyle=":", **marks.FINE)

@@ -87,7 +87,7 @@ def run_data(content: Content) -> Element:
     """Speed, window, filter, times and settings of the run."""
     run = content.run
     rows = [
-        ("speed", f"{run.speed_kmh:.4g} km/h ({run.speed:.4g} m/s)"),
+        ("speed in the window", f"{content.speed_kmh:.4g} km/h ({content.speed_kmh / 3.6:.4g} m/s)"),
         ("evaluated window", f"{run.window[0]:g} m to {run.window[1]:g} m"),
         ("filter", content.found[0].filter.text),
         ("simulated time", f"{run.simulated_seconds:.3f} s"),

@@ -1,0 +1,78 @@
+"""Warnings: what a run cannot show, from its plan and from what it recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .signals import CUT_OFF, at_zero
+
+if TYPE_CHECKING:
+    from .plan import Plan
+    from .run_data import Run
+
+#: Share of the wave speed from which on the forces grow without limit.
+NEAR = 0.9
+#: Largest element in lengths of the shortest wave that runs ahead, by its frequency up to the cut-off.
+LARGEST = 0.9
+#: Largest step in radians of the cut-off: the implicit rules shift a wave by a twelfth of its square.
+LONGEST = 0.5
+#: Track that the first pantograph runs before the window, m: its start dies away.
+RUN_IN = 50.0
+#: Losses of contact of one or two steps from which on they are chatter.
+CHATTER = 3
+
+
+def before(plan: Plan) -> Iterator[str]:
+    """What is to be said about a run before it is computed."""
+    yield from _speed(plan)
+    longest = LONGEST / (2.0 * np.pi * CUT_OFF)
+    if plan.step > longest * (1.0 + 1e-9):
+        text = (
+            f"run.step: {1e3 * plan.step:g} ms is long for what is evaluated up to {CUT_OFF:g} Hz: standard "
+        )
+        yield (
+            text + f"deviations change by some percent; take {1e3 * longest:.0f} ms or less, 1 ms by default"
+        )
+    run_in = plan.window[0] - plan.places[0]
+    if run_in < RUN_IN - 1e-6:
+        text = (
+            f"run.window: begins {run_in:.4g} m after the place where the first pantograph starts: what its "
+        )
+        yield text + f"start has stirred up is evaluated; leave {RUN_IN:g} m or more"
+
+
+def _speed(plan: Plan) -> Iterator[str]:
+    line, top = plan.form.line, plan.travel.top
+    wave, largest = line.wave_speed, plan.form.mesh.contact
+    if top >= NEAR * wave:
+        text = f"run.speed: {3.6 * top:.0f} km/h is {top / wave:.4g} of the wave speed of the contact wire, "
+        text += f"{3.6 * wave:.0f} km/h: "
+        if top < wave:
+            yield text + "near it forces and uplift grow without limit, and no mesh resolves the waves ahead"
+        else:
+            yield text + "no wave runs ahead of the pantograph"
+        return
+    shortest = (wave - top) / CUT_OFF
+    if largest > LARGEST * shortest:
+        text = f"mesh.contact: elements of {largest:g} m do not resolve the waves ahead of a pantograph at "
+        text += (
+            f"{3.6 * top:.0f} km/h, {shortest:.2g} m at {CUT_OFF:g} Hz: standard deviations may be off by "
+        )
+        yield text + f"more than 3 %; take {LARGEST * shortest:.1g} m or less"
+
+
+def after(run: Run) -> Iterator[str]:
+    """What is to be said about a run that is computed."""
+    for recording in run.recordings:
+        bounds = at_zero(recording.force, 1.0).bounds
+        ended = bounds[bounds[:, 1] < recording.force.size]
+        short = int(np.sum(ended[:, 1] - ended[:, 0] <= 2))
+        if short >= CHATTER:
+            text = (
+                f"contact of {recording.name}: is lost {short} times for one or two steps only: it chatters, "
+            )
+            text += "the step does not resolve the motion of the head on the wire; extremes and losses mean "
+            yield text + "nothing; take a shorter step, a softer contact or more numerical damping"
