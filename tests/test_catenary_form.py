@@ -100,15 +100,18 @@ class TestStrings:
 
 
 class TestReferences:
-    @pytest.mark.parametrize(("span", "close", "near"), [(0, 1.0, 2.5e-3), (1, 0.5, 2e-3), (2, 1.0, 2.5e-3)])
+    @pytest.mark.parametrize(
+        ("span", "close", "near"), [(0, 1.0, 2.5e-3), (1, 0.5, 2.5e-3), (2, 1.0, 2.5e-3)]
+    )
     def test_2002(self, span, close, near):
         """All spans are nearly alike: the contact wire turns freely at its anchors, over supports it bends.
 
-        The reference lies between a messenger that is hinged at its supports and one that is not.
+        The reference has a messenger that bends over its supports: it hangs higher by sqrt(EI/T) times its
+        slope there, 2 mm.
         """
         made, wanted = found_with("en50318-2002", 3, "held"), DATA["en50318-2002"]
         assert middle(made.dropper_load, made, span) == pytest.approx(wanted["load"], abs=close)
-        assert middle(made.dropper_length, made, span) == pytest.approx(wanted["length"], abs=near)
+        assert middle(made.dropper_length, made, span) == pytest.approx(wanted["length"], abs=2.5e-3)
         assert np.abs(made.contact_height).max() < 1e-8
 
     def test_2002_hanging_free(self):
@@ -138,10 +141,12 @@ class TestReferences:
         assert heavy.dropper_length.min() == pytest.approx(DATA["paper-7.5"]["shortest"], abs=5e-3)
 
     def test_lengths_do_not_depend_on_the_mesh(self):
+        """A tenth of a millimetre: the clamps hang by what the nodes give too little, 0.4 mm, below them."""
         line = shortened("en50318-2002", 2)
-        coarse, fine = form(line), form(line, Mesh(contact=0.5, messenger=1.0))
-        assert fine.dropper_length == pytest.approx(coarse.dropper_length, abs=0.5e-3)
+        coarse, fine = form(line), form(line, Mesh(contact=0.5, messenger=1.0, dropper=0.1))
+        assert fine.dropper_length == pytest.approx(coarse.dropper_length, abs=0.08e-3)
         assert fine.dropper_load == pytest.approx(coarse.dropper_load, abs=0.3)
+        assert np.max(coarse.clamp_give * coarse.dropper_force) > 0.3e-3
 
     def test_bending_over_the_supports(self):
         """Between two supports the messenger hangs higher by sqrt(EI/T) times its slope there."""
@@ -232,7 +237,9 @@ class TestStitchWire:
         assert shape.position[0, 2] == pytest.approx(
             np.interp(31.0, *made.messenger.position[:, [0, 2]].T), abs=1e-3
         )
-        assert made.messenger_height[2:4] == pytest.approx(shape.position[shape.nodes.dropper, 2])
+        clamps = shape.position[shape.nodes.dropper, 2]  # but for the bend, some centimetres of a limp wire
+        assert made.messenger_height[2:4] == pytest.approx(clamps, abs=1e-4)
+        assert np.all(made.messenger_height[2:4] < clamps)
         drop = shape.position[0, 2] - shape.position[shape.nodes.dropper[0], 2]
         share = made.dropper_load[2] * 17 / 18 + made.dropper_load[3] / 18 + 0.31 * G * (9 - 0.5)
         tilt = (shape.position[-1, 2] - shape.position[0, 2]) / 18

@@ -155,7 +155,7 @@ class TestRun:
         run = Run(line, pan, 10.0, 1e-3)
         u = run.equilibrium(60.25)
         lift = 100.0 * 60.25 * 139.75 / (20e3 * 200)
-        assert u[run.head] == pytest.approx(lift, rel=2e-3)
+        assert u[run.heads[0]] == pytest.approx(lift, rel=2e-3)
 
     def test_moving_load_on_a_string(self):
         """A force P that starts to move over an endless string lifts it, where it is, by P c t / (2 T).
@@ -179,7 +179,7 @@ class TestRun:
         line = OverheadLine(replace(ALONE, contact=STRING, flat=True), 1.0)
         run = Run(line, Pantograph((5.0,), (1.0,), (0.0,), force=100.0), 10.0, 1e-3)
         u = run.equilibrium(70.0)
-        run.force[run.head] = -1e4  # pulled off the wire at once
+        run.force[run.heads[0]] = -1e4  # pulled off the wire at once
         run.equilibrium = lambda x: u
         n = line.M.shape[0]
         energy = 0.5 * u[:n] @ (line.K @ u[:n])
@@ -210,18 +210,19 @@ class TestCorrection:
     def test_laws_hold(self):
         """Droppers pull or are slack, contact pushes or is open, and both laws hold."""
         rng = np.random.default_rng(5)
-        for _ in range(50):
-            n = 12
-            A = rng.normal(size=(n + 1, n + 1))
-            C = 1e-2 * (A @ A.T) / n + 1e-3 * np.eye(n + 1)  # compliance of droppers and contact
+        for trial in range(50):
+            n, m = 12, 1 + trial % 3
+            A = rng.normal(size=(n + m, n + m))
+            C = 1e-2 * (A @ A.T) / n + 1e-3 * np.eye(n + m)  # compliance of droppers and contacts
             k, penalty = rng.uniform(1, 3, n), 50.0
-            free, gap = rng.normal(size=n), rng.normal() * 0.1
-            G, g = k[:, None] * C[:n, :n], (k * C[:n, n], C[:n, n])
-            s, f, pull = correction(free, gap, G, g, C[n, n], True, penalty)
-            linear = free + G @ s - g[0] * f
+            free, gap = rng.normal(size=n), rng.normal(size=m) * 0.1
+            G, g = k[:, None] * C[:n, :n], (k[:, None] * C[:n, n:], C[n:, :n])
+            s, f, pull = correction(free, gap, G, g, C[n:, n:], True, penalty)
+            linear = free + G @ s - g[0] @ f
             assert pull == pytest.approx(np.maximum(linear, 0), abs=1e-10)
             assert s == pytest.approx(np.minimum(linear, 0), abs=1e-10)
-            assert f == pytest.approx(penalty * max(0.0, gap + g[1] @ s - C[n, n] * f), abs=1e-10)
+            depth = gap + g[1] @ s - C[n:, n:] @ f
+            assert f == pytest.approx(penalty * np.maximum(depth, 0.0), abs=1e-10)
 
     def test_factor(self):
         line = OverheadLine(replace(LINE_2002, spans=2), 2.0, 2.0)

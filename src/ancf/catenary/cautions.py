@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 NEAR = 0.9
 #: Largest element in lengths of the shortest wave that runs ahead, by its frequency up to the cut-off.
 LARGEST = 0.9
-#: Largest step in radians of the cut-off: the implicit rules shift a wave by a twelfth of its square.
-LONGEST = 0.5
+#: Largest step, s: the implicit rules shift a wave by a twelfth of the square of its angle in a step, and
+#: 4 ms are half a radian at the cut-off.
+LONGEST = 4e-3
 #: Track that the first pantograph runs before the window, m: its start dies away.
 RUN_IN = 50.0
 #: Losses of contact of one or two steps from which on they are chatter.
@@ -28,13 +29,12 @@ CHATTER = 3
 def before(plan: Plan) -> Iterator[str]:
     """What is to be said about a run before it is computed."""
     yield from _speed(plan)
-    longest = LONGEST / (2.0 * np.pi * CUT_OFF)
-    if plan.step > longest * (1.0 + 1e-9):
+    if plan.step > LONGEST * (1.0 + 1e-9):
         text = (
             f"run.step: {1e3 * plan.step:g} ms is long for what is evaluated up to {CUT_OFF:g} Hz: standard "
         )
         yield (
-            text + f"deviations change by some percent; take {1e3 * longest:.0f} ms or less, 1 ms by default"
+            text + f"deviations change by some percent; take {1e3 * LONGEST:g} ms or less, 1 ms by default"
         )
     run_in = plan.window[0] - plan.places[0]
     if run_in < RUN_IN - 1e-6:
