@@ -22,10 +22,9 @@ GROWTH = 0.7  # length of an element gained per distance from the place that wan
 class Mesh:
     """Largest lengths of the elements, m.
 
-    A wire bends at a dropper or a support within about sqrt(EI/T), some 0.1 m. An element much longer
-    than that is too stiff there: the wire hangs too high by about 0.12 times the element's length times
-    half the bend, 0.6 mm for 2 m at a dropper of a messenger. Form finding makes up for it, on the mesh
-    it is given. A messenger that bends over its supports needs short elements there.
+    A wire bends at a dropper within about sqrt(EI/T), some 0.1 m, which elements of metres cannot follow.
+    The droppers make up for it (:mod:`ancf.catenary.clamps`): they need no short elements. A messenger that
+    bends over its supports needs some there, and one with stitch wires at their ends.
 
     Parameters
     ----------
@@ -34,7 +33,7 @@ class Mesh:
     contact_support, messenger_support : float
         At most, beside a support; None for no limit of its own.
     dropper : float
-        At most, beside a dropper, on both wires; None for no limit of its own.
+        At most, beside a dropper or the end of a stitch wire, on both wires; None for no limit of its own.
 
     """
 
