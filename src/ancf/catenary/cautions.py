@@ -65,7 +65,12 @@ def _speed(plan: Plan) -> Iterator[str]:
 
 
 def after(run: Run) -> Iterator[str]:
-    """What is to be said about a run that is computed."""
+    """What is to be said about a run that is computed.
+
+    A rigid joint knows of impacts that are over in a step: theirs is not judged.
+    """
+    if run.settings.get("contact") != "penalty":
+        return
     for recording in run.recordings:
         bounds = at_zero(recording.force, 1.0).bounds
         ended = bounds[bounds[:, 1] < recording.force.size]
