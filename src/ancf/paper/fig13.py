@@ -121,8 +121,10 @@ def _notes(form: Form) -> list[str]:
 def _parts(form: Form) -> list[tuple[str, Any]]:
     """Each part with its places: (n, 3), or for each number several points."""
     contact, carrier = form.contact, form.messenger
-    ends = [(contact.position[i], carrier.position[j]) for i, j in
-            zip(contact.nodes.dropper, carrier.nodes.dropper, strict=True)]  # fmt: skip
+    places = contact.position[contact.nodes.dropper], carrier.position[carrier.nodes.dropper]
+    heights = form.contact_height, form.messenger_height  # of the clamps, not of the nodes
+    clamps = [np.column_stack([p[:, :2], z]) for p, z in zip(places, heights, strict=True)]
+    ends = list(zip(*clamps, strict=True))
     masts = [(contact.position[i], carrier.position[j]) for i, j in
              zip(contact.nodes.support, carrier.nodes.support, strict=True)]  # fmt: skip
     return [
