@@ -1,4 +1,4 @@
-"""The option --slow: without it, tests marked slow are left out. And commands that run in this process."""
+"""The option --slow, how tests are dealt out to workers, and fixtures that several files share."""
 
 import pytest
 
@@ -21,6 +21,36 @@ def call(tmp_path, monkeypatch, capsys):
         return Ran(int(stop.value.code or 0), said.out, said.err)
 
     return run
+
+
+@pytest.fixture
+def fakes(monkeypatch):
+    """Exhibits that take no time stand for those of the paper."""
+    from fake_exhibits import install
+
+    install(monkeypatch)
+
+
+@pytest.fixture
+def made(fakes, tmp_path):
+    """What a verification of the fakes leaves."""
+    from ancf.paper import verify
+
+    return verify(["all"], tmp_path / "out", short=True)
+
+
+@pytest.fixture(params=("index1", "index2", "ggl", "alpha"))
+def method(request):
+    """A way to keep joints, with Newton's method to round-off."""
+    from helpers import METHODS
+
+    return METHODS[request.param]
+
+
+def pytest_itemcollected(item):
+    """The tests of a file share a worker, and so its fixtures; a test with a group of its own does not."""
+    if item.get_closest_marker("xdist_group") is None:
+        item.add_marker(pytest.mark.xdist_group(item.path.name))
 
 
 def pytest_addoption(parser):

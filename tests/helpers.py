@@ -1,6 +1,7 @@
 """Small models, dense views of a System and difference formulas that several tests share."""
 
 import numpy as np
+from scipy.integrate import solve_ivp
 
 import ancf
 from ancf.elements.registry import ELEMENTS
@@ -21,6 +22,15 @@ VARIANTS = {
     for name in ELEMENTS
     for strain in KINDS[name].strains
     for poisson in (POISSON if name in SOLIDS else POISSON[:1])
+}
+
+#: Newton's method to round-off, and every way to keep joints of index 1 to 3.
+EXACT = ancf.Newton(tolerance=1e-15, modified=False)
+METHODS = {
+    "index1": ancf.Trapezoidal(formulation="index1", newton=EXACT),
+    "index2": ancf.Trapezoidal(formulation="index2", newton=EXACT),
+    "ggl": ancf.Trapezoidal(newton=EXACT),
+    "alpha": ancf.GeneralizedAlpha(rho_inf=0.9, newton=EXACT),
 }
 
 #: Relative bars of test_elements and test_kernels, which say why.
@@ -124,6 +134,13 @@ def rotation(axis, angle):
     """Rotation matrix about an axis of any length."""
     k = np.cross(np.eye(3), np.asarray(axis, float) / np.linalg.norm(axis))
     return np.eye(3) - np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
+
+
+def solution(rates, start, t):
+    """Solution of y' = rates(t, y) at the times t, to 1e-12."""
+    t = np.atleast_1d(t)
+    found = solve_ivp(rates, (0, t[-1]), start, t_eval=t, rtol=1e-12, atol=1e-13, method="DOP853")
+    return found.y.T
 
 
 def rate(errors, ratio=2.0):

@@ -3,8 +3,6 @@
 import base64
 import dataclasses
 import json
-import subprocess
-import sys
 from html.parser import HTMLParser
 from types import SimpleNamespace
 from xml.etree import ElementTree
@@ -22,6 +20,7 @@ from ancf.catenary.report import Content, write_report
 from ancf.catenary.report.figures import FIGURES, figure_names
 from ancf.catenary.statistics import statistics
 from ancf.cli import app
+from commands import python
 
 ROW = ["quantity", "unit", "value", "low", "high", "inside", "tag"]
 NAMES = (
@@ -256,8 +255,8 @@ try:
 except Exception as error:
     print(error)
 """
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0, done.stderr
-    assert done.stdout == "figures: matplotlib is not installed (pip install 'ancf[plot]')\n"
+    done = python(code)
+    assert done.code == 0, done.err
+    assert done.out == "figures: matplotlib is not installed (pip install 'ancf[plot]')\n"
     assert (tmp_path / "statistics.csv").exists()
     assert not (tmp_path / "report.html").exists()

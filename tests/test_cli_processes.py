@@ -11,7 +11,7 @@ import time
 import pytest
 
 import ancf
-from commands import Ran
+from commands import PATIENCE, Ran, python
 from test_cli import LONG, MODEL, SIMULATION
 
 
@@ -31,7 +31,7 @@ def process(folder, *arguments, **environment):
 
 def finished(folder, *arguments, **environment):
     work = process(folder, *arguments, **environment)
-    out, err = work.communicate(timeout=300)
+    out, err = work.communicate(timeout=PATIENCE)
     return Ran(work.returncode, out, err)
 
 
@@ -39,7 +39,7 @@ def running_until_stored(folder):
     """A long run that has stored more than its first state."""
     (folder / "model.toml").write_text(MODEL + LONG, encoding="utf-8")
     work = process(folder, "run", "model.toml", "-o", "out")
-    deadline = time.monotonic() + 240
+    deadline = time.monotonic() + PATIENCE
     while time.monotonic() < deadline and work.poll() is None:
         time.sleep(0.3)
         try:
@@ -78,7 +78,7 @@ def test_a_full_disk(tmp_path):
 def test_ctrl_c_keeps_the_results(tmp_path):
     work = running_until_stored(tmp_path)
     work.send_signal(signal.SIGINT)
-    out, err = work.communicate(timeout=60)
+    out, err = work.communicate(timeout=PATIENCE)
     assert work.returncode == 130
     assert out == ""
     assert "Traceback" not in err
@@ -97,7 +97,7 @@ def test_a_killed_run_can_be_read(tmp_path):
     work = running_until_stored(tmp_path)
     second = finished(tmp_path, "run", "model.toml")
     work.kill()
-    work.communicate(timeout=60)
+    work.communicate(timeout=PATIENCE)
     assert "output folder out: another run is writing to it" in second.err
     assert second.code == 2
     info = finished(tmp_path, "info", "out/results.h5")
@@ -122,8 +122,9 @@ def test_the_message_about_compiling_comes_once(tmp_path):
         "Screen().announce_compilation()",
         "for x in (1, 1.0): numba.njit(lambda x: x + 1)(x)",
     )
-    ran = subprocess.run([sys.executable, "-c", "\n".join(lines)], capture_output=True, text=True, check=True)
-    assert ran.stderr == "compiling the numerical core: this happens only once on this machine ...\n"
+    ran = python("\n".join(lines))
+    assert ran.code == 0
+    assert ran.err == "compiling the numerical core: this happens only once on this machine ...\n"
 
 
 def test_a_terminal_that_knows_no_letters(tmp_path):
@@ -164,5 +165,5 @@ def in_terminal(folder, arguments, **environment):
             break
         seen += part
     os.close(ours)
-    assert work.wait(timeout=60) == 0
+    assert work.wait(timeout=PATIENCE) == 0
     return seen.decode("utf-8", errors="replace")

@@ -58,11 +58,16 @@ def name_of(page):
     return str(page.relative_to(ROOT))
 
 
+def alone(page):
+    """A page is a unit of its own for the workers: all of them in one file take as long as the rest."""
+    return pytest.param(page, marks=pytest.mark.xdist_group(name_of(page)), id=name_of(page))
+
+
 # --- code
 
 
 @pytest.mark.filterwarnings("default::UserWarning")  # a page may show one
-@pytest.mark.parametrize("page", WITH_CODE, ids=name_of)
+@pytest.mark.parametrize("page", [alone(page) for page in WITH_CODE])
 def test_code_runs_and_prints_what_the_page_says(page, tmp_path, monkeypatch):
     monkeypatch.setenv("MPLBACKEND", "Agg")
     monkeypatch.chdir(tmp_path)

@@ -1,5 +1,7 @@
 """Central differences: order 2, the stable step, what happens above it."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -10,31 +12,22 @@ from ancf.paper import cantilever
 from ancf.solvers.stability import lanczos, limit
 from ancf.system.system import System
 from helpers import rate
-from test_orders import SLOW, step_rates, straight
+from test_orders import SLOW, driven_clamp, falling_cantilever, step_rates, straight
 from test_stepping import pendulum
 
 
 class TestOrder:
     @pytest.mark.parametrize("stretch", ["free", "fixed"])
     def test_falling_cantilever(self, stretch):
-        def build():
-            model, beam = straight(3, "paper", (0, 0, -4.0), **SLOW, damping=0.3)
-            model.clamp(beam.start, stretch=stretch)
-            return model, beam
-
-        assert step_rates(build, ancf.Explicit()) == pytest.approx([2, 2], abs=0.1)
+        assert step_rates(partial(falling_cantilever, stretch), ancf.Explicit()) == pytest.approx(
+            [2, 2], abs=0.1
+        )
 
     @pytest.mark.parametrize("stretch", ["free", "fixed"])
     def test_driven_clamp(self, stretch):
         """With free stretch the local axes turn, and the mass matrix with them."""
 
-        def build():
-            model, beam = straight(3, "material", **SLOW)
-            turn = {"rotation": "0.5*(1 - cos(8*t))", "axis": (0, 1, 0.2)}
-            model.clamp(beam.start, stretch=stretch, displacement=["0", "0.1*sin(7*t)**3", "0"], **turn)
-            return model, beam
-
-        assert step_rates(build, ancf.Explicit()) == pytest.approx([2, 2], abs=0.1)
+        assert step_rates(partial(driven_clamp, stretch), ancf.Explicit()) == pytest.approx([2, 2], abs=0.1)
 
     def test_damping_and_loads(self):
         """Forces that depend on the velocity see its prediction: the order stays."""

@@ -7,6 +7,7 @@ import sys
 import pytest
 
 from ancf import kernel_cache
+from commands import PATIENCE
 
 RUN = """
 import runpy, sys
@@ -51,7 +52,7 @@ def start(folder, kind):
 
 def ended(process):
     """Value and number of kernels that were in the cache, as printed."""
-    said, error = process.communicate(timeout=120)
+    said, error = process.communicate(timeout=PATIENCE)
     assert not error
     return said.strip()
 

@@ -1,13 +1,12 @@
 """The house: imports run downwards only, the core needs no extra, ``import ancf`` is light."""
 
 import ast
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 import ancf
+from commands import python
 
 ROOT = Path(ancf.__file__).parent
 
@@ -137,12 +136,8 @@ class TestNames:
             _ = ancf.simulat
 
 
-def python(code, *arguments):
-    return subprocess.run(
-        [sys.executable, "-W", "error", "-c", code, *arguments], capture_output=True, text=True, timeout=300
-    )
-
-
+#: A warning is an error.
+STRICT = ("-W", "error")
 BLOCKED = """
 import sys
 
@@ -173,18 +168,18 @@ class TestExtras:
     EXTRAS = "matplotlib,plotly,exudyn,sphinx,psutil,furo,pyvista,vtk,jax,pytest"
 
     def test_core_runs_without_them(self):
-        done = python(BLOCKED + TINY, self.EXTRAS)
-        assert done.returncode == 0, done.stderr
-        assert done.stdout == "done 11\n"
+        done = python(BLOCKED + TINY, self.EXTRAS, options=STRICT)
+        assert done.code == 0, done.err
+        assert done.out == "done 11\n"
 
     def test_the_block_blocks(self):
-        done = python(BLOCKED + "import matplotlib", self.EXTRAS)
-        assert "matplotlib is not installed" in done.stderr
+        done = python(BLOCKED + "import matplotlib", self.EXTRAS, options=STRICT)
+        assert "matplotlib is not installed" in done.err
 
     def test_figures_say_what_is_missing(self):
         """The paper's figures need the extra ``plot`` and nothing else fails without it."""
-        done = python(BLOCKED + "import ancf.paper, ancf.viz; print('imported')", self.EXTRAS)
-        assert done.returncode == 0, done.stderr
+        done = python(BLOCKED + "import ancf.paper, ancf.viz; print('imported')", self.EXTRAS, options=STRICT)
+        assert done.code == 0, done.err
 
 
 class TestStart:
@@ -192,9 +187,9 @@ class TestStart:
 
     def test_import_is_light(self):
         code = "import ancf, sys; print([m for m in sys.argv[1].split(',') if m in sys.modules])"
-        done = python(code, self.HEAVY)
-        assert done.returncode == 0, done.stderr
-        assert done.stdout == "[]\n"
+        done = python(code, self.HEAVY, options=STRICT)
+        assert done.code == 0, done.err
+        assert done.out == "[]\n"
 
     def test_describing_a_model_is_light(self):
         """Also all of the model but curved shapes, which need a spline."""
@@ -202,6 +197,6 @@ class TestStart:
             TINY.split("state =")[0]
             + "import sys; print([m for m in sys.argv[1].split(',') if m in sys.modules])"
         )
-        done = python(code, self.HEAVY)
-        assert done.returncode == 0, done.stderr
-        assert done.stdout == "[]\n"
+        done = python(code, self.HEAVY, options=STRICT)
+        assert done.code == 0, done.err
+        assert done.out == "[]\n"

@@ -2,14 +2,14 @@
 
 import json
 import math
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 
 from ancf.errors import ModelError
 from ancf.model import Circle, Clamp, Model, Rectangle, Section
+from commands import python
+from refusals import helix, refused
 
 WIRE = {"EA": 1e4, "EI": 0.08, "rhoA": 0.05}
 NAN, INF = float("nan"), float("inf")
@@ -23,14 +23,6 @@ def cantilever(**changes):
     model = Model(gravity=(0, 0, -9.81))
     given = {"start": (0, 0, 0), "end": (1, 0, 0), "elements": 4, "section": section()} | changes
     return model, model.add_beam("beam", **given)
-
-
-def refused(where, phrase, function, *args, **kwargs):
-    with pytest.raises(ModelError) as caught:
-        function(*args, **kwargs)
-    assert caught.value.where == where
-    assert phrase in str(caught.value)
-    return caught.value
 
 
 class TestSection:
@@ -274,10 +266,6 @@ def test_bad_path(path, key, phrase):
 
 def circle(angle):
     return np.stack([2 * np.cos(angle), 2 * np.sin(angle), 0 * angle], axis=-1)
-
-
-def helix(angle):
-    return np.stack([np.cos(angle), np.sin(angle), 0.5 * angle], axis=-1)
 
 
 def helix_tangent(angle):
@@ -648,5 +636,4 @@ class TestModel:
 
 def test_import_stays_light():
     code = "import sys, ancf.model; print([m for m in ('pydantic', 'scipy', 'numba') if m in sys.modules])"
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert run.stdout.strip() == "[]"
+    assert python(code).out.strip() == "[]"

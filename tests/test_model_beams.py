@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from ancf.cli.info_model import _bodies
-from ancf.errors import ModelError
 from ancf.model import Model, Section
 from helpers import arc
+from refusals import flat, helix, refused
 
 BEAMS = ("original", "nonlocking")
 NAN = float("nan")
@@ -17,10 +17,6 @@ NAN = float("nan")
 
 def square():
     return Section.rectangle(width=0.02, height=0.02, E=1e8, rho=500.0, nu=0.3)
-
-
-def flat():
-    return Section.rectangle(width=0.04, height=0.02, E=1e8, rho=500.0, nu=0.3)
 
 
 def pipe():
@@ -36,14 +32,6 @@ def cantilever(**changes):
 def curved(path, **changes):
     given = {"path": path, "elements": 8, "section": flat(), "element": "nonlocking"}
     return Model().add_beam("beam", **given | changes)
-
-
-def refused(where, phrase, function, *args, **kwargs):
-    with pytest.raises(ModelError) as caught:
-        function(*args, **kwargs)
-    assert caught.value.where == where
-    assert phrase in str(caught.value)
-    return caught.value
 
 
 def assert_orthonormal(beam):
@@ -96,10 +84,6 @@ class TestAxesOfStraightBeams:
     )
     def test_bad(self, y_axis, place, phrase):
         refused(f'add_beam("beam").y_axis{place}', phrase, cantilever, y_axis=y_axis)
-
-
-def helix(angle):
-    return np.stack([np.cos(angle), np.sin(angle), 0.5 * angle], axis=-1)
 
 
 def frenet(angle):

@@ -9,17 +9,13 @@ from rich.console import Console
 
 from ancf.cli.info_model import _bodies, _masses
 from ancf.cli.summary import node_count, outputs, total_mass
-from ancf.errors import ModelError
-from ancf.model import Model, PointMass, RigidBody, Section
+from ancf.model import Model, PointMass, RigidBody
 from ancf.model.file import parse_study, schema
 from ancf.model.supports import node_of
+from refusals import cable_section, refused
 
 NAN = float("nan")
 TURNED = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
-
-
-def cable_section():
-    return Section(EA=1e4, EI=1.0, rhoA=0.5)
 
 
 def mixed():
@@ -28,14 +24,6 @@ def mixed():
     tip = model.add_point_mass("tip", at=(1, 0, 0), mass=2.0)
     hub = model.add_rigid_body("hub", at=(0, 0, 1), mass=3.0, inertia=(0.1, 0.2, 0.25), axes=TURNED)
     return model, rope, tip, hub
-
-
-def refused(where, phrase, function, *args, **kwargs):
-    with pytest.raises(ModelError) as caught:
-        function(*args, **kwargs)
-    assert caught.value.where == where
-    assert phrase in str(caught.value)
-    return caught.value
 
 
 class TestPointMass:

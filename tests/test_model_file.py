@@ -2,8 +2,6 @@
 
 import copy
 import json
-import subprocess
-import sys
 import tomllib
 
 import numpy as np
@@ -13,6 +11,7 @@ import ancf
 from ancf.errors import ModelError
 from ancf.model.file import parse_study, read_study, schema
 from ancf.model.settings import EquilibriumSettings, SimulationSettings
+from commands import python
 
 TEXT = """
 title = "Two wires"
@@ -445,5 +444,4 @@ def test_schema_is_json_and_names_every_kind():
 
 def test_the_python_api_does_not_import_pydantic():
     code = "import sys, ancf.model, ancf.model.settings; print('pydantic' in sys.modules)"
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert run.stdout.strip() == "False"
+    assert python(code).out.strip() == "False"

@@ -7,21 +7,13 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.errors import ModelError
 from ancf.model import Model, Section, nearest
 from ancf.model.file import parse_study, schema
 from ancf.model.integrators import FORMULATIONS, INTEGRATORS, integrator_of, table_schema
 from helpers import arc
+from refusals import cable_section, flat, refused
 
 NAN = float("nan")
-
-
-def flat():
-    return Section.rectangle(width=0.04, height=0.02, E=1e8, rho=500.0, nu=0.3)
-
-
-def cable_section():
-    return Section(EA=1e4, EI=1.0, rhoA=0.5)
 
 
 def mixed():
@@ -32,14 +24,6 @@ def mixed():
     model.add_point_mass("tip", at=(1, 0, 0), mass=2.0)
     model.add_rigid_body("hub", at=(0, 0, 1), mass=3.0, inertia=(0.1, 0.2, 0.25))
     return model
-
-
-def refused(where, phrase, function, *args, **kwargs):
-    with pytest.raises(ModelError) as caught:
-        function(*args, **kwargs)
-    assert caught.value.where == where
-    assert phrase in str(caught.value)
-    return caught.value
 
 
 class TestSpherical:

@@ -8,19 +8,12 @@ import pytest
 
 from ancf.errors import ModelError
 from ancf.model import Section, describe
+from refusals import refused
 
 WIRE = {"EA": 1e4, "EI": 0.08, "rhoA": 0.05}
 STEEL = {"E": 2.1e11, "rho": 7850.0, "nu": 0.3}
 MOMENTS = {"A": 2e-4, "I_y": 4e-9, "I_z": 1e-9, "J": 2e-9}
 NAN, INF = float("nan"), float("inf")
-
-
-def refused(where, phrase, function, *args, **kwargs):
-    with pytest.raises(ModelError) as caught:
-        function(*args, **kwargs)
-    assert caught.value.where == where
-    assert phrase in str(caught.value)
-    return caught.value
 
 
 def integrals(y, z, weight):

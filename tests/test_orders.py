@@ -140,6 +140,21 @@ SLOW = {"EA": 30.0, "EI": 0.02}
 FIRST_STEP = {"cable": 1e-3, "original": 5e-4, "nonlocking": 5e-4}
 
 
+def falling_cantilever(stretch):
+    """A damped cantilever that falls."""
+    model, beam = straight(3, "paper", (0, 0, -4.0), **SLOW, damping=0.3)
+    model.clamp(beam.start, stretch=stretch)
+    return model, beam
+
+
+def driven_clamp(stretch):
+    """A cantilever whose clamp turns and moves."""
+    model, beam = straight(3, "material", **SLOW)
+    turn = {"rotation": "0.5*(1 - cos(8*t))", "axis": (0, 1, 0.2)}
+    model.clamp(beam.start, stretch=stretch, displacement=["0", "0.1*sin(7*t)**3", "0"], **turn)
+    return model, beam
+
+
 def step_rates(build, integrator, steps=(1e-3, 5e-4, 2.5e-4, 1.25e-4), t_end=0.24):
     """Rates from the differences of runs with successive steps: tip position and velocity."""
     ends = []

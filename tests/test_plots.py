@@ -2,7 +2,6 @@
 
 import itertools
 import shutil
-import subprocess
 import sys
 import types
 
@@ -16,6 +15,7 @@ from ancf.viz.pictures.movie import write_movie
 from ancf.viz.pictures.picture import Picture
 from ancf.viz.pictures.projection import best_axes, projection
 from ancf.viz.scene import make_scene
+from commands import python
 
 
 @pytest.fixture(scope="module")
@@ -429,8 +429,8 @@ class TestPicture:
             "r = ancf.simulate(m, t_end=0.1, step=0.01); r.plot('a')._repr_png_();"
             "print('matplotlib.pyplot' in sys.modules)"
         )
-        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300)
-        assert done.stdout == "False\n", done.stderr
+        done = python(code)
+        assert done.out == "False\n", done.err
 
     def test_wrong_files(self, result, tmp_path):
         picture = result.plot("ball")

@@ -4,6 +4,8 @@ The stepping knows nothing of a System: it is tested on a pendulum with a rod, o
 constraint of index 3 and once as a bead that slides on a circle, whose place on it has no mass.
 """
 
+from functools import partial
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -16,7 +18,7 @@ from ancf.paper import cantilever
 from ancf.solvers.collocation import collocation
 from ancf.solvers.radau import OK, Matrices, Stepper
 from helpers import rate
-from test_orders import SLOW, step_rates, straight
+from test_orders import SLOW, driven_clamp, falling_cantilever, step_rates, straight
 from test_stepping import pendulum
 
 G, MASS, ANGLE, T_END = 9.81, 2.0, 1.2, 1.5
@@ -211,23 +213,14 @@ class TestCableOrders:
 
     @pytest.mark.parametrize("stretch", ["free", "fixed"])
     def test_falling_cantilever(self, stages, steps, stretch):
-        def build():
-            model, beam = straight(3, "paper", (0, 0, -4.0), **SLOW, damping=0.3)
-            model.clamp(beam.start, stretch=stretch)
-            return model, beam
-
-        rates = step_rates(build, ancf.Radau(stages=stages, adaptive=False), steps)
+        rates = step_rates(
+            partial(falling_cantilever, stretch), ancf.Radau(stages=stages, adaptive=False), steps
+        )
         assert rates == pytest.approx([2 * stages - 1], abs=0.1)
 
     @pytest.mark.parametrize("stretch", ["free", "fixed"])
     def test_driven_clamp(self, stages, steps, stretch):
-        def build():
-            model, beam = straight(3, "material", **SLOW)
-            turn = {"rotation": "0.5*(1 - cos(8*t))", "axis": (0, 1, 0.2)}
-            model.clamp(beam.start, stretch=stretch, displacement=["0", "0.1*sin(7*t)**3", "0"], **turn)
-            return model, beam
-
-        rates = step_rates(build, ancf.Radau(stages=stages, adaptive=False), steps)
+        rates = step_rates(partial(driven_clamp, stretch), ancf.Radau(stages=stages, adaptive=False), steps)
         assert rates == pytest.approx([2 * stages - 1], abs=0.1)
 
 

@@ -20,21 +20,11 @@ from ancf.paper.check import Check
 from ancf.paper.entry import Entry, Reproduction, use_of_tolerance
 from ancf.paper.report import write_summary
 from ancf.paper.report.machine import commit
-from fake_exhibits import BAD, FAKES, GOOD, LOST, Fake, install, load
+from fake_exhibits import BAD, FAKES, GOOD, LOST, Fake, load
 
 pytest.importorskip("matplotlib")
 
 CHECK_KEYS = ["name", "value", "reference", "tolerance", "passed", "rule", "unit", "origin", "figure"]
-
-
-@pytest.fixture
-def fakes(monkeypatch):
-    install(monkeypatch)
-
-
-@pytest.fixture
-def made(fakes, tmp_path):
-    return verify(["all"], tmp_path / "out", short=True)
 
 
 @pytest.fixture

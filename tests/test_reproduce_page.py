@@ -6,23 +6,12 @@ from html.parser import HTMLParser
 
 import pytest
 
-from ancf.paper import verify
 from ancf.paper.check import Check
 from ancf.paper.report import numbers
 from ancf.paper.report.errata import errata
-from fake_exhibits import BAD, FAKES, LOST, install
+from fake_exhibits import BAD, FAKES, LOST
 
 pytest.importorskip("matplotlib")
-
-
-@pytest.fixture
-def fakes(monkeypatch):
-    install(monkeypatch)
-
-
-@pytest.fixture
-def made(fakes, tmp_path):
-    return verify(["all"], tmp_path / "out", short=True)
 
 
 class Page(HTMLParser):

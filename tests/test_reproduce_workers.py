@@ -12,6 +12,7 @@ import pytest
 from ancf.paper import FIGURES, verify
 from ancf.paper.schedule import cores, grouped
 from ancf.paper.workers import run_groups
+from commands import PATIENCE
 
 pytest.importorskip("matplotlib")
 
@@ -25,13 +26,13 @@ def answer(name):
 
 def slow_answer(name, folder):
     (folder / f"{os.getpid()}.pid").touch()
-    time.sleep(60.0)
+    time.sleep(PATIENCE)
     return name
 
 
 def soon(happened):
-    """Wait for something, at most a minute."""
-    end = time.monotonic() + 60.0
+    """Wait for something."""
+    end = time.monotonic() + PATIENCE
     while not happened():
         assert time.monotonic() < end
         time.sleep(0.05)
@@ -120,7 +121,7 @@ class TestWorkers:
         )
         soon(lambda: not any(path.exists() for path in old))  # taken away when their figures begin
         os.killpg(ran.pid, signal.SIGINT)
-        _, said = ran.communicate(timeout=60)
+        _, said = ran.communicate(timeout=PATIENCE)
         assert ran.returncode == 130
         assert said.splitlines()[-1] == "stopped by Ctrl-C"
         soon(lambda: not alive(ran.pid))

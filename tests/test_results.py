@@ -15,6 +15,7 @@ import ancf
 from ancf.elements.registry import ELEMENTS
 from ancf.model.elements import KINDS
 from ancf.results.store import FileStore
+from commands import PATIENCE
 from helpers import SOLIDS, arc, square
 
 
@@ -249,7 +250,7 @@ def started(path, steps):
 
 
 def reported_by(child, steps):
-    reported, end = 0, time.monotonic() + 120
+    reported, end = 0, time.monotonic() + PATIENCE
     while reported < steps and time.monotonic() < end:
         reported = int(child.stdout.readline())
     assert reported >= steps

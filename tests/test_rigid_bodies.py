@@ -5,27 +5,14 @@ All models have one zero moment, so that they have the same kinds of forces and 
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 import ancf
 from ancf.bodies.build import second_moments
-from helpers import rate, rotation
+from helpers import METHODS, rate, rotation, solution
 
 G = 9.81
 INERTIA = (1.0, 2.0, 2.6)
 STEPS = (4e-3, 2e-3, 1e-3)
-EXACT = ancf.Newton(tolerance=1e-15, modified=False)
-METHODS = {
-    "index1": ancf.Trapezoidal(formulation="index1", newton=EXACT),
-    "index2": ancf.Trapezoidal(formulation="index2", newton=EXACT),
-    "ggl": ancf.Trapezoidal(newton=EXACT),
-    "alpha": ancf.GeneralizedAlpha(rho_inf=0.9, newton=EXACT),
-}
-
-
-@pytest.fixture(params=METHODS)
-def method(request):
-    return METHODS[request.param]
 
 
 def one_body(gravity=(0, 0, 0), inertia=INERTIA, at=(0, 0, 0), mass=2.0, axes=None):
@@ -33,13 +20,6 @@ def one_body(gravity=(0, 0, 0), inertia=INERTIA, at=(0, 0, 0), mass=2.0, axes=No
     body = model.add_rigid_body("body", at=at, mass=mass, inertia=inertia, axes=axes)
     model.add_moment(body, (0, 0, 0))
     return model, body
-
-
-def solution(rates, start, t):
-    """Solution of y' = rates(t, y) at the times t."""
-    t = np.atleast_1d(t)
-    found = solve_ivp(rates, (0, t[-1]), start, t_eval=t, rtol=1e-12, atol=1e-13, method="DOP853")
-    return found.y.T
 
 
 def axes_of(result, body):

@@ -7,26 +7,13 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import ancf
-from helpers import rate, rotation
+from helpers import METHODS, rate, rotation, solution
 
 G = 9.81
 SLOPE = np.array([0.6, 0.0, -0.8])  # direction of the inclined wire
-EXACT = ancf.Newton(tolerance=1e-15, modified=False)
-METHODS = {
-    "index1": ancf.Trapezoidal(formulation="index1", newton=EXACT),
-    "index2": ancf.Trapezoidal(formulation="index2", newton=EXACT),
-    "ggl": ancf.Trapezoidal(newton=EXACT),
-    "alpha": ancf.GeneralizedAlpha(rho_inf=0.9, newton=EXACT),
-}
-
-
-@pytest.fixture(params=METHODS)
-def method(request):
-    return METHODS[request.param]
 
 
 def incline(turn=None, speed=0.0, weight=1.0, **more):
@@ -39,13 +26,6 @@ def incline(turn=None, speed=0.0, weight=1.0, **more):
     bead.set_motion(velocity=speed * (turn @ SLOPE))
     joint = model.slide(bead, along=wire, line=((0, 0, 0), 5 * SLOPE), name="joint", **more)
     return model, bead, joint
-
-
-def solution(rates, start, t):
-    """Solution of y' = rates(t, y) at the times t."""
-    t = np.atleast_1d(t)
-    found = solve_ivp(rates, (0, t[-1]), start, t_eval=t, rtol=1e-12, atol=1e-13, method="DOP853")
-    return found.y.T
 
 
 class TestIncline:
