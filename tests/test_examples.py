@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.cli.run import integrator
 from ancf.errors import ModelError
 from ancf.model.file import read_study
 from ancf.paper import FIGURES, cantilever, pendulum, reproduce, sliding, spin_up
@@ -122,7 +121,7 @@ class TestFiles:
             t_end=20 * settings.step,
             step=settings.step,
             start=start_of(study),
-            integrator=integrator(settings.integrator),
+            integrator=settings.integrator,
         )
         assert result.status == "complete"
         assert settings.outputs
