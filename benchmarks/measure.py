@@ -106,17 +106,34 @@ def attempt(worker: Worker, case: Case, options: Sample, seconds: float, steps: 
     return sample if sample["steps"] == steps or case.once else None
 
 
-def tune(peer: Worker, case: Case, choices: list[Sample]) -> Sample:
-    """Options of the fastest run among those that end where the default settings do."""
+def ranked(peer: Worker, case: Case, choices: list[Sample]) -> list[Sample]:
+    """Options that end where the default settings do after the first steps, and are faster; best first."""
     steps = min(case.steps, max(15, TUNING_WORK // case.elements))
     default, *others = [attempt(peer, case, choice, TUNING_SECONDS, steps) for choice in choices]
     if default is None:
-        return choices[0]
-    best, options = default, choices[0]
-    for choice, trial in zip(choices[1:], others, strict=True):
-        if trial and distance(trial, default) <= case.accuracy and trial["cpu"] < best["cpu"]:
-            best, options = trial, choice
-    return options
+        return []
+    better = [
+        (trial["cpu"], k)
+        for k, trial in enumerate(others, 1)
+        if trial and distance(trial, default) <= case.accuracy and trial["cpu"] < default["cpu"]
+    ]
+    return [choices[k] for _, k in sorted(better)]
+
+
+def tune(peer: Worker, case: Case, choices: list[Sample]) -> Sample:
+    """The fastest options that keep the accuracy to the end of the whole run.
+
+    What is accurate on the first steps need not be at the end: then the next fastest is tried.
+    """
+    candidates = ranked(peer, case, choices)
+    if case.once:
+        return candidates[0] if candidates else choices[0]
+    default = attempt(peer, case, choices[0], 0.0, case.steps) if candidates else None
+    for options in candidates:
+        whole = attempt(peer, case, options, 0.0, case.steps)
+        if whole and default and distance(whole, default) <= case.accuracy:
+            return options
+    return choices[0]
 
 
 def variants(peers: dict[str, Worker], case: Case) -> dict[str, tuple[Worker, Sample]]:

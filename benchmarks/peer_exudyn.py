@@ -39,6 +39,11 @@ def for_cables() -> list[Options]:
     newton: list[Options] = [
         {},
         {"modifiedNewtonContractivity": 0.2},
+        {"modifiedNewtonContractivity": 0.05},
+        {"absoluteTolerance": 1e-8},
+        {"absoluteTolerance": 1e-8, "relativeTolerance": 1e-6},
+        {"absoluteTolerance": 1e-7},
+        {"absoluteTolerance": 1e-7, "relativeTolerance": 1e-6},
         {"absoluteTolerance": 1e-6},
         {"absoluteTolerance": 1e-6, "relativeTolerance": 1e-6},
         {"absoluteTolerance": 1e-6, "modifiedNewtonContractivity": 0.2},
