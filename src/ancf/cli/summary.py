@@ -29,10 +29,12 @@ def summarise(
     study: Study, path: Path, result: Result, seconds: dict[str, float], error: BaseException | None
 ) -> dict[str, Any]:
     """Everything worth keeping of a run, ready for JSON."""
+    from ancf.results import accuracy
     from ancf.results.tension import compressions, notes
 
     model = study.model
     pressed = compressions(result)
+    still = study.simulation is None
     state, counters = result.state(), result.stats.as_dict()
     summary: dict[str, Any] = {
         "title": study.title,
@@ -46,7 +48,7 @@ def summarise(
         "outputs": {label: at_point(model, state, label) for label in outputs(study)},
         "energy": energies(result),
         "compression": [item.as_dict() for item in pressed],
-        "notes": notes(pressed),
+        "notes": [*notes(pressed), *accuracy.of_energy(result), *(state.notes if still else [])],
         "counters": {key: value for key, value in counters.items() if key != "cpu_seconds"},
         "versions": {**result.provenance.get("versions", {}), "ancf": __version__},
         **seconds,

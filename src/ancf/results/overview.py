@@ -62,6 +62,7 @@ def of_state(state: State) -> Sheet:
         ("time", f"{state.t:g} s"),
         ("bodies", sizes(model.bodies.values())),
         ("energy", ", ".join(parts)),
+        *(("note", text) for text in state.notes),
     ]
     points = [_at(state, point) for body in model.bodies.values() for point in points_of(body)]
     return Sheet(f"State{_quoted(model.title)}", facts, [Table(POINT_COLUMNS, points)])

@@ -18,7 +18,7 @@ from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import tension
+from . import accuracy, tension
 from .layout import read_joints, read_layout
 from .layout_springs import read_springs
 from .overview import line_of_result, of_result
@@ -121,11 +121,12 @@ class Result(SpringFields, ContactFields, Filmed, Readable):
 
     @property
     def notes(self) -> list[str]:
-        """What to know of the run that nobody asked for, one line each: cables that were pressed, and when.
+        """What to know of the run that nobody asked for, one line each: cables that were pressed, and when,
+        and energy that came from nowhere.
 
         All stored states are looked at, when it is asked for.
         """
-        return tension.notes(tension.compressions(self))
+        return [*tension.notes(tension.compressions(self)), *accuracy.of_energy(self)]
 
     @property
     def stats(self) -> Stats:

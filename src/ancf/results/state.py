@@ -15,6 +15,7 @@ from ..system.energy import energies
 from ..system.reactions import reaction
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
+from . import accuracy
 from .overview import line_of_state, of_state
 from .pictures import StatePlotted
 
@@ -92,6 +93,14 @@ class State(SpringFields, ContactFields, StatePlotted, Readable):
         kinetic, strain, potential = energies(self.system, self.q[None], self.v[None])[0]
         zero = np.float64(0.0)
         return Energy(kinetic, strain, potential, zero, zero)  # type: ignore[arg-type]
+
+    @property
+    def notes(self) -> list[str]:
+        """What to know of an equilibrium that nobody asked for: cables so stiff that they bend too little.
+
+        It takes about as long as an iteration of the equilibrium, when it is asked for.
+        """
+        return accuracy.of_state(self)
 
     def reaction(self, support: Support | str) -> FloatArray:
         """Force of the ground on the node of a support in an equilibrium, N, shape (3,), global components.

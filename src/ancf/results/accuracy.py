@@ -1,0 +1,68 @@
+"""How sure a state or a history is, from its own numbers: locking of stiff cables, energy from nowhere."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..model.beam import Beam
+from ..solvers.locking import locked, stiffest
+
+if TYPE_CHECKING:
+    from .result import Result
+    from .state import State
+
+#: Share of the displacement that locking may take unsaid, and of the model's size that is never said.
+LOCKED, SMALL = 3e-4, 1e-9
+#: Share of the energy exchanged that may come from nowhere, or get lost, unsaid.
+DRIFT = 0.02
+#: Methods that do not take energy out.
+KEEPING = ("trapezoidal", "explicit")
+
+
+def of_state(state: State) -> list[str]:
+    """Notes on an equilibrium: which cable bends too little, and by how much."""
+    if np.any(state.v):
+        return []
+    system = state.system
+    moved = np.abs(locked(system, state.q))
+    start, _ = system.initial_state(state.t)
+    named = {}
+    for name, body in system.model.bodies.items():
+        slots = system.slots[name][:, 0, None] + np.arange(3)
+        own = system.numbering.slots[name][:, 0, None] + np.arange(3)
+        off = float(np.max(moved[own]))
+        displaced = float(np.max(np.abs(state.q[slots] - start[slots])))
+        if isinstance(body, Beam) and off > LOCKED * displaced and off > SMALL * system.model.size:
+            named[name] = off, displaced
+    if not named:
+        return []
+    name, (off, displaced) = max(named.items(), key=lambda item: item[1][0])
+    share = f"{100 * off / displaced:.2g} % of its displacement" if displaced > 0.0 else "more than it moves"
+    text = (
+        f'"{name}" may bend too little, by about {off:.2g} m or {share}: its elements are very stiff against '
+        f"stretch (EA L^2/EI = {stiffest(system):.1e}); take more of them, or a smaller EA"
+    )
+    return [text]
+
+
+def of_energy(result: Result) -> list[str]:
+    """A note on a history whose energies do not add up."""
+    settings = result.provenance.get("settings", {})
+    if not settings.get("energy", True) or len(result.t) < 2 or "integrator" not in settings:
+        return []
+    e = result.energy
+    parts = (e.kinetic, e.strain, e.potential - e.potential[0], e.dissipated, e.supplied)
+    exchanged = max(float(np.max(np.abs(part))) for part in parts)
+    floor = 1e-12 * float(np.max(np.abs(e.potential)))
+    drift = np.asarray(e.drift)
+    k = int(np.argmax(drift if settings["integrator"] not in KEEPING else np.abs(drift)))
+    if abs(drift[k]) <= DRIFT * exchanged + floor + 1e-15:
+        return []
+    happened = f"{drift[k]:.2g} J came from nowhere" if drift[k] > 0.0 else f"{-drift[k]:.2g} J were lost"
+    text = (
+        f"{happened} until t = {result.t[k]:.6g} s, {100 * abs(drift[k]) / exchanged:.2g} % of the energy "
+        "exchanged: the step does not resolve the motion, or EA is too large for its round-off"
+    )
+    return [text]

@@ -1,0 +1,95 @@
+"""How far a cable that is very stiff against stretch is from bending as it should: membrane locking.
+
+The axial strain of a bent element of cubic shape cannot vanish along the whole of it.  Where EA L^2/EI of an
+element is large it resists with a stress that no load causes, and bends too little; the error falls with
+about the second power of its length.  Gauss' two points of an element see the strain that loads cause, and
+not this one.  The estimate is the first correction of Newton's method when the strain counts at these two
+points, and at the others with a small part of its stiffness, which keeps what two points leave free.
+Reference: Prathap, The Finite Element Method in Structural Mechanics (1993), on membrane locking.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse.linalg import splu
+
+from ..elements.cable import CableBatch
+from ..elements.lanes import LANES, gauss_table
+from ..elements.shapes import gauss
+from ..linalg.sparse import to_sparse
+from ..system.contacts import touching
+from ..system.core import apply_supports, assemble, residual, restrict
+from ..system.system import System
+
+FloatArray = NDArray[np.float64]
+
+#: EA L^2/EI of an element up to which it bends freely, and that left at the other points.
+FREE, LEFT = 1e3, 10.0
+TWO = 2  # points that stay
+ROOM = 10  # rows of axial points in the batch
+
+
+def stiffest(system: System) -> float:
+    """Largest EA L^2/EI of an element of a cable, 0 without cables or where nothing resists bending."""
+    found = [0.0]
+    for beam in system.model.beams.values():
+        if not beam.has_section and beam.section.EI > 0.0:
+            found.append(beam.section.EA * float(np.max(np.diff(beam.node_x))) ** 2 / beam.section.EI)
+    return max(found)
+
+
+def locked(system: System, q: FloatArray) -> FloatArray:
+    """By how much the state (size,) would move without locking, in the entries of its unknowns, (n,).
+
+    Zero where no element is stiff, and where the estimate does not exist: the softened shape is unstable.
+    """
+    ratio, core = stiffest(system), system.core
+    nothing = np.zeros(system.n)
+    system.level[:] = 1.0, 0.0, 0.0
+    if ratio <= FREE:
+        return nothing
+    batches = tuple(_softened(b, LEFT / ratio) if isinstance(b, CableBatch) else b for b in core.batches)
+    still, none, whole = np.zeros_like(q), np.zeros_like(q), np.empty_like(q)
+    freed = np.empty_like(q)
+    residual(core.batches, core.ws, q, still, still, none, whole)
+    residual(batches, core.ws, q, still, still, none, freed)
+    r = freed - whole  # loads cancel
+    apply_supports(core.supports, r)
+    values = np.empty(system.places.size)
+    assemble(batches, core.ws, q, still, values, 0.0, 0.0, 1.0)
+    restrict(core.supports, values)
+    try:
+        lu = splu((to_sparse(values, system.places) + touching(core, q, system.n).matrix()).tocsc())
+    except RuntimeError:  # exactly singular
+        return nothing
+    moved: FloatArray = lu.solve(r[: system.n])
+    return moved if np.all(np.isfinite(moved)) else nothing
+
+
+def _softened(batch: CableBatch, left: float) -> CableBatch:
+    """The batch with two axial points more, and a share of the stiffness ``left`` at the others."""
+    groups, tables, first = batch.groups.copy(), [], 0
+    reference = batch.lane_reference.copy()
+    for k, (start, end, _, g0, axial, bending, *_) in enumerate(batch.groups.tolist()):
+        own = batch.gp[g0 : g0 + axial + bending].copy()
+        kept = min(axial, ROOM - TWO)
+        own = np.concatenate([gauss_table(kept, bending)[:kept], own[axial:]])
+        own[:kept, 6] *= left
+        two = gauss_table(TWO, bending)[:TWO]
+        two[:, 6] *= 1.0 - left
+        tables.append(np.concatenate([two, own]))
+        groups[k, 3], groups[k, 4] = first, TWO + kept
+        first += len(tables[-1])
+        strains = batch.lane_reference[start:end, : axial * LANES].reshape(end - start, axial, LANES)
+        at = np.concatenate([gauss(TWO)[0], gauss(kept)[0]])
+        values = np.einsum("gk,ckl->cgl", _lagrange(gauss(axial)[0], at), strains)
+        reference[start:end, : len(at) * LANES] = values.reshape(end - start, -1)
+    return batch._replace(
+        groups=groups, gp=np.ascontiguousarray(np.concatenate(tables)), lane_reference=reference
+    )
+
+
+def _lagrange(nodes: FloatArray, at: FloatArray) -> FloatArray:
+    """Values at ``at`` of the polynomials that are 1 at one of the nodes, (points, nodes)."""
+    return np.vander(at, len(nodes)) @ np.linalg.inv(np.vander(nodes, len(nodes)))
