@@ -161,7 +161,7 @@ class TestWay:
 
 class TestSettings:
     def test_trapezoidal_refuses_index_3(self):
-        with pytest.raises(ancf.ModelError, match="does not take index 3"):
+        with pytest.raises(ancf.ModelError, match="multipliers, which oscillate"):
             ancf.Trapezoidal(formulation="index3")
 
     @pytest.mark.parametrize("kind", [ancf.Trapezoidal, ancf.GeneralizedAlpha])
