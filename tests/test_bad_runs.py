@@ -70,7 +70,7 @@ class TestNumbers:
         )
 
     def test_too_many_steps(self):
-        refused("simulate.step", "1e9 steps", ancf.simulate, cantilever()[0], t_end=1.0, step=1e-12)
+        refused("simulate.step", r"1e\+09 steps", ancf.simulate, cantilever()[0], t_end=1.0, step=1e-12)
 
     @pytest.mark.parametrize("output_step", [2.5e-3, 5e-4, 1.0001e-3])
     def test_output_between_steps(self, output_step):

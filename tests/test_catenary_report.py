@@ -19,7 +19,7 @@ from ancf.catenary.references import reference_case
 from ancf.catenary.report import Content, write_report
 from ancf.catenary.report.figures import FIGURES, figure_names
 from ancf.catenary.statistics import statistics
-from ancf.cli import app
+from ancf.cli.app import app
 from commands import python
 
 ROW = ["quantity", "unit", "value", "low", "high", "inside", "tag"]

@@ -420,7 +420,7 @@ def test_an_internal_error_is_one_block(call, monkeypatch):
     def broken(path):
         raise RuntimeError("wheel off")
 
-    monkeypatch.setattr(info, "_is_hdf5", broken)
+    monkeypatch.setattr(info, "is_hdf5", broken)
     ran = call("info", write(MODEL))
     assert ran.code == 1
     assert ran.err.startswith("internal error: RuntimeError: wheel off\n")

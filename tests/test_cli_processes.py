@@ -90,7 +90,7 @@ def test_ctrl_c_keeps_the_results(tmp_path):
     assert summary["t"] == result.t[-1]
     info = finished(tmp_path, "info", "out/results.h5")
     assert info.code == 0
-    assert "stopped by Ctrl-C; reached t = " in info.out
+    assert "stopped before its end; reached t = " in info.out
 
 
 def test_a_killed_run_can_be_read(tmp_path):

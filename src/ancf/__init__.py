@@ -7,16 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 from ._version import __version__
 from .errors import Interrupted, ModelError, SolveError
-from .model import Model, Section
 
 if TYPE_CHECKING:
     from .analysis import equilibrium, load, modes, simulate, stable_step
+    from .model import Model, Section
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
     from .results import Modes, Result, State
     from .verification import Verification, verify
 
-# the compiled parts are imported on first use: describing a model needs none of them
+# all is imported on first use: describing a model needs no compiled part, the start of a command no model
 _LATER = {
+    "Model": "model",
+    "Section": "model",
     "equilibrium": "analysis",
     "simulate": "analysis",
     "modes": "analysis",

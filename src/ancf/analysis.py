@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .errors import Interrupted, ModelError, SolveError
+from .errors import Interrupted, ModelError, SolveError, StorageError
 from .model import checks
 from .model.beam import Beam
 from .model.bodies import PointMass, RigidBody
 from .model.integrators import INTEGRATORS, Explicit, Integrator, Trapezoidal
 from .model.model import Model
+from .model.settings import steps_between
 from .results.modes import Modes
 from .results.provenance import versions
-from .results.result import Result, load
+from .results.read_store import ReadStore
+from .results.result import Result, load, read
 from .results.state import State
 from .results.store import FileStore, MemoryStore
 from .solvers import statics
@@ -119,6 +122,8 @@ def simulate(
         A wrong number, or a file that cannot be written.
     SolveError
         A step failed; ``error.result`` holds what was computed until then.
+    StorageError
+        A SolveError: the file can no longer be written; ``error.result`` holds what had been stored.
     Interrupted
         Ctrl-C; ``interrupt.result`` holds what was computed until then.
     """
@@ -128,7 +133,7 @@ def simulate(
         )
     method = _integrator(integrator)
     t0 = 0.0 if start is None else start.t
-    every = _check_times(t0, t_end, step, output_step)
+    every = steps_between("simulate", t_end, step, output_step, t0)
     system = _system(model)  # anew: the model may have changed since the start was computed
     q, v = system.initial_state(t0) if start is None else _adopted(start, system, "simulate.start")
     check_gaps(system, q, "simulate.start")
@@ -147,16 +152,30 @@ def simulate(
         store.close()
         return load(store.path, system)
 
+    with _salvaged(system):
+        try:
+            run.go(store, progress)
+        except StorageError:
+            raise
+        except (SolveError, ModelError) as error:
+            error.result = finished("failed")
+            if start is None and isinstance(error, SolveError):
+                _advise_rest(error, model)
+            raise
+        except KeyboardInterrupt as stop:
+            raise Interrupted(finished("interrupted")) from stop
+        return finished("complete")
+
+
+@contextmanager
+def _salvaged(system: System) -> Iterator[None]:
+    """What a file holds that can no longer be written goes with the error."""
     try:
-        run.go(store, progress)
-    except (SolveError, ModelError) as error:
-        error.result = finished("failed")
-        if start is None and isinstance(error, SolveError):
-            _advise_rest(error, model)
+        yield
+    except StorageError as error:
+        with suppress(ModelError):  # nothing may have reached the disk
+            error.result = read(ReadStore(error.where, "failed"), system)
         raise
-    except KeyboardInterrupt as stop:
-        raise Interrupted(finished("interrupted")) from stop
-    return finished("complete")
 
 
 def _integrator(given: Integrator | None) -> Integrator:
@@ -283,25 +302,6 @@ def _same_nodes(a: Any, b: Any) -> bool:
     if not isinstance(a, Beam) or not isinstance(b, Beam):
         return type(a) is type(b)
     return a.element == b.element and np.array_equal(a.node_x, b.node_x)
-
-
-def _check_times(t0: float, t_end: float, step: float, output_step: float | None) -> int:
-    """Check the times and return the number of steps between outputs."""
-    checks.positive(t_end, "simulate.t_end")
-    checks.positive(step, "simulate.step")
-    if output_step is not None:
-        checks.positive(output_step, "simulate.output_step")
-    if t_end <= t0:
-        raise ModelError("simulate.t_end", f"is {t_end:g} s, must be later than the start at {t0:g} s")
-    if step > (t_end - t0) * (1 + 1e-12):
-        raise ModelError("simulate.step", f"is {step:g} s, longer than the whole run of {t_end - t0:g} s")
-    if (t_end - t0) / step > 1e9:
-        raise ModelError("simulate.step", f"is {step:g} s, which makes more than 1e9 steps")
-    ratio = 1.0 if output_step is None else output_step / step
-    if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-6 * ratio:
-        what = f"is {output_step:g} s, must be a multiple of step = {step:g} s"
-        raise ModelError("simulate.output_step", what)
-    return round(ratio)
 
 
 def _header(

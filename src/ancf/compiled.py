@@ -35,24 +35,27 @@ _OPTIONS: dict[str, Any] = {
 _INNER: Any = {**_OPTIONS, "no_cpython_wrapper": True}
 
 
-def _package_stamp() -> str:
-    """Hash of the sources that hold kernels: one is recompiled when anything that it calls changed."""
+#: Folders whose files hold kernels, or constants of kernels.
+FOLDERS = ("elements", "bodies", "connections", "loads", "linalg", "system", "solvers")
+
+
+def stamped() -> list[Path]:
+    """Sources that hold kernels: when anything in them has changed, all kernels are compiled anew."""
     root = Path(__file__).parent
-    folders = ("elements", "connections", "loads", "linalg", "system", "solvers")
-    files = [Path(__file__), *(f for folder in folders for f in sorted((root / folder).rglob("*.py")))]
-    return hashlib.sha256(b"".join(f.read_bytes() for f in files)).hexdigest()
+    return [Path(__file__), *(f for folder in FOLDERS for f in sorted((root / folder).rglob("*.py")))]
+
+
+def _package_stamp() -> str:
+    return hashlib.sha256(b"".join(f.read_bytes() for f in stamped())).hexdigest()
 
 
 _STAMP = _package_stamp()
 
 
 def kernel(function: F) -> F:
-    """Compile ``function`` with numba on first use and cache it on disk."""
-    dispatcher: Any = numba.njit(cache=True, **_OPTIONS)(function)
-    # numba's own stamp covers the kernel's file alone, not the kernels that it calls
-    cache_file = getattr(dispatcher._cache, "_cache_file", None)
-    if cache_file is not None and hasattr(cache_file, "_source_stamp"):
-        cache_file._source_stamp = _STAMP
+    """Compile ``function`` with numba on first use and cache it on disk, where there is a place for it."""
+    dispatcher: Any = numba.njit(**_OPTIONS)(function)
+    kernel_cache.use(dispatcher, _STAMP)
     return cast(F, dispatcher)
 
 

@@ -61,6 +61,10 @@ class SolveError(RuntimeError):
         self.args = (_sentence(self.where, self.what, self.hint),)
 
 
+class StorageError(SolveError):
+    """The file of a run can no longer be written: the disk is full, or gone."""
+
+
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C during a simulation; ``result`` holds what was computed until then."""
 

@@ -15,6 +15,10 @@ from .errors import ModelError
 
 #: How HDF5 reports what the system said.
 HDF5_PROBLEM = re.compile(r"errno = \d+, error message = '([^']*)'")
+#: First characters of what a spreadsheet takes for a formula.
+FORMULAS = ("=", "+", "-", "@", "\t", "\r")
+#: Characters that change what a terminal shows: controls, deletes, turns of the direction of writing.
+CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 
 @contextmanager
@@ -34,6 +38,8 @@ def writing(path: str | Path, folder: Path | None = None) -> Iterator[None]:
         The folder cannot be made, or something cannot be written.
     """
     try:
+        if "\0" in str(path):
+            raise OSError("its name holds a null byte")
         _make(Path(path).parent if folder is None else folder)
         yield
     except (FileExistsError, NotADirectoryError):
@@ -86,6 +92,30 @@ def write_text(path: Path, text: str) -> Path:
     with writing(path):
         path.write_text(text, encoding="utf-8", errors="backslashreplace")
     return path
+
+
+def cell(value: Any) -> Any:
+    """A cell of a CSV file: text that a spreadsheet would compute gets an apostrophe; numbers stay."""
+    if not isinstance(value, str) or not value.startswith(FORMULAS):
+        return value
+    try:
+        float(value)
+    except ValueError:
+        return "'" + value
+    return value
+
+
+def visible(text: str) -> str:
+    """Text whose control characters, which a terminal would obey, are spelt out; lines and tabs stay."""
+    return text if text.isprintable() else CONTROL.sub(lambda found: ascii(found[0])[1:-1], text)
+
+
+def exists(path: Path, kind: str = "exists") -> bool:
+    """Whether there is such a file, or with "is_dir" such a folder; a name that no system takes is none."""
+    try:
+        return bool(getattr(path, kind)())
+    except (OSError, ValueError):
+        return False
 
 
 def problem(error: Exception) -> str:

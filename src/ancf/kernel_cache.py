@@ -6,6 +6,10 @@ file is missing or old. Here one process writes at a time, the file first and it
 
 An index names the classes that kernels take. After an update one of them may have gone, and numba would fail
 while it reads; here what cannot be read is compiled anew.
+
+Without a folder to write to, or with one that is full, kernels are compiled at each start: a warning says so.
+The folder may be shared: the lock is opened such that no link of somebody else makes this process write, or
+wait for ever, elsewhere.
 """
 
 from __future__ import annotations
@@ -13,12 +17,15 @@ from __future__ import annotations
 import itertools
 import os
 import pickle
+import stat
 import sys
+import time
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, cast
 
-from numba.core.caching import IndexDataCacheFile
+from numba.core.caching import Cache, IndexDataCacheFile
 
 if sys.platform != "win32":
     import fcntl
@@ -32,8 +39,12 @@ UNREADABLE = (
     TypeError,
     ValueError,
     EOFError,
+    OSError,
     pickle.UnpicklingError,
 )
+#: How long to wait for another process that writes, s; writing takes milliseconds.
+PATIENCE = 60.0
+_said: set[str] = set()
 
 
 def share() -> None:
@@ -42,6 +53,39 @@ def share() -> None:
     numbas.save = _save
     numbas._load_index = _or(numbas._load_index, dict)
     numbas.load = _or(numbas.load, lambda: None)
+    cache = cast(Any, Cache)
+    cache._save_overload = _if_possible(cache._save_overload)
+
+
+def use(dispatcher: Any, stamp: str) -> None:
+    """Cache what a dispatcher compiles; ``stamp`` changes with the sources of the kernels that it calls."""
+    try:
+        dispatcher.enable_caching()
+    except (RuntimeError, OSError):  # numba found no place
+        _say("no folder for compiled kernels can be written")
+        return
+    # numba's own stamp covers the kernel's file alone, not the kernels that it calls
+    cache_file = getattr(dispatcher._cache, "_cache_file", None)
+    if cache_file is not None and hasattr(cache_file, "_source_stamp"):
+        cache_file._source_stamp = stamp
+
+
+def _say(what: str) -> None:
+    """Warn once that kernels are not kept."""
+    if what not in _said:
+        _said.add(what)
+        hint = "each start compiles them anew; NUMBA_CACHE_DIR in the environment names another folder"
+        warnings.warn(f"{what}: {hint}", RuntimeWarning, stacklevel=3)
+
+
+def _if_possible(save: Callable[..., Any]) -> Callable[..., Any]:
+    def saved(self: Any, *arguments: Any) -> None:
+        try:
+            save(self, *arguments)
+        except OSError as error:
+            _say(f"compiled kernels cannot be kept in {self.cache_path}: {error.strerror or error}")
+
+    return saved
 
 
 def _or(read: Callable[..., Any], nothing: Callable[[], Any]) -> Callable[..., Any]:
@@ -70,6 +114,25 @@ def _alone(folder: str) -> Iterator[None]:
     if sys.platform == "win32":
         yield
         return
-    with open(os.path.join(folder, "ancf.lock"), "w", encoding="ascii") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
+    path = os.path.join(folder, "ancf.lock")
+    # no link is followed, no pipe waited for, and nothing is written
+    file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
+    try:
+        if not stat.S_ISREG(os.fstat(file).st_mode):
+            raise OSError(f"{path} is no plain file")
+        _lock(file)
         yield
+    finally:
+        os.close(file)
+
+
+def _lock(file: int) -> None:
+    """Wait for the lock, but not for ever: another user may hold it."""
+    end = time.monotonic() + PATIENCE
+    while True:
+        try:
+            return fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            if time.monotonic() > end:
+                raise TimeoutError(f"another process holds the lock for {PATIENCE:g} s") from None
+        time.sleep(0.01)

@@ -18,7 +18,35 @@ STEEPEST = 0.5  # slope of a contact wire
 
 
 def begin(line: Line, mesh: Mesh) -> Hung:
-    """All wires as strings under their tensions."""
+    """All wires as strings under their tensions.
+
+    Raises
+    ------
+    ModelError
+        A wire would hang too steep, the mesh is too large, or the numbers are beyond what can be computed.
+
+    """
+    try:
+        with np.errstate(all="ignore"):
+            begun = _begin(line, mesh)
+    except (ValueError, np.linalg.LinAlgError) as error:
+        if isinstance(error, ModelError):
+            raise
+        raise _beyond() from None
+    shapes = (begun.contact, begun.messenger, *begun.stitches)
+    if not all(np.all(np.isfinite(shape.position)) for shape in shapes) or not np.all(
+        np.isfinite(begun.lift)
+    ):
+        raise _beyond()
+    return begun
+
+
+def _beyond() -> ModelError:
+    what = "cannot be hung: numbers of its wires are too large or too small to compute with"
+    return ModelError("line", what, "see whether tensions, masses and heights are as meant; in N, kg/m, m")
+
+
+def _begin(line: Line, mesh: Mesh) -> Hung:
     contact, load = _contact(line, mesh)
     load = load + line.droppers.clamp_contact * line.gravity
     down = load + line.droppers.clamp_messenger * line.gravity
@@ -70,6 +98,8 @@ def _contact(line: Line, mesh: Mesh) -> tuple[WireShape, FloatArray]:
     force = np.zeros(nodes.x.size)
     force[marks] = string_loads(nodes.x[marks], z[marks], wire.tension, weight)
     steepest = float(np.max(np.abs(np.diff(z) / np.diff(nodes.x))))
+    if not np.isfinite(steepest):
+        raise _beyond()
     if steepest > STEEPEST:
         what = f"is too low: the wire would hang at a slope of {steepest:.2g} between the droppers"
         raise ModelError("line.contact_wire.tension", what, f"at most {STEEPEST:g}; units are N")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ancf.errors import ModelError
+from ancf.files import exists
 from ancf.model.checks import listed, nearest
 
 from .file import read_file
@@ -39,7 +40,7 @@ def read_line(name_or_path: str | Path) -> Line:
     if text in line_names():
         return read_file(line_file(text))
     path = Path(name_or_path)
-    if not path.exists() and path.suffix != ".toml" and len(path.parts) == 1:
+    if not exists(path) and path.suffix != ".toml" and len(path.parts) == 1:
         what = f"no line of the catalogue and no file, the catalogue has: {listed(line_names())}"
         raise ModelError(text, what, nearest(text, line_names()))
     return read_file(path)

@@ -16,7 +16,7 @@ from ancf.model.file.messages import combined, of_validation
 
 from .entries import TABLES, LineEntry, SpanEntry, StitchEntry
 from .fittings import Droppers, SteadyArm
-from .line import Line
+from .line import Line, check_size
 from .span import Span
 from .stitch import StitchWire
 from .wire import Rayleigh, Wire
@@ -68,6 +68,8 @@ def parse_line(data: dict[str, Any], source: str = "line") -> Line:
         entry = LineEntry.model_validate(data)
     except ValidationError as error:
         raise combined(of_validation(error, _entry), source) from None
+    droppers = sum(given.repeat * len(given.droppers) for given in entry.spans)
+    check_size(sum(given.repeat for given in entry.spans), droppers, "spans")
     spans = [span for i, given in enumerate(entry.spans) for span in _spans(given, i)]
     with _in_file(entry):
         return Line(

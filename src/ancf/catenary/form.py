@@ -154,6 +154,18 @@ def form(line: Line, mesh: Mesh | None = None) -> Form:
     raise SolveError("catenary.form", what, "wires that sag much, or droppers very close to each other")
 
 
+def check(line: Line, mesh: Mesh | None = None) -> None:
+    """Find what is wrong with a line without finding its form: its wires as strings must fit.
+
+    Raises
+    ------
+    ModelError
+        A wire hangs too steep, the messenger too low, or the mesh is too large.
+
+    """
+    _check_reach(line, begin(line, Mesh() if mesh is None else mesh))
+
+
 def _check_reach(line: Line, now: Hung) -> None:
     """Raise ModelError where the messenger is not above the contact wire."""
     gap = now.dropper[:, 2]

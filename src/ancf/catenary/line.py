@@ -20,6 +20,15 @@ from .wire import Rayleigh, Wire
 SUPPORTS = ("held", "free")
 ANCHORS = ("fixed", "tension")
 CLAMPS = ("hinged", "continuous")
+#: A line of some 600 km; more is a slip that would take all memory.
+MOST_SPANS, MOST_DROPPERS = 10_000, 200_000
+
+
+def check_size(spans: int, droppers: int, where: str) -> None:
+    """Raise ModelError if a line has more spans or droppers than can be meant."""
+    for count, most, what in ((spans, MOST_SPANS, "spans"), (droppers, MOST_DROPPERS, "droppers")):
+        if count > most:
+            raise ModelError(where, f"are {count} {what} in all, at most {most} can be")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,6 +97,7 @@ class Line:
         object.__setattr__(self, "spans", tuple(self.spans))
         if not self.spans:
             raise ModelError("line.spans", "has no span")
+        check_size(len(self.spans), sum(len(span.droppers) for span in self.spans), "line.spans")
         for key in ("contact_wire", "messenger_wire", "droppers", "steady_arm", "damping"):
             getattr(self, key).check(f"line.{key}")
         if self.messenger_support is not None:

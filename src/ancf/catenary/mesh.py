@@ -9,12 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ancf.errors import ModelError
 from ancf.model import checks
 from ancf.model.checks import FloatArray
 
 from .line import Line
 
 IntArray = NDArray[np.int64]
+MOST_ELEMENTS = 1_000_000  # of a wire
 GROWTH = 0.7  # length of an element gained per distance from the place that wants short ones
 
 
@@ -104,17 +106,19 @@ def _nodes(groups: tuple[FloatArray, ...], sizes: tuple[float, ...], largest: fl
     places, back = np.unique(np.round(np.concatenate(groups), 9), return_inverse=True)
     near = np.full(places.size, largest)
     np.minimum.at(near, back, np.repeat(sizes, [group.size for group in groups]))
-    cells = [
-        divided(a, b, at_a, at_b, largest)
-        for (a, b), (at_a, at_b) in zip(pairwise(places), pairwise(near), strict=True)
-    ]
+    cells, room = [], MOST_ELEMENTS
+    for (a, b), (at_a, at_b) in zip(pairwise(places), pairwise(near), strict=True):
+        cells.append(divided(a, b, at_a, at_b, largest, room))
+        room -= cells[-1].size
     x = np.concatenate([*(cell[:-1] for cell in cells), places[-1:]])
     first = np.concatenate([[0], np.cumsum([cell.size - 1 for cell in cells])])
     support, dropper, stitch = np.split(first[back], np.cumsum([group.size for group in groups])[:-1])
     return Nodes(x, support, dropper, stitch)
 
 
-def divided(a: float, b: float, at_a: float, at_b: float, largest: float) -> FloatArray:
+def divided(
+    a: float, b: float, at_a: float, at_b: float, largest: float, most: int = MOST_ELEMENTS
+) -> FloatArray:
     """Places from a to b whose distances are at most at_a and at_b at the ends and grow inwards, m."""
 
     def size(x: Any) -> Any:
@@ -123,6 +127,10 @@ def divided(a: float, b: float, at_a: float, at_b: float, largest: float) -> Flo
     x = np.linspace(a, b, 2001)
     middle = 0.5 * (x[1:] + x[:-1])
     count = np.concatenate([[0.0], np.cumsum((x[1] - x[0]) / size(middle))])
+    if not count[-1] <= most:
+        raise ModelError(
+            "mesh", f"makes more than {MOST_ELEMENTS} elements of a wire", "give longer elements"
+        )
     elements = max(1, int(np.ceil(count[-1] - 1e-9)))
     places: FloatArray = np.interp(np.linspace(0.0, count[-1], elements + 1), count, x)
     places[0], places[-1] = a, b

@@ -12,6 +12,7 @@ from ancf.errors import ModelError
 from ancf.model import checks
 
 CLOSEST = 0.05  # m, of droppers to each other and to the supports
+LONGEST = 1000.0  # m; spans of overhead lines have up to 80 m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,7 +42,8 @@ class Span:
 
     def __post_init__(self) -> None:
         """Check the values alone; places in a line are named by the line."""
-        checks.positive(self.length, "span.length")
+        if checks.positive(self.length, "span.length") > LONGEST:
+            raise ModelError("span.length", f"must be at most {LONGEST:g} m, is {self.length:g} m")
         droppers = checks.array(self.droppers, "span.droppers", (None,))
         if droppers.size == 0:
             raise ModelError("span.droppers", "has no dropper", "give at least one")

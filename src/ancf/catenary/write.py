@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._version import __version__
-from ..files import to_json, write_text
+from ..files import cell, to_json, write_text
 from .passing import dropper_forces
 from .signals import Intervals
 from .statistics import Statistics, statistics
@@ -149,11 +149,11 @@ def _write_csv(path: Path, head: Sequence[str], rows: Iterable[Sequence[Cell]]) 
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(head)
-    writer.writerows([_cell(value) for value in row] for row in rows)
+    writer.writerows([cell(_text(value)) for value in row] for row in rows)
     return write_text(path, text.getvalue())
 
 
-def _cell(value: Cell) -> str:
+def _text(value: Cell) -> str:
     if value is None:
         return ""
     if isinstance(value, bool):

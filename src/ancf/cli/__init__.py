@@ -1,5 +1,19 @@
 """The command line: run, check, schema, info, reproduce, validate."""
 
-from ancf.cli.app import app, main
+from __future__ import annotations
 
-__all__ = ["app", "main"]
+import sys
+
+__all__ = ["main"]
+
+
+def main() -> None:
+    """Entry point of the command ``ancf``; Ctrl-C while it still imports ends it as later on."""
+    try:
+        from ancf.cli.app import start
+
+        start()
+    except KeyboardInterrupt:
+        if sys.stderr is not None:
+            sys.stderr.write("stopped by Ctrl-C\n")
+        sys.exit(130)

@@ -1,5 +1,5 @@
 """The command line as ``python -m ancf.cli``."""
 
-from ancf.cli.app import main
+from ancf.cli import main
 
 main()

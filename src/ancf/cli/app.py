@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -14,7 +15,8 @@ from ancf.cli.guard import reported
 app = typer.Typer(
     name="ancf",
     help="Thin beams and cables that move a lot: absolute nodal coordinate formulation.",
-    epilog="Exit codes: 0 done, 1 the solve failed, 2 the input is wrong, 130 stopped by Ctrl-C.",
+    epilog="Exit codes: 0 done, 1 the solve failed, 2 the input is wrong, "
+    "130 stopped by Ctrl-C, 143 by SIGTERM.",
     add_completion=False,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
@@ -24,6 +26,10 @@ app = typer.Typer(
 ModelFile = Annotated[Path, typer.Argument(metavar="MODEL.toml", help="Model file.", show_default=False)]
 AnyFile = Annotated[
     Path, typer.Argument(metavar="FILE", help="Model file or results file.", show_default=False)
+]
+AnyInput = Annotated[
+    Path,
+    typer.Argument(metavar="FILE", help="Model file, line file or results file.", show_default=False),
 ]
 Folder = Annotated[Path, typer.Option("--output", "-o", metavar="OUT", help="Folder for what is written.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
@@ -141,12 +147,12 @@ def run(model: ModelFile, output: Folder = Path("out"), quiet: Quiet = False, ve
 
 
 @app.command()
-def check(model: ModelFile) -> None:
-    """Say whether a model file is right."""
+def check(file: AnyInput) -> None:
+    """Say whether a file is right: a model file, a line file, or a results file."""
     with reported():
-        from ancf.cli.info_model import check_file
+        from ancf.cli.check import check_file
 
-        check_file(model)
+        check_file(file)
 
 
 @app.command()
@@ -305,9 +311,17 @@ def validate(
         validate_case(case, speed, output, report, quiet)
 
 
-def main() -> None:
-    """Entry point of the command ``ancf``."""
+def start() -> None:
+    """Parse the arguments and do what they say."""
+    _fill_streams()
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):  # a title in Greek must not stop a run in a terminal without it
             stream.reconfigure(errors="backslashreplace")
     app()
+
+
+def _fill_streams() -> None:
+    """Take the numbers of closed streams: a results file that got one would take messages."""
+    while (spare := os.open(os.devnull, os.O_RDWR)) <= 2:
+        pass
+    os.close(spare)

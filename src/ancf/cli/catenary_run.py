@@ -40,6 +40,7 @@ def run_line(
     from ancf.catenary.catalogue import read_line
     from ancf.catenary.run import STEP, run
     from ancf.model.checks import positive
+    from ancf.model.settings import MOST_STEPS
     from ancf.viz.style import require_matplotlib
 
     speed = positive(speed_kmh, "--speed") / 3.6
@@ -49,7 +50,7 @@ def run_line(
     given = {key: value for key, value in options.items() if value}
     if states:
         step = positive(given.get("step", STEP), "--step")
-        given.setdefault("output_step", max(1, round(OUTPUT_STEP / step)) * step)
+        given.setdefault("output_step", max(1, round(min(OUTPUT_STEP / step, MOST_STEPS))) * step)
     if pantographs:
         given["pantograph"] = pantographs[0] if len(pantographs) == 1 else pantographs
     output, screen = OutputFolder(folder), Screen(quiet)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ancf.cli.results_file import open_result
 from ancf.cli.screen import Screen, console
 from ancf.errors import ModelError
+from ancf.files import exists
 from ancf.model import checks
 
 if TYPE_CHECKING:
@@ -78,13 +79,13 @@ def _target(file: Path, to: str, output: Path | None) -> Path:
     """File or folder to write to."""
     suffix = SUFFIXES[to]
     if not suffix:
-        if output is not None and (output.suffix.lower() == ".csv" or output.is_file()):
+        if output is not None and (output.suffix.lower() == ".csv" or exists(output, "is_file")):
             what = "names one file, but there are several tables"
             raise ModelError(f"-o {output}", what, "give a folder")
         return file.parent if output is None else output
     if output is None:
         return file.with_suffix(suffix)
-    if output.is_dir():
+    if exists(output, "is_dir"):
         return output / file.with_suffix(suffix).name
     if output.suffix.lower() != suffix:
         raise ModelError(f"-o {output}", f"must end in {suffix} with --to {to}, or be a folder that exists")

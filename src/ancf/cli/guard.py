@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-import sys
+import signal
+import threading
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,17 +12,21 @@ from typing import Any
 
 import typer
 
-from ancf.cli.output import StorageError
 from ancf.errors import ModelError, SolveError
+from ancf.files import visible
 
-FAILED, WRONG_INPUT, STOPPED = 1, 2, 130
+FAILED, WRONG_INPUT, STOPPED, TERMINATED = 1, 2, 130, 143
 TRACEBACK = "ANCF_TRACEBACK"
+
+
+class Terminated(KeyboardInterrupt):
+    """The system asks the program to end (SIGTERM); it ends as after Ctrl-C."""
 
 
 @contextmanager
 def reported() -> Iterator[None]:
     """Turn what goes wrong inside into a message and ``typer.Exit``; warnings become one line each."""
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), _terminable():
         warnings.showwarning = _show_warning
         try:
             yield
@@ -30,24 +35,47 @@ def reported() -> Iterator[None]:
         except (Exception, KeyboardInterrupt) as error:
             if os.environ.get(TRACEBACK):
                 raise
-            show(error)
-            if isinstance(error, StorageError):
-                _leave()
-            raise typer.Exit(exit_code(error)) from None
+            found = _stop(error) or error
+            show(found)
+            raise typer.Exit(exit_code(found)) from None
 
 
-def _leave() -> None:
-    """End now: HDF5 crashes when it closes a file that it cannot write."""
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(FAILED)
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """Within this context SIGTERM stops what runs as Ctrl-C does, unless it is ignored or handled already."""
+    free = threading.current_thread() is threading.main_thread()
+    if not free or signal.getsignal(signal.SIGTERM) is not signal.SIG_DFL:
+        yield
+        return
+
+    def stop(*signal: Any) -> None:
+        raise Terminated
+
+    signal.signal(signal.SIGTERM, stop)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+def _stop(error: BaseException) -> KeyboardInterrupt | None:
+    """Ctrl-C behind an error: an import that it cuts off ends in many ways."""
+    while error.__context__ is not None and not isinstance(
+        error, ModelError | SolveError | KeyboardInterrupt
+    ):
+        error = error.__context__
+    return error if isinstance(error, KeyboardInterrupt) else None
 
 
 def exit_code(error: BaseException) -> int:
-    """2 for wrong input, 130 for Ctrl-C, otherwise 1."""
+    """2 for wrong input, 130 for Ctrl-C, 143 for SIGTERM, otherwise 1."""
     if isinstance(error, KeyboardInterrupt):
-        return STOPPED
+        return TERMINATED if _terminated(error) else STOPPED
     return WRONG_INPUT if isinstance(error, ModelError) else FAILED
+
+
+def _terminated(error: BaseException) -> bool:
+    return isinstance(error, Terminated) or isinstance(error.__cause__, Terminated)
 
 
 def show(error: BaseException) -> None:
@@ -57,9 +85,9 @@ def show(error: BaseException) -> None:
     from ancf.cli.screen import console
 
     kind, what, hint = described(error)
-    text = Text.assemble((kind, "bold red"), f" {what}")
+    text = Text.assemble((kind, "bold red"), f" {visible(what)}")
     for line in ([hint] if hint else []) + list(getattr(error, "__notes__", [])):
-        text.append(f"\n  {line}")
+        text.append(f"\n  {visible(line)}")
     console(stderr=True).print(text, soft_wrap=True)
 
 
@@ -68,7 +96,7 @@ def described(error: BaseException) -> tuple[str, str, str]:
     if isinstance(error, ModelError | SolveError):
         return "error:", f"{error.where}: {error.what}", error.hint
     if isinstance(error, KeyboardInterrupt):
-        return "stopped", "by Ctrl-C", ""
+        return "stopped", "by SIGTERM" if _terminated(error) else "by Ctrl-C", ""
     if isinstance(error, MemoryError):
         return "error:", "not enough memory", "fewer elements, or a longer output_step"
     if isinstance(error, OSError):
@@ -83,4 +111,5 @@ def _show_warning(message: Warning | str, category: type[Warning], *place: Any, 
 
     from ancf.cli.screen import console
 
-    console(stderr=True).print(Text.assemble(("warning:", "yellow"), f" {message}"), soft_wrap=True)
+    text = Text.assemble(("warning:", "yellow"), f" {visible(str(message))}")
+    console(stderr=True).print(text, soft_wrap=True)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 from ancf.errors import ModelError
+from ancf.files import exists
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
 def show_info(path: Path) -> None:
     """Tell a results file from a model file by its first bytes, and describe it."""
-    if _is_hdf5(path):
+    if is_hdf5(path):
         from ancf.cli.info_result import show_result
 
         show_result(path)
@@ -23,7 +24,8 @@ def show_info(path: Path) -> None:
         show_model(path)
 
 
-def _is_hdf5(path: Path) -> bool:
+def is_hdf5(path: Path) -> bool:
+    """Whether a file begins as HDF5 does; ModelError if it cannot be read."""
     try:
         with path.open("rb") as file:
             return file.read(len(SIGNATURE)) == SIGNATURE
@@ -31,7 +33,7 @@ def _is_hdf5(path: Path) -> bool:
         raise ModelError(str(path), "no such file") from None
     except IsADirectoryError:
         inside = path / "results.h5"
-        hint = f"ancf info {inside}" if inside.exists() else ""
+        hint = f"ancf info {inside}" if exists(inside) else ""
         raise ModelError(str(path), "is a folder", hint) from None
     except (OSError, ValueError) as error:
         raise ModelError(str(path), f"cannot be read: {error}") from None

@@ -1,4 +1,4 @@
-"""``ancf check`` and ``ancf info`` of a model file."""
+"""``ancf info`` of a model file."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ancf.cli.notes import check_equilibrium, notes
+from ancf.cli.notes import notes
 from ancf.cli.screen import console, table
 from ancf.cli.summary import mass, plural, sizes, total_mass
 from ancf.model.beam import Beam
@@ -19,19 +19,10 @@ if TYPE_CHECKING:
     from ancf.system.system import System
 
 
-def check_file(path: Path) -> None:
-    """Read a model file and compile its System, which finds everything that is wrong with it."""
-    study = read_study(path)
-    system = _system(study.model)
-    check_equilibrium(study, system)
-    console().print(f"{path}: right; {_counts(study.model)}; {task(study)}", soft_wrap=True)
-    _print_notes(study, system)
-
-
 def show_model(path: Path) -> None:
     """Print bodies, sizes, how the matrix is ordered, and remarks."""
     study = read_study(path)
-    system = _system(study.model)
+    system = compiled(study.model)
     out = console()
     out.print(study.title or str(path), style="bold", soft_wrap=True)
     for key, value in _facts(study, system):
@@ -40,7 +31,7 @@ def show_model(path: Path) -> None:
     for made in (_bodies(study.model), _masses(study.model)):
         if made.row_count:
             out.print(made)
-    _print_notes(study, system)
+    print_notes(study, system)
 
 
 def task(study: Study) -> str:
@@ -53,7 +44,8 @@ def task(study: Study) -> str:
     return f"{steps} of {simulation.step:g} s to t = {simulation.t_end:g} s{start}"
 
 
-def _system(model: Model) -> System:
+def compiled(model: Model) -> System:
+    """System of a model."""
     from ancf.system.system import System
 
     return System(model)
@@ -63,7 +55,7 @@ def _facts(study: Study, system: System) -> list[tuple[str, str]]:
     model = study.model
     free = len(system.free)
     return [
-        ("model", _counts(model)),
+        ("model", counts(model)),
         ("unknowns", f"{free} free of {system.n}"),
         ("matrix", f"ordering: {system.ordering}, half bandwidth {system.half_bandwidth}"),
         ("mass", f"{total_mass(model):.6g} kg"),
@@ -72,7 +64,8 @@ def _facts(study: Study, system: System) -> list[tuple[str, str]]:
     ]
 
 
-def _counts(model: Model) -> str:
+def counts(model: Model) -> str:
+    """How many things of each kind a model has."""
     size = sizes(model)
     return ", ".join(
         [
@@ -108,6 +101,7 @@ def _masses(model: Model) -> Any:
     return made
 
 
-def _print_notes(study: Study, system: System) -> None:
+def print_notes(study: Study, system: System) -> None:
+    """Print remarks on a model."""
     for note in notes(study, system):
         console().print(f"note: {note}", soft_wrap=True)

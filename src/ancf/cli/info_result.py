@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 STATUS = {
     "complete": "complete",
     "failed": "the solve failed",
-    "interrupted": "stopped by Ctrl-C",
+    "interrupted": "stopped before its end",
     "running": "not finished: still running, or killed",
 }
 

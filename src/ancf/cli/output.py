@@ -9,15 +9,11 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from ancf.errors import ModelError, SolveError
+from ancf.errors import ModelError
 from ancf.files import drafted, to_json, writable
 
 if sys.platform != "win32":
     import fcntl
-
-
-class StorageError(SolveError):
-    """The results file can no longer be written: the disk is full, or gone."""
 
 
 class OutputFolder:

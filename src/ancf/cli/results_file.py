@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ancf.errors import ModelError
+from ancf.files import exists
 
 if TYPE_CHECKING:
     from ancf import Result
@@ -24,10 +25,10 @@ def open_result(path: Path) -> Result:
     """
     import ancf
 
-    if path.is_dir():
+    if exists(path, "is_dir"):
         inside = path / "results.h5"
-        raise ModelError(str(path), "is a folder", f"its results file: {inside}" if inside.exists() else "")
-    if path.suffix.lower() == ".toml" and path.exists():
+        raise ModelError(str(path), "is a folder", f"its results file: {inside}" if exists(inside) else "")
+    if path.suffix.lower() == ".toml" and exists(path):
         hint = f"ancf run {path} -o out writes out/results.h5"
         raise ModelError(str(path), "is a model file, not a results file", hint)
     with reading(path):

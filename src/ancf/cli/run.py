@@ -7,10 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ancf.cli.output import OutputFolder, StorageError
+from ancf.cli.output import OutputFolder
 from ancf.cli.screen import Screen, console
 from ancf.errors import ModelError, SolveError
-from ancf.files import problem
 from ancf.model.file import Study, read_study
 from ancf.model.integrators import Integrator
 from ancf.model.model import Model
@@ -59,9 +58,6 @@ class Run:
         except (SolveError, ModelError, KeyboardInterrupt) as error:
             self._keep(error)
             raise
-        except (OSError, RuntimeError) as error:
-            self._check_storage(error)
-            raise
         self._finish(result)
         return result
 
@@ -71,9 +67,6 @@ class Run:
 
         try:
             found = verified(self.study, result, self._again)
-        except (OSError, RuntimeError) as error:
-            self._check_storage(error)
-            raise
         finally:
             self.output.again.unlink(missing_ok=True)
         self.output.write_verification(
@@ -146,13 +139,6 @@ class Run:
             print_summary(console(), summary)
             console().print(f"written: {', '.join(map(str, written))}", soft_wrap=True)
 
-    def _check_storage(self, error: Exception) -> None:
-        said = problem(error)
-        if said:
-            file = self.output.results
-            hint = f"make room or store less often (output_step); ancf info {file} says how far it got"
-            raise StorageError(str(file), f"cannot be written any more: {said}", hint) from error
-
     def _keep(self, error: BaseException) -> None:
         result = getattr(error, "result", None)
         if result is None:
@@ -160,6 +146,6 @@ class Run:
         error.add_note(f"results up to t = {result.t[-1]:.6g} s kept in {self.output.results}")
         try:
             self._finish(result, error)
-        except OSError as other:
+        except (OSError, ModelError) as other:
             note = "summary and table cannot be written"
-            error.add_note(f"{self.output.path}: {note}: {other.strerror or other}")
+            error.add_note(f"{self.output.path}: {note}: {getattr(other, 'strerror', None) or other}")

@@ -2,29 +2,70 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from typing import Any
+from contextlib import contextmanager, suppress
+from typing import Any, TextIO, cast
 
 from rich.console import Console
 from rich.progress import BarColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.progress import Progress as Bar
 from rich.table import Table
+from rich.text import Text
+
+from ancf.files import visible
 
 WIDTH_OF_A_FILE = 120
 COMPILING = "compiling the numerical core: this happens only once on this machine ..."
 Report = Callable[[Any], None]
 
 
+class PlainConsole(Console):
+    """Text appears as it is; what a terminal would take for a command, say in a title, is spelt out."""
+
+    def render_str(self, text: str, **options: Any) -> Text:
+        """Text from a str, also in tables."""
+        return super().render_str(visible(text), **options)
+
+
+class Steady:
+    """A stream whose reader may go away: what is written then is lost, and nothing fails."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        """Write if somebody reads."""
+        self._try(lambda: self._stream.write(text))
+        return len(text)
+
+    def flush(self) -> None:
+        """Flush if somebody reads."""
+        self._try(self._stream.flush)
+
+    def _try(self, action: Callable[[], Any]) -> None:
+        try:
+            action()
+        except (UnicodeError, BlockingIOError):
+            pass
+        except (OSError, ValueError):
+            with suppress(OSError, ValueError):  # what is left in the buffer goes nowhere
+                nowhere = os.open(os.devnull, os.O_WRONLY)
+                os.dup2(nowhere, self._stream.fileno())
+                os.close(nowhere)
+
+
 def console(stderr: bool = False) -> Console:
-    """A console that prints text as it is; colours only in a terminal and without NO_COLOR."""
-    made = Console(stderr=stderr, markup=False, highlight=False, emoji=False)
-    return (
-        made
-        if made.is_terminal
-        else Console(stderr=stderr, markup=False, highlight=False, emoji=False, width=WIDTH_OF_A_FILE)
-    )
+    """A console for results, or with `stderr` for remarks and errors; colours only in a terminal."""
+    file = cast(TextIO, Steady(sys.stderr)) if stderr and sys.stderr is not None else None
+    options: dict[str, Any] = {"stderr": stderr, "markup": False, "highlight": False, "emoji": False}
+    made = PlainConsole(file=file, **options)
+    return made if made.is_terminal else PlainConsole(file=file, width=WIDTH_OF_A_FILE, **options)
 
 
 def table(*columns: str) -> Table:

@@ -9,6 +9,7 @@ from typing import Any
 from ancf.cli.results_file import open_result
 from ancf.cli.screen import console
 from ancf.errors import ModelError
+from ancf.files import exists
 
 SUFFIXES = (".html", ".htm")
 
@@ -38,7 +39,7 @@ def view_file(path: Path, output: Path | None, options: dict[str, Any], show: bo
     from ancf.viz.view.page import plotly_script
 
     plotly_script()
-    source = path / "results.h5" if path.is_dir() else path
+    source = path / "results.h5" if exists(path, "is_dir") else path
     target = _target(source, output)
     written = write_view(open_result(source), target, file=source.name, **options)
     console().print(str(written), soft_wrap=True)
@@ -49,7 +50,7 @@ def view_file(path: Path, output: Path | None, options: dict[str, Any], show: bo
 def _target(source: Path, output: Path | None) -> Path:
     if output is None:
         return source.with_name("view.html")
-    if output.is_dir():
+    if exists(output, "is_dir"):
         return output / "view.html"
     if output.suffix.lower() not in SUFFIXES:
         hint = f"give {output.with_suffix('.html')}"

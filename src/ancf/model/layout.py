@@ -124,7 +124,7 @@ def _initial_shape(where: str, start: Any, end: Any, given: Any) -> tuple[float,
     for key, value in (("start", start), ("end", end)):
         if value is None:
             raise ModelError(f"{where}.{key}", "is missing: give start and end, or path")
-    first, last = checks.vector(start, f"{where}.start"), checks.vector(end, f"{where}.end")
+    first, last = checks.place(start, f"{where}.start"), checks.place(end, f"{where}.end")
     distance = math.dist(first, last)
     if not math.isfinite(distance):
         raise ModelError(f"{where}.end", "is too far from start")

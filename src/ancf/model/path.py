@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ancf.errors import ModelError
+from ancf.model import checks
 from ancf.model.axes import subdivided
 from ancf.model.checks import FloatArray
 from ancf.model.functions import call
@@ -15,6 +16,8 @@ from ancf.model.functions import call
 GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(8)
 CHUNK = 20_000
 MOST_SAMPLES = 32_768
+#: Curves until a spline must have its own arc length as parameter, and how much longer it may get meanwhile.
+MOST_CURVES, LONGEST = 100, 1.5
 
 
 def straight(start: FloatArray, end: FloatArray, fraction: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -74,19 +77,28 @@ class Curve:
 
 
 def interpolated(points: FloatArray, where: str) -> Curve:
-    """Spline through points (m, 3) whose parameter is its own arc length at the points."""
+    """Spline through points (m, 3) whose parameter is its own arc length at the points.
+
+    There is no such spline through some points whose distances differ much: the search for it makes the
+    curve longer and longer. It then passes through them with the parameter of the chords' lengths.
+    """
+    for i, point in enumerate(points):
+        checks.place(point, f"{where}[{i}]")
     chords = np.linalg.norm(np.diff(points, axis=0), axis=1)
     if not np.all(chords > 1e-12 * np.sum(chords)) or not np.isfinite(np.sum(chords)):
         i = int(np.argmin(chords))
         raise ModelError(f"{where}[{i + 1}]", f"coincides with {where.rpartition('.')[2]}[{i}]")
     knots = np.concatenate([[0.0], np.cumsum(chords)])
-    for _ in range(30):
-        curve = Curve(knots, points, where)
+    first = curve = Curve(knots, points, where)
+    for _ in range(MOST_CURVES):
         change = np.max(np.abs(curve.knot_lengths - knots))
         if change <= 1e-12 * curve.length:
+            return curve
+        if curve.length > LONGEST * first.length:
             break
         knots = curve.knot_lengths
-    return curve
+        curve = Curve(knots, points, where)
+    return first
 
 
 def sampled(function: Callable[[float], Any], where: str) -> Curve:
@@ -110,6 +122,8 @@ def sampled(function: Callable[[float], Any], where: str) -> Curve:
 def _sample(function: Callable[[float], Any], count: int, where: str) -> Curve:
     u = np.linspace(0.0, 1.0, count + 1)
     points = np.array([call(function, value, 3, where, "u", "") for value in u.tolist()])
+    if float(np.max(np.abs(points))) > checks.LARGEST:
+        raise ModelError(where, f"leaves the space within {checks.LARGEST:g} m")
     if float(np.max(np.ptp(points, axis=0))) == 0.0:
         raise ModelError(where, "has no length: the function returns the same position for every u")
     return Curve(u, points, where)

@@ -10,7 +10,47 @@ from ancf.model.integrators import Integrator, Trapezoidal
 
 STARTS = ("reference", "equilibrium")
 MOST_STEPS = 1e9
+#: Part of a step by which the output step may miss a multiple, and of a run by which one step may be longer.
+FITS, ROUND_OFF = 1e-6, 1e-12
 MOST_LOAD_STEPS = 100_000
+
+
+def steps_between(
+    where: str, t_end: float, step: float, output_step: float | None, t_start: float = 0.0
+) -> int:
+    """Check the times of a simulation; number of steps between stored states, at most MOST_STEPS.
+
+    Parameters
+    ----------
+    where : str
+        What has the times, for messages: "simulation" in a model file.
+    t_end, step, output_step, t_start : float
+        In s; without an output step every step is stored.
+
+    Raises
+    ------
+    ModelError
+        A time is not positive, the step is longer than the run or makes too many steps, or the output step
+        is no multiple of it, to a millionth of a step.
+
+    """
+    checks.positive(t_end, f"{where}.t_end")
+    checks.positive(step, f"{where}.step")
+    span = t_end - t_start
+    if span <= 0.0:
+        raise ModelError(f"{where}.t_end", f"is {t_end:g} s, must be later than the start at {t_start:g} s")
+    if step > span * (1 + ROUND_OFF):
+        what = f"is {step:g} s, longer than the whole run of {span:g} s"
+        raise ModelError(f"{where}.step", what)
+    if span > MOST_STEPS * step * (1 + ROUND_OFF):
+        raise ModelError(f"{where}.step", f"is {step:g} s, which makes more than {MOST_STEPS:.0e} steps")
+    if output_step is None:
+        return 1
+    ratio = min(checks.positive(output_step, f"{where}.output_step") / step, MOST_STEPS)
+    if round(ratio) < 1 or abs(ratio - round(ratio)) > FITS:
+        what = f"is {output_step:g} s, must be a multiple of step = {step:g} s"
+        raise ModelError(f"{where}.output_step", what)
+    return round(ratio)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,27 +93,11 @@ class SimulationSettings:
     sensors: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        checks.positive(self.t_end, "simulation.t_end")
-        checks.positive(self.step, "simulation.step")
+        steps_between("simulation", self.t_end, self.step, self.output_step)
         checks.choice(self.start, "simulation.start", STARTS)
-        if self.step > self.t_end:
-            what = f"is {self.step:g} s, must be at most t_end = {self.t_end:g} s"
-            raise ModelError("simulation.step", what)
-        if self.t_end > MOST_STEPS * self.step:
-            what = f"{self.step:g} s makes more than {MOST_STEPS:.0e} steps to t_end = {self.t_end:g} s"
-            raise ModelError("simulation.step", what)
-        self._check_output_step()
         if self.equilibrium_of is not None and self.start != "equilibrium":
             what = f'is not used with start = "{self.start}"'
             raise ModelError("simulation.equilibrium_of", what, 'give start = "equilibrium"')
-
-    def _check_output_step(self) -> None:
-        if self.output_step is None:
-            return
-        ratio = checks.positive(self.output_step, "simulation.output_step") / self.step
-        if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-6:
-            what = f"is {self.output_step:g} s, must be a multiple of step = {self.step:g} s"
-            raise ModelError("simulation.output_step", what)
 
 
 @dataclass(frozen=True, slots=True)

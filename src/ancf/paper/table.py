@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..files import to_json
+from ..files import cell, to_json
 from .check import Check
 
 FloatArray = npt.NDArray[np.float64]
@@ -64,7 +64,7 @@ class Table:
         """Write NAME.csv, and NAME.json with the checks."""
         table, full = folder / f"{self.name}.csv", folder / f"{self.name}.json"
         with table.open("w", newline="", encoding="utf-8") as file:
-            csv.writer(file).writerows([self.columns, *self.rows])
+            csv.writer(file).writerows([cell(value) for value in row] for row in (self.columns, *self.rows))
         full.write_text(self._json(checks), encoding="utf-8")
         return [table, full]
 

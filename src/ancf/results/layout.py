@@ -40,18 +40,22 @@ def write_layout(file: Any, system: System) -> None:
             body[key] = getattr(beam, key)
         body.attrs["motion"] = np.concatenate([beam.velocity, beam.angular_velocity, beam.about])
 
-    joints = file.create_group("joints", track_order=True)
-    for name, unknowns in system.joints.items():
-        joints[name] = unknowns
-        joints[name].attrs["slides"] = name in system.numbering.arcs
+    joints = file.create_group("joints")
+    for k, (name, unknowns) in enumerate(system.joints.items()):
+        joint = joints.create_dataset(f"{k:06d}", data=unknowns)  # a name may hold any character, such as /
+        joint.attrs["name"], joint.attrs["slides"] = name, name in system.numbering.arcs
     write_springs(file, system.model)
 
 
 def read_joints(file: Any) -> tuple[dict[str, IntArray], dict[str, int]]:
-    """Unknowns by joint, and those of s by sliding joint; files from before version 0.2 have none."""
-    group = file.get("joints", {})
-    joints = {name: data[:] for name, data in group.items()}
-    return joints, {name: int(joints[name][-1]) for name, data in group.items() if data.attrs["slides"]}
+    """Unknowns by joint, and those of s by sliding joint; early files have none, or names for numbers."""
+    joints, arcs = {}, {}
+    for key, data in file.get("joints", {}).items():
+        name = str(data.attrs.get("name", key))
+        joints[name] = data[:]
+        if data.attrs["slides"]:
+            arcs[name] = int(joints[name][-1])
+    return joints, arcs
 
 
 def _write_mass(group: Any, body: PointMass | RigidBody, slots: IntArray) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ModelError
+from ..errors import ModelError, StorageError
 from ..files import writing
 from ..model import checks
 from ..model.tables import Readable, Sheet
@@ -18,14 +18,15 @@ from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import accuracy, tension
+from . import accuracy, hdf5, tension
 from .layout import read_joints, read_layout
 from .layout_springs import read_springs
 from .overview import line_of_result, of_result
 from .pictures import Filmed
+from .read_store import ReadStore
 from .sensors import Sensors
 from .state import Energy, State
-from .store import FileStore, MemoryStore, ReadStore
+from .store import FileStore, MemoryStore
 
 FloatArray = NDArray[np.float64]
 
@@ -44,9 +45,19 @@ class Result(SpringFields, ContactFields, Filmed, Readable):
             self._joints, self._arcs = system.joints, system.numbering.arcs
             self._springs = springs_of(system.model.connections)
         elif isinstance(store, ReadStore):
+            self._read(store)
+
+    def _read(self, store: ReadStore) -> None:
+        """Bodies, joints and springs from a file."""
+        try:
             self._bodies, self._slots = read_layout(store.layout)
             self._joints, self._arcs = read_joints(store.layout.parent)
             self._springs = read_springs(store.layout.parent, self._bodies)
+            for unknowns in (*self._slots.values(), *self._joints.values()):
+                if unknowns.size and not 0 <= unknowns.min() <= unknowns.max() < store.width:
+                    raise ValueError("its bodies have other unknowns than its states")
+        except (*hdf5.DAMAGED, AssertionError) as error:
+            raise hdf5.damaged(store.path, error) from None
 
     def __repr__(self) -> str:
         return line_of_result(self)
@@ -159,13 +170,26 @@ class Result(SpringFields, ContactFields, Filmed, Readable):
         return State(self._system, float(self.t[index]), q, v, self.stats)
 
     def save(self, path: str | Path) -> None:
-        """Write the result to an HDF5 file; :func:`ancf.load` reads it."""
+        """Write the result to an HDF5 file; :func:`ancf.load` reads it.
+
+        Raises
+        ------
+        ModelError
+            It cannot be written.
+        """
         if isinstance(self._store, ReadStore):
             _copy(self._store.path, path)
             return
         if self._system is None:
             raise ModelError(str(path), "there is nothing to save")
         file = FileStore(path, self._system, self._header)
+        try:
+            self._fill(file)
+        except StorageError as error:
+            raise ModelError(error.where, error.what, "make room, or choose another place") from None
+
+    def _fill(self, file: FileStore) -> None:
+        assert self._system is not None
         arrays = self._store.arrays
         if self._system.sensors:
             samples = self._store.samples
@@ -190,7 +214,11 @@ def load(path: str | Path, system: System | None = None) -> Result:
     ModelError
         There is no such file, or it is not a results file.
     """
-    store = ReadStore(path)
+    return read(ReadStore(path), system)
+
+
+def read(store: ReadStore, system: System | None = None) -> Result:
+    """Result from a file that has been opened."""
     return Result(store, store.header, system)
 
 

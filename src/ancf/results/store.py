@@ -7,6 +7,8 @@ so that a run that is killed leaves a file which is readable up to its last bloc
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -14,8 +16,8 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ModelError
-from ..files import writing
+from ..errors import ModelError, StorageError
+from ..files import problem, writing
 from ..model import checks
 from ..model.bodies import Body
 from ..solvers.newmark import COUNTS
@@ -23,8 +25,9 @@ from ..solvers.stepping import Stats
 from ..system.energy import energies
 from ..system.sensors import Listing
 from ..system.system import System
+from . import hdf5
 from .layout import write_layout
-from .layout_sensors import DATA, read_listing, write_listing
+from .layout_sensors import DATA, write_listing
 
 FloatArray = NDArray[np.float64]
 
@@ -131,6 +134,8 @@ class FileStore:
     ------
     ModelError
         The file cannot be written.
+    StorageError
+        Later, from any method: it can no longer be written; what has been stored can be read.
     """
 
     def __init__(self, path: str | Path, system: System, header: dict[str, Any]) -> None:
@@ -141,8 +146,12 @@ class FileStore:
         with writing(path):
             self.path.unlink(missing_ok=True)  # a result that still reads the old file keeps it
             self._file = h5py.File(self.path, "w", libver="latest")
-        self._create(header)
-        self._file.swmr_mode = True
+            try:
+                self._create(header)
+                self._file.swmr_mode = True
+            except (OSError, RuntimeError) as error:
+                hdf5.abandon(self._file)
+                raise OSError(problem(error) or str(error)) from None
         self.stats, self.status = Stats(), "running"
 
     def _create(self, header: dict[str, Any]) -> None:
@@ -164,25 +173,41 @@ class FileStore:
         if len(t) == 0:
             return
         columns = {"q": q, "v": v, "work": work, "energy": energies(self._system, q, v), "time": t}
-        for name, values in columns.items():
-            _extend(self._file[name], values)
+        with self._storing():
+            for name, values in columns.items():
+                _extend(self._file[name], values)
 
     def record(self, t: FloatArray, samples: FloatArray) -> None:
         """Add samples."""
         columns = _split(samples, self._system.sensors) | {"time": t}
-        for name in DATA:
-            _extend(self._file["sensors"][name], columns[name])
+        with self._storing():
+            for name in DATA:
+                _extend(self._file["sensors"][name], columns[name])
 
     def update(self, stats: Stats, status: str) -> None:
         """Counters and status so far; everything until now reaches the disk."""
         self.stats, self.status = stats, status
-        self._file["stats"][:] = [getattr(stats, name) for name in COUNTS] + [stats.cpu_seconds]
-        self._file["status"][()] = STATUS.index(status)
-        self._file.flush()
+        with self._storing():
+            self._file["stats"][:] = [getattr(stats, name) for name in COUNTS] + [stats.cpu_seconds]
+            self._file["status"][()] = STATUS.index(status)
+            self._file.flush()
 
     def close(self) -> None:
         """Close the file; the states are read from it from now on."""
-        self._file.close()
+        with self._storing():
+            self._file.close()
+
+    @contextmanager
+    def _storing(self) -> Iterator[None]:
+        if not self._file:
+            raise StorageError(str(self.path), "cannot be written any more")
+        try:
+            yield
+        except (OSError, RuntimeError) as error:
+            hdf5.abandon(self._file)
+            said = problem(error) or str(error).split("\n", 1)[0]
+            hint = "make room or store less often (output_step)"
+            raise StorageError(str(self.path), f"cannot be written any more: {said}", hint) from error
 
 
 def _extend(data: Any, values: FloatArray) -> None:
@@ -197,96 +222,3 @@ def _split(samples: FloatArray, listing: Listing) -> dict[str, FloatArray]:
     """Rows of samples as entries of q, of v, and what was measured."""
     k = len(listing.index)
     return {"q": samples[:, :k], "v": samples[:, k : 2 * k], "measured": samples[:, 2 * k :]}
-
-
-class ReadStore:
-    """A results file opened for reading; also one whose run was killed.
-
-    Raises
-    ------
-    ModelError
-        It is not there, or not a results file.
-    """
-
-    def __init__(self, path: str | Path) -> None:
-        if not isinstance(path, str | Path):
-            raise ModelError("load", f"must be given a path, is given {checks.shown(path)}")
-        self.path = Path(path)
-        self._file = _open(self.path)
-        if self._file.attrs.get("format") != FORMAT:
-            raise ModelError(str(path), "is not a results file of ancf")
-        self.header: dict[str, Any] = json.loads(self._file.attrs["header"])
-        # an earlier load of a run that goes on has seen less of it
-        for name in ("time", "q", "v", "work", "energy"):
-            self._file[name].refresh()
-            if name == "time":
-                self._rows: int = self._file[name].shape[0]
-        self._sensors = self._file.get("sensors")
-        for name in DATA[::-1] if self._sensors else ():
-            self._sensors[name].refresh()
-            if name == "time":
-                self._samples: int = self._sensors[name].shape[0]
-
-    @property
-    def arrays(self) -> dict[str, Any]:
-        """See :class:`Store`; time is written last, so that every row of it is complete."""
-        rows = self._rows
-        whole = {name: self._file[name] for name in ("q", "v", "work", "energy")}
-        return {"time": self._file["time"][:rows], **{k: Rows(d, rows) for k, d in whole.items()}}
-
-    @property
-    def samples(self) -> dict[str, Any]:
-        """See :class:`Store`."""
-        rows = self._samples
-        whole = {name: Rows(self._sensors[name], rows) for name in DATA[:-1]}
-        return {"time": self._sensors["time"][:rows], **whole}
-
-    def listing(self, bodies: dict[str, Body]) -> Listing:
-        """See :class:`Store`."""
-        return read_listing(self._sensors, bodies) if self._sensors else Listing()
-
-    @property
-    def layout(self) -> Any:
-        """Group with the bodies."""
-        return self._file["bodies"]
-
-    @property
-    def stats(self) -> Stats:
-        """Counters."""
-        *counts, seconds = self._file["stats"][:].tolist()
-        return Stats.of(counts, seconds)
-
-    @property
-    def status(self) -> str:
-        """One of STATUS; "running" also for a run that was killed."""
-        return STATUS[int(self._file["status"][()])]
-
-
-class Rows:
-    """The first rows of a data set."""
-
-    def __init__(self, data: Any, rows: int) -> None:
-        self._data, self.shape = data, (rows, *data.shape[1:])
-
-    def __getitem__(self, key: Any) -> FloatArray:
-        first, *rest = key if isinstance(key, tuple) else (key,)
-        if first is Ellipsis:
-            first = slice(None)
-        if isinstance(first, slice):
-            start, stop, stride = first.indices(self.shape[0])
-            first = slice(start, stop, stride)
-        elif first < 0:
-            first += self.shape[0]
-        return np.asarray(self._data[(first, *rest)])
-
-
-def _open(path: Path) -> Any:
-    if not path.is_file():
-        raise ModelError(str(path), "there is no such file")
-    problem: OSError | None = None
-    for swmr in (False, True):  # a killed run leaves the file marked as being written
-        try:
-            return h5py.File(path, "r", libver="latest", swmr=swmr)
-        except OSError as error:
-            problem = error
-    raise ModelError(str(path), f"is not a results file of ancf: {problem}") from None

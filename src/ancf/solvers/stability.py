@@ -34,7 +34,7 @@ def stable_limit(system: System, q: FloatArray, v: FloatArray) -> float:
     Raises
     ------
     SolveError
-        The mass matrix is singular.
+        The mass matrix is singular, or the fastest vibration is beyond the numbers that there are.
     """
     core = system.core
     if mass_factor(core, q, v) < 0:
@@ -74,6 +74,10 @@ def _largest(system: System, q: FloatArray, v: FloatArray, damping: float, stiff
     assemble(core.batches, core.ws, q, v, values, 0.0, damping, stiffness)
     restrict(core.supports, values)
     K = csc_array(to_sparse(values, system.places)[free][:, free])
+    scale = float(np.max(np.abs(K.data), initial=0.0))
+    if scale == 0.0:
+        return 0.0
+    K.data /= scale  # products of very large stiffnesses would overflow
 
     def solve(r: FloatArray) -> FloatArray:
         x[:] = 0.0
@@ -81,7 +85,12 @@ def _largest(system: System, q: FloatArray, v: FloatArray, damping: float, stiff
         solve_matrix(core.factor, x)
         return x[free]
 
-    return max(lanczos(lambda y: K @ y, solve, len(free)), 0.0)
+    with np.errstate(all="ignore"):
+        found = scale * max(lanczos(lambda y: K @ y, solve, len(free)), 0.0) if np.isfinite(scale) else np.inf
+    if not np.isfinite(found):
+        what = "the fastest vibration of the model is too fast to be computed"
+        raise SolveError("start", what, "see whether stiffnesses, masses and lengths are as meant")
+    return found
 
 
 def lanczos(
@@ -102,6 +111,8 @@ def lanczos(
             r = r - np.sum(x * r) * u
         p = solve(r)
         norm = float(np.sqrt(max(np.sum(p * r), 0.0)))
+        if not np.isfinite(norm + diagonal[-1]):
+            return np.inf
         values, shapes = eigh_tridiagonal(np.array(diagonal), np.array(beside))
         value = float(values[-1])
         error = norm * abs(float(shapes[-1, -1]))

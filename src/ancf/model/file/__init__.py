@@ -11,6 +11,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from ancf.errors import ModelError
+from ancf.files import exists
 from ancf.model.checks import nearest
 from ancf.model.file.build import Builder
 from ancf.model.file.entries import FileEntry
@@ -107,7 +108,7 @@ def _read_text(path: Path, kind: str) -> str:
     try:
         return path.read_bytes().decode("utf-8-sig")
     except FileNotFoundError:
-        found = [p.name for p in path.parent.glob("*.toml")] if path.parent.is_dir() else []
+        found = [p.name for p in path.parent.glob("*.toml")] if exists(path.parent, "is_dir") else []
         raise ModelError(str(path), "no such file", nearest(path.name, found)) from None
     except IsADirectoryError:
         raise ModelError(str(path), f"is a folder, not a {kind}") from None

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...files import drafted
+from ...files import cell, drafted
 from ...model.beam import Beam
 from ...model.points import Point
 from ...results.result import Result
@@ -31,7 +31,7 @@ def write_table(path: Path, columns: Iterable[Column]) -> Path:
     listed = list(columns)
     with drafted(path) as draft, draft.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
-        writer.writerow([name for name, _ in listed])
+        writer.writerow([cell(name) for name, _ in listed])
         writer.writerows(zip(*(values.tolist() for _, values in listed), strict=True))
     return path
 

@@ -1,0 +1,77 @@
+"""``ancf check``: whether a model file, a line file or a results file is right."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ancf.cli.info import is_hdf5
+from ancf.cli.screen import console
+from ancf.cli.summary import plural
+from ancf.errors import ModelError
+
+#: Tables that only line files have.
+OF_A_LINE = {"contact_wire", "messenger_wire", "spans", "steady_arm"}
+#: Numbers of a results file that are looked at together.
+AT_ONCE = 4_000_000
+
+
+def check_file(path: Path) -> None:
+    """Tell what a file is by its first bytes or its tables, and find everything that is wrong with it.
+
+    Raises
+    ------
+    ModelError
+        It cannot be read, or something in it is wrong.
+
+    """
+    if is_hdf5(path):
+        return _check_results(path)
+    from ancf.model.file import read_toml
+
+    data = read_toml(path, "model file")
+    return _check_line(path, data) if OF_A_LINE & data.keys() else _check_model(path, data)
+
+
+def _check_model(path: Path, data: dict[str, Any]) -> None:
+    """Read a model and compile its System."""
+    from ancf.cli.info_model import compiled, counts, print_notes, task
+    from ancf.cli.notes import check_equilibrium
+    from ancf.model.file import parse_study
+
+    study = parse_study(data, str(path))
+    system = compiled(study.model)
+    check_equilibrium(study, system)
+    _print_right(path, f"{counts(study.model)}; {task(study)}")
+    print_notes(study, system)
+
+
+def _check_line(path: Path, data: dict[str, Any]) -> None:
+    """Read a line, divide its wires and hang them as strings; more is found with its form."""
+    from ancf.catenary.file import parse_line
+    from ancf.catenary.form import check
+
+    line = parse_line(data, str(path))
+    check(line)
+    size = f"{plural(len(line.spans), 'span')}, {plural(line.dropper_x.size, 'dropper')}"
+    _print_right(path, f"{size}, {line.length:g} m, wave speed {3.6 * line.wave_speed:.0f} km/h")
+
+
+def _check_results(path: Path) -> None:
+    """Read the states and look for what is no number."""
+    import numpy as np
+
+    from ancf.cli.results_file import open_result
+
+    result = open_result(path)
+    rows = len(result.t)
+    most = max(1, AT_ONCE // max(result.q.shape[1], 1))
+    for first in range(0, rows, most):
+        for name in ("t", "q", "v"):
+            if not np.all(np.isfinite(getattr(result, name)[first : first + most])):
+                raise ModelError(str(path), f"has values of {name} that are no finite numbers")
+    _print_right(path, f"{plural(rows, 'state')} to t = {result.t[-1]:g} s, {result.status}")
+
+
+def _print_right(path: Path, what: str) -> None:
+    console().print(f"{path}: right; {what}", soft_wrap=True)

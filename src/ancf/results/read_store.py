@@ -1,0 +1,141 @@
+"""A results file opened for reading, finished or not."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ModelError
+from ..model import checks
+from ..model.bodies import Body
+from ..solvers.stepping import Stats
+from ..system.sensors import Listing
+from . import hdf5
+from .layout_sensors import DATA, read_listing
+from .store import FORMAT, STATUS
+
+FloatArray = NDArray[np.float64]
+
+
+class ReadStore:
+    """A results file opened for reading; also one whose run was killed.
+
+    Parameters
+    ----------
+    path : path
+    status : str, optional
+        How the run ended, where its file could not take it any more.
+
+    Raises
+    ------
+    ModelError
+        It is not there, not a results file, or damaged.
+    """
+
+    def __init__(self, path: str | Path, status: str | None = None) -> None:
+        if not isinstance(path, str | Path):
+            raise ModelError("load", f"must be given a path, is given {checks.shown(path)}")
+        self.path, self._status = Path(path), status
+        self._file = hdf5.opened(self.path)
+        try:
+            self._begin()
+        except hdf5.DAMAGED as error:
+            raise hdf5.damaged(path, error) from None
+
+    def _begin(self) -> None:
+        if self._file.attrs.get("format") != FORMAT:
+            raise ModelError(str(self.path), "is not a results file of ancf")
+        self.header: dict[str, Any] = json.loads(self._file.attrs["header"])
+        if not isinstance(self.header, dict) or not isinstance(self.header.get("settings"), dict):
+            raise ValueError("its header is no table with settings")
+        # an earlier load of a run that goes on has seen less of it
+        self._rows = self._refreshed(self._file, ("time", "q", "v", "work", "energy"))
+        self._sensors = self._file.get("sensors")
+        self._samples = self._refreshed(self._sensors, DATA[::-1]) if self._sensors else 0
+        widths = [self._file[name].shape[1] for name in ("q", "v", "work", "energy")]
+        if (
+            widths[0] != widths[1]
+            or widths[2:] != [2, 3]
+            or not 0 <= int(self._file["status"][()]) < len(STATUS)
+        ):
+            raise ValueError("its data sets do not belong together")
+        self.stats  # noqa: B018 - as many counters as there should be
+
+    @staticmethod
+    def _refreshed(group: Any, names: tuple[str, ...]) -> int:
+        """Rows that all data sets of a group have; the time, which is written last, comes first."""
+        rows = 0
+        for k, name in enumerate(names):
+            data = group[name]
+            data.refresh()
+            rows = rows if k else data.shape[0]
+            if data.dtype != np.float64 or data.ndim != (2 if k else 1) or data.shape[0] < rows:
+                raise ValueError(f'the data set "{name}" is not as it should be')
+        return rows
+
+    @property
+    def arrays(self) -> dict[str, Any]:
+        """See :class:`Store`; time is written last, so that every row of it is complete."""
+        rows = self._rows
+        whole = {name: self._file[name] for name in ("q", "v", "work", "energy")}
+        return {"time": Rows(self._file["time"], rows)[:], **{k: Rows(d, rows) for k, d in whole.items()}}
+
+    @property
+    def samples(self) -> dict[str, Any]:
+        """See :class:`Store`."""
+        rows = self._samples
+        whole = {name: Rows(self._sensors[name], rows) for name in DATA[:-1]}
+        return {"time": Rows(self._sensors["time"], rows)[:], **whole}
+
+    def listing(self, bodies: dict[str, Body]) -> Listing:
+        """See :class:`Store`."""
+        try:
+            return read_listing(self._sensors, bodies) if self._sensors else Listing()
+        except hdf5.DAMAGED as error:
+            raise hdf5.damaged(self.path, error) from None
+
+    @property
+    def width(self) -> int:
+        """Size of the state vectors."""
+        return int(self._file["q"].shape[1])
+
+    @property
+    def layout(self) -> Any:
+        """Group with the bodies."""
+        return self._file["bodies"]
+
+    @property
+    def stats(self) -> Stats:
+        """Counters."""
+        *counts, seconds = self._file["stats"][:].tolist()
+        return Stats.of(counts, seconds)
+
+    @property
+    def status(self) -> str:
+        """One of STATUS; "running" also for a run that was killed."""
+        return self._status or STATUS[int(self._file["status"][()])]
+
+
+class Rows:
+    """The first rows of a data set."""
+
+    def __init__(self, data: Any, rows: int) -> None:
+        self._data, self.shape = data, (rows, *data.shape[1:])
+
+    def __getitem__(self, key: Any) -> FloatArray:
+        first, *rest = key if isinstance(key, tuple) else (key,)
+        if first is Ellipsis:
+            first = slice(None)
+        if isinstance(first, slice):
+            start, stop, stride = first.indices(self.shape[0])
+            first = slice(start, stop, stride)
+        elif first < 0:
+            first += self.shape[0]
+        try:
+            return np.asarray(self._data[(first, *rest)])
+        except (OSError, RuntimeError) as error:
+            raise hdf5.damaged(self._data.file.filename, error) from None
