@@ -259,7 +259,7 @@ BAD = [
     ((*RUN, "t_end"), MISSING, "simulation.t_end", "is missing (End time [s])"),
     ((*RUN, "t_end"), 0, "simulation.t_end", "must be > 0"),
     ((*RUN, "step"), 0, "simulation.step", "must be > 0"),
-    ((*RUN, "step"), 1, "simulation.step", "at most t_end = 0.4 s"),
+    ((*RUN, "step"), 1, "simulation.step", "longer than the whole run of 0.4 s"),
     ((*RUN, "step"), 1e-30, "simulation.step", "more than 1e+09 steps"),
     ((*RUN, "output_step"), 3e-4, "simulation.output_step", "multiple of step"),
     ((*RUN, "output_step"), 1e-5, "simulation.output_step", "multiple of step"),

@@ -209,7 +209,7 @@ class TestFile:
     def test_time_is_written_last(self, run, tmp_path, monkeypatch):
         """Otherwise the torn block above would have a time and no values."""
         system, memory = run[0].state().system, run[0]
-        store = FileStore(tmp_path / "half.h5", system, {})
+        store = FileStore(tmp_path / "half.h5", system, {"settings": {}})
         monkeypatch.setattr("ancf.results.store.energies", lambda *_: np.zeros((7, 7)))
         with pytest.raises((TypeError, ValueError)):
             store.append(memory.t, memory.q, memory.v, np.zeros((len(memory.t), 2)))

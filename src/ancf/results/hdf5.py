@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,8 @@ from ..files import problem
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 #: Bytes of the superblock: its version, the marks of a writer, the length of the file, all of it.
 VERSION, MARKS, END, HEAD = 8, 11, slice(28, 36), 48
+#: Groups in groups: bodies/NAME/slots.
+DEEPEST = 2
 #: Pauses before another look at a file that a run may be writing just now, s.
 PAUSES = (0.0, 0.05, 0.1, 0.2, 0.4)
 #: What HDF5 and h5py raise about a damaged file.
@@ -106,27 +109,37 @@ def _growing(path: Path) -> Any:
 
 def _look_over(path: Path, file: Any, size: int | None = None) -> None:
     """Refuse data that are kept elsewhere; with a size read all metadata, and check that data are inside."""
-    names: list[bytes] = []
-    foreign: list[bytes] = []  # an exception in the visit would be lost
-
-    def link(name: bytes, info: Any) -> None:
-        (names if info.type == h5py.h5l.TYPE_HARD else foreign).append(name)
-
-    file.id.links.visit(link, info=True)
-    if foreign:
-        text = foreign[0].decode(errors="replace")
-        raise ModelError(str(path), f'is refused: "{text}" is a link to another place or file')
-    for name in (b".", *names):
-        item = h5py.h5o.open(file.id, name)
+    for name, item in _items(path, h5py.h5g.open(file.id, b"/")):
         if isinstance(item, h5py.h5d.DatasetID):
             plan = item.get_create_plist()
             if plan.get_external_count() or plan.get_layout() == h5py.h5d.VIRTUAL:
-                text = name.decode(errors="replace")
-                raise ModelError(str(path), f'is refused: "{text}" keeps its data in another file')
+                raise ModelError(str(path), f'is refused: "{name}" keeps its data in another file')
             if size is not None:
                 _inside(item, plan.get_layout(), size)
         if size is not None:
             _read_attributes(item)
+
+
+def _items(path: Path, group: Any, prefix: str = "", depth: int = 0) -> Iterator[tuple[str, Any]]:
+    """All groups and data sets with their names; HDF5's own visit may crash when one is damaged.
+
+    Raises
+    ------
+    ModelError
+        There is a link to another place or file, or groups lie deeper than a results file has them.
+    """
+    yield prefix or "/", group
+    if depth > DEEPEST:
+        raise ModelError(str(path), f'is refused: "{prefix}" lies deeper than anything that ancf writes')
+    for key in list(group):
+        name = f"{prefix}/{key.decode(errors='replace')}".lstrip("/")
+        if group.links.get_info(key).type != h5py.h5l.TYPE_HARD:
+            raise ModelError(str(path), f'is refused: "{name}" is a link to another place or file')
+        item = h5py.h5o.open(group, key)
+        if isinstance(item, h5py.h5g.GroupID):
+            yield from _items(path, item, name, depth + 1)
+        else:
+            yield name, item
 
 
 def _read_attributes(item: Any) -> None:
