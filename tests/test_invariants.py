@@ -220,6 +220,14 @@ class TestFreeFlight:
         assert np.linalg.norm(momentum[0]) > 0.1
         assert momentum == pytest.approx(np.broadcast_to(momentum[0], momentum.shape), abs=1e-9)
 
+    @pytest.mark.parametrize("step", [2e-3, 1e-3, 2.5e-4])
+    def test_momentum_does_not_depend_on_newton(self, element, step):
+        """What Newton leaves is no force from outside; it used to add up, the more the finer the step."""
+        for tolerance in (1e-8, 1e-11):
+            method = ancf.Trapezoidal(newton=ancf.Newton(tolerance=tolerance))
+            momentum, _ = self.momenta(self.fly(element, step, method))
+            assert np.abs(momentum - momentum[0]).max() < 1e-12 * np.linalg.norm(momentum[0])
+
     def test_angular_momentum(self, element):
         """The trapezoidal rule keeps it to the order of the method."""
         errors = []

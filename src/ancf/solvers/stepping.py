@@ -124,7 +124,8 @@ class Run:
         self.steps = self.full + (self.rest > 0.0)
         self.scheme = Scheme(*integrator.coefficients())
         n = integrator.newton
-        self.newton = (n.tolerance, n.contraction, n.max_iterations, n.modified, n.corotate)
+        corotate = n.corotate and not _flies(system)
+        self.newton = (n.tolerance, n.contraction, n.max_iterations, n.modified, corotate)
         self.formulation = FORMULATIONS[integrator.formulation]
         self.memory: Memory = allocate(system.size, turning_nodes(system), room_for_patches(system))
         self.taps = taps_of(system)
@@ -320,6 +321,17 @@ class Run:
         what = f"{COLLAPSED}; step {h:g} s"
         hint = f"try a step of {h / 10:.2g} s or less, GeneralizedAlpha, more elements, or a stiffer section"
         return SolveError(f"t = {t:.6g} s, step {number}, {element}", what, hint)
+
+
+def _flies(system: System) -> bool:
+    """Whether nothing ties a system to the ground.
+
+    A kept matrix that turns with the nodes mixes their motions: the momentum is then lost by what Newton's
+    method leaves, where the plain one keeps it to the last digit.
+    """
+    model = system.model
+    ends = [getattr(c, name, None) for c in model.connections for name in ("a", "b", "point")]
+    return not model.supports and not any(isinstance(end, np.ndarray) for end in ends)
 
 
 COLLAPSED = "the cross-section has collapsed or turned inside out"
