@@ -266,7 +266,7 @@ class TestSignals:
         """Send a signal to this process once a run has stored states."""
 
         def wait():
-            end = time.monotonic() + 240
+            end = time.monotonic() + 900
             while time.monotonic() < end:
                 time.sleep(0.05)
                 try:
