@@ -181,7 +181,8 @@ def _finished(line: Line, mesh: Mesh, now: Hung, iterations: int) -> Form:
     length, force = now.length, now.force
     own = line.droppers.mass * length * line.gravity
     load = force - 0.5 * own
-    worst = int(np.argmin(load))
+    least = float(np.min(load))
+    worst = int(np.argmax(load <= least + 1e-3 * abs(least)))  # the first of those that are alike
     if load[worst] <= 0.0:
         what = f"would carry {load[worst]:.1f} N at rest: it has to push the contact wire down"
         raise ModelError(line.dropper_label(worst), what, "change its place or the pre_sag around it")
