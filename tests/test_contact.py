@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.connections.contact import ASIDE, FORCE, OVERLAP, ContactBatch
+from ancf.system.system import System
+from helpers import derivative, energy, forces
 
 TENSION, LENGTH, EA = 20e3, 30.0, 15e6
 G = 9.81
@@ -26,6 +29,81 @@ def wire_over(strip_z: float, x: float = 12.0, *, mass: float = 7.2, spring: flo
     model.add_spring(head, (x, 0, strip_z - 1.0), stiffness=spring, length=1.0)
     touch = model.add_contact(head, wire, stiffness=50e3, **contact)
     return model, wire, head, touch
+
+
+class TestKernel:
+    """Forces of one contact on a bent and sloping wire, off its equilibrium, strip and wire both oblique."""
+
+    STIFFNESS, DAMPING = 400.0, 30.0
+
+    def system(self, *, lift=0.05, x=1.1, damping=0.0):
+        model = ancf.Model()
+        section = ancf.Section(EA=300.0, EI=1.0, rhoA=0.7)
+        wire = model.add_beam("wire", start=(0, 0.2, 0), end=(2, 0.5, 0.3), elements=2, section=section)
+        place = np.array([x, 0.2 + 0.15 * x, 0.15 * x + lift])
+        head = model.add_point_mass("head", at=place, mass=1.0)
+        model.add_contact(head, wire, stiffness=self.STIFFNESS, damping=damping)
+        system = System(model)
+        q, _ = system.initial_state()
+        rng = np.random.default_rng(5)
+        for slots in (system.slots["wire"][1:, 1], system.slots["wire"][1:, 0]):
+            q[slots[:, None] + np.arange(3)] += rng.uniform(-0.02, 0.02, (len(slots), 3))
+        return system, q
+
+    @staticmethod
+    def contact(system):
+        return next(b for b in system.core.batches if isinstance(b, ContactBatch))
+
+    def found(self, system, q, v=None):
+        forces(system, q, v=v)
+        return self.contact(system).found[0].copy()
+
+    def test_force_is_gradient_of_energy(self):
+        system, q = self.system()
+        assert self.found(system, q)[FORCE] > 1.0
+        wanted = derivative(lambda x: energy(system, x), q, step=1e-4)
+        assert forces(system, q) == pytest.approx(wanted, abs=1e-7 * np.max(np.abs(wanted)))
+
+    def test_damping_is_the_rate_of_the_overlap(self):
+        """F = k g + c dg/dt with g of the same contact at times a little later and earlier."""
+        system, q = self.system(damping=self.DAMPING)
+        v = np.random.default_rng(6).uniform(-0.1, 0.1, len(q))
+        h = 1e-5
+        ahead, behind = (self.found(system, q + s * h * v)[OVERLAP] for s in (1, -1))
+        now = self.found(system, q, v)
+        wanted = self.STIFFNESS * now[OVERLAP] + self.DAMPING * (ahead - behind) / (2 * h)
+        assert now[FORCE] == pytest.approx(wanted, rel=1e-8)
+        assert abs(ahead - behind) / (2 * h) > 0.02  # the rate is seen
+
+    def test_damper_never_pulls(self):
+        """The head leaves faster than the overlap can push: no force, on nobody."""
+        system, q = self.system(damping=self.DAMPING)
+        v = np.zeros_like(q)
+        v[system.slots["head"][0, 0] + 2] = -100.0
+        assert self.found(system, q, v)[FORCE] == 0.0
+        apart = q.copy()
+        apart[system.slots["head"][0, 0] + 2] -= 1.0
+        assert np.array_equal(forces(system, q, v=v), forces(system, apart, v=v))
+
+    def test_what_it_finds(self):
+        """Overlap and place on the strip, which is measured from the head in the strip's direction."""
+        model = ancf.Model()
+        section = ancf.Section(EA=300.0, EI=1.0, rhoA=0.7)
+        wire = model.add_beam("wire", start=(0, 0.3, 1), end=(2, 0.3, 1), elements=2, section=section)
+        head = model.add_point_mass("head", at=(0.7, 0.1, 1.02), mass=1.0)
+        model.add_contact(head, wire, stiffness=self.STIFFNESS)
+        system = System(model)
+        found = self.found(system, system.initial_state()[0])
+        assert found[OVERLAP] == pytest.approx(0.02)
+        assert found[ASIDE] == pytest.approx(0.2)
+        assert found[FORCE] == pytest.approx(0.02 * self.STIFFNESS)
+
+    @pytest.mark.parametrize("x", [-0.02, 2.02])
+    def test_beyond_the_ends(self, x):
+        """Off the wire there is no force, although its first and last element would go on."""
+        system, q = self.system(x=x, lift=0.2)
+        assert self.found(system, q)[FORCE] == 0.0
+        assert not np.any(forces(system, q)[system.slots["head"][0, 0] + np.arange(3)])
 
 
 def test_equilibrium_is_that_of_three_springs_in_a_row():

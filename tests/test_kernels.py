@@ -86,6 +86,15 @@ class TestSprings:
         )
         assert energy(slack, q) == energy(bare, q)
 
+    def test_damper_of_a_loose_slack_spring_does_nothing(self):
+        """Its ends fly apart faster than it is too short: k (l - l0) + c dl/dt > 0, and yet no force."""
+        loose, both = spring_system("cable", "slack"), spring_system("cable", "both ways")
+        bare = System(two_bodies("cable")[0])
+        q = shaken(loose)
+        apart = -1e3 * (forces(bare, q) - forces(both, q))  # against the pull of a tight one
+        assert np.array_equal(forces(loose, q, v=apart), forces(bare, q, v=apart))
+        assert not np.allclose(forces(both, q, v=apart), forces(bare, q, v=apart))
+
     def test_slack_never_pushes(self):
         """A tight spring whose ends approach fast: the damper would push more than the spring pulls."""
         tight, both = spring_system("cable", "tight"), spring_system("cable", "both ways")

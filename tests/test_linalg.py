@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.linalg import ordering
 from ancf.linalg.block_ldl import allocate
 from ancf.linalg.ordering import behind, fill_pattern, order
 from ancf.linalg.sparse import to_sparse
@@ -158,6 +159,46 @@ class TestFactorisation:
         laplacian[0, 0] = laplacian[-1, -1] = 1.0
         _, code = factorised(np.kron(laplacian, np.eye(6)), chain(n), n)
         assert code == -n
+
+    @pytest.mark.parametrize("size", [2.0**-40, 1.0, 2.0**40])
+    def test_threshold_of_singular(self, size):
+        """What a pivot loses of its diagonal entry counts: 2^-40 of it is left, 2^-48 is round-off."""
+        codes = []
+        for left in (2.0**-40, -(2.0**-40), 2.0**-48, -(2.0**-48), 0.0):
+            A = np.eye(6)
+            A[:2, :2] = [[1.0, 1.0], [1.0, 1.0 + left]]  # exact: the second pivot is ``left``
+            codes.append(factorised(size * A, chain(1).reshape(0, 2).astype(int), 1)[1])
+        assert codes == [0, 1, -1, -1, -1]
+
+    @pytest.mark.parametrize("at", range(6))
+    def test_pivots_are_chosen_inside_blocks(self, at):
+        """A diagonal entry next to zero is no pivot, wherever it stands: all digits are kept."""
+        pairs, n = PATTERNS["chain"]
+        A = random_symmetric(pairs, n) + 8.0 * np.eye(6 * n)
+        A[at, at] = 1e-18
+        factor, negative = factorised(A, pairs, n)
+        assert negative == np.sum(np.linalg.eigvalsh(A) < 0)
+        b = RNG.standard_normal(6 * n)
+        x = b.copy()
+        solve_matrix(factor, x)
+        assert backward_error(A, x, b) < 1e-13 * max(np.max(np.abs(factor.L)), 1.0) ** 2
+
+    def test_pivot_blocks_are_symmetric_to_the_last_bit(self, pattern):
+        """Along a chain of many nodes an antisymmetric error would grow."""
+        pairs, n = pattern
+        factor, _ = factorised(definite(pairs, n), pairs, n)
+        D = factor.D_inv.reshape(-1, 6, 6)
+        assert np.array_equal(D, D.transpose(0, 2, 1))
+
+    def test_small_blocks_count(self):
+        """Only what is exactly zero is left out: bodies are coupled by stiffnesses of any size."""
+        weak = 2.0**-30
+        A = np.eye(12)
+        A[6:, :6] = A[:6, 6:] = weak * np.eye(6)
+        factor, _ = factorised(A, chain(2), 2)
+        x = np.append(np.ones(6), np.zeros(6))
+        solve_matrix(factor, x)
+        assert x[6:] == pytest.approx(np.full(6, -weak / (1 - weak**2)), rel=1e-14)
 
     def test_detects_what_is_not_a_number(self):
         pairs, n = PATTERNS["chain"]
@@ -311,6 +352,19 @@ class TestOrder:
             assert name == "band"
             assert np.max(np.abs(np.diff(rank[pairs], axis=1))) <= 4
             assert fill_of(pairs, rank) < 4.5 * n < 0.7 * fill_of(pairs, np.arange(2 * n))
+
+    @pytest.mark.parametrize("links", [0.1, 0.3, 0.6])
+    def test_fill_is_within_a_seventh_of_the_least(self, links):
+        """Of the orders that are compared, on nets between a chain and a tangle."""
+        n = 60
+        for seed in range(12):
+            extra = np.random.default_rng(seed).integers(0, n, (int(links * n), 2))
+            pairs = np.concatenate([chain(n), extra])
+            least = min(
+                fill_of(pairs, rank)
+                for rank in (np.arange(n), ordering._band(pairs, n), ordering._minimum_degree(pairs, n))
+            )
+            assert fill_of(pairs, order(pairs, n)[0]) <= 1.15 * least
 
     def test_minimum_degree_for_a_net(self):
         k = 24

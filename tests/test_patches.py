@@ -92,3 +92,18 @@ def test_energies_can_be_left_out():
     assert without.state(-1).energy.total == pytest.approx(with_energy.energy.total[-1])
     with pytest.raises(ancf.ModelError, match=r"simulate\.energy"):
         ancf.simulate(model, energy="no", **given)
+
+
+@pytest.mark.parametrize("damping", [0.0, 3.0])
+def test_a_linear_spring_that_goes_slack_needs_nothing_but_the_correction(damping):
+    """A ball on a rope jumps: along a line all is linear piece by piece, and one factorisation serves."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    ball = model.add_point_mass("ball", at=(0, 0, 0), mass=1.0)
+    rope = model.add_spring(ball, (0, 0, 1.0), stiffness=1e4, damping=damping, length=0.999, slack=True)
+    ball.set_motion(velocity=(0, 0, 1.0))
+    newton = ancf.Newton(corotate=False)
+    result = ancf.simulate(model, t_end=0.3, step=2e-3, integrator=ancf.Trapezoidal(newton=newton))
+    carries = result.spring_force(rope) > 0.0
+    assert np.sum(carries[1:] != carries[:-1]) >= 2
+    assert result.stats.factorizations == 1
+    assert result.stats.newton_iterations <= 2 * result.stats.steps + 10

@@ -1,0 +1,62 @@
+"""pytest plugin of the mutants: kernels as plain Python, or those that the unchanged sources have compiled.
+
+A change of a kernel would have to be compiled, for a minute. The kernels are Python all the same: with
+``ANCF_MUTANTS=interpreted`` they run as they stand, on models of a few elements. A change elsewhere leaves
+the compiled kernels valid: ``ANCF_MUTANTS=`` followed by their stamp says that the cache may be used.
+"""
+
+import os
+from typing import Any
+
+from ancf import compiled
+
+_OPERATIONS = {
+    "force": "add_force",
+    "inertia": "add_inertia",
+    "tangent": "add_tangent",
+    "energy": "strain_energy",
+    "event": "find_event",
+    "inverted": "inverted",
+    "measure": "measure",
+}
+_DEFAULTS = {"event": compiled.no_event, "inverted": compiled.never_inverted}
+
+
+def _plain(function):
+    function.py_func = function
+    return function
+
+
+def _interpret() -> None:
+    """Replace the decorators and the choice by type; to be done before a kernel gets imported."""
+    registered: dict[str, dict[type, Any]] = {name: {} for name in _OPERATIONS}
+
+    def implements(batch_type, **functions):
+        for name in _OPERATIONS:
+            registered[name][batch_type] = functions.get(name, _DEFAULTS.get(name))
+
+    def chosen(name):
+        return lambda batch, *arguments: registered[name][type(batch)](batch, *arguments)
+
+    def optional(function, default=None):
+        return lambda items, *arguments: function(items, *arguments) if len(items) else default
+
+    for decorator in ("kernel", "inline_kernel", "formula"):
+        setattr(compiled, decorator, _plain)
+    for name, operation in _OPERATIONS.items():
+        setattr(compiled, operation, chosen(name))
+    compiled.implements, compiled.optional = implements, optional
+    compiled.add_forces, compiled.add_tangents = map(
+        optional, (compiled._force_of_each, compiled._tangent_of_each)
+    )
+    compiled.measure_all, compiled.find_events = (
+        optional(compiled._measure_each),
+        optional(compiled._event_of_each, -1),
+    )
+
+
+_how = os.environ.get("ANCF_MUTANTS", "")
+if _how == "interpreted":
+    _interpret()
+elif _how not in ("", "compile"):
+    compiled._STAMP = _how
