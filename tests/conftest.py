@@ -1,5 +1,7 @@
 """The option --slow, how tests are dealt out to workers, and fixtures that several files share."""
 
+import os
+
 import pytest
 
 from commands import Ran
@@ -55,6 +57,10 @@ def pytest_itemcollected(item):
 
 def pytest_addoption(parser):
     parser.addoption("--slow", action="store_true", help="run the tests marked slow too")
+
+
+def pytest_configure(config):
+    os.environ["ANCF_FUZZ"] = "slow" if config.getoption("--slow") else ""  # see fuzzing.py
 
 
 def pytest_collection_modifyitems(config, items):
