@@ -101,11 +101,13 @@ def changed(draw, given, most=3, values=plain):
     data = copy.deepcopy(given)
     for _ in range(draw(st.integers(1, most))):
         there = list(places(data))
+        if not there:
+            break
         path = there[draw(st.integers(0, len(there) - 1))]
         inside, key = parent_of(data, path), path[-1]
         what = draw(st.sampled_from(["value"] * 5 + ["scale"] * 3 + ["leave out", "copy", "rename", "twice"]))
         if what == "value":
-            inside[key] = draw(values)
+            inside[key] = copy.deepcopy(draw(values))
         elif what == "scale" and isinstance(inside[key], int | float):
             inside[key] = inside[key] * draw(st.sampled_from([-1, 0, 1e-12, 1e-3, 0.3, 1.0001, 3, 1e3, 1e12]))
         elif what == "leave out":

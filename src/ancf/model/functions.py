@@ -111,8 +111,9 @@ class TimeFunction:
         if isinstance(given, str) or not isinstance(given, Sequence | np.ndarray):
             wanted = "a list of 3 numbers or formulas, a function of t or a table"
             raise ModelError(self.where, f"must be {wanted}, is {checks.shown(given)}")
-        if np.shape(given) == () or len(given) != 3:
-            raise ModelError(self.where, f"has {np.size(np.asarray(given, object))} components, wanted 3")
+        count = 1 if isinstance(given, np.ndarray) and given.ndim == 0 else len(given)
+        if count != 3:
+            raise ModelError(self.where, f"has {count} components, wanted 3")
         return [self._component(part, f"{self.where}[{i}]") for i, part in enumerate(given)]
 
     def _component(self, part: Any, where: str) -> Expression | float:

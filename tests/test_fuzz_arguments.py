@@ -1,0 +1,314 @@
+"""Generated arguments of the Python face: each call does what it says or refuses with a place.
+
+Every call starts from arguments that are right, of which some are replaced by anything that Python has.
+"""
+
+import warnings
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+import ancf
+from ancf.catenary import Droppers, Line, Span, SteadyArm, Wire
+from ancf.cli.summary import node_count, total_mass
+from ancf.model import checks
+from ancf.model.functions import TimeFunction
+from ancf.model.settings import SimulationSettings
+from fuzzing import cases, changed, finite, odd, refused_or_fine
+
+ROPE = {"EA": 4e4, "EI": 2.0, "rhoA": 0.7}
+DAMPED = {"damping": 0.1, "axial_damping": 0.2, "bending_damping": 0.3, "slope_damping": 0.0}
+MATERIAL = {"E": 6e8, "rho": 1e3, "nu": 0.3, "shear_factors": [0.8, 0.9]}
+
+
+def base():
+    """A model with a body of every kind."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(**ROPE)
+    beam = model.add_beam("beam", start=(0, 0, 0), end=(2, 0, 0), elements=2, section=section)
+    bar = ancf.Section.rectangle(0.03, 0.02, **MATERIAL)
+    model.add_beam("bar", start=(0, 0, 1), end=(1, 0, 1), elements=1, section=bar, element="original")
+    model.add_rigid_body("hub", at=(2, 0, 0), mass=1.5, inertia=(0.3, 0.4, 0.5))
+    model.add_point_mass("tip", at=(1.0, 0, 0), mass=0.3)
+    return model, beam
+
+
+#: Arguments that are right, by the call.
+CALLS = {
+    "Section": {**ROPE, **DAMPED},
+    "rectangle": {"width": 0.03, "height": 0.02, **MATERIAL, **DAMPED, "J": 1e-8},
+    "circle": {"diameter": 0.03, **MATERIAL, "J": None},
+    "from_moments": {"A": 6e-4, "I_y": 2e-8, "I_z": 4.5e-8, "J": 5e-8, **MATERIAL, "I_yyyy": None},
+    "Model": {"gravity": [0, 0, -9.81], "title": "a title"},
+    "add_beam": {
+        "name": "new",
+        "start": [0, 0, 0],
+        "end": [1, 1, 0],
+        "elements": 2,
+        "length": 1.5,
+        "strain": "paper",
+    },
+    "add_beam path": {
+        "name": "new",
+        "path": [[0, 0, 0], [1, 0, 0], [1, 1, 0.5]],
+        "nodes": [0, 0.5, 1.0],
+        "length": 1.0,
+    },
+    "add_beam solid": {
+        "name": "new",
+        "start": [0, 0, 0],
+        "end": [1, 1, 0],
+        "elements": 2,
+        "y_axis": [0, 0, 1],
+    },
+    "add_point_mass": {"name": "new", "at": [1, 2, 3], "mass": 1.0},
+    "add_rigid_body": {
+        "name": "new",
+        "at": [1, 2, 3],
+        "mass": 1.0,
+        "inertia": [1, 1, 1],
+        "axes": np.eye(3).tolist(),
+    },
+    "pin": {"point": "beam.start", "displacement": ["t", 0, 0], "name": "support"},
+    "clamp": {
+        "point": "beam.start",
+        "stretch": "fixed",
+        "rotation": "t",
+        "axis": [0, 0, 1],
+        "displacement": [0, 0, 0],
+    },
+    "clamp to": {"point": "beam.end", "to": "hub", "stretch": "free", "name": "joint"},
+    "hold": {"point": "beam.start", "position": "xz", "slope": "y", "displacement": ["t", 0, 0]},
+    "add_force": {"point": "beam.at(1)", "force": [1, "t", 0]},
+    "add_moment": {"point": "bar.end", "moment": [1, "t", 0]},
+    "add_distributed_load": {"body": "beam", "load": [0, 0, -1], "between": [0.5, 1.5]},
+    "connect": {"a": "tip", "b": "beam.at(1)", "name": "joint"},
+    "hinge": {"a": "bar.end", "b": "hub", "axis": [0, 1, 0]},
+    "slide": {
+        "point": "tip",
+        "along": "beam",
+        "s": 1.0,
+        "mass": 0.1,
+        "friction": 0.2,
+        "viscous": 0.1,
+        "at_end": "stop",
+    },
+    "add_spring": {
+        "a": "tip",
+        "b": [0, 0, 0],
+        "stiffness": 10.0,
+        "damping": 1.0,
+        "length": 1.0,
+        "slack": True,
+    },
+    "add_contact": {"point": "tip", "along": "beam", "stiffness": 10.0, "damping": 1.0, "strip": [0, 1, 0]},
+    "set_motion": {"velocity": [1, 0, 0], "angular_velocity": [0, 1, 0], "about": [0, 0, 0]},
+    "at": {"x": 0.5, "y": 0.0, "z": 0.0},
+    "point": {"label": "beam.at(0.5)"},
+    "Newton": {
+        "tolerance": 1e-10,
+        "contraction": 0.5,
+        "max_iterations": 20,
+        "modified": True,
+        "corotate": False,
+    },
+    "GeneralizedAlpha": {"rho_inf": 0.8, "formulation": "ggl"},
+    "Trapezoidal": {"formulation": "ggl"},
+    "Radau": {"stages": 2, "tolerance": 1e-6, "adaptive": True, "min_step": 1e-6, "max_step": 0.1},
+    "Explicit": {"safety": 0.8, "check": True},
+    "TimeFunction": {"given": ["t", 1, "sin(t)"]},
+    "Span": {"length": 50.0, "droppers": [5.0, 25.0, 45.0], "pre_sag": 0.05},
+    "Wire": {"EA": 1e7, "EI": 100.0, "mass": 1.0, "tension": 2e4, "damping": 0.0},
+    "Line": {
+        "system_height": 1.2,
+        "stagger": 0.2,
+        "contact_support": "held",
+        "anchors": "fixed",
+        "gravity": 9.81,
+    },
+}
+
+
+def call(name, arguments):
+    """Make the call; what it gave, if that can be looked at."""
+    model, beam = base()
+    if name in ("Section", "Model", "Newton", "GeneralizedAlpha", "Trapezoidal", "Radau", "Explicit"):
+        return getattr(ancf, name)(**arguments)
+    if name in ("rectangle", "circle", "from_moments"):
+        section = getattr(ancf.Section, name)(**arguments)
+        finite(section.EA, section.EI_y, section.EI_z, section.rhoA, section.J, section.I_yyyy)
+        return section
+    if name == "TimeFunction":
+        function = TimeFunction(arguments["given"], 3, "here")
+        finite(function.table(np.array([0.0, 0.5, 2.0])))
+        return function
+    if name == "Span":
+        span = Span(**arguments)
+        finite(span.droppers, span.pre_sag)
+        return span
+    if name == "Wire":
+        wire = Wire(**arguments)
+        wire.check("wire")
+        finite(wire.wave_speed)
+        return wire
+    if name == "Line":
+        wire = Wire(EA=1e7, EI=100.0, mass=1.0, tension=2e4)
+        parts = {"contact_wire": wire, "messenger_wire": wire, "steady_arm": SteadyArm(vertical=0.0)}
+        spans = [Span(length=50.0, droppers=(5.0, 25.0, 45.0))] * 2
+        line = Line(spans=spans, droppers=Droppers(stiffness=1e5), **parts, **arguments)
+        finite(line.supports, line.stagger, line.system_height)
+        return line
+    if name in ("set_motion", "at"):
+        return getattr(beam, name)(**arguments)
+    if name.startswith("add_beam"):
+        given = ancf.Section(**ROPE)
+        if name == "add_beam solid":
+            arguments = {"element": "nonlocking", **arguments}
+            given = ancf.Section.rectangle(0.03, 0.02, **MATERIAL)
+        new = model.add_beam(section=given, **arguments)
+        finite(new.length, new.stretch, new.node_x, new.node_position, new.node_tangent, new.node_y)
+        return new
+    if name == "point":
+        return model.point(arguments["label"])
+    made = getattr(model, name.split()[0])(**arguments)
+    finite(model.size, model.gravity)
+    assert str(model)
+    return made
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_right_arguments_are_right(name):
+    assert repr(call(name, CALLS[name]))
+
+
+def only_known(arguments, right):
+    """Misspelt and missing keywords are Python's own matter."""
+    return {**right, **{key: value for key, value in arguments.items() if key in right}}
+
+
+@cases(0.25)
+@given(data=st.data())
+def test_any_arguments(data):
+    name = data.draw(st.sampled_from(sorted(CALLS)))
+    right = CALLS[name]
+    arguments = only_known(data.draw(changed(right, most=2, values=odd)), right)
+    if isinstance(arguments.get("elements"), int):
+        assume(arguments["elements"] < 10_000)
+    with warnings.catch_warnings(), refused_or_fine():
+        warnings.simplefilter("ignore")
+        assert repr(call(name, arguments))
+
+
+LETTERS = [
+    "t",
+    "pi",
+    "2",
+    "1e9",
+    "+",
+    "-",
+    "*",
+    "/",
+    "**",
+    "(",
+    ")",
+    "sin",
+    "sqrt",
+    "where",
+    "<",
+    ",",
+    " ",
+    "ramp",
+    "t0",
+]
+
+
+@cases(0.1)
+@given(
+    parts=st.lists(
+        st.sampled_from([*LETTERS, "[", "'", "lambda", "0", "log", "step", "max", "and"]), max_size=9
+    )
+)
+def test_formulas(parts):
+    with refused_or_fine(), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        function = TimeFunction("".join(parts), 1, "loads[0].force")
+        finite(function.table(np.array([0.0, 0.3, 7.0])))
+
+
+def oscillator():
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    mass = model.add_point_mass("mass", at=(0, 0, -1), mass=0.5)
+    model.add_spring(mass, (0, 0, 0), stiffness=200.0, damping=1.0, length=0.9, name="spring")
+    return model, mass
+
+
+METHODS = [ancf.Trapezoidal(), ancf.GeneralizedAlpha(0.5), ancf.Radau(), ancf.Explicit()]
+RUN = {"t_end": 0.1, "step": 0.01, "output_step": 0.02, "sensors": ["mass", "spring"], "energy": True}
+
+
+@cases(0.05)
+@given(arguments=changed(RUN, most=2, values=odd), method=st.one_of(st.sampled_from(METHODS), odd))
+def test_runs(arguments, method):
+    """The method chosen runs, or says why not; what it stores is finite."""
+    arguments = only_known(arguments, RUN)
+    t_end, step = arguments["t_end"], arguments["step"]
+    with np.errstate(all="ignore"):
+        if all(isinstance(x, int | float) and x > 0 for x in (t_end, step)):
+            assume(not 1e4 < t_end / step < 1e10)
+    with refused_or_fine():
+        result = ancf.simulate(oscillator()[0], integrator=method, **arguments)
+        finite(result.t, result.q, result.v)
+        assert np.all(np.diff(result.t) > 0)
+        assert result.t[-1] == pytest.approx(t_end)
+
+
+@cases(0.05)
+@given(
+    mass=st.floats(1e-9, 1e9),
+    stiffness=st.floats(1e-6, 1e12),
+    gravity=st.floats(-100, 100),
+    pull=st.floats(-1e3, 1e3),
+)
+def test_equilibria_balance(mass, stiffness, gravity, pull):
+    """No silent nonsense: the spring carries weight and load, or there is no answer."""
+    model = ancf.Model(gravity=(0, 0, gravity))
+    body = model.add_point_mass("mass", at=(0, 0, -1), mass=mass)
+    model.hold(body, position="xy")
+    model.add_spring(body, (0, 0, 0), stiffness=stiffness, length=1.0, name="spring")
+    model.add_force(body, (0, 0, pull))
+    with refused_or_fine():
+        state = ancf.equilibrium(model)
+        load = abs(mass * gravity) + abs(pull)
+        force = float(state.spring_force("spring"))
+        wanted = abs(mass * gravity + pull) if state.position(body)[2] > 0 else -(mass * gravity + pull)
+        assert force == pytest.approx(wanted, abs=1e-6 * load + 1e-9 * stiffness)
+
+
+class TestEdges:
+    """Limits that generated values seldom meet."""
+
+    def test_limits_of_poissons_ratio(self):
+        given = {"width": 1.0, "height": 1.0, "E": 1.0, "rho": 1.0}
+        for nu in (-1.0, 0.5, -1.5, 0.6):
+            with pytest.raises(ancf.ModelError, match="nu"):
+                ancf.Section.rectangle(nu=nu, **given)
+        for nu in (np.nextafter(-1.0, 0.0), 0.499999):
+            assert ancf.Section.rectangle(nu=nu, **given).G > 0.0
+
+    @pytest.mark.parametrize("size", [5e-324, 1e-200, 1.0, 1e200, 1e308])
+    def test_directions_of_any_size(self, size):
+        found = checks.direction([size, 0.0, -size], "axis")
+        assert found == pytest.approx(np.array([1.0, 0.0, -1.0]) / np.sqrt(2.0))
+
+    def test_a_step_is_no_longer_than_the_run(self):
+        SimulationSettings(t_end=1.0, step=1.0)
+        with pytest.raises(ancf.ModelError, match="at most t_end"):
+            SimulationSettings(t_end=1.0, step=1.5)
+
+    def test_sizes_of_a_model(self):
+        model, beam = base()
+        assert node_count(model) == 3 + 2 + 1 + 1
+        bar = 6e-4 * 1e3 * 1.0
+        assert total_mass(model) == pytest.approx(0.7 * beam.length + bar + 1.5 + 0.3)
