@@ -251,6 +251,8 @@ def test_equilibrium_and_frequency():
     made.hold(mass, position="xy")
     made.add_spring(mass, (0, 0, 0), stiffness=STIFFNESS, length=1.0)
     assert ancf.modes(made, count=1).frequencies[0] == pytest.approx(np.sqrt(STIFFNESS / MASS), rel=1e-12)
+    hertz = np.sqrt(STIFFNESS / MASS) / (2 * np.pi)
+    assert ancf.modes(made, count=1).frequencies_hz[0] == pytest.approx(hertz, rel=1e-12)
     assert ancf.stable_step(made, safety=1.0) == pytest.approx(2 / np.sqrt(STIFFNESS / MASS), rel=1e-9)
 
 

@@ -7,6 +7,7 @@ import ancf
 from ancf.connections.sliding import FREE, FROZEN, LEFT, PULLS, TOUCHES
 from ancf.elements.measures import axial_strain, curvature
 from ancf.errors import SolveError
+from ancf.results.store import Rows
 from ancf.solvers.events import happen
 from ancf.solvers.start import consistent_start
 from ancf.system.consistency import check_independent, open_contacts
@@ -70,6 +71,17 @@ def test_places_of_what_is_recorded():
     listing = Listing(index=np.array([2, 5, 9]))
     assert listing.places(np.array([5, 2, 3, 9, 0, 20])).tolist() == [1, 0, -1, 2, -1, -1]
     assert Listing().places(np.array([1, 2])).tolist() == [-1, -1]
+
+
+def test_rows_of_a_file_that_grows():
+    """Only those that were there when it was opened, counted from either end."""
+    data = np.arange(20.0).reshape(10, 2)
+    rows = Rows(data, 6)
+    assert rows.shape == (6, 2)
+    assert rows[-1].tolist() == data[5].tolist()
+    assert rows[2:].tolist() == data[2:6].tolist()
+    assert rows[..., 1].tolist() == data[:6, 1].tolist()
+    assert rows[-2:, 0].tolist() == data[4:6, 0].tolist()
 
 
 def test_inertia_of_a_body_without_symmetry():

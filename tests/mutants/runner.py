@@ -14,6 +14,9 @@ from itertools import repeat
 from pathlib import Path
 from queue import Queue
 
+if sys.platform != "win32":
+    import fcntl
+
 from .listing import PACKAGE, ROOT, Mutant
 
 KILLED, SURVIVED, WRONG = "killed", "survived", "error"
@@ -46,6 +49,9 @@ class Copies:
         )
         self.base = self.place / "base"
         self.place.mkdir(mode=0o700, exist_ok=True)
+        self._alone = (self.place / "lock").open("w")
+        if sys.platform != "win32":
+            fcntl.flock(self._alone, fcntl.LOCK_EX)  # another run would change the same copies
         self._copy_sources()
         self.stamp = _stamp(self.base)
         self.workers = [self.place / str(k) for k in range(workers)]
