@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 
 import ancf
 from ancf.catenary import Droppers, Line, Span, SteadyArm, Wire
-from ancf.cli.summary import node_count, total_mass
+from ancf.cli.summary import node_count, plural, total_mass
 from ancf.model import checks
+from ancf.model.axes import carried
 from ancf.model.functions import TimeFunction
 from ancf.model.settings import SimulationSettings
 from fuzzing import cases, changed, finite, odd, refused_or_fine
@@ -237,55 +238,6 @@ def test_formulas(parts):
         finite(function.table(np.array([0.0, 0.3, 7.0])))
 
 
-def oscillator():
-    model = ancf.Model(gravity=(0, 0, -9.81))
-    mass = model.add_point_mass("mass", at=(0, 0, -1), mass=0.5)
-    model.add_spring(mass, (0, 0, 0), stiffness=200.0, damping=1.0, length=0.9, name="spring")
-    return model, mass
-
-
-METHODS = [ancf.Trapezoidal(), ancf.GeneralizedAlpha(0.5), ancf.Radau(), ancf.Explicit()]
-RUN = {"t_end": 0.1, "step": 0.01, "output_step": 0.02, "sensors": ["mass", "spring"], "energy": True}
-
-
-@cases(0.05)
-@given(arguments=changed(RUN, most=2, values=odd), method=st.one_of(st.sampled_from(METHODS), odd))
-def test_runs(arguments, method):
-    """The method chosen runs, or says why not; what it stores is finite."""
-    arguments = only_known(arguments, RUN)
-    t_end, step = arguments["t_end"], arguments["step"]
-    with np.errstate(all="ignore"):
-        if all(isinstance(x, int | float) and x > 0 for x in (t_end, step)):
-            assume(not 1e4 < t_end / step < 1e10)
-    with refused_or_fine():
-        result = ancf.simulate(oscillator()[0], integrator=method, **arguments)
-        finite(result.t, result.q, result.v)
-        assert np.all(np.diff(result.t) > 0)
-        assert result.t[-1] == pytest.approx(t_end)
-
-
-@cases(0.05)
-@given(
-    mass=st.floats(1e-9, 1e9),
-    stiffness=st.floats(1e-6, 1e12),
-    gravity=st.floats(-100, 100),
-    pull=st.floats(-1e3, 1e3),
-)
-def test_equilibria_balance(mass, stiffness, gravity, pull):
-    """No silent nonsense: the spring carries weight and load, or there is no answer."""
-    model = ancf.Model(gravity=(0, 0, gravity))
-    body = model.add_point_mass("mass", at=(0, 0, -1), mass=mass)
-    model.hold(body, position="xy")
-    model.add_spring(body, (0, 0, 0), stiffness=stiffness, length=1.0, name="spring")
-    model.add_force(body, (0, 0, pull))
-    with refused_or_fine():
-        state = ancf.equilibrium(model)
-        load = abs(mass * gravity) + abs(pull)
-        force = float(state.spring_force("spring"))
-        wanted = abs(mass * gravity + pull) if state.position(body)[2] > 0 else -(mass * gravity + pull)
-        assert force == pytest.approx(wanted, abs=1e-6 * load + 1e-9 * stiffness)
-
-
 class TestEdges:
     """Limits that generated values seldom meet."""
 
@@ -306,6 +258,32 @@ class TestEdges:
         SimulationSettings(t_end=1.0, step=1.0)
         with pytest.raises(ancf.ModelError, match="at most t_end"):
             SimulationSettings(t_end=1.0, step=1.5)
+
+    def test_counted_words(self):
+        assert [plural(k, "step") for k in range(3)] == ["0 steps", "1 step", "2 steps"]
+
+    def test_a_place_a_hair_beyond_the_end_is_the_end(self):
+        _, beam = base()
+        assert beam.at(2.0 + 1e-10).x == 2.0
+        assert beam.at(-1e-10).x == 0.0
+
+    def test_step_of_a_formula_is_there_at_zero(self):
+        assert TimeFunction("step(t - 1)", 1, "here").table(np.array([0.9, 1.0, 1.1])).ravel().tolist() == [
+            0,
+            1,
+            1,
+        ]
+
+    def test_a_function_that_is_no_number_later_is_refused_then(self):
+        function = TimeFunction(lambda t: (np.nan if t > 1 else 0.0, 0.0, 0.0), 3, "loads[0].force")
+        with pytest.raises(ancf.ModelError, match=r"at t = 2 s .* must be finite"):
+            function.table(np.array([0.0, 0.5, 2.0]))
+
+    def test_axes_are_carried_by_the_smallest_rotation(self):
+        """By 1.9 rad: about the normal of both tangents, the axis along it stays."""
+        old, new = np.array([[1.0, 0, 0]]), np.array([[np.cos(1.9), np.sin(1.9), 0]])
+        for vector, wanted in (((0, 0, 1.0), (0, 0, 1.0)), ((0, 1.0, 0), (-np.sin(1.9), np.cos(1.9), 0))):
+            assert carried(np.array([vector]), old, new)[0] == pytest.approx(wanted, abs=1e-15)
 
     def test_sizes_of_a_model(self):
         model, beam = base()

@@ -94,12 +94,12 @@ def test_energies_can_be_left_out():
         ancf.simulate(model, energy="no", **given)
 
 
-@pytest.mark.parametrize("damping", [0.0, 3.0])
+@pytest.mark.parametrize("damping", [0.0, 300.0])
 def test_a_linear_spring_that_goes_slack_needs_nothing_but_the_correction(damping):
     """A ball on a rope jumps: along a line all is linear piece by piece, and one factorisation serves."""
     model = ancf.Model(gravity=(0, 0, -9.81))
     ball = model.add_point_mass("ball", at=(0, 0, 0), mass=1.0)
-    rope = model.add_spring(ball, (0, 0, 1.0), stiffness=1e4, damping=damping, length=0.999, slack=True)
+    rope = model.add_spring(ball, (0, 0, 1.0), stiffness=1e6, damping=damping, length=0.999, slack=True)
     ball.set_motion(velocity=(0, 0, 1.0))
     newton = ancf.Newton(corotate=False)
     result = ancf.simulate(model, t_end=0.3, step=2e-3, integrator=ancf.Trapezoidal(newton=newton))

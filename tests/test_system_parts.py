@@ -6,7 +6,6 @@ from scipy.sparse import csc_array
 from scipy.spatial.transform import Rotation as Turn
 
 import ancf
-from ancf.connections.contact import ContactBatch
 from ancf.elements.cable_build import compression
 from ancf.elements.measures import axial_strain
 from ancf.elements.shapes import gauss, hermite
@@ -283,19 +282,6 @@ def two_contacts():
 
 
 class TestContacts:
-    def test_fields_say_what_the_kernel_finds(self):
-        """And asking moves nothing: the search of the run goes on where it was."""
-        system = two_contacts()
-        q, v = system.initial_state()
-        batch = next(b for b in system.core.batches if isinstance(b, ContactBatch))
-        before = batch.found.copy()
-        state = ancf.State(system, 0.0, q, v)
-        for k, lift in enumerate((0.02, 0.05)):
-            assert state.contact_gap(f"touch {k}") == pytest.approx(-lift)
-            assert state.contact_force(f"touch {k}") == pytest.approx(100.0 * (k + 1) * lift)
-            assert state.contact_offset(f"touch {k}") == pytest.approx((0.05, 0.15)[k] - 0.1 * k)
-        assert np.array_equal(batch.found, before)
-
     def test_stiffness_of_what_touches(self):
         """k_j b_j b_j^T is the gradient of the forces, up to what the place of contact moves."""
         system = two_contacts()
