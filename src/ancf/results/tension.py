@@ -82,7 +82,7 @@ def compressions(result: Result) -> list[Compression]:
     beams = cables(result)
     low = {beam.name: _Lowest() for beam in beams}
     states, elements = len(result.t), sum(beam.elements for beam in beams)
-    for rows, forces in _pieces(result, beams, every=-(-states * elements // MOST)):
+    for rows, forces in _pieces(result, beams, every=max(1, -(-states * elements // MOST))):
         for name, force in forces.items():
             low[name].see(rows, force)
     found = [_compression(result, beam, low[beam.name]) for beam in beams if states]
