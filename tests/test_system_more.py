@@ -7,7 +7,7 @@ import ancf
 from ancf.connections.sliding import FREE, FROZEN, LEFT, PULLS, TOUCHES
 from ancf.elements.measures import axial_strain, curvature
 from ancf.errors import SolveError
-from ancf.results.store import Rows
+from ancf.results.read_store import Rows
 from ancf.solvers.events import happen
 from ancf.solvers.start import consistent_start
 from ancf.system.consistency import check_independent, open_contacts
