@@ -135,7 +135,7 @@ def said_by(made: dict[str, Any], words: Sequence[str]) -> list[Check]:
 
 INTRO = """Every number of this package that is compared with another one, in one place: value, reference,
 deviation, what was accepted, and where the reference comes from. Tests assert the same numbers, so that a
-change that spoils one is seen, and compute those of the short form again beside the ones that are stored."""
+change that spoils one is seen. The numbers that are stored here were computed by the commit that is named."""
 
 KINDS = """| a reference is | it shows |
 |---|---|
@@ -172,7 +172,8 @@ def index(made: dict[str, Any]) -> list[str]:
     return [
         INTRO,
         KINDS,
-        f"## Summary\n\n`ancf reproduce all` of {which}, {form}: **{passed} of {total} checks passed.**",
+        f"## Summary\n\nNumbers of `ancf reproduce all`, {which}, {form}: "
+        f"**{passed} of {total} checks passed.**",
         "\n".join(["| chapter | checks | passed | open |", "|---|---|---|---|", *rows, last]),
         open_points(made),
         "Beside them stand [agreement across methods](methods.md) and [independent programs](peers.md), "
@@ -316,8 +317,7 @@ def standard(made: dict[str, Any]) -> list[str]:
         "Reference models for programs that simulate pantograph and overhead line. The ranges of 2002 are "
         "judged. Those of 2018 are shown and not judged: they carry the tag U, not yet checked against a "
         "copy of the standard. [](../theory/overhead_line.md) discusses each row that is outside.",
-        "What was measured, and whether a verdict depends on the order of the filter:\n\n"
-        + "\n".join(f"- {note.removeprefix('Measured, ')}" for note in notes),
+        "What was measured:\n\n" + "\n".join(f"- {note.removeprefix('Measured, ')}" for note in notes),
         *exhibits(made, [], of("en50318", made)),
         "## All rows\n\nTags: V read in a public source, V2 in two, U not yet checked.",
         *parts,
