@@ -51,7 +51,7 @@ class Beam:
         too but no use for them.
     velocity, angular_velocity, about : (3,) arrays
         Initial rigid motion, m/s, rad/s, m.
-    shape : callable, optional
+    lay : callable, optional
         Initial positions, tangents and local y axes (n, 3) at increasing fractions (n,) of the length,
         from 0 to 1; a beam of a results file has none.
 
@@ -73,7 +73,7 @@ class Beam:
     velocity: FloatArray
     angular_velocity: FloatArray
     about: FloatArray
-    shape: Shape | None = None
+    lay: Shape | None = None
 
     def __repr__(self) -> str:
         return f"Beam({self.name!r}, elements={self.elements}, length={self.length:g})"

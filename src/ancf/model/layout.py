@@ -80,7 +80,7 @@ def make_beam(
         velocity=np.zeros(3),
         angular_velocity=np.zeros(3),
         about=position[0].copy(),
-        shape=lay,
+        lay=lay,
         **words,
     )
 

@@ -30,10 +30,10 @@ def refined(model: Model) -> Model:
 
 
 def _halve(beam: Beam) -> None:
-    if beam.shape is None:
+    if beam.lay is None:
         raise ModelError(f'body "{beam.name}"', "has no initial shape to place more nodes on")
     x = np.empty(2 * beam.elements + 1)
     x[::2] = beam.node_x
     x[1::2] = 0.5 * (beam.node_x[:-1] + beam.node_x[1:])
-    beam.node_position, beam.node_tangent, beam.node_y = beam.shape(x / beam.length)
+    beam.node_position, beam.node_tangent, beam.node_y = beam.lay(x / beam.length)
     beam.node_x = x
