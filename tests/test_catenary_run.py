@@ -72,6 +72,7 @@ class TestReferenceCase:
         found = statistics(reference(speed), filter=FILTER)[key].value
         assert found == pytest.approx(ORACLE[f"en50318-2002.{speed}"][name], rel=relative)
 
+    @pytest.mark.filterwarnings("ignore:contact of pantograph.* chatters:UserWarning")
     def test_joint_is_the_limit_of_a_stiff_contact(self):
         """The standard's 50 kN/m is soft: with the head it swings at 13 Hz, below the filter."""
         shape = form(read_line("en50318-2002").excerpt(0, 7), COARSE)
@@ -83,6 +84,7 @@ class TestReferenceCase:
         assert sigma[0] == pytest.approx(sigma[1], rel=0.02)
         assert sigma[2] > 1.08 * sigma[1]
 
+    @pytest.mark.filterwarnings("ignore:mesh.contact. elements of 2 m:UserWarning")
     def test_joint_on_the_contact_stiffness_is_the_penalty(self):
         shape = form(read_line("en50318-2002").excerpt(0, 7), COARSE)
         given = {"speed": 300 / 3.6, "pantograph": "en50318-2002", "window": (180.0, 240.0)}
@@ -173,6 +175,7 @@ class TestContact:
         assert done.force == pytest.approx(STIFFNESS * overlap, abs=1e-6)
         assert np.ptp(done.force) > 50.0
 
+    @pytest.mark.filterwarnings("ignore:contact of pantograph.* chatters:UserWarning")
     @pytest.mark.parametrize("contact", ["penalty", "joint"])
     def test_lost_contact_is_regained_and_never_pulls(self, contact):
         """A light touch at speed: the strip leaves the wire, stays below it, and comes back."""
@@ -186,6 +189,7 @@ class TestContact:
         assert np.max(done.height[lost] - done.strip[lost]) > 1e-4
         assert np.max(done.height[~lost] - done.strip[~lost]) < 1e-7
 
+    @pytest.mark.filterwarnings("ignore:contact of pantograph.* chatters:UserWarning")
     def test_loss_is_reported(self):
         done = quick(speed=60.0, pantograph=collector(static_force=25.0))
         found = statistics(done)
@@ -269,10 +273,14 @@ class TestSeveral:
         assert [first.force[0], second.force[0]] == pytest.approx([120.0, 120.0], abs=1e-3)
 
     def test_the_first_hardly_knows_of_the_second(self):
-        first = self.done(self.AT, self.GAP).recordings[0].force
-        alone = self.done(self.AT + self.GAP).recordings[0].force
-        count = min(first.size, alone.size)
-        assert np.abs(first[:count] - alone[:count]).max() < 4.0
+        """Waves run ahead of the second too, but what they change is less than half of what it meets itself."""
+        both = self.done(self.AT, self.GAP).recordings
+        alone = [self.done(self.AT + self.GAP).recordings[0].force, self.done(self.AT).recordings[0].force]
+        changes = []
+        for one, other in zip(both, alone, strict=True):
+            count = min(one.force.size, other.size)
+            changes.append(np.abs(one.force[:count] - other[:count]).max())
+        assert changes[0] < 0.5 * changes[1]
 
     def test_the_second_runs_into_the_waves_of_the_first(self):
         second = self.done(self.AT, self.GAP).recordings[1].force
@@ -393,7 +401,9 @@ class TestCautions:
 
     def test_long_elements(self):
         shape = form(short_line(), Mesh(contact=4.0, messenger=3.0))
-        with pytest.warns(UserWarning, match=r"mesh.contact: elements of 4 m.* take 2 m or less") as caught:
+        with pytest.warns(
+            UserWarning, match=r"mesh.contact: elements of 4 m.* take 2\.\d+ m or less"
+        ) as caught:
             run(shape, speed=70.0, pantograph=collector(), step=STEP)
         assert len(caught) == 1
 

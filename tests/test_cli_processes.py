@@ -69,7 +69,8 @@ def test_a_full_disk(tmp_path):
     )
     assert ran.returncode == 1
     assert ran.stderr.startswith("error: out/results.h5: cannot be written any more: File too large\n")
-    assert len(ran.stderr.splitlines()) == 2
+    assert len(ran.stderr.splitlines()) == 3
+    assert "kept in out/results.h5" in ran.stderr
     info = finished(tmp_path, "info", "out/results.h5")
     assert info.code == 0
     assert "not finished" in info.out

@@ -32,7 +32,7 @@ class TestWriting:
         )
 
     def test_a_name_that_no_system_takes(self, tmp_path):
-        with pytest.raises(ancf.ModelError, match="cannot be written: embedded null byte"):
+        with pytest.raises(ancf.ModelError, match="cannot be written: its name holds a null byte"):
             write_text(tmp_path / "a\0b" / "c.txt", "")
 
     def test_the_systems_word_for_it_through_hdf5(self, tmp_path):

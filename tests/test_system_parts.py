@@ -293,7 +293,7 @@ class TestContacts:
         gradient = derivative(lambda x: forces(system, x), q, step=1e-4)
         heights = [int(s[0, 0]) + 2 for name, s in system.slots.items() if name != "wire"]
         got = (bare + found.matrix().toarray())[np.ix_(heights, heights)]
-        assert got == pytest.approx(gradient[np.ix_(heights, heights)], rel=1e-6)
+        assert got == pytest.approx(gradient[np.ix_(heights, heights)], rel=1e-6, abs=1e-8)
 
     def test_samples_of_the_second_of_two_contacts(self):
         system = two_contacts()

@@ -61,7 +61,7 @@ def _speed(plan: Plan) -> Iterator[str]:
         text += (
             f"{3.6 * top:.0f} km/h, {shortest:.2g} m at {CUT_OFF:g} Hz: standard deviations may be off by "
         )
-        yield text + f"more than 3 %; take {LARGEST * shortest:.1g} m or less"
+        yield text + f"more than 3 %; take {LARGEST * shortest:.2f} m or less"
 
 
 def after(run: Run) -> Iterator[str]:
