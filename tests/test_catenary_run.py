@@ -273,7 +273,7 @@ class TestSeveral:
         assert [first.force[0], second.force[0]] == pytest.approx([120.0, 120.0], abs=1e-3)
 
     def test_the_first_hardly_knows_of_the_second(self):
-        """Waves run ahead of the second too, but what they change is less than half of what it meets itself."""
+        """Waves run ahead of the second too; they change less than half of what it meets itself."""
         both = self.done(self.AT, self.GAP).recordings
         alone = [self.done(self.AT + self.GAP).recordings[0].force, self.done(self.AT).recordings[0].force]
         changes = []

@@ -310,5 +310,5 @@ def test_any_bytes(tmp_path_factory, data):
 def test_an_empty_model_is_refused_by_the_check(tmp_path):
     path = tmp_path / "empty.toml"
     path.write_text("", encoding="utf-8")
-    with pytest.raises(ancf.ModelError, match="no body"):
+    with pytest.raises(ancf.ModelError, match="bodies: is missing"):
         check_file(path)
