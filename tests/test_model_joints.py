@@ -549,7 +549,7 @@ class TestFile:
         assert definitions["SlideEntry"]["required"] == ["type", "point", "along"]
 
 
-class TestIntegratorSettings:
+class TestIntegrators:
     @pytest.mark.parametrize("formulation", ["index1", "index2", "ggl"])
     def test_of_the_trapezoidal_rule(self, formulation):
         given = {"type": "trapezoidal", "formulation": formulation}

@@ -1,4 +1,4 @@
-"""Settings of Newton's method, and what to say when it fails."""
+"""Settings of Newton's method."""
 
 from __future__ import annotations
 
