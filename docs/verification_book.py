@@ -39,18 +39,18 @@ CHAPTERS = {
 }
 #: Chapters that each check belongs to one of.
 JUDGED = ("closed_forms", "orders", "paper", "en50318")
-#: Test files that assert the numbers of an exhibit too, beside tests/test_paper_checks.py.
+#: Test files that assert the numbers of an exhibit too, beside tests/paper/test_paper_checks.py.
 TESTS = {
-    "fig1": "test_elements.py",
-    "table2": "test_paper_sliding.py",
-    "closed-forms": "test_closed_forms.py test_rigid_bodies.py",
-    "orders": "test_orders.py test_radau.py test_explicit.py",
-    "en50318": "test_catenary_run.py test_catenary_references.py",
-    **{f"fig{n}": "test_paper.py" for n in range(2, 9)},
-    **{f"fig{n}": "test_paper_sliding.py" for n in range(9, 12)},
-    **{f"fig{n}": "test_paper_overhead.py" for n in range(12, 15)},
+    "fig1": "kernels/test_elements.py",
+    "table2": "paper/test_paper_sliding.py",
+    "closed-forms": "closed_forms/test_closed_forms.py closed_forms/test_rigid_bodies.py",
+    "orders": "orders/test_orders.py orders/test_radau.py orders/test_explicit.py",
+    "en50318": "catenary/test_catenary_run.py catenary/test_catenary_references.py",
+    **{f"fig{n}": "paper/test_paper.py" for n in range(2, 9)},
+    **{f"fig{n}": "paper/test_paper_sliding.py" for n in range(9, 12)},
+    **{f"fig{n}": "paper/test_paper_overhead.py" for n in range(12, 15)},
 }
-EVERY = "test_paper_checks.py"
+EVERY = "paper/test_paper_checks.py"
 #: Checks that do not pass and why that is accepted, by name.
 OPEN: dict[str, str] = {}
 #: Words in an origin: the reference is another run of this package, or another program.

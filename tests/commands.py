@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from pathlib import Path
 from typing import NamedTuple
 
 #: Time that a process gets to end, s: no test may fail because the machine is busy.
@@ -26,3 +27,56 @@ def python(code, *arguments, options=()):
     command = [sys.executable, *options, "-c", code, *map(str, arguments)]
     ran = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE)
     return Ran(ran.returncode, ran.stdout, ran.stderr)
+
+
+MODEL = """
+title = "Cantilever [1] of Größe 1"
+gravity = [0, 0, -9.81]
+[sections.strip]
+shape = "rectangle"
+width = 0.01
+height = 0.01
+E = 1e8
+rho = 500
+[[bodies]]
+name = "beam"
+start = [0, 0, 0]
+end = [1, 0, 0]
+elements = 4
+section = "strip"
+strain = "paper"
+[[supports]]
+type = "clamp"
+point = "beam.start"
+stretch = "fixed"
+"""
+
+
+SIMULATION = """
+[simulation]
+t_end = 0.4
+step = 2.5e-4
+outputs = ["beam.end"]
+"""
+
+
+FORCE = """
+[[loads]]
+type = "force"
+point = "beam.end"
+force = {force}
+"""
+
+
+EQUILIBRIUM = "[equilibrium]\n"
+
+
+LONG = SIMULATION.replace("t_end = 0.4", "t_end = 100000.0").replace(
+    "outputs", "output_step = 2.5e-3\noutputs"
+)
+
+
+def write(text, name="model.toml"):
+    path = Path(name)
+    path.write_text(text, encoding="utf-8")
+    return path

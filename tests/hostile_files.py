@@ -1,16 +1,17 @@
 """Write the files of tests/data/hostile: ``python tests/hostile_files.py`` from the root of the repository.
 
 Models and lines that stood, or stand near, for an error without a place; results files that are cut off,
-damaged, or keep their data elsewhere. `tests/test_hostile.py` gives each of them to ``ancf check``.
+damaged, or keep their data elsewhere. `tests/bad_input/test_hostile.py` gives each of them to ``ancf check``.
 """
 
 import json
-from pathlib import Path
 
 import h5py
 import numpy as np
 
-FOLDER = Path(__file__).parent / "data" / "hostile"
+from places import DATA
+
+FOLDER = DATA / "hostile"
 
 BODY = """
 [[bodies]]

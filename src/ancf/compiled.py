@@ -115,7 +115,7 @@ def no_event(batch, q):
 
 
 def measure(batch, q, v):
-    """Renew what the batch leaves for sensors, see :class:`ancf.solvers.taps.Taps`, in the state q, v."""
+    """Renew what the batch leaves for sensors, see :mod:`ancf.solvers.sampling`, in the state q, v."""
     raise TypeError(f"nothing to measure on {type(batch).__name__}")
 
 

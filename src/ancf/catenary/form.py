@@ -10,7 +10,7 @@ import numpy as np
 from ancf.errors import ModelError, SolveError
 from ancf.model.checks import FloatArray
 
-from .begin import begin
+from .first_guess import first_guess
 from .hang import Hung, hang_contact, hang_messenger, hang_stitches
 from .line import Line
 from .mesh import Mesh
@@ -139,7 +139,7 @@ def form(line: Line, mesh: Mesh | None = None) -> Form:
 
     """
     mesh = Mesh() if mesh is None else mesh
-    now = begin(line, mesh)
+    now = first_guess(line, mesh)
     for iteration in range(1, MOST_ITERATIONS + 1):
         _check_reach(line, now)
         before = now
@@ -163,7 +163,7 @@ def check(line: Line, mesh: Mesh | None = None) -> None:
         A wire hangs too steep, the messenger too low, or the mesh is too large.
 
     """
-    _check_reach(line, begin(line, Mesh() if mesh is None else mesh))
+    _check_reach(line, first_guess(line, Mesh() if mesh is None else mesh))
 
 
 def _check_reach(line: Line, now: Hung) -> None:

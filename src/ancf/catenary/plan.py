@@ -14,7 +14,7 @@ from ancf.model import checks
 
 from .catalogue import read_line
 from .cautions import RUN_IN
-from .current import Touch
+from .collectors import Touch
 from .form import Form, form
 from .line import Line
 from .mesh import Mesh

@@ -15,7 +15,7 @@ from ancf.model.checks import FloatArray
 
 from . import cautions
 from .assemble import Overhead, assemble
-from .current import Collector, Touch, add_pantograph
+from .collectors import Collector, Touch, add_pantograph
 from .form import Form, form
 from .line import Line
 from .mesh import Mesh

@@ -16,9 +16,9 @@ from ancf.model.joints import Fixation, Revolute, Slide, Spherical
 from ancf.model.kinds import kind_of
 from ancf.model.lookup import Lookup
 from ancf.model.make_joints import make_fixation, make_revolute, make_spherical
-from ancf.model.make_slide import make_slide
 from ancf.model.points import Point
 from ancf.model.repeated import check_repeated
+from ancf.model.slide_checks import make_slide
 
 ConnectionT = TypeVar("ConnectionT", bound=Connection)
 PointLike = Point | PointMass | RigidBody | str

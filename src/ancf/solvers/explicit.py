@@ -25,7 +25,7 @@ from ..system.core import (
     to_local,
 )
 from .newmark import DIVERGED, NORM, NOT_FINITE, OK, SINGULAR, STEPS, WORST, balance
-from .taps import sample
+from .sampling import sample
 
 #: A step in which something moves by more than this many sizes of the model is no motion.
 FAR = 10.0
@@ -40,7 +40,7 @@ def mass_factor(core, q, v):
 
 
 @kernel
-def advance_explicit(core, s, tables, h, turning, keep, taps, out):
+def advance_explicit(core, s, tables, h, turning, keep, sampling, out):
     """Take the steps of one block; see :func:`ancf.solvers.newmark.advance` for the arguments.
 
     ``turning`` says that local axes turn, and the mass matrix with them.  ``s.a1`` holds the velocity in
@@ -95,5 +95,5 @@ def advance_explicit(core, s, tables, h, turning, keep, taps, out):
                 out.q[keep[n], i], out.v[keep[n], i] = s.q[i], s.v[i]
             out.work[keep[n], 0], out.work[keep[n], 1] = s.work[0], s.work[1]
         if n < out.samples.shape[0]:
-            sample(taps, s.q, s.v, out.samples[n])
+            sample(sampling, s.q, s.v, out.samples[n])
     return keep.shape[0], OK

@@ -14,10 +14,10 @@ from ..system.energy import energies
 from ..system.system import System
 from .explicit import advance_explicit
 from .newmark import DIVERGED, NORM, SINGULAR, WORST, balance
+from .sampling import Output
 from .stability import stable_limit
 from .start import consistent_start
 from .stepping import Run
-from .taps import Output
 
 FloatArray = NDArray[np.float64]
 
@@ -66,7 +66,7 @@ class ExplicitRun(Run):
         """
         m, system = self.memory, self.system
         m.q[:], m.v[:] = q, v
-        first = system.drive.tables(self.t_start - self.h, self.h, 1, self.t_start, self.t_end)
+        first = system.inputs.tables(self.t_start - self.h, self.h, 1, self.t_start, self.t_end)
         m.a[:] = consistent_start(system, m.q, m.v, first)
         self.limit = stable_limit(system, m.q, m.v)  # leaves the factors of the mass matrix
         stable = self.method.safety * self.limit
@@ -78,12 +78,14 @@ class ExplicitRun(Run):
         balance(system.core, m, 0.0)
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         none = np.zeros(0, dtype=np.int64)  # no steps yet: this compiles, outside the CPU time of the run
-        advance_explicit(system.core, m, first, self.h, self.turning, none, self.taps, self._room(0, 0))
+        advance_explicit(system.core, m, first, self.h, self.turning, none, self.sampling, self._room(0, 0))
         self._estimated = 0  # steps done at the last estimate
 
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
-        core, tables = self.system.core, self.system.drive.tables(t, h, len(row), self.t_start, self.t_end)
-        n, self._status = advance_explicit(core, self.memory, tables, h, self.turning, row, self.taps, out)
+        core, tables = self.system.core, self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end)
+        n, self._status = advance_explicit(
+            core, self.memory, tables, h, self.turning, row, self.sampling, out
+        )
         return int(n), int(self._status)
 
     def _bridge(self, t: float, h: float, number: int) -> None:

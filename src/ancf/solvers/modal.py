@@ -21,8 +21,8 @@ from ..model import checks
 from ..system.contacts import touching
 from ..system.core import assemble, follow_supports, restrict
 from ..system.system import System
+from .free_spin import FREE_SPIN, Spin
 from .roundoff import shaken
-from .softest import FREE_SPIN, Spin
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]

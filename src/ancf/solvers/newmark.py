@@ -41,9 +41,9 @@ from ..system.core import (
     solve_sparse,
     to_local,
 )
-from .frames import Frames, remember, turn, turn_back, turn_forth, turn_rows
-from .patches import Patches, correct, forget, move_on
-from .taps import sample
+from .corotation import Frames, remember, turn, turn_back, turn_forth, turn_rows
+from .low_rank import Patches, correct, forget, move_on
+from .sampling import sample
 
 FloatArray = NDArray[np.float64]
 
@@ -396,7 +396,7 @@ def balance(core, s, h):
 
 
 @kernel
-def advance(core, s, tables, h, scheme, rule, keep, taps, out):
+def advance(core, s, tables, h, scheme, rule, keep, sampling, out):
     """Take the steps of one block.
 
     ``keep[n]`` is the row of the outputs that takes the state at the end of step n, or -1; its samples
@@ -433,7 +433,7 @@ def advance(core, s, tables, h, scheme, rule, keep, taps, out):
                 out.q[keep[n], i], out.v[keep[n], i] = s.q[i], s.v[i]
             out.work[keep[n], 0], out.work[keep[n], 1] = s.work[0], s.work[1]
         if n < out.samples.shape[0]:
-            sample(taps, s.q, s.v, out.samples[n])
+            sample(sampling, s.q, s.v, out.samples[n])
         event = find_events(core.joints.tail, s.q)
         if event >= 0:
             return n + 1, EVENT + event

@@ -35,9 +35,9 @@ class SystemProblem:
         self.multipliers: IntArray = np.flatnonzero(np.isin(self.free, system.multipliers)).astype(np.int64)
         self.weight: FloatArray = system.core.weight[self.free]
         self.spacing = LEAST_SPACING
-        drive = system.drive
-        self._moving = bool(drive.motions or drive.rotations)
-        self._driven = self._moving or not all(f.constant for f in (*drive.loads, *drive.moments))
+        inputs = system.inputs
+        self._moving = bool(inputs.motions or inputs.rotations)
+        self._driven = self._moving or not all(f.constant for f in (*inputs.loads, *inputs.moments))
         self._tables: dict[bytes, Tables] = {}
         self._f, self._zero = np.zeros(system.size), np.zeros(system.size)
         self._base = np.zeros((2, system.size))  # what is held and never moves
@@ -63,8 +63,8 @@ class SystemProblem:
         if key not in self._tables:
             if len(self._tables) > 8:
                 self._tables.clear()
-            drive, d = self.system.drive, self.spacing
-            rows = [drive.tables(float(x) - d, d, 1, self.first, self.last) for x in t]
+            inputs, d = self.system.inputs, self.spacing
+            rows = [inputs.tables(float(x) - d, d, 1, self.first, self.last) for x in t]
             self._tables[key] = Tables(*(np.concatenate(c) for c in zip(*rows, strict=True)))
         return self._tables[key]
 

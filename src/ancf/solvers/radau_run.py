@@ -16,9 +16,9 @@ from ..system.system import System
 from .events import happen
 from .radau import DIVERGED, NOT_FINITE, OK, SINGULAR, Step, Stepper
 from .radau_problem import SystemProblem
+from .sampling import sample_rows, sampling_of
 from .start import consistent_start
 from .stepping import BLOCK_SECONDS, MOST_HALVINGS, MOST_RETRIED, Progress, Recorder, Stats
-from .taps import sample_rows, taps_of
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -62,7 +62,7 @@ class RadauRun:
         newton = 0.1 * NEWTON_TOLERANCE if method.adaptive else NEWTON_TOLERANCE
         self.stepper = Stepper(self.problem, method.stages, method.tolerance, newton, span)
         self.seconds, self.work = 0.0, np.zeros(2)
-        self.taps = taps_of(system)
+        self.sampling = sampling_of(system)
         self._stored = self._sampled = 0  # outputs and samples so far, the start not counted
         self._buffer: list[tuple[FloatArray, ...]] = []
         self._samples: list[tuple[FloatArray, FloatArray]] = []
@@ -77,7 +77,7 @@ class RadauRun:
     def start(self, q: FloatArray, v: FloatArray) -> None:
         """Consistent state at t_start."""
         q, v, system = q.copy(), v.copy(), self.system
-        first = system.drive.tables(self.t_start - self.h, self.h, 1, self.t_start, self.t_end)
+        first = system.inputs.tables(self.t_start - self.h, self.h, 1, self.t_start, self.t_end)
         a = consistent_start(system, q, v, first)
         system.level[:] = 1.0, 0.0, 0.0  # index 3
         self.problem.start(q, v)
@@ -94,7 +94,7 @@ class RadauRun:
     def go(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
         """Take all steps."""
         begin = np.array([self.t_start])
-        if self.taps.width:
+        if self.sampling.width:
             recorder.record(begin, self._sample(*self._first))
         recorder.append(begin, *self._first, self.work[None].copy())
         self._looked, self._cpu = clock.perf_counter(), clock.process_time()
@@ -186,7 +186,7 @@ class RadauRun:
             return
         before = float(energies(system, q[None], v[None]).sum())
         happen(system, q, v, int(code), f"t = {t:.6g} s, step {self.stepper.counts.steps}")
-        tables = system.drive.tables(t - self.h, self.h, 1, self.t_start, self.t_end)
+        tables = system.inputs.tables(t - self.h, self.h, 1, self.t_start, self.t_end)
         a = consistent_start(system, q, v, tables)
         system.level[:] = 1.0, 0.0, 0.0
         self.work[0] += before - float(energies(system, q[None], v[None]).sum())  # an impact
@@ -203,7 +203,7 @@ class RadauRun:
             once = self.stepper.method.integrals(tau)[1]
             self._buffer.append((times, *states, self.work + step.h * (once @ power)))
             self._stored = int(number[-1])
-        if self.taps.width:
+        if self.sampling.width:
             self._record(step, t, number, states)
 
     def _grid(self, every: int, done: int, t: float) -> tuple[IntArray, FloatArray]:
@@ -245,8 +245,8 @@ class RadauRun:
         self._sampled = int(number[-1])
 
     def _sample(self, q: FloatArray, v: FloatArray) -> FloatArray:
-        samples = np.empty((len(q), self.taps.width))
-        sample_rows(self.taps, q, v, samples)
+        samples = np.empty((len(q), self.sampling.width))
+        sample_rows(self.sampling, q, v, samples)
         return samples
 
     @property

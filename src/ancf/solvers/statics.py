@@ -50,8 +50,8 @@ from ..system.core import (
 from ..system.system import System
 from .events import happen
 from .floating import check_supported
+from .free_spin import Spin, is_neutral, softest_mode
 from .mixed import Mixed
-from .softest import Spin, is_neutral, softest_mode
 from .stepping import COLLAPSED, Stats
 
 FloatArray = NDArray[np.float64]
@@ -272,7 +272,7 @@ def equilibrium(
     q, _ = system.initial_state(time)
     core = system.holding(others) if others else system.core
     h = 1e-3
-    tables = system.drive.tables(time - h, h, 1, time, np.inf)
+    tables = system.inputs.tables(time - h, h, 1, time, np.inf)
     v, a = np.zeros_like(q), np.zeros_like(q)
     place_supports(core.supports, core.loads.moment, tables, 0, q, v, a)
     force = np.empty_like(q)

@@ -16,9 +16,10 @@ from ..system.consistency import open_contacts
 from ..system.core import Tables, apply_load, first_event
 from ..system.energy import energies
 from ..system.system import System
+from .corotation import turning_nodes
 from .events import happen
 from .formulations import FORMULATIONS
-from .frames import turning_nodes
+from .low_rank import room_for_patches
 from .newmark import (
     COUNTS,
     EVENT,
@@ -39,9 +40,8 @@ from .newmark import (
     allocate,
     balance,
 )
-from .patches import room_for_patches
+from .sampling import Output, sample, sampling_of
 from .start import consistent_start
-from .taps import Output, sample, taps_of
 
 FloatArray = NDArray[np.float64]
 
@@ -63,7 +63,7 @@ class Recorder(Protocol):
         ...
 
     def record(self, t: FloatArray, samples: FloatArray) -> None:
-        """What sensors take at the times t, shape (m,), (m, width); see :class:`ancf.solvers.taps.Taps`."""
+        """What sensors take at the times t, shape (m,), (m, width); see :mod:`ancf.solvers.sampling`."""
         ...
 
     def update(self, stats: Stats, status: str) -> None:
@@ -128,7 +128,7 @@ class Run:
         self.newton = (n.tolerance, n.contraction, n.max_iterations, n.modified, corotate)
         self.formulation = FORMULATIONS[integrator.formulation]
         self.memory: Memory = allocate(system.size, turning_nodes(system), room_for_patches(system))
-        self.taps = taps_of(system)
+        self.sampling = sampling_of(system)
         self.seconds = 0.0
 
     def rule(self, h: float) -> Rule:
@@ -157,12 +157,12 @@ class Run:
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         none = np.zeros(0, dtype=np.int64)  # no steps yet: this compiles, outside the CPU time of the run
         rule, nothing = self.rule(self.h), self._room(0, 0)
-        advance(system.core, m, first, self.h, self.scheme, rule, none, self.taps, nothing)
+        advance(system.core, m, first, self.h, self.scheme, rule, none, self.sampling, nothing)
 
     def _restart(self, t: float) -> Tables:
         """Consistent velocities, accelerations and multipliers at t; the memory of earlier steps is lost."""
         m, system = self.memory, self.system
-        now = system.drive.tables(t - self.h, self.h, 1, self.t_start, self.t_end)
+        now = system.inputs.tables(t - self.h, self.h, 1, self.t_start, self.t_end)
         m.a[:] = consistent_start(system, m.q, m.v, now)
         m.abar[:] = m.a
         m.memo[H_FACTOR] = m.memo[H_PREV] = m.memo[KNOWN] = 0.0
@@ -179,11 +179,11 @@ class Run:
         """
         begin, out = np.array([self.t_start]), self._room(1, 1)
         self._store(0, 0, out)
-        if self.taps.width:
+        if self.sampling.width:
             recorder.record(begin, out.samples)
         recorder.append(begin, out.q, out.v, out.work)
         done, size, look, apart = 0, FIRST_LOOK, FIRST_LOOK, FIRST_LOOK
-        most = max(1, int(BLOCK_BYTES / (16 * self.system.size + 8 * self.every * self.taps.width)))
+        most = max(1, int(BLOCK_BYTES / (16 * self.system.size + 8 * self.every * self.sampling.width)))
         while done < self.steps:
             last = self.full if done < self.full else self.steps
             count = min(size, most * self.every, look - done, last - done)
@@ -234,7 +234,7 @@ class Run:
         finally:
             self.seconds += clock.process_time() - cpu
             stored = int(keep[:first].sum())
-            if self.taps.width:
+            if self.sampling.width:
                 times = np.array([self._time(int(k)) for k in number[:first]])
                 recorder.record(times, out.samples[:first])
             times = np.array([self._time(int(k)) for k in number[keep]])
@@ -245,12 +245,12 @@ class Run:
         m = self.memory
         if k >= 0:
             out.q[k], out.v[k], out.work[k] = m.q, m.v, m.work
-        if self.taps.width:
-            sample(self.taps, m.q, m.v, out.samples[n])
+        if self.sampling.width:
+            sample(self.sampling, m.q, m.v, out.samples[n])
 
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
-        core, tables = self.system.core, self.system.drive.tables(t, h, len(row), self.t_start, self.t_end)
-        n, status = advance(core, self.memory, tables, h, self.scheme, self.rule(h), row, self.taps, out)
+        core, tables = self.system.core, self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end)
+        n, status = advance(core, self.memory, tables, h, self.scheme, self.rule(h), row, self.sampling, out)
         return int(n), int(status)
 
     def _bridge(self, t: float, h: float, number: int) -> None:
@@ -288,7 +288,7 @@ class Run:
 
     def _room(self, stored: int, steps: int) -> Output:
         """Room for so many stored states and so many steps with samples."""
-        return Output.of(stored, self.system.size, steps, self.taps.width)
+        return Output.of(stored, self.system.size, steps, self.sampling.width)
 
     def _check_energy(self, done: int) -> None:
         """A step that is far too large can converge to nonsense: it makes energy from nothing."""

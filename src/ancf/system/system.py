@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from ..bodies.build import inertia
 from ..connections import joint_build
-from ..connections.build import springs
 from ..connections.contact import ContactBatch
 from ..connections.contact_build import contacts
 from ..connections.joint import JointBatch
 from ..connections.sliding import SlidingBatch
 from ..connections.sliding_build import sliding
+from ..connections.spring_build import springs
 from ..connections.spring_damper import SpringBatch
 from ..elements.lanes import workspace
 from ..elements.registry import ELEMENTS
@@ -36,7 +36,7 @@ from ..model.points import Point
 from ..model.touching import bodies_of
 from . import loads
 from .core import Core, Loads, Supports, place_supports
-from .drive import Drive
+from .inputs import Inputs
 from .joints import bind_joints, bind_sliding, core_joints, joint_pairs, set_scales, sliding_pairs
 from .matrix import Places, block_pairs
 from .nodes import start_vectors
@@ -60,7 +60,7 @@ class System:
     ----------
     core : Core
         What the kernels work on.
-    drive : Drive
+    inputs : Inputs
         Functions of time.
     n : int
         Unknowns, held ones included; a state vector is longer by the shadows, see ``size``.
@@ -99,7 +99,7 @@ class System:
         self.patterns, load_functions = loads.patterns(model, self.probe, self.slots, self.numbering.arcs)
         batches = self._batches(self.numbering.slots)
         moment_functions = loads.moments(model, self.probe, self.moment)[1]
-        self.drive = Drive(load_functions, moment_functions, self.constraints)
+        self.inputs = Inputs(load_functions, moment_functions, self.constraints)
         self.core = self._core(batches)
         set_scales(self)
         self.measuring = tuple(b for b in self.core.batches if isinstance(b, ContactBatch))
@@ -185,7 +185,7 @@ class System:
         supports = Supports(
             **_held_arrays(self._held(), self.places),
             **_rotation_arrays(self.constraints, self.places, self.n),
-            prescribed=self.drive.prescribed,
+            prescribed=self.inputs.prescribed,
             driven=self._shadowed(driven),
         )
         return Core(
@@ -302,7 +302,7 @@ class System:
             new_q[own] = R.T @ before[0][shadow]
             new_v[own] = R.T @ (before[1][shadow] - dR @ new_q[own])
         held = self.core.supports.held
-        still = np.setdiff1d(held, self.drive.prescribed)
+        still = np.setdiff1d(held, self.inputs.prescribed)
         new_v[still] = 0.0
         self.place(time, new_q, new_v, a)
         return new_q, new_v
@@ -321,7 +321,7 @@ class System:
     def place(self, time: float, q: FloatArray, v: FloatArray, a: FloatArray) -> None:
         """Put supports where they are at ``time``, and moments; fills the shadows."""
         h = 1e-3
-        tables = self.drive.tables(time - h, h, 1, time, np.inf)
+        tables = self.inputs.tables(time - h, h, 1, time, np.inf)
         place_supports(self.core.supports, self.core.loads.moment, tables, 0, q, v, a)
 
     def _set_motion(self, q: FloatArray, v: FloatArray, a: FloatArray, time: float) -> None:

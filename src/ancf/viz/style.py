@@ -1,7 +1,7 @@
 """The one place of how figures look: sizes in mm as printed, colours, lines, markers, labels and units.
 
 Curves differ by colour, dash and marker together, so that a grey copy and a colour-blind eye keep them
-apart; ``tests/test_style.py`` measures it. What is drawn for orientation only is grey.
+apart; ``tests/pictures/test_style.py`` measures it. What is drawn for orientation only is grey.
 """
 
 from __future__ import annotations

@@ -1,0 +1,72 @@
+"""What sensors take from every step: a copy of some entries of the state vectors, made in the compiled loop.
+
+A row of samples holds q of the entries, v of the entries, and entries of an array in which batches leave
+what they have measured (``System.measured``).
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..compiled import kernel, measure_all
+from ..system.system import System
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+class Sampling(NamedTuple):
+    """Where the samples come from; all is empty without sensors."""
+
+    unknowns: IntArray  # (k,) entries of q and v
+    batches: tuple[Any, ...]  # that measure, see ancf.compiled.measure
+    measured: FloatArray  # (m,) shared with them
+    entries: IntArray  # (j,) entries of measured
+
+    @property
+    def width(self) -> int:
+        """Numbers in a row of samples: 2 k + j."""
+        return 2 * len(self.unknowns) + len(self.entries)
+
+
+class Output(NamedTuple):
+    """Room for what a block of steps is to leave."""
+
+    q: FloatArray  # (stored, size) states that are kept
+    v: FloatArray
+    work: FloatArray  # (stored, 2) energy dissipated and supplied, J
+    samples: FloatArray  # (steps, width), or no rows where nothing is recorded
+
+    @classmethod
+    def of(cls, stored: int, size: int, steps: int, width: int) -> Output:
+        """Room that is not filled yet."""
+        q, v, work = (np.empty((stored, columns)) for columns in (size, size, 2))
+        return cls(q, v, work, np.empty((steps, width)))
+
+
+def sampling_of(system: System) -> Sampling:
+    """Sampling of the sensors of a system."""
+    listed = system.sensors
+    batches = system.measuring if len(listed.entries) else ()
+    return Sampling(listed.index, batches, system.measured, listed.entries)
+
+
+@kernel
+def sample(sampling: Sampling, q: FloatArray, v: FloatArray, row: FloatArray) -> None:
+    """Fill a row of samples, shape (width,), from the state q, v."""
+    measure_all(sampling.batches, q, v)
+    k = sampling.unknowns.shape[0]
+    for i in range(k):
+        row[i], row[k + i] = q[sampling.unknowns[i]], v[sampling.unknowns[i]]
+    for i in range(sampling.entries.shape[0]):
+        row[2 * k + i] = sampling.measured[sampling.entries[i]]
+
+
+@kernel
+def sample_rows(sampling: Sampling, q: FloatArray, v: FloatArray, rows: FloatArray) -> None:
+    """Fill rows of samples, shape (m, width), from states of shape (m, size)."""
+    for n in range(rows.shape[0]):
+        sample(sampling, q[n], v[n], rows[n])

@@ -1,0 +1,133 @@
+"""Functions of time, tabulated at the ends of a block of steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.functions import TimeFunction
+from .core import Tables
+from .supports import Constraints, Rotation
+
+FloatArray = NDArray[np.float64]
+
+#: Points of the difference formulas for the rates of given motions: sixth order.
+STENCIL = 7
+
+
+class Inputs:
+    """Loads, moments and support motions of a System as functions of time.
+
+    Parameters
+    ----------
+    loads, moments : list of TimeFunction
+        Amplitudes of shape (3,).
+    constraints : Constraints
+        Unknowns and rotations in the order of the System.
+    """
+
+    def __init__(
+        self, loads: list[TimeFunction], moments: list[TimeFunction], constraints: Constraints
+    ) -> None:
+        self.loads, self.moments = loads, moments
+        self.motions = constraints.motions
+        self.rotations = [r for r in constraints.rotations if r.angle is not None]
+        self.prescribed = np.array([i for m in self.motions for i in m.unknowns], dtype=np.int64)
+
+    def tables(self, start: float, step: float, steps: int, first: float, last: float) -> Tables:
+        """Tables at start + step, ..., start + steps * step.
+
+        ``first`` and ``last`` are the times of the whole run, s: rates are differences of values
+        between them.
+        """
+        times = on_grid(start, step, np.arange(1, steps + 1), first)
+        motion = [self._motion(k, times, step, first, last) for k in range(len(self.motions))]
+        rotation = [self._rotation(r, times, step, first, last) for r in self.rotations]
+        return Tables(
+            load=_amplitudes(self.loads, times),
+            moment=_amplitudes(self.moments, times),
+            motion=np.ascontiguousarray(np.concatenate([np.zeros((steps, 0, 3)), *motion], axis=1)),
+            rotation=np.ascontiguousarray(
+                np.stack(rotation, axis=1) if rotation else np.zeros((steps, 0, 3, 3, 3))
+            ),
+        )
+
+    def _motion(self, k: int, times: FloatArray, step: float, first: float, last: float) -> FloatArray:
+        motion = self.motions[k]
+        if motion.rates is not None:
+            return np.stack([motion.values(times), *motion.rates(times)], axis=-1)
+        return np.stack(differences(motion.values, times, step, first, last), axis=-1)
+
+    def _rotation(self, r: Rotation, times: FloatArray, step: float, first: float, last: float) -> FloatArray:
+        assert r.angle is not None
+        angle = r.angle.table
+        if r.rate is not None and r.acceleration is not None:
+            columns = [angle(times), r.rate.table(times), r.acceleration.table(times)]
+        else:
+            columns = list(differences(angle, times, step, first, last))
+        return r.matrices(*(c[:, 0] for c in columns))
+
+
+def on_grid(start: float, step: float, number: NDArray[np.int64], first: float) -> FloatArray:
+    """Times start + step * number, counted from ``first`` where they are steps from there.
+
+    They are then the same to the last bit however the run is divided into blocks, which depends on how fast
+    the machine is.
+    """
+    steps = (start - first) / step
+    whole = np.round(steps)
+    if np.isfinite(steps) and abs(steps - whole) < 1e-6:
+        counted: FloatArray = first + step * (float(whole) + number.astype(np.float64))
+        return counted
+    times: FloatArray = start + step * number.astype(np.float64)
+    return times
+
+
+def differences(
+    function: Callable[[FloatArray], FloatArray], times: FloatArray, step: float, first: float, last: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Values and the first two derivatives of a tabulating function, by differences on the step grid.
+
+    The formulas are centred, one-sided next to ``first`` and, where enough steps fit in, next to ``last``.
+
+    Returns
+    -------
+    tuple of three ndarrays, shape (n, k)
+    """
+    n, half = len(times), STENCIL // 2
+    lowest = max(int(np.floor((times[0] - first) / step + 1e-9)), 0)  # grid points from first to times[0]
+    below = min(lowest, half)
+    room = int(min(np.floor((last - times[-1]) / step + 1e-9), half))
+    above = max(room, STENCIL - (below + n))
+    grid = on_grid(times[0], step, np.arange(-below, n + above), first)
+    grid[below : below + n] = times
+    values = function(grid)
+    rate, second = np.empty((n, values.shape[1])), np.empty((n, values.shape[1]))
+    at = below + np.arange(n)
+    begin = np.clip(at - half, 0, len(grid) - STENCIL)
+    for offset in np.unique(at - begin):
+        rows = np.flatnonzero(at - begin == offset)
+        windows = values[begin[rows][:, None] + np.arange(STENCIL)]
+        w1, w2 = _weights(int(offset))
+        rate[rows] = np.einsum("s,nsk->nk", w1, windows) / step
+        second[rows] = np.einsum("s,nsk->nk", w2, windows) / step**2
+    return values[below : below + n], rate, second
+
+
+def _weights(offset: int) -> tuple[FloatArray, FloatArray]:
+    """Weights of the first and second derivative at point ``offset`` of a unit grid of STENCIL points."""
+    x = np.arange(STENCIL) - offset
+    powers = np.vander(x, increasing=True).T.astype(np.float64)
+    unit = np.zeros((STENCIL, 2))
+    unit[1, 0], unit[2, 1] = 1.0, 2.0
+    w: FloatArray = np.linalg.solve(powers, unit).astype(np.float64)
+    return w[:, 0], w[:, 1]
+
+
+def _amplitudes(functions: list[TimeFunction], times: FloatArray) -> FloatArray:
+    out = np.empty((len(times), len(functions), 3))
+    for k, function in enumerate(functions):
+        out[:, k] = function(float(times[0])) if function.constant else function.table(times)
+    return out

@@ -1,0 +1,230 @@
+"""Parts of a step: the predictor, the elimination of the patches, frames that turn, rates of motions."""
+
+import numpy as np
+import pytest
+
+from ancf.compiled import kernel
+from ancf.elements.lanes import LANES
+from ancf.elements.shapes import gauss
+from ancf.elements.solid import SolidBatch
+from ancf.elements.solid_shapes import shape
+from ancf.solvers import corotation as turning
+from ancf.solvers.corotation import remember, turn, turn_back, turn_forth, turn_rows
+from ancf.solvers.low_rank import eliminate
+from ancf.solvers.mixed import quadratic_strains
+from ancf.solvers.newmark import H_PREV, KNOWN, Scheme, allocate, predict, worst_unknown
+from ancf.system.inputs import differences
+from ancf.system.system import System
+from helpers import SOLIDS, cable, rotation, shaken
+
+RNG = np.random.default_rng(3)
+TRAPEZOIDAL = Scheme(0.25, 0.5, 0.0, 0.0)
+
+
+def guess(history, h=0.1, keep=1.0):
+    """Predicted acceleration after these accelerations, the oldest first."""
+    memory = allocate(1, turning.allocate([], np.zeros(0, dtype=np.int64)), ())
+    past = [*history[::-1], 0.0, 0.0, 0.0]
+    memory.a[:], memory.a1[:], memory.a2[:], memory.a3[:] = past[:4]
+    memory.abar[:] = memory.a
+    memory.memo[H_PREV], memory.memo[KNOWN] = h, len(history) - 1
+    predict.py_func(memory, h, TRAPEZOIDAL, keep)
+    return float(memory.a[0]), float(memory.q[0]), float(memory.v[0])
+
+
+class TestPredictor:
+    def test_quadratic_accelerations_are_continued(self):
+        t = np.arange(5) * 0.1
+        a = 2.0 - 3.0 * t + 7.0 * t**2
+        assert guess(a[:4])[0] == pytest.approx(a[4], rel=1e-12)
+
+    @pytest.mark.parametrize("known", [2, 3, 4])
+    def test_what_changes_sign_in_every_step_goes_on_so(self, known):
+        a = np.array([1.0, -1.0, 1.0, -1.0])[:known]
+        assert guess(a)[0] == pytest.approx(-a[-1])
+
+    def test_another_step_size_forgets(self):
+        """The values are those of the times of the old steps."""
+        memory = allocate(1, turning.allocate([], np.zeros(0, dtype=np.int64)), ())
+        memory.a[:], memory.a1[:], memory.a2[:], memory.a3[:] = 1.0, 5.0, -3.0, 2.0
+        memory.memo[H_PREV], memory.memo[KNOWN] = 0.1, 3.0
+        predict.py_func(memory, 0.05, TRAPEZOIDAL, 1.0)
+        assert memory.a[0] == 1.0
+
+    def test_cautious_guess_is_no_acceleration(self):
+        a, q, v = guess([3.0, 3.0, 3.0, 3.0], keep=0.0)
+        assert (a, q, v) == pytest.approx((0.0, 0.01 * 0.25 * 3.0, 0.1 * 0.5 * 3.0))
+
+    def test_positions_and_velocities_follow_the_rule(self):
+        _, q, v = guess([2.0, 2.0, 2.0, 2.0])
+        assert (q, v) == pytest.approx((0.5 * 0.01 * 2.0, 0.1 * 2.0))
+
+
+@pytest.mark.parametrize("n", [1, 2, 5, 9])
+def test_elimination_pivots(n):
+    A = RNG.standard_normal((n, n))
+    A[0, 0] = 0.0 if n > 1 else 2.0
+    b = RNG.standard_normal(n)
+    room = np.zeros((n + 2, n + 3))
+    room[:n, :n], room[:n, n] = A, b
+    eliminate.py_func(room, n)
+    assert room[:n, n] == pytest.approx(np.linalg.solve(A, b), rel=1e-10)
+
+
+def test_worst_unknown():
+    """The largest correction in the norm, or the first that is no number."""
+    memory = allocate(4, turning.allocate([], np.zeros(0, dtype=np.int64)), ())
+    weight = np.array([1.0, 0.01, 1.0, 0.0])
+    memory.r[:] = 0.2, 5.0, -0.3, 1e9
+    assert worst_unknown.py_func(memory, weight) == 2
+    memory.r[1] = np.nan
+    assert worst_unknown.py_func(memory, weight) == 1
+
+
+@pytest.mark.parametrize("kind", SOLIDS)
+def test_quadratic_part_of_the_strains(kind):
+    """e2(dq) = e(q + dq) - e(q) - De dq: half the second difference, exact for quadratic strains."""
+    system = System(cable("curved", elements=2, element=kind)[0])
+    batch = next(b for b in system.core.batches if isinstance(b, SolidBatch))
+    q, dq = shaken(system), 0.1 * RNG.standard_normal(system.size)
+    beam, slots = system.model.bodies["beam"], system.slots["beam"]
+    x = gauss(int(batch.groups[0, 3]))[0]
+
+    def scalars(state):
+        """Of all elements, (2, points, 15): from the shape functions, in the units of the kernels."""
+        found = []
+        for e in range(2):
+            h = beam.node_x[e + 1] - beam.node_x[e]
+            nodal = state[np.r_[slots[e, :4], slots[e + 1, :4], slots[e, 4:]][:, None] + np.arange(3)]
+            names = ("r_x", "r_y", "r_z", "r_yx", "r_zx")
+            a, b, c, B, C = (shape(kind, x, h, derivative=name) @ nodal for name in names)
+            B, C = h * B, h * C
+            pairs = ((a, a), (b, b), (c, c), (B, B), (C, C), (B, C), (a, B), (a, C))
+            pairs += ((a, b), (a, c), (b, c), (b, B), (c, C), (b, C), (c, B))
+            products = np.stack([(u * v).sum(1) for u, v in pairs], axis=1)
+            products[:, :3] *= 0.5
+            found.append(products)
+        return np.array(found)
+
+    wanted = 0.5 * (scalars(q + dq) - 2 * scalars(q) + scalars(q - dq))
+    got = quadratic_strains(batch._replace(lane_reference=np.zeros((1, 15 * len(x) * LANES))), dq)
+    got = got.reshape(len(x), 15, LANES)[..., :2].transpose(2, 0, 1)
+    assert got == pytest.approx(wanted, abs=1e-12)
+
+
+@kernel
+def turned(frames, before, now):
+    remember(frames, before)
+    turn(frames, now)
+
+
+@kernel
+def back(frames, r):
+    turn_back(frames, r)
+
+
+@kernel
+def forth(frames, r):
+    turn_forth(frames, r)
+
+
+@kernel
+def rows(frames, A):
+    turn_rows(frames, A)
+
+
+class TestFrames:
+    """A node that turns as a whole: its frame is that rotation (with r_y) or one of the same tangent."""
+
+    R = rotation((1.0, -2.0, 0.7), 1.9)
+
+    def state(self, vectors):
+        q = RNG.standard_normal((2, vectors, 3))
+        slots = 3 * np.arange(2 * vectors).reshape(2, vectors)
+        return q, slots
+
+    @pytest.mark.parametrize("vectors", [2, 4])
+    def test_rotation(self, vectors):
+        q, slots = self.state(vectors)
+        frames = turning.allocate([slots], np.zeros(0, dtype=np.int64))
+        turned(frames, q.ravel(), (q @ self.R.T).ravel())
+        for k in range(2):
+            Q = frames.Q[k].reshape(3, 3)
+            assert pytest.approx(np.eye(3), abs=1e-14) == Q @ Q.T
+            assert np.linalg.det(Q) == pytest.approx(1.0)
+            assert Q @ q[k, 1] == pytest.approx(self.R @ q[k, 1], abs=1e-13)
+            if vectors > 2:
+                assert pytest.approx(self.R, abs=1e-13) == Q
+            else:  # the smallest one: its axis is normal to both tangents
+                axis = np.array([Q[2, 1] - Q[1, 2], Q[0, 2] - Q[2, 0], Q[1, 0] - Q[0, 1]])
+                assert axis @ q[k, 1] == pytest.approx(0.0, abs=1e-13)
+
+    @pytest.mark.parametrize("vectors", [2, 4])
+    def test_back_and_forth(self, vectors):
+        q, slots = self.state(vectors)
+        frames = turning.allocate([slots], np.zeros(0, dtype=np.int64))
+        turned(frames, q.ravel(), (q @ self.R.T).ravel())
+        r = RNG.standard_normal((2, vectors, 3))
+        there = r.ravel().copy()
+        forth(frames, there)
+        for k in range(2):
+            Q = frames.Q[k].reshape(3, 3)
+            assert there.reshape(r.shape)[k] == pytest.approx(r[k] @ Q.T, abs=1e-14)
+        back(frames, there)
+        assert there == pytest.approx(r.ravel(), abs=1e-14)
+
+    def test_rows_that_are_not_kept(self):
+        """C -> C Q where a piece stands under a slot of a node that turns."""
+        q, slots = self.state(2)
+        places = {0: 40, 3: -1, 6: 3, 9: -1}
+        tail = lambda s: np.array([[places[int(i)]] for i in s])  # noqa: E731
+        frames = turning.allocate([slots], np.zeros(0, dtype=np.int64), tail=tail)
+        turned(frames, q.ravel(), (q @ self.R.T).ravel())
+        A = RNG.standard_normal(100)
+        wanted = A.copy()
+        for node, place in ((0, 40), (1, 3)):
+            Q = frames.Q[node].reshape(3, 3)
+            for o in range(place, place + 36, 6):
+                wanted[o : o + 3] = A[o : o + 3] @ Q
+        rows(frames, A)
+        assert pytest.approx(wanted, abs=1e-14) == A
+
+    def test_left_out(self):
+        """Nodes that hold single components, share their position, or have a joint; not those held whole."""
+        slots = 3 * np.arange(8).reshape(4, 2)
+        slots[3, 0] = slots[2, 0]
+        held = np.array([1, 6, 7, 8, 9, 10, 11])  # one component of node 0, all of node 1
+        assert turning.allocate([slots], held).slope.tolist() == [9]
+        assert turning.allocate([slots], held, attached=np.array([9])).slope.tolist() == []
+
+
+class TestDifferences:
+    """Rates of given motions: exact for polynomials of degree 6, at both ends of a run too."""
+
+    @staticmethod
+    def polynomial(t, order=0):
+        p = np.polynomial.Polynomial([0.3, -1.0, 2.0, 0.5, -0.7, 0.2, 0.1])
+        return (p.deriv(order) if order else p)(t)
+
+    @pytest.mark.parametrize("start", [0.0, 0.1, 0.5, 0.9])
+    @pytest.mark.parametrize("steps", [1, 2, 12])
+    def test_polynomial(self, start, steps):
+        h = 0.1
+        times = start + h * np.arange(1, steps + 1)
+        given = lambda t: self.polynomial(t)[:, None]  # noqa: E731
+        value, rate, second = differences(given, times, h, 0.0, 3.0)
+        assert value[:, 0] == pytest.approx(self.polynomial(times), rel=1e-13)
+        assert rate[:, 0] == pytest.approx(self.polynomial(times, 1), rel=1e-9)
+        assert second[:, 0] == pytest.approx(self.polynomial(times, 2), rel=1e-8)
+
+    def test_nothing_is_asked_beyond_the_ends(self):
+        asked = []
+
+        def given(t):
+            asked.extend(t.tolist())
+            return np.zeros((len(t), 1))
+
+        for first in (0.0, 0.6):
+            differences(given, first + 0.1 * np.arange(1, 5), 0.1, 0.0, 1.0)
+        assert min(asked) >= -1e-12
+        assert max(asked) <= 1.0 + 1e-12

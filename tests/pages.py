@@ -1,0 +1,35 @@
+"""The pages of the documentation, and how their tests are dealt out."""
+
+import importlib.util
+import sys
+
+import pytest
+
+from places import DOCS, ROOT
+
+PAGES = sorted(p for p in DOCS.rglob("*.md") if "_build" not in p.parts)
+
+WITH_CODE = [
+    ROOT / "README.md",
+    DOCS / "index.md",
+    *sorted((DOCS / "tutorials").glob("*.md")),
+    *sorted((DOCS / "howto").glob("*.md")),
+]
+
+
+def code_blocks():
+    """The module docs/code_blocks.py, which is no part of a package."""
+    spec = importlib.util.spec_from_file_location("code_blocks", DOCS / "code_blocks.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def name_of(page):
+    return str(page.relative_to(ROOT))
+
+
+def alone(page):
+    """A page is a unit of its own for the workers: all of them in one file take as long as the rest."""
+    return pytest.param(page, marks=pytest.mark.xdist_group(name_of(page)), id=name_of(page))
