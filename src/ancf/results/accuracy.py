@@ -5,18 +5,24 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..model.beam import Beam
 from ..solvers.locking import locked, stiffest
+from ..system.consistency import nearly_dependent
 
 if TYPE_CHECKING:
     from .result import Result
     from .state import State
 
+FloatArray = NDArray[np.float64]
+
 #: Share of the displacement that locking may take unsaid, and of the model's size that is never said.
 LOCKED, SMALL = 3e-4, 1e-9
 #: Share of the energy exchanged that may come from nowhere, or get lost, unsaid.
 DRIFT = 0.02
+#: Joints that a note names.
+MOST_NAMED = 4
 #: Methods that do not take energy out.
 KEEPING = ("trapezoidal", "explicit")
 
@@ -61,8 +67,24 @@ def of_energy(result: Result) -> list[str]:
     if abs(drift[k]) <= DRIFT * exchanged + floor + 1e-15:
         return []
     happened = f"{drift[k]:.2g} J came from nowhere" if drift[k] > 0.0 else f"{-drift[k]:.2g} J were lost"
-    text = (
-        f"{happened} until t = {result.t[k]:.6g} s, {100 * abs(drift[k]) / exchanged:.2g} % of the energy "
-        "exchanged: the step does not resolve the motion, or EA is too large for its round-off"
-    )
-    return [text]
+    share = f"{100 * abs(drift[k]) / exchanged:.2g} % of the energy exchanged"
+    return [f"{happened} until t = {result.t[k]:.6g} s, {share}: {_cause(result, drift)}"]
+
+
+def _cause(result: Result, drift: FloatArray) -> str:
+    """Why energy comes and goes: joints that depend on each other where most of it did, or the step."""
+    general = "the step does not resolve the motion, or EA is too large for its round-off"
+    if result.system is None:
+        return general
+    k = int(np.argmax(np.abs(np.diff(drift))))
+    for n in (k + 1, k):
+        if names := nearly_dependent(result.system, np.array(result.q[n])):
+            listed = ", ".join(f'"{name}"' for name in names[:MOST_NAMED])
+            listed += f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
+            form = result.provenance["settings"].get("formulation")
+            other = 'the formulation "ggl" and ' if form in ("index1", "index2") else ""
+            return (
+                f"near t = {result.t[n]:.6g} s a singular position is passed, where the joints {listed} hold "
+                f"nearly the same motion twice; take {other}smaller steps"
+            )
+    return general

@@ -65,6 +65,11 @@ class Result(SpringFields, ContactFields, Filmed, Readable):
     def _sheet(self) -> Sheet:
         return of_result(self)
 
+    @property
+    def system(self) -> System | None:
+        """The compiled model, where it is known."""
+        return self._system
+
     def _contact_system(self) -> System | None:
         return self._system
 

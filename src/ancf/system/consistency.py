@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import null_space, qr
+from scipy.linalg import null_space, qr, svd
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
@@ -22,6 +22,8 @@ INDEPENDENT = 1e-9
 FEW = 200
 #: Share of a row in a dependent combination from which on its joint is named.
 NAMED = 0.05
+#: Ratio of smallest singular values below which rows are nearly dependent, and most rows that are looked at.
+SINGULAR, MANY = 0.1, 1200
 #: Largest gap of a joint at the start, in sizes of the model; a sliding joint has its own.
 GAP = 1e-6
 
@@ -33,7 +35,7 @@ def check_independent(system: System) -> None:
     """
     if not len(np.setdiff1d(system.multipliers, system.core.supports.held)):
         return
-    C, gap, owner = _held_rows(system)
+    C, gap, owner = _held_rows(system, system.initial_shape())
     size = np.linalg.norm(C, axis=1)
     _refuse_immovable(owner, size > 1e-12 * size.max())
     C, gap = C / size[:, None], gap / size
@@ -54,12 +56,36 @@ def check_independent(system: System) -> None:
     raise _redundant(list(dict.fromkeys(involved.tolist())), float(mismatch[worst]), system.model.size)
 
 
-def _held_rows(system: System) -> tuple[FloatArray, FloatArray, NDArray[np.str_]]:
-    """Rows of C_q on the unknowns that move, C there, and the joint of each row.
+def nearly_dependent(system: System, q: FloatArray) -> list[str]:
+    """Joints that nearly hold the same motion twice in the state q, as in a singular position of a loop.
+
+    The smallest singular value of the rows C_q, in sizes of the model and each of length 1, is compared
+    with that of the initial shape.  Empty where no joints depend on each other.
+    """
+    if not len(np.setdiff1d(system.multipliers, system.core.supports.held)):
+        return []
+    weight = system.core.weight[np.setdiff1d(system.free, system.multipliers)]
+    least, names = [], []
+    for state in (system.initial_shape(), q):
+        C, _, owner = _held_rows(system, state)
+        if len(C) > MANY:
+            return []
+        C = C / weight
+        size = np.linalg.norm(C, axis=1)
+        U, values, _ = svd(C / np.maximum(size, 1e-300)[:, None], full_matrices=False)
+        least.append(float(values[-1]))
+        share = np.abs(U[:, -1])
+        names = list(dict.fromkeys(owner[share > NAMED * share.max()].tolist()))
+    joints = {joint.name for joint in system.model.connections}
+    return [name for name in names if name in joints] if least[1] < SINGULAR * least[0] else []
+
+
+def _held_rows(system: System, q: FloatArray) -> tuple[FloatArray, FloatArray, NDArray[np.str_]]:
+    """Rows of C_q in the state q on the unknowns that move, C there, and the joint of each row.
 
     A sliding joint with a released direction has two rows, normal to it.
     """
-    core, q = system.core, system.initial_shape()
+    core = system.core
     held, zero, gap = core.supports.held, np.zeros(system.size), np.zeros(system.size)
     system.level[:] = 1.0, 0.0, 0.0
     constraints(core.joints, q, zero, zero, gap, core.ws)
