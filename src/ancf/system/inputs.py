@@ -85,6 +85,19 @@ def on_grid(start: float, step: float, number: NDArray[np.int64], first: float) 
     return times
 
 
+def _weights(offset: int) -> FloatArray:
+    """Weights of the first and second derivative at point ``offset`` of a unit grid, shape (2, STENCIL)."""
+    x = np.arange(STENCIL) - offset
+    powers = np.vander(x, increasing=True).T.astype(np.float64)
+    unit = np.zeros((STENCIL, 2))
+    unit[1, 0], unit[2, 1] = 1.0, 2.0
+    w: FloatArray = np.linalg.solve(powers, unit).T.astype(np.float64)
+    return w
+
+
+_WEIGHTS = np.stack([_weights(offset) for offset in range(STENCIL)])
+
+
 def differences(
     function: Callable[[FloatArray], FloatArray], times: FloatArray, step: float, first: float, last: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -97,33 +110,24 @@ def differences(
     tuple of three ndarrays, shape (n, k)
     """
     n, half = len(times), STENCIL // 2
-    lowest = max(int(np.floor((times[0] - first) / step + 1e-9)), 0)  # grid points from first to times[0]
-    below = min(lowest, half)
-    room = int(min(np.floor((last - times[-1]) / step + 1e-9), half))
-    above = max(room, STENCIL - (below + n))
-    grid = on_grid(times[0], step, np.arange(-below, n + above), first)
+    at = max(int(np.floor((times[0] - first) / step + 1e-9)), 0) + np.arange(
+        n
+    )  # places on the grid from first
+    room = int(min(np.floor((last - times[-1]) / step + 1e-9), STENCIL))
+    # which formula a time has depends on its place in the run, not on the block that it is in
+    end = max(int(at[-1]) + room, STENCIL - 1)
+    begin = np.clip(at - half, 0, end + 1 - STENCIL)
+    below = int(at[0] - begin[0])
+    grid = on_grid(times[0], step, np.arange(-below, begin[-1] + STENCIL - at[0]), first)
     grid[below : below + n] = times
     values = function(grid)
-    rate, second = np.empty((n, values.shape[1])), np.empty((n, values.shape[1]))
-    at = below + np.arange(n)
-    begin = np.clip(at - half, 0, len(grid) - STENCIL)
-    for offset in np.unique(at - begin):
-        rows = np.flatnonzero(at - begin == offset)
-        windows = values[begin[rows][:, None] + np.arange(STENCIL)]
-        w1, w2 = _weights(int(offset))
-        rate[rows] = np.einsum("s,nsk->nk", w1, windows) / step
-        second[rows] = np.einsum("s,nsk->nk", w2, windows) / step**2
-    return values[below : below + n], rate, second
-
-
-def _weights(offset: int) -> tuple[FloatArray, FloatArray]:
-    """Weights of the first and second derivative at point ``offset`` of a unit grid of STENCIL points."""
-    x = np.arange(STENCIL) - offset
-    powers = np.vander(x, increasing=True).T.astype(np.float64)
-    unit = np.zeros((STENCIL, 2))
-    unit[1, 0], unit[2, 1] = 1.0, 2.0
-    w: FloatArray = np.linalg.solve(powers, unit).astype(np.float64)
-    return w[:, 0], w[:, 1]
+    rate, second = np.zeros((n, values.shape[1])), np.zeros((n, values.shape[1]))
+    weights = _WEIGHTS[at - begin]
+    for s in range(STENCIL):  # one after the other: a sum by the library rounds as its length wants
+        value = values[begin - begin[0] + s]
+        rate += weights[:, 0, s, None] * value
+        second += weights[:, 1, s, None] * value
+    return values[below : below + n], rate / step, second / step**2
 
 
 def _amplitudes(functions: list[TimeFunction], times: FloatArray) -> FloatArray:
