@@ -460,7 +460,8 @@ class TestFailures:
         model, _ = pendulum(elements=16)
 
         def stop(progress):
-            raise KeyboardInterrupt
+            if progress.t > 2e-3:  # a busy machine may not have got anywhere yet
+                raise KeyboardInterrupt
 
         with pytest.raises(Interrupted) as caught:
             ancf.simulate(model, t_end=50.0, step=1e-3, progress=stop, integrator=ancf.Radau())
