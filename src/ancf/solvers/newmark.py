@@ -380,7 +380,7 @@ def balance(core, s, h):
             power += s.v[i] * s.r[i]
     for i in range(push.shape[0]):
         push[i] = core.loads.gravity[i] - s.f[i]
-    for batch in literal_unroll(core.followers):
+    for batch in literal_unroll(core.external):
         add_force(batch, s.q, s.v, s.a, push, core.ws)
     for i in range(push.shape[0]):
         push[i] = -push[i]
@@ -410,10 +410,10 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out):
     level[0], level[1], level[2] = rule.w0, rule.w1, rule.w2
     status = OK
     for n in range(keep.shape[0]):
-        external_force(core.loads, tables.load[n], s.f)
+        external_force(core.loads, tables.value[n], s.f)
         for attempt in range(3):
             predict(s, h, scheme, 1.0 if attempt == 0 else 0.0)
-            drive(core.supports, core.loads.moment, tables, n, s.q, s.v, s.a)
+            drive(core.supports, core.loads.value, tables, n, s.q, s.v, s.a)
             status = newton(core, s, h, rule, rule.modified and attempt < 2, B, G)
             if status == OK:
                 status = check_sections(core, s)

@@ -37,7 +37,7 @@ class SystemProblem:
         self.spacing = LEAST_SPACING
         inputs = system.inputs
         self._moving = bool(inputs.motions or inputs.rotations)
-        self._driven = self._moving or not all(f.constant for f in (*inputs.loads, *inputs.moments))
+        self._driven = self._moving or not all(f.constant for f in inputs.loads)
         self._tables: dict[bytes, Tables] = {}
         self._f, self._zero = np.zeros(system.size), np.zeros(system.size)
         self._base = np.zeros((2, system.size))  # what is held and never moves

@@ -15,8 +15,8 @@ def stage_residuals(core, tables, q, v, a, f, r):
     What supports prescribe is put into q, v, a, and the shadows are filled.
     """
     for n in range(q.shape[0]):
-        external_force(core.loads, tables.load[n], f)
-        drive(core.supports, core.loads.moment, tables, n, q[n], v[n], a[n])
+        external_force(core.loads, tables.value[n], f)
+        drive(core.supports, core.loads.value, tables, n, q[n], v[n], a[n])
         residual(core.batches, core.ws, q[n], v[n], a[n], f, r[n])
         to_local(core.supports, r[n])
 
@@ -30,8 +30,8 @@ def stage_powers(core, tables, q, v, a, f, r, zero, power):
     """
     size = f.shape[0]
     for n in range(q.shape[0]):
-        external_force(core.loads, tables.load[n], f)
-        drive(core.supports, core.loads.moment, tables, n, q[n], v[n], a[n])
+        external_force(core.loads, tables.value[n], f)
+        drive(core.supports, core.loads.value, tables, n, q[n], v[n], a[n])
         residual(core.batches, core.ws, q[n], v[n], a[n], f, r[n])
         dissipated, supplied = 0.0, 0.0
         for i in range(size):
@@ -45,7 +45,7 @@ def stage_powers(core, tables, q, v, a, f, r, zero, power):
         for i in range(size):
             dissipated -= v[n, i] * r[n, i]
             r[n, i] = 0.0
-        for batch in literal_unroll(core.followers):
+        for batch in literal_unroll(core.external):
             add_force(batch, q[n], v[n], a[n], r[n], core.ws)
         for i in range(size):
             supplied -= v[n, i] * r[n, i]
@@ -56,4 +56,4 @@ def stage_powers(core, tables, q, v, a, f, r, zero, power):
 def place_rows(core, tables, q, v, a):
     """Supports and shadows of states, shape (m, size), at the times of the tables."""
     for n in range(q.shape[0]):
-        drive(core.supports, core.loads.moment, tables, n, q[n], v[n], a[n])
+        drive(core.supports, core.loads.value, tables, n, q[n], v[n], a[n])

@@ -103,7 +103,7 @@ class Iteration:
     def out_of_balance(self, q: FloatArray, share: float) -> FloatArray:
         """Residual for a share of the loads, on free unknowns."""
         r = np.empty_like(q)
-        self.core.loads.moment[:] = share * self.moment
+        self.core.loads.value[:] = share * self.moment
         residual(self.core.batches, self.core.ws, q, self.zero, self.zero, share * self.force, r)
         apply_supports(self.core.supports, r)
         return r[: self.system.n]
@@ -274,10 +274,10 @@ def equilibrium(
     h = 1e-3
     tables = system.inputs.tables(time - h, h, 1, time, np.inf)
     v, a = np.zeros_like(q), np.zeros_like(q)
-    place_supports(core.supports, core.loads.moment, tables, 0, q, v, a)
+    place_supports(core.supports, core.loads.value, tables, 0, q, v, a)
     force = np.empty_like(q)
-    apply_load(core.loads, tables.load[0], force)
-    it = Iteration(system, core, q, force, core.loads.moment.copy())
+    apply_load(core.loads, tables.value[0], force)
+    it = Iteration(system, core, q, force, core.loads.value.copy())
     slack = Slack(system, q, force)
     try:
         slack.set(1.0, 1.0)
@@ -288,7 +288,7 @@ def equilibrium(
         settle_contacts(it)
     finally:
         slack.set(0.0, 0.0)
-        core.loads.moment[:] = it.moment
+        core.loads.value[:] = it.moment
     seconds = clock.process_time() - cpu
     return it.q, Stats(load_steps, it.iterations, it.jacobians, it.jacobians, halvings, seconds)
 
