@@ -305,10 +305,8 @@ class Model(Connecting, Readable):
 
     def add_force(self, point: PointLike, force: Any, name: str | None = None) -> Force:
         """Add a force (3,) in N at a point, in fixed directions."""
-        where = self._where("add_force", name, point)
-        clean = self._point(point, f"{where}.point")
-        label = self._names.of_item(name, f"force at {clean}", where)
-        return self._add_load(Force(label, clean, TimeFunction(force, 3, f"{where}.force")))
+        where, label, clean = self.named_point("add_force", "force", point, name)
+        return self.add_load(Force(label, clean, TimeFunction(force, 3, f"{where}.force")))
 
     def add_moment(self, point: PointLike, moment: Any, name: str | None = None) -> Moment:
         """Add a moment (3,) in N m at a point, in fixed directions.
@@ -316,10 +314,8 @@ class Model(Connecting, Readable):
         On a cable it acts on the slope r_x and must not be a torque; on a beam it acts on the section;
         on a rigid body its place does not matter.
         """
-        where = self._where("add_moment", name, point)
-        clean = self._point(point, f"{where}.point")
-        label = self._names.of_item(name, f"moment at {clean}", where)
-        return self._add_load(make_moment(where, label, clean, moment))
+        where, label, clean = self.named_point("add_moment", "moment", point, name)
+        return self.add_load(make_moment(where, label, clean, moment))
 
     def add_distributed_load(
         self, body: Beam | str, load: Any, between: Any = None, name: str | None = None
@@ -328,7 +324,13 @@ class Model(Connecting, Readable):
         where = self._where("add_distributed_load", name, body)
         clean = self._body(body, f"{where}.body")
         label = self._names.of_item(name, f"load on {clean.name}", where)
-        return self._add_load(make_distributed(where, label, clean, load, between))
+        return self.add_load(make_distributed(where, label, clean, load, between))
+
+    def add_load(self, item: LoadT) -> LoadT:
+        """Add a checked load; every method that makes one ends here."""
+        self._names.take(item.name, "load")
+        self.loads.append(item)
+        return item
 
     def to_dict(self) -> dict[str, Any]:
         """Plain description, ready for JSON; Python functions as ``<function name>``."""
@@ -353,9 +355,4 @@ class Model(Connecting, Readable):
         check_overlap(where, item, self.supports)
         self._names.take(item.name, "support")
         self.supports.append(item)
-        return item
-
-    def _add_load(self, item: LoadT) -> LoadT:
-        self._names.take(item.name, "load")
-        self.loads.append(item)
         return item

@@ -40,7 +40,9 @@ def touching(core: Core, q: FloatArray, n: int) -> Touching:
     still = np.zeros_like(q)
     for batch in core.batches:
         row_of = traits(batch).row
-        for j in range(len(batch.slot) if row_of is not None else 0):
+        if row_of is None:
+            continue
+        for j in range(len(batch.slot)):
             row = np.zeros_like(q)
             k = float(row_of(batch, j, q, still, row))
             if k > 0.0:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ from ..model.beam import Beam
 from ..model.bodies import Body
 from ..model.functions import TimeFunction
 from ..model.joints import Slide
+from ..model.kind import Kind
+from ..model.kinds import LOADS
 from ..model.loads import DistributedLoad, Force, Moment
 from ..model.model import Model
 from .probe import R_X, R_Y, R_Z, Probe, R
@@ -28,7 +31,9 @@ Locate = Callable[..., Probe]
 def functions(model: Model) -> list[TimeFunction]:
     """Inputs of all loads but gravity, in their order: dead loads, then those that depend on the state."""
     dead = [amplitude for _, amplitude in _dead(model)]
-    return dead + [load.moment for part in _moments(model) for load in part]
+    moments = [load.moment for part in _moments(model) for load in part]
+    laws = [function for kind, items in _laws(model) for item in items for function in kind.inputs_of(item)]
+    return dead + moments + laws
 
 
 def _dead(model: Model) -> list[tuple[Any, TimeFunction]]:
@@ -48,6 +53,14 @@ def _moments(model: Model) -> tuple[list[Moment], list[Moment]]:
     items = [load for load in model.loads if isinstance(load, Moment)]
     cables = [load for load in items if _is_cable(load.point.body)]
     return cables, [load for load in items if not _is_cable(load.point.body)]
+
+
+def _laws(model: Model) -> list[tuple[Kind, list[Any]]]:
+    """Other loads that depend on the state, by kind."""
+    found = [
+        (kind, [load for load in model.loads if type(load) is kind.item]) for kind in LOADS if kind.batch
+    ]
+    return [(kind, items) for kind, items in found if items]
 
 
 def patterns(model: Model, locate: Locate, slots: dict[str, IntArray], arcs: dict[str, int]) -> list[Pattern]:
@@ -78,6 +91,12 @@ def batches(model: Model, locate: Locate, value: FloatArray) -> dict[str, Any]:
         shares = [_shares(m.point.body) for m in sections]
         own = value[first : first + len(sections)]
         found["section moments"] = _on_sections([locate(m.point) for m in sections], shares, own)
+    first += len(sections)
+    for kind, items in _laws(model):
+        inputs = len(kind.inputs_of(items[0]))
+        own = value[first : first + inputs * len(items)].reshape(len(items), inputs, 3)
+        found[kind.word] = import_module(f"ancf.loads.{kind.batch}").build(items, locate, own)
+        first += inputs * len(items)
     return found
 
 

@@ -60,8 +60,8 @@ class Numbering:
             if isinstance(body, RigidBody):
                 self._keep(body.name, rigid(body, self.slots))
         tied = {c.name: c for c in model.connections if isinstance(c, Spherical) and c.shared}
-        for joint in tied.values():  # first: rows are made of slots
-            self._share(joint)
+        for ball in tied.values():  # first: rows are made of slots
+            self._share(ball)
         for joint in model.connections:
             if isinstance(joint, Slide):
                 self.sliding.append(self.blocks)
