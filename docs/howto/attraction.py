@@ -1,4 +1,4 @@
-"""Attraction by a centre, with the drag of the air: F = -s d/|d|^3 - c |v| v, d = r - centre.
+"""Attraction by a centre, and drag: F = -s d/|d|^3 - c |v| v, d = r - centre.
 
 The example of "Write a load".  With y = 1/|d| and u = d y the derivatives are
 
