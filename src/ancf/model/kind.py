@@ -69,6 +69,8 @@ class Kind:
         ``add(model, ...)``, what ``model.<method>(...)`` calls if Model itself has no such method.
     batch : str
         Module in ``ancf.loads`` with ``build(items, locate, value)``, of a load that depends on the state.
+    on_state : function, optional
+        ``on_state(item)``: whether an item depends on the state, where only some do.
     inputs : function, optional
         Functions of time of such an item, the same number for all; ``value``, (items, inputs, 3), has what
         they are now.
@@ -88,11 +90,16 @@ class Kind:
     look: Look | None = None
     add: Callable[..., Any] | None = None
     batch: str = ""
+    on_state: Callable[[Any], bool] | None = None
     inputs: Callable[[Any], list[TimeFunction]] | None = None
 
     def inputs_of(self, item: Any) -> list[TimeFunction]:
         """Functions of time that its kernels want."""
         return [] if self.inputs is None else self.inputs(item)
+
+    def has_batch(self, item: Any) -> bool:
+        """Whether a load depends on the state, so that `batch` takes it."""
+        return bool(self.batch) and (self.on_state is None or self.on_state(item))
 
     @property
     def constrains(self) -> bool:

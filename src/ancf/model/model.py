@@ -11,13 +11,13 @@ from ancf.model.beam import Beam
 from ancf.model.bodies import Body, PointMass, RigidBody, make_point_mass, make_rigid_body
 from ancf.model.checks import FloatArray
 from ancf.model.connecting import Connecting, PointLike
-from ancf.model.functions import TimeFunction
 from ancf.model.joints import Fixation
 from ancf.model.kinds import GROUPS, all_kinds, kind_of
 from ancf.model.layout import make_beam
 from ancf.model.loads import DistributedLoad, Force, Load, Moment, make_distributed, make_moment
-from ancf.model.points import Point
+from ancf.model.points import Point, initial_position
 from ancf.model.section import Section
+from ancf.model.state_function import force_function
 from ancf.model.supports import (
     Clamp,
     Hold,
@@ -304,9 +304,22 @@ class Model(Connecting, Readable):
         return self._add_support(where, item)
 
     def add_force(self, point: PointLike, force: Any, name: str | None = None) -> Force:
-        """Add a force (3,) in N at a point, in fixed directions."""
+        """Add a force (3,) in N at a point, in fixed directions.
+
+        Parameters
+        ----------
+        point : Point, PointMass or RigidBody
+        force : (3,) N, function of time or law of the state
+            A law is a function of t, r and v, the position (3,) in m and velocity (3,) in m/s of the
+            point, such as ``lambda t, r, v: -20.0 * v``, that numba can compile; or three numbers and
+            formulas of t, x, y, z, vx, vy, vz. Its work is supplied energy; in an equilibrium v is zero.
+        name : str
+            Default "force at beam.end".
+
+        """
         where, label, clean = self.named_point("add_force", "force", point, name)
-        return self.add_load(Force(label, clean, TimeFunction(force, 3, f"{where}.force")))
+        given = force_function(force, f"{where}.force", initial_position(clean), self.size)
+        return self.add_load(Force(label, clean, given))
 
     def add_moment(self, point: PointLike, moment: Any, name: str | None = None) -> Moment:
         """Add a moment (3,) in N m at a point, in fixed directions.

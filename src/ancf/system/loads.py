@@ -17,7 +17,7 @@ from ..model.bodies import Body
 from ..model.functions import TimeFunction
 from ..model.joints import Slide
 from ..model.kind import Kind
-from ..model.kinds import LOADS
+from ..model.kinds import LOADS, kind_of
 from ..model.loads import DistributedLoad, Force, Moment
 from ..model.model import Model
 from .probe import R_X, R_Y, R_Z, Probe, R
@@ -40,7 +40,7 @@ def _dead(model: Model) -> list[tuple[Any, TimeFunction]]:
     """Loads that do not depend on the state, drives of sliding joints included, and their amplitudes."""
     found: list[tuple[Any, TimeFunction]] = []
     for load in model.loads:
-        if isinstance(load, Force):
+        if isinstance(load, Force) and isinstance(load.force, TimeFunction):
             found.append((load, load.force))
         elif isinstance(load, DistributedLoad):
             found.append((load, load.load))
@@ -57,10 +57,12 @@ def _moments(model: Model) -> tuple[list[Moment], list[Moment]]:
 
 def _laws(model: Model) -> list[tuple[Kind, list[Any]]]:
     """Other loads that depend on the state, by kind."""
-    found = [
-        (kind, [load for load in model.loads if type(load) is kind.item]) for kind in LOADS if kind.batch
-    ]
-    return [(kind, items) for kind, items in found if items]
+    found: dict[str, tuple[Kind, list[Any]]] = {kind.word: (kind, []) for kind in LOADS if kind.batch}
+    for load in model.loads:
+        kind = kind_of(load)
+        if kind.has_batch(load):
+            found[kind.word][1].append(load)
+    return [(kind, items) for kind, items in found.values() if items]
 
 
 def patterns(model: Model, locate: Locate, slots: dict[str, IntArray], arcs: dict[str, int]) -> list[Pattern]:
