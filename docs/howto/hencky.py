@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf.compiled import implements, inline_kernel
+from ancf.compiled import Role, implements, inline_kernel
 from ancf.elements.cable_build import initial_vectors, shape
 from ancf.elements.shapes import gauss, hermite
 from ancf.model.beam import Beam
@@ -177,4 +177,6 @@ implements(
     inertia=hencky_inertia,
     tangent=hencky_tangent,
     energy=hencky_energy,
+    role=Role.DISSIPATES,
+    damped=lambda batch: bool(np.any(batch.data[:, 4])),
 )

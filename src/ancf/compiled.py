@@ -9,7 +9,9 @@ their arguments, allocate nothing and know no objects.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from enum import Flag, auto
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
@@ -129,18 +131,93 @@ def never_inverted(batch, q, ws):
     return -1
 
 
+def no_inertia(batch, a, r, ws):
+    """For batches without mass."""
+
+
+def no_energy(batch, q, ws):
+    """For batches that store nothing, as loads and joints."""
+    return 0.0
+
+
+class Role(Flag):
+    """What a batch is for besides its forces; what treats batches differently asks for it, not for types."""
+
+    NONE = 0
+    CONSTRAINS = auto()  #: has rows with multipliers
+    SLIDES = auto()  #: of them, rows that change as bodies move: they come last and are renewed in every step
+    EXTERNAL = auto()  #: a load: the work of its forces is supplied
+    DISSIPATES = auto()  #: what its forces lose without velocities is dissipated
+    MEASURES = auto()  #: leaves something for sensors
+
+
+@dataclass(frozen=True)
+class Traits:
+    """What a System knows of a kind of batch besides the compiled operations.
+
+    Parameters
+    ----------
+    role : Role
+    slots : tuple of str
+        Fields with unknowns, -1 for none: they are renumbered when the order of elimination is known.
+    couples : function, optional
+        ``couples(batch)``: pairs of blocks of unknowns that it couples, (m, 2); default all pairs in a row of
+        ``base``.
+    bind : function, optional
+        ``bind(plain, seen, places)``: the batch with its places in the matrix; `plain` has the unknowns
+        themselves, `seen` their shadows.  Default: ``dest`` from ``base``.
+    damped : function, optional
+        ``damped(batch)``: whether it does dissipate; of batches with that role.
+    row : function, optional
+        ``row(batch, j, q, v, row)``, compiled: of what stays out of the matrix of a time step, the stiffness
+        of part j and in ``row`` its direction, for equilibria and modes.
+    """
+
+    role: Role = Role.NONE
+    slots: tuple[str, ...] = ("base",)
+    couples: Callable[[Any], Any] | None = None
+    bind: Callable[[Any, Any, Any], Any] | None = None
+    damped: Callable[[Any], bool] | None = None
+    row: Callable[..., Any] | None = None
+
+
+_TRAITS: dict[type, Traits] = {}
+
+
+def traits(batch: Any) -> Traits:
+    """What is known of a batch of its kind."""
+    return _TRAITS[type(batch)]
+
+
+def with_role(batches: Iterable[Any], role: Role) -> tuple[Any, ...]:
+    """Those of the batches that have a role."""
+    return tuple(batch for batch in batches if role in traits(batch).role)
+
+
+def describe(batch_type: type, **given: Any) -> None:
+    """Keep the :class:`Traits` of a kind of batch."""
+    found = Traits(**given)
+    if Role.EXTERNAL in found.role and Role.DISSIPATES in found.role:
+        raise ValueError(f"{batch_type.__name__}: what is supplied is not dissipated as well")
+    if Role.DISSIPATES in found.role and found.damped is None:
+        raise ValueError(f"{batch_type.__name__}: damped() says whether it does dissipate")
+    _TRAITS[batch_type] = found
+
+
 def implements(
     batch_type: type,
     *,
     force: Callable[..., Any],
-    inertia: Callable[..., Any],
     tangent: Callable[..., Any],
-    energy: Callable[..., Any],
+    inertia: Callable[..., Any] = no_inertia,
+    energy: Callable[..., Any] = no_energy,
     event: Callable[..., Any] = no_event,
     inverted: Callable[..., Any] = never_inverted,
     measure: Callable[..., Any] | None = None,
+    **given: Any,
 ) -> None:
-    """Register the operations of a kind of batch (see the functions above for arguments)."""
+    """Register the operations of a kind of batch (see the functions above) and its :class:`Traits`."""
+    describe(batch_type, **given)
 
     def matches(batch: Any) -> bool:
         return (

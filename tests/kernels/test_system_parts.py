@@ -43,7 +43,7 @@ class TestLoads:
     def load_at(model, t):
         system = System(model)
         f = np.empty(system.size)
-        apply_load(system.core.loads, system.inputs.tables(t - 0.1, 0.1, 1, 0.0, 1.0).load[0], f)
+        apply_load(system.core.loads, system.inputs.tables(t - 0.1, 0.1, 1, 0.0, 1.0).value[0], f)
         return system, f
 
     @pytest.mark.parametrize("between", [(0.0, 0.9), (0.1, 0.75), (0.35, 0.4), (0.6, 1.0)])
@@ -218,10 +218,10 @@ class TestNumbers:
         mass = model.add_point_mass("mass", at=(0, 0, 0), mass=1.0)
         model.add_force(mass, lambda t: (t, 0.0, 0.0))
         inputs, h = System(model).inputs, 0.1
-        together = inputs.tables(0.3, h, 60, 0.3, 9.0).load[:, 0, 0]
+        together = inputs.tables(0.3, h, 60, 0.3, 9.0).value[:, 0, 0]
         t, alone = 0.3, []
         for n in range(60):
-            alone.append(inputs.tables(0.3 + n * h, h, 1, 0.3, 9.0).load[0, 0, 0])
+            alone.append(inputs.tables(0.3 + n * h, h, 1, 0.3, 9.0).value[0, 0, 0])
             t += h
         assert together.tolist() == alone == [0.3 + h * (n + 1) for n in range(60)]
 

@@ -19,7 +19,12 @@ _OPERATIONS = {
     "inverted": "inverted",
     "measure": "measure",
 }
-_DEFAULTS = {"event": compiled.no_event, "inverted": compiled.never_inverted}
+_DEFAULTS = {
+    "inertia": compiled.no_inertia,
+    "energy": compiled.no_energy,
+    "event": compiled.no_event,
+    "inverted": compiled.never_inverted,
+}
 
 
 def _plain(function):
@@ -32,6 +37,7 @@ def _interpret() -> None:
     registered: dict[str, dict[type, Any]] = {name: {} for name in _OPERATIONS}
 
     def implements(batch_type, **functions):
+        compiled.describe(batch_type, **{k: v for k, v in functions.items() if k not in _OPERATIONS})
         for name in _OPERATIONS:
             registered[name][batch_type] = functions.get(name, _DEFAULTS.get(name))
 

@@ -308,7 +308,8 @@ class TestMeasured:
 
         def system(model):
             made = System(model)
-            made.measured, made.measures = made.moment.reshape(-1), {"contact": np.array([1, 2, 0, 0])}
+            made.measured = made.core.loads.value.reshape(-1)
+            made.measures = {"contact": np.array([1, 2, 0, 0])}
             return made
 
         monkeypatch.setattr("ancf.analysis._system", system)

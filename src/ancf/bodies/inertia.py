@@ -56,16 +56,9 @@ def body_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                 A[place + 7 * c] += c_mass * batch.mass[n]
 
 
-@inline_kernel
-def body_energy(batch, q, ws):
-    """A rigid body stores nothing."""
-    return 0.0
-
-
 implements(
     InertiaBatch,
     force=body_force,
     inertia=body_inertia,
     tangent=body_tangent,
-    energy=body_energy,
 )

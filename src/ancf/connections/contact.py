@@ -22,7 +22,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import implements, inline_kernel, kernel
+from ..compiled import Role, implements, inline_kernel, kernel
+from .in_matrix import no_pairs, no_places
 from .sliding import COLUMNS, dot3, element_at, line, shape, slider
 
 FloatArray = NDArray[np.float64]
@@ -135,11 +136,6 @@ def contact_force(batch, q, v, a, r, ws):
 
 
 @inline_kernel
-def contact_inertia(batch, a, r, ws):
-    """Contacts have no mass."""
-
-
-@inline_kernel
 def contact_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Nothing, see the text above."""
 
@@ -161,16 +157,6 @@ def contact_measure(batch, q, v):
         touch(batch, j, q, v)
 
 
-implements(
-    ContactBatch,
-    force=contact_force,
-    inertia=contact_inertia,
-    tangent=contact_tangent,
-    energy=contact_energy,
-    measure=contact_measure,
-)
-
-
 @kernel
 def contact_row(batch, j, q, v, row):
     """Gradient of the overlap of contact j in ``row``; its stiffness, 0 while it does not touch."""
@@ -179,6 +165,21 @@ def contact_row(batch, j, q, v, row):
         return 0.0
     add_row(batch, j, e, xi, m, 1.0, row)
     return batch.data[j, STIFFNESS]
+
+
+implements(
+    ContactBatch,
+    force=contact_force,
+    tangent=contact_tangent,
+    energy=contact_energy,
+    measure=contact_measure,
+    role=Role.DISSIPATES | Role.MEASURES,
+    slots=("slot", "line_slot"),
+    couples=no_pairs,
+    bind=no_places,
+    damped=lambda batch: bool(np.any(batch.data[:, DAMPING])),
+    row=contact_row,
+)
 
 
 @kernel

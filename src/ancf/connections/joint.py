@@ -17,7 +17,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import implements, inline_kernel
+from ..compiled import Role, implements, inline_kernel
+from .in_matrix import bind_joints, joint_pairs
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -85,11 +86,6 @@ def joint_force(batch, q, v, a, r, ws):
 
 
 @inline_kernel
-def joint_inertia(batch, a, r, ws):
-    """Joints have no mass."""
-
-
-@inline_kernel
 def joint_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add C_q, the change of the joints' forces with the motion, and alpha C_q^T C_q."""
     weight = batch.level[0] * c_stiffness + batch.level[1] * c_damping + batch.level[2] * c_mass
@@ -118,16 +114,12 @@ def joint_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                         A[place + 6 * i + j] += alpha * w * d[i] * e[j]
 
 
-@inline_kernel
-def joint_energy(batch, q, ws):
-    """A joint stores nothing."""
-    return 0.0
-
-
 implements(
     JointBatch,
     force=joint_force,
-    inertia=joint_inertia,
     tangent=joint_tangent,
-    energy=joint_energy,
+    role=Role.CONSTRAINS,
+    slots=("unknown", "slot"),
+    couples=joint_pairs,
+    bind=bind_joints,
 )

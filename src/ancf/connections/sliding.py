@@ -26,7 +26,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import implements, inline_kernel
+from ..compiled import Role, implements, inline_kernel
+from .in_matrix import bind_sliding, sliding_pairs
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -273,12 +274,6 @@ def sliding_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 
 
 @inline_kernel
-def sliding_energy(batch, q, ws):
-    """A joint stores nothing."""
-    return 0.0
-
-
-@inline_kernel
 def sliding_event(batch, q):
     """4 j + LEFT, PULLS or TOUCHES of the first joint j to which that happens, else -1."""
     for j in range(batch.unknown.shape[0]):
@@ -310,6 +305,10 @@ implements(
     force=sliding_force,
     inertia=sliding_inertia,
     tangent=sliding_tangent,
-    energy=sliding_energy,
     event=sliding_event,
+    role=Role.CONSTRAINS | Role.SLIDES | Role.DISSIPATES,
+    slots=("unknown", "slot", "line_slot"),
+    couples=sliding_pairs,
+    bind=bind_sliding,
+    damped=lambda batch: bool(np.any(batch.data[:, [VISCOUS, MU]])),
 )

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import implements, inline_kernel
+from ..compiled import Role, implements, inline_kernel
 
 FloatArray = NDArray[np.float64]
 
@@ -84,11 +84,6 @@ def spring_force(batch, q, v, a, r, ws):
 
 
 @inline_kernel
-def spring_inertia(batch, a, r, ws):
-    """Springs have no mass."""
-
-
-@inline_kernel
 def spring_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add stiffness and damping of the springs that carry to A."""
     for e in range(batch.base.shape[0]):
@@ -126,7 +121,8 @@ def spring_energy(batch, q, ws):
 implements(
     SpringBatch,
     force=spring_force,
-    inertia=spring_inertia,
     tangent=spring_tangent,
     energy=spring_energy,
+    role=Role.DISSIPATES,
+    damped=lambda batch: bool(np.any(batch.data[:, 1])),
 )

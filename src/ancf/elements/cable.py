@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import implements, inline_kernel
+from ..compiled import Role, implements, inline_kernel
 from .lanes import (
     A1,
     CONSTANTS,
@@ -285,4 +285,7 @@ implements(
     inertia=cable_inertia,
     tangent=cable_tangent,
     energy=cable_energy,
+    role=Role.DISSIPATES,
+    slots=("base", "lane_base"),
+    damped=lambda batch: bool(np.any(batch.groups[:, 6])),
 )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -36,7 +38,10 @@ def hermite(xi: ArrayLike, length: float, derivative: int = 0) -> FloatArray:
     return np.stack(columns, axis=-1)
 
 
+@cache
 def gauss(points: int) -> tuple[FloatArray, FloatArray]:
     """Gauss-Legendre positions and weights on [0, 1]; exact for polynomials of degree 2 points - 1."""
     x, w = np.polynomial.legendre.leggauss(points)
-    return (x + 1) / 2, w / 2
+    x, w = (x + 1) / 2, w / 2
+    x.flags.writeable = w.flags.writeable = False  # everybody gets these
+    return x, w

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import implements, inline_kernel
+from ..compiled import Role, implements, inline_kernel
 from .lanes import LANES, clear
 from .lanes_tangent import add_block
 from .shapes import FloatArray
@@ -266,4 +266,7 @@ implements(
     tangent=solid_tangent,
     energy=solid_energy,
     inverted=solid_inverted,
+    role=Role.DISSIPATES,
+    slots=("base", "lane_base"),
+    damped=lambda batch: bool(np.any(batch.groups[:, 4:6])),
 )

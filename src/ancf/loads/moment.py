@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import implements, inline_kernel
+from ..compiled import Role, implements, inline_kernel
 
 FloatArray = NDArray[np.float64]
 
@@ -59,11 +59,6 @@ def moment_force(batch, q, v, a, r, ws):
 
 
 @inline_kernel
-def moment_inertia(batch, a, r, ws):
-    """Loads have no mass."""
-
-
-@inline_kernel
 def moment_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add the symmetric part of the moments' stiffness to A."""
     for e in range(batch.base.shape[0]):
@@ -79,16 +74,9 @@ def moment_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                         A[place + 6 * i + j] += w * (f[i] * p[j] + p[i] * f[j])
 
 
-@inline_kernel
-def moment_energy(batch, q, ws):
-    """Loads store nothing: what they do counts as supplied energy."""
-    return 0.0
-
-
 implements(
     MomentBatch,
     force=moment_force,
-    inertia=moment_inertia,
     tangent=moment_tangent,
-    energy=moment_energy,
+    role=Role.EXTERNAL,
 )

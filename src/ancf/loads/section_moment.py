@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import implements, inline_kernel
+from ..compiled import Role, implements, inline_kernel
 
 FloatArray = NDArray[np.float64]
 
@@ -113,11 +113,6 @@ def section_moment_force(batch, q, v, a, r, ws):
 
 
 @inline_kernel
-def section_moment_inertia(batch, a, r, ws):
-    """Loads have no mass."""
-
-
-@inline_kernel
 def derivative_of_force(batch, e, ry, rz, ws):
     """ws[6 i + j] = derivative of component i of (f_y, f_z) by component j of (r_y, r_z).
 
@@ -154,16 +149,9 @@ def section_moment_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                         A[place + 6 * i + j] += w * (ws[6 * x + y] + ws[6 * y + x])
 
 
-@inline_kernel
-def section_moment_energy(batch, q, ws):
-    """Loads store nothing: what they do counts as supplied energy."""
-    return 0.0
-
-
 implements(
     SectionMomentBatch,
     force=section_moment_force,
-    inertia=section_moment_inertia,
     tangent=section_moment_tangent,
-    energy=section_moment_energy,
+    role=Role.EXTERNAL,
 )

@@ -264,6 +264,20 @@ class Connecting(Lookup):
         label = self._names.of_item(name, f"{noun} of {first} and {shown(second)}", where)
         return where, label, first, second
 
+    def named_point(
+        self, method: str, noun: str, point: PointLike, name: str | None
+    ) -> tuple[str, str, Point]:
+        """Where an error is, the name and the point of a new load.
+
+        Raises
+        ------
+        ModelError
+            It is no point, or the name is taken.
+        """
+        where = self._where(method, name, point)
+        clean = self._point(point, f"{where}.point")
+        return where, self._names.of_item(name, f"{noun} at {clean}", where), clean
+
     def add_connection(self, where: str, item: ConnectionT) -> ConnectionT:
         """Add a checked connection; every method that makes one ends here.
 

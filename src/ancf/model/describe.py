@@ -12,6 +12,7 @@ from ancf.model.bodies import Body, PointMass, RigidBody
 from ancf.model.functions import TimeFunction
 from ancf.model.points import Point
 from ancf.model.section import DAMPINGS, MOMENTS, Rectangle, Section
+from ancf.model.state_function import StateFunction
 
 MOTION = ("velocity", "angular_velocity", "about")
 
@@ -95,7 +96,7 @@ def _plain(value: Any) -> Any:
         return value.label
     if isinstance(value, Beam | PointMass | RigidBody):
         return value.name
-    if isinstance(value, TimeFunction):
+    if isinstance(value, TimeFunction | StateFunction):
         return value.describe()
     if isinstance(value, np.ndarray):
         return value.tolist()

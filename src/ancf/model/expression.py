@@ -14,7 +14,7 @@ import numpy as np
 from ancf.errors import ModelError
 from ancf.model.checks import FloatArray, nearest
 
-Compiled = Callable[[FloatArray], Any]
+Compiled = Callable[[Any], Any]
 MAX_LENGTH = 5000
 
 
@@ -72,7 +72,8 @@ OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
     ast.Eq: np.equal,
     ast.NotEq: np.not_equal,
 }
-KNOWN = "t, pi, " + ", ".join(f"{name}()" for name in sorted(FUNCTIONS))
+#: Names of the state of a point in formulas: its position in m, its velocity in m/s.
+STATE = ("x", "y", "z", "vx", "vy", "vz")
 
 
 class Expression:
@@ -84,6 +85,8 @@ class Expression:
         The formula.
     where : str
         Place for messages.
+    names : tuple of str
+        What it may depend on.  Called with more than "t" it takes a dict of them instead of times.
 
     Raises
     ------
@@ -92,10 +95,10 @@ class Expression:
 
     """
 
-    __slots__ = ("_compiled", "text", "uses_t", "where")
+    __slots__ = ("_compiled", "names", "text", "uses_t", "where")
 
-    def __init__(self, text: str, where: str) -> None:
-        self.text, self.where = text, where
+    def __init__(self, text: str, where: str, names: tuple[str, ...] = ("t",)) -> None:
+        self.text, self.where, self.names = text, where, names
         try:
             tree = _parse(text, where)
             self._compiled = self._compile(tree)
@@ -105,14 +108,24 @@ class Expression:
 
     def __call__(self, times: FloatArray) -> FloatArray:
         """Values (n,) at the times (n,); may hold non-finite numbers."""
+        return np.array(np.broadcast_to(self._evaluate(times), times.shape), dtype=np.float64)
+
+    def at(self, state: dict[str, float]) -> float:
+        """Value where its names have these values; may be not finite."""
+        return float(self._evaluate(state))
+
+    def _evaluate(self, given: Any) -> Any:
         try:
             with np.errstate(all="ignore"):
-                values = self._compiled(times)
+                return self._compiled(given)
         except ValueError as error:
             raise ModelError(self.where, f"{self._quoted}: {error}") from None
         except RecursionError:
             raise ModelError(self.where, f"{self._quoted} is nested too deeply") from None
-        return np.array(np.broadcast_to(values, times.shape), dtype=np.float64)
+
+    @property
+    def _known(self) -> str:
+        return f"{', '.join(self.names)}, pi, " + ", ".join(f"{name}()" for name in sorted(FUNCTIONS))
 
     @property
     def _quoted(self) -> str:
@@ -144,8 +157,10 @@ class Expression:
         return lambda t: clean
 
     def _name(self, name: str) -> Compiled:
-        if name == "t":
+        if self.names == ("t",) == (name,):
             return lambda t: t
+        if name in self.names:
+            return lambda given: np.float64(given[name])
         if name in CONSTANTS:
             return lambda t: CONSTANTS[name]
         if name in FUNCTIONS:
@@ -165,7 +180,7 @@ class Expression:
         if not isinstance(node.func, ast.Name):
             raise self._unknown(node)
         name = node.func.id
-        if name == "t" or name in CONSTANTS:
+        if name in self.names or name in CONSTANTS:
             raise self._unknown(node)
         if name not in FUNCTIONS:
             raise self._unknown_name(name)
@@ -176,8 +191,8 @@ class Expression:
         return _apply(function, [self._compile(argument) for argument in node.args])
 
     def _unknown_name(self, name: str) -> ModelError:
-        hint = nearest(name, ["t", *CONSTANTS, *FUNCTIONS])
-        return ModelError(self.where, f'{self._quoted}: unknown name "{name}", known are {KNOWN}', hint)
+        hint = nearest(name, [*self.names, *CONSTANTS, *FUNCTIONS])
+        return ModelError(self.where, f'{self._quoted}: unknown name "{name}", known are {self._known}', hint)
 
     def _unknown(self, node: ast.AST) -> ModelError:
         hints: list[tuple[type[ast.AST], str]] = [
@@ -187,7 +202,9 @@ class Expression:
         ]
         hint = next((text for kind, text in hints if isinstance(node, kind)), "")
         part = ast.unparse(node)
-        return ModelError(self.where, f'{self._quoted}: "{part}" is not allowed, known are {KNOWN}', hint)
+        return ModelError(
+            self.where, f'{self._quoted}: "{part}" is not allowed, known are {self._known}', hint
+        )
 
 
 def _apply(function: Callable[..., Any], parts: list[Compiled], truth: bool = False) -> Compiled:
@@ -215,3 +232,12 @@ def _parse(text: str, where: str) -> ast.expr:
         place = f" at column {column}" if column else ""
         what = getattr(error, "msg", str(error))
         raise ModelError(where, f"{_quoted(flat)} is no formula of t: {what}{place}") from None
+
+
+def depends_on_state(text: str) -> bool:
+    """Whether a text is a formula with a name of the state of a point."""
+    try:
+        tree = _parse(text, "")
+    except (ModelError, RecursionError, MemoryError):
+        return False
+    return any(isinstance(node, ast.Name) and node.id in STATE for node in ast.walk(tree))

@@ -96,7 +96,7 @@ class TimeFunction:
 
     def describe(self) -> Any:
         """Plain JSON-able form; a Python function as ``<function name>``."""
-        return _plain(self.given)
+        return plain(self.given)
 
     def _interpret(self, given: Any) -> tuple[Evaluate, bool]:
         if isinstance(given, Mapping):
@@ -185,13 +185,14 @@ def _wanted(size: int) -> str:
     return "a number" if size == 1 else f"({size},)"
 
 
-def _plain(given: Any) -> Any:
+def plain(given: Any) -> Any:
+    """JSON-able form of what a user gave for a function; a Python function as ``<function name>``."""
     if isinstance(given, np.ndarray | np.generic):
         return given.tolist()
     if isinstance(given, Mapping):
-        return {str(key): _plain(value) for key, value in given.items()}
+        return {str(key): plain(value) for key, value in given.items()}
     if isinstance(given, list | tuple):
-        return [_plain(part) for part in given]
+        return [plain(part) for part in given]
     if callable(given):
         return f"<function {getattr(given, '__name__', type(given).__name__)}>"
     return given

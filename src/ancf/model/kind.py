@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ancf.model.bodies import Body
+from ancf.model.functions import TimeFunction
 from ancf.model.points import Point
 
 #: Under which noun results answer questions about a connection, see ancf.viz.pictures.questions.
@@ -66,6 +67,13 @@ class Kind:
         Marker in pictures; None: it has none, or a shape of its own.
     add : function, optional
         ``add(model, ...)``, what ``model.<method>(...)`` calls if Model itself has no such method.
+    batch : str
+        Module in ``ancf.loads`` with ``build(items, locate, value)``, of a load that depends on the state.
+    on_state : function, optional
+        ``on_state(item)``: whether an item depends on the state, where only some do.
+    inputs : function, optional
+        Functions of time of such an item, the same number for all; ``value``, (items, inputs, 3), has what
+        they are now.
     """
 
     item: type
@@ -81,6 +89,17 @@ class Kind:
     rows: str = ""
     look: Look | None = None
     add: Callable[..., Any] | None = None
+    batch: str = ""
+    on_state: Callable[[Any], bool] | None = None
+    inputs: Callable[[Any], list[TimeFunction]] | None = None
+
+    def inputs_of(self, item: Any) -> list[TimeFunction]:
+        """Functions of time that its kernels want."""
+        return [] if self.inputs is None else self.inputs(item)
+
+    def has_batch(self, item: Any) -> bool:
+        """Whether a load depends on the state, so that `batch` takes it."""
+        return bool(self.batch) and (self.on_state is None or self.on_state(item))
 
     @property
     def constrains(self) -> bool:

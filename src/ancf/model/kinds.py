@@ -9,9 +9,11 @@ from typing import Any
 from ancf.model import sheets
 from ancf.model.connections import Spring
 from ancf.model.contact import Contact
+from ancf.model.functions import TimeFunction
 from ancf.model.joints import Fixation, Revolute, Slide, Spherical
 from ancf.model.kind import CONTACT, JOINT, SLIDE, SPRING, Kind, Look
 from ancf.model.loads import DistributedLoad, Force, Moment
+from ancf.model.state_function import StateFunction
 from ancf.model.supports import Clamp, Hold, Pin
 
 
@@ -33,7 +35,17 @@ SUPPORTS: list[Kind] = [
     Kind(Hold, "hold", "hold", "hold", _entry("HoldEntry"), sheets.hold, look=Look("down", "white", 4.0)),
 ]
 LOADS: list[Kind] = [
-    Kind(Force, "force", "force", "add_force", _entry("ForceEntry"), sheets.force),
+    Kind(
+        Force,
+        "force",
+        "force",
+        "add_force",
+        _entry("ForceEntry"),
+        sheets.force,
+        batch="state_force",
+        on_state=lambda item: isinstance(item.force, StateFunction),
+        inputs=lambda item: [TimeFunction(["t", 0.0, 0.0], 3, item.name)],
+    ),
     Kind(Moment, "moment", "moment", "add_moment", _entry("MomentEntry"), sheets.moment),
     Kind(
         DistributedLoad,

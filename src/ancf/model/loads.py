@@ -13,15 +13,16 @@ from ancf.model.beam import Beam
 from ancf.model.bodies import Body, PointMass, kind
 from ancf.model.functions import TimeFunction
 from ancf.model.points import Point
+from ancf.model.state_function import StateFunction
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Force:
-    """Force (3,) in N at a point, in fixed directions."""
+    """Force (3,) in N at a point, in fixed directions, or by a law of the point's state."""
 
     name: str
     point: Point
-    force: TimeFunction
+    force: TimeFunction | StateFunction
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -11,13 +11,13 @@ from ancf.model.beam import Beam
 from ancf.model.bodies import Body, PointMass, RigidBody, make_point_mass, make_rigid_body
 from ancf.model.checks import FloatArray
 from ancf.model.connecting import Connecting, PointLike
-from ancf.model.functions import TimeFunction
 from ancf.model.joints import Fixation
 from ancf.model.kinds import GROUPS, all_kinds, kind_of
 from ancf.model.layout import make_beam
 from ancf.model.loads import DistributedLoad, Force, Load, Moment, make_distributed, make_moment
-from ancf.model.points import Point
+from ancf.model.points import Point, initial_position
 from ancf.model.section import Section
+from ancf.model.state_function import force_function
 from ancf.model.supports import (
     Clamp,
     Hold,
@@ -304,11 +304,22 @@ class Model(Connecting, Readable):
         return self._add_support(where, item)
 
     def add_force(self, point: PointLike, force: Any, name: str | None = None) -> Force:
-        """Add a force (3,) in N at a point, in fixed directions."""
-        where = self._where("add_force", name, point)
-        clean = self._point(point, f"{where}.point")
-        label = self._names.of_item(name, f"force at {clean}", where)
-        return self._add_load(Force(label, clean, TimeFunction(force, 3, f"{where}.force")))
+        """Add a force (3,) in N at a point, in fixed directions.
+
+        Parameters
+        ----------
+        point : Point, PointMass or RigidBody
+        force : (3,) N, function of time or law of the state
+            A law is a function of t, r and v, the position (3,) in m and velocity (3,) in m/s of the
+            point, such as ``lambda t, r, v: -20.0 * v``, that numba can compile; or three numbers and
+            formulas of t, x, y, z, vx, vy, vz. Its work is supplied energy; in an equilibrium v is zero.
+        name : str
+            Default "force at beam.end".
+
+        """
+        where, label, clean = self.named_point("add_force", "force", point, name)
+        given = force_function(force, f"{where}.force", initial_position(clean), self.size)
+        return self.add_load(Force(label, clean, given))
 
     def add_moment(self, point: PointLike, moment: Any, name: str | None = None) -> Moment:
         """Add a moment (3,) in N m at a point, in fixed directions.
@@ -316,10 +327,8 @@ class Model(Connecting, Readable):
         On a cable it acts on the slope r_x and must not be a torque; on a beam it acts on the section;
         on a rigid body its place does not matter.
         """
-        where = self._where("add_moment", name, point)
-        clean = self._point(point, f"{where}.point")
-        label = self._names.of_item(name, f"moment at {clean}", where)
-        return self._add_load(make_moment(where, label, clean, moment))
+        where, label, clean = self.named_point("add_moment", "moment", point, name)
+        return self.add_load(make_moment(where, label, clean, moment))
 
     def add_distributed_load(
         self, body: Beam | str, load: Any, between: Any = None, name: str | None = None
@@ -328,7 +337,13 @@ class Model(Connecting, Readable):
         where = self._where("add_distributed_load", name, body)
         clean = self._body(body, f"{where}.body")
         label = self._names.of_item(name, f"load on {clean.name}", where)
-        return self._add_load(make_distributed(where, label, clean, load, between))
+        return self.add_load(make_distributed(where, label, clean, load, between))
+
+    def add_load(self, item: LoadT) -> LoadT:
+        """Add a checked load; every method that makes one ends here."""
+        self._names.take(item.name, "load")
+        self.loads.append(item)
+        return item
 
     def to_dict(self) -> dict[str, Any]:
         """Plain description, ready for JSON; Python functions as ``<function name>``."""
@@ -353,9 +368,4 @@ class Model(Connecting, Readable):
         check_overlap(where, item, self.supports)
         self._names.take(item.name, "support")
         self.supports.append(item)
-        return item
-
-    def _add_load(self, item: LoadT) -> LoadT:
-        self._names.take(item.name, "load")
-        self.loads.append(item)
         return item

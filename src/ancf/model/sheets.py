@@ -12,6 +12,7 @@ from ancf.model.contact import Contact
 from ancf.model.functions import TimeFunction
 from ancf.model.joints import Revolute, Slide
 from ancf.model.loads import DistributedLoad, Force, Moment
+from ancf.model.state_function import StateFunction
 from ancf.model.supports import Clamp, Hold, Pin
 from ancf.model.tables import number, numbers, plural, with_units
 
@@ -23,9 +24,9 @@ def place(end: Any) -> str:
     return str(getattr(end, "name", end))
 
 
-def value(function: TimeFunction, unit: str) -> str:
+def value(function: TimeFunction | StateFunction, unit: str) -> str:
     """A constant with its unit, a formula, or the name of a function of time."""
-    if function.constant:
+    if isinstance(function, TimeFunction) and function.constant:
         values = function(0.0)
         return f"{number(float(values[0])) if function.size == 1 else numbers(values)} {unit}"
     given = function.describe()

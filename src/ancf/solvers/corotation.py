@@ -20,7 +20,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compiled import inline_kernel
-from ..connections.joint import JointBatch
 from ..system.system import System
 
 FloatArray = NDArray[np.float64]
@@ -78,8 +77,8 @@ def allocate(
 
 def turning_nodes(system: System) -> Frames:
     """Frames of a system."""
-    rows = [b.slot for b in system.core.batches if isinstance(b, JointBatch)]
-    attached = np.concatenate([np.zeros(0, dtype=np.int64), *rows])
+    joints = system.parts.get("joints")
+    attached = np.zeros(0, dtype=np.int64) if joints is None else joints.slot
 
     def tail(slots: IntArray) -> IntArray:
         first = 6 * np.arange(system.core.joints.first, system.numbering.blocks)

@@ -21,7 +21,7 @@ def happen(system: System, q: FloatArray, v: FloatArray, code: int, when: str) -
     SolveError
         The sliding point has left the carrier and the joint's ``at_end`` is "stop".
     """
-    batch = next(b for b in system.core.joints.tail if isinstance(b, SlidingBatch))
+    batch = system.parts["slides"]
     k, what = code // 4, code % 4
     joint = [c for c in system.model.connections if isinstance(c, Slide)][k]
     if what == LEFT:

@@ -65,8 +65,8 @@ def advance_explicit(core, s, tables, h, turning, keep, sampling, out):
         if not moved <= FAR:
             status = DIVERGED if moved < 1e300 else NOT_FINITE
         else:
-            external_force(core.loads, tables.load[n], s.f)
-            drive(core.supports, core.loads.moment, tables, n, s.q, s.v, s.a)
+            external_force(core.loads, tables.value[n], s.f)
+            drive(core.supports, core.loads.value, tables, n, s.q, s.v, s.a)
             if turning and mass_factor(core, s.q, s.v) < 0:
                 status = SINGULAR
             residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)

@@ -74,7 +74,7 @@ class ExplicitRun(Run):
             what = f"is {self.h:g} s, the largest stable step {stable:.4g} s (safety {self.method.safety:g})"
             hint = "take that and store less often (output_step), or use an implicit method"
             raise ModelError("simulate.step", what, hint)
-        apply_load(system.core.loads, first.load[0], m.f)
+        apply_load(system.core.loads, first.value[0], m.f)
         balance(system.core, m, 0.0)
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         none = np.zeros(0, dtype=np.int64)  # no steps yet: this compiles, outside the CPU time of the run

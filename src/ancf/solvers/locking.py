@@ -49,7 +49,8 @@ def locked(system: System, q: FloatArray) -> FloatArray:
     system.level[:] = 1.0, 0.0, 0.0
     if ratio <= FREE:
         return nothing
-    batches = tuple(_softened(b, LEFT / ratio) if isinstance(b, CableBatch) else b for b in core.batches)
+    parts = system.parts.items()
+    batches = tuple(_softened(b, LEFT / ratio) if name == "cable" else b for name, b in parts)
     still, none, whole = np.zeros_like(q), np.zeros_like(q), np.empty_like(q)
     freed = np.empty_like(q)
     residual(core.batches, core.ws, q, still, still, none, whole)

@@ -22,12 +22,11 @@ from ..connections.contact import (
     DAMPING,
     FORCE,
     STIFFNESS,
-    ContactBatch,
     add_row,
     touch,
 )
 from ..connections.contact_build import no_contacts
-from ..connections.spring_damper import SpringBatch, spring_gradient, spring_state
+from ..connections.spring_damper import spring_gradient, spring_state
 from ..linalg.block_ldl import solve
 from ..system.core import to_local
 from ..system.system import System
@@ -61,8 +60,7 @@ class Patches(NamedTuple):
 
 def room_for_patches(system: System) -> tuple[Patches, ...]:
     """Room for the contacts and slack springs of a system, one item; none if it has none."""
-    springs = next(b for b in system.core.batches if isinstance(b, SpringBatch))
-    contacts = next((b for b in system.core.batches if isinstance(b, ContactBatch)), no_contacts())
+    springs, contacts = system.parts["springs"], system.parts.get("contacts", no_contacts())
     size, touching = system.size, len(contacts.slot)
     most = touching + min(MOST, int(np.count_nonzero(springs.data[:, 3])))
     if most == 0:

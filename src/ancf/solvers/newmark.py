@@ -22,10 +22,9 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import literal_unroll
 from numpy.typing import NDArray
 
-from ..compiled import add_force, add_tangents, find_events, inline_kernel, kernel, optional
+from ..compiled import add_tangents, find_events, inline_kernel, kernel, optional
 from ..system.core import (
     assemble,
     constraint_rows,
@@ -41,6 +40,7 @@ from ..system.core import (
     solve_sparse,
     to_local,
 )
+from ..system.powers import powers
 from .corotation import Frames, remember, turn, turn_back, turn_forth, turn_rows
 from .low_rank import Patches, correct, forget, move_on
 from .sampling import sample
@@ -361,32 +361,9 @@ def finish(s, h, scheme):
 
 @kernel
 def balance(core, s, h):
-    """Add a step's share to the energies dissipated and supplied (trapezoidal rule); h = 0 at the start.
-
-    The forces that do work are all loads but gravity and the reactions of moving supports; damping
-    forces are what the residual loses when the velocities are set to zero.
-    """
-    push, power = s.push_new, 0.0
-    for i in range(push.shape[0]):
-        push[i] = 0.0
-    if core.damped:
-        residual(core.batches, core.ws, s.q, push, s.a, s.f, s.r)
-        for i in range(push.shape[0]):
-            power -= s.v[i] * s.r[i]
-    if core.damped or core.supports.driven.shape[0] > 0:
-        residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)
-    if core.damped:
-        for i in range(push.shape[0]):
-            power += s.v[i] * s.r[i]
-    for i in range(push.shape[0]):
-        push[i] = core.loads.gravity[i] - s.f[i]
-    for batch in literal_unroll(core.followers):
-        add_force(batch, s.q, s.v, s.a, push, core.ws)
-    for i in range(push.shape[0]):
-        push[i] = -push[i]
-    for k in range(core.supports.driven.shape[0]):
-        for c in range(3):
-            push[core.supports.driven[k] + c] += s.r[core.supports.driven[k] + c]
+    """Add a step's share to the energies dissipated and supplied (trapezoidal rule); h = 0 at the start."""
+    push = s.push_new
+    power = powers(core, s.q, s.v, s.a, s.f, push, s.r)
     s.work[0] += 0.5 * h * (s.memo[POWER] + power)
     s.memo[POWER] = power
     for i in range(push.shape[0]):
@@ -410,10 +387,10 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out):
     level[0], level[1], level[2] = rule.w0, rule.w1, rule.w2
     status = OK
     for n in range(keep.shape[0]):
-        external_force(core.loads, tables.load[n], s.f)
+        external_force(core.loads, tables.value[n], s.f)
         for attempt in range(3):
             predict(s, h, scheme, 1.0 if attempt == 0 else 0.0)
-            drive(core.supports, core.loads.moment, tables, n, s.q, s.v, s.a)
+            drive(core.supports, core.loads.value, tables, n, s.q, s.v, s.a)
             status = newton(core, s, h, rule, rule.modified and attempt < 2, B, G)
             if status == OK:
                 status = check_sections(core, s)

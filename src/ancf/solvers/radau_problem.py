@@ -37,9 +37,9 @@ class SystemProblem:
         self.spacing = LEAST_SPACING
         inputs = system.inputs
         self._moving = bool(inputs.motions or inputs.rotations)
-        self._driven = self._moving or not all(f.constant for f in (*inputs.loads, *inputs.moments))
+        self._driven = self._moving or not all(f.constant for f in inputs.loads)
         self._tables: dict[bytes, Tables] = {}
-        self._f, self._zero = np.zeros(system.size), np.zeros(system.size)
+        self._f, self._push, self._r = (np.zeros(system.size) for _ in range(3))
         self._base = np.zeros((2, system.size))  # what is held and never moves
         self._values = np.zeros((3, system.places.size))
         self._pattern()
@@ -103,8 +103,7 @@ class SystemProblem:
         core, states = self.system.core, self.full(q, v, a)
         power = np.zeros((len(t), 2))
         if core.accounted and (core.damped or core.loaded):
-            r = np.empty_like(states[0])
-            stage_powers(core, self.tables(t), *states, self._f, r, self._zero, power)
+            stage_powers(core, self.tables(t), *states, self._f, self._push, self._r, power)
         return power
 
     def matrices(self, t: float, q: FloatArray, v: FloatArray) -> Matrices:

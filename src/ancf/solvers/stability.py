@@ -40,7 +40,8 @@ def stable_limit(system: System, q: FloatArray, v: FloatArray) -> float:
     if mass_factor(core, q, v) < 0:
         raise SolveError("start", "the mass matrix is singular", "an explicit method needs a mass everywhere")
     omega = np.sqrt(_largest(system, q, v, 0.0, 1.0))
-    damping = _largest(system, q, v, 1.0, 0.0) if core.damped else 0.0
+    resists = core.damped or any(len(batch.base) > 0 for batch in core.external)
+    damping = _largest(system, q, v, 1.0, 0.0) if resists else 0.0
     return limit(float(omega), damping)
 
 

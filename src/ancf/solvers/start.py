@@ -48,7 +48,7 @@ def consistent_start(system: System, q: FloatArray, v: FloatArray, tables: Table
     if not (np.all(np.isfinite(q)) and np.all(np.isfinite(v))):
         raise SolveError("start", NO_START, "check shapes and loads")
     a = np.zeros(system.size)
-    place_supports(core.supports, core.loads.moment, tables, 0, q, v, a)
+    place_supports(core.supports, core.loads.value, tables, 0, q, v, a)
     if len(system.multipliers):
         _shift(system, q, v, a, (1.0, 0.0, 0.0), q)
         _shift(system, q, v, a, (0.0, 1.0, 0.0), v)
@@ -91,7 +91,7 @@ def _shift(
 def _accelerate(system: System, q: FloatArray, v: FloatArray, a: FloatArray, tables: Tables) -> FloatArray:
     core, r, f = system.core, np.zeros(system.size), np.zeros(system.size)
     lam = system.multipliers
-    apply_load(core.loads, tables.load[0], f)
+    apply_load(core.loads, tables.value[0], f)
     q[lam] = v[lam] = 0.0
     _mass_factors(system, q, v)
     for _ in range(SWEEPS if len(lam) else 1):

@@ -80,7 +80,7 @@ class Iteration:
     core: Core
     q: FloatArray
     force: FloatArray  # at full load
-    moment: FloatArray
+    inputs: FloatArray  # of loads that depend on the state, at full load
     zero: FloatArray = field(init=False)
     iterations: int = 0
     jacobians: int = 0
@@ -96,6 +96,7 @@ class Iteration:
         self.expected = len(np.setdiff1d(self.system.multipliers, self.core.supports.held))
         slenderness = [_slenderness(b) for b in self.system.model.beams.values()]
         self.accepted = ACCEPTED * max([1.0, *slenderness])
+        self.follows = any(len(batch.base) > 0 for batch in self.core.external)
         self.mixed = Mixed(self.core.batches)
         self.spin = Spin(self.system, self.core.supports.held)
         self.spinning = False
@@ -103,7 +104,7 @@ class Iteration:
     def out_of_balance(self, q: FloatArray, share: float) -> FloatArray:
         """Residual for a share of the loads, on free unknowns."""
         r = np.empty_like(q)
-        self.core.loads.moment[:] = share * self.moment
+        self.core.loads.value[:] = share * self.inputs
         residual(self.core.batches, self.core.ws, q, self.zero, self.zero, share * self.force, r)
         apply_supports(self.core.supports, r)
         return r[: self.system.n]
@@ -184,8 +185,8 @@ class Iteration:
     def correction(self, r: FloatArray) -> FloatArray:
         """dq of (K + mu M) dq = r, with mu large enough to make the matrix positive definite.
 
-        A moment is no conservative load and the symmetric part of its stiffness says nothing about
-        stability: with moments an indefinite K is taken as it is.
+        Loads that depend on the state, as moments, are no conservative ones and the symmetric part of their
+        stiffness says nothing about stability: with them an indefinite K is taken as it is.
         """
         if self.core.joints.tail:
             return self._short_correction(r)
@@ -195,7 +196,7 @@ class Iteration:
             self.mu = 0.0
         elif negative and bool(self.spin):
             negative = self.factorise(self.mu)
-        if self.spinning or negative == 0 or (negative > 0 and self.mu == 0.0 and len(self.moment) > 0):
+        if self.spinning or negative == 0 or (negative > 0 and self.mu == 0.0 and self.follows):
             return self.solve(r)
         self.mu = max(self.mu, LEAST_MU * self.ratio)
         for _ in range(60):
@@ -274,10 +275,10 @@ def equilibrium(
     h = 1e-3
     tables = system.inputs.tables(time - h, h, 1, time, np.inf)
     v, a = np.zeros_like(q), np.zeros_like(q)
-    place_supports(core.supports, core.loads.moment, tables, 0, q, v, a)
+    place_supports(core.supports, core.loads.value, tables, 0, q, v, a)
     force = np.empty_like(q)
-    apply_load(core.loads, tables.load[0], force)
-    it = Iteration(system, core, q, force, core.loads.moment.copy())
+    apply_load(core.loads, tables.value[0], force)
+    it = Iteration(system, core, q, force, core.loads.value.copy())
     slack = Slack(system, q, force)
     try:
         slack.set(1.0, 1.0)
@@ -288,7 +289,7 @@ def equilibrium(
         settle_contacts(it)
     finally:
         slack.set(0.0, 0.0)
-        core.loads.moment[:] = it.moment
+        core.loads.value[:] = it.inputs
     seconds = clock.process_time() - cpu
     return it.q, Stats(load_steps, it.iterations, it.jacobians, it.jacobians, halvings, seconds)
 

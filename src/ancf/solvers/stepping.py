@@ -166,7 +166,7 @@ class Run:
         m.a[:] = consistent_start(system, m.q, m.v, now)
         m.abar[:] = m.a
         m.memo[H_FACTOR] = m.memo[H_PREV] = m.memo[KNOWN] = 0.0
-        apply_load(system.core.loads, now.load[0], m.f)
+        apply_load(system.core.loads, now.value[0], m.f)
         balance(system.core, m, 0.0)
         return now
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..connections.contact import ARC, ASIDE, FORCE, OVERLAP, ContactBatch, contact_values
+from ..connections.contact import ARC, ASIDE, FORCE, OVERLAP, contact_values
 from ..errors import ModelError
 from ..model.contact import Contact
 from .joint_fields import JointFields
@@ -71,7 +71,7 @@ class ContactFields(JointFields):
         if name not in names:
             there = "there are: " + ", ".join(names) if names else "there are none"
             raise ModelError(str(name), f"is no contact here; {there}")
-        batch = next(b for b in system.core.batches if isinstance(b, ContactBatch))
+        batch = system.parts["contacts"]
         mine = batch._replace(found=batch.found.copy())  # a question must not move where a run goes on
         q, v = np.atleast_2d(self.q[...]), np.atleast_2d(self.v[...])  # type: ignore[attr-defined]
         out = np.empty((len(q), 4))

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
-from ..connections.contact import ContactBatch, contact_row
+from ..compiled import traits
 from .core import Core, apply_supports
 
 FloatArray = NDArray[np.float64]
@@ -39,11 +39,12 @@ def touching(core: Core, q: FloatArray, n: int) -> Touching:
     rows, stiffness = [], []
     still = np.zeros_like(q)
     for batch in core.batches:
-        if not isinstance(batch, ContactBatch):
+        row_of = traits(batch).row
+        if row_of is None:
             continue
         for j in range(len(batch.slot)):
             row = np.zeros_like(q)
-            k = float(contact_row(batch, j, q, still, row))
+            k = float(row_of(batch, j, q, still, row))
             if k > 0.0:
                 apply_supports(core.supports, row)
                 rows.append(row[:n])

@@ -50,7 +50,7 @@ class Loads(NamedTuple):
     start: IntArray  # (k + 1,) pattern of load k: slots and factors
     slot: IntArray
     factor: FloatArray
-    moment: FloatArray  # (k, 3) moments now, shared with their batch
+    value: FloatArray  # (m, 3) inputs now: those of the k patterns, then slices that batches share
 
 
 class Joints(NamedTuple):
@@ -78,8 +78,8 @@ class Core(NamedTuple):
     see the shadow, r_x = R y; the solve sees y.
     """
 
-    batches: tuple[Any, ...]  # everything that has forces, the followers included
-    followers: tuple[Any, ...]  # loads that depend on the state
+    batches: tuple[Any, ...]  # everything that has forces
+    external: tuple[Any, ...]  # of them the loads that depend on the state
     ws: FloatArray  # workspace of the element kernels
     A: FloatArray  # values of the iteration matrix in 6x6 blocks
     factor: Factor
@@ -95,18 +95,17 @@ class Core(NamedTuple):
 class Tables(NamedTuple):
     """Everything that is a function of time, at the ends of the steps of one block."""
 
-    load: FloatArray  # (steps, loads, 3)
-    moment: FloatArray  # (steps, moments, 3)
+    value: FloatArray  # (steps, inputs, 3) of loads
     motion: FloatArray  # (steps, prescribed, 3) value, rate, second rate
     rotation: FloatArray  # (steps, moving, 3, 3, 3) R, dR/dt, d2R/dt2
 
 
 @inline_kernel
 def external_force(loads, load, f):
-    """Load vector f from gravity and the loads' values, shape (loads, 3)."""
+    """Load vector f from gravity and the inputs, shape (inputs, 3), of which the patterns have the first."""
     for i in range(f.shape[0]):
         f[i] = loads.gravity[i]
-    for k in range(load.shape[0]):
+    for k in range(loads.start.shape[0] - 1):
         for m in range(loads.start[k], loads.start[k + 1]):
             i, w = loads.slot[m], loads.factor[m]
             for c in range(3):
@@ -161,11 +160,11 @@ def follow(supports, q, v, a):
 
 
 @inline_kernel
-def drive(supports, moment, tables, n, q, v, a):
-    """Moments and given motions of the supports at the end of step n of the block; fills the shadows."""
-    for k in range(moment.shape[0]):
+def drive(supports, value, tables, n, q, v, a):
+    """Inputs and given motions of the supports at the end of step n of the block; fills the shadows."""
+    for k in range(value.shape[0]):
         for c in range(3):
-            moment[k, c] = tables.moment[n, k, c]
+            value[k, c] = tables.value[n, k, c]
     for k in range(supports.prescribed.shape[0]):
         i = supports.prescribed[k]
         q[i], v[i], a[i] = tables.motion[n, k, 0], tables.motion[n, k, 1], tables.motion[n, k, 2]
@@ -302,6 +301,6 @@ def follow_supports(supports, q, v, a):
 
 
 @kernel
-def place_supports(supports, moment, tables, n, q, v, a):
-    """Moments, given motions and shadows, see :func:`drive`."""
-    drive(supports, moment, tables, n, q, v, a)
+def place_supports(supports, value, tables, n, q, v, a):
+    """Inputs, given motions and shadows, see :func:`drive`."""
+    drive(supports, value, tables, n, q, v, a)

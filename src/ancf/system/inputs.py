@@ -18,20 +18,18 @@ STENCIL = 7
 
 
 class Inputs:
-    """Loads, moments and support motions of a System as functions of time.
+    """Values of loads and motions of supports of a System as functions of time.
 
     Parameters
     ----------
-    loads, moments : list of TimeFunction
-        Amplitudes of shape (3,).
+    loads : list of TimeFunction
+        Inputs of the loads, each of shape (3,): of the dead ones, then of those that depend on the state.
     constraints : Constraints
         Unknowns and rotations in the order of the System.
     """
 
-    def __init__(
-        self, loads: list[TimeFunction], moments: list[TimeFunction], constraints: Constraints
-    ) -> None:
-        self.loads, self.moments = loads, moments
+    def __init__(self, loads: list[TimeFunction], constraints: Constraints) -> None:
+        self.loads = loads
         self.motions = constraints.motions
         self.rotations = [r for r in constraints.rotations if r.angle is not None]
         self.prescribed = np.array([i for m in self.motions for i in m.unknowns], dtype=np.int64)
@@ -46,8 +44,7 @@ class Inputs:
         motion = [self._motion(k, times, step, first, last) for k in range(len(self.motions))]
         rotation = [self._rotation(r, times, step, first, last) for r in self.rotations]
         return Tables(
-            load=_amplitudes(self.loads, times),
-            moment=_amplitudes(self.moments, times),
+            value=_amplitudes(self.loads, times),
             motion=np.ascontiguousarray(np.concatenate([np.zeros((steps, 0, 3)), *motion], axis=1)),
             rotation=np.ascontiguousarray(
                 np.stack(rotation, axis=1) if rotation else np.zeros((steps, 0, 3, 3, 3))

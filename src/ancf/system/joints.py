@@ -1,4 +1,4 @@
-"""Joints in the matrix: which unknowns they couple, where their pieces stand, and the Joints of a Core."""
+"""The Joints of a Core, and the mass and stiffness of their rows."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..connections.joint import JointBatch
-from ..connections.sliding import SlidingBatch
+from ..compiled import Role, with_role
 from .core import Joints, Supports, assemble
 from .matrix import Places
 
@@ -22,61 +21,18 @@ IntArray = NDArray[np.int64]
 FLOOR = 1e-2
 
 
-def joint_pairs(batch: JointBatch) -> IntArray:
-    """Pairs of blocks that the rows couple, shape (m, 2)."""
-    pairs = [np.zeros((0, 2), dtype=np.int64)]
-    for n, unknown in enumerate(batch.unknown):
-        blocks = np.append(batch.slot[batch.start[n] : batch.start[n + 1]], unknown) // 6
-        pairs.append(np.stack(np.meshgrid(blocks, blocks), axis=-1).reshape(-1, 2))
-    return np.concatenate(pairs)
-
-
-def sliding_pairs(batch: SlidingBatch) -> IntArray:
-    """Pairs of the joints' blocks with those of the point and of all elements of the carrier."""
-    pairs = [np.zeros((0, 2), dtype=np.int64)]
-    for j, unknown in enumerate(batch.unknown):
-        line = batch.line_slot[batch.first[j] : batch.first[j + 1]].ravel()
-        slots = np.concatenate([batch.slot[j], line])
-        blocks = np.unique(slots[slots >= 0] // 6)
-        pairs.append(np.stack([np.full_like(blocks, unknown // 6), blocks], axis=1))
-    return np.concatenate(pairs)
-
-
-def bind_joints(plain: JointBatch, seen: JointBatch, places: Places) -> JointBatch:
-    """The batch with its places; ``seen`` reads and writes the shadows where there are local axes."""
-    row = np.repeat(np.arange(len(plain.unknown)), np.diff(plain.start))
-    pairs = [np.zeros(0, dtype=np.int64)]
-    for n in range(len(plain.unknown)):
-        slots = plain.slot[plain.start[n] : plain.start[n + 1]]
-        pairs.append(places.of(np.repeat(slots, len(slots)), np.tile(slots, len(slots))))
-    place = places.of(plain.unknown[row], plain.slot)
-    return seen._replace(place=place.astype(np.int64), pair=np.concatenate(pairs).astype(np.int64))
-
-
-def bind_sliding(plain: SlidingBatch, seen: SlidingBatch, places: Places) -> SlidingBatch:
-    """The batch with its places."""
-    joint = np.repeat(np.arange(len(plain.unknown)), np.diff(plain.first))
-    line_row = np.broadcast_to(plain.unknown[joint][:, None], plain.line_slot.shape)
-    row = np.broadcast_to(plain.unknown[:, None], plain.slot.shape)
-    return seen._replace(
-        own=places.of(plain.unknown, plain.unknown).astype(np.int64),
-        place=places.of(row, plain.slot).astype(np.int64),
-        line_place=places.of(line_row, plain.line_slot).astype(np.int64),
-    )
-
-
 def core_joints(batches: list[Any], system: System, supports: Supports) -> Joints:
     """Joints of the Core of a system."""
     mask = np.zeros(system.size)
     mask[system.multipliers] = 1.0
     first = min(system.numbering.sliding, default=system.numbering.blocks)
-    constrained = [b for b in batches if isinstance(b, JointBatch | SlidingBatch)]
+    constrained = with_role(batches, Role.CONSTRAINS)
     return Joints(
         multipliers=system.multipliers,
         mask=mask,
         level=system.level,
-        batches=tuple(constrained),
-        tail=tuple(b for b in constrained if isinstance(b, SlidingBatch)),
+        batches=constrained,
+        tail=with_role(constrained, Role.SLIDES),
         first=first,
         lowest=int(np.min(system.multipliers, initial=system.n)) // 6,
         supports=tail_supports(supports, system.places, first),
@@ -103,7 +59,7 @@ def tail_supports(supports: Supports, places: Places, first: int) -> Supports:
 
 def set_scales(system: System) -> None:
     """Give each row the mass and the stiffness of what it holds, to be multiplied with C_q^T C_q."""
-    batch = next((b for b in system.core.joints.batches if isinstance(b, JointBatch)), None)
+    batch = system.parts.get("joints")
     if batch is None:
         return
     core, q = system.core, system.initial_shape()

@@ -1,8 +1,9 @@
-"""Loads of the model as patterns of nodal forces, and the batches of moments."""
+"""Loads of the model: dead ones as patterns of nodal forces, batches of those that depend on the state."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ from ..model.beam import Beam
 from ..model.bodies import Body
 from ..model.functions import TimeFunction
 from ..model.joints import Slide
+from ..model.kind import Kind
+from ..model.kinds import LOADS, kind_of
 from ..model.loads import DistributedLoad, Force, Moment
 from ..model.model import Model
 from .probe import R_X, R_Y, R_Z, Probe, R
@@ -25,41 +28,78 @@ Pattern = tuple[IntArray, FloatArray]  # slots and factors
 Locate = Callable[..., Probe]
 
 
-def patterns(
-    model: Model, locate: Locate, slots: dict[str, IntArray], arcs: dict[str, int]
-) -> tuple[list[Pattern], list[TimeFunction]]:
-    """Patterns and amplitudes of all loads but gravity and moments; ``arcs``: s of the sliding joints."""
-    found: list[Pattern] = []
-    amplitudes: list[TimeFunction] = []
+def functions(model: Model) -> list[TimeFunction]:
+    """Inputs of all loads but gravity, in their order: dead loads, then those that depend on the state."""
+    dead = [amplitude for _, amplitude in _dead(model)]
+    moments = [load.moment for part in _moments(model) for load in part]
+    laws = [function for kind, items in _laws(model) for item in items for function in kind.inputs_of(item)]
+    return dead + moments + laws
+
+
+def _dead(model: Model) -> list[tuple[Any, TimeFunction]]:
+    """Loads that do not depend on the state, drives of sliding joints included, and their amplitudes."""
+    found: list[tuple[Any, TimeFunction]] = []
     for load in model.loads:
+        if isinstance(load, Force) and isinstance(load.force, TimeFunction):
+            found.append((load, load.force))
+        elif isinstance(load, DistributedLoad):
+            found.append((load, load.load))
+    drives = (c for c in model.connections if isinstance(c, Slide))
+    return found + [(joint, joint.force) for joint in drives if joint.force is not None]
+
+
+def _moments(model: Model) -> tuple[list[Moment], list[Moment]]:
+    """Moments on cables, and on cross-sections and rigid bodies."""
+    items = [load for load in model.loads if isinstance(load, Moment)]
+    cables = [load for load in items if _is_cable(load.point.body)]
+    return cables, [load for load in items if not _is_cable(load.point.body)]
+
+
+def _laws(model: Model) -> list[tuple[Kind, list[Any]]]:
+    """Other loads that depend on the state, by kind."""
+    found: dict[str, tuple[Kind, list[Any]]] = {kind.word: (kind, []) for kind in LOADS if kind.batch}
+    for load in model.loads:
+        kind = kind_of(load)
+        if kind.has_batch(load):
+            found[kind.word][1].append(load)
+    return [(kind, items) for kind, items in found.values() if items]
+
+
+def patterns(model: Model, locate: Locate, slots: dict[str, IntArray], arcs: dict[str, int]) -> list[Pattern]:
+    """Patterns of the dead loads; ``arcs``: s of the sliding joints."""
+    found: list[Pattern] = []
+    for load, _ in _dead(model):
         if isinstance(load, Force):
             probe = locate(load.point)
             found.append((probe.slots, probe.S[R]))
-            amplitudes.append(load.force)
         elif isinstance(load, DistributedLoad):
             found.append(distributed(load.body, slots[load.body.name], *load.between))
-            amplitudes.append(load.load)
-    for joint in model.connections:
-        if isinstance(joint, Slide) and joint.force is not None:
-            # a scalar on a slot of three: the two unknowns behind s are held
-            found.append((np.array([arcs[joint.name]]), np.ones(1)))
-            amplitudes.append(joint.force)
-    return found, amplitudes
+        else:  # a scalar on a slot of three: the two unknowns behind s are held
+            found.append((np.array([arcs[load.name]]), np.ones(1)))
+    return found
 
 
-def moments(model: Model, locate: Locate, value: FloatArray) -> tuple[list[Any], list[TimeFunction]]:
-    """Batches of all moments, which share ``value``, the moments now (k, 3), and their amplitudes.
+def batches(model: Model, locate: Locate, value: FloatArray) -> dict[str, Any]:
+    """Batches of the loads that depend on the state, by name; each has a slice of ``value``, the inputs now.
 
-    Moments on cables come first; there is a batch of moments on sections only where there are sections.
+    There is a batch of moments on sections only where there are sections.
     """
-    items = [load for load in model.loads if isinstance(load, Moment)]
-    cables = [load for load in items if _is_cable(load.point.body)]
-    sections = [load for load in items if not _is_cable(load.point.body)]
-    batches: list[Any] = [_on_slopes([locate(m.point) for m in cables], value[: len(cables)])]
+    first = len(_dead(model))
+    cables, sections = _moments(model)
+    own = value[first : first + len(cables)]
+    found: dict[str, Any] = {"moments": _on_slopes([locate(m.point) for m in cables], own)}
+    first += len(cables)
     if sections or any(not _is_cable(beam) for beam in model.beams.values()):
         shares = [_shares(m.point.body) for m in sections]
-        batches.append(_on_sections([locate(m.point) for m in sections], shares, value[len(cables) :]))
-    return batches, [load.moment for load in cables + sections]
+        own = value[first : first + len(sections)]
+        found["section moments"] = _on_sections([locate(m.point) for m in sections], shares, own)
+    first += len(sections)
+    for kind, items in _laws(model):
+        inputs = len(kind.inputs_of(items[0]))
+        own = value[first : first + inputs * len(items)].reshape(len(items), inputs, 3)
+        found[kind.word] = import_module(f"ancf.loads.{kind.batch}").build(items, locate, own)
+        first += inputs * len(items)
+    return found
 
 
 def _is_cable(body: Body) -> bool:

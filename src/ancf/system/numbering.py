@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..connections.joint_build import rows_of
+from ..connections.joint_build import Row, rigid, rows_of
 from ..model.bodies import RigidBody
 from ..model.connections import Spherical
 from ..model.joints import Slide
@@ -35,6 +35,9 @@ class Numbering:
         Number of blocks of six unknowns.
     sliding : list of int
         Blocks of the sliding joints.
+    rows : dict of str to list of Row
+        Rows of the joints that are made of rows and of the rigid bodies, by name, in the slots before
+        :meth:`renumber`.
     """
 
     def __init__(self, model: Model) -> None:
@@ -44,6 +47,7 @@ class Numbering:
         self.multipliers: dict[str, IntArray] = {}
         self.arcs: dict[str, int] = {}
         self.sliding: list[int] = []
+        self.rows: dict[str, list[Row]] = {}
         self.blocks = 0
         for body in model.bodies.values():
             nodes, shared, internal = layout(body)
@@ -54,21 +58,27 @@ class Numbering:
             self.slots[body.name] = starts.astype(np.int64)
             self.blocks += nodes * per_node
             if isinstance(body, RigidBody):
-                self._rows(body.name, 6)
+                self._keep(body.name, rigid(body, self.slots))
+        tied = {c.name: c for c in model.connections if isinstance(c, Spherical) and c.shared}
+        for ball in tied.values():  # first: rows are made of slots
+            self._share(ball)
         for joint in model.connections:
             if isinstance(joint, Slide):
                 self.sliding.append(self.blocks)
-                self._rows(joint.name, 3)
+                self._number(joint.name, 3)
                 self.arcs[joint.name] = int(self.multipliers[joint.name][0]) + 3
-            elif isinstance(joint, Spherical) and joint.shared:
-                self._share(joint)
-            elif rows := rows_of(joint, self._locate, self.slots):
-                self._rows(joint.name, len(rows))
+            elif joint.name not in tied and (rows := rows_of(joint, self._locate, self.slots)):
+                self._keep(joint.name, rows)
 
     def _locate(self, point: Point) -> Probe:
         return locate(point, self.slots[point.body.name])
 
-    def _rows(self, name: str, rows: int) -> None:
+    def _keep(self, name: str, rows: list[Row]) -> None:
+        """Rows and blocks for their multipliers."""
+        self.rows[name] = rows
+        self._number(name, len(rows))
+
+    def _number(self, name: str, rows: int) -> None:
         """Blocks for a number of multipliers."""
         self.multipliers[name] = 6 * self.blocks + np.arange(rows)
         self.blocks += (rows + 5) // 6

@@ -3,47 +3,32 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..bodies.build import inertia
-from ..connections import joint_build
-from ..connections.contact import ContactBatch
-from ..connections.contact_build import contacts
-from ..connections.joint import JointBatch
-from ..connections.sliding import SlidingBatch
-from ..connections.sliding_build import sliding
-from ..connections.spring_build import springs
-from ..connections.spring_damper import SpringBatch
-from ..elements.lanes import workspace
-from ..elements.registry import ELEMENTS
+from ..compiled import Role, with_role
 from ..errors import ModelError
-from ..linalg.block_ldl import allocate
-from ..linalg.ordering import behind, fill_pattern, order
-from ..loads.moment import MomentBatch
-from ..loads.section_moment import SectionMomentBatch
+from ..linalg.ordering import fill_pattern
 from ..model.beam import Beam
 from ..model.bodies import PointMass, RigidBody
 from ..model.contact import Contact
 from ..model.joints import Slide
-from ..model.loads import Moment
 from ..model.model import Model
 from ..model.points import Point
 from ..model.touching import bodies_of
 from . import loads
+from .compile import bind_parts, build_parts, held_arrays, joined, make_core, order_blocks, rotation_arrays
 from .core import Core, Loads, Supports, place_supports
 from .inputs import Inputs
-from .joints import bind_joints, bind_sliding, core_joints, joint_pairs, set_scales, sliding_pairs
-from .matrix import Places, block_pairs
+from .joints import core_joints, set_scales
+from .matrix import Places
 from .nodes import start_vectors
 from .numbering import Numbering
 from .probe import Probe, locate
 from .sensors import Listing
-from .supports import Constraints, collect
+from .supports import collect
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -60,6 +45,10 @@ class System:
     ----------
     core : Core
         What the kernels work on.
+    parts : dict of str to batch
+        The batches of the core by name: elements by their kind, "springs", "moments", "section moments",
+        other loads that depend on the state by the word of their kind, "bodies", "contacts", "joints" (their
+        rows) and "slides".
     inputs : Inputs
         Functions of time.
     n : int
@@ -84,26 +73,28 @@ class System:
         self.model = model
         self.numbering = Numbering(model)
         self.level = np.array([1.0, 0.0, 0.0])
-        self.contacts = [c for c in model.connections if isinstance(c, Contact)]
-        self.measured = np.zeros(4 * len(self.contacts))
-        self.measures = {c.name: 4 * k + np.arange(4) for k, c in enumerate(self.contacts)}
-        self.moment = np.zeros((sum(isinstance(load, Moment) for load in model.loads), 3))
-        self._order(self._batches(self.numbering.slots))
+        self.sensors = Listing()
+        contacts = [c.name for c in model.connections if isinstance(c, Contact)]
+        self.measured = np.zeros(4 * len(contacts))
+        self.measures = {name: 4 * k + np.arange(4) for k, name in enumerate(contacts)}
+        functions = loads.functions(model)
+        value = np.zeros((len(functions), 3))
+        parts = build_parts(model, self.numbering, self.level, value, self.measured.reshape(-1, 4))
+        rank, pairs, self.ordering, self.half_bandwidth = order_blocks(parts, self.numbering)
         self.constraints = collect(model, self.numbering)
-        self.places = Places(*fill_pattern(self._pairs, self.numbering.blocks))
+        self.places = Places(*fill_pattern(pairs, self.numbering.blocks))
         self.n = 6 * self.numbering.blocks
         self.size = self.n + 3 * len(self.constraints.rotations)
         self.slots = {name: self._shadowed(s) for name, s in self.numbering.slots.items()}
         self.multipliers = self.numbering.all_multipliers()
         self.joints = _joint_unknowns(self.numbering)
-        self.patterns, load_functions = loads.patterns(model, self.probe, self.slots, self.numbering.arcs)
-        batches = self._batches(self.numbering.slots)
-        moment_functions = loads.moments(model, self.probe, self.moment)[1]
-        self.inputs = Inputs(load_functions, moment_functions, self.constraints)
-        self.core = self._core(batches)
+        self.inputs = Inputs(functions, self.constraints)
+        self.parts = bind_parts(parts, rank, self.constraints, self.places)
+        supports = self._supports()
+        joints = core_joints(list(self.parts.values()), self, supports)
+        self.core = make_core(self.parts, self.places, self._weight(), supports, joints, self._loads(value))
         set_scales(self)
-        self.measuring = tuple(b for b in self.core.batches if isinstance(b, ContactBatch))
-        self.sensors = Listing()
+        self.measuring = with_role(self.core.batches, Role.MEASURES)
 
     def skip_energies(self) -> None:
         """Do not account for what is dissipated and supplied in a run."""
@@ -113,57 +104,6 @@ class System:
         """Where the state of a point of the model is found."""
         return locate(point, self.slots[point.body.name])
 
-    def _batches(self, slots: dict[str, IntArray]) -> list[Any]:
-        def find(point: Point) -> Probe:
-            return locate(point, slots[point.body.name])
-
-        model = self.model
-        kinds: dict[str, list[Beam]] = {}
-        for beam in model.beams.values():
-            kinds.setdefault(beam.element, []).append(beam)
-        elements = [
-            ELEMENTS[kind].build(beams, [slots[b.name] for b in beams]) for kind, beams in kinds.items()
-        ]
-        batches = [*elements, springs(model, find), *loads.moments(model, find, self.moment)[0]]
-        undeformed = [b for b in model.bodies.values() if not isinstance(b, Beam)]
-        if undeformed:
-            batches.append(inertia(undeformed, slots))
-        if self.contacts:
-            batches.append(contacts(self.contacts, find, slots, self.measured.reshape(-1, 4)))
-        return [*batches, *self._joint_batches(slots, find)]
-
-    def _joint_batches(self, slots: dict[str, IntArray], find: Callable[[Point], Probe]) -> list[Any]:
-        rows, unknowns, slides = [], [], []
-        for body in self.model.rigid_bodies.values():
-            rows += joint_build.rigid(body, slots)
-            unknowns += self.numbering.multipliers[body.name].tolist()
-        for joint in self.model.connections:
-            if isinstance(joint, Slide):
-                slides.append(joint)
-            elif joint.name in self.numbering.multipliers:
-                rows += joint_build.rows_of(joint, find, slots)
-                unknowns += self.numbering.multipliers[joint.name].tolist()
-        batches: list[Any] = [joint_build.batch(rows, unknowns, self.level)] if rows else []
-        if slides:
-            first = [int(self.numbering.multipliers[joint.name][0]) for joint in slides]
-            batches.append(sliding(slides, first, self.level, find, slots))
-        return batches
-
-    def _order(self, batches: list[Any]) -> None:
-        """Number the blocks so that L stays thin."""
-        fixed = [joint_pairs(b) for b in batches if isinstance(b, JointBatch)]
-        moving = [sliding_pairs(b) for b in batches if isinstance(b, SlidingBatch)]
-        special = JointBatch | SlidingBatch | ContactBatch
-        plain = block_pairs([b for b in batches if not isinstance(b, special)])
-        pairs = np.concatenate([plain, *fixed])
-        rank, self.ordering = order(pairs, self.numbering.blocks)
-        joints = np.unique(self.numbering.all_multipliers() // 6)
-        rank = behind(rank, pairs, np.setdiff1d(joints, self.numbering.sliding), self.numbering.sliding)
-        self.numbering.renumber(rank)
-        self._pairs = rank[np.concatenate([pairs, *moving])]
-        spread = int(np.max(np.abs(np.diff(rank[pairs], axis=1)), initial=0))
-        self.half_bandwidth = 6 * (spread + 1) - 1
-
     def _shadowed(self, slots: IntArray) -> IntArray:
         """Slots as elements and results see them: the shadow where there are local axes."""
         seen = slots.copy()
@@ -171,53 +111,24 @@ class System:
             seen[slots == rotation.slot] = self.n + 3 * k
         return seen
 
-    def _core(self, batches: list[Any]) -> Core:
-        # elements read and write the shadows; the matrix knows the unknowns alone
-        seen = self._batches(self.slots)
-        batches = [self._bound(plain, shadowed) for plain, shadowed in zip(batches, seen, strict=True)]
-        followers = tuple(b for b in batches if isinstance(b, MomentBatch | SectionMomentBatch))
-        springs_batch = next(b for b in batches if isinstance(b, SpringBatch))
-        damped = any(beam.section.damped for beam in self.model.beams.values())
-        slides = [joint for joint in self.model.connections if isinstance(joint, Slide)]
-        rubbed = any(joint.viscous or joint.friction for joint in slides)
-        rubbed |= any(contact.damping for contact in self.contacts)
+    def _supports(self) -> Supports:
         driven = np.array(sorted(self.constraints.driven), dtype=np.int64)
-        supports = Supports(
-            **_held_arrays(self._held(), self.places),
-            **_rotation_arrays(self.constraints, self.places, self.n),
+        return Supports(
+            **held_arrays(self._held(), self.places),
+            **rotation_arrays(self.constraints, self.places, self.n),
             prescribed=self.inputs.prescribed,
             driven=self._shadowed(driven),
         )
-        return Core(
-            batches=tuple(batches),
-            followers=followers,
-            ws=workspace(),
-            A=np.zeros(self.places.size),
-            factor=allocate(self.places.row_start, self.places.column),
-            weight=self._weight(),
-            supports=supports,
-            joints=core_joints(batches, self, supports),
-            loads=Loads(
-                gravity=loads.gravity(self.model, self.slots, self.size),
-                start=np.cumsum([0] + [len(p[0]) for p in self.patterns]).astype(np.int64),
-                slot=_joined([p[0] for p in self.patterns], np.int64),
-                factor=_joined([p[1] for p in self.patterns], np.float64),
-                moment=self.moment,
-            ),
-            damped=damped or rubbed or bool(np.any(springs_batch.data[:, 1])),
-            loaded=bool(self.patterns or len(self.moment) or len(driven)),
-            accounted=True,
-        )
 
-    def _bound(self, plain: Any, seen: Any) -> Any:
-        """A batch with its places in the matrix."""
-        if isinstance(plain, JointBatch):
-            return bind_joints(plain, seen, self.places)
-        if isinstance(plain, SlidingBatch):
-            return bind_sliding(plain, seen, self.places)
-        if isinstance(plain, ContactBatch):  # it does not enter the matrix
-            return seen
-        return seen._replace(dest=self.places.dest(plain.base))
+    def _loads(self, value: FloatArray) -> Loads:
+        self.patterns = loads.patterns(self.model, self.probe, self.slots, self.numbering.arcs)
+        return Loads(
+            gravity=loads.gravity(self.model, self.slots, self.size),
+            start=np.cumsum([0] + [len(p[0]) for p in self.patterns]).astype(np.int64),
+            slot=joined([p[0] for p in self.patterns], np.int64),
+            factor=joined([p[1] for p in self.patterns], np.float64),
+            value=value,
+        )
 
     def _held(self) -> IntArray:
         unused = np.flatnonzero(~self.numbering.used())
@@ -242,7 +153,7 @@ class System:
         idle = [j.name for j in self.model.connections if set(bodies_of(j)) & set(bodies)]
         extra += [self.joints[name] for name in (*idle, *bodies) if name in self.joints]
         held = np.unique(np.concatenate([self.core.supports.held, *[e.ravel() for e in extra]]))
-        supports = self.core.supports._replace(**_held_arrays(held, self.places))
+        supports = self.core.supports._replace(**held_arrays(held, self.places))
         return self.core._replace(supports=supports)
 
     @cached_property
@@ -319,10 +230,10 @@ class System:
             q[r.slot : r.slot + 3] = r.R0.T @ q[r.slot : r.slot + 3]
 
     def place(self, time: float, q: FloatArray, v: FloatArray, a: FloatArray) -> None:
-        """Put supports where they are at ``time``, and moments; fills the shadows."""
+        """Put supports where they are at ``time``, and inputs of loads; fills the shadows."""
         h = 1e-3
         tables = self.inputs.tables(time - h, h, 1, time, np.inf)
-        place_supports(self.core.supports, self.core.loads.moment, tables, 0, q, v, a)
+        place_supports(self.core.supports, self.core.loads.value, tables, 0, q, v, a)
 
     def _set_motion(self, q: FloatArray, v: FloatArray, a: FloatArray, time: float) -> None:
         """Initial rigid motions of the bodies; what a support holds follows the support."""
@@ -369,42 +280,3 @@ def _joint_unknowns(numbering: Numbering) -> dict[str, IntArray]:
     for name, arc in numbering.arcs.items():
         found[name] = np.append(found[name], arc)
     return found
-
-
-def _joined(parts: list[NDArray], dtype: type) -> NDArray:  # type: ignore[type-arg]
-    return np.concatenate([np.zeros(0), *parts]).astype(dtype)
-
-
-def _held_arrays(held: IntArray, places: Places) -> dict[str, Any]:
-    crosses = [places.cross(int(i)) for i in held]
-    return {
-        "held": np.ascontiguousarray(held, dtype=np.int64),
-        "held_zero": _joined(crosses, np.int64),
-        "held_one": np.ascontiguousarray(36 * (held // 6) + 7 * (held % 6), dtype=np.int64),
-    }
-
-
-def _rotation_arrays(constraints: Constraints, places: Places, n: int) -> dict[str, Any]:
-    k = len(constraints.rotations)
-    R = np.zeros((k, 3, 3, 3))
-    moving = np.full(k, -1, dtype=np.int64)
-    rows, rows_of, cols, cols_of = [], [], [], []
-    for i, r in enumerate(constraints.rotations):
-        R[i, 0] = r.R0
-        if r.angle is not None:
-            moving[i] = int(np.max(moving[:i], initial=-1)) + 1
-        row, col = places.pieces(r.slot)
-        rows.append(row)
-        cols.append(col)
-        rows_of.append(np.full(len(row), i))
-        cols_of.append(np.full(len(col), i))
-    return {
-        "rot_slot": np.array([r.slot for r in constraints.rotations], dtype=np.int64),
-        "rot_shadow": n + 3 * np.arange(k, dtype=np.int64),
-        "rot_R": R,
-        "rot_moving": moving,
-        "rot_rows": _joined(rows, np.int64),
-        "rot_rows_of": _joined(rows_of, np.int64),
-        "rot_cols": _joined(cols, np.int64),
-        "rot_cols_of": _joined(cols_of, np.int64),
-    }

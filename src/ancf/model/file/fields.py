@@ -14,6 +14,7 @@ from ancf.model.bodies import as_inertia
 from ancf.model.elements import KINDS
 from ancf.model.functions import TimeFunction
 from ancf.model.integrators import INTEGRATORS, integrator_of, table_schema
+from ancf.model.state_function import check_force
 
 if TYPE_CHECKING:  # the names are known at run time alone
     ElementName: TypeAlias = str
@@ -86,6 +87,11 @@ ScalarFunction = Annotated[Any, _checked(lambda v: TimeFunction(v, 1, "")), _fun
 VectorFunction = Annotated[
     Any,
     _checked(lambda v: TimeFunction(v, 3, "")),
+    _function_schema(_vector_schema(_TERM), _vector_schema(_NUMBER)),
+]
+ForceFunction = Annotated[
+    Any,
+    _checked(lambda v: check_force(v, "")),
     _function_schema(_vector_schema(_TERM), _vector_schema(_NUMBER)),
 ]
 PointOrPosition = Annotated[

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from ancf.model.file.fields import (
     Entry,
+    ForceFunction,
     ItemName,
     Line,
     NonNegative,
@@ -69,7 +70,9 @@ class ForceEntry(Entry):
 
     type: Literal["force"] = Field(description="Kind of load.")
     point: PointLabel
-    force: VectorFunction = Field(description="Force, function of t [N].")
+    force: ForceFunction = Field(
+        description="Force, function of t, or of t and the point's x, y, z, vx, vy, vz [N]."
+    )
     name: ItemName = None
 
 

@@ -109,7 +109,7 @@ def make_scene(
     drawn = [thread.position for thread in threads] + [marker.position for marker in markers]
     extent = _extent(drawn)
     links, footed = _links(shown, extent, drawn)
-    items = [*_items(shown, "supports"), *footed, *_items(shown, "connections")]
+    items = [*_items(shown, "supports"), *_items(shown, "loads"), *footed, *_items(shown, "connections")]
     return Scene(
         title=str(shown.plain.get("title") or ""),
         t=shown.t,
@@ -195,7 +195,7 @@ def _triads(shown: Frames) -> list[Triad]:
 
 
 def _items(shown: Frames, group: str) -> list[Marker]:
-    """Marked supports or connections, but joints that only fasten a point mass, which is drawn itself."""
+    """Marked items of a group, but joints that only fasten a point mass, which is drawn itself."""
     kinds, found = by_word(group), []
     for item in shown.plain.get(group, []):
         kind = kinds[item["type"]]

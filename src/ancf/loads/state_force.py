@@ -1,0 +1,130 @@
+"""Forces on points by laws that users give: F(t, r, v), each compiled to a function that the kernels call.
+
+A law is a C function of a time and of nine numbers: position, velocity, and the force that it leaves.  The
+kernels know its address, so that a new law compiles nothing but itself.  The matrix takes the symmetric
+part of its derivatives, by central differences.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+from numpy.typing import NDArray
+
+from ..compiled import Role, implements, inline_kernel
+from .at_points import add_force_at, add_tangent_at, at_point, at_points
+from .law_functions import address_of
+
+FloatArray = NDArray[np.float64]
+
+#: Step of the differences, of the size of the model, and of a velocity plus that size per second.
+STEP = 1e-6
+FORCE = 6  # where the force stands in the nine numbers
+
+
+class StateForceBatch(NamedTuple):
+    """All forces that depend on the state."""
+
+    base: NDArray[np.int64]  # (n, k)
+    dest: NDArray[np.int64]  # (n, k*k)
+    factor: FloatArray  # (n, k)
+    law: NDArray[np.int64]  # (n,) addresses
+    size: FloatArray  # (n,) of the model, m
+    data: FloatArray  # (n, 9) scratch memory of the calls
+    rows: FloatArray  # (n, 3, 3) of the differences
+    value: FloatArray  # (n, 1, 3) inputs now: t at [e, 0, 0]
+
+
+def build(items, locate, value):
+    """Batch of these forces."""
+    n = len(items)
+    return StateForceBatch(
+        **at_points([item.point for item in items], locate),
+        law=np.array([address_of(item.force) for item in items], dtype=np.int64),
+        size=np.array([item.force.size for item in items]),
+        data=np.zeros((n, 9)),
+        rows=np.zeros((n, 3, 3)),
+        value=value,
+    )
+
+
+@intrinsic
+def call(typing_context, address, time, data):
+    """Call the function at an address with a time and the address of the numbers."""
+
+    def code(context, builder, signature, arguments):
+        double, pointer = ir.DoubleType(), ir.IntType(8).as_pointer()
+        function = ir.FunctionType(double, [double, pointer]).as_pointer()
+        where = builder.inttoptr(arguments[0], function)
+        return builder.call(where, [arguments[1], builder.inttoptr(arguments[2], pointer)])
+
+    return types.float64(types.int64, types.float64, types.uintp), code
+
+
+@inline_kernel
+def put_state(batch, e, q, v):
+    """Position and velocity of point e to where its law looks for them."""
+    batch.data[e, 0], batch.data[e, 1], batch.data[e, 2] = at_point(batch, e, q)
+    batch.data[e, 3], batch.data[e, 4], batch.data[e, 5] = at_point(batch, e, v)
+
+
+@inline_kernel
+def law_force(batch, e):
+    """Force of law e in the state that has been put."""
+    call(batch.law[e], batch.value[e, 0, 0], batch.data[e].ctypes.data)
+    return batch.data[e, FORCE], batch.data[e, FORCE + 1], batch.data[e, FORCE + 2]
+
+
+@inline_kernel
+def state_force(batch, q, v, a, r, ws):
+    """Subtract the forces from r."""
+    for e in range(batch.base.shape[0]):
+        put_state(batch, e, q, v)
+        add_force_at(batch, e, law_force(batch, e), r)
+
+
+@inline_kernel
+def add_differences(batch, e, first, step, weight):
+    """Subtract ``weight`` times the derivatives by the numbers from ``first`` on from the rows."""
+    for j in range(3):
+        here = batch.data[e, first + j]
+        batch.data[e, first + j] = here + step
+        fx, fy, fz = law_force(batch, e)
+        batch.data[e, first + j] = here - step
+        gx, gy, gz = law_force(batch, e)
+        batch.data[e, first + j] = here
+        w = weight / (2.0 * step)
+        batch.rows[e, 0, j] -= w * (fx - gx)
+        batch.rows[e, 1, j] -= w * (fy - gy)
+        batch.rows[e, 2, j] -= w * (fz - gz)
+
+
+@inline_kernel
+def state_force_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    """Add the symmetric part of minus the derivatives by position and velocity."""
+    for e in range(batch.base.shape[0]):
+        put_state(batch, e, q, v)
+        for i in range(3):
+            for j in range(3):
+                batch.rows[e, i, j] = 0.0
+        if c_stiffness != 0.0:
+            add_differences(batch, e, 0, STEP * batch.size[e], c_stiffness)
+        if c_damping != 0.0:
+            speed = abs(batch.data[e, 3]) + abs(batch.data[e, 4]) + abs(batch.data[e, 5])
+            add_differences(batch, e, 3, STEP * (batch.size[e] + speed), c_damping)
+        m = batch.rows[e]
+        xy, xz, yz = 0.5 * (m[0, 1] + m[1, 0]), 0.5 * (m[0, 2] + m[2, 0]), 0.5 * (m[1, 2] + m[2, 1])
+        rows = ((m[0, 0], xy, xz), (xy, m[1, 1], yz), (xz, yz, m[2, 2]))
+        add_tangent_at(batch, e, rows, A)
+
+
+implements(
+    StateForceBatch,
+    force=state_force,
+    tangent=state_force_tangent,
+    role=Role.EXTERNAL,
+)

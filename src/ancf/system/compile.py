@@ -1,0 +1,212 @@
+"""From a Model to flat arrays: each batch is built once, in the slots of the nodes as they come in the model.
+
+The order of elimination is known only when all batches are there, and the shadows only behind it.  Both
+change integers alone: the fields of a batch that hold unknowns (``Traits.slots``) are mapped.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..bodies.build import inertia
+from ..compiled import Role, traits, with_role
+from ..connections import joint_build
+from ..connections.contact_build import contacts
+from ..connections.sliding_build import sliding
+from ..connections.spring_build import springs
+from ..elements.lanes import workspace
+from ..elements.registry import ELEMENTS
+from ..linalg.block_ldl import allocate
+from ..linalg.ordering import behind, order
+from ..model.beam import Beam
+from ..model.contact import Contact
+from ..model.joints import Slide
+from ..model.model import Model
+from ..model.points import Point
+from . import loads
+from .core import Core, Joints, Loads, Supports
+from .matrix import Places, block_pairs
+from .numbering import Numbering
+from .probe import Probe, locate
+from .supports import Constraints
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+Parts = dict[str, Any]
+
+
+def build_parts(
+    model: Model, numbering: Numbering, level: FloatArray, value: FloatArray, measured: FloatArray
+) -> Parts:
+    """All batches by name, in the slots of the numbering.
+
+    They share ``level``, the weights of the constraints, slices of ``value``, the inputs of loads, and of
+    ``measured``, (contacts, 4), what they leave for sensors.
+    """
+    slots = numbering.slots
+
+    def find(point: Point) -> Probe:
+        return locate(point, slots[point.body.name])
+
+    kinds: dict[str, list[Beam]] = {}
+    for beam in model.beams.values():
+        kinds.setdefault(beam.element, []).append(beam)
+    parts: Parts = {
+        kind: ELEMENTS[kind].build(beams, [slots[b.name] for b in beams]) for kind, beams in kinds.items()
+    }
+    parts["springs"] = springs(model, find)
+    parts |= loads.batches(model, find, value)
+    undeformed = [b for b in model.bodies.values() if not isinstance(b, Beam)]
+    if undeformed:
+        parts["bodies"] = inertia(undeformed, slots)
+    touching = [c for c in model.connections if isinstance(c, Contact)]
+    if touching:
+        parts["contacts"] = contacts(touching, find, slots, measured)
+    return parts | _joints(model, numbering, level, find)
+
+
+def _joints(model: Model, numbering: Numbering, level: FloatArray, find: Callable[[Point], Probe]) -> Parts:
+    """Rows of the rigid bodies, then of the joints; the sliding joints."""
+    parts: Parts = {}
+    if numbering.rows:
+        rows = [row for rows in numbering.rows.values() for row in rows]
+        unknowns = np.concatenate([numbering.multipliers[name] for name in numbering.rows])
+        parts["joints"] = joint_build.batch(rows, unknowns.tolist(), level)
+    slides = [joint for joint in model.connections if isinstance(joint, Slide)]
+    if slides:
+        first = [int(numbering.multipliers[joint.name][0]) for joint in slides]
+        parts["slides"] = sliding(slides, first, level, find, numbering.slots)
+    return parts
+
+
+def order_blocks(parts: Parts, numbering: Numbering) -> tuple[IntArray, IntArray, str, int]:
+    """Number the blocks so that L stays thin.
+
+    Returns
+    -------
+    rank : ndarray, shape (blocks,)
+        New place of each block; the numbering has them already.
+    pairs : ndarray, shape (m, 2)
+        Pairs of blocks that some batch couples, in the new places.
+    ordering : str
+        How they were ordered.
+    half_bandwidth : int
+        In unknowns, without the rows that come last.
+    """
+    last = with_role(parts.values(), Role.SLIDES)
+    couples = [(traits(b).couples, b) for b in parts.values() if Role.SLIDES not in traits(b).role]
+    plain = block_pairs([b for own, b in couples if own is None])
+    pairs = np.concatenate([plain, *(own(b) for own, b in couples if own is not None)])
+    rank, ordering = order(pairs, numbering.blocks)
+    joints = np.unique(numbering.all_multipliers() // 6)
+    rank = behind(rank, pairs, np.setdiff1d(joints, numbering.sliding), numbering.sliding)
+    numbering.renumber(rank)
+    moving = [own(b) for b in last if (own := traits(b).couples) is not None]
+    spread = int(np.max(np.abs(np.diff(rank[pairs], axis=1)), initial=0))
+    return rank, rank[np.concatenate([pairs, *moving])], ordering, 6 * (spread + 1) - 1
+
+
+def bind_parts(parts: Parts, rank: IntArray, constraints: Constraints, places: Places) -> Parts:
+    """Batches that read and write the shadows, with the places of the unknowns in the matrix."""
+    unknown = np.arange(6 * len(rank), dtype=np.int64)
+    to_unknown = 6 * rank[unknown // 6] + unknown % 6
+    to_seen = to_unknown
+    if constraints.rotations:
+        shadow = unknown.copy()
+        for k, rotation in enumerate(constraints.rotations):
+            shadow[rotation.slot] = len(shadow) + 3 * k
+        to_seen = shadow[to_unknown]
+    bound: Parts = {}
+    for name, batch in parts.items():
+        plain = _mapped(batch, to_unknown)
+        seen = _mapped(batch, to_seen) if constraints.rotations else plain
+        own = traits(batch).bind
+        bound[name] = own(plain, seen, places) if own else seen._replace(dest=places.dest(plain.base))
+    return bound
+
+
+def _mapped(batch: Any, table: IntArray) -> Any:
+    """A batch whose unknowns are replaced by those of a table."""
+    changes = {}
+    for name in traits(batch).slots:
+        unknowns = getattr(batch, name)
+        changes[name] = np.where(unknowns >= 0, table[unknowns], -1)
+    return batch._replace(**changes)
+
+
+def make_core(
+    parts: Parts,
+    places: Places,
+    weight: FloatArray,
+    supports: Supports,
+    joints: Joints,
+    dead: Loads,
+) -> Core:
+    """What the kernels work on."""
+    batches = tuple(parts.values())
+    external = with_role(batches, Role.EXTERNAL)
+    return Core(
+        batches=batches,
+        external=external,
+        ws=workspace(),
+        A=np.zeros(places.size),
+        factor=allocate(places.row_start, places.column),
+        weight=weight,
+        supports=supports,
+        joints=joints,
+        loads=dead,
+        damped=any(_damped(b) for b in with_role(batches, Role.DISSIPATES)),
+        loaded=bool(len(dead.value) or any(len(b.base) for b in external) or len(supports.driven)),
+        accounted=True,
+    )
+
+
+def _damped(batch: Any) -> bool:
+    damped = traits(batch).damped
+    return damped is not None and damped(batch)
+
+
+def joined(parts: list[NDArray[Any]], dtype: type) -> NDArray[Any]:
+    """One array of all."""
+    return np.concatenate([np.zeros(0), *parts]).astype(dtype)
+
+
+def held_arrays(held: IntArray, places: Places) -> dict[str, Any]:
+    """What of Supports belongs to held unknowns."""
+    crosses = [places.cross(int(i)) for i in held]
+    return {
+        "held": np.ascontiguousarray(held, dtype=np.int64),
+        "held_zero": joined(crosses, np.int64),
+        "held_one": np.ascontiguousarray(36 * (held // 6) + 7 * (held % 6), dtype=np.int64),
+    }
+
+
+def rotation_arrays(constraints: Constraints, places: Places, n: int) -> dict[str, Any]:
+    """What of Supports belongs to local axes; n: unknowns."""
+    k = len(constraints.rotations)
+    R = np.zeros((k, 3, 3, 3))
+    moving = np.full(k, -1, dtype=np.int64)
+    rows, rows_of, cols, cols_of = [], [], [], []
+    for i, r in enumerate(constraints.rotations):
+        R[i, 0] = r.R0
+        if r.angle is not None:
+            moving[i] = int(np.max(moving[:i], initial=-1)) + 1
+        row, col = places.pieces(r.slot)
+        rows.append(row)
+        cols.append(col)
+        rows_of.append(np.full(len(row), i))
+        cols_of.append(np.full(len(col), i))
+    return {
+        "rot_slot": np.array([r.slot for r in constraints.rotations], dtype=np.int64),
+        "rot_shadow": n + 3 * np.arange(k, dtype=np.int64),
+        "rot_R": R,
+        "rot_moving": moving,
+        "rot_rows": joined(rows, np.int64),
+        "rot_rows_of": joined(rows_of, np.int64),
+        "rot_cols": joined(cols, np.int64),
+        "rot_cols_of": joined(cols_of, np.int64),
+    }

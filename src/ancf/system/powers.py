@@ -1,0 +1,43 @@
+"""Energy that leaves and enters a System: every force is booked once.
+
+The work of loads is supplied: of those that depend on time alone, of batches with the role EXTERNAL whatever
+they depend on, and of the reactions of moving supports.  Gravity has a potential instead.  What all other
+forces do because of velocities is dissipated: what they lose when the velocities are set to zero.
+"""
+
+from __future__ import annotations
+
+from ..compiled import add_forces, inline_kernel
+from .core import residual
+
+
+@inline_kernel
+def powers(core, q, v, a, f, push, r):
+    """Fill ``push`` with the forces that supply energy; returns the power that is dissipated, W.
+
+    ``f`` are gravity and dead loads; ``r`` is scratch memory.
+    """
+    n, dissipated = f.shape[0], 0.0
+    for i in range(n):
+        push[i] = 0.0
+    if core.damped:  # without velocities first: what batches measure is left from the state as it is
+        residual(core.batches, core.ws, q, push, a, f, r)
+        for i in range(n):
+            r[i] = -r[i]
+        add_forces(core.external, q, push, a, r, core.ws)
+        for i in range(n):
+            dissipated += v[i] * r[i]
+    if core.damped or core.supports.driven.shape[0] > 0:
+        residual(core.batches, core.ws, q, v, a, f, r)
+    add_forces(core.external, q, v, a, push, core.ws)
+    if core.damped:
+        for i in range(n):
+            dissipated += v[i] * r[i]
+        for i in range(n):
+            dissipated -= v[i] * push[i]
+    for i in range(n):
+        push[i] = f[i] - core.loads.gravity[i] - push[i]
+    for k in range(core.supports.driven.shape[0]):
+        for c in range(3):
+            push[core.supports.driven[k] + c] += r[core.supports.driven[k] + c]
+    return dissipated
