@@ -22,6 +22,7 @@ LAYERS = (
     {"solvers"},
     {"results"},
     {"analysis"},
+    {"resumption"},
     {"viz"},
     {"verification"},
     {"catenary"},

@@ -165,9 +165,12 @@ class TestStates:
         with pytest.raises((IndexError, ancf.ModelError)):
             run[0].state(1000)
 
-    def test_loaded_result_has_no_model(self, run):
-        with pytest.raises(ancf.ModelError, match="a loaded result has no model"):
-            ancf.load(run[2]).state()
+    def test_loaded_result_has_the_states(self, run):
+        for index in (0, 17, -1):
+            mine, loaded = run[0].state(index), ancf.load(run[2]).state(index)
+            assert (loaded.t, loaded.energy.total) == (mine.t, mine.energy.total)
+            assert np.array_equal(loaded.q, mine.q)
+            assert np.array_equal(loaded.v, mine.v)
 
 
 class TestProvenance:
@@ -209,7 +212,8 @@ class TestFile:
     def test_time_is_written_last(self, run, tmp_path, monkeypatch):
         """Otherwise the torn block above would have a time and no values."""
         system, memory = run[0].state().system, run[0]
-        store = FileStore(tmp_path / "half.h5", system, {"settings": {}})
+        header = {"settings": {}, "model": system.model.to_dict()}
+        store = FileStore(tmp_path / "half.h5", system, header)
         monkeypatch.setattr("ancf.results.store.energies", lambda *_: np.zeros((7, 7)))
         with pytest.raises((TypeError, ValueError)):
             store.append(memory.t, memory.q, memory.v, np.zeros((len(memory.t), 2)))
