@@ -262,9 +262,7 @@ DAMAGES = {
     "header_list": attribute("header", "[1]"),
     "header_settings": attribute("header", '{"settings": 3}'),
     "header_without_model": attribute("header", '{"settings": {}}'),
-    "header_wrong_model": attribute(
-        "header", '{"settings": {}, "model": {"gravity": [0, 0, 0], "title": 3}}'
-    ),
+    "header_wrong_model": attribute("header", '{"settings": {}, "model": {"gravity": 0, "title": ""}}'),
     "format_later": attribute("format_version", 2),
     "modes_many": replaced("modes", np.zeros(3)),
     "without_places": replaced("places", None),

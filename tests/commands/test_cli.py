@@ -73,10 +73,10 @@ def test_resumed_run(call):
 @pytest.mark.parametrize(
     ("text", "phrase"),
     [
-        (MODEL.replace("EA = 1e4", "EA = 2e4") + SIMULATION, "is of another model"),
+        (MODEL.replace("E = 1e8", "E = 2e8") + SIMULATION, "is of another model"),
         (
             MODEL + SIMULATION.replace("2.5e-4", "1e-4"),
-            "was computed with step = 0.00025, the model file has",
+            "was computed with step = 0.00025, the model",
         ),
         (MODEL + SIMULATION + 'integrator = "radau"\n', "was computed with integrator = 'trapezoidal'"),
         (MODEL + SIMULATION.replace("0.4", "0.01"), "has reached t = 0.01 s"),

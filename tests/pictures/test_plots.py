@@ -228,9 +228,9 @@ class TestSlidesAndContacts:
         result, contact = touching
         result.save(tmp_path / "run.h5")
         loaded = ancf.load(tmp_path / "run.h5")
-        for source in (loaded, loaded.sensors):
-            found = curves(source.plot(contact.name).axes[0])[contact.name]
-            assert np.array_equal(found, curves(result.plot(contact.name).axes[0])[contact.name])
+        for one, two in ((loaded, result), (loaded.sensors, result.sensors)):
+            found, wanted = (curves(source.plot(contact.name).axes[0])[contact.name] for source in (one, two))
+            assert np.array_equal(found, wanted)
 
     def test_shape_has_joint_and_strip(self, sliding, touching):
         assert legend_texts(sliding[0].plot_shape(2, color="speed")) == ["point mass", "pin", "slide"]

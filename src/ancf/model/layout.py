@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -97,28 +97,38 @@ def placed_beam(
     length = checks.positive(take("length"), f"{where}.length")
     nodes = given.get("nodes")
     node_x = _node_x(where, take("elements") if nodes is None else None, nodes, length)
-    beam = Beam(
+    lay = None if "node_position" in given else _lay_between(where, take)
+    position, tangent, y = _rows(where, node_x.size, take) if lay is None else lay(node_x / length)
+    return Beam(
         name=name,
         section=section,
         gauss=_gauss(take("gauss"), words["element"], section, f"{where}.gauss"),
         length=length,
         stretch=checks.positive(take("stretch"), f"{where}.stretch"),
         node_x=node_x,
-        **dict.fromkeys(("node_position", "node_tangent", "node_y"), np.zeros((0, 3))),
-        **dict.fromkeys(("velocity", "angular_velocity", "about"), np.zeros(3)),
+        node_position=position,
+        node_tangent=tangent,
+        node_y=y,
+        velocity=np.zeros(3),
+        angular_velocity=np.zeros(3),
+        about=position[0].copy(),
+        lay=lay,
         **words,
     )
-    if "node_position" in given:
-        for key in PLACED:
-            rows = checks.array(take(key), f"{where}.{key}", (None, 3))
-            if len(rows) != node_x.size:
-                raise ModelError(f"{where}.{key}", f"has {len(rows)} rows for {node_x.size} nodes")
-            setattr(beam, key, rows)
-        return beam
-    ends = (checks.place(take(key), f"{where}.{key}") for key in ("start", "end"))
-    beam.lay = straight_between(*ends, checks.direction(take("y_axis"), f"{where}.y_axis"))
-    beam.node_position, beam.node_tangent, beam.node_y = beam.lay(node_x / length)
-    return beam
+
+
+def _rows(where: str, count: int, take: Callable[[str], Any]) -> Iterator[FloatArray]:
+    """What a description says of the nodes, (count, 3) each."""
+    for key in PLACED:
+        rows = checks.array(take(key), f"{where}.{key}", (None, 3))
+        if len(rows) != count:
+            raise ModelError(f"{where}.{key}", f"has {len(rows)} rows for {count} nodes")
+        yield rows
+
+
+def _lay_between(where: str, take: Callable[[str], Any]) -> Shape:
+    start, end = (checks.place(take(key), f"{where}.{key}") for key in ("start", "end"))
+    return straight_between(start, end, checks.direction(take("y_axis"), f"{where}.y_axis"))
 
 
 def straight_between(start: FloatArray, end: FloatArray, y: FloatArray) -> Shape:

@@ -17,6 +17,7 @@ from ancf.model.joints import Fixation
 from ancf.model.kinds import GROUPS, all_kinds, kind_of
 from ancf.model.layout import make_beam
 from ancf.model.loads import DistributedLoad, Force, Load, Moment, make_distributed, make_moment
+from ancf.model.overview import of_model
 from ancf.model.points import Point
 from ancf.model.section import Section
 from ancf.model.supports import (
@@ -87,8 +88,6 @@ class Model(Connecting, Readable):
         return sorted({*super().__dir__(), *(kind.method for kind in all_kinds())})
 
     def _sheet(self) -> Sheet:
-        from ancf.model.overview import of_model
-
         return of_model(self)
 
     def add_beam(

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from ..model.beam import Beam
 from ..solvers.locking import locked, stiffest
-
-if TYPE_CHECKING:
-    from .result import Result
-    from .state import State
+from .faces import History, Instant
 
 #: Share of the displacement that locking may take unsaid, and of the model's size that is never said.
 LOCKED, SMALL = 3e-4, 1e-9
@@ -21,7 +16,7 @@ DRIFT = 0.02
 KEEPING = ("trapezoidal", "explicit")
 
 
-def of_state(state: State) -> list[str]:
+def of_state(state: Instant) -> list[str]:
     """Notes on an equilibrium: which cable bends too little, and by how much."""
     if np.any(state.v):
         return []
@@ -47,7 +42,7 @@ def of_state(state: State) -> list[str]:
     return [text]
 
 
-def of_energy(result: Result) -> list[str]:
+def of_energy(result: History) -> list[str]:
     """A note on a history whose energies do not add up."""
     settings = result.provenance.get("settings", {})
     if not settings.get("energy", True) or len(result.t) < 2 or "integrator" not in settings:
