@@ -184,7 +184,7 @@ def _shrink(path):
                 file.create_dataset(
                     name, data=values, maxshape=(None, *values.shape[1:]), chunks=values.shape
                 )
-            for name in ("stats", "status", "bodies", "joints", "springs"):
+            for name in ("stats", "status", "bodies", "joints", "modes", "places"):
                 old.copy(name, file)
     new.replace(path)
 
@@ -261,6 +261,11 @@ DAMAGES = {
     "header_no_json": attribute("header", "{"),
     "header_list": attribute("header", "[1]"),
     "header_settings": attribute("header", '{"settings": 3}'),
+    "header_without_model": attribute("header", '{"settings": {}}'),
+    "header_wrong_model": attribute("header", '{"settings": {}, "model": {"gravity": 0, "title": ""}}'),
+    "format_later": attribute("format_version", 2),
+    "modes_many": replaced("modes", np.zeros(3)),
+    "without_places": replaced("places", None),
     "format_other": attribute("format", "something else"),
     "format_number": attribute("format", 3),
 }

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .model import Model, Section
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
     from .results import Modes, Result, State
+    from .resumption import resume
     from .verification import Verification, verify
 
 # all is imported on first use: describing a model needs no compiled part, the start of a command no model
@@ -24,6 +25,7 @@ _LATER = {
     "modes": "analysis",
     "stable_step": "analysis",
     "load": "analysis",
+    "resume": "resumption",
     "Result": "results",
     "State": "results",
     "Modes": "results",
@@ -55,6 +57,7 @@ __all__ = [
     "equilibrium",
     "load",
     "modes",
+    "resume",
     "simulate",
     "stable_step",
     "verify",

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from .model.bodies import PointMass, RigidBody
 from .model.integrators import INTEGRATORS, Explicit, Integrator, Trapezoidal
 from .model.model import Model
 from .model.settings import steps_between
+from .results import remembered
 from .results.modes import Modes
 from .results.provenance import versions
 from .results.read_store import ReadStore
@@ -25,7 +27,7 @@ from .results.state import State
 from .results.store import FileStore, MemoryStore
 from .solvers import statics
 from .solvers.modal import natural_modes
-from .solvers.runs import run_of
+from .solvers.runs import AnyRun, run_of
 from .solvers.stability import stable_limit
 from .solvers.stepping import Progress
 from .system.consistency import check_gaps, check_independent
@@ -131,19 +133,85 @@ def simulate(
         raise ModelError(
             "simulate.start", f"must be a State, is {checks.shown(start)}", "see ancf.equilibrium"
         )
-    method = _integrator(integrator)
+    made = prepared(
+        model,
+        method=_integrator(integrator),
+        t_end=t_end,
+        step=step,
+        start=start,
+        output_step=output_step,
+        sensors=sensors,
+        energy=energy,
+    )
+    store = MemoryStore(made.system) if file is None else FileStore(file, made.system, made.header)
+    try:
+        return carried_out(made, store, progress)
+    except SolveError as error:
+        if start is None and not isinstance(error, StorageError):
+            _advise_rest(error, model)
+        raise
+
+
+class Prepared(NamedTuple):
+    """A simulation that has not taken a step yet."""
+
+    system: System
+    run: AnyRun
+    header: dict[str, Any]
+
+
+def prepared(
+    model: Model,
+    *,
+    method: Integrator,
+    t_end: float,
+    step: float,
+    start: State | None,
+    output_step: float | None,
+    sensors: Sequence[Any] | None,
+    energy: bool,
+    where: str = "simulate",
+) -> Prepared:
+    """A simulation at its start, see :func:`simulate`; ``where`` stands in messages.
+
+    Raises
+    ------
+    ModelError, SolveError
+        Something given is wrong, or there are no accelerations at the start.
+    """
     t0 = 0.0 if start is None else start.t
-    every = steps_between("simulate", t_end, step, output_step, t0)
+    every = steps_between(where, t_end, step, output_step, t0)
     system = _system(model)  # anew: the model may have changed since the start was computed
-    q, v = system.initial_state(t0) if start is None else _adopted(start, system, "simulate.start")
-    check_gaps(system, q, "simulate.start")
+    if start is None:
+        q, v = system.initial_state(t0)
+    else:
+        q, v = _adopted(start, system, f"{where}.start")
+        remembered.restore(system, start.known)
+    check_gaps(system, q, f"{where}.start")
     system.sensors = _sensors(system, sensors)
-    if not checks.flag(energy, "simulate.energy"):
+    if not checks.flag(energy, f"{where}.energy"):
         system.skip_energies()
     header = _header(system, method, t0, t_end, step, output_step)
     run = run_of(method, system, t0, t_end, step, every)
     run.start(q, v)
-    store = MemoryStore(system) if file is None else FileStore(file, system, header)
+    return Prepared(system, run, header)
+
+
+def carried_out(made: Prepared, store: Any, progress: Callable[[Progress], None] | None) -> Result:
+    """Take all steps and give the result, also with the errors; see :func:`simulate`.
+
+    Parameters
+    ----------
+    made : Prepared
+    store : MemoryStore, FileStore or another Recorder with ``path`` and ``close``
+    progress : callable or None
+
+    Raises
+    ------
+    SolveError, StorageError, ModelError, Interrupted
+        With what was computed until then.
+    """
+    system, run, header = made
 
     def finished(status: str) -> Result:
         store.update(run.stats, status)
@@ -159,8 +227,6 @@ def simulate(
             raise
         except (SolveError, ModelError) as error:
             error.result = finished("failed")
-            if start is None and isinstance(error, SolveError):
-                _advise_rest(error, model)
             raise
         except KeyboardInterrupt as stop:
             raise Interrupted(finished("interrupted")) from stop
@@ -319,6 +385,7 @@ def _header(
             "step": step,
             "output_step": output_step or step,
             "integrator": method.name,
+            "method": asdict(method),
             **method.settings(),
             "energy": system.core.accounted,
             "sensors": [*map(str, listed.points), *listed.connections],

@@ -88,18 +88,6 @@ class TestFiles:
             np.testing.assert_array_equal(loaded.spring_length(name), result.spring_length(name))
         assert str(loaded.springs["rope/1 ä"].a) == "hub.at(0.1, 0.2, 0.3)"
 
-    def test_file_without_springs(self, tmp_path):
-        """Files written before springs were stored: nothing is known of them, and that is said."""
-        import h5py
-
-        model, _, _ = falling(False)
-        result = ancf.simulate(model, t_end=0.01, step=5e-3)
-        result.save(tmp_path / "old.h5")
-        with h5py.File(tmp_path / "old.h5", "a") as file:
-            del file["springs"]
-        with pytest.raises(ModelError, match="none yet"):
-            ancf.load(tmp_path / "old.h5").spring_force("hanger")
-
 
 @pytest.mark.parametrize("name", ["hangar", 3, ["hanger"], None])
 def test_unknown_spring(name):

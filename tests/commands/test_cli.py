@@ -53,6 +53,52 @@ def test_summary_of_a_simulation(call):
     assert "error" not in summary
 
 
+def test_resumed_run(call):
+    """A later t_end in the file, then --resume: one history, one summary."""
+    sensors = 'sensors = ["beam.end"]\n'
+    path = write(MODEL + SIMULATION.replace("0.4", "0.1") + sensors)
+    assert call("run", path, "-q").code == 0
+    first = ancf.load("out/results.h5")
+    write(MODEL + SIMULATION.replace("0.4", "0.15") + sensors)
+    ran = call("run", path, "--resume")
+    assert ran.code == 0, ran.err
+    result = ancf.load("out/results.h5")
+    assert (result.status, result.t[-1], len(result.t)) == ("complete", 0.15, 601)
+    assert [entry["t"] for entry in result.provenance["resumed"]] == [first.t[-1]]
+    summary = json.loads(Path("out/summary.json").read_text(encoding="utf-8"))
+    assert (summary["t"], summary["stored_times"], summary["counters"]["steps"]) == (0.15, 601, 600)
+    assert len(Path("out/sensors.csv").read_text(encoding="utf-8").splitlines()) == 602
+
+
+@pytest.mark.parametrize(
+    ("text", "phrase"),
+    [
+        (MODEL.replace("E = 1e8", "E = 2e8") + SIMULATION, "is of another model"),
+        (
+            MODEL + SIMULATION.replace("2.5e-4", "1e-4"),
+            "was computed with step = 0.00025, the model",
+        ),
+        (MODEL + SIMULATION + 'integrator = "radau"\n', "was computed with integrator = 'trapezoidal'"),
+        (MODEL + SIMULATION.replace("0.4", "0.01"), "has reached t = 0.01 s"),
+        (MODEL + EQUILIBRIUM, "asks for no simulation"),
+    ],
+)
+def test_resumed_run_is_refused(call, text, phrase):
+    path = write(MODEL + SIMULATION.replace("0.4", "0.01"))
+    assert call("run", path, "-q").code == 0
+    before = Path("out/results.h5").read_bytes()
+    ran = call("run", write(text), "--resume")
+    assert ran.code == 2
+    assert phrase in ran.err
+    assert Path("out/results.h5").read_bytes() == before
+
+
+def test_resumed_run_without_a_file(call):
+    ran = call("run", write(MODEL + SIMULATION), "--resume")
+    assert ran.code == 2
+    assert "out/results.h5: there is no such file" in ran.err
+
+
 def test_quiet_run_prints_nothing(call):
     ran = call("run", write(MODEL + SIMULATION), "--quiet")
     assert (ran.code, ran.out, ran.err) == (0, "", "")

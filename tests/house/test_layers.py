@@ -22,6 +22,7 @@ LAYERS = (
     {"solvers"},
     {"results"},
     {"analysis"},
+    {"resumption"},
     {"viz"},
     {"verification"},
     {"catenary"},
@@ -200,3 +201,86 @@ class TestStart:
         done = python(code, self.HEAVY, options=STRICT)
         assert done.code == 0, done.err
         assert done.out == "[]\n"
+
+
+def graph():
+    """Modules of ancf that each imports: in functions and for types as well."""
+    paths = {".".join(_dotted(path)): path for path in ROOT.rglob("*.py")}
+    return {name: {m for m, _ in _targets(path, paths)} - {name} for name, path in paths.items()}
+
+
+def _dotted(path):
+    parts = ("ancf", *path.relative_to(ROOT).with_suffix("").parts)
+    return parts[:-1] if parts[-1] == "__init__" else parts
+
+
+def _targets(path, paths):
+    package = _dotted(path) if path.name == "__init__.py" else _dotted(path)[:-1]
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            base = ".".join([*package[: len(package) - node.level + 1]] if node.level else [])
+            base = ".".join(part for part in (base, node.module) if part)
+            found = [f"{base}.{alias.name}" for alias in node.names]
+            found = [name if name in paths else base for name in found]
+        else:
+            continue
+        yield from ((name, node.lineno) for name in found if name in paths)
+
+
+def circles(edges):
+    """Sets of modules each of which leads to all others of its set (Kosaraju)."""
+    order, seen = [], set()
+
+    def visit(node, follow, found):
+        stack = [(node, iter(follow[node]))]
+        seen.add(node)
+        while stack:
+            current, rest = stack[-1]
+            following = next((other for other in rest if other not in seen), None)
+            if following is None:
+                stack.pop()
+                found.append(current)
+            else:
+                seen.add(following)
+                stack.append((following, iter(follow[following])))
+
+    for node in edges:
+        if node not in seen:
+            visit(node, edges, order)
+    back = {node: set() for node in edges}
+    for node, others in edges.items():
+        for other in others:
+            back[other].add(node)
+    seen.clear()
+    sets = []
+    for node in reversed(order):
+        if node not in seen:
+            sets.append([])
+            visit(node, back, sets[-1])
+    return [sorted(found) for found in sets if len(found) > 1]
+
+
+class TestCircles:
+    def test_the_only_one_is_of_methods_that_draw(self):
+        """Of all imports, also those for types: without those of methods that draw there is no circle."""
+        edges = graph()
+        (only,) = circles(edges)
+        assert {name.split(".")[1] for name in only} == {"results", "viz"}
+        drawing = "ancf." + DRAWING[0].removesuffix(".py").replace("/", ".")
+        upward = {name for name in edges[drawing] if name.split(".")[1] == DRAWING[1]}
+        assert upward
+        assert circles({**edges, drawing: edges[drawing] - upward}) == []
+
+    def test_all_modules_are_looked_at(self):
+        edges = graph()
+        assert len(edges) == len(list(ROOT.rglob("*.py")))
+        assert "ancf.results.pictures" in edges["ancf.results.result"]
+        assert "ancf.viz.pictures.plot" in edges["ancf.results.pictures"]  # in a function
+        assert "ancf.model.checks" in edges["ancf.model.model"]  # from ancf.model import checks
+
+    def test_circles_are_found(self):
+        edges = {"a": {"b"}, "b": {"c"}, "c": {"b", "d"}, "d": set(), "e": {"a", "f"}, "f": {"e"}}
+        assert sorted(circles(edges)) == [["b", "c"], ["e", "f"]]
+        assert circles({"a": {"b"}, "b": set()}) == []

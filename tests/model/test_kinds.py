@@ -1,5 +1,6 @@
 """Every registered kind of support, load and connection is printed, in files, drawn and asked for."""
 
+import inspect
 import json
 import re
 
@@ -101,6 +102,16 @@ class TestKind:
         item, _ = found(model, group, word)
         plain = json.loads(json.dumps(model.to_dict()))[group]
         assert [p["type"] for p in plain if p["name"] == item.name] == [word]
+
+    def test_is_made_again_from_its_description(self, model, group, word):
+        item, kind = found(model, group, word)
+        again = ancf.Model.from_dict(json.loads(json.dumps(model.to_dict())))
+        twin = next(other for other in getattr(again, group) if other.name == item.name)
+        assert type(twin) is kind.item
+        assert again.to_dict() == model.to_dict()
+        plain = next(p for p in model.to_dict()[group] if p["name"] == item.name)
+        assert set(plain) - {"type"} <= set(inspect.signature(getattr(model, kind.method)).parameters)
+        assert {*(kind.keys or kind.ends), "name", "type"} <= set(plain)
 
     def test_has_a_table_in_files(self, model, group, word):
         _, kind = found(model, group, word)

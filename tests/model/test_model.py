@@ -342,7 +342,7 @@ class TestSupports:
         assert model.supports == [clamp, pin, hold]
         assert isinstance(clamp, Clamp)
         np.testing.assert_array_equal(clamp.axis, [0, 0, 1])
-        assert (clamp.stretch, clamp.rate, clamp.acceleration, clamp.displacement) == (
+        assert (clamp.stretch, clamp.rotation_rate, clamp.rotation_acceleration, clamp.displacement) == (
             "free",
             None,
             None,
@@ -356,7 +356,7 @@ class TestSupports:
     def test_exact_derivatives(self):
         model, beam = cantilever()
         clamp = model.clamp(beam.end, rotation="t**2", rotation_rate="2*t", rotation_acceleration=2)
-        assert (clamp.rate(3.0)[0], clamp.acceleration(3.0)[0]) == (6.0, 2.0)
+        assert (clamp.rotation_rate(3.0)[0], clamp.rotation_acceleration(3.0)[0]) == (6.0, 2.0)
 
     @pytest.mark.parametrize(
         ("given", "key", "phrase"),

@@ -497,11 +497,6 @@ class TestDescription:
         assert plain["supports"][1]["twist"] is True
         assert plain["loads"][0]["point"] == "beam.at(0.5, 0.01, 0)"
 
-    def test_of_cables_is_as_before(self):
-        model, _ = cantilever(element="cable", section=square())
-        model.add_beam("arc", path=arc, elements=3, section=square())
-        assert all("y_axis" not in body and "node_y" not in body for body in model.to_dict()["bodies"])
-
     def test_table_of_the_command_line(self):
         model, _ = cantilever()
         model.add_beam("rope", start=(0, 1, 0), end=(1, 1, 0), elements=2, section=square())

@@ -490,7 +490,7 @@ class TestFile:
         assert plain[1]["b"] == [0, 0, 0]
         assert plain[2] == {**HINGE, "a": "hub.centre"}
         assert (plain[3]["to"], plain[3]["stretch"]) == ("hub", "fixed")
-        assert (plain[4]["carrier"], plain[4]["force"], plain[4]["s"]) == ("rope", "2*t", pytest.approx(0.3))
+        assert (plain[4]["along"], plain[4]["force"], plain[4]["s"]) == ("rope", "2*t", pytest.approx(0.3))
         assert (plain[5]["line"], plain[5]["s"]) == ([[0, 0, 0], [0, 0, 1]], 0.5)
 
     @pytest.mark.parametrize(

@@ -3,9 +3,6 @@
 import json
 import os
 import signal
-import subprocess
-import sys
-import time
 
 import h5py
 import numpy as np
@@ -15,8 +12,8 @@ import ancf
 from ancf.elements.registry import ELEMENTS
 from ancf.model.elements import KINDS
 from ancf.results.store import FileStore
-from commands import PATIENCE
 from helpers import SOLIDS, arc, square
+from long_run import reported_by, started
 
 
 def model_of_two(element="cable"):
@@ -165,9 +162,12 @@ class TestStates:
         with pytest.raises((IndexError, ancf.ModelError)):
             run[0].state(1000)
 
-    def test_loaded_result_has_no_model(self, run):
-        with pytest.raises(ancf.ModelError, match="a loaded result has no model"):
-            ancf.load(run[2]).state()
+    def test_loaded_result_has_the_states(self, run):
+        for index in (0, 17, -1):
+            mine, loaded = run[0].state(index), ancf.load(run[2]).state(index)
+            assert (loaded.t, loaded.energy.total) == (mine.t, mine.energy.total)
+            assert np.array_equal(loaded.q, mine.q)
+            assert np.array_equal(loaded.v, mine.v)
 
 
 class TestProvenance:
@@ -209,7 +209,8 @@ class TestFile:
     def test_time_is_written_last(self, run, tmp_path, monkeypatch):
         """Otherwise the torn block above would have a time and no values."""
         system, memory = run[0].state().system, run[0]
-        store = FileStore(tmp_path / "half.h5", system, {"settings": {}})
+        header = {"settings": {}, "model": system.model.to_dict()}
+        store = FileStore(tmp_path / "half.h5", system, header)
         monkeypatch.setattr("ancf.results.store.energies", lambda *_: np.zeros((7, 7)))
         with pytest.raises((TypeError, ValueError)):
             store.append(memory.t, memory.q, memory.v, np.zeros((len(memory.t), 2)))
@@ -228,33 +229,6 @@ class TestFile:
             ancf.load(tmp_path / "nothing.h5")
         with pytest.raises(ancf.ModelError):
             ancf.load(tmp_path)
-
-
-LONG_RUN = """
-import sys, ancf
-model = ancf.Model(gravity=(0, 0, -9.81))
-section = ancf.Section(EA=2e3, EI=0.1, rhoA=0.4)
-beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=8, section=section)
-model.pin(beam.start)
-print("ready", flush=True)
-tell = lambda p: print(p.step, flush=True)
-ancf.simulate(model, t_end=1e4, step=1e-3, file=sys.argv[1], progress=tell)
-"""
-
-
-def started(path, steps):
-    """A run in another process that has reported so many steps, and the number it reported last."""
-    child = subprocess.Popen([sys.executable, "-c", LONG_RUN, str(path)], stdout=subprocess.PIPE, text=True)
-    assert child.stdout.readline() == "ready\n"
-    return child, reported_by(child, steps)
-
-
-def reported_by(child, steps):
-    reported, end = 0, time.monotonic() + PATIENCE
-    while reported < steps and time.monotonic() < end:
-        reported = int(child.stdout.readline())
-    assert reported >= steps
-    return reported
 
 
 def test_run_that_goes_on(tmp_path):

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .plan import RUN_IN, Plan
 from .signals import CUT_OFF, at_zero
 
 if TYPE_CHECKING:
-    from .plan import Plan
     from .run_data import Run
 
 #: Share of the wave speed from which on the forces grow without limit.
@@ -20,8 +20,6 @@ LARGEST = 0.9
 #: Largest step, s: the implicit rules shift a wave by a twelfth of the square of its angle in a step, and
 #: 4 ms are half a radian at the cut-off.
 LONGEST = 4e-3
-#: Track that the first pantograph runs before the window, m: its start dies away.
-RUN_IN = 50.0
 #: Losses of contact of one or two steps from which on they are chatter.
 CHATTER = 3
 

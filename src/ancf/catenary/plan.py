@@ -13,7 +13,6 @@ from ancf.errors import ModelError
 from ancf.model import checks
 
 from .catalogue import read_line
-from .cautions import RUN_IN
 from .collectors import Touch
 from .form import Form, form
 from .line import Line
@@ -23,6 +22,8 @@ from .travel import Travel
 
 #: Where the last pantograph starts, as a share of the first span.
 START = 1.0 / 3.0
+#: Track that the first pantograph runs before the window, m: its start dies away.
+RUN_IN = 50.0
 #: Track beyond the window that the last pantograph still runs, m: a filter needs to see it.
 BEYOND = 40.0
 

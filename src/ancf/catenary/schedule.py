@@ -5,12 +5,12 @@ from __future__ import annotations
 import csv
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from ancf.files import writing
+from ancf.model.checks import FloatArray
 
-if TYPE_CHECKING:
-    from .form import Form
+from .line import Line
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,41 @@ COLUMNS = (
 DECIMALS = (0, 0, 3, 3, 1, 1, 1, 1, 1)
 
 
-def rows(form: Form) -> list[Row]:
+class Formed(Protocol):
+    """What a form has; arrays in the order of the droppers along the track."""
+
+    @property
+    def line(self) -> Line:
+        """The line."""
+        ...
+
+    @property
+    def dropper_length(self) -> FloatArray:
+        """From clamp to clamp, m."""
+        ...
+
+    @property
+    def dropper_natural(self) -> FloatArray:
+        """The same without force, m."""
+        ...
+
+    @property
+    def dropper_load(self) -> FloatArray:
+        """Tension at the lower end, N."""
+        ...
+
+    @property
+    def contact_height(self) -> FloatArray:
+        """Height of the contact wire, m."""
+        ...
+
+    @property
+    def messenger_height(self) -> FloatArray:
+        """Height of the messenger wire, m."""
+        ...
+
+
+def rows(form: Formed) -> list[Row]:
     """Rows in the order of the droppers along the track."""
     line = form.line
     places = [x for span in line.spans for x in span.droppers]

@@ -37,6 +37,7 @@ Verify = Annotated[
     bool,
     typer.Option("--verify", help="Compute again with half the step, with twice the elements, and compare."),
 ]
+Resume = Annotated[bool, typer.Option("--resume", help="Go on where OUT/results.h5 ends.")]
 Names = Annotated[
     list[str] | None,
     typer.Argument(metavar="NAMES", help="Figures and tables, such as fig2, or all.", show_default="all"),
@@ -134,16 +135,23 @@ def _common(
 
 
 @app.command()
-def run(model: ModelFile, output: Folder = Path("out"), quiet: Quiet = False, verify: Verify = False) -> None:
+def run(
+    model: ModelFile,
+    output: Folder = Path("out"),
+    quiet: Quiet = False,
+    verify: Verify = False,
+    resume: Resume = False,
+) -> None:
     """Compute what a model file asks for.
 
     Writes OUT/results.h5 while it runs, and OUT/summary.json at the end. With --verify it computes again with
     half the step and twice the elements, prints how much every output changes, and writes OUT/verify.json.
+    With --resume a run that was stopped, or that has a later t_end now, goes on where OUT/results.h5 ends.
     """
     with reported():
         from ancf.cli.run import run_file
 
-        run_file(model, output, quiet, verify)
+        run_file(model, output, quiet, verify, resume)
 
 
 @app.command()

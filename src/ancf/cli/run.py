@@ -3,24 +3,30 @@
 from __future__ import annotations
 
 import time
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ancf.cli.output import OutputFolder
 from ancf.cli.screen import Screen, console
 from ancf.errors import ModelError, SolveError
+from ancf.model.checks import shown
 from ancf.model.file import Study, read_study
 from ancf.model.integrators import Integrator
 from ancf.model.model import Model
+from ancf.model.points import Point
 from ancf.model.settings import SimulationSettings
 
 if TYPE_CHECKING:
     from ancf import Result, State
 
 
-def run_file(path: Path, folder: Path, quiet: bool = False, verify: bool = False) -> None:
+def run_file(
+    path: Path, folder: Path, quiet: bool = False, verify: bool = False, resume: bool = False
+) -> None:
     """Read, compute, write and print; with `verify` compute again, finer, and compare.
+
+    With `resume` the simulation goes on where the results file in the folder ends.
 
     Raises
     ------
@@ -34,10 +40,12 @@ def run_file(path: Path, folder: Path, quiet: bool = False, verify: bool = False
     if study.simulation is None and study.equilibrium is None:
         hint = "add a table [simulation] with t_end and step, or [equilibrium]"
         raise ModelError(str(path), "nothing to compute", hint)
+    if resume and study.simulation is None:
+        raise ModelError(str(path), "asks for no simulation that could go on", "leave out --resume")
     output = OutputFolder(folder)
     with output.locked():
         output.clear()
-        run = Run(study, path, output, Screen(quiet))
+        run = Run(study, path, output, Screen(quiet), resume)
         result = run.compute()
         if verify:
             run.verify(result)
@@ -46,8 +54,11 @@ def run_file(path: Path, folder: Path, quiet: bool = False, verify: bool = False
 class Run:
     """One run of a study."""
 
-    def __init__(self, study: Study, path: Path, output: OutputFolder, screen: Screen) -> None:
+    def __init__(
+        self, study: Study, path: Path, output: OutputFolder, screen: Screen, resume: bool = False
+    ) -> None:
         self.study, self.path, self.output, self.screen = study, path, output, screen
+        self.resume = resume
         self.start = time.perf_counter(), time.process_time()
 
     def compute(self) -> Result:
@@ -89,8 +100,20 @@ class Run:
         settings = self.study.simulation
         if settings is None:
             return self._statics()
+        if self.resume:
+            return self._resumed(settings)
         method = settings.integrator
         return self._simulation(settings, self.study.model, method, self.output.results)
+
+    def _resumed(self, settings: SimulationSettings) -> Result:
+        import ancf
+        from ancf.cli.results_file import open_result
+
+        path = self.output.results
+        old = open_result(path)
+        _check_same(old, self.study, path)
+        with self.screen.progress(round((settings.t_end - float(old.t[-1])) / settings.step)) as report:
+            return ancf.resume(path, t_end=settings.t_end, progress=report)
 
     def _simulation(
         self, settings: SimulationSettings, model: Model, method: Integrator, file: Path
@@ -149,3 +172,27 @@ class Run:
         except (OSError, ModelError) as other:
             note = "summary and table cannot be written"
             error.add_note(f"{self.output.path}: {note}: {getattr(other, 'strerror', None) or other}")
+
+
+def _check_same(old: Result, study: Study, path: Path) -> None:
+    """Raise ModelError if a results file is of another model, or of another simulation of it."""
+    hint = "run it without --resume, which replaces the file"
+    if old.model.to_dict() != study.model.to_dict():
+        raise ModelError(str(path), "is of another model than this file describes", hint)
+    wanted, settings = study.simulation, old.provenance["settings"]
+    assert wanted is not None
+    recorded = [study.model.sensor(name) for name in wanted.sensors]
+    points = [str(item) for item in recorded if isinstance(item, Point)]
+    given = {
+        "step": wanted.step,
+        "output_step": wanted.output_step or wanted.step,
+        "integrator": wanted.integrator.name,
+        "method": asdict(wanted.integrator),
+        "sensors": list(
+            dict.fromkeys([*points, *(item.name for item in recorded if not isinstance(item, Point))])
+        ),
+    }
+    for key, value in given.items():
+        if settings.get(key) != value:
+            what = f"was computed with {key} = {shown(settings.get(key))}, the model file has {shown(value)}"
+            raise ModelError(str(path), what, hint)

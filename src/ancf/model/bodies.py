@@ -15,6 +15,7 @@ from ancf.model.checks import FloatArray
 from ancf.model.points import Point
 
 ROUNDING = 1e-9  # relative, of what a user computed: symmetry and triangle inequality of an inertia
+ROUND_OFF = 1e-14  # of a rotation matrix that is left as it is
 NOT_A_ROTATION = 1e-6  # largest deviation of axes from a rotation that is taken for rounding
 
 
@@ -235,11 +236,14 @@ def _check_moments(matrix: FloatArray, where: str) -> None:
 
 def _axes(given: Any, where: str) -> FloatArray:
     matrix = checks.array(given, where, (3, 3))
-    left, stretch, right = np.linalg.svd(np.clip(matrix, -2.0, 2.0))
+    clipped = np.clip(matrix, -2.0, 2.0)
+    left, stretch, right = np.linalg.svd(clipped)
     if np.max(np.abs(stretch - 1.0)) > NOT_A_ROTATION or np.max(np.abs(matrix)) > 2.0:
         what = "must be a rotation matrix, its columns orthonormal: the body axes in global directions"
         raise ModelError(where, f"{what}; is {matrix.tolist()}")
     if np.linalg.det(matrix) < 0.0:
         raise ModelError(where, "is left-handed: its third column must be the first x the second")
+    if np.max(np.abs(clipped.T @ clipped - np.eye(3))) <= ROUND_OFF:
+        return matrix
     nearest: FloatArray = left @ right
     return nearest

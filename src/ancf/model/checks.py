@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ancf.errors import ModelError
 
 FloatArray = npt.NDArray[np.float64]
+UNIT = 8 * float(np.finfo(np.float64).eps)  # deviation of a square from 1 that is round-off
 LARGEST = 1e100  # of a coordinate in m or of an inertia in kg m^2
 
 
@@ -107,11 +108,13 @@ def place(value: object, where: str) -> FloatArray:
 
 
 def direction(value: object, where: str) -> FloatArray:
-    """Unit vector along three numbers that are not all zero."""
+    """Unit vector along three numbers that are not all zero; one that is of unit length stays as it is."""
     clean = vector(value, where)
     largest = float(np.max(np.abs(clean)))
     if largest == 0.0:
         raise ModelError(where, "must not be the zero vector")
+    if largest <= 1.0 + UNIT and abs(float(clean @ clean) - 1.0) <= UNIT:
+        return clean
     clean = clean / largest
     return clean / float(np.linalg.norm(clean))
 

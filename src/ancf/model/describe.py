@@ -10,6 +10,8 @@ import numpy as np
 from ancf.model.beam import Beam
 from ancf.model.bodies import Body, PointMass, RigidBody
 from ancf.model.functions import TimeFunction
+from ancf.model.kind import Kind
+from ancf.model.layout import PLACED, is_straight
 from ancf.model.points import Point
 from ancf.model.section import DAMPINGS, MOMENTS, Rectangle, Section
 from ancf.model.state_function import StateFunction
@@ -32,7 +34,7 @@ def section(item: Section) -> dict[str, Any]:
 
 def section_of(plain: dict[str, Any]) -> Section:
     """The Section that ``section`` described."""
-    given = {key: plain.get(key, 0.0) for key in DAMPINGS}  # older files have fewer
+    given = {key: plain[key] for key in DAMPINGS}
     kind = plain.get("shape")
     if kind is None:
         return Section(EA=plain["EA"], EI=plain["EI_y"], rhoA=plain["rhoA"], **given)
@@ -69,7 +71,7 @@ def rigid_body(item: RigidBody) -> dict[str, Any]:
 
 
 def beam(item: Beam) -> dict[str, Any]:
-    """All of a beam; values at the nodes only when it is curved, node_x only when uneven."""
+    """All of a beam; values at the nodes only when they are needed, arc lengths only when uneven."""
     plain: dict[str, Any] = {"type": "beam", "name": item.name, "section": section(item.section)}
     for key in ("element", "strain", "poisson", "natural_shape", "length", "stretch", "elements"):
         plain[key] = getattr(item, key)
@@ -77,23 +79,36 @@ def beam(item: Beam) -> dict[str, Any]:
     plain["start"], plain["end"] = item.node_position[0].tolist(), item.node_position[-1].tolist()
     if not np.array_equal(item.node_x, np.linspace(0.0, item.length, item.elements + 1)):
         plain["nodes"] = item.node_x.tolist()
-    if item.has_section:
-        plain["y_axis"] = item.node_y[0].tolist()
-    if not np.all(item.node_tangent == item.node_tangent[0]):
-        for key in ("node_position", "node_tangent", *(["node_y"] if item.has_section else [])):
-            plain[key] = getattr(item, key).tolist()
+    plain["y_axis"] = item.node_y[0].tolist()
+    if not is_straight(item):
+        plain |= {key: getattr(item, key).tolist() for key in PLACED}
     plain["motion"] = {key: getattr(item, key).tolist() for key in MOTION}
     return plain
 
 
-def other(item: Any, kind: str) -> dict[str, Any]:
-    """A support, load or connection: its type and its fields."""
-    return {"type": kind, **{field.name: _plain(getattr(item, field.name)) for field in fields(item)}}
+def other(item: Any, kind: Kind) -> dict[str, Any]:
+    """A support, load or connection: its type and its fields, under the keys of its method and of files."""
+    keys = dict(zip(kind.ends, kind.keys or kind.ends, strict=True))
+    names = (field.name for field in fields(item))
+    return {"type": kind.word, **{keys.get(name, name): _plain(getattr(item, name)) for name in names}}
+
+
+def point(item: Point) -> str:
+    """A point as text from which the very same point is read: its label, or all digits of its place."""
+    if item.label == item.body.name or item.label.endswith((".start", ".end", ".centre")):
+        return item.label
+    shown = (item.x, item.y, item.z) if item.eccentric else (item.x,)
+    return f"{item.body.name}.at({', '.join(map(_digits, shown))})"
+
+
+def _digits(value: float) -> str:
+    short = f"{value:.12g}"
+    return short if float(short) == value else repr(float(value))
 
 
 def _plain(value: Any) -> Any:
     if isinstance(value, Point):
-        return value.label
+        return point(value)
     if isinstance(value, Beam | PointMass | RigidBody):
         return value.name
     if isinstance(value, TimeFunction | StateFunction):

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,15 +17,32 @@ from ancf.model.expression import Expression
 
 Evaluate = Callable[[FloatArray], FloatArray]
 
+#: How a Python function stands in a description.
+DESCRIBED = re.compile(r"<function (.*)>", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class Missing:
+    """A Python function of which a description knows the name alone."""
+
+    name: str
+
+    @classmethod
+    def of(cls, text: object) -> Missing | None:
+        """From ``<function name>``, or None for anything else."""
+        found = DESCRIBED.fullmatch(text) if isinstance(text, str) else None
+        return None if found is None else cls(found[1])
+
 
 class TimeFunction:
     """A value of `size` numbers that may depend on time.
 
     Parameters
     ----------
-    given : number, sequence, str, callable, mapping or TimeFunction
+    given : number, sequence, str, callable, mapping, Missing or TimeFunction
         A constant; a formula of t (``"sin(2*pi*t)"``) or, for size 3, a list of numbers and formulas;
-        a Python function of t in s that returns a number or a (3,) array; ``{"t": ..., "value": ...}``.
+        a Python function of t in s that returns a number or a (3,) array; ``{"t": ..., "value": ...}``;
+        a function that is missing, whose values cannot be had.
     size : int
         1 or 3.
     where : str
@@ -49,12 +68,18 @@ class TimeFunction:
         self.size, self.where = size, where
         self.given: Any = given.given if isinstance(given, TimeFunction) else given
         self._evaluate, self.constant = self._interpret(self.given)
-        self.table(np.zeros(1))
+        if not self.missing:
+            self.table(np.zeros(1))
 
     @classmethod
     def from_table(cls, t: Any, value: Any, size: int, where: str) -> TimeFunction:
         """Linear interpolation of values (n,) or (n, 3) at increasing times (n,), constant outside."""
         return cls({"t": t, "value": value}, size, where)
+
+    @property
+    def missing(self) -> str:
+        """Name of the Python function that a description could not keep, or nothing."""
+        return self.given.name if isinstance(self.given, Missing) else ""
 
     def __deepcopy__(self, memo: dict[int, Any]) -> TimeFunction:
         return self  # it never changes, and what it calls may be anything
@@ -99,6 +124,8 @@ class TimeFunction:
         return plain(self.given)
 
     def _interpret(self, given: Any) -> tuple[Evaluate, bool]:
+        if isinstance(given, Missing):
+            return self._refuse, False
         if isinstance(given, Mapping):
             return self._from_mapping(given)
         if callable(given):
@@ -106,6 +133,10 @@ class TimeFunction:
         if self.size == 1:
             return self._join([self._component(given, self.where)])
         return self._join(self._components(given))
+
+    def _refuse(self, times: FloatArray) -> FloatArray:
+        what = f'is the Python function "{self.missing}", of which a description keeps the name only'
+        raise ModelError(self.where, what, "build the model with the script that has it")
 
     def _components(self, given: Any) -> list[Expression | float]:
         if isinstance(given, str) or not isinstance(given, Sequence | np.ndarray):
@@ -187,6 +218,8 @@ def _wanted(size: int) -> str:
 
 def plain(given: Any) -> Any:
     """JSON-able form of what a user gave for a function; a Python function as ``<function name>``."""
+    if isinstance(given, Missing):
+        return f"<function {given.name}>"
     if isinstance(given, np.ndarray | np.generic):
         return given.tolist()
     if isinstance(given, Mapping):

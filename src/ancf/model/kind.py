@@ -118,6 +118,5 @@ class Kind:
 
 def body_of(end: Any) -> Body | None:
     """The body of an end; None: a fixed position."""
-    if isinstance(end, Point):
-        return end.body
-    return end if isinstance(end, Body) else None
+    body = end.body if isinstance(end, Point) else end
+    return body if isinstance(body, Body) else None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -17,12 +18,15 @@ from ancf.model.beam import (
     NODE_TOLERANCE,
     POISSON,
     Beam,
+    Shape,
 )
 from ancf.model.checks import FloatArray
 from ancf.model.elements import KINDS
 from ancf.model.section import MATERIAL, Section
 from ancf.model.shapes import Rectangle
 
+#: What the nodes of a beam have in the initial shape.
+PLACED = ("node_position", "node_tangent", "node_y")
 MOST_TURN = 2 * math.pi / 3  # rad, of the tangent within an element of a beam
 
 
@@ -45,13 +49,8 @@ def make_beam(
     y_axis: Any,
 ) -> Beam:
     """Check everything that ``Model.add_beam`` was given and lay out the nodes."""
-    kind = checks.choice(element, f"{where}.element", tuple(KINDS))
-    words = {
-        "element": kind,
-        "strain": _strain(strain, kind, f"{where}.strain"),
-        "poisson": checks.choice(poisson, f"{where}.poisson", POISSON),
-        "natural_shape": checks.choice(natural_shape, f"{where}.natural_shape", NATURAL_SHAPES),
-    }
+    words = _words(where, element, strain, poisson, natural_shape)
+    kind = words["element"]
     _check_section(section, kind, f"{where}.section")
     arc_length, shape = _initial_shape(where, start, end, path)
     natural = arc_length if length is None else checks.positive(length, f"{where}.length")
@@ -83,6 +82,82 @@ def make_beam(
         lay=lay,
         **words,
     )
+
+
+def placed_beam(
+    where: str, name: str, section: Section, take: Callable[[str], Any], given: Mapping[str, Any]
+) -> Beam:
+    """Beam of a description: to the last bit the one that was described.
+
+    ``take`` gives what must be there. Positions, tangents and local y axes of the nodes are there where
+    they do not follow from the two ends and ``y_axis``.
+    """
+    words = _words(where, *(take(key) for key in ("element", "strain", "poisson", "natural_shape")))
+    _check_section(section, words["element"], f"{where}.section")
+    length = checks.positive(take("length"), f"{where}.length")
+    nodes = given.get("nodes")
+    node_x = _node_x(where, take("elements") if nodes is None else None, nodes, length)
+    lay = None if "node_position" in given else _lay_between(where, take)
+    position, tangent, y = _rows(where, node_x.size, take) if lay is None else lay(node_x / length)
+    return Beam(
+        name=name,
+        section=section,
+        gauss=_gauss(take("gauss"), words["element"], section, f"{where}.gauss"),
+        length=length,
+        stretch=checks.positive(take("stretch"), f"{where}.stretch"),
+        node_x=node_x,
+        node_position=position,
+        node_tangent=tangent,
+        node_y=y,
+        velocity=np.zeros(3),
+        angular_velocity=np.zeros(3),
+        about=position[0].copy(),
+        lay=lay,
+        **words,
+    )
+
+
+def _rows(where: str, count: int, take: Callable[[str], Any]) -> Iterator[FloatArray]:
+    """What a description says of the nodes, (count, 3) each."""
+    for key in PLACED:
+        rows = checks.array(take(key), f"{where}.{key}", (None, 3))
+        if len(rows) != count:
+            raise ModelError(f"{where}.{key}", f"has {len(rows)} rows for {count} nodes")
+        yield rows
+
+
+def _lay_between(where: str, take: Callable[[str], Any]) -> Shape:
+    start, end = (checks.place(take(key), f"{where}.{key}") for key in ("start", "end"))
+    return straight_between(start, end, checks.direction(take("y_axis"), f"{where}.y_axis"))
+
+
+def straight_between(start: FloatArray, end: FloatArray, y: FloatArray) -> Shape:
+    """Positions, tangents and local y axes at fractions of a straight beam."""
+
+    def lay(fraction: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        return *path.straight(start, end, fraction), np.tile(y, (fraction.size, 1))
+
+    return lay
+
+
+def is_straight(beam: Beam) -> bool:
+    """Whether its nodes follow from its ends and its first y axis, to the last bit."""
+    start, end = beam.node_position[[0, -1]]
+    if np.array_equal(start, end) or beam.stretch != math.dist(start, end) / beam.length:
+        return False
+    rows = straight_between(start, end, beam.node_y[0])(beam.node_x / beam.length)
+    return all(np.array_equal(getattr(beam, key), mine) for key, mine in zip(PLACED, rows, strict=True))
+
+
+def _words(where: str, element: Any, strain: Any, poisson: Any, natural_shape: Any) -> dict[str, str]:
+    """Kind of element, strain measure, Poisson effect and natural shape."""
+    kind = checks.choice(element, f"{where}.element", tuple(KINDS))
+    return {
+        "element": kind,
+        "strain": _strain(strain, kind, f"{where}.strain"),
+        "poisson": checks.choice(poisson, f"{where}.poisson", POISSON),
+        "natural_shape": checks.choice(natural_shape, f"{where}.natural_shape", NATURAL_SHAPES),
+    }
 
 
 def _check_section(section: Any, element: str, where: str) -> None:

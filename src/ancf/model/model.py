@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from copy import copy
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ancf.errors import ModelError
-from ancf.model import checks, describe
+from ancf.model import checks, describe, rebuild
 from ancf.model.beam import Beam
 from ancf.model.bodies import Body, PointMass, RigidBody, make_point_mass, make_rigid_body
 from ancf.model.checks import FloatArray
@@ -15,6 +16,7 @@ from ancf.model.joints import Fixation
 from ancf.model.kinds import GROUPS, all_kinds, kind_of
 from ancf.model.layout import make_beam
 from ancf.model.loads import DistributedLoad, Force, Load, Moment, make_distributed, make_moment
+from ancf.model.overview import of_model
 from ancf.model.points import Point, initial_position
 from ancf.model.section import Section
 from ancf.model.state_function import force_function
@@ -86,8 +88,6 @@ class Model(Connecting, Readable):
         return sorted({*super().__dir__(), *(kind.method for kind in all_kinds())})
 
     def _sheet(self) -> Sheet:
-        from ancf.model.overview import of_model
-
         return of_model(self)
 
     def add_beam(
@@ -346,12 +346,48 @@ class Model(Connecting, Readable):
         return item
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain description, ready for JSON; Python functions as ``<function name>``."""
+        """Plain description, ready for JSON, of which :meth:`from_dict` makes the model again.
+
+        Python functions stand there as ``<function name>``.
+        """
         plain: dict[str, Any] = {"title": self.title, "gravity": self.gravity.tolist()}
         plain["bodies"] = [describe.body(body) for body in self.bodies.values()]
         for key in GROUPS:
-            plain[key] = [describe.other(item, kind_of(item).word) for item in getattr(self, key)]
+            plain[key] = [describe.other(item, kind_of(item)) for item in getattr(self, key)]
         return plain
+
+    @classmethod
+    def from_dict(cls, plain: dict[str, Any]) -> Model:
+        """The model that :meth:`to_dict` described, to the last bit, also after JSON.
+
+        Python functions cannot be described: what had one is there and says so when its value is asked
+        for, which a computation does. Beams that were not straight cannot be refined.
+
+        Raises
+        ------
+        ModelError
+            It is no description of a model; ``where`` is ``bodies[2].mass`` and so on.
+
+        """
+        table = rebuild.Table(plain, "model")
+        model = cls(table.take("gravity"), table.take("title"))
+        for body, where in rebuild.bodies(table):
+            model._names.of_body(body.name, where)
+            model._add_body(body)
+        rebuild.items(model, table)
+        return model
+
+    def snapshot(self) -> Model:
+        """The model as it is now: what is added to one later is not in the other."""
+        other = copy(self)
+        other.bodies, other._names = dict(self.bodies), copy(self._names)
+        for key in GROUPS:
+            setattr(other, key, list(getattr(self, key)))
+        return other
+
+    def missing_functions(self) -> list[tuple[str, str]]:
+        """Items that had a Python function, and its name, where a description could not keep it."""
+        return [pair for key in GROUPS for item in getattr(self, key) for pair in rebuild.missing(item)]
 
     def _at_node(self, method: str, point: object, name: object) -> tuple[str, Point]:
         where = self._where(method, name, point)

@@ -21,6 +21,11 @@ class Names:
     def __init__(self) -> None:
         self._taken: dict[str, str] = {}
 
+    def __copy__(self) -> Names:
+        other = Names()
+        other._taken = dict(self._taken)
+        return other
+
     def of_body(self, given: object, where: str) -> str:
         """Check a body's name: letters, digits, _, - and spaces, not taken."""
         name = checks.text(given, f"{where}.name")

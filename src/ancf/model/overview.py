@@ -1,21 +1,17 @@
-"""Overview of a model and of a section: the sheets that ``print`` and notebooks show."""
+"""Overview of a model: the sheet that ``print`` and notebooks show."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from ancf.model.beam import Beam
 from ancf.model.bodies import Body, kind
+from ancf.model.checks import FloatArray
 from ancf.model.kind import Kind
 from ancf.model.kinds import kind_of
-from ancf.model.section import DAMPINGS, Section
-from ancf.model.shapes import Circle, Rectangle
 from ancf.model.sheets import place
-from ancf.model.tables import Sheet, Table, counted, number, numbers, plural, with_units
-
-if TYPE_CHECKING:
-    from ancf.model.model import Model
+from ancf.model.tables import Sheet, Table, counted, number, numbers, plural
 
 BODY_COLUMNS = (
     "body",
@@ -28,10 +24,20 @@ BODY_COLUMNS = (
     "from [m]",
     "to [m]",
 )
-DAMPING_UNITS = ("N s/m^2", "N s", "N m^2 s", "N s")
 
 
-def of_model(model: Model) -> Sheet:
+class Described(Protocol):
+    """What a Model has."""
+
+    title: str
+    gravity: FloatArray
+    bodies: dict[str, Body]
+    supports: list[Any]
+    loads: list[Any]
+    connections: list[Any]
+
+
+def of_model(model: Described) -> Sheet:
     """Bodies, supports, loads and connections of a model; of hundreds the first and the last."""
     bodies = list(model.bodies.values())
     facts = [
@@ -70,37 +76,6 @@ def body_table(bodies: Iterable[Body]) -> Table:
 def mass(body: Body) -> float:
     """Mass of a body, kg."""
     return body.section.rhoA * body.length if isinstance(body, Beam) else body.mass
-
-
-def of_section(section: Section) -> Sheet:
-    """Shape, material, stiffnesses, mass and damping of a section."""
-    s = section
-    material = with_units((("E", s.E, "N/m^2"), ("nu", s.nu, ""), ("rho", s.rho, "kg/m^3")))
-    moments = (("A", s.A, "m^2"), ("I_y", s.I_y, "m^4"), ("I_z", s.I_z, "m^4"), ("J", s.J, "m^4"))
-    damping = zip(DAMPINGS, (getattr(s, key) or None for key in DAMPINGS), DAMPING_UNITS, strict=True)
-    facts = [
-        ("shape", _shape(s)),
-        ("material", material),
-        ("moments", with_units(moments)),
-        ("stiffness", with_units((("EA", s.EA, "N"), *_bending(s)))),
-        ("mass", with_units((("rhoA", s.rhoA, "kg/m"),))),
-        ("damping", with_units(damping)),
-    ]
-    return Sheet("Section", facts)
-
-
-def _bending(s: Section) -> tuple[tuple[str, float, str], ...]:
-    if s.EI_y == s.EI_z:
-        return (("EI", s.EI_y, "N m^2"),)
-    return ("EI_y", s.EI_y, "N m^2"), ("EI_z", s.EI_z, "N m^2")
-
-
-def _shape(s: Section) -> str:
-    if isinstance(s.shape, Rectangle):
-        return f"rectangle, {number(s.shape.width)} x {number(s.shape.height)} m"
-    if isinstance(s.shape, Circle):
-        return f"circle, diameter {number(s.shape.diameter)} m"
-    return "" if s.A is None else "given by its moments"
 
 
 def _body(body: Body) -> tuple[str, ...]:

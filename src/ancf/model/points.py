@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
-if TYPE_CHECKING:
-    from ancf.model.bodies import Body
-    from ancf.model.checks import FloatArray
+from ancf.model.checks import FloatArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,7 +27,7 @@ class Point:
 
     """
 
-    body: Body
+    body: Any  # these classes make points, and are not known here
     x: float
     label: str
     y: float = 0.0
@@ -52,12 +50,14 @@ class Point:
     @property
     def eccentric(self) -> bool:
         """Whether the point is off a beam's centreline or off a rigid body's centre of mass."""
-        return self.body.off_centre(self.x, self.y, self.z)
+        off: bool = self.body.off_centre(self.x, self.y, self.z)
+        return off
 
     @property
     def initial_position(self) -> FloatArray:
         """Initial position (3,), m."""
-        return self.body.initial_position(self.x, self.y, self.z)
+        position: FloatArray = self.body.initial_position(self.x, self.y, self.z)
+        return position
 
     @property
     def _key(self) -> tuple[str, float, float, float]:

@@ -8,6 +8,7 @@ from typing import Any
 
 from ancf.errors import ModelError
 from ancf.model import checks
+from ancf.model.section_sheet import of_section
 from ancf.model.shapes import Circle, Rectangle
 from ancf.model.tables import Readable, Sheet
 
@@ -266,9 +267,7 @@ class Section(Readable):
         return self.EI_y
 
     def _sheet(self) -> Sheet:
-        from ancf.model.overview import of_section
-
-        return of_section(self)
+        return of_section(self, DAMPINGS)
 
     @property
     def damped(self) -> bool:

@@ -172,7 +172,7 @@ def _start(
     key, start = "point", found
     if s is not None:
         key, start = "s", checks.number(s, f"{where}.s")
-    if motion is not None:
+    if motion is not None and not (motion.missing and s is not None):
         begins = float(motion(0.0)[0])
         if s is not None and abs(start - begins) > NODE_TOLERANCE * track.length:
             raise ModelError(f"{where}.s", f"is {start:.9g} m, but motion starts from {begins:.9g} m")

@@ -43,7 +43,7 @@ class Clamp:
     stretch : str
         "free": the directions of r_x, r_y, r_z are held, their lengths are free; "fixed": all of them
         is held. A rigid body has no slopes, "free" says nothing there.
-    rotation, rate, acceleration : TimeFunction or None
+    rotation, rotation_rate, rotation_acceleration : TimeFunction or None
         Angle of the slopes or the body about `axis` from the initial ones, rad, and its exact derivatives.
     axis : (3,) array
         Unit vector.
@@ -56,8 +56,8 @@ class Clamp:
     point: Point
     stretch: str
     rotation: TimeFunction | None
-    rate: TimeFunction | None
-    acceleration: TimeFunction | None
+    rotation_rate: TimeFunction | None
+    rotation_acceleration: TimeFunction | None
     axis: FloatArray
     displacement: TimeFunction | None
 

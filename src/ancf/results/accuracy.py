@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import ModelError
 from ..model.beam import Beam
 from ..solvers.locking import locked, stiffest
 from ..system.consistency import nearly_dependent
-
-if TYPE_CHECKING:
-    from .result import Result
-    from .state import State
+from .faces import History, Instant
 
 FloatArray = NDArray[np.float64]
 
@@ -27,7 +23,7 @@ MOST_NAMED = 4
 KEEPING = ("trapezoidal", "explicit")
 
 
-def of_state(state: State) -> list[str]:
+def of_state(state: Instant) -> list[str]:
     """Notes on an equilibrium: which cable bends too little, and by how much."""
     if np.any(state.v):
         return []
@@ -53,7 +49,7 @@ def of_state(state: State) -> list[str]:
     return [text]
 
 
-def of_energy(result: Result) -> list[str]:
+def of_energy(result: History) -> list[str]:
     """A note on a history whose energies do not add up."""
     settings = result.provenance.get("settings", {})
     if not settings.get("energy", True) or len(result.t) < 2 or "integrator" not in settings:
@@ -71,14 +67,16 @@ def of_energy(result: Result) -> list[str]:
     return [f"{happened} until t = {result.t[k]:.6g} s, {share}: {_cause(result, drift)}"]
 
 
-def _cause(result: Result, drift: FloatArray) -> str:
+def _cause(result: History, drift: FloatArray) -> str:
     """Why energy comes and goes: joints that depend on each other where most of it did, or the step."""
     general = "the step does not resolve the motion, or EA is too large for its round-off"
-    if result.system is None:
+    try:
+        system = result.system
+    except ModelError:  # a file of another version, whose unknowns are in another order
         return general
     k = int(np.argmax(np.abs(np.diff(drift))))
     for n in (k + 1, k):
-        if names := nearly_dependent(result.system, np.array(result.q[n])):
+        if names := nearly_dependent(system, np.array(result.q[n])):
             listed = ", ".join(f'"{name}"' for name in names[:MOST_NAMED])
             listed += f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
             form = result.provenance["settings"].get("formulation")

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..model.beam import Beam
 from ..model.bodies import Body, PointMass
+from ..model.model import Model
 from ..model.overview import body_table, sizes
 from ..model.points import Point
 from ..model.tables import Sheet, Table, number, plural
-
-if TYPE_CHECKING:
-    from ..model.model import Model
-    from .modes import Modes
-    from .result import Result
-    from .state import State
+from .faces import History, Instant, Swinging
 
 FloatArray = NDArray[np.float64]
 
@@ -35,7 +31,7 @@ MOST_READ = 20_000_000
 POINT_COLUMNS = ("point", "x [m]", "y [m]", "z [m]", "speed [m/s]", "tension [N]")
 
 
-def of_result(result: Result) -> Sheet:
+def of_result(result: History) -> Sheet:
     """How a run ended, its times, bodies, settings, cost, energies' drift and sensors."""
     plain = result.provenance
     settings = plain.get("settings", {})
@@ -53,7 +49,7 @@ def of_result(result: Result) -> Sheet:
     return Sheet(f"Result{_quoted(plain.get('title'))}", facts, [body_table(bodies)])
 
 
-def of_state(state: State) -> Sheet:
+def of_state(state: Instant) -> Sheet:
     """Time, energies, and the ends of bodies with speed and tension."""
     energy = state.energy
     parts = (f"{key} {number(float(getattr(energy, key)))} J" for key in ("kinetic", "strain", "potential"))
@@ -68,7 +64,7 @@ def of_state(state: State) -> Sheet:
     return Sheet(f"State{_quoted(model.title)}", facts, [Table(POINT_COLUMNS, points)])
 
 
-def of_modes(modes: Modes) -> Sheet:
+def of_modes(modes: Swinging) -> Sheet:
     """Frequencies and periods."""
     rows = [
         (str(k), number(hz), number(omega), number(1.0 / hz) if hz > 0.0 else "")
@@ -81,25 +77,25 @@ def of_modes(modes: Modes) -> Sheet:
     )
 
 
-def line_of_result(result: Result) -> str:
+def line_of_result(result: History) -> str:
     """One line: title, states, times, status."""
     title = result.provenance.get("title")
     return f"Result({f'{title!r}, ' if title else ''}{times(result)}, {result.status})"
 
 
-def line_of_state(state: State) -> str:
+def line_of_state(state: Instant) -> str:
     """One line: time and bodies."""
     return f"State(t = {state.t:g} s, {sizes(state.bodies.values())})"
 
 
-def line_of_modes(modes: Modes) -> str:
+def line_of_modes(modes: Swinging) -> str:
     """One line: how many, lowest and highest frequency."""
     hz = modes.frequencies_hz
     ends = f", {hz[0]:.4g} to {hz[-1]:.4g} Hz" if len(hz) else ""
     return f"Modes({plural(len(hz), 'mode')}{ends})"
 
 
-def times(result: Result) -> str:
+def times(result: History) -> str:
     """``41 states, t = 0 to 0.4 s``."""
     t = result.t
     return f"{plural(len(t), 'state')}, t = {t[0]:g} to {t[-1]:g} s" if len(t) else "no states"
@@ -109,20 +105,20 @@ def _quoted(title: Any) -> str:
     return f' "{title}"' if title else ""
 
 
-def _how_far(result: Result, settings: dict[str, Any]) -> str:
+def _how_far(result: History, settings: dict[str, Any]) -> str:
     t_end = settings.get("t_end")
     if result.status == "complete" or t_end is None or not len(result.t):
         return ""
     return f" at t = {result.t[-1]:g} s of {t_end:g} s"
 
 
-def _steps(result: Result, settings: dict[str, Any]) -> str:
+def _steps(result: History, settings: dict[str, Any]) -> str:
     method = str(settings.get("integrator", "")).replace("_", "-")
     step = f" of {settings['step']:g} s" if "step" in settings else ""
     return f"{result.stats.steps}{step}" + (f", {method}" if method else "")
 
 
-def _cost(result: Result) -> str:
+def _cost(result: History) -> str:
     stats = result.stats
     parts = [plural(stats.newton_iterations, "Newton iteration"), plural(stats.jacobians, "Jacobian")]
     if stats.retries:
@@ -130,7 +126,7 @@ def _cost(result: Result) -> str:
     return ", ".join([*parts, f"{stats.cpu_seconds:.3g} s CPU"])
 
 
-def _drift(result: Result, settings: dict[str, Any]) -> str:
+def _drift(result: History, settings: dict[str, Any]) -> str:
     """Change of the balance from the first to the last stored time; only these two states are looked at."""
     if not settings.get("energy", True) or not len(result.t):
         return ""
@@ -140,7 +136,7 @@ def _drift(result: Result, settings: dict[str, Any]) -> str:
     return f"the balance drifts by {balance[-1] - balance[0]:.2g} J, largest part {largest:.3g} J"
 
 
-def _notes(result: Result) -> list[str]:
+def _notes(result: History) -> list[str]:
     """Notes of a history that is not long; print must not read gigabytes."""
     return result.notes if len(result.t) and result.q.shape[0] * result.q.shape[1] <= MOST_READ else []
 
@@ -164,7 +160,7 @@ def points_of(body: Body) -> Iterable[Point]:
     return (body.point if isinstance(body, PointMass) else body.centre,)
 
 
-def _at(state: State, point: Point) -> tuple[str, ...]:
+def _at(state: Instant, point: Point) -> tuple[str, ...]:
     place = state.position(point)
     noise = 1e-12 * float(np.max(np.abs(place)))
     coordinates = [number(x if abs(x) > noise else 0.0) for x in place.tolist()]

@@ -12,13 +12,17 @@ from numpy.typing import NDArray
 from ..errors import ModelError
 from ..model import checks
 from ..model.bodies import Body
+from ..model.model import Model
 from ..solvers.stepping import Stats
 from ..system.sensors import Listing
-from . import hdf5
+from . import hdf5, remembered
+from .layout import read_joints, read_slots
 from .layout_sensors import DATA, read_listing
-from .store import FORMAT, STATUS
+from .remembered import Remembered
+from .store import FORMAT, STATUS, VERSION
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 
 class ReadStore:
@@ -49,6 +53,8 @@ class ReadStore:
     def _begin(self) -> None:
         if self._file.attrs.get("format") != FORMAT:
             raise ModelError(str(self.path), "is not a results file of ancf")
+        if self._file.attrs["format_version"] != VERSION:
+            raise ModelError(str(self.path), "was written by another version of ancf, in another format")
         self.header: dict[str, Any] = json.loads(self._file.attrs["header"])
         if not isinstance(self.header, dict) or not isinstance(self.header.get("settings"), dict):
             raise ValueError("its header is no table with settings")
@@ -98,15 +104,39 @@ class ReadStore:
         except hdf5.DAMAGED as error:
             raise hdf5.damaged(self.path, error) from None
 
-    @property
-    def width(self) -> int:
-        """Size of the state vectors."""
-        return int(self._file["q"].shape[1])
+    def model(self) -> Model:
+        """The model that was computed; Python functions are missing.
 
-    @property
-    def layout(self) -> Any:
-        """Group with the bodies."""
-        return self._file["bodies"]
+        Raises
+        ------
+        ModelError
+            The file describes none.
+        """
+        try:
+            return Model.from_dict(self.header["model"])
+        except ModelError as error:
+            what = f"describes no model: {error.where}: {error.what}"
+            raise ModelError(str(self.path), what, error.hint) from None
+        except hdf5.DAMAGED as error:
+            raise hdf5.damaged(self.path, error) from None
+
+    def layout(self, model: Model) -> tuple[dict[str, IntArray], dict[str, IntArray], Remembered]:
+        """Slots by body, unknowns by joint, and what goes with the last state.
+
+        Raises
+        ------
+        ModelError
+            They do not belong to the states.
+        """
+        try:
+            slots, joints = read_slots(self._file, model.bodies), read_joints(self._file)
+            width = int(self._file["q"].shape[1])
+            for unknowns in (*slots.values(), *joints.values()):
+                if unknowns.size and not 0 <= unknowns.min() <= unknowns.max() < width:
+                    raise ValueError("its bodies have other unknowns than its states")
+            return slots, joints, remembered.read(self._file, model)
+        except hdf5.DAMAGED as error:
+            raise hdf5.damaged(self.path, error) from None
 
     @property
     def stats(self) -> Stats:

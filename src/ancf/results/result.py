@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -12,15 +13,14 @@ from numpy.typing import NDArray
 from ..errors import ModelError, StorageError
 from ..files import writing
 from ..model import checks
+from ..model.joints import Slide
 from ..model.tables import Readable, Sheet
 from ..solvers.stepping import Stats
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import accuracy, hdf5, tension
-from .layout import read_joints, read_layout
-from .layout_springs import read_springs
+from . import accuracy, remembered, tension
 from .overview import line_of_result, of_result
 from .pictures import Filmed
 from .read_store import ReadStore
@@ -34,30 +34,43 @@ FloatArray = NDArray[np.float64]
 class Result(SpringFields, ContactFields, Filmed, Readable):
     """History of a simulation; see :class:`Fields` for positions, velocities, strains, tensions, ...
 
-    ``print(result)`` says how it went.
+    ``print(result)`` says how it went; ``model`` is the model that was computed.
     """
 
     def __init__(self, store: MemoryStore | ReadStore, header: dict[str, Any], system: System | None) -> None:
-        self._store, self._header, self._system = store, header, system
+        self._store, self._header, self._made_by = store, header, system
         self._recorded: Sensors | None = None
         if system is not None:
-            self._bodies, self._slots = system.model.bodies, system.slots
-            self._joints, self._arcs = system.joints, system.numbering.arcs
-            self._springs = springs_of(system.model.connections)
-        elif isinstance(store, ReadStore):
-            self._read(store)
+            self.model, self._slots, self._joints = system.model, system.slots, system.joints
+            self._last = remembered.of_system(system)
+        else:
+            assert isinstance(store, ReadStore)
+            self.model = store.model()
+            self._slots, self._joints, self._last = store.layout(self.model)
+        self._bodies, self._springs = self.model.bodies, springs_of(self.model.connections)
+        slides = (item.name for item in self.model.connections if isinstance(item, Slide))
+        self._arcs = {name: int(self._joints[name][-1]) for name in slides}
 
-    def _read(self, store: ReadStore) -> None:
-        """Bodies, joints and springs from a file."""
-        try:
-            self._bodies, self._slots = read_layout(store.layout)
-            self._joints, self._arcs = read_joints(store.layout.parent)
-            self._springs = read_springs(store.layout.parent, self._bodies)
-            for unknowns in (*self._slots.values(), *self._joints.values()):
-                if unknowns.size and not 0 <= unknowns.min() <= unknowns.max() < store.width:
-                    raise ValueError("its bodies have other unknowns than its states")
-        except (*hdf5.DAMAGED, AssertionError) as error:
-            raise hdf5.damaged(store.path, error) from None
+    @cached_property
+    def _system(self) -> System:
+        """The system that made the result, or the one of the model that was loaded.
+
+        Raises
+        ------
+        ModelError
+            This version numbers the unknowns otherwise than the one that wrote the file.
+        """
+        if self._made_by is not None:
+            return self._made_by
+        system = System(self.model)
+        mine, theirs = {**system.slots, **system.joints}, {**self._slots, **self._joints}
+        same = mine.keys() == theirs.keys() and all(np.array_equal(mine[k], theirs[k]) for k in mine)
+        if not same or system.size != self.q.shape[1]:
+            made = self._header.get("versions", {}).get("ancf", "another version")
+            what = f"its unknowns stand in the order of ancf {made}, which this version does not know"
+            raise ModelError("Result", what, "simulate it again")
+        remembered.restore(system, self._last)
+        return system
 
     def __repr__(self) -> str:
         return line_of_result(self)
@@ -66,11 +79,17 @@ class Result(SpringFields, ContactFields, Filmed, Readable):
         return of_result(self)
 
     @property
-    def system(self) -> System | None:
-        """The compiled model, where it is known."""
+    def system(self) -> System:
+        """The compiled model.
+
+        Raises
+        ------
+        ModelError
+            This version numbers the unknowns otherwise than the one that wrote the file.
+        """
         return self._system
 
-    def _contact_system(self) -> System | None:
+    def _contact_system(self) -> System:
         return self._system
 
     @property
@@ -130,7 +149,7 @@ class Result(SpringFields, ContactFields, Filmed, Readable):
         """
         arrays, ends = self._store.arrays, (0, -1)
         work = np.stack([np.asarray(arrays["work"][k]) for k in ends])
-        if self._system is None or isinstance(self._store, ReadStore):
+        if isinstance(self._store, ReadStore):
             return np.stack([np.asarray(arrays["energy"][k]) for k in ends]), work
         q, v = (np.stack([data[k] for k in ends]) for data in (arrays["q"], arrays["v"]))
         return energies(self._system, q, v), work
@@ -160,19 +179,10 @@ class Result(SpringFields, ContactFields, Filmed, Readable):
         return self._header
 
     def state(self, index: int = -1) -> State:
-        """State at a stored time, from which a simulation can go on.
-
-        Raises
-        ------
-        ModelError
-            The result was loaded from a file: its model may hold functions, which a file cannot keep.
-        """
-        if self._system is None:
-            raise ModelError(
-                "Result.state", "a loaded result has no model to go on with", "simulate it again"
-            )
+        """State at a stored time, from which a simulation can go on."""
         q, v = np.array(self.q[index]), np.array(self.v[index])  # copies: a state outlives its history
-        return State(self._system, float(self.t[index]), q, v, self.stats)
+        known = self._last.until(range(len(self.t))[index], self.q, self.v, self._arcs)
+        return State(self._system, float(self.t[index]), q, v, self.stats, known)
 
     def save(self, path: str | Path) -> None:
         """Write the result to an HDF5 file; :func:`ancf.load` reads it.
@@ -185,8 +195,6 @@ class Result(SpringFields, ContactFields, Filmed, Readable):
         if isinstance(self._store, ReadStore):
             _copy(self._store.path, path)
             return
-        if self._system is None:
-            raise ModelError(str(path), "there is nothing to save")
         file = FileStore(path, self._system, self._header)
         try:
             self._fill(file)
@@ -194,7 +202,6 @@ class Result(SpringFields, ContactFields, Filmed, Readable):
             raise ModelError(error.where, error.what, "make room, or choose another place") from None
 
     def _fill(self, file: FileStore) -> None:
-        assert self._system is not None
         arrays = self._store.arrays
         if self._system.sensors:
             samples = self._store.samples
@@ -212,7 +219,10 @@ def load(path: str | Path, system: System | None = None) -> Result:
     ----------
     path : path
     system : System, optional
-        The system that made it, if it is still there: the result can then give states to go on from.
+        The system that made it, if it is still there; else the file's model makes one when it is needed.
+
+    It answers what the result in memory answered and has its model; a question that needs the value of a
+    Python function, which no file can keep, is a ModelError.
 
     Raises
     ------

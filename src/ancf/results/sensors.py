@@ -38,7 +38,7 @@ class Sensors(SpringFields, ContactFields, Plotted):
 
     def __init__(self, listing: Listing, arrays: Callable[[], dict[str, Any]], whole: Any) -> None:
         self.listing, self._arrays = listing, arrays
-        self._bodies = whole.bodies
+        self.model, self._bodies = whole.model, whole.bodies
         self._slots = {name: listing.places(slots) for name, slots in whole.slots.items()}
         mine = listing.connections
         self._springs = {name: item for name, item in whole.springs.items() if name in mine}

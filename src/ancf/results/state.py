@@ -18,6 +18,7 @@ from ..system.system import System
 from . import accuracy
 from .overview import line_of_state, of_state
 from .pictures import StatePlotted
+from .remembered import Remembered
 
 FloatArray = NDArray[np.float64]
 
@@ -66,15 +67,24 @@ class State(SpringFields, ContactFields, StatePlotted, Readable):
         State vectors.
     stats : Stats
         What it cost to compute.
+    known : Remembered
+        What a run knows beside the state vectors; nothing for a state that was not simulated.
     """
 
     def __init__(
-        self, system: System, t: float, q: FloatArray, v: FloatArray, stats: Stats | None = None
+        self,
+        system: System,
+        t: float,
+        q: FloatArray,
+        v: FloatArray,
+        stats: Stats | None = None,
+        known: Remembered | None = None,
     ) -> None:
-        self.system, self.t = system, t
+        self.system, self.model, self.t = system, system.model, t
+        self.known = Remembered() if known is None else known
         self.stats = Stats() if stats is None else stats
         self._q, self._v = q, v
-        self._bodies, self._slots = system.model.bodies, system.slots
+        self._bodies, self._slots = self.model.bodies, system.slots
         self._joints, self._arcs = system.joints, system.numbering.arcs
         self._springs = springs_of(system.model.connections)
 
@@ -84,7 +94,7 @@ class State(SpringFields, ContactFields, StatePlotted, Readable):
     def _sheet(self) -> Sheet:
         return of_state(self)
 
-    def _contact_system(self) -> System | None:
+    def _contact_system(self) -> System:
         return self.system
 
     @property

@@ -25,7 +25,7 @@ from ..solvers.stepping import Stats
 from ..system.energy import energies
 from ..system.sensors import Listing
 from ..system.system import System
-from . import hdf5
+from . import hdf5, remembered
 from .layout import write_layout
 from .layout_sensors import DATA, write_listing
 
@@ -154,6 +154,17 @@ class FileStore:
                 raise OSError(problem(error) or str(error)) from None
         self.stats, self.status = Stats(), "running"
 
+    @classmethod
+    def reopened(cls, path: Path, system: System) -> FileStore:
+        """A finished file of the same system, to add to it."""
+        store = cls.__new__(cls)
+        store.path, store._system = path, system
+        store.stats, store.status = Stats(), "running"
+        with writing(path):
+            store._file = h5py.File(path, "r+", libver="latest")
+            store._file.swmr_mode = True
+        return store
+
     def _create(self, header: dict[str, Any]) -> None:
         file, size = self._file, self._system.size
         file.attrs["format"], file.attrs["format_version"] = FORMAT, VERSION
@@ -165,6 +176,7 @@ class FileStore:
         file.create_dataset("stats", data=np.zeros(len(COUNTS) + 1))
         file.create_dataset("status", data=0)
         write_layout(file, self._system)
+        remembered.write(file, remembered.of_system(self._system))
         write_listing(file, self._system.sensors)
         file.flush()
 
@@ -172,7 +184,11 @@ class FileStore:
         """Add states; see :class:`ancf.solvers.stepping.Recorder`."""
         if len(t) == 0:
             return
-        columns = {"q": q, "v": v, "work": work, "energy": energies(self._system, q, v), "time": t}
+        self.copy(t, q, v, work, energies(self._system, q, v))
+
+    def copy(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray, energy: FloatArray) -> None:
+        """Add states whose energies, shape (m, 3), are known."""
+        columns = {"q": q, "v": v, "work": work, "energy": energy, "time": t}
         with self._storing():
             for name, values in columns.items():
                 _extend(self._file[name], values)
@@ -190,6 +206,7 @@ class FileStore:
         with self._storing():
             self._file["stats"][:] = [getattr(stats, name) for name in COUNTS] + [stats.cpu_seconds]
             self._file["status"][()] = STATUS.index(status)
+            remembered.write(self._file, remembered.of_system(self._system))
             self._file.flush()
 
     def close(self) -> None:

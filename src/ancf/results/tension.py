@@ -9,16 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..elements.shapes import gauss, hermite
 from ..model.beam import Beam
-
-if TYPE_CHECKING:
-    from .result import Result
+from .faces import History
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -73,7 +71,7 @@ class Compression:
         return asdict(self)
 
 
-def compressions(result: Result) -> list[Compression]:
+def compressions(result: History) -> list[Compression]:
     """The largest compression of each cable that is pressed harder than it can stand, the worst first.
 
     Middles of the elements at the stored times; of a history with more than two million forces at times that
@@ -142,7 +140,7 @@ class _Lowest:
             self.low, self.row, self.element = float(force[row, element]), int(rows[row]), element
 
 
-def _compression(result: Result, beam: Beam, seen: _Lowest) -> Compression | None:
+def _compression(result: History, beam: Beam, seen: _Lowest) -> Compression | None:
     section, pressure = beam.section, -seen.low
     if not pressure > max(np.pi**2 * section.EI / beam.length**2, NOISE * section.EA, SMALL * seen.high):
         return None

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..connections.contact import ARC, ASIDE, FORCE, OVERLAP, contact_values
 from ..errors import ModelError
 from ..model.contact import Contact
+from ..model.model import Model
 from .joint_fields import JointFields
 from .system import System
 
@@ -18,6 +19,8 @@ FloatArray = NDArray[np.float64]
 
 class ContactFields(JointFields):
     """Values of contacts, given as the model's object or by name; shapes are () or (n_t,)."""
+
+    model: Model
 
     def contact_force(self, contact: Any) -> FloatArray:
         """Size of the force that the wire receives across the strip, N, never negative.
@@ -28,7 +31,7 @@ class ContactFields(JointFields):
         Raises
         ------
         ModelError
-            There is no such contact, or the result was loaded from a file without sensors.
+            There is no such contact.
         """
         return self._contact(contact)[..., FORCE]
 
@@ -57,27 +60,22 @@ class ContactFields(JointFields):
 
     def _contacts(self) -> list[str]:
         """Names of the contacts that can be asked for."""
-        system = self._contact_system()
-        return [] if system is None else [c.name for c in system.model.connections if isinstance(c, Contact)]
+        return [c.name for c in self.model.connections if isinstance(c, Contact)]
 
     def _contact(self, contact: Any) -> FloatArray:
         """Force, overlap, s and place on the strip, shape (..., 4)."""
-        system = self._contact_system()
         name = getattr(contact, "name", contact)
-        if system is None:
-            what = "contact forces cannot be had from a loaded result"
-            raise ModelError(str(name), what, "record them: simulate(..., sensors=[contact])")
         names = self._contacts()
         if name not in names:
             there = "there are: " + ", ".join(names) if names else "there are none"
             raise ModelError(str(name), f"is no contact here; {there}")
-        batch = system.parts["contacts"]
+        batch = self._contact_system().parts["contacts"]
         mine = batch._replace(found=batch.found.copy())  # a question must not move where a run goes on
         q, v = np.atleast_2d(self.q[...]), np.atleast_2d(self.v[...])  # type: ignore[attr-defined]
         out = np.empty((len(q), 4))
         contact_values(mine, names.index(name), np.ascontiguousarray(q), np.ascontiguousarray(v), out)
-        values: FloatArray = out if self.q.ndim > 1 else out[0]  # type: ignore[attr-defined]
+        values: FloatArray = out if len(self.q.shape) > 1 else out[0]  # type: ignore[attr-defined]
         return values
 
-    def _contact_system(self) -> System | None:
+    def _contact_system(self) -> System:
         raise NotImplementedError

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +11,6 @@ from ..compiled import Role, with_role
 from .core import Joints, Supports, assemble
 from .matrix import Places
 
-if TYPE_CHECKING:
-    from .system import System
-
 IntArray = NDArray[np.int64]
 
 
@@ -21,7 +18,7 @@ IntArray = NDArray[np.int64]
 FLOOR = 1e-2
 
 
-def core_joints(batches: list[Any], system: System, supports: Supports) -> Joints:
+def core_joints(batches: list[Any], system: Any, supports: Supports) -> Joints:
     """Joints of the Core of a system."""
     mask = np.zeros(system.size)
     mask[system.multipliers] = 1.0
@@ -57,7 +54,7 @@ def tail_supports(supports: Supports, places: Places, first: int) -> Supports:
     )
 
 
-def set_scales(system: System) -> None:
+def set_scales(system: Any) -> None:
     """Give each row the mass and the stiffness of what it holds, to be multiplied with C_q^T C_q."""
     batch = system.parts.get("joints")
     if batch is None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +13,6 @@ from ..model.beam import Beam
 from ..model.connections import Connection, Spring
 from ..model.points import Point
 from .probe import Probe, R
-
-if TYPE_CHECKING:
-    from .system import System
 
 IntArray = NDArray[np.int64]
 
@@ -59,7 +56,18 @@ class Listing:
         return np.where(self.index[found] == unknowns, found, -1).astype(np.int64)
 
 
-def listing(system: System, items: Sequence[Point | Connection]) -> Listing:
+class Probed(Protocol):
+    """What a System has."""
+
+    joints: dict[str, IntArray]
+    measures: dict[str, IntArray]
+
+    def probe(self, point: Point) -> Probe:
+        """Where the state of a point is found."""
+        ...
+
+
+def listing(system: Probed, items: Sequence[Point | Connection]) -> Listing:
     """Entries that a system needs to record these points and connections."""
     points = tuple(dict.fromkeys(item for item in items if isinstance(item, Point)))
     joined = {item.name: item for item in items if not isinstance(item, Point)}

@@ -144,8 +144,8 @@ def _refined(earlier: Clamp | None, later: Clamp) -> Clamp:
         later = replace(
             later,
             rotation=earlier.rotation,
-            rate=earlier.rate,
-            acceleration=earlier.acceleration,
+            rotation_rate=earlier.rotation_rate,
+            rotation_acceleration=earlier.rotation_acceleration,
             axis=earlier.axis,
         )
     return later if later.displacement is not None else replace(later, displacement=earlier.displacement)
@@ -171,7 +171,8 @@ def _move(
 
 def _hold_slope(constraints: Constraints, slot: int, clamp: Clamp, vector: FloatArray) -> None:
     """Hold the direction of one of the slopes, or all of it; ``vector`` is its initial value."""
-    rotation = Rotation(slot, axes(vector), clamp.axis, clamp.rotation, clamp.rate, clamp.acceleration)
+    given = clamp.rotation, clamp.rotation_rate, clamp.rotation_acceleration
+    rotation = Rotation(slot, axes(vector), clamp.axis, *given)
     if clamp.rotation is not None:
         constraints.driven.add(slot)
     if clamp.stretch == "free":
@@ -181,7 +182,7 @@ def _hold_slope(constraints: Constraints, slot: int, clamp: Clamp, vector: Float
     constraints.held |= {slot, slot + 1, slot + 2}
     if clamp.rotation is None:
         return
-    angle, rate, acceleration = clamp.rotation, clamp.rate, clamp.acceleration
+    angle, rate, acceleration = clamp.rotation, clamp.rotation_rate, clamp.rotation_acceleration
     length = float(np.linalg.norm(vector))
 
     def slope(order: int, t: FloatArray) -> FloatArray:

@@ -70,7 +70,7 @@ class System:
     def __init__(self, model: Model) -> None:
         if not model.bodies:
             raise ModelError("bodies", "the model has no body", "add one with model.add_beam(...)")
-        self.model = model
+        self.model = model.snapshot()
         self.numbering = Numbering(model)
         self.level = np.array([1.0, 0.0, 0.0])
         self.sensors = Listing()

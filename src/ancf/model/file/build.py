@@ -21,9 +21,10 @@ from ancf.model.file.entries import (
 )
 from ancf.model.file.messages import place
 from ancf.model.integrators import integrator_of
-from ancf.model.kinds import GROUPS, by_word
+from ancf.model.kinds import GROUPS
 from ancf.model.model import Model
 from ancf.model.names import unknown
+from ancf.model.rebuild import add_item
 from ancf.model.section import Section
 from ancf.model.settings import EquilibriumSettings, SimulationSettings
 
@@ -115,11 +116,8 @@ class Builder:
     def _add_items(self) -> None:
         model, entry = self.model, self.entry
         for key in GROUPS:
-            kinds = by_word(key)
             for i, item in enumerate(getattr(entry, key)):
-                add = getattr(model, kinds[item.type].method)
-                with model.located(f"{key}[{i}]"):
-                    self._collected(lambda add, given: add(**given), add, item.given())
+                self._collected(add_item, model, key, i, item.type, item.given())
 
     def _collected(self, work: Callable[..., T], *given: Any) -> T | None:
         try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from ancf.errors import ModelError
@@ -24,6 +25,7 @@ __all__ = [
     "Newton",
     "Radau",
     "Trapezoidal",
+    "integrator_from",
     "integrator_of",
     "table_schema",
 ]
@@ -66,6 +68,22 @@ def integrator_of(given: Any) -> Integrator:
     except ModelError as error:
         place = error.where.removeprefix(kind.__name__)
         raise ModelError(f"integrator{place}", error.what, error.hint) from None
+
+
+def integrator_from(name: str, settings: Mapping[str, Any]) -> Integrator:
+    """The integrator of these settings, all fields by name, as a result keeps them.
+
+    Raises
+    ------
+    ModelError
+        There is no such method, or it has other settings.
+    """
+    kind = INTEGRATORS[checks.choice(name, "integrator", tuple(INTEGRATORS))]
+    given = {key: Newton(**value) if key == "newton" else value for key, value in settings.items()}
+    try:
+        return kind(**given)
+    except TypeError as error:
+        raise ModelError("integrator", f"{name} has other settings here: {error}") from None
 
 
 def table_schema() -> dict[str, Any]:

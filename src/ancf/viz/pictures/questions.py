@@ -12,7 +12,7 @@ from ...model import checks
 from ...model.beam import Beam
 from ...model.bodies import PointMass, RigidBody
 from ...model.kind import CONTACT, JOINT, SLIDE, SPRING
-from ...model.kinds import CONNECTIONS
+from ...model.kinds import CONNECTIONS, kind_of
 from ...model.names import POINT_LABEL
 from ...model.points import Point
 
@@ -114,11 +114,8 @@ def noun_of(source: Any, item: Any) -> str:
 
 def known(source: Any) -> dict[str, str]:
     """Names of springs, contacts and joints, with what they are."""
-    found = {name: JOINT for name in source.joints if name not in source.bodies}
-    found |= dict.fromkeys(source.arcs, SLIDE) | dict.fromkeys(source.springs, SPRING)
-    plain = getattr(source, "provenance", {}).get("model", {})
-    contacts = [item["name"] for item in plain.get("connections", []) if item["type"] == "contact"]
-    return found | dict.fromkeys([*contacts, *source._contacts()], CONTACT)
+    asked = {*source.joints, *source.springs, *source._contacts()}
+    return {item.name: kind_of(item).asked for item in source.model.connections if item.name in asked}
 
 
 def label(item: Any) -> str:

@@ -12,8 +12,10 @@ from ...errors import ModelError
 from ...model import checks
 from ...model.beam import Beam
 from ...model.bodies import PointMass, RigidBody
+from ...model.contact import Contact
 from ...model.joints import Spherical
-from ...model.kinds import by_word
+from ...model.kind import body_of
+from ...model.kinds import kind_of
 from ...model.points import Point
 from ...results.modes import Modes
 from ...results.result import Result
@@ -37,27 +39,20 @@ class Frames(SpringFields):
     Parameters
     ----------
     source : Result or State
-        For its bodies, slots and springs.
+        For its model, slots and springs.
     t : (n,) s
     q, v : (n, size)
-    plain : dict
-        The model's description, ``Model.to_dict()``.
     """
 
-    def __init__(self, source: Any, t: FloatArray, q: FloatArray, v: FloatArray, plain: Any) -> None:
+    def __init__(self, source: Any, t: FloatArray, q: FloatArray, v: FloatArray) -> None:
         self._bodies, self._slots, self._springs = source.bodies, source.slots, source.springs
-        self.t, self._q, self._v, self.plain = t, q, v, plain
+        self.t, self._q, self._v, self.model = t, q, v, source.model
 
-    @property
-    def masses(self) -> set[str]:
-        """Names of the point masses."""
-        return {name for name, body in self._bodies.items() if isinstance(body, PointMass)}
-
-    def place(self, point: Any) -> FloatArray:
-        """Positions (n, 3) of a point's label, or of a fixed position, m."""
-        if isinstance(point, str):
-            return self.position(point)
-        fixed: FloatArray = np.broadcast_to(np.asarray(point, dtype=np.float64), (len(self.t), 3))
+    def place(self, end: Any) -> FloatArray:
+        """Positions (n, 3) of a point, a body's own point, or a fixed position, m."""
+        if not isinstance(end, np.ndarray):
+            return self.position(end)
+        fixed: FloatArray = np.broadcast_to(end, (len(self.t), 3))
         return fixed
 
 
@@ -111,7 +106,7 @@ def make_scene(
     links, footed = _links(shown, extent, drawn)
     items = [*_items(shown, "supports"), *_items(shown, "loads"), *footed, *_items(shown, "connections")]
     return Scene(
-        title=str(shown.plain.get("title") or ""),
+        title=shown.model.title if moving else _title_of(source, mode),
         t=shown.t,
         threads=threads,
         links=links,
@@ -124,15 +119,13 @@ def make_scene(
 
 def _of_states(source: Any, frames: int, start: float | None, end: float | None) -> Picked:
     if isinstance(source, State):
-        plain, t = source.system.model.to_dict(), np.array([source.t])
-        return Picked(Frames(source, t, source.q[None], source.v[None], plain), 1)
+        return Picked(Frames(source, np.array([source.t]), source.q[None], source.v[None]), 1)
     if not isinstance(source, Result):
         what = f"must be a Result, a State or Modes, is {checks.shown(source)}"
         raise ModelError("make_scene.source", what)
     chosen = chosen_times(source.t, frames, start, end)
     q, v = (np.stack([data[k] for k in chosen.tolist()]) for data in (source.q, source.v))
-    shown = Frames(source, source.t[chosen], q, v, source.provenance["model"])
-    return Picked(shown, len(source.t))
+    return Picked(Frames(source, source.t[chosen], q, v), len(source.t))
 
 
 def chosen_times(t: FloatArray, frames: int, start: float | None, end: float | None) -> IntArray:
@@ -161,9 +154,11 @@ def _of_mode(modes: Modes, frames: int, mode: int) -> Picked:
     scale = MODE_SIZE * size / largest if largest > 0.0 else 0.0
     phase = np.linspace(0.0, 2 * np.pi, frames) if frames > 1 else np.array([np.pi / 2])
     q = about.q + scale * np.sin(phase)[:, None] * shape
-    plain = about.system.model.to_dict()
-    plain["title"] = f"{plain['title'] or 'mode'}: mode {mode + 1}, {modes.frequencies_hz[mode]:.4g} Hz"
-    return Picked(Frames(about, phase / modes.frequencies[mode], q, 0.0 * q, plain), frames)
+    return Picked(Frames(about, phase / modes.frequencies[mode], q, 0.0 * q), frames)
+
+
+def _title_of(modes: Any, mode: int) -> str:
+    return f"{modes.about.model.title or 'mode'}: mode {mode + 1}, {modes.frequencies_hz[mode]:.4g} Hz"
 
 
 def _nodes(about: State) -> Iterator[Point | PointMass | RigidBody]:
@@ -196,13 +191,13 @@ def _triads(shown: Frames) -> list[Triad]:
 
 def _items(shown: Frames, group: str) -> list[Marker]:
     """Marked items of a group, but joints that only fasten a point mass, which is drawn itself."""
-    kinds, found = by_word(group), []
-    for item in shown.plain.get(group, []):
-        kind = kinds[item["type"]]
-        ends = [item[key] for key in kind.ends]
-        fastens = kind.item is Spherical and any(isinstance(end, str) and end in shown.masses for end in ends)
+    found = []
+    for item in getattr(shown.model, group):
+        kind = kind_of(item)
+        ends = kind.ends_of(item)
+        fastens = isinstance(item, Spherical) and any(isinstance(body_of(end), PointMass) for end in ends)
         if kind.look is not None and not fastens:
-            found.append(Marker(item["name"], kind.word, shown.place(ends[0])))
+            found.append(Marker(item.name, kind.word, shown.place(ends[0])))
     return found
 
 
@@ -212,7 +207,7 @@ def _links(shown: Frames, extent: float, drawn: list[FloatArray]) -> tuple[list[
     box = points.min(axis=0), points.max(axis=0)
     links, footed = [], []
     for name, spring in shown.springs.items():
-        a, b = shown.place(_label(spring.a)), shown.place(_label(spring.b))
+        a, b = shown.place(spring.a), shown.place(spring.b)
         if not isinstance(spring.b, Point) and _outside(b[0], box) > FAR * extent > 0.0:
             footed.append(Marker(name, "spring support", a))
             continue
@@ -220,11 +215,6 @@ def _links(shown: Frames, extent: float, drawn: list[FloatArray]) -> tuple[list[
         loose = np.full(force.shape, spring.slack) & (force == 0.0)
         links.append(Link(name, np.stack([a, b], axis=1), force, loose))
     return links, footed
-
-
-def _label(end: Any) -> Any:
-    """A point's label, or a fixed position."""
-    return end.label if isinstance(end, Point) else end
 
 
 def _outside(place: FloatArray, box: tuple[FloatArray, FloatArray]) -> float:
@@ -242,14 +232,13 @@ def _extent(drawn: list[FloatArray]) -> float:
 def _strips(shown: Frames, source: Any, threads: list[Thread], extent: float) -> list[Strip]:
     """Strips somewhat longer than the wires move along them: the model does not bound them."""
     found = []
-    for item in shown.plain.get("connections", []):
-        if item["type"] == "contact":
-            along = np.asarray(item["strip"])
-            swept = max(float(np.ptp(thread.position @ along)) for thread in threads)
-            half = (0.6 * swept or 0.5 * extent or 0.5) * along
-            middle = shown.place(item["point"])
+    for item in shown.model.connections:
+        if isinstance(item, Contact):
+            swept = max(float(np.ptp(thread.position @ item.strip)) for thread in threads)
+            half = (0.6 * swept or 0.5 * extent or 0.5) * item.strip
+            middle = shown.place(item.point)
             ends = np.stack([middle - half, middle + half], axis=1)
-            found.append(Strip(item["name"], ends, _contact_force(shown, source, item["name"])))
+            found.append(Strip(item.name, ends, _contact_force(shown, source, item.name)))
     return found
 
 

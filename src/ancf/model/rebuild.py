@@ -1,0 +1,123 @@
+"""A model from plain data: the items of a model file, and all of what ``Model.to_dict`` gave."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterator, Mapping
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any, Protocol
+
+from ancf.errors import ModelError
+from ancf.model import checks
+from ancf.model.beam import Beam
+from ancf.model.bodies import Body, make_point_mass, make_rigid_body
+from ancf.model.describe import section_of
+from ancf.model.functions import Missing, TimeFunction
+from ancf.model.kinds import GROUPS, by_word
+from ancf.model.layout import placed_beam
+
+if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
+BODIES = ("beam", "point_mass", "rigid_body")
+
+
+class Located(Protocol):
+    """A Model, as far as items are added to it."""
+
+    def located(self, place: str) -> AbstractContextManager[None]:
+        """Within this context errors speak of ``place``."""
+        ...
+
+
+class Table:
+    """A table of a description; what it lacks is an error with its place."""
+
+    def __init__(self, given: object, where: str) -> None:
+        if not isinstance(given, Mapping):
+            raise ModelError(where, f"must be a table, is {checks.shown(given)}")
+        self.given, self.where = given, where
+
+    def take(self, key: str) -> Any:
+        """The value of a key that must be there."""
+        if key not in self.given:
+            raise ModelError(f"{self.where}.{key}", "is missing in the description")
+        return self.given[key]
+
+    def tables(self, key: str) -> Iterator[Table]:
+        """The tables of a list, none where there is no such list."""
+        given = self.given.get(key, [])
+        if not isinstance(given, list | tuple):
+            raise ModelError(key, f"must be a list of tables, is {checks.shown(given)}")
+        return (Table(item, f"{key}[{k}]") for k, item in enumerate(given))
+
+
+def bodies(plain: Table) -> Iterator[tuple[Body, str]]:
+    """Bodies of a description, one after the other, with their places."""
+    for table in plain.tables("bodies"):
+        yield _body(table), table.where
+
+
+def _body(table: Table) -> Body:
+    kind, where = checks.choice(table.take("type"), f"{table.where}.type", BODIES), table.where
+    name, motion = checks.text(table.take("name"), f"{where}.name"), Table(table.take("motion"), where)
+    body: Body
+    if kind == "beam":
+        body = _beam(table, name)
+    elif kind == "point_mass":
+        body = make_point_mass(where, name, table.take("at"), table.take("mass"))
+    else:
+        given = (table.take(key) for key in ("at", "mass", "inertia", "axes"))
+        body = make_rigid_body(where, name, *given)
+    keys = ("velocity",) if kind == "point_mass" else ("velocity", "angular_velocity", "about")
+    body.set_motion(**{key: motion.take(key) for key in keys})
+    return body
+
+
+def _beam(table: Table, name: str) -> Beam:
+    section = Table(table.take("section"), f"{table.where}.section")
+    try:
+        made = section_of(dict(section.given))
+    except KeyError as error:
+        raise ModelError(f"{section.where}.{error.args[0]}", "is missing in the description") from None
+    return placed_beam(table.where, name, made, table.take, table.given)
+
+
+def items(model: Any, plain: Table) -> None:
+    """Add supports, loads and connections of a description."""
+    for group in GROUPS:
+        for k, table in enumerate(plain.tables(group)):
+            given = {key: value for key, value in table.given.items() if key != "type"}
+            functions = {key: Missing.of(value) for key, value in given.items() if key != "name"}
+            given |= {key: value for key, value in functions.items() if value is not None}
+            add_item(model, group, k, table.take("type"), given)
+
+
+def missing(item: Any) -> list[tuple[str, str]]:
+    """Its name and that of each Python function which a description could not keep."""
+    given = (getattr(item, field.name) for field in fields(item))
+    return [
+        (item.name, value.missing) for value in given if isinstance(value, TimeFunction) and value.missing
+    ]
+
+
+def add_item(model: Located, group: str, number: int, word: str, given: Mapping[str, Any]) -> None:
+    """Add a support, load or connection by its word in files and the arguments of its method.
+
+    Raises
+    ------
+    ModelError
+        There is no such kind, an argument is missing, unknown or wrong; ``where`` is ``loads[2].force``.
+    """
+    kinds, where = by_word(group), f"{group}[{number}]"
+    if not isinstance(word, str) or word not in kinds:
+        what = f"is {checks.shown(word)}, there are: {', '.join(kinds)}"
+        hint = checks.nearest(word, kinds) or "a kind of your own is registered in ancf.model.kinds"
+        raise ModelError(f"{where}.type", what, hint)
+    add = getattr(model, kinds[word].method)
+    try:
+        inspect.signature(add).bind(**given)
+    except TypeError as error:
+        raise ModelError(where, f"{word}: {error}") from None
+    with model.located(where):
+        add(**given)

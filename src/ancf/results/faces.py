@@ -1,0 +1,126 @@
+"""What the parts that look at a result or a state ask of it, so that they need not know these classes."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+from ..model.bodies import Body
+from ..model.model import Model
+from ..solvers.stepping import Stats
+from ..system.fields import FloatArray, IntArray
+
+
+class Shaped(Protocol):
+    """Bodies and state vectors: a State or a Result."""
+
+    @property
+    def bodies(self) -> dict[str, Body]:
+        """Bodies by name."""
+        ...
+
+    @property
+    def slots(self) -> dict[str, IntArray]:
+        """First unknowns of the nodes' vectors by body."""
+        ...
+
+    @property
+    def q(self) -> Any:
+        """State vectors."""
+        ...
+
+    @property
+    def v(self) -> Any:
+        """Their rates."""
+        ...
+
+
+class History(Shaped, Protocol):
+    """What a Result has."""
+
+    model: Model
+
+    @property
+    def system(self) -> Any:
+        """The compiled model."""
+        ...
+
+    @property
+    def t(self) -> FloatArray:
+        """Stored times."""
+        ...
+
+    @property
+    def energy(self) -> Any:
+        """Energies at these times."""
+        ...
+
+    @property
+    def stats(self) -> Stats:
+        """Counters."""
+        ...
+
+    @property
+    def status(self) -> str:
+        """How it ended."""
+        ...
+
+    @property
+    def notes(self) -> list[str]:
+        """What to know of it."""
+        ...
+
+    @property
+    def provenance(self) -> dict[str, Any]:
+        """Model, settings and versions."""
+        ...
+
+    def _end_energies(self) -> tuple[FloatArray, FloatArray]: ...
+
+
+class Instant(Shaped, Protocol):
+    """What a State has."""
+
+    system: Any
+    model: Model
+    t: float
+
+    @property
+    def energy(self) -> Any:
+        """Its energies."""
+        ...
+
+    @property
+    def notes(self) -> list[str]:
+        """What to know of it."""
+        ...
+
+    def position(self, point: Any) -> FloatArray:
+        """Position of a point."""
+        ...
+
+    def velocity(self, point: Any) -> FloatArray:
+        """Velocity of a point."""
+        ...
+
+    def tension(self, point: Any) -> FloatArray:
+        """Axial force at a point."""
+        ...
+
+
+class Swinging(Protocol):
+    """What Modes have."""
+
+    @property
+    def frequencies(self) -> FloatArray:
+        """Angular frequencies."""
+        ...
+
+    @property
+    def frequencies_hz(self) -> FloatArray:
+        """Frequencies."""
+        ...
+
+    @property
+    def about(self) -> Instant:
+        """The state that is vibrated about."""
+        ...

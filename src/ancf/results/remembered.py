@@ -1,0 +1,97 @@
+"""What a computation knows beside the state vectors: which sliding points were held or let go, and where
+contacts were found last.
+
+Whether a unilateral joint is open follows from its gap and is not kept.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..connections.contact import ARC
+from ..connections.sliding import SLIDES, SlidingBatch
+from ..model.contact import Contact
+from ..model.joints import Slide
+from ..model.model import Model
+from ..system.system import System
+
+IntArray = NDArray[np.int64]
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Remembered:
+    """What goes with a state.
+
+    Parameters
+    ----------
+    modes : dict of str to int
+        SLIDES, FROZEN or FREE by sliding joint, see :mod:`ancf.connections.sliding`.
+    places : dict of str to float
+        Arc length on the wire by contact, m, from where the next search starts.
+    """
+
+    modes: dict[str, int] = field(default_factory=dict)
+    places: dict[str, float] = field(default_factory=dict)
+
+    def until(self, index: int, q: Any, v: Any, arcs: dict[str, int]) -> Remembered:
+        """The same at an earlier stored state, shapes of q and v (n_t, size).
+
+        What has reached an end stands still there: since then its s has not changed by a bit.
+        """
+        ended = {name for name, mode in self.modes.items() if mode != SLIDES}
+        still = {n for n in ended if _stands(q[index:, arcs[n]]) and not np.any(v[index:, arcs[n]])}
+        modes = {name: mode if name in still else SLIDES for name, mode in self.modes.items()}
+        return Remembered(modes, self.places)
+
+
+def of_system(system: System) -> Remembered:
+    """What a system knows now."""
+    batch = _sliding(system)
+    modes = [] if batch is None else batch.mode.tolist()
+    places = {name: float(system.measured[at[ARC]]) for name, at in system.measures.items()}
+    return Remembered(dict(zip(_slides(system.model), modes, strict=True)), places)
+
+
+def restore(system: System, known: Remembered) -> None:
+    """Let a system know it; what is not in its model is left out."""
+    batch = _sliding(system)
+    for k, name in enumerate(_slides(system.model)):
+        if batch is not None and name in known.modes:
+            batch.mode[k] = known.modes[name]
+    for name, at in system.measures.items():
+        if name in known.places:
+            system.measured[at[ARC]] = known.places[name]
+
+
+def write(file: Any, known: Remembered) -> None:
+    """Write the data sets ``modes`` and ``places``, or make them."""
+    for key, values in (("modes", known.modes), ("places", known.places)):
+        row = np.array([*values.values()], dtype=np.int64 if key == "modes" else np.float64)
+        if key in file:
+            file[key][...] = row
+        else:
+            file[key] = row
+
+
+def read(file: Any, model: Model) -> Remembered:
+    """What :func:`write` has left, by the names of the model."""
+    modes, places = file["modes"][:].tolist(), file["places"][:].tolist()
+    contacts = [item.name for item in model.connections if isinstance(item, Contact)]
+    return Remembered(dict(zip(_slides(model), modes, strict=True)), dict(zip(contacts, places, strict=True)))
+
+
+def _slides(model: Model) -> list[str]:
+    return [item.name for item in model.connections if isinstance(item, Slide)]
+
+
+def _sliding(system: System) -> SlidingBatch | None:
+    return next((b for b in system.core.joints.tail if isinstance(b, SlidingBatch)), None)
+
+
+def _stands(s: FloatArray) -> bool:
+    return bool(np.all(s == s[-1]))
