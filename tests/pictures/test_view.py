@@ -1,6 +1,7 @@
 """The page that ``ancf view`` writes: what is in it."""
 
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from types import SimpleNamespace
 
@@ -67,6 +68,15 @@ class TestPage:
         text = view_page(cantilever)
         assert "<title>Größe &lt;1&gt; &amp; &lt;/script&gt;</title>" in text
         assert "<1>" not in text.replace(plotly_script(), "")
+
+    def test_script_of_a_name_stays_text(self, cantilever):
+        """A name that looks like the end of the script, or like a comment in it, is data."""
+        name = "</script><!--<script>"
+        scene = make_scene(cantilever, frames=2, points=4)
+        text = page(replace(scene, threads=[replace(scene.threads[0], name=name)]), [], "x")
+        assert Elements(text).seen.count("script") == 3
+        assert data_of(text)["scene"]["threads"][0]["name"] == name
+        assert name not in text
 
     def test_positions_and_colours_come_back(self, cantilever):
         scene = make_scene(cantilever, frames=50, points=60)

@@ -329,6 +329,20 @@ class TestTables:
         assert energy["balance [J]"] == pytest.approx(balance, rel=1e-14)
         assert np.array_equal(energy["drift [J]"], result.energy.drift)
 
+    def test_moments_of_a_joint(self, tmp_path):
+        """Behind its three forces, counted from one."""
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        hub = model.add_rigid_body("hub", at=(1, 0.2, 0), mass=1.0, inertia=(0.01, 0.02, 0.03))
+        hinge = model.hinge(hub.at(-1, -0.2, 0), (0, 0, 0), axis=(0, 1, 0), name="hinge")
+        result = ancf.simulate(model, t_end=0.02, step=0.01)
+        (path,) = (f for f in write_csv(result, tmp_path) if f.stem == "joints")
+        found, values = table(path), result.multiplier(hinge)
+        names = [f"hinge force {c} [N]" for c in "xyz"] + [f"hinge moment {k} [N m]" for k in (1, 2)]
+        assert list(found) == ["t [s]", *names]
+        for k, name in enumerate(names):
+            assert np.array_equal(found[name], values[:, k])
+        assert np.abs(values[:, 3:]).max() > 0.1
+
     def test_without_sensors_and_energy(self, tmp_path):
         """Points that stand for the bodies; no table is empty."""
         result = ancf.simulate(rope(), t_end=0.002, step=1e-3, energy=False)
