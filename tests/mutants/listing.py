@@ -88,3 +88,9 @@ def read() -> list[Mutant]:
 def folders() -> list[str]:
     """Folders of the package that hold modules, and "." for the package itself."""
     return [".", *sorted(p.name for p in PACKAGE.iterdir() if p.is_dir() and any(p.glob("*.py")))]
+
+
+def without_mutants() -> list[str]:
+    """Folders that no mutant changes."""
+    changed = {mutant.folder for mutant in read()}
+    return [folder for folder in folders() if folder not in changed]

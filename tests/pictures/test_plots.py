@@ -408,6 +408,9 @@ class TestProjection:
         assert not view.equal
         assert view.extent[1] < 5.0
         assert projection(np.array([[0.0, 0, 0], [3.0, 0, 1.0]])).equal
+        # in space it is the second of the three that counts
+        assert projection(np.array([[0.0, 0, 0], [10.0, 8.0, 0.3]])).equal
+        assert not projection(np.array([[0.0, 0, 0], [10.0, 0.4, 0.3]])).equal
 
 
 class TestPicture:
