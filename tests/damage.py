@@ -191,7 +191,7 @@ def _attribute(file, draw):
     if how == "missing":
         del attrs[key]
     elif how == "scale" and isinstance(old, float | np.ndarray) and np.asarray(old).dtype.kind in "if":
-        attrs[key] = old * draw(st.sampled_from([-1.0, 0.0, 1e-300, 1e300, np.nan, 0.5]))
+        attrs[key] = old * draw(st.sampled_from([-1.0, 0.0, 1e-30, 1e30, np.nan, 0.5]))
     else:
         attrs[key] = draw(st.sampled_from(VALUES))
 

@@ -227,7 +227,11 @@ class TestChoice:
         t = np.linspace(0.0, 1.0, 9)
         path = np.stack([np.cos(6 * t), 0 * t, np.sin(6 * t)], axis=1)
         scene = Scene("", t, threads=[Thread("a", "cable", np.zeros(9), 3 * path[None], {}, None)])
-        given = [Trace("a", t, path), Trace("b", t, path + (5.0, 1.0, 0.0)), Trace("c", t, path[::-1])]
+        given = [
+            Trace("a", t, path),
+            Trace("b", t, path + np.array([5.0, 1.0, 0.0])),
+            Trace("c", t, path[::-1]),
+        ]
         assert [trace.name for trace in most_moved(given, scene)] == ["a", "c"]
 
     def test_colour_limits(self):

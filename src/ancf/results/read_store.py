@@ -14,9 +14,9 @@ from ..model import checks
 from ..model.bodies import Body
 from ..solvers.stepping import Stats
 from ..system.sensors import Listing
-from . import hdf5
+from . import hdf5, sound
 from .layout_sensors import DATA, read_listing
-from .store import FORMAT, STATUS
+from .store import FORMAT, STATUS, VERSION
 
 FloatArray = NDArray[np.float64]
 
@@ -41,17 +41,17 @@ class ReadStore:
             raise ModelError("load", f"must be given a path, is given {checks.shown(path)}")
         self.path, self._status = Path(path), status
         self._file = hdf5.opened(self.path)
-        try:
+        with sound.inside(self.path):
             self._begin()
-        except hdf5.DAMAGED as error:
-            raise hdf5.damaged(path, error) from None
 
     def _begin(self) -> None:
         if self._file.attrs.get("format") != FORMAT:
             raise ModelError(str(self.path), "is not a results file of ancf")
+        if (version := self._file.attrs.get("format_version")) != VERSION:
+            what = f"is a results file of version {version}, this ancf reads version {VERSION}"
+            raise ModelError(str(self.path), what)
         self.header: dict[str, Any] = json.loads(self._file.attrs["header"])
-        if not isinstance(self.header, dict) or not isinstance(self.header.get("settings"), dict):
-            raise ValueError("its header is no table with settings")
+        sound.check_header(self.header)
         # an earlier load of a run that goes on has seen less of it
         self._rows = self._refreshed(self._file, ("time", "q", "v", "work", "energy"))
         self._sensors = self._file.get("sensors")
@@ -63,7 +63,8 @@ class ReadStore:
             or not 0 <= int(self._file["status"][()]) < len(STATUS)
         ):
             raise ValueError("its data sets do not belong together")
-        self.stats  # noqa: B018 - as many counters as there should be
+        sound.check_times(self._file["time"][: self._rows], "time")
+        checks.array(list(self.stats.as_dict().values()), "stats", (None,))
 
     @staticmethod
     def _refreshed(group: Any, names: tuple[str, ...]) -> int:
@@ -93,10 +94,14 @@ class ReadStore:
 
     def listing(self, bodies: dict[str, Body]) -> Listing:
         """See :class:`Store`."""
-        try:
-            return read_listing(self._sensors, bodies) if self._sensors else Listing()
-        except hdf5.DAMAGED as error:
-            raise hdf5.damaged(self.path, error) from None
+        if not self._sensors:
+            return Listing()
+        with sound.inside(self.path):
+            found = read_listing(self._sensors, bodies)
+            widths = {name: int(self._sensors[name].shape[1]) for name in DATA[:-1]}
+            sound.check_listing(found, self.width, widths)
+            sound.check_times(self._sensors["time"][: self._samples], "sensors/time")
+            return found
 
     @property
     def width(self) -> int:

@@ -18,7 +18,7 @@ from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import accuracy, hdf5, tension
+from . import accuracy, sound, tension
 from .layout import read_joints, read_layout
 from .layout_springs import read_springs
 from .overview import line_of_result, of_result
@@ -49,15 +49,13 @@ class Result(SpringFields, ContactFields, Filmed, Readable):
 
     def _read(self, store: ReadStore) -> None:
         """Bodies, joints and springs from a file."""
-        try:
+        with sound.inside(store.path):
             self._bodies, self._slots = read_layout(store.layout)
+            sound.check_bodies(self._bodies, self._slots, store.width)
             self._joints, self._arcs = read_joints(store.layout.parent)
+            sound.check_joints(self._joints, self._arcs, store.width)
             self._springs = read_springs(store.layout.parent, self._bodies)
-            for unknowns in (*self._slots.values(), *self._joints.values()):
-                if unknowns.size and not 0 <= unknowns.min() <= unknowns.max() < store.width:
-                    raise ValueError("its bodies have other unknowns than its states")
-        except (*hdf5.DAMAGED, AssertionError) as error:
-            raise hdf5.damaged(store.path, error) from None
+            sound.check_springs(self._springs)
 
     def __repr__(self) -> str:
         return line_of_result(self)
