@@ -53,7 +53,7 @@ def test_right_file(right):
     written(right)
 
 
-@cases(0.2)
+@cases(0.16)
 @given(data=st.data())
 def test_results_files(right, data):
     path = right.with_name("damaged.h5")

@@ -208,6 +208,8 @@ def _outcome(mutant: Mutant, copies: Copies, copy: Path, how: str) -> tuple[str,
     code, text = copies.run(list(mutant.tests), copy, how, "-x")
     if code is None:
         return KILLED, "the tests hang"
+    if code < 0:
+        return KILLED, f"the tests end with signal {-code}"
     if code == 0:
         return SURVIVED, ""
     said = re.search(r"^FAILED tests/(.*)$", text, re.MULTILINE)
