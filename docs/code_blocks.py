@@ -8,8 +8,10 @@ A comment in the line above a block says what a reader need not see:
     The block is saved under this name before the next one runs.
 ``% short: (1, 2, 3) -> (1,)``
     What the tests run instead, where the block takes minutes.
-``% tolerance: 0.2``
-    Relative tolerance of the numbers in a block of output.
+``% tolerance: 0.5 of 9e-06, 3e-07: reason``
+    Relative tolerance of these numbers in a block of output, or of all without ``of``, and why they are not
+    the same everywhere. Without it counts are the same, and other numbers agree to one unit of the last digit
+    that the page shows.
 
 A ``text`` block right behind a ``python`` or ``console`` block is what that one prints. What stands
 between ``<!-- python`` and ``-->`` runs like a block and is not shown: what a fragment needs.

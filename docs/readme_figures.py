@@ -7,6 +7,7 @@ table            from
 ===============  ============================================================================
 speed, cost      benchmarks/results.json, of a run of ``python benchmarks/run.py``
 accuracy         docs/verification/checks.json, of a run of ``ancf reproduce all``
+en50318          docs/verification/en50318.json, of the same run
 ===============  ============================================================================
 """
 
@@ -128,12 +129,49 @@ def accuracy() -> str:
     return table(("what", "numbers", "largest difference"), rows)
 
 
+#: Rows of a case that the README shows: name in the file, text, digits behind the point.
+SHOWN = (
+    ("mean force Fm", "Fm {} N", 1),
+    ("standard deviation 0-20 Hz", "sigma {} N", 1),
+    ("actual minimum", "{} N", 0),
+    ("actual maximum", "to {} N", 0),
+    ("uplift at support", "uplift {} mm", 1),
+)
+
+
+def en50318() -> str:
+    """How many rows of each reference case are inside, which are not, and what was measured."""
+    stored = read("docs", "verification", "en50318.json")
+    cases: dict[tuple[str, float], list[dict[str, Any]]] = {}
+    for row in stored["rows"]:
+        named = dict(zip(stored["columns"], row, strict=True))
+        cases.setdefault((named["case"], named["speed_kmh"]), []).append(named)
+    lines = []
+    for (case, speed), rows in cases.items():
+        outside = [row for row in rows if row["verdict"] != "inside"]
+        told = "".join(f"; {off_range(row)}" for row in outside)
+        found = {row["quantity"]: row["value"] for row in rows}
+        parts = [text.format(f"{found[key]:.{digits}f}") for key, text, digits in SHOWN]
+        measured = ", ".join([*parts[:2], f"{parts[2].removesuffix(' N')} {parts[3]}", parts[4]])
+        name = case.removeprefix("en50318-").replace("-ac-simple", " AC simple")
+        lines.append(
+            (f"{name}, {speed:g} km/h", f"{len(rows) - len(outside)} of {len(rows)}{told}", measured)
+        )
+    return table(("reference case", "rows inside the published ranges", "measured"), lines)
+
+
+def off_range(row: dict[str, Any]) -> str:
+    """A row that is outside, with its range."""
+    return f"{row['quantity']} {row['value']:.4g} {row['unit']} ({row['low']:g} to {row['high']:g})"
+
+
 def largest(found: Iterable[dict[str, Any]]) -> float:
     """Largest deviation of some checks."""
     return max(abs(c["value"] - c["reference"]) for c in found)
 
 
 TABLES: dict[str, Callable[[], str]] = {
+    "en50318": en50318,
     "speed": speed,
     "cost": cost,
     "accuracy": accuracy,

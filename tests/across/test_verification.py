@@ -8,7 +8,7 @@ import pytest
 
 import ancf
 from ancf.model.refine import refined
-from ancf.verification import verify
+from ancf.verification import _changed, _halved, _Output, verify
 from places import EXAMPLES
 
 #: Model files; line.toml describes an overhead line.
@@ -39,6 +39,25 @@ def test_estimate_is_the_error(elements, step, by):
     assert 0.8 * error < estimate < (2 if by else 20) * error
     if by:
         assert all((c.half_step > c.twice_elements) == (by == "step") for c in changes if c.error)
+
+
+@pytest.mark.parametrize("order", [2, 3])
+def test_error_of_known_orders(order):
+    """f + a h^p + b l^2, computed with h, l and with one of them halved: both parts are found."""
+    part, mesh = 0.3, 0.05
+    output = _Output("end", "m", np.array([7.0 + part + mesh]))
+    by_step, by_mesh = part - part / 2**order, mesh - mesh / 4
+    assert _changed(output, by_step, by_mesh, order).error == pytest.approx(part + mesh)
+    assert _changed(output, None, by_mesh, order).error == pytest.approx(mesh)
+
+
+def test_histories_are_compared_at_the_times_of_the_first():
+    """A run with half the step has more of them; between them it is taken along straight lines."""
+    t = np.array([0.0, 1.0, 2.0])
+    coarse = _Output("end", "m", np.array([0.0, 1.0, 2.0]), t)
+    fine = _Output("end", "m", np.array([0.0, 0.9, 1.25, 9.0, 2.125]), np.array([0.0, 0.5, 1.0, 1.5, 2.0]))
+    assert coarse.change(fine) == 0.25
+    assert _Output("x", "m", np.array([1.0])).change(_Output("x", "m", np.array([0.5]))) == 0.5
 
 
 def test_compares_with_runs_of_its_own():
@@ -117,8 +136,6 @@ def test_finer_mesh_lies_on_the_given_shape(natural):
     ],
 )
 def test_method_that_chooses_its_steps_gets_a_tolerance_that_halves_them(integrator, finer):
-    from ancf.verification import _halved
-
     made = _halved(integrator)
     assert {key: getattr(made, key) for key in finer} == finer
     assert _halved(ancf.Trapezoidal()) == ancf.Trapezoidal()

@@ -143,6 +143,18 @@ class TestStarts:
             other.clamp(beam.start)
         refused("simulate.start", "another model", self.run, other, ancf.equilibrium(model))
 
+    def test_state_of_a_model_with_nodes_elsewhere(self):
+        """As many of them: their positions would be taken for those of other points."""
+        states = []
+        for middle in (0.5, 0.3):
+            model = ancf.Model(gravity=(0, 0, -9.81))
+            section = ancf.Section(EA=1e3, EI=0.1, rhoA=0.05)
+            beam = model.add_beam("a", start=(0, 0, 0), end=(1, 0, 0), nodes=(0, middle, 1), section=section)
+            model.clamp(beam.start)
+            states.append(ancf.equilibrium(model))
+        refused("simulate.start", "another model", self.run, model, states[0])
+        self.run(model, states[1])
+
     @pytest.mark.parametrize("start", ["equilibrium", 3, np.zeros(24)])
     def test_not_a_state(self, start):
         refused("simulate.start", "State", self.run, cantilever()[0], start)

@@ -8,6 +8,7 @@ import signal
 import sys
 import threading
 import time
+import unicodedata
 import warnings
 from pathlib import Path
 
@@ -23,6 +24,9 @@ from ancf.files import cell, exists, visible
 from ancf.results import hdf5
 from ancf.viz.export import write_csv
 from commands import LONG, MODEL, SIMULATION, write
+
+#: Classes of Unicode that turn the direction in which a text is written.
+TURNS = ("LRE", "RLE", "PDF", "LRO", "RLO", "LRI", "RLI", "FSI", "PDI")
 
 
 def hanging(names=(), elements=3):
@@ -259,6 +263,15 @@ class TestStreams:
         assert visible("Größe\n\tΔ 5 µm") == "Größe\n\tΔ 5 µm"
         assert visible("a\x1b\x7f\u202eb") == "a\\x1b\\x7f\\u202eb"
 
+    def test_every_control_character_is_spelt_out(self):
+        """All that Unicode counts as controls, and the turns of the direction of writing."""
+        controls = [c for c in map(chr, range(0x3000)) if unicodedata.category(c) == "Cc"]
+        turns = [c for c in map(chr, range(0x3000)) if unicodedata.bidirectional(c) in TURNS]
+        for c in {*controls, *turns, "\u2028", "\u2029"} - {"\n", "\t"}:
+            assert visible(f"a{c}b") == "a" + ascii(c)[1:-1] + "b"
+        assert len(controls) == 65
+        assert len(turns) >= 9
+
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 class TestSignals:
@@ -386,6 +399,15 @@ class TestCache:
             makes = re.search(r"compiled import [^\n]*(kernel|formula|implements|optional)|njit\(", text)
             assert not makes or path in stamped, path
         assert root / "bodies" / "inertia.py" in stamped
+
+    def test_the_stamp_is_of_what_the_files_hold(self, tmp_path, monkeypatch):
+        path = tmp_path / "part.py"
+        monkeypatch.setattr(compiled, "stamped", lambda: [path])
+        found = []
+        for text in ("x = 1", "x = 2", "x = 1"):
+            path.write_text(text, encoding="utf-8")
+            found.append(compiled._package_stamp())
+        assert found[0] == found[2] != found[1]
 
 
 def _twice(x):

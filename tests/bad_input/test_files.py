@@ -1,5 +1,6 @@
 """Writing files: one error for whatever prevents it, nothing half-written, JSON that every reader takes."""
 
+import errno
 import json
 
 import h5py
@@ -54,6 +55,16 @@ class TestWriting:
     def test_trying_a_folder_leaves_nothing(self, tmp_path):
         assert writable(tmp_path / "out") == tmp_path / "out"
         assert list((tmp_path / "out").iterdir()) == []
+
+    def test_a_folder_that_takes_no_file(self, tmp_path, monkeypatch):
+        """It is there, but the system refuses files in it: told before anything is computed."""
+
+        def refuse(*arguments, **options):
+            raise OSError(errno.EROFS, "Read-only file system")
+
+        monkeypatch.setattr("tempfile.TemporaryFile", refuse)
+        with pytest.raises(ancf.ModelError, match="cannot be written: Read-only file system"):
+            writable(tmp_path)
 
     def test_text_that_is_no_text(self, tmp_path):
         assert write_text(tmp_path / "a", "\udcff").read_text() == "\\udcff"

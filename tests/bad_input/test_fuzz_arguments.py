@@ -189,7 +189,7 @@ def only_known(arguments, right):
     return {**right, **{key: value for key, value in arguments.items() if key in right}}
 
 
-@cases(0.25)
+@cases(0.23)
 @given(data=st.data())
 def test_any_arguments(data):
     name = data.draw(st.sampled_from(sorted(CALLS)))
@@ -225,7 +225,7 @@ LETTERS = [
 ]
 
 
-@cases(0.1)
+@cases(0.07)
 @given(
     parts=st.lists(
         st.sampled_from([*LETTERS, "[", "'", "lambda", "0", "log", "step", "max", "and"]), max_size=9

@@ -236,7 +236,7 @@ def test_valid_files_are_valid(which):
     look_at(parse_study(copy.deepcopy(MODELS[which])))
 
 
-@cases(0.3)
+@cases(0.25)
 @given(data=st.one_of([changed(m) for m in MODELS]))
 def test_model_files(data):
     with refused_or_fine():
@@ -257,7 +257,7 @@ def spoiled(draw, text):
     return text[: draw(st.integers(0, len(text)))] if draw(st.booleans()) else text
 
 
-@cases(0.1)
+@cases(0.07)
 @given(text=st.one_of([spoiled(FACE), spoiled(SLIDES)]))
 def test_texts_of_model_files(tmp_path_factory, text):
     """As the command reads them, from a file with any bytes."""
@@ -272,7 +272,7 @@ LINE["stitch"] = {"EA": 4e6, "EI": 10.0, "mass": 0.3, "tension": 2e3, "reach": 8
 LINE["spans"] = LINE["spans"][:2]
 
 
-@cases(0.15)
+@cases(0.13)
 @given(data=changed(LINE))
 def test_line_files(data):
     with refused_or_fine():
@@ -284,7 +284,7 @@ def test_line_files(data):
         assert len(line.dropper_x) == len(line.dropper_stitch) == len(line.dropper_span)
 
 
-@cases(0.03)
+@cases(0.02)
 @given(text=spoiled((EXAMPLES / "line.toml").read_text(encoding="utf-8")))
 def test_texts_of_line_files(tmp_path_factory, text):
     path = tmp_path_factory.getbasetemp() / "spoiled_line.toml"
@@ -293,7 +293,7 @@ def test_texts_of_line_files(tmp_path_factory, text):
         read_file(path)
 
 
-@cases(0.02)
+@cases(0.01)
 @given(data=st.binary(max_size=200))
 def test_any_bytes(tmp_path_factory, data):
     """What is no text at all is refused as such."""

@@ -6,8 +6,18 @@ import numpy as np
 import pytest
 from scipy import signal
 
+import ancf
 import catenary_stand_in as stand_in
-from ancf.catenary.passing import droppers_in_window, uplift_at_supports, uplift_in_window
+from ancf.catenary.passing import (
+    dropper_forces,
+    dropper_places,
+    droppers_in_window,
+    in_window,
+    passing_time,
+    speeds_in_window,
+    uplift_at_supports,
+    uplift_in_window,
+)
 from ancf.catenary.signals import Butterworth
 from ancf.catenary.statistics import statistics
 
@@ -29,6 +39,47 @@ def inside(run):
 def with_record(run, **changes):
     """The run with another history of its pantograph."""
     return dataclasses.replace(run, recordings=[dataclasses.replace(run.recordings[0], **changes)])
+
+
+class TestWindow:
+    """Which samples it holds, with two pantographs 100 m apart at 60 m/s, a sample each millisecond."""
+
+    def test_samples_at_both_ends_count(self):
+        run = made()
+        x = np.linspace(0.0, 600.0, len(run.t))
+        run = with_record(dataclasses.replace(run, window=(x[4000], x[6000])), position=x)
+        assert in_window(run) == slice(4000, 6001)
+
+    @pytest.mark.parametrize("begin", [230.0, 239.99, 240.05, 241.0, 300.0])
+    def test_a_run_that_begins_inside_is_refused(self, begin):
+        """It has not seen all of the window; a step of 60 mm is let pass."""
+        run = made()
+        position = run.recordings[0].position
+        run = with_record(run, position=position - position[0] + begin)
+        if begin <= 240.06:
+            assert in_window(run).start == max(0, round((240.0 - begin) / 0.06 + 0.499))
+            return
+        with pytest.raises(ancf.ModelError, match=f"the run covers {begin:g} m"):
+            in_window(run)
+
+    def test_speeds_are_those_of_the_pantograph(self):
+        """The second one is slower in this record."""
+        run = made(count=2, spacing=100.0)
+        first, second = run.recordings
+        second = dataclasses.replace(second, position=200.0 + 0.5 * (first.position - first.position[0]))
+        run = dataclasses.replace(run, recordings=[first, second])
+        for k, speed in ((0, 60.0), (1, 30.0)):
+            assert speeds_in_window(run, k) == pytest.approx(speed)
+            assert len(speeds_in_window(run, k)) == pytest.approx(120.0 / speed / 1e-3, abs=2)
+
+    def test_time_of_a_passing(self):
+        run = made(count=2, spacing=100.0)
+        starts = [recording.position[0] for recording in run.recordings]
+        assert starts[0] - starts[1] == pytest.approx(100.0)
+        for k, start in enumerate(starts):
+            assert passing_time(run, 300.0, k) == pytest.approx(run.t[0] + (300.0 - start) / 60.0, abs=6e-4)
+            assert passing_time(run, start - 1.0, k) is None
+            assert passing_time(run, run.recordings[k].position[-1] + 1.0, k) is None
 
 
 class TestFilterBeforeCut:
@@ -104,6 +155,17 @@ class TestSupports:
         assert [s.number for s in uplift_in_window(run)] == list(NUMBERS)
         assert statistics(run)["uplift"].value == pytest.approx(70.0, rel=1e-3)
 
+    @pytest.mark.parametrize(
+        ("where", "counts"), [(-29.0, True), (29.0, True), (-31.0, False), (31.0, False)]
+    )
+    def test_passing_is_from_middle_to_middle(self, where, counts):
+        """Of the spans of 60 m: the wire may be highest well before or behind the support."""
+        run = made()
+        distance = run.recordings[0].position[:, None] - run.form.line.supports
+        uplift = np.where(np.abs(distance - where) < 0.5, 0.08, 0.01)
+        found = uplift_at_supports(dataclasses.replace(run, uplift=uplift))
+        assert {s.uplift for s in found if s.number in NUMBERS} == {0.08 if counts else 0.01}
+
     def test_each_support_has_its_own_uplift(self):
         heights = 0.01 * (2.0 + np.arange(11))
         run = self.uplift(made(), heights)
@@ -125,6 +187,24 @@ class TestDroppers:
         assert found["dropper_maximum"].value == 80.0
         assert found["slack_droppers"].value == found["slack_number"].value == 1
         assert found["slack_longest"].value == pytest.approx(60.0)
+
+    def test_those_that_push_are_never_slack(self):
+        """A rod that carries nothing for a moment is no dropper that went slack."""
+        run = made()
+        force = np.full_like(run.dropper_force, 80.0)
+        force[100:160], force[200:230] = 0.0, -20.0
+        run = dataclasses.replace(run, dropper_force=force)
+        (found, *_) = dropper_forces(run)
+        assert (found.largest, found.smallest) == (80.0, -20.0)
+        assert found.slack.seconds == pytest.approx(0.06 + 0.03)
+        run.form.line.droppers.slack = False
+        assert dropper_forces(run)[0].slack.seconds == 0.0
+
+    def test_one_at_a_support_belongs_to_the_span_that_begins_there(self):
+        run = made()
+        run.form.line.dropper_x = run.form.line.dropper_x.copy()
+        run.form.line.dropper_x[9] = 60.0
+        assert dropper_places(run)[8:11] == [(1, 9, 55.0), (2, 1, 60.0), (2, 2, 70.5)]
 
     def test_only_those_of_the_window(self):
         run = made()

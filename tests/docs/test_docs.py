@@ -6,6 +6,7 @@ import json
 import re
 import shlex
 import tomllib
+from decimal import Decimal
 from pathlib import Path
 
 import pytest
@@ -29,6 +30,8 @@ LONG = (
     ["catenary", "elasticity", "examples/line.toml"],
 )
 NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
+#: Comment of a tolerance: its size, the numbers that it is for, the reason.
+TOLERANCE = re.compile(r"([\d.e+-]+)(?: of ([^:]+))?: (.{8,})")
 ELLIPSIS = re.compile(r"(?<![\[(])\.\.\.")
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 
@@ -156,8 +159,8 @@ KINDS = {
 
 
 def compare(printed, expected):
-    """Texts are equal but for spaces, and for numbers within the tolerance; ``...`` stands for anything."""
-    tolerance = float(expected.comments.get("tolerance", "1e-3"))
+    """Texts are equal but for spaces, numbers within what the page shows; ``...`` stands for anything."""
+    tolerance = tolerance_of(expected)
     rest = tokens(printed)
     parts = [tokens(part) for part in ELLIPSIS.split(expected.text)]
     position = 0
@@ -167,6 +170,24 @@ def compare(printed, expected):
         position = found + len(part)
     complete = position == len(rest) or not parts[-1]
     assert complete, f"{expected.place}: more is printed:\n{printed}"
+
+
+def tolerance_of(block):
+    """Relative tolerance of the numbers of a block that its comment names, or of all of them.
+
+    Returns
+    -------
+    dict of str to float
+        By number as the page shows it, None for all others; empty: the digits that are shown count.
+    """
+    if "tolerance" not in block.comments:
+        return {}
+    found = TOLERANCE.fullmatch(block.comments["tolerance"])
+    assert found, f'{block.place}: write "0.5 of 9e-06, 3e-07: reason" or "0.5: reason"'
+    named = [name.strip() for name in (found[2] or "").split(",") if name.strip()]
+    missing = [name for name in named if name not in tokens(block.text)]
+    assert not missing, f"{block.place}: does not show {missing}"
+    return dict.fromkeys(named or [None], float(found[1]))
 
 
 def tokens(text):
@@ -183,9 +204,58 @@ def find(whole, part, start, tolerance, anywhere):
 
 
 def same(wanted, found, tolerance):
+    """Equal texts; a count is the same, any other number agrees to one unit of its last digit on the page."""
     if not NUMBER.fullmatch(wanted) or not NUMBER.fullmatch(found):
         return wanted == found
-    return float(found) == pytest.approx(float(wanted), rel=tolerance, abs=1e-12)
+    relative = tolerance.get(wanted, tolerance.get(None))
+    if relative is not None:
+        return float(found) == pytest.approx(float(wanted), rel=relative, abs=1e-12)
+    unit = 0.0 if re.fullmatch(r"[-+]?\d+", wanted) else 10.0 ** Decimal(wanted).as_tuple().exponent
+    return abs(float(found) - float(wanted)) <= 1.0001 * unit
+
+
+@pytest.mark.parametrize(
+    ("wanted", "found", "agree"),
+    [
+        ("0.4312", "0.4313", True),
+        ("0.4312", "0.4314", False),
+        ("0.4312", "0.43", False),
+        ("-1.50", "-1.51", True),
+        ("1.2e-05", "1.3e-05", True),
+        ("1.2e-05", "1.4e-05", False),
+        ("120", "121", False),
+        ("120", "120", True),
+        ("N", "N", True),
+        ("N", "1", False),
+    ],
+)
+def test_numbers_agree_to_the_digits_that_are_shown(wanted, found, agree):
+    assert same(wanted, found, {}) is agree
+
+
+@pytest.mark.parametrize(
+    ("comment", "agree"), [("0.5 of 2e-06: round-off", True), ("0.5 of 7: round-off", False)]
+)
+def test_a_tolerance_is_of_the_numbers_that_it_names(comment, agree):
+    block = code.Block(Path("page.md"), 1, "text", "2e-06 and 7\n", {"tolerance": comment})
+    tolerance = tolerance_of(block)
+    assert same("2e-06", "2.9e-06", tolerance) is True  # one unit of the last digit
+    assert same("2e-06", "1.1e-06", tolerance) is True
+    assert same("7", "8", tolerance) is not agree
+
+
+@pytest.mark.parametrize("comment", ["0.5", "0.5 of 3: round-off", "much: round-off", "0.5 of 7:"])
+def test_a_tolerance_without_its_reason_is_refused(comment):
+    block = code.Block(Path("page.md"), 1, "text", "2e-06 and 7\n", {"tolerance": comment})
+    with pytest.raises(AssertionError, match=r"page\.md"):
+        tolerance_of(block)
+
+
+def test_every_tolerance_has_its_reason():
+    for page in WITH_CODE:
+        for block in code.blocks(page):
+            if block.output is not None:
+                tolerance_of(block.output)
 
 
 # --- pages

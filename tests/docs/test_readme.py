@@ -51,3 +51,20 @@ def test_differences_are_of_the_same_discretisation(figures):
         count, largest = (cell.strip() for cell in row.split("|")[2:4])
         assert int(count) >= 4
         assert float(largest.removesuffix(" m")) < 1e-4
+
+
+def test_cases_of_the_standard_are_the_stored_rows(figures, monkeypatch):
+    """Counts, what is outside and the numbers follow the file; a row that turns is told with its range."""
+    stored = figures.read("docs", "verification", "en50318.json")
+    monkeypatch.setattr(figures, "read", lambda *parts: stored)
+    lines = figures.en50318().splitlines()[2:]
+    assert len(lines) == len({(row[0], row[1]) for row in stored["rows"]}) == 4
+    for line in lines:
+        inside, _, rest = line.split("|")[2].partition(" of ")
+        assert int(inside) == int(rest.split(";")[0]) - rest.count(";")
+    value, verdict = (stored["columns"].index(key) for key in ("value", "verdict"))
+    mean = next(row for row in stored["rows"] if row[2] == "mean force Fm")
+    mean[value], mean[verdict] = 131.26, "outside"
+    changed = figures.en50318().splitlines()[2]
+    assert "| 7 of 8; mean force Fm 131.3 N (110 to 120) | Fm 131.3 N, " in changed
+    assert figures.en50318().splitlines()[3:] == lines[1:]

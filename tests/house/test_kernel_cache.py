@@ -37,6 +37,22 @@ def given(kind):
 def twice(part):
     return 2 * part.x
 """
+WITH_PART = """
+import runpy, sys
+import numba
+from parts import part
+from stamp import STAMP
+
+def given(kind):
+    return {"int": 3, "float": 1.5}[kind]
+
+@numba.njit
+def twice(x):
+    return part(x)
+
+runpy.run_path(sys.argv[3])["use"](twice, STAMP)
+"""
+PART = "import numba\n@numba.njit\ndef part(x):\n    return {factor} * x\n"
 CLASS = "from typing import NamedTuple\nclass Part(NamedTuple):\n    x: float\n"
 
 
@@ -76,6 +92,15 @@ def test_file_that_was_cut_off(folder, suffix):
     path.write_bytes(path.read_bytes()[:-20])
     assert ended(start(folder, "int")) == "6 0"
     assert ended(start(folder, "int")) == "6 1"
+
+
+def test_a_kernel_is_compiled_anew_with_what_it_calls(tmp_path):
+    """Its own file is the same; the stamp of all sources tells that a part of it is another."""
+    (tmp_path / "kernels.py").write_text(WITH_PART, encoding="utf-8")
+    for stamp, factor in (("a", 2), ("b", 5)):
+        (tmp_path / "parts.py").write_text(PART.format(factor=factor), encoding="utf-8")
+        (tmp_path / "stamp.py").write_text(f"STAMP = {stamp!r}", encoding="utf-8")
+        assert [ended(start(tmp_path, "int")) for _ in range(2)] == [f"{3 * factor} 0", f"{3 * factor} 1"]
 
 
 def test_class_that_has_gone(tmp_path):

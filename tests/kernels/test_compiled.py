@@ -2,9 +2,10 @@
 
 from collections import namedtuple
 
+import numba
 import pytest
 
-from ancf.compiled import formula, inline_kernel, kernel, optional
+from ancf.compiled import announce_compilation, formula, inline_kernel, kernel, optional
 
 Batch = namedtuple("Batch", "factor")
 
@@ -60,3 +61,13 @@ class TestOptional:
     def test_not_from_python(self):
         with pytest.raises(TypeError, match="only in compiled code"):
             scaled((), 2.0)
+
+
+def test_compiling_is_announced_once():
+    """Before the first kernel, whatever follows."""
+    said = []
+    announce_compilation(lambda: said.append("compiling"))
+    for function in (lambda x: x + 1.0, lambda x: x - 1.0):
+        assert said in ([], ["compiling"])
+        numba.njit(function)(2.0)
+        assert said == ["compiling"]

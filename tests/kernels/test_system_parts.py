@@ -6,6 +6,7 @@ from scipy.sparse import csc_array
 from scipy.spatial.transform import Rotation as Turn
 
 import ancf
+from ancf.connections.contact import ContactBatch
 from ancf.elements.cable_build import compression
 from ancf.elements.measures import axial_strain
 from ancf.elements.shapes import gauss, hermite
@@ -158,6 +159,29 @@ class TestSupports:
             [d if c in held else 0.0 for c, d in zip("xyz", (0.5, 5, 50), strict=True)]
         )
 
+    def test_shadows_follow_with_their_derivatives(self):
+        """r_x = R y along axes that turn while y changes: its rates by differences of four parts in h^4."""
+        model, beam = cable("curved", elements=1)
+        model.clamp(beam.start, rotation="0.7*t + 0.4*t**2 - 0.2*t**3", axis=(1, 2, 0.5))
+        system = System(model)
+        (slot,), (shadow,) = system.core.supports.rot_slot, system.core.supports.rot_shadow
+        y, rate, half = np.array([1.1, 0.2, -0.3]), np.array([0.5, -1.0, 2.0]), np.array([0.7, 0.4, -0.6])
+
+        def at(t):
+            q, v, a = (np.zeros(system.size) for _ in range(3))
+            x = t - 0.9
+            q[slot : slot + 3] = y + rate * x + half * x**2
+            v[slot : slot + 3], a[slot : slot + 3] = rate + 2 * half * x, 2 * half
+            system.place(t, q, v, a)
+            return [part[shadow : shadow + 3] for part in (q, v, a)]
+
+        h = 2e-3
+        r = [at(0.9 + k * h)[0] for k in range(-2, 3)]
+        _, v, a = at(0.9)
+        # the rates of the angle are differences themselves
+        assert v == pytest.approx((r[0] - 8 * r[1] + 8 * r[3] - r[4]) / (12 * h), abs=1e-8)
+        assert a == pytest.approx((-r[0] + 16 * r[1] - 30 * r[2] + 16 * r[3] - r[4]) / (12 * h * h), abs=1e-6)
+
     def test_clamp_of_a_rigid_body_holds_all(self):
         model = ancf.Model()
         hub = model.add_rigid_body("hub", at=(1, 2, 3), mass=1.0, inertia=(1, 2, 2.5))
@@ -183,6 +207,27 @@ class TestNumbers:
         assert System(model).n == 6 * 5
         model.add_point_mass("mass", at=(0, 0, 0), mass=1.0)
         assert System(model).n == 6 * 6
+
+    def test_directors_are_the_columns_of_the_axes(self):
+        """A point of a turned body lies where scipy's rotation puts it."""
+        turn = Turn.from_rotvec([0.4, -0.9, 0.3])
+        model = ancf.Model()
+        given = {"mass": 1.0, "inertia": (1, 2, 2.5), "axes": turn.as_matrix()}
+        hub = model.add_rigid_body("hub", at=(1, 2, 3), **given)
+        system = System(model)
+        state = ancf.State(system, 0.0, *system.initial_state())
+        corner = np.array([0.3, -0.2, 0.5])
+        assert state.position(hub.at(*corner)) == pytest.approx(np.array([1, 2, 3]) + turn.apply(corner))
+
+    def test_last_node_has_no_internal_vectors(self):
+        """They belong to elements and stand at the node where theirs begins; unused unknowns are held."""
+        system = System(cable("straight", elements=2, element="nonlocking")[0])
+        slots = system.numbering.slots["beam"][:, :, None] + np.arange(3)
+        used = system.numbering.used()
+        assert used[slots[:-1]].all()
+        assert used[slots[-1, :4]].all()
+        assert not used[slots[-1, 4:]].any()
+        assert set(slots[-1, 4:].ravel()) <= set(system.core.supports.held.tolist())
 
     def test_scales_are_stiffness_and_mass_of_what_a_row_holds(self):
         """The largest factor^2 times diagonal entry, at least a share of the joint's largest."""
@@ -294,6 +339,30 @@ class TestContacts:
         heights = [int(s[0, 0]) + 2 for name, s in system.slots.items() if name != "wire"]
         got = (bare + found.matrix().toarray())[np.ix_(heights, heights)]
         assert got == pytest.approx(gradient[np.ix_(heights, heights)], rel=1e-6, abs=1e-8)
+
+    def test_stiffness_on_what_is_held(self):
+        """What a support holds has no row in the matrix: the wire alone is pushed."""
+        model = two_contacts().model
+        model.pin("head 1")
+        system = System(model)
+        found = touching(system.core, system.initial_state()[0], system.n)
+        heads = [system.slots[f"head {k}"][0, 0] + np.arange(3) for k in range(2)]
+        assert np.any(found.rows[:, heads[0]])
+        assert not np.any(found.rows[:, heads[1]])
+        assert found.stiffness.tolist() == [100.0, 200.0]
+
+    def test_a_question_moves_nothing(self):
+        """A run goes on from the place of contact that it found, whatever is asked of a state."""
+        system = two_contacts()
+        q, v = system.initial_state()
+        (batch,) = (b for b in system.core.batches if isinstance(b, ContactBatch))
+        before = batch.found.copy()
+        q[system.slots["head 0"][0, 0]] += 0.8
+        state = ancf.State(system, 0.0, q, v)
+        assert state.contact_gap("touch 0") == pytest.approx(-0.02)
+        assert state.contact_gap("touch 1") == pytest.approx(-0.05)
+        assert state.arc_length("touch 0") == pytest.approx(1.3 * np.hypot(2.0, 0.2) / 2.0, rel=1e-3)
+        assert batch.found == pytest.approx(before, abs=0.0)
 
     def test_samples_of_the_second_of_two_contacts(self):
         system = two_contacts()

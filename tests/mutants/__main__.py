@@ -5,12 +5,12 @@ import os
 import sys
 import time
 
-from .listing import folders, read
+from .listing import folders, read, without_mutants
 from .runner import KILLED, SURVIVED, run_all
 
 
 def main() -> int:
-    """Run the mutants; exit code 1 when one survives or cannot be run."""
+    """Run the mutants; exit code 1 when one survives or cannot be run, or a folder has none."""
     parser = argparse.ArgumentParser(prog="python -m tests.mutants", description=__doc__)
     parser.add_argument("--short", action="store_true", help="the short set alone")
     parser.add_argument("--only", metavar="FOLDER", choices=folders(), help="one folder of src/ancf alone")
@@ -24,6 +24,8 @@ def main() -> int:
         and given.only in (None, m.folder)
         and (given.file is None or given.file in m.file)
     ]
+    if bare := without_mutants():
+        print(f"no mutants of: {', '.join(bare)}")
     os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     start = time.perf_counter()
 
@@ -39,7 +41,7 @@ def main() -> int:
     print(f"{len(verdicts)} mutants, {survived} survived, {len(bad) - survived} errors, {took:.0f} s")
     for verdict in bad:
         print(f"  {verdict.outcome}: {verdict.mutant}")
-    return bool(bad)
+    return bool(bad or bare)
 
 
 if __name__ == "__main__":

@@ -26,7 +26,8 @@ class Mutant:
     short : bool
         It is one of the few that run with every push.
     compiled : bool
-        Compile the changed kernels: the tests are too long for kernels that Python interprets.
+        Compile anew: the tests are too long for kernels that Python interprets, or the change is in how
+        kernels are compiled.
     interpreted : bool
         Interpret the kernels although the change is not in one: the tests are so small that this is quicker
         than to compile for the first time.
@@ -55,6 +56,11 @@ class Mutant:
     def interprets(self) -> bool:
         """Whether the tests run with interpreted kernels."""
         return self.interpreted or (self.in_kernel and not self.compiled)
+
+    @property
+    def compiles(self) -> bool:
+        """Whether what was compiled before the change does not serve."""
+        return self.compiled or self.in_kernel
 
     def changed(self) -> str:
         """Text of the changed file.
@@ -88,3 +94,9 @@ def read() -> list[Mutant]:
 def folders() -> list[str]:
     """Folders of the package that hold modules, and "." for the package itself."""
     return [".", *sorted(p.name for p in PACKAGE.iterdir() if p.is_dir() and any(p.glob("*.py")))]
+
+
+def without_mutants() -> list[str]:
+    """Folders that no mutant changes."""
+    changed = {mutant.folder for mutant in read()}
+    return [folder for folder in folders() if folder not in changed]

@@ -195,7 +195,7 @@ def _judge(mutant: Mutant, copies: Copies, copy: Path, failing: set[str]) -> Ver
         for old in (path.parent / "__pycache__").glob(f"{path.stem}.*.pyc"):
             old.unlink()  # a change within a second and of the same length would not be seen
         path.write_text(changed, encoding="utf-8")
-        how = "interpreted" if mutant.interprets else "compile" if mutant.in_kernel else copies.stamp
+        how = "interpreted" if mutant.interprets else "compile" if mutant.compiles else copies.stamp
         outcome, said = _outcome(mutant, copies, copy, how)
     finally:
         path.write_text(text, encoding="utf-8")
@@ -208,6 +208,8 @@ def _outcome(mutant: Mutant, copies: Copies, copy: Path, how: str) -> tuple[str,
     code, text = copies.run(list(mutant.tests), copy, how, "-x")
     if code is None:
         return KILLED, "the tests hang"
+    if code < 0:
+        return KILLED, f"the tests end with signal {-code}"
     if code == 0:
         return SURVIVED, ""
     said = re.search(r"^FAILED tests/(.*)$", text, re.MULTILINE)

@@ -14,6 +14,7 @@ from ancf.viz import style
 from ancf.viz.pictures.movie import write_movie
 from ancf.viz.pictures.picture import Picture
 from ancf.viz.pictures.projection import best_axes, projection
+from ancf.viz.pictures.shape import times_of
 from ancf.viz.scene import make_scene
 from commands import python
 
@@ -335,6 +336,11 @@ class TestShapes:
         np.testing.assert_allclose(np.unique(bodies.get_array()), [0.0, 0.05, 0.1, 0.15, 0.2], atol=2e-3)
         assert bar.get_ylabel() == "$t$ [s]"
 
+    def test_times_are_the_nearest(self):
+        stored = np.array([0.0, 0.1, 0.2, 0.5])
+        assert times_of(stored, [0.04, 0.16, 0.3]).tolist() == [0.0, 0.2]
+        assert times_of(stored, [0.4, 0.06]).tolist() == [0.1, 0.5]
+
     def test_loaded_result(self, result, tmp_path):
         result.save(tmp_path / "run.h5")
         loaded = ancf.load(tmp_path / "run.h5")
@@ -402,6 +408,9 @@ class TestProjection:
         assert not view.equal
         assert view.extent[1] < 5.0
         assert projection(np.array([[0.0, 0, 0], [3.0, 0, 1.0]])).equal
+        # in space it is the second of the three that counts
+        assert projection(np.array([[0.0, 0, 0], [10.0, 8.0, 0.3]])).equal
+        assert not projection(np.array([[0.0, 0, 0], [10.0, 0.4, 0.3]])).equal
 
 
 class TestPicture:

@@ -1,6 +1,7 @@
 """The page that ``ancf view`` writes: what is in it."""
 
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from types import SimpleNamespace
 
@@ -14,9 +15,11 @@ from ancf.system.system import System
 from ancf.viz.scene import Marker, Scene, Thread, make_scene
 from ancf.viz.view import page, view_page
 from ancf.viz.view.curve import decimated
+from ancf.viz.view.curves import _energies
 from ancf.viz.view.encode import color_limits
 from ancf.viz.view.histories import STATES, Histories
 from ancf.viz.view.page import plotly_script
+from ancf.viz.view.traces import Trace, most_moved
 from helpers import rotation
 from viewed import STRIP, array_of, data_of
 
@@ -67,6 +70,15 @@ class TestPage:
         text = view_page(cantilever)
         assert "<title>Größe &lt;1&gt; &amp; &lt;/script&gt;</title>" in text
         assert "<1>" not in text.replace(plotly_script(), "")
+
+    def test_script_of_a_name_stays_text(self, cantilever):
+        """A name that looks like the end of the script, or like a comment in it, is data."""
+        name = "</script><!--<script>"
+        scene = make_scene(cantilever, frames=2, points=4)
+        text = page(replace(scene, threads=[replace(scene.threads[0], name=name)]), [], "x")
+        assert Elements(text).seen.count("script") == 3
+        assert data_of(text)["scene"]["threads"][0]["name"] == name
+        assert name not in text
 
     def test_positions_and_colours_come_back(self, cantilever):
         scene = make_scene(cantilever, frames=50, points=60)
@@ -210,6 +222,18 @@ class TestChoice:
         wanted = cantilever.position("beam.at(0.3)")
         assert np.abs(array_of(data, data["traces"][0]["position"]) - wanted).max() < 1e-7
 
+    def test_paths_of_one_form_are_shown_once(self):
+        """Points of a body that moves without turning, wherever they are; another form is another path."""
+        t = np.linspace(0.0, 1.0, 9)
+        path = np.stack([np.cos(6 * t), 0 * t, np.sin(6 * t)], axis=1)
+        scene = Scene("", t, threads=[Thread("a", "cable", np.zeros(9), 3 * path[None], {}, None)])
+        given = [
+            Trace("a", t, path),
+            Trace("b", t, path + np.array([5.0, 1.0, 0.0])),
+            Trace("c", t, path[::-1]),
+        ]
+        assert [trace.name for trace in most_moved(given, scene)] == ["a", "c"]
+
     def test_colour_limits(self):
         values = np.linspace(2.0, 5.0, 1000)
         assert color_limits([values[:10], values[10:]]) == (2.0, 5.0, False)
@@ -247,6 +271,14 @@ class TestCurves:
         np.testing.assert_allclose(t, cantilever.t, rtol=1e-6)
         wanted = cantilever.energy.total - cantilever.energy.potential[0]
         np.testing.assert_allclose(total, wanted, atol=1e-6)
+
+    def test_potential_energy_is_counted_from_the_start(self):
+        """Its zero is where the model has z = 0, kilometres away perhaps."""
+        t = np.linspace(0.0, 1.0, 3)
+        parts = {"kinetic": 1 + t, "strain": 2 * t, "potential": 1e6 - 3 * t}
+        found = {c.name: c.values for c in _energies(SimpleNamespace(t=t, energy=SimpleNamespace(**parts)))}
+        assert found["potential"] == pytest.approx(-3 * t)
+        assert found["total"] == pytest.approx(np.ones(3))
 
     def test_traced_points_joints_and_sensors(self, bead):
         found = self.curves(bead)

@@ -105,6 +105,16 @@ class TestMovingMesh:
                 root["Steps/PointOffsets"][:].tolist() == (root["NumberOfPoints"][0] * np.arange(61)).tolist()
             )
 
+    def test_constant_values_are_those_of_every_step(self, read):
+        """They are written once: a reader that looked for them further on would find nothing, or others."""
+        with h5py.File(read.reader.GetFileName()) as file:
+            offsets = file["VTKHDF/Steps/PointDataOffsets"]
+            assert {name for name in offsets if offsets[name][:].any()} >= {"tension", "displacement"}
+            assert not any(offsets[name][:].any() for name in ("kind", "part", "s"))
+        first, last = (read.step(k)[1] for k in (0, 60))
+        for name in ("kind", "part", "s"):
+            np.testing.assert_array_equal(first[name], last[name])
+
     @pytest.mark.parametrize("name", ["wire", "tail"])
     def test_centrelines(self, run, read, name):
         """Places and values at every point of a line, nodes among them, at several times."""
@@ -328,6 +338,20 @@ class TestTables:
         balance = total + energy["dissipated [J]"] - energy["supplied [J]"]
         assert energy["balance [J]"] == pytest.approx(balance, rel=1e-14)
         assert np.array_equal(energy["drift [J]"], result.energy.drift)
+
+    def test_moments_of_a_joint(self, tmp_path):
+        """Behind its three forces, counted from one."""
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        hub = model.add_rigid_body("hub", at=(1, 0.2, 0), mass=1.0, inertia=(0.01, 0.02, 0.03))
+        hinge = model.hinge(hub.at(-1, -0.2, 0), (0, 0, 0), axis=(0, 1, 0), name="hinge")
+        result = ancf.simulate(model, t_end=0.02, step=0.01)
+        (path,) = (f for f in write_csv(result, tmp_path) if f.stem == "joints")
+        found, values = table(path), result.multiplier(hinge)
+        names = [f"hinge force {c} [N]" for c in "xyz"] + [f"hinge moment {k} [N m]" for k in (1, 2)]
+        assert list(found) == ["t [s]", *names]
+        for k, name in enumerate(names):
+            assert np.array_equal(found[name], values[:, k])
+        assert np.all(values[-1, 3:] != 0.0)
 
     def test_without_sensors_and_energy(self, tmp_path):
         """Points that stand for the bodies; no table is empty."""

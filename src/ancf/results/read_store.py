@@ -15,7 +15,7 @@ from ..model.bodies import Body
 from ..model.model import Model
 from ..solvers.stepping import Stats
 from ..system.sensors import Listing
-from . import hdf5, remembered
+from . import hdf5, remembered, sound
 from .layout import read_joints, read_slots
 from .layout_sensors import DATA, read_listing
 from .remembered import Remembered
@@ -45,19 +45,17 @@ class ReadStore:
             raise ModelError("load", f"must be given a path, is given {checks.shown(path)}")
         self.path, self._status = Path(path), status
         self._file = hdf5.opened(self.path)
-        try:
+        with sound.inside(self.path):
             self._begin()
-        except hdf5.DAMAGED as error:
-            raise hdf5.damaged(path, error) from None
 
     def _begin(self) -> None:
         if self._file.attrs.get("format") != FORMAT:
             raise ModelError(str(self.path), "is not a results file of ancf")
-        if self._file.attrs["format_version"] != VERSION:
-            raise ModelError(str(self.path), "was written by another version of ancf, in another format")
+        if (version := self._file.attrs.get("format_version")) != VERSION:
+            what = f"is a results file of version {version}, this ancf reads version {VERSION}"
+            raise ModelError(str(self.path), what)
         self.header: dict[str, Any] = json.loads(self._file.attrs["header"])
-        if not isinstance(self.header, dict) or not isinstance(self.header.get("settings"), dict):
-            raise ValueError("its header is no table with settings")
+        sound.check_header(self.header)
         # an earlier load of a run that goes on has seen less of it
         self._rows = self._refreshed(self._file, ("time", "q", "v", "work", "energy"))
         self._sensors = self._file.get("sensors")
@@ -69,7 +67,8 @@ class ReadStore:
             or not 0 <= int(self._file["status"][()]) < len(STATUS)
         ):
             raise ValueError("its data sets do not belong together")
-        self.stats  # noqa: B018 - as many counters as there should be
+        sound.check_times(self._file["time"][: self._rows], "time")
+        checks.array(list(self.stats.as_dict().values()), "stats", (None,))
 
     @staticmethod
     def _refreshed(group: Any, names: tuple[str, ...]) -> int:
@@ -99,10 +98,14 @@ class ReadStore:
 
     def listing(self, bodies: dict[str, Body]) -> Listing:
         """See :class:`Store`."""
-        try:
-            return read_listing(self._sensors, bodies) if self._sensors else Listing()
-        except hdf5.DAMAGED as error:
-            raise hdf5.damaged(self.path, error) from None
+        if not self._sensors:
+            return Listing()
+        with sound.inside(self.path):
+            found = read_listing(self._sensors, bodies)
+            widths = {name: int(self._sensors[name].shape[1]) for name in DATA[:-1]}
+            sound.check_listing(found, self.width, widths)
+            sound.check_times(self._sensors["time"][: self._samples], "sensors/time")
+            return found
 
     def model(self) -> Model:
         """The model that was computed; Python functions are missing.
@@ -128,15 +131,15 @@ class ReadStore:
         ModelError
             They do not belong to the states.
         """
-        try:
+        with sound.inside(self.path):
             slots, joints = read_slots(self._file, model.bodies), read_joints(self._file)
-            width = int(self._file["q"].shape[1])
-            for unknowns in (*slots.values(), *joints.values()):
-                if unknowns.size and not 0 <= unknowns.min() <= unknowns.max() < width:
-                    raise ValueError("its bodies have other unknowns than its states")
+            sound.check_unknowns(model, slots, joints, self.width)
             return slots, joints, remembered.read(self._file, model)
-        except hdf5.DAMAGED as error:
-            raise hdf5.damaged(self.path, error) from None
+
+    @property
+    def width(self) -> int:
+        """Size of the state vectors."""
+        return int(self._file["q"].shape[1])
 
     @property
     def stats(self) -> Stats:

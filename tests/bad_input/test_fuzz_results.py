@@ -1,0 +1,191 @@
+"""Generated damage of results files: a file opens and answers, or is refused with its name and a reason.
+
+The file has every kind of body and connection; bytes, attributes, data sets, groups and links are changed.
+"""
+
+import contextlib
+import io
+import json
+import shutil
+import warnings
+from unittest.mock import patch
+
+import h5py
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import ancf
+import damage
+from ancf.cli.check import check_file
+from ancf.cli.info import show_info
+from ancf.viz.export import write_csv, write_vtk
+from ancf.viz.view import view_page
+from fuzzing import cases, parent_of, refused_or_fine
+
+
+@pytest.fixture(scope="module")
+def right(tmp_path_factory):
+    path = tmp_path_factory.mktemp("right") / "right.h5"
+    damage.write(path)
+    return path
+
+
+def written(path):
+    """What the commands make of a file: words, tables, a mesh, a page."""
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        for command in (check_file, show_info):
+            with refused_or_fine():
+                command(path)
+    assert "\x1b" not in said.getvalue()
+    with refused_or_fine():
+        write_csv(ancf.load(path), path.with_suffix(""))
+    with refused_or_fine():
+        write_vtk(ancf.load(path), path.with_suffix(".vtkhdf"))
+    with refused_or_fine(), patch("ancf.viz.view.page.plotly_script", return_value=""):
+        assert "</html>" in view_page(ancf.load(path))
+
+
+def test_right_file(right):
+    result = ancf.load(right)
+    assert result.status == "complete"
+    damage.ask(result, states=False)
+    assert len(result.sensors.names) == 5
+    written(right)
+
+
+@cases(0.16)
+@given(data=st.data())
+def test_results_files(right, data):
+    path = right.with_name("damaged.h5")
+    path.unlink(missing_ok=True)  # a result that is still open keeps the old file
+    shutil.copyfile(right, path)
+    by_command = data.draw(st.integers(0, 5)) == 0
+    states = damage.damage(path, data.draw)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        with refused_or_fine():
+            damage.ask(ancf.load(path), states)
+        if by_command:
+            written(path)
+
+
+def header(key, value):
+    """Another value in the header; the key is a path of keys."""
+
+    def change(file):
+        plain = json.loads(file.attrs["header"])
+        parent_of(plain, key)[key[-1]] = value
+        file.attrs["header"] = json.dumps(plain)
+
+    return change
+
+
+def listed(key, value):
+    """Another value in what the sensors list."""
+
+    def change(file):
+        plain = json.loads(file["sensors"].attrs["listed"])
+        parent_of(plain, key)[key[-1]] = value
+        file["sensors"].attrs["listed"] = json.dumps(plain)
+
+    return change
+
+
+def attribute(name, key, value):
+    return lambda file: file[name].attrs.__setitem__(key, value)
+
+
+def data(name, of):
+    """A data set that is made from the old one."""
+
+    def change(file):
+        attrs, new = dict(file[name].attrs), of(file[name][()])
+        del file[name]
+        file[name] = new
+        file[name].attrs.update(attrs)
+
+    return change
+
+
+SLIDER = "joints/000002"
+#: What was found once, and the place that its refusal names.
+FOUND = {
+    "slots of fewer vectors": (data("bodies/wire/slots", lambda x: x[:, :1]), "bodies/wire/slots has shape"),
+    "slots of fewer nodes": (data("bodies/wire/slots", lambda x: x[:-1]), "bodies/wire/slots has shape"),
+    "slots of a mass in a row": (data("bodies/tip/slots", np.ravel), "bodies/tip/slots has shape"),
+    "slots of decimals": (
+        data("bodies/wire/slots", lambda x: 1.0 * x),
+        "must hold whole numbers",
+    ),
+    "slots at the end": (data("bodies/tip/slots", lambda x: 0 * x + 10**3), "lies outside the states"),
+    "nodes of a vector": (data("bodies/bar/node_y", lambda x: x[:, :1]), "bodies/bar/node_y has shape"),
+    "nodes that go back": (data("bodies/wire/node_x", lambda x: x[::-1]), "node_x does not run from 0"),
+    "nodes that are no numbers": (data("bodies/wire/node_position", lambda x: np.nan * x), "finite"),
+    "tangents of no length": (data("bodies/bar/node_tangent", lambda x: 0 * x), "no unit vectors"),
+    "another element": (attribute("bodies/wire", "element", "{"), "bodies/wire.element is '{'"),
+    "another strain": (attribute("bodies/wire", "strain", "green"), "bodies/wire.strain is 'green'"),
+    "no length": (attribute("bodies/wire", "length", 0.0), "bodies/wire.length must be > 0"),
+    "endless stretch": (attribute("bodies/wire", "stretch", 1e30), "bodies/wire.stretch must be between"),
+    "points of integration": (attribute("bodies/wire", "gauss", (0, 3)), "bodies/wire.gauss must be between"),
+    "one number of two": (attribute("bodies/wire", "gauss", 3), "damaged"),
+    "negative mass": (attribute("bodies/hub", "mass", -1.0), "bodies/hub.mass must be > 0"),
+    "axes of no length": (attribute("bodies/hub", "axes", np.zeros((3, 3))), "bodies/hub.axes"),
+    "negative inertia": (attribute("bodies/hub", "inertia", -np.eye(3)), "bodies/hub.inertia has a negative"),
+    "sliding joint without s": (data(SLIDER, lambda x: x[:3]), 'joints "slider" has shape'),
+    "joint of a table": (data(SLIDER, lambda x: x.reshape(2, 2)), "damaged"),
+    "negative spring": (attribute("springs/000000", "stiffness", -1.0), "stiffness must be >= 0"),
+    "spring beside its body": (attribute("springs/000000", "a", (9.0, 0.0, 0.0)), "lies at 9 m of a beam"),
+    "stored times": (data("time", lambda t: t[::-1]), "time does not ascend"),
+    "counters": (data("stats", lambda x: np.nan * x), "damaged"),
+    "label of a table": (listed(("points", 0, "label"), {"t": [0]}), "sensors: a point must be text"),
+    "place of a text": (listed(("points", 0, "place"), ["a", 0, 0]), "must be a number"),
+    "names of lists": (listed(("connections",), [["dropper"]]), "sensors.connections must be text"),
+    "too few columns": (listed(("columns", "touch"), [0, 1, 2]), 'sensors "touch" has shape'),
+    "columns elsewhere": (listed(("columns", "touch"), [0, 1, 2, 9]), 'sensors "touch" lies outside'),
+    "index that goes back": (data("sensors/index", lambda x: x[::-1]), "sensors/index does not ascend"),
+    "narrow samples": (data("sensors/q", lambda x: x[:, :-1]), "sensors has data of widths"),
+    "sensors' times": (data("sensors/time", lambda t: 0 * t), "sensors/time does not ascend"),
+    "end of a text": (header(("settings", "t_end"), "x"), "header.settings.t_end must be a number"),
+    "sensors of numbers": (
+        header(("settings", "sensors"), [3]),
+        r"sensors\[0\] must be text",
+    ),
+    "sensors of a number": (header(("settings", "sensors"), 3), "header.settings.sensors must be a list"),
+    "energy of a text": (
+        header(("settings", "energy"), "no"),
+        "settings.energy must be True",
+    ),
+    "model of a list": (header(("model",), []), "header.model must be a table"),
+    "a kind that is none": (header(("model", "supports", 0, "type"), "x"), r"supports\[0\].type is 'x'"),
+    "support nowhere": (
+        header(("model", "supports", 0, "point"), None),
+        r"\[0\].point must be a list",
+    ),
+    "strip of no length": (header(("model", "connections", 2, "strip"), [0, 0, 0]), r"strip must not be the"),
+    "title of a list": (header(("title",), []), "header.title must be text"),
+}
+
+
+class TestFound:
+    @pytest.mark.parametrize("name", FOUND)
+    def test_is_refused_with_its_place(self, right, tmp_path, name):
+        path = tmp_path / "damaged.h5"
+        shutil.copyfile(right, path)
+        change, said = FOUND[name]
+        with h5py.File(path, "r+", libver="latest") as file:
+            change(file)
+        with pytest.raises(ancf.ModelError, match=said) as caught:
+            _ = ancf.load(path).sensors
+        assert caught.value.where == str(path)
+
+    @pytest.mark.parametrize("version", [0, 2, "1.0"])
+    def test_of_another_version(self, right, tmp_path, version):
+        path = tmp_path / "later.h5"
+        shutil.copyfile(right, path)
+        with h5py.File(path, "r+", libver="latest") as file:
+            file.attrs["format_version"] = version
+        with pytest.raises(ancf.ModelError, match=f"is a results file of version {version}, this ancf reads"):
+            ancf.load(path)

@@ -1,0 +1,38 @@
+"""Pieces of pages: text and elements in their order, attributes, and everything escaped."""
+
+import base64
+from xml.etree import ElementTree
+
+from ancf.viz.html import element, figure, page, pairs, picture, table
+
+
+def text_of(tree):
+    return ElementTree.tostring(tree, encoding="unicode")
+
+
+def test_texts_follow_each_other():
+    """Before, between and behind elements, as often as there are some."""
+    tree = element("p", "a", "b", element("b", "c"), "d", "e", element("i"), "f", class_="x", data_y="1")
+    assert text_of(tree) == '<p class="x" data-y="1">ab<b>c</b>de<i />f</p>'
+
+
+def test_text_is_escaped():
+    assert text_of(element("p", "<b> & c", title='"<')) == '<p title="&quot;&lt;">&lt;b&gt; &amp; c</p>'
+    assert "<script>x" not in page("<script>x", element("p", "<script>x"))
+
+
+def test_numbers_of_a_table_stand_on_the_right():
+    tree = table(["name", "size"], [["a", "1"], ["b", "2"]], numbers=[1])
+    cells = [[cell.get("class") for cell in row] for row in tree.iter("tr")]
+    assert cells == [[None, "number"]] * 3
+    assert [cell.text for cell in tree.iter("td")] == ["a", "1", "b", "2"]
+    assert [[cell.text for cell in row] for row in pairs([("k", "v")]).iter("tr")] == [["k", "v"]]
+
+
+def test_pictures_stand_inside_the_page():
+    content = bytes(range(256))
+    image = picture(content, "png", "noise")
+    kind, coded = image.get("src").split(",")
+    assert (kind, base64.b64decode(coded)) == ("data:image/png;base64", content)
+    (shown,) = figure("tip", "Tip", "Over time", "<svg/>").iter("img")
+    assert shown.get("alt") == "Tip. Over time"
