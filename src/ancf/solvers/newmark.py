@@ -22,10 +22,10 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import literal_unroll
 from numpy.typing import NDArray
 
-from ..compiled import add_force, add_tangents, find_events, inline_kernel, kernel, optional
+from ..batches import add_forces, add_tangents, find_events
+from ..compiled import inline_kernel, kernel, optional
 from ..system.core import (
     assemble,
     constraint_rows,
@@ -380,8 +380,7 @@ def balance(core, s, h):
             power += s.v[i] * s.r[i]
     for i in range(push.shape[0]):
         push[i] = core.loads.gravity[i] - s.f[i]
-    for batch in literal_unroll(core.followers):
-        add_force(batch, s.q, s.v, s.a, push, core.ws)
+    add_forces(core.followers, s.q, s.v, s.a, push, core.ws)
     for i in range(push.shape[0]):
         push[i] = -push[i]
     for k in range(core.supports.driven.shape[0]):

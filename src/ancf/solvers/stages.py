@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from numba import literal_unroll
-
-from ..compiled import add_force, kernel
+from ..batches import add_forces
+from ..compiled import kernel
 from ..system.core import drive, external_force, residual, to_local
 
 
@@ -45,8 +44,7 @@ def stage_powers(core, tables, q, v, a, f, r, zero, power):
         for i in range(size):
             dissipated -= v[n, i] * r[n, i]
             r[n, i] = 0.0
-        for batch in literal_unroll(core.followers):
-            add_force(batch, q[n], v[n], a[n], r[n], core.ws)
+        add_forces(core.followers, q[n], v[n], a[n], r[n], core.ws)
         for i in range(size):
             supplied -= v[n, i] * r[n, i]
         power[n, 0], power[n, 1] = dissipated, supplied

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..batches import Batches
 from ..connections.joint import JointBatch
 from ..connections.sliding import SlidingBatch
 from .core import Joints, Supports, assemble
@@ -75,8 +76,8 @@ def core_joints(batches: list[Any], system: System, supports: Supports) -> Joint
         multipliers=system.multipliers,
         mask=mask,
         level=system.level,
-        batches=tuple(constrained),
-        tail=tuple(b for b in constrained if isinstance(b, SlidingBatch)),
+        batches=Batches(constrained),
+        tail=Batches(b for b in constrained if isinstance(b, SlidingBatch)),
         first=first,
         lowest=int(np.min(system.multipliers, initial=system.n)) // 6,
         supports=tail_supports(supports, system.places, first),

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..batches import Batches
 from ..bodies.build import inertia
 from ..connections import joint_build
 from ..connections.contact import ContactBatch
@@ -175,7 +176,7 @@ class System:
         # elements read and write the shadows; the matrix knows the unknowns alone
         seen = self._batches(self.slots)
         batches = [self._bound(plain, shadowed) for plain, shadowed in zip(batches, seen, strict=True)]
-        followers = tuple(b for b in batches if isinstance(b, MomentBatch | SectionMomentBatch))
+        followers = Batches(b for b in batches if isinstance(b, MomentBatch | SectionMomentBatch))
         springs_batch = next(b for b in batches if isinstance(b, SpringBatch))
         damped = any(beam.section.damped for beam in self.model.beams.values())
         slides = [joint for joint in self.model.connections if isinstance(joint, Slide)]
@@ -189,7 +190,7 @@ class System:
             driven=self._shadowed(driven),
         )
         return Core(
-            batches=tuple(batches),
+            batches=Batches(batches),
             followers=followers,
             ws=workspace(),
             A=np.zeros(self.places.size),
