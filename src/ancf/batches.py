@@ -2,27 +2,24 @@
 
 A kernel that is given a plain tuple of batches is compiled for its kinds, with all that their operations do:
 half a minute for each new combination.  :class:`Batches` is one type for all combinations.  It has a table
-of addresses: where a batch lies and where its operations are.  These are compiled once for each kind, and the
-kernels once for all models; an operation that does nothing costs nothing.
-
-Table, 64-bit numbers: how many batches, then for each the address of its record (the named tuple as compiled
-code holds it) and those of its operations in the order of :data:`OPERATIONS`, 0 for none.
+of addresses: where a batch lies as a record (the named tuple as compiled code holds it), and where its
+operations are.  These are compiled once for each kind, and the kernels once for all models; an operation that
+does nothing costs nothing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, NamedTuple
 
 import numpy as np
-from llvmlite import ir
-from numba import literal_unroll, types
+from numba import literal_unroll, typeof, types
 from numba.core import cgutils
 from numba.core.datamodel import models
 from numba.core.errors import TypingError
 from numba.core.registry import cpu_target
-from numba.core.typing.typeof import Purpose, _TypeofContext
-from numba.extending import NativeValue, intrinsic, overload, register_model, typeof_impl, unbox
+from numba.extending import intrinsic, overload, register_model, typeof_impl
+from numpy.typing import NDArray
 
 from .compiled import (
     PART,
@@ -41,13 +38,6 @@ from .compiled import (
 VECTOR = types.Array(types.float64, 1, "C")
 
 
-class BatchesType(types.Type):
-    """Type of all :class:`Batches` in kernels: the address of the table."""
-
-    def __init__(self) -> None:
-        super().__init__(name="Batches")
-
-
 class RecordType(types.Type):
     """Type in kernels of the address of a batch of a type."""
 
@@ -56,7 +46,6 @@ class RecordType(types.Type):
         super().__init__(name=f"Record({batch})")
 
 
-register_model(BatchesType)(models.OpaqueModel)
 register_model(RecordType)(models.OpaqueModel)
 
 
@@ -133,7 +122,7 @@ def measure_at(record, q, v):
 
 
 _V, _x = VECTOR, types.float64
-#: Kernels that apply an operation to the batch at an address, the types of what they take besides, and return.
+#: Kernels of the operations on a record, the types of what they take besides it, and what they return.
 OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     add_force: (force_at, (_V, _V, _V, _V, _V), types.none),
     add_inertia: (inertia_at, (_V, _V, _V), types.none),
@@ -143,47 +132,66 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     inverted: (inverted_at, (_V, _V), types.int64),
     measure: (measure_at, (_V, _V), types.none),
 }
-_ROW = 1 + len(OPERATIONS)
+_COLUMNS = 1 + len(OPERATIONS)
+FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE = range(1, _COLUMNS)
 
 
-class Batches(tuple[Any, ...]):
-    """Batches as kernels take them; in Python a tuple.
+class _Table(NamedTuple):
+    table: NDArray[np.int64]  # (batches, 1 + operations) addresses: of the record, of its operations, 0: none
 
-    Attributes
-    ----------
-    address : int
-        Of the table, which lives as long as this object.
-    """
 
-    address: int
+class Batches(_Table):
+    """Batches as kernels take them; in Python a tuple of the batches, in compiled code the table alone."""
+
+    _batches: tuple[Any, ...]
+    _records: list[NDArray[np.int64]]
 
     def __new__(cls, batches: Iterable[Any] = ()) -> Batches:
         """From batches of any kinds."""
-        self = super().__new__(cls, batches)
-        records = [_record(batch) for batch in self]
-        numbers = [len(records), *(n for words, found in records for n in (words.ctypes.data, *found))]
-        table = np.array(numbers, dtype=np.int64)
-        self._kept = table, records
-        self.address = table.ctypes.data
+        kept = tuple(batches)
+        rows = [_row(batch) for batch in kept]
+        numbers = [(words.ctypes.data, *found) for words, found in rows]
+        self = super().__new__(cls, np.array(numbers, dtype=np.int64).reshape(len(rows), _COLUMNS))
+        self._batches, self._records = kept, [words for words, _ in rows]
         return self
 
+    def __iter__(self) -> Iterator[Any]:
+        return iter(self._batches)
+
+    def __len__(self) -> int:
+        return len(self._batches)
+
+    def __getitem__(self, k: Any) -> Any:
+        return self._batches[k]
+
+    def __contains__(self, batch: Any) -> bool:
+        return any(batch is mine for mine in self._batches)
+
+    def __repr__(self) -> str:
+        return f"Batches({', '.join(type(batch).__name__ for batch in self._batches)})"
+
     def __reduce__(self) -> Any:
-        return Batches, (tuple(self),)  # the table is of this process
+        return Batches, (self._batches,)  # addresses are of this process
 
 
-_BATCHES = BatchesType()
+_TYPE = types.NamedTuple((types.Array(types.int64, 2, "C"),), Batches)
 _compiled: dict[Any, tuple[int, tuple[int, ...]]] = {}
 
 
-def _record(batch: Any) -> tuple[Any, tuple[int, ...]]:
+@typeof_impl.register(Batches)
+def _typeof(batches, context):
+    return _TYPE
+
+
+def _row(batch: Any) -> tuple[NDArray[np.int64], tuple[int, ...]]:
     """The record of a batch and the addresses of its operations."""
-    kind = typeof_impl(batch, _TypeofContext(Purpose.argument))
-    if kind not in _compiled:
-        context = cpu_target.target_context
+    key = type(batch), *((x.dtype, x.ndim, x.flags.num) for x in batch)
+    if key not in _compiled:
+        kind, context = typeof(batch), cpu_target.target_context
         size = context.get_abi_sizeof(context.get_data_type(kind))
-        _compiled[kind] = -(-size // 8), tuple(_address(type(batch), kind, stub) for stub in OPERATIONS)
-    length, found = _compiled[kind]
-    words = np.zeros(length, dtype=np.int64)
+        _compiled[key] = -(-size // 8), tuple(_address(type(batch), kind, stub) for stub in OPERATIONS)
+    length, found = _compiled[key]
+    words = np.empty(length, dtype=np.int64)
     keep(batch, words)
     return words, found
 
@@ -199,75 +207,33 @@ def _address(batch_type: type, kind: Any, stub: Any) -> int:
     return int(compiled.library.get_pointer_to_function(compiled.fndesc.llvm_func_name))
 
 
-@typeof_impl.register(Batches)
-def _typeof(batches, context):
-    return _BATCHES
-
-
-@unbox(BatchesType)
-def _unbox(kind, batches, c):
-    number = c.pyapi.object_getattr_string(batches, "address")
-    address = c.pyapi.long_as_voidptr(number)
-    c.pyapi.decref(number)
-    return NativeValue(address, is_error=c.pyapi.c_api_error())
-
-
-_WORD = ir.IntType(64)
-_ZERO, _ONE = ir.Constant(_WORD, 0), ir.Constant(_WORD, 1)
-
-
-def _number(builder, table, place):
-    """A number of the table."""
-    return builder.load(builder.gep(builder.bitcast(table, _WORD.as_pointer()), [place]))
-
-
-@intrinsic
-def number_of(typing, batches):
-    """How many batches there are."""
-
-    def generate(context, builder, signature, arguments):
-        return _number(builder, arguments[0], _ZERO)
-
-    return types.int64(batches), generate
-
-
-@overload(len)
-def _length(batches):
-    if isinstance(batches, BatchesType):
-        return lambda batches: number_of(batches)
-    return None
-
-
 def _caller(stub: Any, nothing: Any = None) -> Any:
-    """Intrinsic ``call(batches, k, arguments)``: an operation of batch k; `nothing` where it does nothing."""
-    column = ir.Constant(_WORD, 2 + list(OPERATIONS).index(stub))
+    """Intrinsic ``call(place, record, arguments)`` of an operation; `nothing` where its address is 0."""
     _, given, result = OPERATIONS[stub]
 
     @intrinsic
-    def call(typing, batches, k, arguments):
+    def call(typing, place, record, arguments):
         if not all(_fits(have, want) for have, want in zip(arguments, given, strict=True)):
             raise TypingError(f"{stub.__name__} takes {given}, not {tuple(arguments)}")
 
         def generate(context, builder, signature, values):
-            table, k, packed = values
-            row = builder.mul(k, ir.Constant(_WORD, _ROW))
-            record, place = (_number(builder, table, builder.add(row, c)) for c in (_ONE, column))
+            place, record, packed = values
             items = [
                 item if isinstance(want, types.Array) else context.cast(builder, item, have, want)
                 for item, have, want in zip(
                     cgutils.unpack_tuple(builder, packed), arguments, given, strict=True
                 )
             ]
-            if nothing is None:
-                with builder.if_then(builder.icmp_unsigned("!=", place, _ZERO)):
-                    _call(context, builder, place, record, items, given, result)
-                return context.get_dummy_value()
-            out = cgutils.alloca_once_value(builder, context.get_constant(result, nothing))
-            with builder.if_then(builder.icmp_unsigned("!=", place, _ZERO)):
-                builder.store(_call(context, builder, place, record, items, given, result), out)
-            return builder.load(out)
+            out = None
+            if nothing is not None:
+                out = cgutils.alloca_once_value(builder, context.get_constant(result, nothing))
+            with builder.if_then(cgutils.is_not_null(builder, place)):
+                value = _call(context, builder, place, record, items, given, result)
+                if out is not None:
+                    builder.store(value, out)
+            return context.get_dummy_value() if out is None else builder.load(out)
 
-        return result(batches, types.int64, arguments), generate
+        return result(types.int64, types.int64, arguments), generate
 
     return call
 
@@ -311,7 +277,7 @@ def _each(of_tuple: Callable[..., Any], of_batches: Callable[..., Any], default:
 
     @overload(stub, jit_options=PART, strict=False)
     def _choose(batches, *arguments):
-        if isinstance(batches, BatchesType):
+        if batches is _TYPE:
             return of_batches
         return of_tuple if len(batches) else nothing
 
@@ -324,8 +290,9 @@ def _forces_of_tuple(batches, q, v, a, r, ws):
 
 
 def _forces(batches, q, v, a, r, ws):
-    for k in range(number_of(batches)):
-        _force(batches, k, (q, v, a, r, ws))
+    table = batches.table
+    for k in range(table.shape[0]):
+        _force(table[k, FORCE], table[k, 0], (q, v, a, r, ws))
 
 
 def _inertias_of_tuple(batches, a, r, ws):
@@ -334,8 +301,9 @@ def _inertias_of_tuple(batches, a, r, ws):
 
 
 def _inertias(batches, a, r, ws):
-    for k in range(number_of(batches)):
-        _inertia(batches, k, (a, r, ws))
+    table = batches.table
+    for k in range(table.shape[0]):
+        _inertia(table[k, INERTIA], table[k, 0], (a, r, ws))
 
 
 def _tangents_of_tuple(batches, q, v, A, c_mass, c_damping, c_stiffness, ws):
@@ -344,8 +312,9 @@ def _tangents_of_tuple(batches, q, v, A, c_mass, c_damping, c_stiffness, ws):
 
 
 def _tangents(batches, q, v, A, c_mass, c_damping, c_stiffness, ws):
-    for k in range(number_of(batches)):
-        _tangent(batches, k, (q, v, A, c_mass, c_damping, c_stiffness, ws))
+    table = batches.table
+    for k in range(table.shape[0]):
+        _tangent(table[k, TANGENT], table[k, 0], (q, v, A, c_mass, c_damping, c_stiffness, ws))
 
 
 def _energies_of_tuple(batches, q, ws):
@@ -357,8 +326,9 @@ def _energies_of_tuple(batches, q, ws):
 
 def _energies(batches, q, ws):
     energy = 0.0
-    for k in range(number_of(batches)):
-        energy += _energy(batches, k, (q, ws))
+    table = batches.table
+    for k in range(table.shape[0]):
+        energy += _energy(table[k, ENERGY], table[k, 0], (q, ws))
     return energy
 
 
@@ -372,9 +342,10 @@ def _events_of_tuple(batches, q):
 
 def _events(batches, q):
     code = -1
-    for k in range(number_of(batches)):
+    table = batches.table
+    for k in range(table.shape[0]):
         if code < 0:
-            code = _event(batches, k, (q,))
+            code = _event(table[k, EVENT], table[k, 0], (q,))
     return code
 
 
@@ -389,8 +360,9 @@ def _inverted_of_tuple(batches, q, ws):
 
 def _inverted_of_batches(batches, q, ws):
     slot = -1
-    for k in range(number_of(batches)):
-        found = _inverted(batches, k, (q, ws))
+    table = batches.table
+    for k in range(table.shape[0]):
+        found = _inverted(table[k, INVERTED], table[k, 0], (q, ws))
         if found >= 0:
             slot = found
     return slot
@@ -402,8 +374,9 @@ def _measures_of_tuple(batches, q, v):
 
 
 def _measures(batches, q, v):
-    for k in range(number_of(batches)):
-        _measure(batches, k, (q, v))
+    table = batches.table
+    for k in range(table.shape[0]):
+        _measure(table[k, MEASURE], table[k, 0], (q, v))
 
 
 #: The operations, of all batches in turn: see :mod:`ancf.compiled`.

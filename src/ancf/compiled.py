@@ -221,13 +221,13 @@ def optional(function: Callable[..., Any], default: Any = None) -> Any:
         return default
 
     def perhaps(items, *arguments):
-        if len(items) > 0:
+        if items.table.shape[0] > 0:
             return part(items, *arguments)
         return default
 
     @overload(stub, jit_options=PART, strict=False)
     def _choose(items, *arguments):
-        if not isinstance(items, types.BaseTuple):
+        if isinstance(items, types.BaseNamedTuple):
             return perhaps
         return function if len(items) else nothing
 
