@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numba
-from numba import literal_unroll, types
+from numba import types
 from numba.core import event
 from numba.extending import overload
 
@@ -34,7 +34,7 @@ _OPTIONS: dict[str, Any] = {
     "no_cfunc_wrapper": True,
 }
 #: What only kernels call has no entry for Python, which saves a third of the time to compile.
-_INNER: Any = {**_OPTIONS, "no_cpython_wrapper": True}
+PART: Any = {**_OPTIONS, "no_cpython_wrapper": True}
 
 
 #: Folders whose files hold kernels, or constants of kernels.
@@ -44,7 +44,8 @@ FOLDERS = ("elements", "bodies", "connections", "loads", "linalg", "system", "so
 def stamped() -> list[Path]:
     """Sources that hold kernels: when anything in them has changed, all kernels are compiled anew."""
     root = Path(__file__).parent
-    return [Path(__file__), *(f for folder in FOLDERS for f in sorted((root / folder).rglob("*.py")))]
+    kernels = root / "compiled.py", root / "batches.py"
+    return [*kernels, *(f for folder in FOLDERS for f in sorted((root / folder).rglob("*.py")))]
 
 
 def _package_stamp() -> str:
@@ -61,6 +62,13 @@ def kernel(function: F) -> F:
     return cast(F, dispatcher)
 
 
+def separate_kernel(function: F) -> F:
+    """Compile ``function`` for kernels that call it by its address, and cache it like :func:`kernel`."""
+    dispatcher = _inner(function)
+    kernel_cache.use(dispatcher, _STAMP)
+    return dispatcher
+
+
 def inline_kernel(function: F) -> F:
     """Compile ``function`` as a part of the kernels that call it; Python cannot call it."""
     return _inner(function)
@@ -72,7 +80,7 @@ def formula(function: F) -> F:
 
 
 def _inner(function: F, **options: bool) -> F:
-    settings: Any = {**_INNER, **options}
+    settings: Any = {**PART, **options}
     dispatcher: Any = numba.njit(**settings)(function)
 
     def refuse(*arguments: Any, **keywords: Any) -> None:
@@ -226,8 +234,9 @@ def implements(
 
     def bind(stub: Callable[..., Any], function: Callable[..., Any]) -> None:
         body = function.py_func if hasattr(function, "py_func") else function
+        _DOES[batch_type, stub] = body not in _NOTHING
 
-        @overload(stub, jit_options=_INNER, strict=False)
+        @overload(stub, jit_options=PART, strict=False)
         def _choose(batch, *arguments):
             return body if matches(batch) else None
 
@@ -244,6 +253,16 @@ def implements(
         bind(_measure, measure)
 
 
+def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
+    """Whether an operation of a kind of batch does anything; every kind has all but :func:`measure`."""
+    if (batch_type, add_force) not in _DOES:
+        raise TypeError(f"no operations for {batch_type.__name__}")
+    return _DOES.get((batch_type, stub), False)
+
+
+#: Operations that do nothing.
+_NOTHING = {no_inertia, no_energy, no_event, never_inverted}
+_DOES: dict[tuple[type, Any], bool] = {}
 _inverted, _measure = inverted, measure  # the parameters of implements hide the names
 
 
@@ -266,7 +285,11 @@ def announce_compilation(say: Callable[[], None]) -> None:
 
 
 def optional(function: Callable[..., Any], default: Any = None) -> Any:
-    """Kernel whose first argument is a tuple; of an empty one it returns `default` and compiles nothing."""
+    """Kernel whose first argument is a tuple; of an empty one it returns `default` and compiles nothing.
+
+    Whether :class:`~ancf.batches.Batches` are empty is known at run time alone: of these all is compiled.
+    """
+    part = inline_kernel(function)
 
     def stub(items, *arguments):
         raise TypeError("only in compiled code")
@@ -274,38 +297,15 @@ def optional(function: Callable[..., Any], default: Any = None) -> Any:
     def nothing(items, *arguments):
         return default
 
-    @overload(stub, jit_options=_INNER, strict=False)
+    def perhaps(items, *arguments):
+        if items.table.shape[0] > 0:
+            return part(items, *arguments)
+        return default
+
+    @overload(stub, jit_options=PART, strict=False)
     def _choose(items, *arguments):
+        if isinstance(items, types.BaseNamedTuple):
+            return perhaps
         return function if len(items) else nothing
 
     return stub
-
-
-def _force_of_each(batches, q, v, a, r, ws):
-    for batch in literal_unroll(batches):
-        add_force(batch, q, v, a, r, ws)
-
-
-def _tangent_of_each(batches, q, v, A, c_mass, c_damping, c_stiffness, ws):
-    for batch in literal_unroll(batches):
-        add_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws)
-
-
-def _event_of_each(batches, q):
-    code = -1
-    for batch in literal_unroll(batches):
-        if code < 0:
-            code = find_event(batch, q)
-    return code
-
-
-def _measure_each(batches, q, v):
-    for batch in literal_unroll(batches):
-        measure(batch, q, v)
-
-
-#: :func:`add_force` and others of all batches in a tuple.
-add_forces, add_tangents = optional(_force_of_each), optional(_tangent_of_each)
-measure_all = optional(_measure_each)
-#: Code of the first event of a tuple of batches, or -1.
-find_events = optional(_event_of_each, -1)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
+from ..batches import Batches
 from ..elements.cable import CableBatch
 from ..elements.lanes import LANES, gauss_table
 from ..elements.shapes import gauss
@@ -50,7 +51,7 @@ def locked(system: System, q: FloatArray) -> FloatArray:
     if ratio <= FREE:
         return nothing
     parts = system.parts.items()
-    batches = tuple(_softened(b, LEFT / ratio) if name == "cable" else b for name, b in parts)
+    batches = Batches(_softened(b, LEFT / ratio) if name == "cable" else b for name, b in parts)
     still, none, whole = np.zeros_like(q), np.zeros_like(q), np.empty_like(q)
     freed = np.empty_like(q)
     residual(core.batches, core.ws, q, still, still, none, whole)

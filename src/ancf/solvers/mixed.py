@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..batches import Batches
 from ..elements.chunks import in_lanes
 from ..elements.lanes import LANES
 from ..elements.shapes import gauss
@@ -34,7 +35,7 @@ class Mixed:
     def __init__(self, batches: tuple[Any, ...]) -> None:
         self._natural: list[FloatArray] = []
         self._solids: list[SolidBatch] = []
-        self.batches = tuple(self._copy(b) if isinstance(b, SolidBatch) else b for b in batches)
+        self.batches = Batches(self._copy(b) if isinstance(b, SolidBatch) else b for b in batches)
 
     def _copy(self, batch: SolidBatch) -> SolidBatch:
         """The batch with room for scalars of its own."""

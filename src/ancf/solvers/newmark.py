@@ -24,7 +24,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import add_tangents, find_events, inline_kernel, kernel, optional
+from ..batches import add_tangents, find_events
+from ..compiled import inline_kernel, kernel, optional
 from ..system.core import (
     assemble,
     constraint_rows,

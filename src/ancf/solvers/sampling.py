@@ -6,12 +6,13 @@ what they have measured (``System.measured``).
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import kernel, measure_all
+from ..batches import Batches, measure_all
+from ..compiled import kernel
 from ..system.system import System
 
 FloatArray = NDArray[np.float64]
@@ -22,7 +23,7 @@ class Sampling(NamedTuple):
     """Where the samples come from; all is empty without sensors."""
 
     unknowns: IntArray  # (k,) entries of q and v
-    batches: tuple[Any, ...]  # that measure, see ancf.compiled.measure
+    batches: Batches  # that measure, see ancf.compiled.measure
     measured: FloatArray  # (m,) shared with them
     entries: IntArray  # (j,) entries of measured
 
@@ -50,7 +51,7 @@ class Output(NamedTuple):
 def sampling_of(system: System) -> Sampling:
     """Sampling of the sensors of a system."""
     listed = system.sensors
-    batches = system.measuring if len(listed.entries) else ()
+    batches = Batches(system.measuring if len(listed.entries) else ())
     return Sampling(listed.index, batches, system.measured, listed.entries)
 
 

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..batches import Batches
 from ..bodies.build import inertia
 from ..compiled import Role, traits, with_role
 from ..connections import joint_build
@@ -150,8 +151,8 @@ def make_core(
     batches = tuple(parts.values())
     external = with_role(batches, Role.EXTERNAL)
     return Core(
-        batches=batches,
-        external=external,
+        batches=Batches(batches),
+        external=Batches(external),
         ws=workspace(),
         A=np.zeros(places.size),
         factor=allocate(places.row_start, places.column),

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numba import literal_unroll
 from numpy.typing import NDArray
 
-from ..compiled import (
-    add_force,
+from ..batches import (
+    Batches,
     add_forces,
-    add_inertia,
-    add_tangent,
+    add_inertias,
+    add_tangents,
     find_events,
-    inline_kernel,
-    inverted,
-    kernel,
-    strain_energy,
+    last_inverted,
+    strain_energies,
 )
+from ..compiled import inline_kernel, kernel
 from ..linalg.block_ldl import Factor, factorise, solve
 
 FloatArray = NDArray[np.float64]
@@ -63,8 +61,8 @@ class Joints(NamedTuple):
     multipliers: IntArray  # unknowns
     mask: FloatArray  # (size,) 1 for multipliers, else 0
     level: FloatArray  # (3,) weights of C, dC/dt, d2C/dt2 in their rows now
-    batches: tuple[Any, ...]  # with constraints
-    tail: tuple[Any, ...]  # of them those whose rows come last
+    batches: Batches  # with constraints
+    tail: Batches  # of them those whose rows come last
     first: int  # first block of these rows, the number of blocks if there are none
     lowest: int  # first block with a multiplier, the number of blocks if there are none
     supports: Supports  # the part of the supports that concerns these rows
@@ -78,8 +76,8 @@ class Core(NamedTuple):
     see the shadow, r_x = R y; the solve sees y.
     """
 
-    batches: tuple[Any, ...]  # everything that has forces
-    external: tuple[Any, ...]  # of them the loads that depend on the state
+    batches: Batches  # everything that has forces
+    external: Batches  # of them the loads that depend on the state
     ws: FloatArray  # workspace of the element kernels
     A: FloatArray  # values of the iteration matrix in 6x6 blocks
     factor: Factor
@@ -117,8 +115,7 @@ def residual(batches, ws, q, v, a, f, r):
     """r = M a + internal forces - f, in the physical components; supports not yet applied."""
     for i in range(r.shape[0]):
         r[i] = -f[i]
-    for batch in literal_unroll(batches):
-        add_force(batch, q, v, a, r, ws)
+    add_forces(batches, q, v, a, r, ws)
 
 
 @kernel
@@ -126,8 +123,7 @@ def assemble(batches, ws, q, v, A, c_mass, c_damping, c_stiffness):
     """A = c_mass M + c_damping C + c_stiffness K, supports not yet applied."""
     for i in range(A.shape[0]):
         A[i] = 0.0
-    for batch in literal_unroll(batches):
-        add_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws)
+    add_tangents(batches, q, v, A, c_mass, c_damping, c_stiffness, ws)
 
 
 @inline_kernel
@@ -252,28 +248,19 @@ def inertia(batches, ws, a, r):
     """r = M a."""
     for i in range(r.shape[0]):
         r[i] = 0.0
-    for batch in literal_unroll(batches):
-        add_inertia(batch, a, r, ws)
+    add_inertias(batches, a, r, ws)
 
 
 @kernel
 def total_strain_energy(batches, ws, q):
     """Strain energy of all batches, J."""
-    energy = 0.0
-    for batch in literal_unroll(batches):
-        energy += strain_energy(batch, q, ws)
-    return energy
+    return strain_energies(batches, q, ws)
 
 
 @inline_kernel
 def inverted_section(batches, ws, q):
     """Slot of r_y at the start of an element whose section has collapsed or turned inside out, or -1."""
-    slot = -1
-    for batch in literal_unroll(batches):
-        found = inverted(batch, q, ws)
-        if found >= 0:
-            slot = found
-    return slot
+    return last_inverted(batches, q, ws)
 
 
 @kernel

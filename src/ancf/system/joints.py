@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..batches import Batches
 from ..compiled import Role, with_role
 from .core import Joints, Supports, assemble
 from .matrix import Places
@@ -28,8 +29,8 @@ def core_joints(batches: list[Any], system: Any, supports: Supports) -> Joints:
         multipliers=system.multipliers,
         mask=mask,
         level=system.level,
-        batches=constrained,
-        tail=with_role(constrained, Role.SLIDES),
+        batches=Batches(constrained),
+        tail=Batches(with_role(constrained, Role.SLIDES)),
         first=first,
         lowest=int(np.min(system.multipliers, initial=system.n)) // 6,
         supports=tail_supports(supports, system.places, first),

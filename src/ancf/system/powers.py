@@ -7,7 +7,8 @@ forces do because of velocities is dissipated: what they lose when the velocitie
 
 from __future__ import annotations
 
-from ..compiled import add_forces, inline_kernel
+from ..batches import add_forces
+from ..compiled import inline_kernel
 from .core import residual
 
 

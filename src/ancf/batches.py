@@ -1,0 +1,392 @@
+"""Tuples of batches as all kernels take them, whatever kinds are in them, and what is done with each in turn.
+
+A kernel that is given a plain tuple of batches is compiled for its kinds, with all that their operations do:
+half a minute for each new combination.  :class:`Batches` is one type for all combinations.  It has a table
+of addresses: where a batch lies as a record (the named tuple as compiled code holds it), and where its
+operations are.  These are compiled once for each kind, and the kernels once for all models; an operation that
+does nothing costs nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import literal_unroll, typeof, types
+from numba.core import cgutils
+from numba.core.datamodel import models
+from numba.core.errors import TypingError
+from numba.core.registry import cpu_target
+from numba.extending import intrinsic, overload, register_model, typeof_impl
+from numpy.typing import NDArray
+
+from .compiled import (
+    PART,
+    add_force,
+    add_inertia,
+    add_tangent,
+    does_something,
+    find_event,
+    inverted,
+    kernel,
+    measure,
+    separate_kernel,
+    strain_energy,
+)
+
+VECTOR = types.Array(types.float64, 1, "C")
+
+
+class RecordType(types.Type):
+    """Type in kernels of the address of a batch of a type."""
+
+    def __init__(self, batch: Any) -> None:
+        self.batch = batch
+        super().__init__(name=f"Record({batch})")
+
+
+register_model(RecordType)(models.OpaqueModel)
+
+
+@intrinsic
+def write(typing, batch, words):
+    """Write a batch as a record into an array of words."""
+
+    def generate(context, builder, signature, arguments):
+        place = context.make_array(signature.args[1])(context, builder, arguments[1]).data
+        place = builder.bitcast(place, context.get_data_type(batch).as_pointer())
+        context.pack_value(builder, batch, arguments[0], place)
+        return context.get_dummy_value()
+
+    return types.none(batch, words), generate
+
+
+@intrinsic
+def read(typing, record):
+    """The batch at an address."""
+
+    def generate(context, builder, signature, arguments):
+        place = builder.bitcast(arguments[0], context.get_data_type(record.batch).as_pointer())
+        return context.unpack_value(builder, record.batch, place)
+
+    return record.batch(record), generate
+
+
+@kernel
+def keep(batch, words):
+    """See :func:`write`."""
+    write(batch, words)
+
+
+@separate_kernel
+def force_at(record, q, v, a, r, ws):
+    """``add_force`` of the batch at an address."""
+    add_force(read(record), q, v, a, r, ws)
+
+
+@separate_kernel
+def inertia_at(record, a, r, ws):
+    """``add_inertia`` of the batch at an address."""
+    add_inertia(read(record), a, r, ws)
+
+
+@separate_kernel
+def tangent_at(record, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    """``add_tangent`` of the batch at an address."""
+    add_tangent(read(record), q, v, A, c_mass, c_damping, c_stiffness, ws)
+
+
+@separate_kernel
+def energy_at(record, q, ws):
+    """``strain_energy`` of the batch at an address."""
+    return 1.0 * strain_energy(read(record), q, ws)
+
+
+@separate_kernel
+def event_at(record, q):
+    """``find_event`` of the batch at an address."""
+    return find_event(read(record), q)
+
+
+@separate_kernel
+def inverted_at(record, q, ws):
+    """``inverted`` of the batch at an address."""
+    return inverted(read(record), q, ws)
+
+
+@separate_kernel
+def measure_at(record, q, v):
+    """``measure`` of the batch at an address."""
+    measure(read(record), q, v)
+
+
+_V, _x = VECTOR, types.float64
+#: Kernels of the operations on a record, the types of what they take besides it, and what they return.
+OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
+    add_force: (force_at, (_V, _V, _V, _V, _V), types.none),
+    add_inertia: (inertia_at, (_V, _V, _V), types.none),
+    add_tangent: (tangent_at, (_V, _V, _V, _x, _x, _x, _V), types.none),
+    strain_energy: (energy_at, (_V, _V), types.float64),
+    find_event: (event_at, (_V,), types.int64),
+    inverted: (inverted_at, (_V, _V), types.int64),
+    measure: (measure_at, (_V, _V), types.none),
+}
+_COLUMNS = 1 + len(OPERATIONS)
+FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE = range(1, _COLUMNS)
+
+
+class _Table(NamedTuple):
+    table: NDArray[np.int64]  # (batches, 1 + operations) addresses: of the record, of its operations, 0: none
+
+
+class Batches(_Table):
+    """Batches as kernels take them; in Python a tuple of the batches, in compiled code the table alone."""
+
+    _batches: tuple[Any, ...]
+    _records: list[NDArray[np.int64]]
+
+    def __new__(cls, batches: Iterable[Any] = ()) -> Batches:
+        """From batches of any kinds."""
+        kept = tuple(batches)
+        rows = [_row(batch) for batch in kept]
+        numbers = [(words.ctypes.data, *found) for words, found in rows]
+        self = super().__new__(cls, np.array(numbers, dtype=np.int64).reshape(len(rows), _COLUMNS))
+        self._batches, self._records = kept, [words for words, _ in rows]
+        return self
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter(self._batches)
+
+    def __len__(self) -> int:
+        return len(self._batches)
+
+    def __getitem__(self, k: Any) -> Any:
+        return self._batches[k]
+
+    def __contains__(self, batch: Any) -> bool:
+        return any(batch is mine for mine in self._batches)
+
+    def __repr__(self) -> str:
+        return f"Batches({', '.join(type(batch).__name__ for batch in self._batches)})"
+
+    def __reduce__(self) -> Any:
+        return Batches, (self._batches,)  # addresses are of this process
+
+
+_TYPE = types.NamedTuple((types.Array(types.int64, 2, "C"),), Batches)
+_compiled: dict[Any, tuple[int, tuple[int, ...]]] = {}
+
+
+@typeof_impl.register(Batches)
+def _typeof(batches, context):
+    return _TYPE
+
+
+def _row(batch: Any) -> tuple[NDArray[np.int64], tuple[int, ...]]:
+    """The record of a batch and the addresses of its operations."""
+    key = type(batch), *((x.dtype, x.ndim, x.flags.num) for x in batch)
+    if key not in _compiled:
+        kind, context = typeof(batch), cpu_target.target_context
+        size = context.get_abi_sizeof(context.get_data_type(kind))
+        _compiled[key] = -(-size // 8), tuple(_address(type(batch), kind, stub) for stub in OPERATIONS)
+    length, found = _compiled[key]
+    words = np.empty(length, dtype=np.int64)
+    keep(batch, words)
+    return words, found
+
+
+def _address(batch_type: type, kind: Any, stub: Any) -> int:
+    """Address of an operation of a kind of batch, which is compiled, or taken from the cache; 0 for none."""
+    if not does_something(batch_type, stub):
+        return 0
+    dispatcher, given, _ = OPERATIONS[stub]
+    signature = (RecordType(kind), *given)
+    dispatcher.compile(signature)
+    compiled = dispatcher.overloads[signature]
+    return int(compiled.library.get_pointer_to_function(compiled.fndesc.llvm_func_name))
+
+
+def _caller(stub: Any, nothing: Any = None) -> Any:
+    """Intrinsic ``call(place, record, arguments)`` of an operation; `nothing` where its address is 0."""
+    _, given, result = OPERATIONS[stub]
+
+    @intrinsic
+    def call(typing, place, record, arguments):
+        if not all(_fits(have, want) for have, want in zip(arguments, given, strict=True)):
+            raise TypingError(f"{stub.__name__} takes {given}, not {tuple(arguments)}")
+
+        def generate(context, builder, signature, values):
+            place, record, packed = values
+            items = [
+                item if isinstance(want, types.Array) else context.cast(builder, item, have, want)
+                for item, have, want in zip(
+                    cgutils.unpack_tuple(builder, packed), arguments, given, strict=True
+                )
+            ]
+            out = None
+            if nothing is not None:
+                out = cgutils.alloca_once_value(builder, context.get_constant(result, nothing))
+            with builder.if_then(cgutils.is_not_null(builder, place)):
+                value = _call(context, builder, place, record, items, given, result)
+                if out is not None:
+                    builder.store(value, out)
+            return context.get_dummy_value() if out is None else builder.load(out)
+
+        return result(types.int64, types.int64, arguments), generate
+
+    return call
+
+
+def _fits(have: Any, want: Any) -> bool:
+    """Whether an argument can be given: a vector without gaps, or any number for a number."""
+    if isinstance(want, types.Array):
+        return isinstance(have, types.Array) and (have.dtype, have.ndim, have.layout) == (
+            want.dtype,
+            want.ndim,
+            want.layout,
+        )
+    return isinstance(have, types.Number)
+
+
+def _call(context, builder, place, record, items, given, result):
+    """Call the kernel at an address with a record and other arguments."""
+    signature = types.voidptr, *given
+    function = builder.inttoptr(place, context.call_conv.get_function_type(result, signature).as_pointer())
+    record = builder.inttoptr(record, context.get_value_type(types.voidptr))
+    call = context.call_conv.call_function
+    status, value = call(builder, function, result, signature, [record, *items])
+    with cgutils.if_unlikely(builder, status.is_error):
+        context.call_conv.return_status_propagate(builder, status)
+    return value
+
+
+_force, _inertia, _tangent = _caller(add_force), _caller(add_inertia), _caller(add_tangent)
+_energy, _event, _inverted = _caller(strain_energy, 0.0), _caller(find_event, -1), _caller(inverted, -1)
+_measure = _caller(measure)
+
+
+def _each(of_tuple: Callable[..., Any], of_batches: Callable[..., Any], default: Any = None) -> Any:
+    """Kernel whose first argument are batches, as a plain tuple or as :class:`Batches`."""
+
+    def stub(batches, *arguments):
+        raise TypeError("only in compiled code")
+
+    def nothing(batches, *arguments):
+        return default
+
+    @overload(stub, jit_options=PART, strict=False)
+    def _choose(batches, *arguments):
+        if batches is _TYPE:
+            return of_batches
+        return of_tuple if len(batches) else nothing
+
+    return stub
+
+
+def _forces_of_tuple(batches, q, v, a, r, ws):
+    for batch in literal_unroll(batches):
+        add_force(batch, q, v, a, r, ws)
+
+
+def _forces(batches, q, v, a, r, ws):
+    table = batches.table
+    for k in range(table.shape[0]):
+        _force(table[k, FORCE], table[k, 0], (q, v, a, r, ws))
+
+
+def _inertias_of_tuple(batches, a, r, ws):
+    for batch in literal_unroll(batches):
+        add_inertia(batch, a, r, ws)
+
+
+def _inertias(batches, a, r, ws):
+    table = batches.table
+    for k in range(table.shape[0]):
+        _inertia(table[k, INERTIA], table[k, 0], (a, r, ws))
+
+
+def _tangents_of_tuple(batches, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    for batch in literal_unroll(batches):
+        add_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws)
+
+
+def _tangents(batches, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    table = batches.table
+    for k in range(table.shape[0]):
+        _tangent(table[k, TANGENT], table[k, 0], (q, v, A, c_mass, c_damping, c_stiffness, ws))
+
+
+def _energies_of_tuple(batches, q, ws):
+    energy = 0.0
+    for batch in literal_unroll(batches):
+        energy += strain_energy(batch, q, ws)
+    return energy
+
+
+def _energies(batches, q, ws):
+    energy = 0.0
+    table = batches.table
+    for k in range(table.shape[0]):
+        energy += _energy(table[k, ENERGY], table[k, 0], (q, ws))
+    return energy
+
+
+def _events_of_tuple(batches, q):
+    code = -1
+    for batch in literal_unroll(batches):
+        if code < 0:
+            code = find_event(batch, q)
+    return code
+
+
+def _events(batches, q):
+    code = -1
+    table = batches.table
+    for k in range(table.shape[0]):
+        if code < 0:
+            code = _event(table[k, EVENT], table[k, 0], (q,))
+    return code
+
+
+def _inverted_of_tuple(batches, q, ws):
+    slot = -1
+    for batch in literal_unroll(batches):
+        found = inverted(batch, q, ws)
+        if found >= 0:
+            slot = found
+    return slot
+
+
+def _inverted_of_batches(batches, q, ws):
+    slot = -1
+    table = batches.table
+    for k in range(table.shape[0]):
+        found = _inverted(table[k, INVERTED], table[k, 0], (q, ws))
+        if found >= 0:
+            slot = found
+    return slot
+
+
+def _measures_of_tuple(batches, q, v):
+    for batch in literal_unroll(batches):
+        measure(batch, q, v)
+
+
+def _measures(batches, q, v):
+    table = batches.table
+    for k in range(table.shape[0]):
+        _measure(table[k, MEASURE], table[k, 0], (q, v))
+
+
+#: The operations, of all batches in turn: see :mod:`ancf.compiled`.
+add_forces = _each(_forces_of_tuple, _forces)
+add_inertias = _each(_inertias_of_tuple, _inertias)
+add_tangents = _each(_tangents_of_tuple, _tangents)
+measure_all = _each(_measures_of_tuple, _measures)
+#: Sum of all strain energies, J.
+strain_energies = _each(_energies_of_tuple, _energies, 0.0)
+#: Code of the first event, or -1.
+find_events = _each(_events_of_tuple, _events, -1)
+#: The last slot that ``inverted`` gives, or -1.
+last_inverted = _each(_inverted_of_tuple, _inverted_of_batches, -1)
