@@ -188,7 +188,7 @@ class Iteration:
         Loads that depend on the state, as moments, are no conservative ones and the symmetric part of their
         stiffness says nothing about stability: with them an indefinite K is taken as it is.
         """
-        if self.core.joints.tail:
+        if len(self.core.joints.tail):
             return self._short_correction(r)
         negative = self.factorise(self.mu)
         self.spinning = bool(self.spin) and self.spins(r, negative)
@@ -241,7 +241,7 @@ class Iteration:
     def harmless(self) -> bool:
         """Whether mu > 0 only makes up for round-off."""
         limit = NEUTRAL_MU_JOINTS if self.expected else NEUTRAL_MU
-        if self.core.joints.tail:
+        if len(self.core.joints.tail):
             limit = 5.0 * COUNTED_MU
         if self.mu > limit * self.ratio:
             return False
