@@ -27,6 +27,8 @@ from ancf.model.shapes import Rectangle
 
 #: What the nodes of a beam have in the initial shape.
 PLACED = ("node_position", "node_tangent", "node_y")
+#: How far the length of a direction in a description may be off 1, and the initial stretch at most.
+UNIT, MOST_STRETCH = 1e-6, 1e9
 MOST_TURN = 2 * math.pi / 3  # rad, of the tangent within an element of a beam
 
 
@@ -104,7 +106,7 @@ def placed_beam(
         section=section,
         gauss=_gauss(take("gauss"), words["element"], section, f"{where}.gauss"),
         length=length,
-        stretch=checks.positive(take("stretch"), f"{where}.stretch"),
+        stretch=checks.between(take("stretch"), f"{where}.stretch", 1.0 / MOST_STRETCH, MOST_STRETCH),
         node_x=node_x,
         node_position=position,
         node_tangent=tangent,
@@ -123,6 +125,8 @@ def _rows(where: str, count: int, take: Callable[[str], Any]) -> Iterator[FloatA
         rows = checks.array(take(key), f"{where}.{key}", (None, 3))
         if len(rows) != count:
             raise ModelError(f"{where}.{key}", f"has {len(rows)} rows for {count} nodes")
+        if key != "node_position" and np.any(np.abs(np.linalg.norm(rows, axis=1) - 1.0) > UNIT):
+            raise ModelError(f"{where}.{key}", "holds directions that are no unit vectors")
         yield rows
 
 

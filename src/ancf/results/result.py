@@ -123,6 +123,10 @@ class Result(SpringFields, ContactFields, Filmed, Readable):
                 hint = 'give simulate(..., sensors=["wire.at(3)", spring])'
                 raise ModelError("Result.sensors", "the simulation had no sensors", hint)
             self._recorded = Sensors(listing, lambda: self._store.samples, self)
+            if missing := self._recorded.missing():
+                raise ModelError(
+                    str(getattr(self._store, "path", "sensors")), f"is damaged: sensors lack {missing}"
+                )
         return self._recorded
 
     @property

@@ -69,6 +69,11 @@ class Sensors(SpringFields, ContactFields, Plotted):
         """Points, springs and joints that were recorded."""
         return [*map(str, self.listing.points), *self.listing.connections]
 
+    def missing(self) -> str:
+        """The first listed point of which not all was recorded, as in a damaged file; "" for none."""
+        points = (point for point in self.listing.points if np.any(self._probe(point).slots < 0))
+        return str(next(points, ""))
+
     def _contacts(self) -> list[str]:
         return [*self.listing.columns]
 

@@ -68,7 +68,7 @@ def nearly_dependent(system: System, q: FloatArray) -> list[str]:
     least, names = [], []
     for state in (system.initial_shape(), q):
         C, _, owner = _held_rows(system, state)
-        if len(C) > MANY:
+        if len(C) > MANY or not np.all(np.isfinite(C)):
             return []
         C = C / weight
         size = np.linalg.norm(C, axis=1)
