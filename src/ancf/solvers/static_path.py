@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..system.core import find_inverted
 from .free_spin import softest_mode
 from .static_iteration import MORE_MU, Iteration
-from .stepping import COLLAPSED
+from .status import COLLAPSED
 
 FloatArray = NDArray[np.float64]
 

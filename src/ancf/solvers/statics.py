@@ -20,10 +20,10 @@ from ..system.core import apply_load, first_event, place_supports
 from ..system.system import System
 from .events import happen
 from .floating import check_supported
+from .record import Stats
 from .slack import LET_OUT, Slack
 from .static_iteration import Iteration
 from .static_path import follow_path, settle
-from .stepping import Stats
 
 FloatArray = NDArray[np.float64]
 
