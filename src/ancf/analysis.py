@@ -27,9 +27,9 @@ from .results.state import State
 from .results.store import FileStore, MemoryStore
 from .solvers import statics
 from .solvers.modal import natural_modes
+from .solvers.record import Progress
 from .solvers.runs import AnyRun, run_of
 from .solvers.stability import stable_limit
-from .solvers.stepping import Progress
 from .system.consistency import check_gaps, check_independent
 from .system.sensors import Listing, listing
 from .system.system import System

@@ -18,7 +18,7 @@ from .model.integrators import integrator_from
 from .results.provenance import versions
 from .results.result import Result, load
 from .results.store import FileStore
-from .solvers.stepping import Progress, Stats
+from .solvers.record import Progress, Stats
 
 __all__ = ["resume"]
 

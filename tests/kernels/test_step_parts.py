@@ -8,11 +8,12 @@ from ancf.elements.lanes import LANES
 from ancf.elements.shapes import gauss
 from ancf.elements.solid import SolidBatch
 from ancf.elements.solid_shapes import shape
+from ancf.elements.solid_strains import quadratic_part
 from ancf.solvers import corotation as turning
 from ancf.solvers.corotation import remember, turn, turn_back, turn_forth, turn_rows
 from ancf.solvers.low_rank import eliminate
-from ancf.solvers.mixed import quadratic_strains
-from ancf.solvers.newmark import H_PREV, KNOWN, Scheme, allocate, predict, worst_unknown
+from ancf.solvers.memory import H_PREV, KNOWN, allocate
+from ancf.solvers.newmark import Scheme, predict, worst_unknown
 from ancf.system.inputs import differences
 from ancf.system.system import System
 from helpers import SOLIDS, cable, rotation, shaken
@@ -107,7 +108,7 @@ def test_quadratic_part_of_the_strains(kind):
         return np.array(found)
 
     wanted = 0.5 * (scalars(q + dq) - 2 * scalars(q) + scalars(q - dq))
-    got = quadratic_strains(batch._replace(lane_reference=np.zeros((1, 15 * len(x) * LANES))), dq)
+    got = quadratic_part(batch._replace(lane_reference=np.zeros((1, 15 * len(x) * LANES))), dq)
     got = got.reshape(len(x), 15, LANES)[..., :2].transpose(2, 0, 1)
     assert got == pytest.approx(wanted, abs=1e-12)
 

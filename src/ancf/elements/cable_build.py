@@ -10,11 +10,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..model.beam import Beam
 from .cable import AXIALLY, IN_BENDING, IN_SLOPE, VISCOUSLY, CableBatch
+from .cable_slack import slack
 from .chunks import in_lanes
 from .lanes import LANES, gauss_table
 from .measures import axial_strain, curvature
 from .shapes import FloatArray, gauss, hermite
 
+__all__ = ["BATCH", "build", "initial_vectors", "reference_strains", "shape", "slack"]
+
+BATCH = CableBatch
 IntArray = NDArray[np.int64]
 
 
@@ -130,18 +134,3 @@ def _part(beam: Beam, slot: IntArray) -> tuple[tuple[int, ...], IntArray, FloatA
     curved = bool(np.any(eps0) or np.any(kappa0))
     key = (int(beam.strain == "paper"), *beam.gauss, damped, int(curved))
     return key, np.hstack([slot[:-1], slot[1:]]), data, slope, np.hstack([eps0, kappa0])
-
-
-def compression(batch: CableBatch, q: FloatArray) -> FloatArray:
-    """Axial strain of the chords that are shorter than their element, in the form of lane_reference."""
-    counts = np.diff(batch.first)
-    lane = np.arange(len(batch.base)) - np.repeat(batch.first[:-1], counts)
-    h = batch.lane_data[np.repeat(np.arange(len(counts)), counts), lane]
-    first, second = (q[batch.base[:, k, None] + np.arange(3)] for k in (0, 2))
-    stretch = np.minimum(np.linalg.norm(second - first, axis=1) / h, 1.0)
-    strain = np.zeros((len(batch.base), 20))
-    for group in batch.groups:
-        rows = slice(batch.first[group[0]], batch.first[group[1]])
-        s = stretch[rows, None]
-        strain[rows, : group[4]] = 0.5 * (s**2 - 1.0) if group[2] else s - 1.0
-    return in_lanes(strain, batch.first)

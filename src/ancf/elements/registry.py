@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib import import_module
 from typing import Any, Protocol, cast
 
@@ -41,6 +41,35 @@ class Element(Protocol):
         """Vectors of the nodes and, in the row of its first node, of an element, (nodes, vectors, 3)."""
 
 
+class Optional(Protocol):
+    """What such a module may offer beyond that; equilibria ask for it, see :func:`offered`."""
+
+    #: Type of the batch that ``build`` returns.
+    BATCH: type
+
+    def slack(self, batch: Any, q: FloatArray) -> Any:
+        """Of elements that hang slack: ``stiffest``, the largest EA, and ``set(factor, held)``.
+
+        That lowers EA and takes away forces of the compression in the initial shape q.
+        """
+
+    def quadratic_strains(self, batch: Any) -> Any:
+        """Of elements whose strains are quadratic in the unknowns: ``batch``, one whose stresses
+        ``leave_out(change)`` makes linear in the last change of the state vector.
+        """
+
+
 ELEMENTS: dict[str, Element] = {
     name: cast(Element, import_module(f".{kind.module}", __package__)) for name, kind in KINDS.items()
 }
+
+
+def offered(batch: Any, name: str) -> Callable[..., Any] | None:
+    """What the module of a batch offers under this name, see :class:`Optional`, or None."""
+    found = (m for m in ELEMENTS.values() if getattr(m, "BATCH", None) is type(batch))
+    return getattr(next(found, None), name, None)
+
+
+def offers(element: str, name: str) -> bool:
+    """Whether a kind of element offers it."""
+    return hasattr(ELEMENTS[element], name)

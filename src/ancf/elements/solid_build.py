@@ -17,7 +17,11 @@ from .shapes import FloatArray, gauss
 from .solid import SolidBatch
 from .solid_lanes import gauss_table
 from .solid_shapes import INTERNAL, initial_vectors, shape
+from .solid_strains import quadratic_strains
 
+__all__ = ["BATCH", "build", "initial_vectors", "quadratic_strains", "shape"]
+
+BATCH = SolidBatch
 IntArray = NDArray[np.int64]
 
 

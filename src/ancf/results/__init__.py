@@ -1,6 +1,6 @@
 """What a run computed: states, histories, energies, counters, and the file that holds them."""
 
-from ..solvers.stepping import Progress, Stats
+from ..solvers.record import Progress, Stats
 from .modes import Modes
 from .result import Result
 from .sensors import Sensors

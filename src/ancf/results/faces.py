@@ -6,7 +6,7 @@ from typing import Any, Protocol
 
 from ..model.bodies import Body
 from ..model.model import Model
-from ..solvers.stepping import Stats
+from ..solvers.record import Stats
 from ..system.fields import FloatArray, IntArray
 
 

@@ -13,7 +13,7 @@ from ..errors import ModelError
 from ..model import checks
 from ..model.bodies import Body
 from ..model.model import Model
-from ..solvers.stepping import Stats
+from ..solvers.record import Stats
 from ..system.sensors import Listing
 from . import hdf5, remembered, sound
 from .layout import read_joints, read_slots

@@ -53,7 +53,7 @@ def of_system(system: System) -> Remembered:
     """What a system knows now."""
     batch = _sliding(system)
     modes = [] if batch is None else batch.mode.tolist()
-    places = {name: float(system.measured[at[ARC]]) for name, at in system.measures.items()}
+    places = {name: float(system.measured[system.measures[name][ARC]]) for name in _contacts(system.model)}
     return Remembered(dict(zip(_slides(system.model), modes, strict=True)), places)
 
 
@@ -63,9 +63,9 @@ def restore(system: System, known: Remembered) -> None:
     for k, name in enumerate(_slides(system.model)):
         if batch is not None and name in known.modes:
             batch.mode[k] = known.modes[name]
-    for name, at in system.measures.items():
+    for name in _contacts(system.model):
         if name in known.places:
-            system.measured[at[ARC]] = known.places[name]
+            system.measured[system.measures[name][ARC]] = known.places[name]
 
 
 def write(file: Any, known: Remembered) -> None:
@@ -81,12 +81,16 @@ def write(file: Any, known: Remembered) -> None:
 def read(file: Any, model: Model) -> Remembered:
     """What :func:`write` has left, by the names of the model."""
     modes, places = file["modes"][:].tolist(), file["places"][:].tolist()
-    contacts = [item.name for item in model.connections if isinstance(item, Contact)]
-    return Remembered(dict(zip(_slides(model), modes, strict=True)), dict(zip(contacts, places, strict=True)))
+    found = dict(zip(_slides(model), modes, strict=True)), dict(zip(_contacts(model), places, strict=True))
+    return Remembered(*found)
 
 
 def _slides(model: Model) -> list[str]:
     return [item.name for item in model.connections if isinstance(item, Slide)]
+
+
+def _contacts(model: Model) -> list[str]:
+    return [item.name for item in model.connections if isinstance(item, Contact)]
 
 
 def _sliding(system: System) -> SlidingBatch | None:

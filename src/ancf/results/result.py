@@ -15,7 +15,7 @@ from ..files import writing
 from ..model import checks
 from ..model.joints import Slide
 from ..model.tables import Readable, Sheet
-from ..solvers.stepping import Stats
+from ..solvers.record import Stats
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..model.supports import Support
 from ..model.tables import Readable, Sheet
-from ..solvers.stepping import Stats
+from ..solvers.record import Stats
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.reactions import reaction

@@ -20,8 +20,8 @@ from ..errors import ModelError, StorageError
 from ..files import problem, writing
 from ..model import checks
 from ..model.bodies import Body
-from ..solvers.newmark import COUNTS
-from ..solvers.stepping import Stats
+from ..solvers.record import Stats
+from ..solvers.status import COUNTS
 from ..system.energy import energies
 from ..system.sensors import Listing
 from ..system.system import System
@@ -76,7 +76,7 @@ class MemoryStore:
         self.stats, self.status = Stats(), "running"
 
     def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
-        """Add states; see :class:`ancf.solvers.stepping.Recorder`."""
+        """Add states; see :class:`ancf.solvers.record.Recorder`."""
         self._parts.append((t, q, v, work))
         self._joined = {}
 
@@ -181,7 +181,7 @@ class FileStore:
         file.flush()
 
     def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
-        """Add states; see :class:`ancf.solvers.stepping.Recorder`."""
+        """Add states; see :class:`ancf.solvers.record.Recorder`."""
         if len(t) == 0:
             return
         self.copy(t, q, v, work, energies(self._system, q, v))

@@ -24,8 +24,10 @@ from ..system.core import (
     solve_matrix,
     to_local,
 )
-from .newmark import DIVERGED, NORM, NOT_FINITE, OK, SINGULAR, STEPS, WORST, balance
+from .memory import NORM, WORST
+from .newmark import balance
 from .sampling import sample
+from .status import DIVERGED, NOT_FINITE, OK, SINGULAR, STEPS
 
 #: A step in which something moves by more than this many sizes of the model is no motion.
 FAR = 10.0

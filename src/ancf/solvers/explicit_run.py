@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ModelError, SolveError
-from ..model.integrators import Coefficients, Explicit, NewmarkFamily, Newton
+from ..model.integrators import Explicit
 from ..system.core import apply_load
 from ..system.energy import energies
 from ..system.system import System
 from .explicit import advance_explicit
-from .newmark import DIVERGED, NORM, SINGULAR, WORST, balance
+from .memory import NORM, WORST
+from .newmark import balance
 from .sampling import Output
 from .stability import stable_limit
 from .start import consistent_start
+from .status import DIVERGED, SINGULAR
 from .stepping import Run
 
 FloatArray = NDArray[np.float64]
@@ -25,19 +25,6 @@ FloatArray = NDArray[np.float64]
 SLACK = 1.01
 #: Steps between two estimates, and unknowns times steps: they take about 20 times as long as an estimate.
 RARE_STEPS, RARE_WIDE = 8000, 2**21
-
-
-@dataclass(frozen=True)
-class CentralDifferences(NewmarkFamily):
-    """What the stepping asks of a method; Newton's method is not used."""
-
-    newton: Newton = field(default_factory=Newton)
-    formulation: str = "index2"  # there are no constraints
-    name = "explicit"
-
-    def coefficients(self) -> Coefficients:
-        """Coefficients of the Newmark family."""
-        return Coefficients(beta=0.0, gamma=0.5, alpha_m=0.0, alpha_f=0.0)
 
 
 class ExplicitRun(Run):
@@ -52,9 +39,12 @@ class ExplicitRun(Run):
                 "an Explicit run cannot take constraints with multipliers",
                 "use ancf.Radau() or ancf.Trapezoidal()",
             )
-        super().__init__(system, CentralDifferences(), t_start, t_end, step, every)
-        self.method = method
+        super().__init__(system, method, t_start, t_end, step, every)
         self.turning = bool(np.any(system.core.supports.rot_moving >= 0))
+
+    def use(self, integrator: Explicit) -> None:
+        """Keep the settings: there are no iterations and no constraints."""
+        self.method = integrator
 
     def start(self, q: FloatArray, v: FloatArray) -> None:
         """Consistent state at t_start; the step must be stable there.

@@ -19,7 +19,7 @@ derivative of a constraint its row asks for is the formulation's choice (:mod:`a
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,9 +42,23 @@ from ..system.core import (
     to_local,
 )
 from ..system.powers import powers
-from .corotation import Frames, remember, turn, turn_back, turn_forth, turn_rows
-from .low_rank import Patches, correct, forget, move_on
+from .corotation import remember, turn, turn_back, turn_forth, turn_rows
+from .low_rank import correct, forget, move_on
+from .memory import ETA, H_FACTOR, H_PREV, KNOWN, NOISE, NORM, POWER, WORST
 from .sampling import sample
+from .status import (
+    DIVERGED,
+    EVENT,
+    FACTORIZATIONS,
+    INVERTED,
+    ITERATIONS,
+    JACOBIANS,
+    NOT_FINITE,
+    OK,
+    SINGULAR,
+    SLOW,
+    STEPS,
+)
 
 FloatArray = NDArray[np.float64]
 
@@ -61,12 +75,6 @@ HELD = 0.1
 #: Error of the accelerations that is left in a step with constraints: what is left in q returns divided
 #: by B, with one sign, where a joint keeps it from being felt as a displacement.
 JOINTED = 1e-6
-
-OK, DIVERGED, NOT_FINITE, SINGULAR, SLOW, INVERTED = 0, 1, 2, 3, 4, 5
-EVENT = 16  # plus the code of an event after a step that is OK
-#: Names of the entries of Memory.counts.
-COUNTS = ("steps", "newton_iterations", "jacobians", "factorizations", "retries")
-STEPS, ITERATIONS, JACOBIANS, FACTORIZATIONS, RETRIES = range(5)
 
 
 class Scheme(NamedTuple):
@@ -90,44 +98,6 @@ class Rule(NamedTuple):
     w1: float
     w2: float
     projects: bool  # positions are shifted onto C = 0
-
-
-class Memory(NamedTuple):
-    """State and workspace of a run; all arrays of length n unless said otherwise."""
-
-    q: FloatArray
-    v: FloatArray
-    a: FloatArray
-    abar: FloatArray  # the generalised-alpha method's algorithmic acceleration
-    a1: FloatArray  # accelerations one, two and three steps before a, for the predictor
-    a2: FloatArray
-    a3: FloatArray
-    q0: FloatArray  # copies at the start of the step
-    v0: FloatArray
-    a0: FloatArray
-    r: FloatArray
-    f: FloatArray
-    push: FloatArray  # forces that do work at the start of the step
-    push_new: FloatArray
-    counts: NDArray[np.int64]  # (5,) see COUNTS
-    memo: FloatArray  # (8,) see below
-    work: FloatArray  # (2,) energy dissipated and supplied since the start, J
-    frames: Frames
-    patches: tuple[Patches, ...]  # one or none
-
-
-# entries of Memory.memo
-H_FACTOR, ETA, H_PREV, WORST, NORM, POWER, NOISE, KNOWN = range(8)
-
-
-def allocate(n: int, frames: Frames, patches: tuple[Patches, ...]) -> Memory:
-    """Memory for state vectors of length n."""
-    vectors: Any = {name: np.zeros(n) for name in Memory._fields[:14]}
-    counts = np.zeros(len(COUNTS), dtype=np.int64)
-    own: Any = {"counts": counts, "memo": np.zeros(8), "work": np.zeros(2)}
-    memory = Memory(**vectors, **own, frames=frames, patches=patches)
-    memory.memo[ETA] = 1.0
-    return memory
 
 
 @inline_kernel

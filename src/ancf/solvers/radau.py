@@ -26,6 +26,7 @@ from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
 from .collocation import Collocation, collocation
+from .status import DIVERGED, NOT_FINITE, OK, SINGULAR
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -42,8 +43,6 @@ NEWTON_SHARE = 5e-3
 SAFETY, SHRINK, GROW = 0.9, 0.2, 5.0
 #: A step that should change by less than this keeps its size, and with it its matrices.
 MILD, WORTH = 0.9, 1.2
-
-OK, DIVERGED, NOT_FINITE, SINGULAR = 0, 1, 2, 3
 
 
 @dataclass

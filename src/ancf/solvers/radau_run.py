@@ -14,11 +14,13 @@ from ..system.core import first_event
 from ..system.energy import energies
 from ..system.system import System
 from .events import happen
-from .radau import DIVERGED, NOT_FINITE, OK, SINGULAR, Step, Stepper
+from .radau import Step, Stepper
 from .radau_problem import SystemProblem
+from .record import Progress, Recorder, Stats
 from .sampling import sample_rows, sampling_of
 from .start import consistent_start
-from .stepping import BLOCK_SECONDS, MOST_HALVINGS, MOST_RETRIED, Progress, Recorder, Stats
+from .status import DIVERGED, NOT_FINITE, OK, SINGULAR
+from .stepping import BLOCK_SECONDS, MOST_HALVINGS, MOST_RETRIED
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -30,6 +32,15 @@ AT_ONCE = 64
 LEAST_STEP = 16.0
 #: Error that Newton's method leaves when the steps are constant.
 NEWTON_TOLERANCE = 1e-12
+#: Share of it where the steps are chosen.
+CLOSER = 0.1
+#: Share of what is left of a run that a step may be short of and takes it all; from the second share on two
+#: steps of one size are taken.
+ALL, MORE_THAN_HALF = 0.99, 0.6
+#: Share of what is left of a step of constant size above which a part of it is its last one.
+LAST_PART = 0.999
+#: Part of a step by which times differ that are the same.
+SAME_TIME = 1e-9
 #: Longest step, as a part of the run: what happens within a step is not seen.
 LONGEST_STEP = 0.1
 
@@ -59,7 +70,7 @@ class RadauRun:
         self.shortest = LEAST_STEP * digit if method.min_step is None else method.min_step
         self.longest = max(LONGEST_STEP * span, step) if method.max_step is None else method.max_step
         self.problem = SystemProblem(system, t_start, t_end)
-        newton = 0.1 * NEWTON_TOLERANCE if method.adaptive else NEWTON_TOLERANCE
+        newton = CLOSER * NEWTON_TOLERANCE if method.adaptive else NEWTON_TOLERANCE
         self.stepper = Stepper(self.problem, method.stages, method.tolerance, newton, span)
         self.seconds, self.work = 0.0, np.zeros(2)
         self.sampling = sampling_of(system)
@@ -111,7 +122,7 @@ class RadauRun:
         while stepper.t < self.t_end:
             left = self.t_end - stepper.t
             h = min(h, self.longest)
-            size = left if h > 0.99 * left else min(h, 0.5 * left) if h > 0.6 * left else h
+            size = left if h > ALL * left else min(h, 0.5 * left) if h > MORE_THAN_HALF * left else h
             t_next = self.t_end if size == left else stepper.t + size
             status, step = self._solve(size, True)
             if status != OK:
@@ -132,12 +143,12 @@ class RadauRun:
         for n in range(self.steps):
             end = self.t_end if n == self.steps - 1 else self.t_start + (n + 1) * self.h
             part = end - self.stepper.t
-            if abs(part - self.h) < 1e-9 * self.h:
+            if abs(part - self.h) < SAME_TIME * self.h:
                 part = self.h  # round-off of the times must not renew the matrices
             again, whole = 0, part
             while self.stepper.t < end:
                 left = end - self.stepper.t
-                last = part > 0.999 * left
+                last = part > LAST_PART * left
                 status, step = self._solve(part, False)
                 if status != OK:
                     part *= 0.5
@@ -216,7 +227,7 @@ class RadauRun:
     def _places(self, step: Step, t: float, times: FloatArray) -> FloatArray:
         """Where times are in a step that ends at t, 0 to 1."""
         tau: FloatArray = np.minimum((times - step.t) / step.h, 1.0)
-        tau[np.abs(times - t) < 1e-9 * step.h] = 1.0
+        tau[np.abs(times - t) < SAME_TIME * step.h] = 1.0
         return tau
 
     def _states(self, step: Step, times: FloatArray, tau: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..model.integrators import Integrator
 from ..system.system import System
-from .stepping import Progress, Recorder, Stats
+from .record import Progress, Recorder, Stats
 
 FloatArray = NDArray[np.float64]
 

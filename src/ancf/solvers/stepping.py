@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from typing import Any, Protocol
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ModelError, SolveError
-from ..model.integrators import NewmarkFamily
+from ..model.integrators import Integrator
 from ..system.consistency import open_contacts
 from ..system.core import Tables, apply_load, first_event
 from ..system.energy import energies
@@ -20,28 +19,23 @@ from .corotation import turning_nodes
 from .events import happen
 from .formulations import FORMULATIONS
 from .low_rank import room_for_patches
-from .newmark import (
-    COUNTS,
+from .memory import H_FACTOR, H_PREV, KNOWN, NORM, WORST, Memory, allocate
+from .newmark import Rule, Scheme, advance, balance
+from .record import Progress, Recorder, Stats
+from .sampling import Output, sample, sampling_of
+from .start import consistent_start
+from .status import (
+    COLLAPSED,
+    DIVERGED,
     EVENT,
-    H_FACTOR,
-    H_PREV,
     INVERTED,
-    KNOWN,
-    NORM,
+    NOT_FINITE,
     OK,
     RETRIES,
     SINGULAR,
+    SLOW,
     STEPS,
-    WORST,
-    Memory,
-    Rule,
-    Scheme,
-    advance,
-    allocate,
-    balance,
 )
-from .sampling import Output, sample, sampling_of
-from .start import consistent_start
 
 FloatArray = NDArray[np.float64]
 
@@ -55,61 +49,13 @@ MOST_MADE = 0.5  # energy from nowhere, as a share of the energy exchanged
 MOST_RETRIED = 0.2  # share of steps that may need halving
 
 
-class Recorder(Protocol):
-    """Takes the stored states block by block."""
-
-    def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
-        """States at the times t, shape (m,), (m, size), (m, size), (m, 2)."""
-        ...
-
-    def record(self, t: FloatArray, samples: FloatArray) -> None:
-        """What sensors take at the times t, shape (m,), (m, width); see :mod:`ancf.solvers.sampling`."""
-        ...
-
-    def update(self, stats: Stats, status: str) -> None:
-        """Counters so far, and "running", "complete", "failed" or "interrupted"."""
-        ...
-
-
-@dataclass(frozen=True)
-class Stats:
-    """What a run cost."""
-
-    steps: int = 0
-    newton_iterations: int = 0
-    jacobians: int = 0
-    factorizations: int = 0
-    retries: int = 0
-    cpu_seconds: float = 0.0
-
-    @classmethod
-    def of(cls, counts: Iterable[float], cpu_seconds: float) -> Stats:
-        """From counters in the order of COUNTS."""
-        values: dict[str, Any] = dict(zip(COUNTS, (int(c) for c in counts), strict=True))
-        return cls(**values, cpu_seconds=cpu_seconds)
-
-    def as_dict(self) -> dict[str, float]:
-        """Counters by name."""
-        return {name: getattr(self, name) for name in (*COUNTS, "cpu_seconds")}
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far a run has got."""
-
-    step: int
-    steps: int
-    t: float
-    t_end: float
-
-
 class Run:
     """One simulation of a System from t_start to t_end with output every ``every`` steps."""
 
     def __init__(
         self,
         system: System,
-        integrator: NewmarkFamily,
+        integrator: Integrator,
         t_start: float,
         t_end: float,
         step: float,
@@ -122,14 +68,18 @@ class Run:
         rest = span - self.full * step
         self.rest = rest if rest > 1e-9 * step else 0.0
         self.steps = self.full + (self.rest > 0.0)
-        self.scheme = Scheme(*integrator.coefficients())
-        n = integrator.newton
-        corotate = n.corotate and not _flies(system)
-        self.newton = (n.tolerance, n.contraction, n.max_iterations, n.modified, corotate)
-        self.formulation = FORMULATIONS[integrator.formulation]
+        self.use(integrator)
         self.memory: Memory = allocate(system.size, turning_nodes(system), room_for_patches(system))
         self.sampling = sampling_of(system)
         self.seconds = 0.0
+
+    def use(self, integrator: Any) -> None:
+        """Take what the steps need from the settings of a method of the Newmark family."""
+        self.scheme = Scheme(*integrator.coefficients())
+        n = integrator.newton
+        corotate = n.corotate and not _flies(self.system)
+        self.newton = (n.tolerance, n.contraction, n.max_iterations, n.modified, corotate)
+        self.formulation = FORMULATIONS[integrator.formulation]
 
     def rule(self, h: float) -> Rule:
         """Newton's rule and the formulation of the constraints for a step h."""
@@ -334,10 +284,9 @@ def _flies(system: System) -> bool:
     return not model.supports and not any(isinstance(end, np.ndarray) for end in ends)
 
 
-COLLAPSED = "the cross-section has collapsed or turned inside out"
 _REASONS = {
-    1: "Newton's method diverged, also with full Jacobians and smaller steps",
-    2: "the forces are no longer finite, also with smaller steps",
+    DIVERGED: "Newton's method diverged, also with full Jacobians and smaller steps",
+    NOT_FINITE: "the forces are no longer finite, also with smaller steps",
     SINGULAR: "the iteration matrix is singular",
-    4: "Newton's method did not converge, also with full Jacobians and smaller steps",
+    SLOW: "Newton's method did not converge, also with full Jacobians and smaller steps",
 }

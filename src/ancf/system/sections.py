@@ -6,28 +6,17 @@ deformation gradient at (y, z) is F = [a + y B + z C, b, c].  Arrays have the sh
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
 from ..elements.shapes import gauss
 from ..elements.solid_build import stiffnesses
 from ..elements.solid_shapes import initial_vectors
+from ..elements.solid_strains import Vectors, dot, scalar_products
 from ..model.beam import Beam
 from .probe import R_X, R_Y, R_YX, R_Z, R_ZX, BeamProbe
 
 FloatArray = NDArray[np.float64]
-
-
-class Vectors(NamedTuple):
-    """The five vectors of a section, each of shape (..., 3)."""
-
-    a: FloatArray
-    b: FloatArray
-    c: FloatArray
-    B: FloatArray
-    C: FloatArray
 
 
 def section(probe: BeamProbe, states: FloatArray) -> Vectors:
@@ -94,26 +83,14 @@ def resultants(probe: BeamProbe, q: FloatArray, v: FloatArray) -> tuple[FloatArr
     axial, bending = probe.beam.section.axial_damping, probe.beam.section.bending_damping
     if axial or bending:
         rate = section(probe, v)
-        t[0] = t[0] + axial * _dot(s.a, rate.a)
-        t[6] = t[6] + bending * (_dot(rate.a, s.B) + _dot(s.a, rate.B))
-        t[7] = t[7] + bending * (_dot(rate.a, s.C) + _dot(s.a, rate.C))
+        t[0] = t[0] + axial * dot(s.a, rate.a)
+        t[6] = t[6] + bending * (dot(rate.a, s.B) + dot(s.a, rate.B))
+        t[7] = t[7] + bending * (dot(rate.a, s.C) + dot(s.a, rate.C))
     t = [x[..., None] for x in t]
     force = t[0] * s.a + t[6] * s.B + t[7] * s.C + t[8] * s.b + t[9] * s.c
     by_B = 2 * t[3] * s.B + t[5] * s.C + t[6] * s.a + t[11] * s.b + t[14] * s.c
     by_C = 2 * t[4] * s.C + t[5] * s.B + t[7] * s.a + t[12] * s.c + t[13] * s.b
     return force, np.cross(s.b, by_B) + np.cross(s.c, by_C)
-
-
-def _dot(u: FloatArray, v: FloatArray) -> FloatArray:
-    product: FloatArray = np.einsum("...k,...k->...", u, v)
-    return product
-
-
-def scalar_products(s: Vectors) -> list[FloatArray]:
-    """The fifteen scalar products on which the energy depends, in the order of the element's kernels."""
-    a, b, c, B, C = s
-    pairs = ((B, B), (C, C), (B, C), (a, B), (a, C), (a, b), (a, c), (b, c), (b, B), (c, C), (b, C), (c, B))
-    return [_dot(u, w) for u, w in (*((x, x) for x in (a, b, c)), *pairs)]
 
 
 def _scalars(s: Vectors) -> list[FloatArray]:
@@ -158,8 +135,8 @@ def _unit(vector: FloatArray) -> FloatArray:
 def twist_rate(s: Vectors) -> FloatArray:
     """Rotation of the section about its normal per reference length, rad/m, shape (...)."""
     t = _unit(np.cross(s.b, s.c))
-    of_b, of_c = (np.cross(x, X) / _dot(x, x)[..., None] for x, X in ((s.b, s.B), (s.c, s.C)))
-    return 0.5 * _dot(t, of_b + of_c)
+    of_b, of_c = (np.cross(x, X) / dot(x, x)[..., None] for x, X in ((s.b, s.B), (s.c, s.C)))
+    return 0.5 * dot(t, of_b + of_c)
 
 
 def twist(probe: BeamProbe, first: list[BeamProbe], states: FloatArray) -> FloatArray:

@@ -1,0 +1,69 @@
+"""Slack cables: what an equilibrium changes for a while, the axial stiffness and the natural lengths."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .cable import CableBatch
+from .chunks import in_lanes
+from .lanes import EA_L, LANES, LENGTH
+from .shapes import FloatArray
+
+#: Columns of the groups of a batch.
+BEGIN, END, PAPER, FIRST_GP, AXIAL, BENDING, DAMPED, CURVED = range(8)
+
+
+class Slack:
+    """The cables of a batch, whose stiffness may be lowered and whose compression taken away.
+
+    Parameters
+    ----------
+    batch : CableBatch
+        Changed in place.
+    q : ndarray
+        State vector of the initial shape: where a chord is shorter than its element, it is pressed.
+    """
+
+    def __init__(self, batch: CableBatch, q: FloatArray) -> None:
+        self._batch = batch
+        self._stiffness = _row(batch, EA_L)
+        self._natural = self._stiffness.copy(), batch.lane_reference.copy(), batch.groups[:, CURVED].copy()
+        self._strain = compression(batch, q)
+
+    @property
+    def stiffest(self) -> float:
+        """Largest EA, N."""
+        return float(np.max(self._natural[0] / _row(self._batch, LENGTH)))
+
+    def set(self, factor: float, held: float) -> None:
+        """EA times a factor, and no forces from this share of the initial compression; (1, 0): as it was."""
+        stiffness, reference, curved = self._natural
+        self._stiffness[:] = stiffness * factor
+        self._batch.lane_reference[:] = reference + held * self._strain
+        self._batch.groups[:, CURVED] = curved if held == 0.0 else 1
+
+
+def slack(batch: CableBatch, q: FloatArray) -> Slack:
+    """See :class:`ancf.elements.registry.Element`."""
+    return Slack(batch, q)
+
+
+def _row(batch: CableBatch, row: int) -> FloatArray:
+    """One number of all elements by chunk and lane, not a copy."""
+    first = (row - LENGTH) * LANES
+    return batch.lane_data[:, first : first + LANES]
+
+
+def compression(batch: CableBatch, q: FloatArray) -> FloatArray:
+    """Axial strain of the chords that are shorter than their element, in the form of lane_reference."""
+    counts = np.diff(batch.first)
+    lane = np.arange(len(batch.base)) - np.repeat(batch.first[:-1], counts)
+    h = batch.lane_data[np.repeat(np.arange(len(counts)), counts), lane]
+    first, second = (q[batch.base[:, k, None] + np.arange(3)] for k in (0, 2))
+    stretch = np.minimum(np.linalg.norm(second - first, axis=1) / h, 1.0)
+    strain = np.zeros((len(batch.base), 20))
+    for group in batch.groups:
+        rows = slice(batch.first[group[BEGIN]], batch.first[group[END]])
+        s = stretch[rows, None]
+        strain[rows, : group[AXIAL]] = 0.5 * (s**2 - 1.0) if group[PAPER] else s - 1.0
+    return in_lanes(strain, batch.first)

@@ -1,0 +1,52 @@
+"""Memory: state and workspace of a run that takes steps of one length in a compiled loop."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .corotation import Frames
+from .low_rank import Patches
+from .status import COUNTS
+
+FloatArray = NDArray[np.float64]
+
+
+class Memory(NamedTuple):
+    """State and workspace of a run; all arrays of length n unless said otherwise."""
+
+    q: FloatArray
+    v: FloatArray
+    a: FloatArray
+    abar: FloatArray  # the generalised-alpha method's algorithmic acceleration
+    a1: FloatArray  # accelerations one, two and three steps before a, for the predictor
+    a2: FloatArray
+    a3: FloatArray
+    q0: FloatArray  # copies at the start of the step
+    v0: FloatArray
+    a0: FloatArray
+    r: FloatArray
+    f: FloatArray
+    push: FloatArray  # forces that do work at the start of the step
+    push_new: FloatArray
+    counts: NDArray[np.int64]  # (5,) see COUNTS
+    memo: FloatArray  # (8,) see below
+    work: FloatArray  # (2,) energy dissipated and supplied since the start, J
+    frames: Frames
+    patches: tuple[Patches, ...]  # one or none
+
+
+# entries of Memory.memo
+H_FACTOR, ETA, H_PREV, WORST, NORM, POWER, NOISE, KNOWN = range(8)
+
+
+def allocate(n: int, frames: Frames, patches: tuple[Patches, ...]) -> Memory:
+    """Memory for state vectors of length n."""
+    vectors: Any = {name: np.zeros(n) for name in Memory._fields[:14]}
+    counts = np.zeros(len(COUNTS), dtype=np.int64)
+    own: Any = {"counts": counts, "memo": np.zeros(8), "work": np.zeros(2)}
+    memory = Memory(**vectors, **own, frames=frames, patches=patches)
+    memory.memo[ETA] = 1.0
+    return memory

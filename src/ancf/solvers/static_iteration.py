@@ -1,0 +1,232 @@
+"""One correction of an equilibrium: (K + mu M) dq = -r, with mu that makes the matrix positive definite."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse.linalg import SuperLU, splu
+
+from ..errors import SolveError
+from ..linalg.sparse import to_sparse
+from ..model.beam import Beam
+from ..model.joints import Slide
+from ..system.contacts import touching
+from ..system.core import (
+    Core,
+    apply_supports,
+    assemble,
+    factorise_matrix,
+    follow_supports,
+    residual,
+    restrict,
+    solve_matrix,
+)
+from ..system.system import System
+from .free_spin import Spin, is_neutral, softest_mode
+from .mixed import Mixed
+
+FloatArray = NDArray[np.float64]
+
+ACCEPTED = 1e-9  # of a correction, where round-off keeps it above the tolerance
+SLENDER = 5e5  # EA L^2/EI of a beam up to which ACCEPTED is above round-off
+SHORT = 1.0  # longest correction with sliding joints, in sizes of the model
+AT_END = 1e-9  # of the length of a line: a sliding point that is no farther from its end has no equilibrium
+LEAST_MU = 1e-15  # of the ratio of stiffness to mass
+MORE_MU, MOST_MU = 5.0, 60  # factor by which mu grows until the matrix will do, and how often
+NEUTRAL_MU = 1e-13  # up to which mu may only make up for round-off
+NEUTRAL_MU_JOINTS = 1e-10  # NEUTRAL_MU with the stiffness that the rows of joints add
+COUNTED_MU = 1e-9  # with which pivots are counted where a body has no stiffness of its own
+
+
+@dataclass
+class Iteration:
+    """One equilibrium iteration: state vectors, forces and counters."""
+
+    system: System
+    core: Core
+    q: FloatArray
+    force: FloatArray  # at full load
+    inputs: FloatArray  # of loads that depend on the state, at full load
+    zero: FloatArray = field(init=False)
+    iterations: int = 0
+    jacobians: int = 0
+    mu: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.zero = np.zeros_like(self.q)
+        self.lu: SuperLU | None = None
+        arcs = self.system.numbering.arcs
+        slides = [c for c in self.system.model.connections if isinstance(c, Slide)]
+        self.arcs = [(c, arcs[c.name]) for c in slides if arcs[c.name] not in self.core.supports.held]
+        # a stable equilibrium has as many negative pivots as multipliers (Sylvester)
+        self.expected = len(np.setdiff1d(self.system.multipliers, self.core.supports.held))
+        slenderness = [_slenderness(b) for b in self.system.model.beams.values()]
+        self.accepted = ACCEPTED * max([1.0, *slenderness])
+        self.follows = any(len(batch.base) > 0 for batch in self.core.external)
+        self.mixed = Mixed(self.core.batches)
+        self.spin = Spin(self.system, self.core.supports.held)
+        self.spinning = False
+
+    def out_of_balance(self, q: FloatArray, share: float) -> FloatArray:
+        """Residual for a share of the loads, on free unknowns."""
+        r = np.empty_like(q)
+        self.core.loads.value[:] = share * self.inputs
+        residual(self.core.batches, self.core.ws, q, self.zero, self.zero, share * self.force, r)
+        apply_supports(self.core.supports, r)
+        return r[: self.system.n]
+
+    def moved(self, dq: FloatArray, s: float) -> FloatArray:
+        """State vector after a part s of a correction."""
+        q = self.q.copy()
+        q[: self.system.n] -= s * dq
+        for joint, arc in self.arcs:
+            q[arc] = min(max(q[arc], 0.0), joint.length)
+        follow_supports(self.core.supports, q, self.zero.copy(), self.zero.copy())
+        return q
+
+    def factorise(self, mass: float, stiffness: float = 1.0, spin: bool = False) -> int:
+        """Factorise mass M + stiffness K at q.
+
+        Returns the number of negative pivots beyond those of the multipliers, or a negative number if
+        the matrix is singular.  With sliding joints, which alone may hold a body that has no stiffness
+        of its own, the factors are those of a sparse LU with pivoting, and the pivots are counted
+        with a little mass.
+        """
+        core = self.core
+        self.jacobians += 1
+        self.lu = None
+        self.touching = touching(core, self.q, self.system.n)
+        self._assemble(mass, stiffness, spin)
+        if core.joints.tail:
+            try:
+                self.lu = splu(to_sparse(core.A, self.system.places))
+            except RuntimeError:  # exactly singular
+                return -1
+            self._assemble(max(mass, COUNTED_MU * self.ratio), stiffness, spin)
+        negative = int(factorise_matrix(core.A, core.factor))
+        return negative if negative < 0 else abs(negative - self.expected)
+
+    @cached_property
+    def ratio(self) -> float:
+        """Largest ratio of stiffness to mass on the diagonal, 1/s^2: the size of the largest eigenvalue."""
+        diagonal = (36 * np.arange(self.system.n // 6)[:, None] + 7 * np.arange(6)).ravel()
+        parts = []
+        for mass, stiffness in ((0.0, 1.0), (1.0, 0.0)):
+            self._assemble(mass, stiffness, False)
+            parts.append(np.abs(self.core.A[diagonal][self.system.free]))
+        moves = parts[1] > 0.0  # multipliers and s have no mass
+        return float(np.max(parts[0][moves] / parts[1][moves], initial=1.0))
+
+    def _assemble(self, mass: float, stiffness: float, spin: bool) -> None:
+        core = self.core
+        assemble(self.mixed.batches, core.ws, self.q, self.zero, core.A, mass, 0.0, stiffness)
+        if spin:
+            self.spin.add(core.A, self.q)
+        restrict(core.supports, core.A)
+
+    def solve(self, r: FloatArray) -> FloatArray:
+        """Solution for a residual, with the last factorisation and the contacts."""
+        x = self._back(r)
+        if len(self.touching.stiffness) == 0:
+            return x
+        B = self.touching.rows
+        Z = np.array([self._back(b) for b in B]).T
+        small = np.diag(1.0 / self.touching.stiffness) + B @ Z  # Woodbury's formula
+        corrected: FloatArray = x - Z @ np.linalg.solve(small, B @ x)
+        return corrected
+
+    def _back(self, r: FloatArray) -> FloatArray:
+        """Solution with the last factorisation alone."""
+        if self.lu is not None:
+            solution: FloatArray = self.lu.solve(r)
+            return solution
+        x = r.copy()
+        solve_matrix(self.core.factor, x)
+        return x
+
+    def length(self, dq: FloatArray) -> float:
+        """Largest entry, positions in sizes of the model."""
+        return float(np.max(np.abs(dq) * self.core.weight))
+
+    def correction(self, r: FloatArray) -> FloatArray:
+        """dq of (K + mu M) dq = r, with mu large enough to make the matrix positive definite.
+
+        Loads that depend on the state, as moments, are no conservative ones and the symmetric part of their
+        stiffness says nothing about stability: with them an indefinite K is taken as it is.
+        """
+        if len(self.core.joints.tail):
+            return self._short_correction(r)
+        negative = self.factorise(self.mu)
+        self.spinning = bool(self.spin) and self.spins(r, negative)
+        if self.spinning:
+            self.mu = 0.0
+        elif negative and bool(self.spin):
+            negative = self.factorise(self.mu)
+        if self.spinning or negative == 0 or (negative > 0 and self.mu == 0.0 and self.follows):
+            return self.solve(r)
+        self.mu = max(self.mu, LEAST_MU * self.ratio)
+        for _ in range(MOST_MU):
+            if self.factorise(self.mu) == 0:
+                return self.solve(r)
+            self.mu *= MORE_MU
+        raise SolveError("equilibrium", "no regularisation makes the stiffness positive definite")
+
+    def _short_correction(self, r: FloatArray) -> FloatArray:
+        """The same with sliding joints: mu is also large enough to keep the correction short.
+
+        A point that slides down a slope has no stiffness at all until it has found its place.
+        """
+        for _ in range(MOST_MU):
+            if self.factorise(self.mu) == 0:
+                dq = self.solve(r)
+                if self.length(dq) <= SHORT:
+                    return dq
+            self.mu = max(MORE_MU * self.mu, COUNTED_MU * self.ratio)
+        raise self.failure("equilibrium", "no regularisation makes the stiffness positive definite")
+
+    def failure(self, where: str, problem: str, hint: str = "") -> SolveError:
+        """Error of an iteration that found nothing."""
+        for joint, arc in self.arcs:
+            if not AT_END < self.q[arc] / joint.length < 1.0 - AT_END:
+                end = f"s = {self.q[arc]:.6g} m, an end of {joint.carrier.name}"
+                what = f"slides to {end}: there is no equilibrium between"
+                return SolveError(
+                    f"{where}, {joint.name}", what, "hold it there, or give the carrier more sag"
+                )
+        return SolveError(where, problem, hint)
+
+    def spins(self, r: FloatArray, negative: int) -> bool:
+        """Whether sections spin freely; if so, the matrix holds them.  ``negative``: from factorising K."""
+        residual = float(np.max(np.abs(r)))
+        if negative == 0 and (self.mu > 0.0 or not self.spin.is_free(self.solve, self.q, False, residual)):
+            return False
+        if self.factorise(0.0, spin=True) != 0:
+            return False
+        return negative == 0 or self.spin.is_free(self.solve, self.q, True, residual)
+
+    def harmless(self) -> bool:
+        """Whether mu > 0 only makes up for round-off."""
+        limit = NEUTRAL_MU_JOINTS if self.expected else NEUTRAL_MU
+        if len(self.core.joints.tail):
+            limit = MORE_MU * COUNTED_MU
+        if self.mu > limit * self.ratio:
+            return False
+        if self.expected:
+            return True
+        core = self.core
+        x = softest_mode(self.solve, self.system.n, core.supports.held)
+        assemble(core.batches, core.ws, self.q, self.zero, core.A, 0.0, 0.0, 1.0)
+        restrict(core.supports, core.A)
+        return is_neutral(to_sparse(core.A, self.system.places), x)
+
+
+def _slenderness(beam: Beam) -> float:
+    """Share of the largest slenderness at which round-off keeps corrections below ACCEPTED."""
+    section = beam.section
+    if not beam.has_section or section.G is None or section.J is None:
+        return 0.0
+    softest = min(section.EI_y, section.EI_z, section.G * section.J)
+    return section.EA * beam.length**2 / softest / SLENDER

@@ -1,0 +1,131 @@
+"""Newton's iterations along a path of equilibria: steps that are halved, and a line search."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..system.core import find_inverted
+from .free_spin import softest_mode
+from .static_iteration import MORE_MU, Iteration
+from .status import COLLAPSED
+
+FloatArray = NDArray[np.float64]
+
+TOLERANCE = 1e-12  # of a correction, positions relative to the size of the model
+MAX_ITERATIONS = 300  # in a load step
+PLAIN = 150  # of them without a line search
+MOST_HALVINGS = 12  # of a load step
+WHOLE = 1e-12  # of the path, by which its end may be missed
+SPUN = 1e-5  # accepted where sections spin freely, which leaves their angle open
+LONGEST = 0.3  # largest change of a slope, or of a position in sizes of the model, in one correction
+NO_MOTION = 1e-300  # of a correction: the share that LONGEST leaves of it is whole
+REDUCED = 0.5  # of the residual: what a correction leaves when round-off has not been reached
+BALANCED = 1e-6  # of a correction: there is an equilibrium, which may be unstable
+DISTURBANCE = 1e-3  # along the softest mode, to leave an unstable equilibrium
+NEAR = 1e-2  # of a correction: mu is no longer needed
+LESS_MU = 0.1  # factor of mu after LONG_STEP of a correction; MORE_MU after less than SHORT_STEP of it
+LONG_STEP, SHORT_STEP = 0.3, 0.05
+TRIALS = 12  # of a line search
+WORK_LEFT = 0.8  # of the out-of-balance work along the correction, with which a line search is content
+LEAST_PART, MOST_PART = 0.1, 0.7  # of the interval in which it looks next
+
+
+def follow_path(it: Iteration, load: Callable[[float], float], steps: int, of: str) -> int:
+    """Equilibria along a path from 0 to 1; a step that fails is halved.  Returns the number of halvings.
+
+    ``load(share)`` prepares a point of the path and returns the share of the loads there.
+    """
+    share, part, halvings = 0.0, 1.0 / steps, 0
+    while share < 1.0 - WHOLE:
+        before = it.q.copy()
+        with np.errstate(all="ignore"):  # what overflows on the way is seen and halved
+            problem = settle(it, load(min(share + part, 1.0)))
+        if problem is None:
+            share = min(share + part, 1.0)
+            continue
+        it.q, it.mu = before, 0.0
+        part, halvings = 0.5 * part, halvings + 1
+        if halvings > MOST_HALVINGS:
+            raise it.failure(f"equilibrium at {share:.4g} {of}", problem, "give more load_steps")
+    return halvings
+
+
+def settle(it: Iteration, share: float) -> str | None:
+    """Newton iterations for one share of the loads; None, or what went wrong."""
+    r = it.out_of_balance(it.q, share)
+    it.mixed.correct(it.zero)
+    disturbed = False
+    for number in range(MAX_ITERATIONS):
+        if not np.all(np.isfinite(r)):
+            return "the forces are not finite"
+        regular = it.mu == 0.0
+        dq = it.correction(r)
+        it.iterations += 1
+        norm = it.length(dq)
+        accepted = max(it.accepted, SPUN) if it.spinning else it.accepted
+        settled = norm <= TOLERANCE or (norm <= accepted and _stalled(it, dq, r, share))
+        if settled and (it.mu == 0.0 or it.harmless()):
+            it.q = it.moved(dq, 1.0)
+            slot = find_inverted(it.core.batches, it.core.ws, it.q)
+            return None if slot < 0 else f"{it.system.element_of(slot)}: {COLLAPSED}"
+        if regular and it.mu > 0.0 and norm < BALANCED and not disturbed and not it.harmless():
+            disturbed = True  # balanced, but not stable
+            it.q = disturb(it)
+            it.mixed.correct(it.zero)
+            r = it.out_of_balance(it.q, share)
+            continue
+        longest = min(1.0, LONGEST / max(norm, NO_MOTION))
+        if number < PLAIN:
+            s, r = longest, it.out_of_balance(it.moved(dq, longest), share)
+        else:
+            s, r = line_search(it, dq, r, share, longest)
+        before, it.q = it.q, it.moved(dq, s)
+        it.mixed.correct(it.q - before)
+        it.mu = relax(it.mu, s, norm)
+    return f"Newton's method did not converge in {MAX_ITERATIONS} iterations, last correction {norm:.2e}"
+
+
+def _stalled(it: Iteration, dq: FloatArray, r: FloatArray, share: float) -> bool:
+    """Round-off: the correction does not reduce the residual any more."""
+    ahead = it.out_of_balance(it.moved(dq, 1.0), share)
+    return bool(np.linalg.norm(ahead) >= REDUCED * np.linalg.norm(r))
+
+
+def relax(mu: float, s: float, norm: float) -> float:
+    """Next regularisation: less after a long step, more after a short one."""
+    if mu == 0.0 or (s == 1.0 and norm < NEAR):
+        return 0.0
+    return LESS_MU * mu if s > LONG_STEP else (mu if s > SHORT_STEP else MORE_MU * mu)
+
+
+def line_search(
+    it: Iteration, dq: FloatArray, r: FloatArray, share: float, longest: float
+) -> tuple[float, FloatArray]:
+    """Part of the correction to take, at most ``longest``, and the residual there."""
+    work0 = float(dq @ r)
+    if work0 <= 0.0:  # indefinite matrix: there is nothing to search for
+        return longest, it.out_of_balance(it.moved(dq, longest), share)
+    low, high, w_low = 0.0, longest, work0
+    ahead = r
+    for _ in range(TRIALS):
+        ahead = it.out_of_balance(it.moved(dq, high), share)
+        w = float(dq @ ahead)
+        if np.isfinite(w) and (abs(w) <= WORK_LEFT * work0 or (w > 0.0 and high == longest)):
+            return high, ahead
+        if np.isfinite(w) and w > 0.0:
+            low, w_low = high, w
+            high = 0.5 * (high + longest)
+            continue
+        longest = high
+        ratio = w_low / (w_low - w) if np.isfinite(w) else LEAST_PART
+        high = low + float(np.clip(ratio, LEAST_PART, MOST_PART)) * (high - low)
+    return high, ahead
+
+
+def disturb(it: Iteration) -> FloatArray:
+    """State moved a little along the softest mode."""
+    x = softest_mode(it.solve, it.system.n, it.core.supports.held)
+    return it.moved(x / it.length(x), DISTURBANCE)

@@ -1,0 +1,11 @@
+"""How a step ends, and what a run counts: the same numbers for all methods."""
+
+from __future__ import annotations
+
+OK, DIVERGED, NOT_FINITE, SINGULAR, SLOW, INVERTED = range(6)
+EVENT = 16  # plus the code of an event after a step that is OK
+#: What is said of INVERTED.
+COLLAPSED = "the cross-section has collapsed or turned inside out"
+#: Names of what is counted, and their places.
+COUNTS = ("steps", "newton_iterations", "jacobians", "factorizations", "retries")
+STEPS, ITERATIONS, JACOBIANS, FACTORIZATIONS, RETRIES = range(5)
