@@ -245,7 +245,7 @@ BAD = [
     ((*FORCE, "force"), [0, 0, "t +"], "loads[0].force[2]", "no formula of t"),
     ((*FORCE, "force"), [0, 0, True], "loads[0].force[2]", "must be a number"),
     ((*FORCE, "force"), {"t": [1, 0], "value": [[0, 0, 0]] * 2}, "loads[0].force.t", "increasing"),
-    ((*FORCE, "force"), MISSING, "loads[0].force", "is missing (Force, function of t [N])"),
+    ((*FORCE, "force"), MISSING, "loads[0].force", "is missing (Force, function of t, or of t and the point"),
     ((*FORCE, "moment"), [0, 0, 1], "loads[0].moment", 'allowed: "type", "point", "force", "name"'),
     (("loads", 1, "moment"), [1, 0, 0], "loads[1].moment", "torque"),
     (("loads", 2, "body"), "acr", "loads[2].body", 'did you mean "arc"?'),
@@ -313,7 +313,7 @@ def test_data_that_is_no_table():
 
 
 def test_several_problems_one_per_line():
-    changes = [(("gravity",), [0, 0]), ((*STRIP, "E"), 0), (("loads", 0, "force"), [0, 0, "x"])]
+    changes = [(("gravity",), [0, 0]), ((*STRIP, "E"), 0), (("loads", 0, "force"), [0, 0, "u"])]
     with pytest.raises(ModelError) as caught:
         parse_study(changed(*changes), "cable.toml")
     assert caught.value.where == "cable.toml"

@@ -1,4 +1,4 @@
-"""Laws of the state as formulas: what numba compiles is what the model evaluates; files, tables, description."""
+"""Laws of the state as formulas: what numba compiles is what the model evaluates; files and tables."""
 
 import numpy as np
 import pytest

@@ -58,6 +58,12 @@ class StateFunction:
             raise ModelError(self.where, f"{what}, must be finite", "it is asked for at rest too")
         return value
 
+    def depends_on_place(self, position: FloatArray) -> bool:
+        """Whether the force at rest is another one somewhere around a position (3,), m."""
+        still, here = np.zeros(3), self(0.0, position, np.zeros(3))
+        around = (position + s * self.size * e for e in np.eye(3) for s in (-0.1, 0.1))
+        return any(bool(np.any(self(0.0, place, still) != here)) for place in around)
+
     def describe(self) -> Any:
         """Plain JSON-able form; a Python function as ``<function name>``."""
         return plain(self.given)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from ancf.model.connections import Connection
 from ancf.model.kind import body_of
 from ancf.model.kinds import kind_of
+from ancf.model.loads import Load
 
 
-def bodies_of(connection: Connection) -> list[str]:
-    """Names of the bodies that a connection touches."""
+def bodies_of(connection: Connection | Load) -> list[str]:
+    """Names of the bodies that a connection or a load touches."""
     bodies = map(body_of, kind_of(connection).ends_of(connection))
     return [body.name for body in bodies if body is not None]
 

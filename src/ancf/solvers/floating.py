@@ -5,6 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import ModelError
+from ..model.kinds import kind_of
+from ..model.loads import Force
+from ..model.points import initial_position
+from ..model.state_function import StateFunction
 from ..model.touching import bodies_of, to_ground
 from ..system.system import System
 
@@ -12,10 +16,14 @@ from ..system.system import System
 def check_supported(system: System, ignored: list[str]) -> None:
     """Raise ModelError if a body, or a group of connected bodies, can move freely in some direction.
 
-    ``ignored`` are bodies that are held altogether: they support what is connected to them.
+    ``ignored`` are bodies that are held altogether: they support what is connected to them.  A load that
+    depends on the place may hold a body.
     """
     groups = {name: {name} for name in system.model.bodies}
     grounded: set[str] = set(ignored)
+    for load in system.model.loads:
+        if kind_of(load).has_batch(load) and not (isinstance(load, Force) and _only_resists(load)):
+            grounded.update(bodies_of(load))
     for item in system.model.connections:
         touched = bodies_of(item)
         if to_ground(item):
@@ -35,6 +43,13 @@ def check_supported(system: System, ignored: list[str]) -> None:
                 f"nothing holds {label} in {axes}: it floats and has no equilibrium",
                 "add model.pin(...) or model.clamp(...)",
             )
+
+
+def _only_resists(load: Force) -> bool:
+    """Whether a law of the state does not depend on the place."""
+    return isinstance(load.force, StateFunction) and not load.force.depends_on_place(
+        initial_position(load.point)
+    )
 
 
 def _holds(system: System, name: str, component: int) -> bool:
