@@ -31,7 +31,7 @@ def section(item: Section) -> dict[str, Any]:
 
 def section_of(plain: dict[str, Any]) -> Section:
     """The Section that ``section`` described."""
-    given = {key: plain.get(key, 0.0) for key in DAMPINGS}  # older files have fewer
+    given = {key: plain[key] for key in DAMPINGS}
     kind = plain.get("shape")
     if kind is None:
         return Section(EA=plain["EA"], EI=plain["EI_y"], rhoA=plain["rhoA"], **given)
