@@ -184,7 +184,9 @@ def _typeof(batches, context):
 
 
 def _row(batch: Any) -> tuple[NDArray[np.int64], tuple[int, ...]]:
-    """The record of a batch and the addresses of its operations."""
+    """The record of a batch and the addresses of its operations; of an empty one none is compiled."""
+    if len(batch[0]) == 0:
+        return np.zeros(1, dtype=np.int64), (0,) * len(OPERATIONS)
     key = type(batch), *((x.dtype, x.ndim, x.flags.num) for x in batch)
     if key not in _compiled:
         kind, context = typeof(batch), cpu_target.target_context

@@ -224,7 +224,10 @@ def implements(
     measure: Callable[..., Any] | None = None,
     **given: Any,
 ) -> None:
-    """Register the operations of a kind of batch (see the functions above) and its :class:`Traits`."""
+    """Register the operations of a kind of batch (see the functions above) and its :class:`Traits`.
+
+    The first array of a batch has a row for each of its parts: nothing is compiled for one without rows.
+    """
     describe(batch_type, **given)
 
     def matches(batch: Any) -> bool:
@@ -285,11 +288,7 @@ def announce_compilation(say: Callable[[], None]) -> None:
 
 
 def optional(function: Callable[..., Any], default: Any = None) -> Any:
-    """Kernel whose first argument is a tuple; of an empty one it returns `default` and compiles nothing.
-
-    Whether :class:`~ancf.batches.Batches` are empty is known at run time alone: of these all is compiled.
-    """
-    part = inline_kernel(function)
+    """Kernel whose first argument is a tuple; of an empty one it returns `default` and compiles nothing."""
 
     def stub(items, *arguments):
         raise TypeError("only in compiled code")
@@ -297,15 +296,8 @@ def optional(function: Callable[..., Any], default: Any = None) -> Any:
     def nothing(items, *arguments):
         return default
 
-    def perhaps(items, *arguments):
-        if items.table.shape[0] > 0:
-            return part(items, *arguments)
-        return default
-
     @overload(stub, jit_options=PART, strict=False)
     def _choose(items, *arguments):
-        if isinstance(items, types.BaseNamedTuple):
-            return perhaps
         return function if len(items) else nothing
 
     return stub

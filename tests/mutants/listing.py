@@ -8,7 +8,7 @@ HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 PACKAGE = ROOT / "src" / "ancf"
 #: How a file says that it holds kernels.
-_KERNELS = ("@kernel", "@inline_kernel", "@formula")
+_KERNELS = ("@kernel", "@separate_kernel", "@inline_kernel", "@formula")
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,18 @@ _DEFAULTS = {
 }
 
 
+#: What :mod:`ancf.batches` does with a plain tuple.
+_ALL = {
+    "add_forces": "_forces_of_tuple",
+    "add_inertias": "_inertias_of_tuple",
+    "add_tangents": "_tangents_of_tuple",
+    "measure_all": "_measures_of_tuple",
+    "strain_energies": "_energies_of_tuple",
+    "find_events": "_events_of_tuple",
+    "last_inverted": "_inverted_of_tuple",
+}
+
+
 def _plain(function):
     function.py_func = function
     return function
@@ -47,18 +59,16 @@ def _interpret() -> None:
     def optional(function, default=None):
         return lambda items, *arguments: function(items, *arguments) if len(items) else default
 
-    for decorator in ("kernel", "inline_kernel", "formula"):
+    for decorator in ("kernel", "separate_kernel", "inline_kernel", "formula"):
         setattr(compiled, decorator, _plain)
     for name, operation in _OPERATIONS.items():
         setattr(compiled, operation, chosen(name))
     compiled.implements, compiled.optional = implements, optional
-    compiled.add_forces, compiled.add_tangents = map(
-        optional, (compiled._force_of_each, compiled._tangent_of_each)
-    )
-    compiled.measure_all, compiled.find_events = (
-        optional(compiled._measure_each),
-        optional(compiled._event_of_each, -1),
-    )
+    from ancf import batches
+
+    batches.Batches = type("Batches", (tuple,), {})
+    for operation, of_tuple in _ALL.items():
+        setattr(batches, operation, getattr(batches, of_tuple))
 
 
 _how = os.environ.get("ANCF_MUTANTS", "")

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..batches import add_tangents, find_events
-from ..compiled import inline_kernel, kernel, optional
+from ..compiled import inline_kernel, kernel
 from ..system.core import (
     assemble,
     constraint_rows,
@@ -172,7 +172,9 @@ def solve_turned(core, s, rule):
         turn_forth(s.frames, s.r)
 
 
-def _renew_tail(tail, core, s, rule, B, G):
+@inline_kernel
+def renew_tail(tail, core, s, rule, B, G):
+    """Renew the rows of the sliding joints alone; whether that is possible."""
     joints, A = core.joints, core.A
     n = core.factor.row_start.shape[0] - 1
     for i in range(36 * joints.first, 36 * n):
@@ -186,11 +188,9 @@ def _renew_tail(tail, core, s, rule, B, G):
     return factorise_tail(A, core.factor, joints.first) >= 0
 
 
-#: Renew the rows of the sliding joints alone; whether that is possible.
-renew_tail = optional(_renew_tail, True)
-
-
-def _project(batches, core, s, rule):
+@inline_kernel
+def project(batches, core, s, rule):
+    """Shift the positions onto C = 0; the norm of the shift."""
     joints = core.joints
     joints.level[0], joints.level[1], joints.level[2] = 1.0, 0.0, 0.0
     constraint_rows(joints, s.q, s.v, s.a, s.r, core.ws)
@@ -210,10 +210,6 @@ def _project(batches, core, s, rule):
         s.q[i] -= d
         norm = max(norm, abs(d) * core.weight[i])
     return norm
-
-
-#: Shift the positions onto C = 0; the norm of the shift.
-project = optional(_project, 0.0)
 
 
 @inline_kernel

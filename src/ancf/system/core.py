@@ -200,7 +200,7 @@ def restrict(supports, A):
 @kernel
 def factorise_matrix(A, factor):
     """Factorise A; number of negative pivots, or -(block + 1) when singular there."""
-    return factorise(A, factor, 0)
+    return factorise(A, factor, np.int64(0))  # a literal 0 would be compiled by itself
 
 
 @kernel
@@ -234,7 +234,7 @@ def constraints(joints, q, v, a, r, ws):
 @kernel
 def solve_matrix(factor, x):
     """Replace a residual that :func:`to_local` has prepared by the correction."""
-    solve(factor, x, 0)
+    solve(factor, x, np.int64(0))
 
 
 @kernel
