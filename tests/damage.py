@@ -153,7 +153,7 @@ def damage(path, draw):
             _bytes(path, draw)
             return True  # what has become of it is not to be opened for writing
         with h5py.File(path, "r+", libver="latest") as file:
-            states |= bool(globals()[f"_{kind}"](file, draw))
+            states |= bool(CHANGES[kind](file, draw))
     return states
 
 
@@ -296,6 +296,16 @@ def _elsewhere(file, draw):
         layout[...] = h5py.VirtualSource("/etc/passwd", "q", shape or (1,))
         file.create_virtual_dataset(name, layout)
     return True
+
+
+CHANGES = {
+    "attribute": _attribute,
+    "header": _header,
+    "listed": _listed,
+    "data": _data,
+    "group": _group,
+    "elsewhere": _elsewhere,
+}
 
 
 def ask(result, states):

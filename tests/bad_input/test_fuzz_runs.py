@@ -6,6 +6,7 @@ is said.  A normal run of the suite takes models of a cable alone, which share t
 
 import signal
 import sys
+import time
 import warnings
 from contextlib import contextmanager
 
@@ -14,14 +15,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ancf
+from ancf.errors import Interrupted
 from fuzzing import SLOW, cases, finite, refused_or_fine
 
 #: What hangs on the end of the cable.
 PARTS = ("nothing", "mass", "body", "bar", "bead", "head") if SLOW else ("nothing",)
 #: Energy that nobody supplied must have been said from this share of the largest part on.
 UNSAID = 0.1
-#: A run of some steps that takes longer hangs, s.
-LONGEST = 300
+#: Processor time, s: after which a run that goes on is stopped as by Ctrl-C (a method that chooses its steps
+#: may need millions), and after which it hangs.
+PATIENCE, LONGEST = 5, 300
 
 FORCES = [(0, 0, 0), (0, 0, -1), ["0", "0", "step(t - 1e-3)"], ["sin(1e4*t)", "0", "1"], [0, 0, 1e6]]
 FORCES += [["0", "1/(t - 0.01)", "0"], ["0", "0", "1e3*t"], ["sqrt(0.1 - t)", 0, 0], [1e-12, 0, 0]]
@@ -146,8 +149,25 @@ def run(model, what, options):
         start = ancf.equilibrium(model)
         finite(start.q, start.position("cable.end"), start.tension("cable.end"), start.energy.strain)
         assert "nan" not in str(start)
-    if what != "equilibrium":
-        look_at(ancf.simulate(model, start=start, sensors=["cable.end"], **options))
+    if what == "equilibrium":
+        return
+    try:
+        result = ancf.simulate(model, start=start, sensors=["cable.end"], progress=patience(), **options)
+    except Interrupted as stopped:
+        result = stopped.result
+        assert result.status == "interrupted"
+    look_at(result)
+
+
+def patience():
+    """What a run calls between blocks of steps."""
+    end = time.process_time() + PATIENCE
+
+    def look(progress):
+        if time.process_time() > end:
+            raise KeyboardInterrupt
+
+    return look
 
 
 @contextmanager
@@ -160,13 +180,13 @@ def in_time():
     if sys.platform == "win32":
         yield
         return
-    before = signal.signal(signal.SIGALRM, hangs)
-    signal.alarm(LONGEST)
+    before = signal.signal(signal.SIGPROF, hangs)
+    signal.setitimer(signal.ITIMER_PROF, LONGEST)
     try:
         yield
     finally:
-        signal.alarm(0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
 
 
 @cases(0.06)

@@ -4,6 +4,7 @@ import re
 
 import pytest
 
+import ancf
 import hostile_files
 from hostile_files import FOLDER
 
@@ -40,6 +41,24 @@ def test_check(call, path):
         assert (ran.code, ran.out) == (2, "")
         assert re.match(r"error: [^\n:]+: \S", ran.err), ran.err
         assert len(ran.err) < 3000
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("external_data", '"q" keeps its data in another file'),
+        ("virtual_data", '"q" keeps its data in another file'),
+        ("external_link", '"v" is a link to another place or file'),
+        ("external_body", '"bodies" is a link to another place or file'),
+        ("soft_link", '"energy" is a link to another place or file'),
+    ],
+)
+def test_data_elsewhere_are_not_looked_for(name, said):
+    """They are refused for where they are, whatever is there."""
+    path = FOLDER / f"{name}.h5"
+    with pytest.raises(ancf.ModelError) as caught:
+        ancf.load(path)
+    assert (caught.value.where, caught.value.what) == (str(path), f"is refused: {said}")
 
 
 def test_all_files_are_there():
