@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation as Turn
 
 import ancf
 from ancf.connections.contact import ContactBatch
-from ancf.elements.cable_build import compression
+from ancf.elements.cable_slack import compression
 from ancf.elements.measures import axial_strain
 from ancf.elements.shapes import gauss, hermite
 from ancf.linalg.sparse import to_sparse
