@@ -15,6 +15,7 @@ LAYERS = (
     {"errors", "_version", "kernel_cache"},
     {"files"},
     {"compiled"},
+    {"batches"},
     {"model"},
     {"elements", "bodies", "linalg"},
     {"connections", "loads"},
