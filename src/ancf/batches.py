@@ -158,6 +158,9 @@ class Batches(_Table):
     def __iter__(self) -> Iterator[Any]:
         return iter(self._batches)
 
+    def __bool__(self) -> bool:
+        return bool(self._batches)
+
     def __len__(self) -> int:
         return len(self._batches)
 
