@@ -138,6 +138,8 @@ class TestWrongDescriptions:
             (lambda p: p["bodies"][0].pop("section"), "bodies[0].section", "is missing"),
             (lambda p: p["bodies"][0]["section"].pop("EA"), "bodies[0].section.EA", "is missing"),
             (lambda p: p["bodies"][3]["node_y"].pop(), "bodies[3].node_y", "3 rows for 4 nodes"),
+            (lambda p: p["bodies"][0]["section"].update(EA=-1), "bodies[0].section.EA", "must be > 0"),
+            (lambda p: p["bodies"][3]["node_y"][1].__setitem__(0, 3.0), "bodies[3].node_y", "unit vectors"),
             (lambda p: p["bodies"][0].update(type="plate"), "bodies[0].type", "must be one of"),
             (lambda p: p["bodies"][1].update(name="line"), "bodies[1].name", "is the name of a body already"),
             (lambda p: p["bodies"][5].update(mass=-1), "bodies[5].mass", "must be > 0"),

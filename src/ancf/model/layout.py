@@ -27,6 +27,7 @@ from ancf.model.shapes import Rectangle
 
 #: What the nodes of a beam have in the initial shape.
 PLACED = ("node_position", "node_tangent", "node_y")
+NOT_UNIT = 1e-6  # deviation of a square from 1 of what a description says to be a unit vector
 MOST_TURN = 2 * math.pi / 3  # rad, of the tangent within an element of a beam
 
 
@@ -123,6 +124,8 @@ def _rows(where: str, count: int, take: Callable[[str], Any]) -> Iterator[FloatA
         rows = checks.array(take(key), f"{where}.{key}", (None, 3))
         if len(rows) != count:
             raise ModelError(f"{where}.{key}", f"has {len(rows)} rows for {count} nodes")
+        if key != "node_position" and np.max(np.abs(np.sum(rows * rows, axis=1) - 1.0)) > NOT_UNIT:
+            raise ModelError(f"{where}.{key}", "must be unit vectors")
         yield rows
 
 

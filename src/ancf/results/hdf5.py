@@ -27,7 +27,16 @@ DEEPEST = 2
 #: Pauses before another look at a file that a run may be writing just now, s.
 PAUSES = (0.0, 0.05, 0.1, 0.2, 0.4)
 #: What HDF5 and h5py raise about a damaged file.
-DAMAGED = (OSError, RuntimeError, KeyError, ValueError, TypeError, AttributeError)
+DAMAGED = (
+    OSError,
+    RuntimeError,
+    LookupError,
+    ValueError,
+    TypeError,
+    AttributeError,
+    ArithmeticError,
+    AssertionError,
+)
 
 
 def opened(path: Path) -> Any:
