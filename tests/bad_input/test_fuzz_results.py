@@ -131,7 +131,7 @@ FOUND = {
         "node_tangent: has shape",
     ),
     "places that are no numbers": (body(1, "node_position", [[np.nan] * 3] * 3), r"bodies\[1\].*finite"),
-    "tangents of no length": (body(1, "node_tangent", [[0.0] * 3] * 3), "no unit vectors"),
+    "tangents of no length": (body(1, "node_tangent", [[0.0] * 3] * 3), "must be unit vectors"),
     "another element": (body(0, "element", "{"), r"bodies\[0\].*element"),
     "another strain": (body(0, "strain", "green"), r"bodies\[0\].*strain"),
     "no length": (body(0, "length", 0.0), r"bodies\[0\].*length"),

@@ -51,6 +51,8 @@ def crooked(element, rng):
     line = model.add_beam("line", start=start, end=end, y_axis=rng.normal(size=3), **given)
     line.set_motion(rng.normal(size=3), rng.normal(size=3), about=rng.normal(size=3))
     model.add_beam("slack", start=start, end=end, length=1.1 * float(np.linalg.norm(end - start)), **given)
+    pulled = model.add_beam("pulled", start=end, end=start, **given)
+    pulled.node_position[1] += 0.01 * rng.normal(size=3)  # as lines do that hang
     bow = model.add_beam("bow", path=arc, y_axis=rng.normal(size=3), **given)
     points = np.cumsum(1 + rng.random((5, 3)), axis=0)
     nodes = np.sort(rng.random(2)) * 2
@@ -132,13 +134,15 @@ class TestWrongDescriptions:
         [
             (lambda p: p.pop("gravity"), "model.gravity", "is missing"),
             (lambda p: p.update(bodies=3), "bodies", "must be a list"),
-            (lambda p: p["bodies"].append(3), "bodies[6]", "must be a table"),
+            (lambda p: p["bodies"].append(3), "bodies[7]", "must be a table"),
             (lambda p: p["bodies"][0].pop("section"), "bodies[0].section", "is missing"),
             (lambda p: p["bodies"][0]["section"].pop("EA"), "bodies[0].section.EA", "is missing"),
-            (lambda p: p["bodies"][2]["node_y"].pop(), "bodies[2].node_y", "3 rows for 4 nodes"),
+            (lambda p: p["bodies"][3]["node_y"].pop(), "bodies[3].node_y", "3 rows for 4 nodes"),
+            (lambda p: p["bodies"][0]["section"].update(EA=-1), "bodies[0].section.EA", "must be > 0"),
+            (lambda p: p["bodies"][3]["node_y"][1].__setitem__(0, 3.0), "bodies[3].node_y", "unit vectors"),
             (lambda p: p["bodies"][0].update(type="plate"), "bodies[0].type", "must be one of"),
             (lambda p: p["bodies"][1].update(name="line"), "bodies[1].name", "is the name of a body already"),
-            (lambda p: p["bodies"][4].update(mass=-1), "bodies[4].mass", "must be > 0"),
+            (lambda p: p["bodies"][5].update(mass=-1), "bodies[5].mass", "must be > 0"),
             (lambda p: p["loads"][0].update(type="wind"), "loads[0].type", "there are: force"),
             (lambda p: p["loads"][0].update(size=2), "loads[0]", "size"),
             (lambda p: p["loads"][0].pop("point"), "loads[0]", "point"),

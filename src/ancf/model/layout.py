@@ -27,8 +27,8 @@ from ancf.model.shapes import Rectangle
 
 #: What the nodes of a beam have in the initial shape.
 PLACED = ("node_position", "node_tangent", "node_y")
-#: How far the length of a direction in a description may be off 1, and the initial stretch at most.
-UNIT, MOST_STRETCH = 1e-6, 1e9
+NOT_UNIT = 1e-6  # deviation of a square from 1 of what a description says to be a unit vector
+MOST_STRETCH = 1e9  # initial stretch in a description
 MOST_TURN = 2 * math.pi / 3  # rad, of the tangent within an element of a beam
 
 
@@ -125,8 +125,8 @@ def _rows(where: str, count: int, take: Callable[[str], Any]) -> Iterator[FloatA
         rows = checks.array(take(key), f"{where}.{key}", (None, 3))
         if len(rows) != count:
             raise ModelError(f"{where}.{key}", f"has {len(rows)} rows for {count} nodes")
-        if key != "node_position" and np.any(np.abs(np.linalg.norm(rows, axis=1) - 1.0) > UNIT):
-            raise ModelError(f"{where}.{key}", "holds directions that are no unit vectors")
+        if key != "node_position" and np.max(np.abs(np.sum(rows * rows, axis=1) - 1.0)) > NOT_UNIT:
+            raise ModelError(f"{where}.{key}", "must be unit vectors")
         yield rows
 
 

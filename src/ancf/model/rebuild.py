@@ -80,6 +80,10 @@ def _beam(table: Table, name: str) -> Beam:
         made = section_of(dict(section.given))
     except KeyError as error:
         raise ModelError(f"{section.where}.{error.args[0]}", "is missing in the description") from None
+    except ModelError as error:
+        raise ModelError(
+            section.where + error.where.removeprefix("Section"), error.what, error.hint
+        ) from None
     return placed_beam(table.where, name, made, table.take, table.given)
 
 
