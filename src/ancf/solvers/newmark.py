@@ -25,7 +25,7 @@ import numpy as np
 from numba import literal_unroll
 from numpy.typing import NDArray
 
-from ..compiled import add_force, add_tangents, find_events, inline_kernel, kernel, optional
+from ..compiled import add_force, add_tangents, find_events, formula, inline_kernel, kernel, optional
 from ..system.core import (
     assemble,
     constraint_rows,
@@ -54,6 +54,14 @@ STALE = 0.03
 ROUND_OFF = 1e4
 LARGEST_ROUND_OFF = 1e-7
 
+#: Attempts at a step: 0 with the matrix that is kept, 1 with a new one, 2 with one for every iteration.
+LAST = 2
+#: Steps of one length after which the predictor knows the motion.
+FAMILIAR = 3.0
+
+#: Largest change of a slope, or of a position in sizes of the model, in a step that is looked at closely.
+FURTHEST, UNLIMITED = 0.5, 1e300
+
 #: Share of the tolerance up to which constraints need no shift.
 HELD = 0.1
 
@@ -61,7 +69,7 @@ HELD = 0.1
 #: by B, with one sign, where a joint keeps it from being felt as a displacement.
 JOINTED = 1e-6
 
-OK, DIVERGED, NOT_FINITE, SINGULAR, SLOW, INVERTED = 0, 1, 2, 3, 4, 5
+OK, DIVERGED, NOT_FINITE, SINGULAR, SLOW, INVERTED, FAR, UNBALANCED, TOO_MANY = range(9)
 EVENT = 16  # plus the code of an event after a step that is OK
 #: Names of the entries of Memory.counts.
 COUNTS = ("steps", "newton_iterations", "jacobians", "factorizations", "retries")
@@ -89,6 +97,9 @@ class Rule(NamedTuple):
     w1: float
     w2: float
     projects: bool  # positions are shifted onto C = 0
+    furthest: float  # largest change of an unknown in a step, in units of the size of the model or of a slope
+    first: int  # attempts at a step, from 0 to LAST
+    last: int
 
 
 class Memory(NamedTuple):
@@ -115,18 +126,28 @@ class Memory(NamedTuple):
     patches: tuple[Patches, ...]  # one or none
 
 
+#: Entries of Memory that are vectors of length n; they come first.
+VECTORS = 14
+
 # entries of Memory.memo
 H_FACTOR, ETA, H_PREV, WORST, NORM, POWER, NOISE, KNOWN = range(8)
 
 
 def allocate(n: int, frames: Frames, patches: tuple[Patches, ...]) -> Memory:
     """Memory for state vectors of length n."""
-    vectors: Any = {name: np.zeros(n) for name in Memory._fields[:14]}
+    vectors: Any = {name: np.zeros(n) for name in Memory._fields[:VECTORS]}
     counts = np.zeros(len(COUNTS), dtype=np.int64)
     own: Any = {"counts": counts, "memo": np.zeros(8), "work": np.zeros(2)}
     memory = Memory(**vectors, **own, frames=frames, patches=patches)
     memory.memo[ETA] = 1.0
     return memory
+
+
+@formula
+def coefficients(h, scheme):
+    """B and G of a step h."""
+    c = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
+    return scheme.beta * h * h * c, scheme.gamma * h * c
 
 
 @inline_kernel
@@ -143,7 +164,7 @@ def predict(s, h, scheme, keep):
     hh, be, ga = h * h, scheme.beta, scheme.gamma
     known = s.memo[KNOWN] if s.memo[H_PREV] == h else 0.0
     w0, w1, w2, w3 = keep, 0.0, 0.0, 0.0
-    if known >= 3.0:
+    if known >= FAMILIAR:
         w0, w2, w3 = 2.0 * keep, -2.0 * keep, keep
     elif known >= 2.0:
         w1, w2 = keep, -keep
@@ -335,6 +356,20 @@ def newton(core, s, h, rule, modified, B, G):
 
 
 @inline_kernel
+def check_way(core, s, furthest):
+    """Status after a converged step: no unknown may have gone further than a step can tell.
+
+    Where tangents turn by more than about half a radian in a step, the equations have several solutions, and
+    those that swing to and fro from step to step gain energy.
+    """
+    for i in range(core.weight.shape[0]):
+        if abs(s.q[i] - s.q0[i]) * core.weight[i] > furthest:
+            s.memo[WORST] = i
+            return FAR
+    return OK
+
+
+@inline_kernel
 def check_sections(core, s):
     """Status after a converged step: no cross-section may have collapsed or turned inside out."""
     slot = inverted_section(core.batches, core.ws, s.q)
@@ -404,22 +439,23 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out):
     with one for every iteration.  Returns the number of steps done and the status of the last one; a
     failed step leaves the state at its start, an event ends the block after a step.
     """
-    c = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
-    B, G = scheme.beta * h * h * c, scheme.gamma * h * c
+    B, G = coefficients(h, scheme)
     level = core.joints.level
     level[0], level[1], level[2] = rule.w0, rule.w1, rule.w2
     status = OK
     for n in range(keep.shape[0]):
         external_force(core.loads, tables.load[n], s.f)
-        for attempt in range(3):
+        for attempt in range(rule.first, rule.last + 1):
             predict(s, h, scheme, 1.0 if attempt == 0 else 0.0)
             drive(core.supports, core.loads.moment, tables, n, s.q, s.v, s.a)
-            status = newton(core, s, h, rule, rule.modified and attempt < 2, B, G)
+            status = newton(core, s, h, rule, rule.modified and attempt < LAST, B, G)
             if status == OK:
                 status = check_sections(core, s)
+            if status == OK and rule.furthest < UNLIMITED:
+                status = check_way(core, s, rule.furthest)
             if status == OK:
                 break
-            if status != SINGULAR and status != INVERTED:  # else it says where already
+            if status != SINGULAR and status != INVERTED and status != FAR:  # else it says where already
                 s.memo[WORST] = worst_unknown(s, core.weight)
             restore(s)
             s.memo[H_FACTOR], s.memo[ETA] = 0.0, 1.0

@@ -13,12 +13,13 @@ from ..model.integrators import Radau
 from ..system.core import first_event
 from ..system.energy import energies
 from ..system.system import System
+from .bridge import MOST_HALVINGS
 from .events import happen
 from .radau import DIVERGED, NOT_FINITE, OK, SINGULAR, Step, Stepper
 from .radau_problem import SystemProblem
 from .sampling import sample_rows, sampling_of
 from .start import consistent_start
-from .stepping import BLOCK_SECONDS, MOST_HALVINGS, MOST_RETRIED, Progress, Recorder, Stats
+from .stepping import BLOCK_SECONDS, Progress, Recorder, Stats
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -32,6 +33,8 @@ LEAST_STEP = 16.0
 NEWTON_TOLERANCE = 1e-12
 #: Longest step, as a part of the run: what happens within a step is not seen.
 LONGEST_STEP = 0.1
+#: Share of constant steps that may need halving.
+MOST_RETRIED = 0.2
 
 
 class RadauRun:

@@ -90,7 +90,7 @@ class System:
         self.moment = np.zeros((sum(isinstance(load, Moment) for load in model.loads), 3))
         self._order(self._batches(self.numbering.slots))
         self.constraints = collect(model, self.numbering)
-        self.places = Places(*fill_pattern(self._pairs, self.numbering.blocks))
+        self.places = Places(*fill_pattern(self.pairs, self.numbering.blocks))
         self.n = 6 * self.numbering.blocks
         self.size = self.n + 3 * len(self.constraints.rotations)
         self.slots = {name: self._shadowed(s) for name, s in self.numbering.slots.items()}
@@ -160,7 +160,7 @@ class System:
         joints = np.unique(self.numbering.all_multipliers() // 6)
         rank = behind(rank, pairs, np.setdiff1d(joints, self.numbering.sliding), self.numbering.sliding)
         self.numbering.renumber(rank)
-        self._pairs = rank[np.concatenate([pairs, *moving])]
+        self.pairs = rank[np.concatenate([pairs, *moving])]
         spread = int(np.max(np.abs(np.diff(rank[pairs], axis=1)), initial=0))
         self.half_bandwidth = 6 * (spread + 1) - 1
 
