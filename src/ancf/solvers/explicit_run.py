@@ -68,7 +68,7 @@ class ExplicitRun(Run):
         balance(system.core, m, 0.0)
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         none = np.zeros(0, dtype=np.int64)  # no steps yet: this compiles, outside the CPU time of the run
-        advance_explicit(system.core, m, first, self.h, self.turning, none, self.sampling, self._room(0, 0))
+        advance_explicit(system.core, m, first, self.h, self.turning, none, self.sampling, self.room(0, 0))
         self._estimated = 0  # steps done at the last estimate
 
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:

@@ -38,13 +38,16 @@ class Memory(NamedTuple):
     patches: tuple[Patches, ...]  # one or none
 
 
+#: Entries of Memory that are vectors of length n; they come first.
+VECTORS = 14
+
 # entries of Memory.memo
 H_FACTOR, ETA, H_PREV, WORST, NORM, POWER, NOISE, KNOWN = range(8)
 
 
 def allocate(n: int, frames: Frames, patches: tuple[Patches, ...]) -> Memory:
     """Memory for state vectors of length n."""
-    vectors: Any = {name: np.zeros(n) for name in Memory._fields[:14]}
+    vectors: Any = {name: np.zeros(n) for name in Memory._fields[:VECTORS]}
     counts = np.zeros(len(COUNTS), dtype=np.int64)
     own: Any = {"counts": counts, "memo": np.zeros(8), "work": np.zeros(2)}
     memory = Memory(**vectors, **own, frames=frames, patches=patches)

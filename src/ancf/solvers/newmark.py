@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..batches import add_tangents, find_events
-from ..compiled import inline_kernel, kernel
+from ..compiled import formula, inline_kernel, kernel
 from ..system.core import (
     assemble,
     constraint_rows,
@@ -50,6 +50,7 @@ from .status import (
     DIVERGED,
     EVENT,
     FACTORIZATIONS,
+    FAR,
     INVERTED,
     ITERATIONS,
     JACOBIANS,
@@ -68,6 +69,14 @@ STALE = 0.03
 #: are round-off.
 ROUND_OFF = 1e4
 LARGEST_ROUND_OFF = 1e-7
+
+#: Attempts at a step: 0 with the matrix that is kept, 1 with a new one, 2 with one for every iteration.
+LAST = 2
+#: Steps of one length after which the predictor knows the motion.
+FAMILIAR = 3.0
+
+#: Largest change of a slope, or of a position in sizes of the model, in a step that is looked at closely.
+FURTHEST, UNLIMITED = 0.5, 1e300
 
 #: Share of the tolerance up to which constraints need no shift.
 HELD = 0.1
@@ -98,6 +107,16 @@ class Rule(NamedTuple):
     w1: float
     w2: float
     projects: bool  # positions are shifted onto C = 0
+    furthest: float  # largest change of an unknown in a step, in units of the size of the model or of a slope
+    first: int  # attempts at a step, from 0 to LAST
+    last: int
+
+
+@formula
+def coefficients(h, scheme):
+    """B and G of a step h."""
+    c = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
+    return scheme.beta * h * h * c, scheme.gamma * h * c
 
 
 @inline_kernel
@@ -114,7 +133,7 @@ def predict(s, h, scheme, keep):
     hh, be, ga = h * h, scheme.beta, scheme.gamma
     known = s.memo[KNOWN] if s.memo[H_PREV] == h else 0.0
     w0, w1, w2, w3 = keep, 0.0, 0.0, 0.0
-    if known >= 3.0:
+    if known >= FAMILIAR:
         w0, w2, w3 = 2.0 * keep, -2.0 * keep, keep
     elif known >= 2.0:
         w1, w2 = keep, -keep
@@ -302,6 +321,20 @@ def newton(core, s, h, rule, modified, B, G):
 
 
 @inline_kernel
+def check_way(core, s, furthest):
+    """Status after a converged step: no unknown may have gone further than a step can tell.
+
+    Where tangents turn by more than about half a radian in a step, the equations have several solutions, and
+    those that swing to and fro from step to step gain energy.
+    """
+    for i in range(core.weight.shape[0]):
+        if abs(s.q[i] - s.q0[i]) * core.weight[i] > furthest:
+            s.memo[WORST] = i
+            return FAR
+    return OK
+
+
+@inline_kernel
 def check_sections(core, s):
     """Status after a converged step: no cross-section may have collapsed or turned inside out."""
     slot = inverted_section(core.batches, core.ws, s.q)
@@ -348,22 +381,23 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out):
     with one for every iteration.  Returns the number of steps done and the status of the last one; a
     failed step leaves the state at its start, an event ends the block after a step.
     """
-    c = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
-    B, G = scheme.beta * h * h * c, scheme.gamma * h * c
+    B, G = coefficients(h, scheme)
     level = core.joints.level
     level[0], level[1], level[2] = rule.w0, rule.w1, rule.w2
     status = OK
     for n in range(keep.shape[0]):
         external_force(core.loads, tables.value[n], s.f)
-        for attempt in range(3):
+        for attempt in range(rule.first, rule.last + 1):
             predict(s, h, scheme, 1.0 if attempt == 0 else 0.0)
             drive(core.supports, core.loads.value, tables, n, s.q, s.v, s.a)
-            status = newton(core, s, h, rule, rule.modified and attempt < 2, B, G)
+            status = newton(core, s, h, rule, rule.modified and attempt < LAST, B, G)
             if status == OK:
                 status = check_sections(core, s)
+            if status == OK and rule.furthest < UNLIMITED:
+                status = check_way(core, s, rule.furthest)
             if status == OK:
                 break
-            if status != SINGULAR and status != INVERTED:  # else it says where already
+            if status != SINGULAR and status != INVERTED and status != FAR:  # else it says where already
                 s.memo[WORST] = worst_unknown(s, core.weight)
             restore(s)
             s.memo[H_FACTOR], s.memo[ETA] = 0.0, 1.0

@@ -13,6 +13,7 @@ from ..model.integrators import Radau
 from ..system.core import first_event
 from ..system.energy import energies
 from ..system.system import System
+from .bridge import MOST_HALVINGS
 from .events import happen
 from .radau import Step, Stepper
 from .radau_problem import SystemProblem
@@ -20,7 +21,7 @@ from .record import Progress, Recorder, Stats
 from .sampling import sample_rows, sampling_of
 from .start import consistent_start
 from .status import DIVERGED, NOT_FINITE, OK, SINGULAR
-from .stepping import BLOCK_SECONDS, MOST_HALVINGS, MOST_RETRIED
+from .stepping import BLOCK_SECONDS
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -43,6 +44,8 @@ LAST_PART = 0.999
 SAME_TIME = 1e-9
 #: Longest step, as a part of the run: what happens within a step is not seen.
 LONGEST_STEP = 0.1
+#: Share of constant steps that may need halving.
+MOST_RETRIED = 0.2
 
 
 class RadauRun:

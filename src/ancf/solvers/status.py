@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-OK, DIVERGED, NOT_FINITE, SINGULAR, SLOW, INVERTED = range(6)
+OK, DIVERGED, NOT_FINITE, SINGULAR, SLOW, INVERTED, FAR, UNBALANCED, TOO_MANY = range(9)
 EVENT = 16  # plus the code of an event after a step that is OK
 #: What is said of INVERTED.
 COLLAPSED = "the cross-section has collapsed or turned inside out"

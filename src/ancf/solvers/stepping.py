@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,12 +15,13 @@ from ..system.consistency import open_contacts
 from ..system.core import Tables, apply_load, first_event
 from ..system.energy import energies
 from ..system.system import System
+from .bridge import MOST_PARTS, Bridge
 from .corotation import turning_nodes
 from .events import happen
 from .formulations import FORMULATIONS
 from .low_rank import room_for_patches
 from .memory import H_FACTOR, H_PREV, KNOWN, NORM, WORST, Memory, allocate
-from .newmark import Rule, Scheme, advance, balance
+from .newmark import FAMILIAR, UNLIMITED, Rule, Scheme, advance, balance
 from .record import Progress, Recorder, Stats
 from .sampling import Output, sample, sampling_of
 from .start import consistent_start
@@ -28,13 +29,14 @@ from .status import (
     COLLAPSED,
     DIVERGED,
     EVENT,
+    FAR,
     INVERTED,
     NOT_FINITE,
     OK,
-    RETRIES,
     SINGULAR,
     SLOW,
-    STEPS,
+    TOO_MANY,
+    UNBALANCED,
 )
 
 FloatArray = NDArray[np.float64]
@@ -44,9 +46,7 @@ BLOCK_BYTES = 32e6  # of stored states, and of samples
 #: Steps before the first look at the energy, the factor by which the next ones are further apart, and how
 #: far at most: so many steps, and so many unknowns times steps.  A look costs as much as a few steps.
 FIRST_LOOK, NEXT_LOOK, FAR_LOOK, WIDE_LOOK = 8, 4, 64, 2**17
-MOST_HALVINGS = 10
 MOST_MADE = 0.5  # energy from nowhere, as a share of the energy exchanged
-MOST_RETRIED = 0.2  # share of steps that may need halving
 
 
 class Run:
@@ -71,6 +71,7 @@ class Run:
         self.use(integrator)
         self.memory: Memory = allocate(system.size, turning_nodes(system), room_for_patches(system))
         self.sampling = sampling_of(system)
+        self.bridge = Bridge(self)
         self.seconds = 0.0
 
     def use(self, integrator: Any) -> None:
@@ -81,12 +82,12 @@ class Run:
         self.newton = (n.tolerance, n.contraction, n.max_iterations, n.modified, corotate)
         self.formulation = FORMULATIONS[integrator.formulation]
 
-    def rule(self, h: float) -> Rule:
-        """Newton's rule and the formulation of the constraints for a step h."""
+    def rule(self, h: float, first: int = 0, last: int = 0, furthest: float = UNLIMITED) -> Rule:
+        """Newton's rule, the formulation of the constraints for a step h and which attempts to make."""
         s = self.scheme
         c = (1.0 - s.alpha_f) / (1.0 - s.alpha_m)
         weights = self.formulation.weights(s.beta * h * h * c, s.gamma * h * c, h)
-        return Rule(*self.newton, *weights, self.formulation.projects)
+        return Rule(*self.newton, *weights, self.formulation.projects, furthest, first, last)
 
     @property
     def stats(self) -> Stats:
@@ -103,10 +104,10 @@ class Run:
             code = first_event(system.core.joints.tail, m.q)
             if code < 0:
                 break
-            self._event(int(code), self.t_start, 0)
+            self.happened(int(code), self.t_start, 0)
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         none = np.zeros(0, dtype=np.int64)  # no steps yet: this compiles, outside the CPU time of the run
-        rule, nothing = self.rule(self.h), self._room(0, 0)
+        rule, nothing = self.rule(self.h), self.room(0, 0)
         advance(system.core, m, first, self.h, self.scheme, rule, none, self.sampling, nothing)
 
     def _restart(self, t: float) -> Tables:
@@ -127,7 +128,7 @@ class Run:
         at in time.  Nothing that is computed or said may depend on that: states, samples and the energy
         are judged at numbers of steps that the model alone decides.
         """
-        begin, out = np.array([self.t_start]), self._room(1, 1)
+        begin, out = np.array([self.t_start]), self.room(1, 1)
         self._store(0, 0, out)
         if self.sampling.width:
             recorder.record(begin, out.samples)
@@ -159,7 +160,7 @@ class Run:
         number = np.arange(done + 1, done + count + 1)
         keep = (number % self.every == 0) | (number == self.steps)
         row = np.where(keep, np.cumsum(keep) - 1, -1)
-        out = self._room(int(keep.sum()), count)
+        out = self.room(int(keep.sum()), count)
         cpu = clock.process_time()
         first, most = 0, count
         try:
@@ -175,7 +176,7 @@ class Run:
                     continue
                 first += n
                 if status >= EVENT:
-                    self._event(status - EVENT, self._time(done + first), done + first)
+                    self.happened(status - EVENT, self._time(done + first), done + first)
                     self._store(row[first - 1], first - 1, out)
                 elif status != OK:
                     self._bridge(self._time(done + first), h, done + first + 1)
@@ -199,36 +200,30 @@ class Run:
             sample(self.sampling, m.q, m.v, out.samples[n])
 
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
+        if self.memory.memo[KNOWN] < FAMILIAR:  # a start, perhaps with a jump: looked at closely
+            return 0, SLOW
         core, tables = self.system.core, self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end)
         n, status = advance(core, self.memory, tables, h, self.scheme, self.rule(h), row, self.sampling, out)
         return int(n), int(status)
 
     def _bridge(self, t: float, h: float, number: int) -> None:
-        """Step ``number`` from t to t + h in two, four, ... parts."""
-        m = self.memory
-        m.counts[RETRIES] += 1
-        halved, done = int(m.counts[RETRIES]), int(m.counts[STEPS])
-        if halved > 2 + MOST_RETRIED * self.steps or (halved > 20 and halved > MOST_RETRIED * done):
-            raise self._failure(t, number, f"{halved} of {done + 1} steps had to be halved", h)
-        nothing = self._room(0, 0)
-        left, part = h, h
-        while left > 1e-9 * h:
-            _, status = self._advance(t + h - left, part, np.full(1, -1), nothing)
-            if status == OK or status >= EVENT:
-                left -= part
-                if status >= EVENT:
-                    self._event(status - EVENT, t + h - left, number)
-                m.counts[STEPS] -= 1  # the parts count as one step
-                continue
-            part *= 0.5
-            if part < h * 0.5**MOST_HALVINGS:
-                self._check_energy(number - 1)  # if energy came from nowhere, that is the reason
-                if status == INVERTED:
-                    raise self._collapse(t + h - left, number, h)
-                raise self._failure(t + h - left, number, _REASONS[status], h)
-        m.counts[STEPS] += 1
+        """Step ``number`` from t to t + h, which has failed."""
+        self.bridge.cross(t, h, number)
 
-    def _event(self, code: int, t: float, number: int) -> None:
+    def stop(self, t: float, number: int, status: int, h: float) -> NoReturn:
+        """Step ``number`` of length h fails for good at t.
+
+        Raises
+        ------
+        SolveError
+            Always.
+        """
+        self._check_energy(number - 1)  # if energy came from nowhere, that is the reason
+        if status == INVERTED:
+            raise self._collapse(t, number, h)
+        raise self._failure(t, number, _REASONS[status], h)
+
+    def happened(self, code: int, t: float, number: int) -> None:
         """What has happened to a sliding joint at the end of a step, and a new start from there."""
         m = self.memory
         before = float(energies(self.system, m.q[None], m.v[None]).sum())
@@ -236,7 +231,7 @@ class Run:
         self._restart(t)
         m.work[0] += before - float(energies(self.system, m.q[None], m.v[None]).sum())  # an impact
 
-    def _room(self, stored: int, steps: int) -> Output:
+    def room(self, stored: int, steps: int) -> Output:
         """Room for so many stored states and so many steps with samples."""
         return Output.of(stored, self.system.size, steps, self.sampling.width)
 
@@ -249,14 +244,17 @@ class Run:
         dissipated, supplied = m.work
         made = float(np.sum(now - self.energy0) + dissipated - supplied)
         exchanged = float(now[0] + now[1] + abs(now[2] - self.energy0[2]) + dissipated + abs(supplied))
-        loads = self.system.core.loads.gravity
-        weight = float(np.sum(np.abs(loads)) + np.sum(np.abs(m.f))) * self.system.model.size
-        stiff = sum(b.section.EA * b.length for b in self.system.model.beams.values())  # energy of strain 1
-        if made > MOST_MADE * exchanged + 1e-9 * float(np.sum(np.abs(self.energy0))) + 1e-10 * (
-            stiff + weight
-        ):
+        if made > MOST_MADE * exchanged + self.round_off():
             m.memo[WORST] = float(np.argmax(np.abs(m.v[: self.system.n]) * self.system.core.weight))
             raise self._failure(self._time(done), done, f"{made:.3g} J came from nowhere", self.h)
+
+    def round_off(self) -> float:
+        """Energy that may come from round-off, J."""
+        beams = self.system.model.beams.values()
+        stiff = sum(b.section.EA * b.length for b in beams)  # energy of strain 1
+        loads = np.sum(np.abs(self.system.core.loads.gravity)) + np.sum(np.abs(self.memory.f))
+        weight = float(loads) * self.system.model.size
+        return 1e-9 * float(np.sum(np.abs(self.energy0))) + 1e-10 * (stiff + weight)
 
     def _failure(self, t: float, number: int, reason: str, h: float) -> SolveError:
         unknown = int(self.memory.memo[WORST])
@@ -289,4 +287,7 @@ _REASONS = {
     NOT_FINITE: "the forces are no longer finite, also with smaller steps",
     SINGULAR: "the iteration matrix is singular",
     SLOW: "Newton's method did not converge, also with full Jacobians and smaller steps",
+    FAR: "the motion in a step is too large, also in smaller steps",
+    UNBALANCED: "energy came from nowhere, also with smaller steps",
+    TOO_MANY: f"steps had to be halved, into more than {MOST_PARTS} parts on average",
 }

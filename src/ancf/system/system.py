@@ -80,9 +80,9 @@ class System:
         functions = loads.functions(model)
         value = np.zeros((len(functions), 3))
         parts = build_parts(model, self.numbering, self.level, value, self.measured.reshape(-1, 4))
-        rank, pairs, self.ordering, self.half_bandwidth = order_blocks(parts, self.numbering)
+        rank, self.pairs, self.ordering, self.half_bandwidth = order_blocks(parts, self.numbering)
         self.constraints = collect(model, self.numbering)
-        self.places = Places(*fill_pattern(pairs, self.numbering.blocks))
+        self.places = Places(*fill_pattern(self.pairs, self.numbering.blocks))
         self.n = 6 * self.numbering.blocks
         self.size = self.n + 3 * len(self.constraints.rotations)
         self.slots = {name: self._shadowed(s) for name, s in self.numbering.slots.items()}
