@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import asdict
@@ -230,6 +231,8 @@ def carried_out(made: Prepared, store: Any, progress: Callable[[Progress], None]
             raise
         except KeyboardInterrupt as stop:
             raise Interrupted(finished("interrupted")) from stop
+        if run.caution:
+            warnings.warn(run.caution, UserWarning, stacklevel=3)
         return finished("complete")
 
 

@@ -2,6 +2,7 @@
 
 import json
 import re
+import warnings
 
 import numpy as np
 import pytest
@@ -113,7 +114,10 @@ def test_energy_from_nowhere_is_said(EA, EI, says):
     section = ancf.Section(EA=EA, EI=EI, rhoA=0.1)
     beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=4, section=section)
     model.clamp(beam.start)
-    result = ancf.simulate(model, t_end=0.02, step=1e-3)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        result = ancf.simulate(model, t_end=0.02, step=1e-3)
+    assert ["may be worthless" in str(one.message) for one in caught] == [True] * says
     energy = result.energy
     exchanged = max(np.max(energy.kinetic), np.max(energy.strain))
     assert (np.max(np.abs(energy.drift)) > 0.02 * exchanged) == says
@@ -175,9 +179,10 @@ class TestSingularPositions:
         sound = ancf.simulate(model, t_end=t_end, step=step)
         assert np.abs(sound.energy.drift).max() < 1e-3 * sound.energy.kinetic.max()
         assert sound.notes == []
-        result = ancf.simulate(
-            model, t_end=t_end, step=step, integrator=ancf.Trapezoidal(formulation="index2")
-        )
+        with pytest.warns(UserWarning, match="may be worthless"):
+            result = ancf.simulate(
+                model, t_end=t_end, step=step, integrator=ancf.Trapezoidal(formulation="index2")
+            )
         (note,) = result.notes
         assert np.abs(result.energy.drift).max() > 0.02 * result.energy.kinetic.max()
         assert '"foot"' in note

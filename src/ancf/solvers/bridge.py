@@ -39,6 +39,11 @@ class Stepping(Protocol):
     t_end: float
     energy0: FloatArray
 
+    @property
+    def keeps_energy(self) -> bool:
+        """Whether the method itself takes nothing out."""
+        ...
+
     def rule(self, h: float, first: int = ..., last: int = ..., furthest: float = ...) -> Rule:
         """Newton's rule for a step h and which attempts to make."""
         ...
@@ -127,7 +132,7 @@ class Bridge:
         if not short and (status == OK or status >= EVENT):
             now, exchanged = self._energy()
             made = now - energy
-            if run.scheme.gamma <= 0.5:  # the method itself takes nothing out
+            if run.keeps_energy:
                 made = abs(made)
             if made > MOST_MADE * exchanged + run.round_off():
                 self._put_back(before)

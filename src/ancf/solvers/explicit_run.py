@@ -46,6 +46,11 @@ class ExplicitRun(Run):
         """Keep the settings: there are no iterations and no constraints."""
         self.method = integrator
 
+    @property
+    def keeps_energy(self) -> bool:
+        """Central differences take nothing out."""
+        return True
+
     def start(self, q: FloatArray, v: FloatArray) -> None:
         """Consistent state at t_start; the step must be stable there.
 

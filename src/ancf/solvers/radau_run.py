@@ -56,6 +56,9 @@ class RadauRun:
     closes or ends, both hold the state before that.
     """
 
+    #: Steps whose error is controlled need no look at the energy.
+    caution = ""
+
     def __init__(
         self,
         system: System,

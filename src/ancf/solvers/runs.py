@@ -24,6 +24,11 @@ class AnyRun(Protocol):
         """Counters so far."""
         ...
 
+    @property
+    def caution(self) -> str:
+        """What to tell who did not ask, when the run is complete; "": nothing."""
+        ...
+
     def start(self, q: FloatArray, v: FloatArray) -> None:
         """Consistent state at the start time."""
         ...

@@ -47,6 +47,7 @@ BLOCK_BYTES = 32e6  # of stored states, and of samples
 #: far at most: so many steps, and so many unknowns times steps.  A look costs as much as a few steps.
 FIRST_LOOK, NEXT_LOOK, FAR_LOOK, WIDE_LOOK = 8, 4, 64, 2**17
 MOST_MADE = 0.5  # energy from nowhere, as a share of the energy exchanged
+WORTHLESS = 0.2  # energy that does not add up, as the same share, of which a run that ends warns
 
 
 class Run:
@@ -73,6 +74,10 @@ class Run:
         self.sampling = sampling_of(system)
         self.bridge = Bridge(self)
         self.seconds = 0.0
+        self.astray, self.exchanged = (
+            0.0,
+            0.0,
+        )  # largest so far, J: energy that does not add up, and all of it
 
     def use(self, integrator: Any) -> None:
         """Take what the steps need from the settings of a method of the Newmark family."""
@@ -244,9 +249,28 @@ class Run:
         dissipated, supplied = m.work
         made = float(np.sum(now - self.energy0) + dissipated - supplied)
         exchanged = float(now[0] + now[1] + abs(now[2] - self.energy0[2]) + dissipated + abs(supplied))
+        self.exchanged = max(self.exchanged, exchanged)
+        self.astray = max(self.astray, abs(made) if self.keeps_energy else made)
         if made > MOST_MADE * exchanged + self.round_off():
             m.memo[WORST] = float(np.argmax(np.abs(m.v[: self.system.n]) * self.system.core.weight))
             raise self._failure(self._time(done), done, f"{made:.3g} J came from nowhere", self.h)
+
+    @property
+    def keeps_energy(self) -> bool:
+        """Whether the method itself takes nothing out."""
+        return self.scheme.gamma <= 0.5
+
+    @property
+    def caution(self) -> str:
+        """What to tell who did not ask: energies that do not add up by far."""
+        floor = 1e-9 * float(np.sum(np.abs(self.energy0))) + 1e-15
+        if self.astray <= WORTHLESS * self.exchanged + floor:
+            return ""
+        share = 100.0 * self.astray / self.exchanged
+        return (
+            f"energies of the run do not add up: {self.astray:.2g} J came from nowhere or were lost, "
+            f"{share:.2g} % of what was exchanged; its result may be worthless, print(result) says why"
+        )
 
     def round_off(self) -> float:
         """Energy that may come from round-off, J."""
