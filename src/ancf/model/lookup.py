@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from copy import copy
+from typing import Self
 
 import numpy as np
 
@@ -13,7 +15,7 @@ from ancf.model.beam import Beam
 from ancf.model.bodies import Body, PointMass, RigidBody, kind
 from ancf.model.checks import FloatArray
 from ancf.model.connections import Connection, Spherical, initial_position
-from ancf.model.kinds import kind_of
+from ancf.model.kinds import GROUPS, kind_of
 from ancf.model.names import POINT_LABEL, Names, numbers_of, split_label, unknown
 from ancf.model.points import Point
 
@@ -54,6 +56,14 @@ class Lookup:
         ranges = [_extent(body) for body in self.bodies.values()]
         low, high = np.min([r[0] for r in ranges], axis=0), np.max([r[1] for r in ranges], axis=0)
         return float(np.max(high - low)) or self._reach(low) or 1.0
+
+    def snapshot(self) -> Self:
+        """Return the model as it is now: what is added to one later is not in the other."""
+        other = copy(self)
+        other.bodies, other._names = dict(self.bodies), copy(self._names)
+        for key in GROUPS:
+            setattr(other, key, list(getattr(self, key)))
+        return other
 
     def body(self, name: str) -> Body:
         """Return the body of a name; an unknown name raises ModelError with the right ones."""

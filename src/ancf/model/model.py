@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from copy import copy
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -376,14 +375,6 @@ class Model(Connecting, Readable):
             model._add_body(body)
         rebuild.items(model, table)
         return model
-
-    def snapshot(self) -> Model:
-        """The model as it is now: what is added to one later is not in the other."""
-        other = copy(self)
-        other.bodies, other._names = dict(self.bodies), copy(self._names)
-        for key in GROUPS:
-            setattr(other, key, list(getattr(self, key)))
-        return other
 
     def missing_functions(self) -> list[tuple[str, str]]:
         """Items that had a Python function, and its name, where a description could not keep it."""
