@@ -11,7 +11,7 @@ from ..system.core import Core, apply_load
 from ..system.energy import energies
 from ..system.system import System
 from .memory import H_FACTOR, KNOWN, VECTORS, Memory
-from .newmark import FAMILIAR, FURTHEST, LAST, UNLIMITED, Rule, Scheme, advance, balance
+from .newmark import FURTHEST, LAST, UNLIMITED, Rule, Scheme, advance, balance
 from .rescue import Rescue
 from .sampling import Output, Sampling
 from .status import EVENT, INVERTED, OK, RETRIES, SINGULAR, STEPS, TOO_MANY, UNBALANCED
@@ -120,7 +120,7 @@ class Bridge:
         """One step from t to t + part by the fast iteration or, if that fails, by the other one."""
         run, m = self.run, self.run.memory
         short = part <= ANYWHERE * h
-        again = part == h and m.memo[KNOWN] >= FAMILIAR  # what is kept has been tried
+        again = part == h and m.memo[KNOWN] > 0.0  # what is kept has been tried
         rule = run.rule(part, int(again), LAST, UNLIMITED if short else FURTHEST)
         tables = run.system.inputs.tables(t, part, 1, run.t_start, run.t_end)
         before, energy = self._save(), self._energy()[0]

@@ -21,7 +21,7 @@ from .events import happen
 from .formulations import FORMULATIONS
 from .low_rank import room_for_patches
 from .memory import H_FACTOR, H_PREV, KNOWN, NORM, WORST, Memory, allocate
-from .newmark import FAMILIAR, UNLIMITED, Rule, Scheme, advance, balance
+from .newmark import UNLIMITED, Rule, Scheme, advance, balance
 from .record import Progress, Recorder, Stats
 from .sampling import Output, sample, sampling_of
 from .start import consistent_start
@@ -205,7 +205,7 @@ class Run:
             sample(self.sampling, m.q, m.v, out.samples[n])
 
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
-        if self.memory.memo[KNOWN] < FAMILIAR:  # a start, perhaps with a jump: looked at closely
+        if self.memory.memo[KNOWN] == 0.0:  # a start, perhaps with a jump: looked at closely
             return 0, SLOW
         core, tables = self.system.core, self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end)
         n, status = advance(core, self.memory, tables, h, self.scheme, self.rule(h), row, self.sampling, out)
