@@ -131,7 +131,7 @@ def _of_states(source: Any, frames: int, start: float | None, end: float | None)
         raise ModelError("make_scene.source", what)
     chosen = chosen_times(source.t, frames, start, end)
     q, v = (np.stack([data[k] for k in chosen.tolist()]) for data in (source.q, source.v))
-    shown = Frames(source, source.t[chosen], q, v, source.provenance["model"])
+    shown = Frames(source, source.t[chosen], q, v, source.provenance.get("model", {}))
     return Picked(shown, len(source.t))
 
 
