@@ -284,6 +284,13 @@ def test_line_files(data):
         assert len(line.dropper_x) == len(line.dropper_stitch) == len(line.dropper_span)
 
 
+def test_one_span_has_no_stitch_wire():
+    """They hang at supports inside a line; of a line without any each dropper hangs on the messenger."""
+    line = parse_line({**copy.deepcopy(LINE), "spans": LINE["spans"][:1]})
+    assert len(line.dropper_x) > 2
+    assert np.all(line.dropper_stitch == -1)
+
+
 @cases(0.02)
 @given(text=spoiled((EXAMPLES / "line.toml").read_text(encoding="utf-8")))
 def test_texts_of_line_files(tmp_path_factory, text):

@@ -173,7 +173,7 @@ class Line:
     @property
     def dropper_stitch(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Index of the support from whose stitch wire a dropper hangs (n,), -1 from the messenger."""
-        if self.stitch is None:
+        if self.stitch is None or len(self.spans) == 1:  # stitch wires hang at supports inside
             return np.full(self.dropper_x.size, -1)
         away = np.abs(self.dropper_x[:, None] - self.supports[1:-1])
         inside = away < self.stitch.reach - 1e-6

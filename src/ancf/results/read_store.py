@@ -169,6 +169,9 @@ class Rows:
         elif first < 0:
             first += self.shape[0]
         try:
+            if rest and isinstance(rest[-1], np.ndarray):  # HDF5 reads columns in ascending order alone
+                columns, order = np.unique(rest[-1], return_inverse=True)
+                return np.asarray(self._data[(first, *rest[:-1], columns)])[..., order]
             return np.asarray(self._data[(first, *rest)])
         except (OSError, RuntimeError) as error:
             raise hdf5.damaged(self._data.file.filename, error) from None
