@@ -7,9 +7,9 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .analysis import equilibrium, simulate, stable_step
+from .arrays import FloatArray
 from .errors import ModelError, SolveError
 from .model import checks
 from .model.beam import Beam
@@ -25,7 +25,6 @@ from .viz.export.tables import sensor_columns
 
 __all__ = ["Change", "Verification", "repeated", "verify"]
 
-FloatArray = NDArray[np.float64]
 Answer = Result | State
 #: Computes a model again: the model, the step (None: an equilibrium) and the integrator.
 Repeat = Callable[[Model, float | None, Integrator], Answer]

@@ -16,7 +16,7 @@ from places import HOWTO
 FILES = {"universal.py": "model/universal.py", "universal_rows.py": "connections/universal.py"}
 REGISTRY = "model/kinds.py"
 LINES = {
-    "from ancf.model.supports import Clamp, Hold, Pin\n": "from ancf.model.universal import UNIVERSAL\n",
+    "from .supports import Clamp, Hold, Pin\n": "from .universal import UNIVERSAL\n",
     "CONNECTIONS: list[Kind] = [\n": "    UNIVERSAL,\n",
 }
 

@@ -17,10 +17,10 @@ from places import HOWTO, ROOT
 PAGE = (HOWTO / "write_a_load.md").read_text(encoding="utf-8")
 #: What the page adds: a file, and an import and the record in the registry.
 KERNELS, REGISTRY = "loads/attraction.py", "model/kinds.py"
-IMPORT = "from ancf.model.laws import Parameter, law\n"
+IMPORT = "from .laws import Parameter, law\n"
 LIST = "LOADS: list[Kind] = [\n"
 RECORD = PAGE.split(LIST)[1].split("    ...\n]")[0]
-BEFORE = "from ancf.model.loads import DistributedLoad, Force, Moment\n"
+BEFORE = "from .loads import DistributedLoad, Force, Moment\n"
 
 #: Attraction S/d^2 of a unit mass that starts at the apsis A, from the centre, with the speed W.
 S, A, W = 4.0, (1.0, 0.0, 0.0), (0.0, 1.8, 0.6)

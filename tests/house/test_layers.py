@@ -12,9 +12,10 @@ ROOT = Path(ancf.__file__).parent
 
 #: From the bottom to the top; a layer imports from lower ones and from itself.
 LAYERS = (
-    {"errors", "_version", "kernel_cache"},
+    {"errors", "_version", "kernel_cache", "arrays"},
     {"files"},
     {"compiled"},
+    {"vectors"},
     {"batches"},
     {"model"},
     {"elements", "bodies", "linalg"},

@@ -5,13 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..model.bodies import PointMass, RigidBody
 from .inertia import InertiaBatch
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 def second_moments(body: RigidBody) -> FloatArray:

@@ -14,13 +14,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..arrays import FloatArray, IntArray
 from ..compiled import implements, inline_kernel
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 class InertiaBatch(NamedTuple):

@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 import ancf
-from ancf.errors import ModelError
-from ancf.model.bodies import PointMass
-from ancf.model.checks import FloatArray
-from ancf.model.connections import Spring
-from ancf.model.points import Point
 
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model.bodies import PointMass
+from ..model.connections import Spring
+from ..model.points import Point
 from .form import Form, form
 from .mesh import Mesh
 from .shape import Strung

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ancf.errors import ModelError
-from ancf.files import exists
-from ancf.model.checks import listed, nearest
-
+from ..errors import ModelError
+from ..files import exists
+from ..model.checks import listed, nearest
 from .file import read_file
 from .line import Line
 

@@ -17,9 +17,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ancf.model.checks import FloatArray
-
-from .mesh import IntArray, Nodes
+from ..arrays import FloatArray, IntArray
+from .mesh import Nodes
 from .wire import Wire
 
 #: Elements on either side that are looked at: what happens at a node is forgotten after two or three.

@@ -6,14 +6,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.beam import Beam
-from ancf.model.bodies import PointMass
-from ancf.model.contact import Contact
-from ancf.model.joints import Slide
-from ancf.model.model import Model
-
+from ..errors import ModelError
+from ..model import checks
+from ..model.beam import Beam
+from ..model.bodies import PointMass
+from ..model.contact import Contact
+from ..model.joints import Slide
+from ..model.model import Model
 from .pantograph import Pantograph
 from .travel import Travel
 

@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 import ancf
-from ancf.files import writing
-from ancf.model import checks
-from ancf.model.checks import FloatArray
-from ancf.model.points import Point
 
+from ..arrays import FloatArray
+from ..files import writing
+from ..model import checks
+from ..model.points import Point
 from .assemble import Overhead, assemble
 from .form import form
 from .line import Line

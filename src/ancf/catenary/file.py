@@ -9,11 +9,10 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from ancf.errors import ModelError
-from ancf.model.file import read_toml
-from ancf.model.file.fields import Entry
-from ancf.model.file.messages import combined, of_validation
-
+from ..errors import ModelError
+from ..model.file import read_toml
+from ..model.file.fields import Entry
+from ..model.file.messages import combined, of_validation
 from .entries import TABLES, LineEntry, SpanEntry, StitchEntry
 from .fittings import Droppers, SteadyArm
 from .line import Line, check_size

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model.checks import FloatArray
-
+from ..arrays import FloatArray, IntArray
+from ..errors import ModelError
 from .clamps import missing_give
 from .hang import Hung
 from .line import Line
-from .mesh import IntArray, Mesh, stitch_ends
+from .mesh import Mesh, stitch_ends
 from .shape import WireShape, started
 from .strings import lumped, string_loads, string_shape
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ancf.errors import ModelError
-from ancf.model import checks
+from ..errors import ModelError
+from ..model import checks
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,9 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ancf.errors import ModelError, SolveError
-from ancf.model.checks import FloatArray
-
+from ..arrays import FloatArray
+from ..errors import ModelError, SolveError
 from .first_guess import first_guess
 from .hang import Hung, hang_contact, hang_messenger, hang_stitches
 from .line import Line

@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import ancf
-from ancf.model.checks import FloatArray
 
+from ..arrays import FloatArray, IntArray
 from .line import Line
-from .mesh import IntArray
 from .rods import add_leans, along
 from .shape import Strung, WireShape
 

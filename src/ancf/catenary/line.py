@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.checks import FloatArray
-
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model import checks
 from .fittings import Droppers, SteadyArm
 from .span import Span
 from .stitch import StitchWire

@@ -7,15 +7,12 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.checks import FloatArray
-
+from ..arrays import FloatArray, IntArray
+from ..errors import ModelError
+from ..model import checks
 from .line import Line
 
-IntArray = NDArray[np.int64]
 MOST_ELEMENTS = 1_000_000  # of a wire
 GROWTH = 0.7  # length of an element gained per distance from the place that wants short ones
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from importlib.resources import files
 from typing import Any
 
-from ancf.errors import ModelError
-from ancf.model import checks
+from ..errors import ModelError
+from ..model import checks
 
 RELAXED = ("start", "nominal", "mean")
 

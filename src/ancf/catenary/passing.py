@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 from .signals import Intervals, at_zero, sample_rate
 
 if TYPE_CHECKING:
-    from .run_data import FloatArray, Run
+    from .run_data import Run
 
 #: Two track positions are the same within this length, m.
 SAME_PLACE = 1e-6

@@ -9,9 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks
-
+from ..errors import ModelError
+from ..model import checks
 from .catalogue import read_line
 from .collectors import Touch
 from .form import Form, form

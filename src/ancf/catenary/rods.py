@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 import ancf
-from ancf.model.checks import FloatArray
-from ancf.model.points import Point
+
+from ..arrays import FloatArray
+from ..model.points import Point
 
 STIFFNESS = 1e8  # N/m
 LENGTH = 100.0  # m, so that its force keeps its direction

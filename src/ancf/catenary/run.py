@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 import ancf
-from ancf.model.checks import FloatArray
 
+from ..arrays import FloatArray
 from . import cautions
 from .assemble import Overhead, assemble
 from .collectors import Collector, Touch, add_pantograph

@@ -7,17 +7,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 
 if TYPE_CHECKING:
-    from ancf import Result
-
+    from .. import Result
     from .form import Form
     from .pantograph import Pantograph
-
-FloatArray = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

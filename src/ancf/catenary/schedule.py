@@ -7,9 +7,8 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Protocol
 
-from ancf.files import writing
-from ancf.model.checks import FloatArray
-
+from ..arrays import FloatArray
+from ..files import writing
 from .line import Line
 
 

@@ -8,11 +8,11 @@ from itertools import pairwise
 import numpy as np
 
 import ancf
-from ancf.model.beam import Beam
-from ancf.model.checks import FloatArray
-from ancf.model.points import Point
 
-from .mesh import IntArray, Nodes
+from ..arrays import FloatArray, IntArray
+from ..model.beam import Beam
+from ..model.points import Point
+from .mesh import Nodes
 from .wire import Rayleigh, Wire
 
 #: Gauss points of the axial and bending integrals: exact for the quadratic energy of a wire under tension.

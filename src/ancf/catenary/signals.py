@@ -8,9 +8,8 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray
 from ..errors import ModelError
-
-FloatArray = npt.NDArray[np.float64]
 
 Kind = Literal["lowpass", "highpass"]
 

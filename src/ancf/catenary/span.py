@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks
+from ..errors import ModelError
+from ..model import checks
 
 CLOSEST = 0.05  # m, of droppers to each other and to the supports
 LONGEST = 1000.0  # m; spans of overhead lines have up to 80 m

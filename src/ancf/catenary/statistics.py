@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import FloatArray
 from . import passing
 from .quantity import Quantity
 from .signals import BANDS, CUT_OFF, Butterworth, at_zero, sample_rate
 
 if TYPE_CHECKING:
-    from .run_data import FloatArray, Run
+    from .run_data import Run
 
 MM, MS, KMH = 1e3, 1e3, 3.6
 #: Largest accepted ratio of standard deviation to mean force (EN 50367).

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ancf.model import checks
-
+from ..model import checks
 from .wire import Wire
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ancf.model.checks import FloatArray
+from ..arrays import FloatArray
 
 
 def string_loads(x: FloatArray, z: FloatArray, tension: float, weight: float) -> FloatArray:

@@ -7,12 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ancf.errors import ModelError
-from ancf.model import checks
-
-FloatArray = NDArray[np.float64]
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model import checks
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 import ancf
-from ancf.model.checks import FloatArray
-from ancf.model.points import Point
 
+from ..arrays import FloatArray
+from ..model.points import Point
 from .assemble import Overhead
 from .shape import Strung
 

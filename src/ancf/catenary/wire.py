@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import ancf
-from ancf.model import checks
+
+from ..model import checks
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

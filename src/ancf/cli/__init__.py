@@ -10,7 +10,7 @@ __all__ = ["main"]
 def main() -> None:
     """Entry point of the command ``ancf``; Ctrl-C while it still imports ends it as later on."""
     try:
-        from ancf.cli.app import start
+        from .app import start
 
         start()
     except KeyboardInterrupt:

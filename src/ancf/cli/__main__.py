@@ -1,5 +1,5 @@
 """The command line as ``python -m ancf.cli``."""
 
-from ancf.cli import main
+from . import main
 
 main()

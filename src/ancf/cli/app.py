@@ -9,8 +9,8 @@ from typing import Annotated
 
 import typer
 
-from ancf.cli import export_options as exporting
-from ancf.cli.guard import reported
+from . import export_options as exporting
+from .guard import reported
 
 app = typer.Typer(
     name="ancf",
@@ -119,7 +119,7 @@ app.add_typer(catenary, name="catenary")
 
 def _show_version(wanted: bool) -> None:
     if wanted:
-        from ancf import __version__
+        from .. import __version__
 
         typer.echo(f"ancf {__version__}")
         raise typer.Exit
@@ -149,7 +149,7 @@ def run(
     With --resume a run that was stopped, or that has a later t_end now, goes on where OUT/results.h5 ends.
     """
     with reported():
-        from ancf.cli.run import run_file
+        from .run import run_file
 
         run_file(model, output, quiet, verify, resume)
 
@@ -158,7 +158,7 @@ def run(
 def check(file: AnyInput) -> None:
     """Say whether a file is right: a model file, a line file, or a results file."""
     with reported():
-        from ancf.cli.check import check_file
+        from .check import check_file
 
         check_file(file)
 
@@ -167,7 +167,7 @@ def check(file: AnyInput) -> None:
 def schema(output: SchemaFile = None) -> None:
     """Print the JSON Schema of model files."""
     with reported():
-        from ancf.cli.schema import write_schema
+        from .schema import write_schema
 
         write_schema(output)
 
@@ -179,7 +179,7 @@ def info(file: AnyFile) -> None:
     A results file may belong to a run that is not finished, or was killed.
     """
     with reported():
-        from ancf.cli.info import show_info
+        from .info import show_info
 
         show_info(file)
 
@@ -204,7 +204,7 @@ def export(
     mp4, gif: a movie. The run may have failed, been stopped or still go on.
     """
     with reported():
-        from ancf.cli.export import export_file
+        from .export import export_file
 
         times = {"frames": frames, "start": start, "end": end}
         chosen = {**times, "points": points, "color": color, "fps": fps, "view": view}
@@ -225,7 +225,7 @@ def reproduce(
     with all of it. The exit code is 1 when a check fails.
     """
     with reported():
-        from ancf.cli.reproduce import reproduce_figures
+        from .reproduce import reproduce_figures
 
         reproduce_figures(names or ["all"], output, quick, jobs, quiet)
 
@@ -244,7 +244,7 @@ def view(
     Prints the path of the page.
     """
     with reported():
-        from ancf.cli.view import view_file
+        from .view import view_file
 
         view_file(results, output, {"frames": frames, "color": color, "trace": trace}, show)
 
@@ -256,7 +256,7 @@ def catenary_form(line: LineName, output: OptionalFolder = None, quiet: Quiet = 
     With -o writes OUT/schedule.csv, lengths in mm.
     """
     with reported():
-        from ancf.cli.catenary import show_form
+        from .catenary import show_form
 
         show_form(line, output, quiet)
 
@@ -283,7 +283,7 @@ def catenary_run(
     prints the statistics of the contact force.
     """
     with reported():
-        from ancf.cli.catenary_run import run_line
+        from .catenary_run import run_line
 
         options = {"spacing": spacing, "start": start, "window": window, "contact": contact, "step": step}
         options["output_step"] = output_step
@@ -299,7 +299,7 @@ def catenary_elasticity(
     Forces of 100 and 200 N by default. With -o writes OUT/elasticity.csv.
     """
     with reported():
-        from ancf.cli.catenary import show_elasticity
+        from .catenary import show_elasticity
 
         show_elasticity(line, output, force or [100.0, 200.0], quiet)
 
@@ -314,7 +314,7 @@ def validate(
     are no error: the exit code is 0 when all was computed.
     """
     with reported():
-        from ancf.cli.validate import validate_case
+        from .validate import validate_case
 
         validate_case(case, speed, output, report, quiet)
 

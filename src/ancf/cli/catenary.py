@@ -5,16 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ancf.cli.output import OutputFolder
-from ancf.cli.screen import Screen, console, table
+from .output import OutputFolder
+from .screen import Screen, console, table
 
 if TYPE_CHECKING:
-    from ancf.catenary import Elasticity, Form, Line
+    from ..catenary import Elasticity, Form, Line
 
 
 def show_form(name: str, output: Path | None, quiet: bool = False) -> None:
     """Find the form of a line and print its dropper schedule; with a folder also ``schedule.csv`` there."""
-    from ancf import catenary
+    from .. import catenary
 
     line = catenary.read_line(name)
     folder = None if output is None else OutputFolder(output)
@@ -28,7 +28,7 @@ def show_form(name: str, output: Path | None, quiet: bool = False) -> None:
 
 def show_elasticity(name: str, output: Path | None, forces: list[float], quiet: bool = False) -> None:
     """Compute the static elasticity and print it; with a folder also ``elasticity.csv`` there."""
-    from ancf import catenary
+    from .. import catenary
 
     line = catenary.read_line(name)
     folder = None if output is None else OutputFolder(output)
@@ -41,7 +41,7 @@ def show_elasticity(name: str, output: Path | None, forces: list[float], quiet: 
 
 
 def _print_schedule(line: Line, found: Form) -> None:
-    from ancf.catenary.schedule import texts
+    from ..catenary.schedule import texts
 
     heads = ("span", "dropper", "at [m]", "track [m]", "length [mm]", "unstretched [mm]", "load [N]")
     shown = table(*heads, "wire height [mm]", "messenger height [mm]")

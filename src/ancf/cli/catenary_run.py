@@ -8,15 +8,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ancf.cli.output import OutputFolder
-from ancf.cli.screen import Screen, console
-from ancf.errors import SolveError
+from ..errors import SolveError
+from .output import OutputFolder
+from .screen import Screen, console
 
 #: Time between the states in results.h5, s, rounded to steps: a pantograph at 300 km/h moves by 1.7 m.
 OUTPUT_STEP = 0.02
 
 if TYPE_CHECKING:
-    from ancf.catenary.run_data import Run
+    from ..catenary.run_data import Run
 
 
 def run_line(
@@ -37,11 +37,11 @@ def run_line(
         Something given is wrong, or matplotlib is missing for the report; nothing was computed.
 
     """
-    from ancf.catenary.catalogue import read_line
-    from ancf.catenary.run import STEP, run
-    from ancf.model.checks import positive
-    from ancf.model.settings import MOST_STEPS
-    from ancf.viz.style import require_matplotlib
+    from ..catenary.catalogue import read_line
+    from ..catenary.run import STEP, run
+    from ..model.checks import positive
+    from ..model.settings import MOST_STEPS
+    from ..viz.style import require_matplotlib
 
     speed = positive(speed_kmh, "--speed") / 3.6
     line = read_line(name)
@@ -83,14 +83,14 @@ def _kept(results: Path | None) -> Iterator[None]:
 
 
 def _written(done: Run, folder: Path, report: bool) -> list[Path]:
-    from ancf.catenary.statistics import statistics
-    from ancf.catenary.write import summary, write_json, write_run
+    from ..catenary.statistics import statistics
+    from ..catenary.write import summary, write_json, write_run
 
     found = [statistics(done, k) for k in range(len(done.recordings))]
     files = [write_json(summary(done, found), folder / "run.json"), *write_run(done, folder, found)]
     if report:
-        from ancf.catenary.elasticity import elasticity_beside
-        from ancf.catenary.report import write_report
+        from ..catenary.elasticity import elasticity_beside
+        from ..catenary.report import write_report
 
         gives = elasticity_beside(done.form.line)
         files.append(gives.save(folder / "elasticity.csv"))
@@ -100,8 +100,8 @@ def _written(done: Run, folder: Path, report: bool) -> list[Path]:
 
 def show(done: Run) -> None:
     """Print the statistics of each pantograph."""
-    from ancf.catenary.statistics import statistics
-    from ancf.catenary.table import table
+    from ..catenary.statistics import statistics
+    from ..catenary.table import table
 
     screen = console()
     for k, recording in enumerate(done.recordings):

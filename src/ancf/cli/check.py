@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ancf.cli.info import is_hdf5
-from ancf.cli.screen import console
-from ancf.cli.summary import plural
-from ancf.errors import ModelError
+from ..errors import ModelError
+from .info import is_hdf5
+from .screen import console
+from .summary import plural
 
 #: Tables that only line files have.
 OF_A_LINE = {"contact_wire", "messenger_wire", "spans", "steady_arm"}
@@ -27,7 +27,7 @@ def check_file(path: Path) -> None:
     """
     if is_hdf5(path):
         return _check_results(path)
-    from ancf.model.file import read_toml
+    from ..model.file import read_toml
 
     data = read_toml(path, "model file")
     return _check_line(path, data) if OF_A_LINE & data.keys() else _check_model(path, data)
@@ -35,9 +35,9 @@ def check_file(path: Path) -> None:
 
 def _check_model(path: Path, data: dict[str, Any]) -> None:
     """Read a model and compile its System."""
-    from ancf.cli.info_model import compiled, counts, print_notes, task
-    from ancf.cli.notes import check_equilibrium
-    from ancf.model.file import parse_study
+    from ..model.file import parse_study
+    from .info_model import compiled, counts, print_notes, task
+    from .notes import check_equilibrium
 
     study = parse_study(data, str(path))
     system = compiled(study.model)
@@ -48,8 +48,8 @@ def _check_model(path: Path, data: dict[str, Any]) -> None:
 
 def _check_line(path: Path, data: dict[str, Any]) -> None:
     """Read a line, divide its wires and hang them as strings; more is found with its form."""
-    from ancf.catenary.file import parse_line
-    from ancf.catenary.form import check
+    from ..catenary.file import parse_line
+    from ..catenary.form import check
 
     line = parse_line(data, str(path))
     check(line)
@@ -61,7 +61,7 @@ def _check_results(path: Path) -> None:
     """Read the states and look for what is no number."""
     import numpy as np
 
-    from ancf.cli.results_file import open_result
+    from .results_file import open_result
 
     result = open_result(path)
     rows = len(result.t)

@@ -6,14 +6,14 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ancf.cli.results_file import open_result
-from ancf.cli.screen import Screen, console
-from ancf.errors import ModelError
-from ancf.files import exists
-from ancf.model import checks
+from ..errors import ModelError
+from ..files import exists
+from ..model import checks
+from .results_file import open_result
+from .screen import Screen, console
 
 if TYPE_CHECKING:
-    from ancf import Result
+    from .. import Result
 
 #: Suffix of what is written, by the word after --to; CSV tables go to a folder.
 SUFFIXES = {"vtk": ".vtkhdf", "csv": "", "mp4": ".mp4", "gif": ".gif"}
@@ -95,11 +95,11 @@ def _target(file: Path, to: str, output: Path | None) -> Path:
 def _moving(result: Result, to: str, target: Path, given: dict[str, Any]) -> Path:
     """Write the mesh or the movie."""
     if to == "vtk":
-        from ancf.viz.export import write_vtk
+        from ..viz.export import write_vtk
 
         return write_vtk(result, target, **given)
-    from ancf.viz.pictures.movie import write_movie
-    from ancf.viz.scene import make_scene
+    from ..viz.pictures.movie import write_movie
+    from ..viz.scene import make_scene
 
     times = {name: given.pop(name) for name in TIMES if name in given}
     write_movie(make_scene(result, **times), target, **given)
@@ -107,8 +107,8 @@ def _moving(result: Result, to: str, target: Path, given: dict[str, Any]) -> Pat
 
 
 def _tables(result: Result, target: Path, given: dict[str, Any], screen: Screen) -> list[Path]:
-    from ancf.viz.export import write_csv
-    from ancf.viz.export.csv_files import has_sensors
+    from ..viz.export import write_csv
+    from ..viz.export.csv_files import has_sensors
 
     points = split_points(given["points"]) if "points" in given else None
     if points == []:

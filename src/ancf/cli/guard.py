@@ -12,8 +12,8 @@ from typing import Any
 
 import typer
 
-from ancf.errors import ModelError, SolveError
-from ancf.files import visible
+from ..errors import ModelError, SolveError
+from ..files import visible
 
 FAILED, WRONG_INPUT, STOPPED, TERMINATED = 1, 2, 130, 143
 TRACEBACK = "ANCF_TRACEBACK"
@@ -82,7 +82,7 @@ def show(error: BaseException) -> None:
     """Print an error to stderr: where, what, what to do, and its notes."""
     from rich.text import Text
 
-    from ancf.cli.screen import console
+    from .screen import console
 
     kind, what, hint = described(error)
     text = Text.assemble((kind, "bold red"), f" {visible(what)}")
@@ -109,7 +109,7 @@ def described(error: BaseException) -> tuple[str, str, str]:
 def _show_warning(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
     from rich.text import Text
 
-    from ancf.cli.screen import console
+    from .screen import console
 
     text = Text.assemble(("warning:", "yellow"), f" {visible(str(message))}")
     console(stderr=True).print(text, soft_wrap=True)

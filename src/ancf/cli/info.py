@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ancf.errors import ModelError
-from ancf.files import exists
+from ..errors import ModelError
+from ..files import exists
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
@@ -13,13 +13,13 @@ SIGNATURE = b"\x89HDF\r\n\x1a\n"
 def show_info(path: Path) -> None:
     """Tell a results file from a model file by its first bytes, and describe it."""
     if is_hdf5(path):
-        from ancf.cli.info_result import show_result
+        from .info_result import show_result
 
         show_result(path)
     elif path.suffix.lower() in (".h5", ".hdf5"):
         raise ModelError(str(path), "is not a results file: no HDF5")
     else:
-        from ancf.cli.info_model import show_model
+        from .info_model import show_model
 
         show_model(path)
 

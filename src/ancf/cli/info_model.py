@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ancf.cli.notes import notes
-from ancf.cli.screen import console, table
-from ancf.cli.summary import mass, plural, sizes, total_mass
-from ancf.model.beam import Beam
-from ancf.model.bodies import RigidBody, kind
-from ancf.model.file import Study, read_study
-from ancf.model.model import Model
+from ..model.beam import Beam
+from ..model.bodies import RigidBody, kind
+from ..model.file import Study, read_study
+from ..model.model import Model
+from .notes import notes
+from .screen import console, table
+from .summary import mass, plural, sizes, total_mass
 
 if TYPE_CHECKING:
-    from ancf.system.system import System
+    from ..system.system import System
 
 
 def show_model(path: Path) -> None:
@@ -46,7 +46,7 @@ def task(study: Study) -> str:
 
 def compiled(model: Model) -> System:
     """System of a model."""
-    from ancf.system.system import System
+    from ..system.system import System
 
     return System(model)
 

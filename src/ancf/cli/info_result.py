@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ancf.cli.results_file import reading
-from ancf.cli.screen import console, table
-from ancf.cli.summary import plural
+from .results_file import reading
+from .screen import console, table
+from .summary import plural
 
 if TYPE_CHECKING:
-    from ancf import Result
+    from .. import Result
 
 STATUS = {
     "complete": "complete",

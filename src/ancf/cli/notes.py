@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ancf.cli.summary import node_count
-from ancf.errors import ModelError
-from ancf.model.file import Study
-from ancf.model.model import Model
+from ..errors import ModelError
+from ..model.file import Study
+from ..model.model import Model
+from .summary import node_count
 
 if TYPE_CHECKING:
-    from ancf.system.system import System
+    from ..system.system import System
 
 BYTES_PER_NODE = 96
 LARGE = 2e9
@@ -19,7 +19,7 @@ LARGE = 2e9
 
 def check_equilibrium(study: Study, system: System) -> None:
     """Raise ModelError if the study asks for the equilibrium of something that floats."""
-    from ancf.solvers.floating import check_supported
+    from ..solvers.floating import check_supported
 
     settings = study.simulation
     of = None if settings is None else settings.equilibrium_of
@@ -34,7 +34,7 @@ def notes(study: Study, system: System) -> list[str]:
 
 
 def _floating(system: System) -> Iterator[str]:
-    from ancf.solvers.floating import check_supported
+    from ..solvers.floating import check_supported
 
     try:
         check_supported(system, [])

@@ -9,8 +9,8 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from ancf.errors import ModelError
-from ancf.files import drafted, to_json, writable
+from ..errors import ModelError
+from ..files import drafted, to_json, writable
 
 if sys.platform != "win32":
     import fcntl

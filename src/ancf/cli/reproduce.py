@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from ancf.cli.guard import FAILED
-from ancf.cli.output import OutputFolder
-from ancf.cli.screen import COMPILING, Screen, console, exhibits_bar
+from .guard import FAILED
+from .output import OutputFolder
+from .screen import COMPILING, Screen, console, exhibits_bar
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
-    from ancf.paper.entry import Entry, Reproduction
+    from ..paper.entry import Entry, Reproduction
 
 MOST_SHOWN = 20  # failed checks on the screen
 
@@ -32,7 +32,7 @@ def reproduce_figures(
         With code 1 when a check failed or a figure could not be computed.
 
     """
-    from ancf import paper
+    from .. import paper
 
     wanted = paper.resolve(names)
     output, screen = OutputFolder(folder), Screen(quiet)
@@ -58,7 +58,7 @@ def show(made: Reproduction, errors_alone: bool = False) -> None:
 
 def failed_table(made: Reproduction) -> Any:
     """Failed checks with value, reference and tolerance."""
-    from ancf.cli.screen import table
+    from .screen import table
 
     rows = table("failed check", "value", "reference", "tolerance", "unit")
     for entry, check in made.failed[:MOST_SHOWN]:

@@ -7,11 +7,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ancf.errors import ModelError
-from ancf.files import exists
+from ..errors import ModelError
+from ..files import exists
 
 if TYPE_CHECKING:
-    from ancf import Result
+    from .. import Result
 
 
 def open_result(path: Path) -> Result:

@@ -7,18 +7,18 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ancf.cli.output import OutputFolder
-from ancf.cli.screen import Screen, console
-from ancf.errors import ModelError, SolveError
-from ancf.model.checks import shown
-from ancf.model.file import Study, read_study
-from ancf.model.integrators import Integrator
-from ancf.model.model import Model
-from ancf.model.points import Point
-from ancf.model.settings import SimulationSettings
+from ..errors import ModelError, SolveError
+from ..model.checks import shown
+from ..model.file import Study, read_study
+from ..model.integrators import Integrator
+from ..model.model import Model
+from ..model.points import Point
+from ..model.settings import SimulationSettings
+from .output import OutputFolder
+from .screen import Screen, console
 
 if TYPE_CHECKING:
-    from ancf import Result, State
+    from .. import Result, State
 
 
 def run_file(
@@ -74,7 +74,7 @@ class Run:
 
     def verify(self, result: Result) -> None:
         """Compute again with half the step and with twice the elements, write and print the changes."""
-        from ancf.cli.verification import print_verification, verified
+        from .verification import print_verification, verified
 
         try:
             found = verified(self.study, result, self._again)
@@ -107,7 +107,8 @@ class Run:
 
     def _resumed(self, settings: SimulationSettings) -> Result:
         import ancf
-        from ancf.cli.results_file import open_result
+
+        from .results_file import open_result
 
         path = self.output.results
         old = open_result(path)
@@ -142,13 +143,13 @@ class Run:
         return ancf.equilibrium(model, of=of, load_steps=given.load_steps if given else 1)
 
     def _statics(self) -> Result:
-        from ancf.cli.statics import store
+        from .statics import store
 
         return store(self.study, self._equilibrium(self.study.model), self.output.results)
 
     def _finish(self, result: Result, error: BaseException | None = None) -> None:
-        from ancf.cli.summary import print_summary, summarise
-        from ancf.viz.export.tables import sensor_columns, write_table
+        from ..viz.export.tables import sensor_columns, write_table
+        from .summary import print_summary, summarise
 
         wall, cpu = time.perf_counter() - self.start[0], time.process_time() - self.start[1]
         seconds = {"wall_seconds": wall, "cpu_seconds": result.stats.cpu_seconds, "process_cpu_seconds": cpu}

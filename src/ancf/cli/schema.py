@@ -7,14 +7,14 @@ from pathlib import Path
 
 import typer
 
-from ancf.files import write_text
+from ..files import write_text
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
 def write_schema(path: Path | None) -> None:
     """Print the schema, or write it to a file."""
-    from ancf.model.file import schema
+    from ..model.file import schema
 
     text = json.dumps({"$schema": DIALECT, **schema()}, indent=2)
     if path is None:

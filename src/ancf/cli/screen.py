@@ -15,7 +15,7 @@ from rich.progress import Progress as Bar
 from rich.table import Table
 from rich.text import Text
 
-from ancf.files import visible
+from ..files import visible
 
 WIDTH_OF_A_FILE = 120
 COMPILING = "compiling the numerical core: this happens only once on this machine ..."
@@ -97,7 +97,7 @@ class Screen:
 
     def announce_compilation(self) -> None:
         """Say it once when kernels must be compiled."""
-        from ancf.compiled import announce_compilation
+        from ..compiled import announce_compilation
 
         announce_compilation(lambda: self.say(COMPILING))
 

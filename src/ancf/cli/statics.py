@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ancf.model.file import Study
+from ..model.file import Study
 
 if TYPE_CHECKING:
-    from ancf import Result, State
+    from .. import Result, State
 
 
 def store(study: Study, state: State, path: Path) -> Result:
@@ -24,8 +24,8 @@ def store(study: Study, state: State, path: Path) -> Result:
         The file cannot be written.
 
     """
-    from ancf.results.result import load
-    from ancf.results.store import FileStore
+    from ..results.result import load
+    from ..results.store import FileStore
 
     file = FileStore(path, state.system, _header(study))
     file.append(np.array([state.t]), state.q[None], state.v[None], np.zeros((1, 2)))
@@ -35,7 +35,7 @@ def store(study: Study, state: State, path: Path) -> Result:
 
 
 def _header(study: Study) -> dict[str, Any]:
-    from ancf.results.provenance import versions
+    from ..results.provenance import versions
 
     return {
         "title": study.title,

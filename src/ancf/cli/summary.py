@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ancf import __version__
-from ancf.cli.screen import table
-from ancf.errors import ModelError, SolveError
-from ancf.model.beam import Beam
-from ancf.model.bodies import Body
-from ancf.model.file import Study
-from ancf.model.model import Model
+from .. import __version__
+from ..errors import ModelError, SolveError
+from ..model.beam import Beam
+from ..model.bodies import Body
+from ..model.file import Study
+from ..model.model import Model
+from .screen import table
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ancf import Result, State
+    from .. import Result, State
 
 ENERGIES = ("kinetic", "strain", "potential", "dissipated", "supplied", "total")
 
@@ -29,8 +29,8 @@ def summarise(
     study: Study, path: Path, result: Result, seconds: dict[str, float], error: BaseException | None
 ) -> dict[str, Any]:
     """Everything worth keeping of a run, ready for JSON."""
-    from ancf.results import accuracy
-    from ancf.results.tension import compressions, notes
+    from ..results import accuracy
+    from ..results.tension import compressions, notes
 
     model = study.model
     pressed = compressions(result)
@@ -102,7 +102,7 @@ def outputs(study: Study) -> list[str]:
     """
     if study.simulation is not None and study.simulation.outputs:
         return list(study.simulation.outputs)
-    from ancf.results.overview import shown_points
+    from ..results.overview import shown_points
 
     return [str(point) for point in shown_points(study.model)]
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ancf.cli.output import OutputFolder
-from ancf.cli.screen import Screen, console
+from .output import OutputFolder
+from .screen import Screen, console
 
 if TYPE_CHECKING:
-    from ancf.catenary.references import Reference
-    from ancf.catenary.run_data import Run
+    from ..catenary.references import Reference
+    from ..catenary.run_data import Run
 
 
 def validate_case(
@@ -25,10 +25,10 @@ def validate_case(
         nothing was computed.
 
     """
-    from ancf.catenary import validate
-    from ancf.catenary.references import reference_case
-    from ancf.model.checks import positive
-    from ancf.viz.style import require_matplotlib
+    from ..catenary import validate
+    from ..catenary.references import reference_case
+    from ..model.checks import positive
+    from ..viz.style import require_matplotlib
 
     reference = reference_case(case)
     positive(speed_kmh, "--speed")
@@ -47,9 +47,9 @@ def validate_case(
 
 def show(run: Run, reference: Reference) -> None:
     """Print the table of the reference's quantities."""
-    from ancf.catenary.references import filter_note, second_reading
-    from ancf.catenary.statistics import statistics
-    from ancf.catenary.table import table
+    from ..catenary.references import filter_note, second_reading
+    from ..catenary.statistics import statistics
+    from ..catenary.table import table
 
     screen = console()
     rows = reference.compare(statistics(run), run.speed_kmh)

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from ancf.cli.screen import table
-from ancf.cli.summary import outputs
-from ancf.model.file import Study
+from ..model.file import Study
+from .screen import table
+from .summary import outputs
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ancf import Result, State, Verification
-    from ancf.model.integrators import Integrator
-    from ancf.model.model import Model
+    from .. import Result, State, Verification
+    from ..model.integrators import Integrator
+    from ..model.model import Model
 
 #: Rows of the table; all are in the file.
 MOST_ROWS = 60
@@ -24,8 +24,8 @@ def verified(
     study: Study, result: Result, again: Callable[[Model, float | None, Integrator], Result | State]
 ) -> Verification:
     """Compare the result of a study with two finer computations, which `again` makes."""
-    from ancf.model.integrators import Trapezoidal
-    from ancf.verification import repeated
+    from ..model.integrators import Trapezoidal
+    from ..verification import repeated
 
     settings = study.simulation
     if settings is None:
@@ -36,7 +36,7 @@ def verified(
 
 def print_verification(to: Console, found: Verification) -> None:
     """Print what was computed, and how every output changes."""
-    from ancf.verification import COLUMNS
+    from ..verification import COLUMNS
 
     to.print()
     for run in found.runs:

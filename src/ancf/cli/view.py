@@ -6,10 +6,10 @@ import webbrowser
 from pathlib import Path
 from typing import Any
 
-from ancf.cli.results_file import open_result
-from ancf.cli.screen import console
-from ancf.errors import ModelError
-from ancf.files import exists
+from ..errors import ModelError
+from ..files import exists
+from .results_file import open_result
+from .screen import console
 
 SUFFIXES = (".html", ".htm")
 
@@ -35,8 +35,8 @@ def view_file(path: Path, output: Path | None, options: dict[str, Any], show: bo
         be written.
 
     """
-    from ancf.viz.view import write_view
-    from ancf.viz.view.page import plotly_script
+    from ..viz.view import write_view
+    from ..viz.view.page import plotly_script
 
     plotly_script()
     source = path / "results.h5" if exists(path, "is_dir") else path

@@ -20,14 +20,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..compiled import Role, implements, inline_kernel, kernel
+from ..vectors import dot
 from .in_matrix import no_pairs, no_places
-from .sliding import COLUMNS, dot3, element_at, line, shape, slider
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from .sliding import COLUMNS, element_at, line, shape, slider
 
 # columns of ContactBatch.data
 STIFFNESS, DAMPING = range(2)
@@ -66,10 +64,10 @@ def crossing(batch, j, q, p):
         e = element_at(batch, j, s)
         xi = (s - batch.x[e, 0]) / batch.x[e, 1]
         o, t = line(batch, e, xi, q, 0), line(batch, e, xi, q, 1)
-        rise = dot3(tau, t)
+        rise = dot(tau, t)
         if not rise > 0.0:
             return False, s
-        step = dot3(tau, (p[0] - o[0], p[1] - o[1], p[2] - o[2])) / rise
+        step = dot(tau, (p[0] - o[0], p[1] - o[1], p[2] - o[2])) / rise
         s += step
         if abs(step) <= 1e-12 * (high - low):
             if s < low or s > high:
@@ -96,16 +94,16 @@ def touch(batch, j, q, v):
     o, t = line(batch, e, xi, q, 0), line(batch, e, xi, q, 1)
     d = (p[0] - o[0], p[1] - o[1], p[2] - o[2])
     u = (n[1] * tau[2] - n[2] * tau[1], n[2] * tau[0] - n[0] * tau[2], n[0] * tau[1] - n[1] * tau[0])
-    overlap = dot3(n, d)
-    batch.found[j, OVERLAP], batch.found[j, ASIDE] = overlap, -dot3(u, d)
-    slope = dot3(n, t) / dot3(tau, t)
+    overlap = dot(n, d)
+    batch.found[j, OVERLAP], batch.found[j, ASIDE] = overlap, -dot(u, d)
+    slope = dot(n, t) / dot(tau, t)
     m = (n[0] - slope * tau[0], n[1] - slope * tau[1], n[2] - slope * tau[2])
     if not overlap > 0.0:
         return False, e, xi, m, 0.0
     force = batch.data[j, STIFFNESS] * overlap
     if batch.data[j, DAMPING] != 0.0:
         w, o = slider(batch, j, v, 0.0), line(batch, e, xi, v, 0)
-        force += batch.data[j, DAMPING] * dot3(m, (w[0] - o[0], w[1] - o[1], w[2] - o[2]))
+        force += batch.data[j, DAMPING] * dot(m, (w[0] - o[0], w[1] - o[1], w[2] - o[2]))
     force = max(force, 0.0)
     batch.found[j, FORCE] = force
     return force > 0.0, e, xi, m, force

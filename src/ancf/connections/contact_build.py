@@ -6,17 +6,14 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..model.contact import Contact
 from ..model.points import Point
 from .contact import ARC, ContactBatch
 from .joint_build import place_of
 from .sliding import COLUMNS
 from .sliding_build import beam_line
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 def contacts(

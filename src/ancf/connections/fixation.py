@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import IntArray
 from ..model.beam import Beam
 from ..model.joints import Fixation
-from .joint_build import UNITS, IntArray, Locate, Row, Vector, node_axes, normals
+from .joint_build import UNITS, Locate, Row, Vector, node_axes, normals
 
 
 def rows(joint: Fixation, locate: Locate, slots: dict[str, IntArray]) -> list[Row]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from ..arrays import IntArray
 from ..model.joints import Revolute
-from .joint_build import IntArray, Locate, Row, axis_of, coincide, normals
+from .joint_build import Locate, Row, axis_of, coincide, normals
 
 
 def rows(joint: Revolute, locate: Locate, slots: dict[str, IntArray]) -> list[Row]:

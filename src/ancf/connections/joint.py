@@ -14,14 +14,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..arrays import FloatArray, IntArray
 from ..compiled import Role, implements, inline_kernel
+from ..vectors import dot
 from .in_matrix import bind_joints, joint_pairs
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 class JointBatch(NamedTuple):
@@ -60,23 +56,17 @@ def sums(batch, n, q, fixed):
 
 
 @inline_kernel
-def dot3(a, b):
-    """Scalar product."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-@inline_kernel
 def joint_force(batch, q, v, a, r, ws):
     """Add the joints' forces and the weighted constraints."""
     for n in range(batch.unknown.shape[0]):
         d1, d2 = sums(batch, n, q, 1.0)
-        g = batch.level[0] * (dot3(d1, d2) - batch.constant[n, 6])
+        g = batch.level[0] * (dot(d1, d2) - batch.constant[n, 6])
         if batch.level[1] != 0.0 or batch.level[2] != 0.0:
             v1, v2 = sums(batch, n, v, 0.0)
-            g += batch.level[1] * (dot3(v1, d2) + dot3(d1, v2))
+            g += batch.level[1] * (dot(v1, d2) + dot(d1, v2))
             if batch.level[2] != 0.0:
                 a1, a2 = sums(batch, n, a, 0.0)
-                g += batch.level[2] * (dot3(a1, d2) + 2.0 * dot3(v1, v2) + dot3(d1, a2))
+                g += batch.level[2] * (dot(a1, d2) + 2.0 * dot(v1, v2) + dot(d1, a2))
         r[batch.unknown[n]] += g
         lam = q[batch.unknown[n]] + batch.alpha[n] * g
         for k in range(batch.start[n], batch.start[n + 1]):

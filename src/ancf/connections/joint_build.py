@@ -8,8 +8,8 @@ from importlib import import_module
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..elements.registry import ELEMENTS
 from ..model.beam import Beam
 from ..model.bodies import RigidBody
@@ -18,8 +18,6 @@ from ..model.kinds import kind_of
 from ..model.points import Point
 from .joint import JointBatch
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 Locate = Callable[[Point], Any]
 
 

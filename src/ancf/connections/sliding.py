@@ -24,13 +24,11 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..compiled import Role, implements, inline_kernel
+from ..vectors import dot
 from .in_matrix import bind_sliding, sliding_pairs
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Most vectors of unknowns that a point of a body depends on.
 COLUMNS = 10
@@ -127,22 +125,16 @@ def slider(batch, j, q, fixed):
 
 
 @inline_kernel
-def dot3(a, b):
-    """Scalar product."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-@inline_kernel
 def keep(batch, j, x):
     """Part of a vector in the directions that the joint holds now."""
     if batch.mode[j] == FREE:
         return 0.0, 0.0, 0.0
     u = (batch.released[j, 0], batch.released[j, 1], batch.released[j, 2])
-    d = dot3(u, x)
+    d = dot(u, x)
     x = (x[0] - d * u[0], x[1] - d * u[1], x[2] - d * u[2])
     if batch.open[j] != 0:
         u = (batch.unilateral[j, 0], batch.unilateral[j, 1], batch.unilateral[j, 2])
-        d = dot3(u, x)
+        d = dot(u, x)
         x = (x[0] - d * u[0], x[1] - d * u[1], x[2] - d * u[2])
     return x
 
@@ -174,11 +166,11 @@ def gap_rates(batch, j, e, xi, q, v, a):
 def friction(batch, j, t, lam, rate):
     """Force against the motion of s and its derivative with respect to the rate of s."""
     c, mu = batch.data[j, VISCOUS], batch.data[j, MU]
-    a = dot3(t, t)
+    a = dot(t, t)
     force, slope = c * a * rate, c * a
     if mu != 0.0:
-        size, along = math.sqrt(a), dot3(t, lam)
-        normal = math.sqrt(max(dot3(lam, lam) - along * along / a, 0.0))
+        size, along = math.sqrt(a), dot(t, lam)
+        normal = math.sqrt(max(dot(lam, lam) - along * along / a, 0.0))
         h = math.tanh(size * rate / batch.data[j, V0])
         force += mu * normal * size * h
         slope += mu * normal * a * (1.0 - h * h) / batch.data[j, V0]
@@ -209,7 +201,7 @@ def sliding_force(batch, q, v, a, r, ws):
         if batch.mode[j] == SLIDES:
             t = line(batch, e, xi, q, 1)
             force, _ = friction(batch, j, t, lam, v[i + 3])
-            r[i + 3] += batch.data[j, MASS] * a[i + 3] - dot3(t, lam) + force
+            r[i + 3] += batch.data[j, MASS] * a[i + 3] - dot(t, lam) + force
 
 
 @inline_kernel
@@ -270,7 +262,7 @@ def sliding_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
             A[own + 18 + c] -= scale * held[c]
             A[own + 6 * c + 3] -= scale * held[c]
         _, slope = friction(batch, j, t, lam, v[i + 3])
-        A[own + 21] += c_mass * batch.data[j, MASS] + c_damping * slope - c_stiffness * dot3(n, lam)
+        A[own + 21] += c_mass * batch.data[j, MASS] + c_damping * slope - c_stiffness * dot(n, lam)
 
 
 @inline_kernel
@@ -286,16 +278,16 @@ def sliding_event(batch, q):
         if batch.mode[j] == SLIDES and (s < start - slack or s > end + slack):
             return 4 * j + LEFT
         u = (batch.unilateral[j, 0], batch.unilateral[j, 1], batch.unilateral[j, 2])
-        if dot3(u, u) == 0.0:
+        if dot(u, u) == 0.0:
             continue
         if batch.open[j] == 0:
-            if dot3(u, (q[i], q[i + 1], q[i + 2])) < 0.0:
+            if dot(u, (q[i], q[i + 1], q[i + 2])) < 0.0:
                 return 4 * j + PULLS
             continue
         e = element_at(batch, j, s)
         o = line(batch, e, (s - batch.x[e, 0]) / batch.x[e, 1], q, 0)
         p = slider(batch, j, q, 1.0)
-        if dot3(u, (o[0] - p[0], o[1] - p[1], o[2] - p[2])) < 0.0:
+        if dot(u, (o[0] - p[0], o[1] - p[1], o[2] - p[2])) < 0.0:
             return 4 * j + TOUCHES
     return -1
 

@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..elements.registry import ELEMENTS
 from ..model.beam import Beam
 from ..model.bodies import RigidBody
@@ -15,9 +15,6 @@ from ..model.joints import Slide
 from ..model.points import Point
 from .joint_build import place_of
 from .sliding import COLUMNS, SlidingBatch
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 def sliding(

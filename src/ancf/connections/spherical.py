@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from ..arrays import IntArray
 from ..model.joints import Spherical
-from .joint_build import IntArray, Locate, Row, coincide
+from .joint_build import Locate, Row, coincide
 
 
 def rows(joint: Spherical, locate: Locate, slots: dict[str, IntArray]) -> list[Row]:

@@ -18,7 +18,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
+from ..vectors import dot
 from .lanes import (
     A1,
     CONSTANTS,
@@ -48,13 +50,11 @@ from .lanes_damping import (
     bending_damping,
     bending_damping_tangent,
     damped_axial_force,
-    dot,
     shape_at,
     slope_damping,
     slope_damping_tangent,
 )
 from .lanes_tangent import BLOCKS, PLACES, add_block, spread_axial, spread_bending
-from .shapes import FloatArray
 
 #: Bits of the column ``damped`` of the groups.
 VISCOUSLY, AXIALLY, IN_BENDING, IN_SLOPE = 1, 2, 4, 8

@@ -6,20 +6,20 @@ from collections.abc import Sequence
 from itertools import groupby
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import FloatArray, IntArray
 from ..model.beam import Beam
 from .cable import AXIALLY, IN_BENDING, IN_SLOPE, VISCOUSLY, CableBatch
 from .cable_slack import slack
 from .chunks import in_lanes
 from .lanes import LANES, gauss_table
 from .measures import axial_strain, curvature
-from .shapes import FloatArray, gauss, hermite
+from .shapes import gauss, hermite
 
 __all__ = ["BATCH", "build", "initial_vectors", "reference_strains", "shape", "slack"]
 
 BATCH = CableBatch
-IntArray = NDArray[np.int64]
 
 
 def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> CableBatch:

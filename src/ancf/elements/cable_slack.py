@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import FloatArray
 from .cable import CableBatch
 from .chunks import in_lanes
 from .lanes import EA_L, LANES, LENGTH
-from .shapes import FloatArray
 
 #: Columns of the groups of a batch.
 BEGIN, END, PAPER, FIRST_GP, AXIAL, BENDING, DAMPED, CURVED = range(8)

@@ -16,8 +16,9 @@ import math
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..compiled import formula, inline_kernel
-from .shapes import FloatArray, gauss
+from .shapes import gauss
 
 LANES = 8
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 
 from ..compiled import inline_kernel
+from ..vectors import dot
 from .lanes import (
     DA_L,
     DB_L,
@@ -61,12 +62,6 @@ def shape_at(ws, gp, g, first, m):
         (ed * dz + e1 * uz + e2 * wz) * il,
     )
     return p, s
-
-
-@inline_kernel
-def dot(u, v):
-    """Scalar product."""
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
 @inline_kernel

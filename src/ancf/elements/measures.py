@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .shapes import FloatArray
+from ..arrays import FloatArray
 
 #: Power of a in kappa^2, by strain measure.
 CURVATURE_POWER = {"paper": 3, "material": 2}

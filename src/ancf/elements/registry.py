@@ -8,9 +8,9 @@ from typing import Any, Protocol, cast
 
 from numpy.typing import ArrayLike
 
+from ..arrays import FloatArray
 from ..model.beam import Beam
 from ..model.elements import KINDS
-from .shapes import FloatArray
 
 
 class Element(Protocol):

@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from ..arrays import FloatArray
 
 
 def hermite(xi: ArrayLike, length: float, derivative: int = 0) -> FloatArray:

@@ -12,10 +12,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
+from ..vectors import dot
 from .lanes import LANES, clear
 from .lanes_tangent import add_block
-from .shapes import FloatArray
 from .solid_lanes import (
     ACCELERATION,
     B1,
@@ -32,7 +33,6 @@ from .solid_lanes import (
     VISCOUS,
     D,
     damping_force,
-    dot,
     elastic_force,
     inertia_force,
     point,

@@ -7,13 +7,13 @@ from itertools import groupby
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..model.beam import Beam
 from ..model.section import Rectangle
 from .chunks import in_lanes
 from .lanes import LANES
-from .shapes import FloatArray, gauss
+from .shapes import gauss
 from .solid import SolidBatch
 from .solid_lanes import gauss_table
 from .solid_shapes import INTERNAL, initial_vectors, shape
@@ -22,7 +22,6 @@ from .solid_strains import quadratic_strains
 __all__ = ["BATCH", "build", "initial_vectors", "quadratic_strains", "shape"]
 
 BATCH = SolidBatch
-IntArray = NDArray[np.int64]
 
 
 def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> SolidBatch:

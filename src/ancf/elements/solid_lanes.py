@@ -20,9 +20,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..compiled import formula, inline_kernel
+from ..vectors import dot
 from .lanes import LANES
-from .shapes import FloatArray, gauss
+from .shapes import gauss
 
 # rows of the workspace: the ten vectors of base, three rows each, of which the one of r_2 is not used ...
 D, T1, B1, C1, R2, T2, DB, DC, BX, CX = range(0, 30, 3)
@@ -53,12 +55,6 @@ def gauss_table(points: int, internal: bool) -> FloatArray:
 def point(gp, g):
     """Coefficients and weight of Gauss point g.  A loop over lanes that reads gp itself is not vectorised."""
     return gp[g, 0], gp[g, 1], gp[g, 2], gp[g, 3], gp[g, 4], gp[g, 5], gp[g, 6], gp[g, 7]
-
-
-@formula
-def dot(u, v):
-    """Scalar product."""
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
 @formula

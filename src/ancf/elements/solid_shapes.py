@@ -14,8 +14,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arrays import FloatArray
 from ..model.beam import Beam
-from .shapes import FloatArray, hermite
+from .shapes import hermite
 
 #: Internal vectors by element.
 INTERNAL = {"original": 0, "nonlocking": 2}

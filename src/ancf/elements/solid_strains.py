@@ -5,15 +5,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from .chunks import in_lanes
 from .lanes import LANES
-from .shapes import FloatArray, gauss
+from .shapes import gauss
 from .solid import SolidBatch
 from .solid_shapes import shape
-
-IntArray = NDArray[np.int64]
 
 #: Columns of the groups of a batch.
 BEGIN, END, FIRST_GP, POINTS, DAMPING, VISCOUS, CURVED = range(7)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csc_matrix, csr_matrix, eye_array
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import splu
 
-IntArray = NDArray[np.int64]
+from ..arrays import IntArray
 
 #: Ratio of the numbers of blocks in L up to which an ordering counts as equally good.
 NEAR = 1.15

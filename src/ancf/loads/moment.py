@@ -12,9 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
-
-FloatArray = NDArray[np.float64]
 
 
 class MomentBatch(NamedTuple):

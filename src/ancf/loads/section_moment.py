@@ -24,9 +24,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
-
-FloatArray = NDArray[np.float64]
+from ..vectors import dot
 
 
 class SectionMomentBatch(NamedTuple):
@@ -59,12 +59,6 @@ def cross(a, b):
 
 
 @inline_kernel
-def scalar(a, b):
-    """Scalar product."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-@inline_kernel
 def sum3(x, a, y, b, z, c):
     """Sum of three vectors with factors."""
     return (
@@ -79,9 +73,9 @@ def turning(batch, e, ry, rz, M):
     """J^-1 M."""
     wy, wz = batch.share[e, 0], batch.share[e, 1]
     c = cross(ry, rz)
-    cc = scalar(c, c)
-    s = scalar(c, M) / (cc * (wy * scalar(ry, ry) + wz * scalar(rz, rz)))
-    return sum3(s, c, scalar(ry, M) / (wz * cc), ry, scalar(rz, M) / (wy * cc), rz)
+    cc = dot(c, c)
+    s = dot(c, M) / (cc * (wy * dot(ry, ry) + wz * dot(rz, rz)))
+    return sum3(s, c, dot(ry, M) / (wz * cc), ry, dot(rz, M) / (wy * cc), rz)
 
 
 @inline_kernel
@@ -90,11 +84,11 @@ def section_forces(batch, e, ry, rz):
     wy, wz = batch.share[e, 0], batch.share[e, 1]
     M = (batch.value[e, 0], batch.value[e, 1], batch.value[e, 2])
     c = cross(ry, rz)
-    cc = scalar(c, c)
-    s = scalar(c, M) / (cc * (wy * scalar(ry, ry) + wz * scalar(rz, rz)))
+    cc = dot(c, c)
+    s = dot(c, M) / (cc * (wy * dot(ry, ry) + wz * dot(rz, rz)))
     ty, tz = cross(c, ry), cross(c, rz)
-    fy = sum3(-scalar(M, rz) / cc, c, wy * s, ty, 0.0, c)
-    fz = sum3(scalar(M, ry) / cc, c, wz * s, tz, 0.0, c)
+    fy = sum3(-dot(M, rz) / cc, c, wy * s, ty, 0.0, c)
+    fz = sum3(dot(M, ry) / cc, c, wz * s, tz, 0.0, c)
     return fy, fz
 
 
@@ -124,7 +118,7 @@ def derivative_of_force(batch, e, ry, rz, ws):
         p, w, k = ry if j < 3 else rz, wy if j < 3 else wz, j % 3
         unit = (1.0 if k == 0 else 0.0, 1.0 if k == 1 else 0.0, 1.0 if k == 2 else 0.0)
         # dm = -J^-1 dJ m
-        dm = turning(batch, e, ry, rz, sum3(-2.0 * w * p[k], m, w * scalar(p, m), unit, w * m[k], p))
+        dm = turning(batch, e, ry, rz, sum3(-2.0 * w * p[k], m, w * dot(p, m), unit, w * m[k], p))
         dy, dz = cross(dm, ry), cross(dm, rz)
         for i in range(3):
             ws[6 * i + j] = wy * dy[i]

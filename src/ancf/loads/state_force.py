@@ -15,11 +15,10 @@ from numba import types
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
 from .at_points import add_force_at, add_tangent_at, at_point, at_points
 from .law_functions import address_of
-
-FloatArray = NDArray[np.float64]
 
 #: Step of the differences, of the size of the model, and of a velocity plus that size per second.
 STEP = 1e-6

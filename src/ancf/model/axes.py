@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.checks import FloatArray
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import checks
 
 Sampler = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import axes, checks
-from ancf.model.checks import FloatArray
-from ancf.model.elements import KINDS
-from ancf.model.points import Point
-from ancf.model.section import Section
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import axes, checks
+from .elements import KINDS
+from .points import Point
+from .section import Section
 
 Shape = Callable[[FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.beam import Beam
-from ancf.model.checks import FloatArray
-from ancf.model.points import Point
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import checks
+from .beam import Beam
+from .points import Point
 
 ROUNDING = 1e-9  # relative, of what a user computed: symmetry and triangle inequality of an inertia
 ROUND_OFF = 1e-14  # of a rotation matrix that is left as it is

@@ -8,11 +8,10 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from ancf.errors import ModelError
+from ..arrays import FloatArray
+from ..errors import ModelError
 
-FloatArray = npt.NDArray[np.float64]
 UNIT = 8 * float(np.finfo(np.float64).eps)  # deviation of a square from 1 that is round-off
 LARGEST = 1e100  # of a coordinate in m or of an inertia in kg m^2
 

@@ -6,19 +6,19 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ancf.model import checks
-from ancf.model.beam import Beam
-from ancf.model.bodies import PointMass, RigidBody
-from ancf.model.checks import FloatArray
-from ancf.model.connections import Connection, Spring, make_spring
-from ancf.model.contact import Contact, make_contact
-from ancf.model.joints import Fixation, Revolute, Slide, Spherical
-from ancf.model.kinds import kind_of
-from ancf.model.lookup import Lookup
-from ancf.model.make_joints import make_fixation, make_revolute, make_spherical
-from ancf.model.points import Point
-from ancf.model.repeated import check_repeated
-from ancf.model.slide_checks import make_slide
+from ..arrays import FloatArray
+from . import checks
+from .beam import Beam
+from .bodies import PointMass, RigidBody
+from .connections import Connection, Spring, make_spring
+from .contact import Contact, make_contact
+from .joints import Fixation, Revolute, Slide, Spherical
+from .kinds import kind_of
+from .lookup import Lookup
+from .make_joints import make_fixation, make_revolute, make_spherical
+from .points import Point
+from .repeated import check_repeated
+from .slide_checks import make_slide
 
 ConnectionT = TypeVar("ConnectionT", bound=Connection)
 PointLike = Point | PointMass | RigidBody | str

@@ -6,12 +6,12 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.checks import FloatArray
-from ancf.model.contact import Contact
-from ancf.model.joints import Fixation, Revolute, Slide, Spherical
-from ancf.model.points import Point, initial_position
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import checks
+from .contact import Contact
+from .joints import Fixation, Revolute, Slide, Spherical
+from .points import Point, initial_position
 
 __all__ = ["Connection", "Spherical", "Spring", "initial_position", "make_spring"]
 

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks, nearest
-from ancf.model.beam import Beam
-from ancf.model.bodies import Body, kind
-from ancf.model.checks import FloatArray
-from ancf.model.points import Point
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import checks, nearest
+from .beam import Beam
+from .bodies import Body, kind
+from .points import Point
 
 PERPENDICULAR = 1e-6  # cosine or sine below which directions are perpendicular or the same
 

@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from ancf.model.beam import Beam
-from ancf.model.bodies import Body, PointMass, RigidBody
-from ancf.model.functions import TimeFunction
-from ancf.model.kind import Kind
-from ancf.model.layout import PLACED, is_straight
-from ancf.model.points import Point
-from ancf.model.section import DAMPINGS, MOMENTS, Rectangle, Section
-from ancf.model.state_function import StateFunction
+from .beam import Beam
+from .bodies import Body, PointMass, RigidBody
+from .functions import TimeFunction
+from .kind import Kind
+from .layout import PLACED, is_straight
+from .points import Point
+from .section import DAMPINGS, MOMENTS, Rectangle, Section
+from .state_function import StateFunction
 
 MOTION = ("velocity", "angular_velocity", "about")
 

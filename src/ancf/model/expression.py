@@ -11,8 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model.checks import FloatArray, nearest
+from ..arrays import FloatArray
+from ..errors import ModelError
+from .checks import nearest
 
 Compiled = Callable[[Any], Any]
 MAX_LENGTH = 5000

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.checks import FloatArray
-from ancf.model.expression import Expression
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import checks
+from .expression import Expression
 
 Evaluate = Callable[[FloatArray], FloatArray]
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ancf.model.beam import Beam
-from ancf.model.bodies import PointMass, RigidBody
-from ancf.model.checks import FloatArray
-from ancf.model.functions import TimeFunction
-from ancf.model.points import Point
+from ..arrays import FloatArray
+from .beam import Beam
+from .bodies import PointMass, RigidBody
+from .functions import TimeFunction
+from .points import Point
 
 STRETCH = ("free", "fixed")
 AT_END = ("stop", "clamp", "release")

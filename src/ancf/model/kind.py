@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ancf.model.bodies import Body
-from ancf.model.functions import TimeFunction
-from ancf.model.points import Point
+from .bodies import Body
+from .functions import TimeFunction
+from .points import Point
 
 #: Under which noun results answer questions about a connection, see ancf.viz.pictures.questions.
 SPRING, CONTACT, SLIDE, JOINT = "spring", "contact", "sliding joint", "joint"

@@ -6,15 +6,15 @@ from collections.abc import Callable, Iterator
 from importlib import import_module
 from typing import Any
 
-from ancf.model import sheets
-from ancf.model.connections import Spring
-from ancf.model.contact import Contact
-from ancf.model.functions import TimeFunction
-from ancf.model.joints import Fixation, Revolute, Slide, Spherical
-from ancf.model.kind import CONTACT, JOINT, SLIDE, SPRING, Kind, Look
-from ancf.model.loads import DistributedLoad, Force, Moment
-from ancf.model.state_function import StateFunction
-from ancf.model.supports import Clamp, Hold, Pin
+from . import sheets
+from .connections import Spring
+from .contact import Contact
+from .functions import TimeFunction
+from .joints import Fixation, Revolute, Slide, Spherical
+from .kind import CONTACT, JOINT, SLIDE, SPRING, Kind, Look
+from .loads import DistributedLoad, Force, Moment
+from .state_function import StateFunction
+from .supports import Clamp, Hold, Pin
 
 
 def _entry(name: str) -> Callable[[], Any]:

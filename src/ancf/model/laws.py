@@ -14,13 +14,13 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.functions import TimeFunction
-from ancf.model.kind import Kind, Look
-from ancf.model.points import Point
-from ancf.model.sheets import value
-from ancf.model.tables import number, numbers
+from ..errors import ModelError
+from . import checks
+from .functions import TimeFunction
+from .kind import Kind, Look
+from .points import Point
+from .sheets import value
+from .tables import number, numbers
 
 #: Kinds of parameters: the check of what is given, and the type of files in ``ancf.model.file.fields``.
 _TYPES: dict[str, tuple[Callable[[Any, str], Any], str]] = {
@@ -133,7 +133,7 @@ def _entry(title: str, word: str, parameters: tuple[Parameter, ...], says: str) 
     """Its table in a model file."""
     from pydantic import Field, create_model
 
-    from ancf.model.file import fields
+    from .file import fields
 
     rows: dict[str, Any] = {
         "type": (Literal[word], Field(description="Kind of load.")),

@@ -8,22 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import axes, checks, path
-from ancf.model.axes import Sampler
-from ancf.model.beam import (
-    MOST_ELEMENTS,
-    MOST_GAUSS_POINTS,
-    NATURAL_SHAPES,
-    NODE_TOLERANCE,
-    POISSON,
-    Beam,
-    Shape,
-)
-from ancf.model.checks import FloatArray
-from ancf.model.elements import KINDS
-from ancf.model.section import MATERIAL, Section
-from ancf.model.shapes import Rectangle
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import axes, checks, path
+from .axes import Sampler
+from .beam import MOST_ELEMENTS, MOST_GAUSS_POINTS, NATURAL_SHAPES, NODE_TOLERANCE, POISSON, Beam, Shape
+from .elements import KINDS
+from .section import MATERIAL, Section
+from .shapes import Rectangle
 
 #: What the nodes of a beam have in the initial shape.
 PLACED = ("node_position", "node_tangent", "node_y")

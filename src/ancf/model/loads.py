@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.beam import Beam
-from ancf.model.bodies import Body, PointMass, kind
-from ancf.model.functions import TimeFunction
-from ancf.model.points import Point
-from ancf.model.state_function import StateFunction
+from ..errors import ModelError
+from . import checks
+from .beam import Beam
+from .bodies import Body, PointMass, kind
+from .functions import TimeFunction
+from .points import Point
+from .state_function import StateFunction
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -9,15 +9,15 @@ from typing import Self
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.beam import Beam
-from ancf.model.bodies import Body, PointMass, RigidBody, kind
-from ancf.model.checks import FloatArray
-from ancf.model.connections import Connection, Spherical, initial_position
-from ancf.model.kinds import GROUPS, kind_of
-from ancf.model.names import POINT_LABEL, Names, numbers_of, split_label, unknown
-from ancf.model.points import Point
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import checks
+from .beam import Beam
+from .bodies import Body, PointMass, RigidBody, kind
+from .connections import Connection, Spherical, initial_position
+from .kinds import GROUPS, kind_of
+from .names import POINT_LABEL, Names, numbers_of, split_label, unknown
+from .points import Point
 
 
 class Lookup:

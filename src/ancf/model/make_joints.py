@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.beam import NODE_TOLERANCE, Beam
-from ancf.model.bodies import Body, PointMass, RigidBody, kind
-from ancf.model.checks import FloatArray
-from ancf.model.joints import STRETCH, Fixation, Revolute, Spherical
-from ancf.model.points import Point, initial_position
-from ancf.model.supports import node_of, require_node
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import checks
+from .beam import NODE_TOLERANCE, Beam
+from .bodies import Body, PointMass, RigidBody, kind
+from .joints import STRETCH, Fixation, Revolute, Spherical
+from .points import Point, initial_position
+from .supports import node_of, require_node
 
 COINCIDENT = 1e-9  # of the size of the model
 

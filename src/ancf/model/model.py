@@ -5,32 +5,22 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ancf.errors import ModelError
-from ancf.model import checks, describe, rebuild
-from ancf.model.beam import Beam
-from ancf.model.bodies import Body, PointMass, RigidBody, make_point_mass, make_rigid_body
-from ancf.model.checks import FloatArray
-from ancf.model.connecting import Connecting, PointLike
-from ancf.model.joints import Fixation
-from ancf.model.kinds import GROUPS, all_kinds, kind_of
-from ancf.model.layout import make_beam
-from ancf.model.loads import DistributedLoad, Force, Load, Moment, make_distributed, make_moment
-from ancf.model.overview import of_model
-from ancf.model.points import Point, initial_position
-from ancf.model.section import Section
-from ancf.model.state_function import force_function
-from ancf.model.supports import (
-    Clamp,
-    Hold,
-    Pin,
-    Support,
-    check_overlap,
-    make_clamp,
-    make_hold,
-    optional,
-    require_node,
-)
-from ancf.model.tables import Readable, Sheet
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import checks, describe, rebuild
+from .beam import Beam
+from .bodies import Body, PointMass, RigidBody, make_point_mass, make_rigid_body
+from .connecting import Connecting, PointLike
+from .joints import Fixation
+from .kinds import GROUPS, all_kinds, kind_of
+from .layout import make_beam
+from .loads import DistributedLoad, Force, Load, Moment, make_distributed, make_moment
+from .overview import of_model
+from .points import Point, initial_position
+from .section import Section
+from .state_function import force_function
+from .supports import Clamp, Hold, Pin, Support, check_overlap, make_clamp, make_hold, optional, require_node
+from .tables import Readable, Sheet
 
 SupportT = TypeVar("SupportT", bound=Support)
 LoadT = TypeVar("LoadT", bound=Load)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from ancf.errors import ModelError
-from ancf.model import checks
+from ..errors import ModelError
+from . import checks
 
 BODY_NAME = re.compile(r"\w([\w -]*\w)?")
 POINT_LABEL = re.compile(r"(?P<body>.*)\.(?:(?P<word>start|end|centre)|at\((?P<inside>[^()]*)\))")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from ancf.model.beam import Beam
-from ancf.model.checks import FloatArray
+from ..arrays import FloatArray
+from .beam import Beam
 
 SAMPLES = 17  # per element, both ends included
 CHUNK = 20_000  # elements sampled at once

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Protocol
 
-from ancf.model.beam import Beam
-from ancf.model.bodies import Body, kind
-from ancf.model.checks import FloatArray
-from ancf.model.kind import Kind
-from ancf.model.kinds import kind_of
-from ancf.model.sheets import place
-from ancf.model.tables import Sheet, Table, counted, number, numbers, plural
+from ..arrays import FloatArray
+from .beam import Beam
+from .bodies import Body, kind
+from .kind import Kind
+from .kinds import kind_of
+from .sheets import place
+from .tables import Sheet, Table, counted, number, numbers, plural
 
 BODY_COLUMNS = (
     "body",

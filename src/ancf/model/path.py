@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.axes import subdivided
-from ancf.model.checks import FloatArray
-from ancf.model.functions import call
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import checks
+from .axes import subdivided
+from .functions import call
 
 GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(8)
 CHUNK = 20_000

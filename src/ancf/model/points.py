@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ancf.model.checks import FloatArray
+from ..arrays import FloatArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,14 +7,14 @@ from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any, Protocol
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.beam import Beam
-from ancf.model.bodies import Body, make_point_mass, make_rigid_body
-from ancf.model.describe import section_of
-from ancf.model.functions import Missing, TimeFunction
-from ancf.model.kinds import GROUPS, by_word
-from ancf.model.layout import placed_beam
+from ..errors import ModelError
+from . import checks
+from .beam import Beam
+from .bodies import Body, make_point_mass, make_rigid_body
+from .describe import section_of
+from .functions import Missing, TimeFunction
+from .kinds import GROUPS, by_word
+from .layout import placed_beam
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager

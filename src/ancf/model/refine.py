@@ -6,9 +6,9 @@ from copy import deepcopy
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model.beam import Beam
-from ancf.model.model import Model
+from ..errors import ModelError
+from .beam import Beam
+from .model import Model
 
 
 def refined(model: Model) -> Model:

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model.bodies import Body
-from ancf.model.checks import FloatArray
-from ancf.model.connections import Connection
-from ancf.model.kind import Kind
-from ancf.model.kinds import CONNECTIONS
-from ancf.model.points import Point
+from ..arrays import FloatArray
+from ..errors import ModelError
+from .bodies import Body
+from .connections import Connection
+from .kind import Kind
+from .kinds import CONNECTIONS
+from .points import Point
 
 End = Point | FloatArray
 

@@ -6,11 +6,11 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.section_sheet import of_section
-from ancf.model.shapes import Circle, Rectangle
-from ancf.model.tables import Readable, Sheet
+from ..errors import ModelError
+from . import checks
+from .section_sheet import of_section
+from .shapes import Circle, Rectangle
+from .tables import Readable, Sheet
 
 __all__ = ["MATERIAL", "Circle", "Rectangle", "Section"]
 

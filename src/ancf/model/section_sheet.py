@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ancf.model.shapes import Circle, Rectangle
-from ancf.model.tables import Sheet, number, with_units
+from .shapes import Circle, Rectangle
+from .tables import Sheet, number, with_units
 
 DAMPING_UNITS = ("N s/m^2", "N s", "N m^2 s", "N s")
 

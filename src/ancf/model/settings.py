@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.integrators import Integrator, Trapezoidal
+from ..errors import ModelError
+from . import checks
+from .integrators import Integrator, Trapezoidal
 
 STARTS = ("reference", "equilibrium")
 MOST_STEPS = 1e9

@@ -6,15 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from ancf.model.bodies import RigidBody
-from ancf.model.connections import Spring
-from ancf.model.contact import Contact
-from ancf.model.functions import TimeFunction
-from ancf.model.joints import Revolute, Slide
-from ancf.model.loads import DistributedLoad, Force, Moment
-from ancf.model.state_function import StateFunction
-from ancf.model.supports import Clamp, Hold, Pin
-from ancf.model.tables import number, numbers, plural, with_units
+from .bodies import RigidBody
+from .connections import Spring
+from .contact import Contact
+from .functions import TimeFunction
+from .joints import Revolute, Slide
+from .loads import DistributedLoad, Force, Moment
+from .state_function import StateFunction
+from .supports import Clamp, Hold, Pin
+from .tables import number, numbers, plural, with_units
 
 
 def place(end: Any) -> str:

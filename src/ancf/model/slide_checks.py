@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks, nearest
-from ancf.model.beam import NODE_TOLERANCE, Beam
-from ancf.model.bodies import Body, RigidBody, kind
-from ancf.model.checks import FloatArray
-from ancf.model.functions import TimeFunction
-from ancf.model.joints import AT_END, Slide, line_length
-from ancf.model.points import Point, initial_position
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import checks, nearest
+from .beam import NODE_TOLERANCE, Beam
+from .bodies import Body, RigidBody, kind
+from .functions import TimeFunction
+from .joints import AT_END, Slide, line_length
+from .points import Point, initial_position
 
 OFF = 1e-6  # of the size of the model: distance of the point from the line that is taken for rounding
 ROUNDING = 1e-12  # of the length of the line

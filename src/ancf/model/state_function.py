@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.checks import FloatArray
-from ancf.model.expression import STATE, Expression, depends_on_state
-from ancf.model.functions import TimeFunction, plain
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import checks
+from .expression import STATE, Expression, depends_on_state
+from .functions import TimeFunction, plain
 
 #: What a formula of the state may depend on.
 NAMES = ("t", *STATE)

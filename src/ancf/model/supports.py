@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.beam import Beam
-from ancf.model.bodies import Body, PointMass, RigidBody, kind
-from ancf.model.checks import FloatArray
-from ancf.model.functions import TimeFunction
-from ancf.model.joints import STRETCH
-from ancf.model.points import Point
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import checks
+from .beam import Beam
+from .bodies import Body, PointMass, RigidBody, kind
+from .functions import TimeFunction
+from .joints import STRETCH
+from .points import Point
 
 AXES = "xyz"
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ancf.model.connections import Connection
-from ancf.model.kind import body_of
-from ancf.model.kinds import kind_of
-from ancf.model.loads import Load
+from .connections import Connection
+from .kind import body_of
+from .kinds import kind_of
+from .loads import Load
 
 
 def bodies_of(connection: Connection | Load) -> list[str]:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..viz import style
-from .table import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -13,7 +13,7 @@ import ancf
 from . import kinds
 
 if TYPE_CHECKING:
-    from ancf import Model, Newton, Result, Section
+    from .. import Model, Newton, Result, Section
 
 LENGTH = 1.0  # m
 STEP, T_END = 2.5e-4, 0.4  # s

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..viz import style
 from .curves import points_of
 from .kinds import NONLOCKING, ORIGINAL
-from .table import FloatArray, Table
+from .table import Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ancf import catenary
-from ancf.catenary.references import filter_note, second_reading
-
+from .. import catenary
+from ..catenary.references import filter_note, second_reading
 from ..viz import style
 from .check import Check
 from .table import Table, Value
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ancf.catenary import Run
+    from ..catenary import Run
 
 TITLE = "EN 50318: reference models of the standard"
 EXAMPLE = ""

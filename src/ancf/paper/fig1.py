@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..elements.solid_shapes import shape
 from ..viz import style
 from .boxes import CORNERS, draw_box, draw_directions, draw_frame, eye
 from .check import Check
 from .curves import look_of
 from .kinds import NONLOCKING, ORIGINAL
-from .table import FloatArray, Table, Value
+from .table import Table, Value
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,16 +6,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..viz import style
 from . import overhead
 from .check import Check
-from .table import FloatArray, Table, Value
+from .table import Table, Value
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ancf.catenary import Form
+    from ..catenary import Form
 
 TITLE = "Fig. 13: the overhead line at rest"
 EXAMPLE = "7.5"

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..viz import style
 from . import overhead
 from .check import Check
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from .table import FloatArray
 
 TITLE = "Fig. 14: contact force at the pan-head"
 EXAMPLE = "7.5"

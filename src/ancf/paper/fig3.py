@@ -12,7 +12,7 @@ from .check import Check
 from .table import Table
 
 if TYPE_CHECKING:
-    from ancf import Result
+    from .. import Result
 
 TITLE = "Fig. 3: Jacobians of the cantilever against Young's modulus"
 EXAMPLE = "7.1"

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..viz import style
 from . import compare, kinds, pendulum
 from .check import Check
 from .curves import Curve
 from .references import SHORT, origin, reference
-from .table import FloatArray, Table, sampled_rows
+from .table import Table, sampled_rows
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

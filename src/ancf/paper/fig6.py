@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..arrays import FloatArray
 from . import jacobians, kinds, pendulum
 from .check import Check
-from .table import FloatArray, Table
+from .table import Table
 
 if TYPE_CHECKING:
-    from ancf import Result
+    from .. import Result
 
 TITLE = "Fig. 6: Jacobians of the pendulum against Young's modulus"
 EXAMPLE = "7.2"

@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..viz import style
 from . import kinds, spin_up
 from .check import Check
 from .curves import Curve
 from .fig7 import BARS
 from .references import SHORT, origin, reference
-from .table import FloatArray, Table, sampled_rows
+from .table import Table, sampled_rows
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..viz import style
 from . import compare, sliding
 from .check import Check
@@ -16,9 +17,8 @@ from .table import Table, sampled_rows
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from ancf import Result
+    from .. import Result
 
-    from .table import FloatArray
 
 TITLE = "Fig. 9: configurations of the sliding beam"
 EXAMPLE = "7.4"

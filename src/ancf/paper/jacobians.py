@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ancf import Newton, Result
+    from .. import Newton, Result
 
 COLUMNS = ("element", "f", "E", "jacobians", "newton_iterations", "steps", "status", "t_reached")
 COMPLETE, FAILED = "complete", "failed"

@@ -11,10 +11,10 @@ import numpy as np
 
 import ancf
 
+from ..arrays import FloatArray
 from . import kinds
 from .closed import statics, vibration
 from .closed.case import LENGTH
-from .table import FloatArray
 
 if TYPE_CHECKING:
     from ..model.integrators import Integrator

@@ -12,10 +12,11 @@ from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
 import ancf
-from ancf import catenary
+
+from .. import catenary
 
 if TYPE_CHECKING:
-    from ancf.catenary import Form, Line, Overhead, Pantograph, Run, Statistics
+    from ..catenary import Form, Line, Overhead, Pantograph, Run, Statistics
 
 NAME = "paper-7.5"  # of line and pantograph in the catalogue
 SPEEDS = (32.0, 45.0)  # m/s

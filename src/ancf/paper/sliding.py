@@ -17,7 +17,7 @@ from . import curves, kinds
 from .table import Value
 
 if TYPE_CHECKING:
-    from ancf import Model, Newton, Result, State
+    from .. import Model, Newton, Result, State
 
 START, JOINT, TIP = (0.0, 0.0, 0.0), (0.0, 3.0, 1.0), (1.0, 3.0, 1.0)  # m
 SIDE, E, DENSITY, NU = 0.01, 1e6, 800.0, 0.3  # m, N/m^2, kg/m^3

@@ -8,11 +8,11 @@ import numpy as np
 
 import ancf
 
+from ..arrays import FloatArray
 from . import kinds
-from .table import FloatArray
 
 if TYPE_CHECKING:
-    from ancf import Model, Result, Section
+    from .. import Model, Result, Section
 
 LENGTH = 8.0  # m
 E, AREA, INERTIA, DENSITY = 68.95e9, 7.299e-5, 8.215e-9, 2766.67  # N/m^2, m^2, m^4, kg/m^3

@@ -10,12 +10,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from ..arrays import FloatArray
 from ..files import cell, to_json
 from .check import Check
 
-FloatArray = npt.NDArray[np.float64]
 Value = str | int | float
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ancf import Result
+    from .. import Result
 
 TITLE = "Table 2: processor times of the sliding beam"
 EXAMPLE = "7.4"

@@ -15,7 +15,7 @@ from .table import Table, sampled_rows
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from ancf import Result
+    from .. import Result
 
 COLUMNS = (*sliding.KEYS, "t", "x", "y", "z", "s")
 SIZE = (140.0, 88.0)  # mm

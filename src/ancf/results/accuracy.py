@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.beam import Beam
 from ..solvers.locking import locked, stiffest
 from ..system.consistency import nearly_dependent
 from .faces import History, Instant
-
-FloatArray = NDArray[np.float64]
 
 #: Share of the displacement that locking may take unsaid, and of the model's size that is never said.
 LOCKED, SMALL = 3e-4, 1e-9

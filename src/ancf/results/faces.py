@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
+from ..arrays import FloatArray, IntArray
 from ..model.bodies import Body
 from ..model.model import Model
 from ..solvers.record import Stats
-from ..system.fields import FloatArray, IntArray
 
 
 class Shaped(Protocol):

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..arrays import IntArray
 from ..model.beam import Beam
 from ..model.bodies import Body
 from ..system.system import System
-
-IntArray = NDArray[np.int64]
 
 
 def write_layout(file: Any, system: System) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..model.bodies import PointMass, RigidBody
 from ..model.points import Point
 from ..model.tables import Readable, Sheet
@@ -14,8 +14,6 @@ from ..system.fields import Fields
 from .overview import line_of_modes, of_modes
 from .pictures import ModesPlotted
 from .state import State
-
-FloatArray = NDArray[np.float64]
 
 
 class _Shapes(Fields):

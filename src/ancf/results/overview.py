@@ -6,7 +6,6 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..model.beam import Beam
 from ..model.bodies import Body, PointMass
@@ -15,8 +14,6 @@ from ..model.overview import body_table, sizes
 from ..model.points import Point
 from ..model.tables import Sheet, Table, number, plural
 from .faces import History, Instant, Swinging
-
-FloatArray = NDArray[np.float64]
 
 STATUS = {
     "complete": "complete",

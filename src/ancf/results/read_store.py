@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
 from ..model import checks
 from ..model.bodies import Body
@@ -20,9 +20,6 @@ from .layout import read_joints, read_slots
 from .layout_sensors import DATA, read_listing
 from .remembered import Remembered
 from .store import FORMAT, STATUS, VERSION
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 class ReadStore:

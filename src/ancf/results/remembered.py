@@ -10,17 +10,14 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..connections.contact import ARC
 from ..connections.sliding import SLIDES, SlidingBatch
 from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
 from ..system.system import System
-
-IntArray = NDArray[np.int64]
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..errors import ModelError, StorageError
 from ..files import writing
 from ..model import checks
@@ -27,8 +27,6 @@ from .read_store import ReadStore
 from .sensors import Sensors
 from .state import Energy, State
 from .store import FileStore, MemoryStore
-
-FloatArray = NDArray[np.float64]
 
 
 class Result(SpringFields, ContactFields, Filmed, Readable):

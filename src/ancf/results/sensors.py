@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.bodies import PointMass, RigidBody
 from ..model.points import Point
@@ -16,9 +16,6 @@ from ..system.probe import BeamProbe, Probe
 from ..system.sensors import Listing
 from ..system.spring_fields import SpringFields
 from .pictures import Plotted
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 class Sensors(SpringFields, ContactFields, Plotted):

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..model.supports import Support
 from ..model.tables import Readable, Sheet
 from ..solvers.record import Stats
@@ -19,8 +19,6 @@ from . import accuracy
 from .overview import line_of_state, of_state
 from .pictures import StatePlotted
 from .remembered import Remembered
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

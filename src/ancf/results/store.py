@@ -14,8 +14,8 @@ from typing import Any, Protocol
 
 import h5py
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..errors import ModelError, StorageError
 from ..files import problem, writing
 from ..model import checks
@@ -28,8 +28,6 @@ from ..system.system import System
 from . import hdf5, remembered
 from .layout import write_layout
 from .layout_sensors import DATA, write_listing
-
-FloatArray = NDArray[np.float64]
 
 FORMAT = "ancf results"
 VERSION = 1

@@ -12,14 +12,12 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..elements.shapes import gauss, hermite
 from ..model.beam import Beam
 from .faces import History
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 Vectors = tuple[FloatArray, FloatArray, FloatArray]
 
 #: Element forces that are computed at once, and in all: of a longer history every second, third, ... state.

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any, NoReturn, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..system.core import Core, apply_load
 from ..system.energy import energies
 from ..system.system import System
@@ -15,8 +15,6 @@ from .newmark import FURTHEST, LAST, UNLIMITED, Rule, Scheme, advance, balance
 from .rescue import Rescue
 from .sampling import Output, Sampling
 from .status import EVENT, INVERTED, OK, RETRIES, SINGULAR, STEPS, TOO_MANY, UNBALANCED
-
-FloatArray = NDArray[np.float64]
 
 #: A step is cut into at most 2 ** MOST_HALVINGS parts.
 MOST_HALVINGS = 10

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..arrays import FloatArray
 from ..connections.sliding import FREE, FROZEN, LEFT, PULLS, SlidingBatch
 from ..errors import SolveError
 from ..model.joints import Slide
 from ..system.system import System
-
-FloatArray = NDArray[np.float64]
 
 
 def happen(system: System, q: FloatArray, v: FloatArray, code: int, when: str) -> None:

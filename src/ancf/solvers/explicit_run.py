@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
 from ..model.integrators import Explicit
 from ..system.core import apply_load
@@ -18,8 +19,6 @@ from .stability import stable_limit
 from .start import consistent_start
 from .status import DIVERGED, SINGULAR
 from .stepping import Run
-
-FloatArray = NDArray[np.float64]
 
 #: A step may be larger than asked for by this: estimates about two states differ a little.
 SLACK = 1.01

@@ -11,13 +11,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
+from ..arrays import FloatArray, IntArray
 from ..system.system import System
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 Solve = Callable[[FloatArray], FloatArray]
 
 #: Stiffness of a mode, as a share of the sum of the sizes of its terms, that counts as zero.

@@ -11,9 +11,9 @@ Reference: Prathap, The Finite Element Method in Structural Mechanics (1993), on
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
+from ..arrays import FloatArray
 from ..batches import Batches
 from ..elements.cable import CableBatch
 from ..elements.lanes import LANES, gauss_table
@@ -22,8 +22,6 @@ from ..linalg.sparse import to_sparse
 from ..system.contacts import touching
 from ..system.core import apply_supports, assemble, residual, restrict
 from ..system.system import System
-
-FloatArray = NDArray[np.float64]
 
 #: EA L^2/EI of an element up to which it bends freely, and that left at the other points.
 FREE, LEFT = 1e3, 10.0

@@ -15,24 +15,15 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..compiled import inline_kernel, optional
-from ..connections.contact import (
-    DAMPING,
-    FORCE,
-    STIFFNESS,
-    add_row,
-    touch,
-)
+from ..connections.contact import DAMPING, FORCE, STIFFNESS, add_row, touch
 from ..connections.contact_build import no_contacts
 from ..connections.spring_damper import spring_gradient, spring_state
 from ..linalg.block_ldl import solve
 from ..system.core import to_local
 from ..system.system import System
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Springs that are corrected at once; beyond them the iteration slows down and the matrix is renewed.
 MOST = 24

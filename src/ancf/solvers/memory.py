@@ -7,11 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from .corotation import Frames
 from .low_rank import Patches
 from .status import COUNTS
-
-FloatArray = NDArray[np.float64]
 
 
 class Memory(NamedTuple):

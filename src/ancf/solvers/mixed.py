@@ -12,13 +12,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..arrays import FloatArray
 from ..batches import Batches
 from ..elements.registry import offered
-
-FloatArray = NDArray[np.float64]
 
 
 class Mixed:

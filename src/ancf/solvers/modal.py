@@ -10,11 +10,11 @@ found at all is a matter of inertia: K - sigma M has a negative pivot for each e
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, eigh, null_space
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import LinearOperator, SuperLU, eigsh, splu
 
+from ..arrays import FloatArray, IntArray
 from ..errors import SolveError
 from ..linalg.sparse import to_sparse
 from ..model import checks
@@ -23,9 +23,6 @@ from ..system.core import assemble, follow_supports, restrict
 from ..system.system import System
 from .free_spin import FREE_SPIN, Spin
 from .roundoff import shaken
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 MANY = 4000  # unknowns up to which joints are eliminated by dense algebra
 DENSE = 300  # unknowns up to which all modes are computed by dense algebra

@@ -22,7 +22,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..batches import add_tangents, find_events
 from ..compiled import formula, inline_kernel, kernel
@@ -60,8 +59,6 @@ from .status import (
     SLOW,
     STEPS,
 )
-
-FloatArray = NDArray[np.float64]
 
 #: Least theta/(1 - theta) that is believed before a step has shown its own contraction.
 STALE = 0.03

@@ -25,11 +25,9 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
+from ..arrays import FloatArray, IntArray
 from .collocation import Collocation, collocation
 from .status import DIVERGED, NOT_FINITE, OK, SINGULAR
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 MAX_ITERATIONS = 12
 #: Contraction above which the matrices are renewed: during a step, and after it.

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
+from ..arrays import FloatArray, IntArray
 from ..linalg.sparse import to_sparse
 from ..system.core import Tables, assemble, restrict
 from ..system.system import System
 from .radau import Matrices
 from .stages import place_rows, stage_powers, stage_residuals
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Steps of the difference formulas for given motions: this part of a step, at least so many seconds.
 SPACING, LEAST_SPACING = 0.25, 1e-6

@@ -6,8 +6,8 @@ import time as clock
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..errors import SolveError
 from ..model.integrators import Radau
 from ..system.core import first_event
@@ -22,9 +22,6 @@ from .sampling import sample_rows, sampling_of
 from .start import consistent_start
 from .status import DIVERGED, NOT_FINITE, OK, SINGULAR
 from .stepping import BLOCK_SECONDS
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 BLOCK_BYTES = 32e6  # of stored states, and of samples
 #: Times of samples at which whole states are interpolated at once.

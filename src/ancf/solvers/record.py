@@ -6,12 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..arrays import FloatArray
 from .status import COUNTS
-
-FloatArray = NDArray[np.float64]
 
 
 class Recorder(Protocol):

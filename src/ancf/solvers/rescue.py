@@ -18,10 +18,10 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
+from ..arrays import FloatArray, IntArray
 from ..system.core import (
     Core,
     Tables,
@@ -37,9 +37,6 @@ from .differences import accept, differences
 from .memory import H_FACTOR, NORM, WORST, Memory
 from .newmark import LARGEST_ROUND_OFF, Rule, Scheme
 from .status import EVENT, FACTORIZATIONS, ITERATIONS, JACOBIANS, NOT_FINITE, OK, SINGULAR, SLOW
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Iterations, and cuts of one correction, before a guess is given up.
 MOST_ITERATIONS, MOST_CUTS = 40, 8

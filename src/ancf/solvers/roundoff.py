@@ -11,10 +11,9 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..system.core import follow_supports
 from ..system.system import System
-
-FloatArray = NDArray[np.float64]
 
 #: Changes of a state, and their size in units of the last digit.
 TIMES, DIGITS = 4, 2.0

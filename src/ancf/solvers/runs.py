@@ -6,14 +6,10 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Protocol, cast
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..arrays import FloatArray
 from ..model.integrators import Integrator
 from ..system.system import System
 from .record import Progress, Recorder, Stats
-
-FloatArray = NDArray[np.float64]
 
 
 class AnyRun(Protocol):

@@ -9,12 +9,10 @@ and the stiffness rise to its value: the cable comes to its length from above, a
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..elements.registry import offered, offers
 from ..system.system import System
-
-FloatArray = NDArray[np.float64]
 
 #: Share of its length by which a cable must be longer than its initial shape to hang slack.
 TIGHT = 1e-9

@@ -10,17 +10,15 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh_tridiagonal
 from scipy.sparse import csc_array
 
+from ..arrays import FloatArray
 from ..errors import SolveError
 from ..linalg.sparse import to_sparse
 from ..system.core import assemble, restrict, solve_matrix
 from ..system.system import System
 from .explicit import mass_factor
-
-FloatArray = NDArray[np.float64]
 
 #: Relative error of the eigenvalue, and the most Lanczos steps for it.
 SHARP, MOST_VECTORS = 2e-3, 200

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..errors import SolveError
 from ..system.core import (
     Tables,
@@ -20,8 +20,6 @@ from ..system.core import (
     solve_matrix,
 )
 from ..system.system import System
-
-FloatArray = NDArray[np.float64]
 
 #: Sweeps of refinement: the rows of joints have small pivots, friction depends on the normal force.
 SWEEPS = 4

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse.linalg import SuperLU, splu
 
+from ..arrays import FloatArray
 from ..errors import SolveError
 from ..linalg.sparse import to_sparse
 from ..model.beam import Beam
@@ -27,8 +27,6 @@ from ..system.core import (
 from ..system.system import System
 from .free_spin import Spin, is_neutral, softest_mode
 from .mixed import Mixed
-
-FloatArray = NDArray[np.float64]
 
 ACCEPTED = 1e-9  # of a correction, where round-off keeps it above the tolerance
 SLENDER = 5e5  # EA L^2/EI of a beam up to which ACCEPTED is above round-off

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..system.core import find_inverted
 from .free_spin import softest_mode
 from .static_iteration import MORE_MU, Iteration
 from .status import COLLAPSED
-
-FloatArray = NDArray[np.float64]
 
 TOLERANCE = 1e-12  # of a correction, positions relative to the size of the model
 MAX_ITERATIONS = 300  # in a load step

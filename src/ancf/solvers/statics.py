@@ -13,8 +13,8 @@ from __future__ import annotations
 import time as clock
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..connections.sliding import LEFT
 from ..system.core import apply_load, first_event, place_supports
 from ..system.system import System
@@ -24,8 +24,6 @@ from .record import Stats
 from .slack import LET_OUT, Slack
 from .static_iteration import Iteration
 from .static_path import follow_path, settle
-
-FloatArray = NDArray[np.float64]
 
 STENCIL_STEP = 1e-3  # of the differences that give rates of given motions, s
 MOST_EVENTS = 4  # openings and closings of a contact

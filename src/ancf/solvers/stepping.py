@@ -9,6 +9,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
 from ..model.integrators import Integrator
 from ..system.consistency import open_contacts
@@ -38,8 +39,6 @@ from .status import (
     TOO_MANY,
     UNBALANCED,
 )
-
-FloatArray = NDArray[np.float64]
 
 BLOCK_SECONDS = 0.1  # between two looks at the keyboard, the progress and the file
 BLOCK_BYTES = 32e6  # of stored states, and of samples

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..batches import Batches
 from ..bodies.build import inertia
 from ..compiled import Role, traits, with_role
@@ -35,8 +36,6 @@ from .numbering import Numbering
 from .probe import Probe, locate
 from .supports import Constraints
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 Parts = dict[str, Any]
 
 

@@ -8,13 +8,12 @@ from scipy.linalg import null_space, qr, svd
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 from ..linalg.sparse import to_sparse
 from ..model.joints import Slide
 from .core import assemble, constraints, restrict
 from .system import System
-
-FloatArray = NDArray[np.float64]
 
 #: Rank of the rows of the joints, relative to the largest.
 INDEPENDENT = 1e-9

@@ -5,16 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..connections.contact import ARC, ASIDE, FORCE, OVERLAP, contact_values
 from ..errors import ModelError
 from ..model.contact import Contact
 from ..model.model import Model
 from .joint_fields import JointFields
 from .system import System
-
-FloatArray = NDArray[np.float64]
 
 
 class ContactFields(JointFields):

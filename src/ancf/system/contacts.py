@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
+from ..arrays import FloatArray
 from ..compiled import traits
 from .core import Core, apply_supports
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..batches import (
     Batches,
     add_forces,
@@ -18,9 +18,6 @@ from ..batches import (
 )
 from ..compiled import inline_kernel, kernel
 from ..linalg.block_ldl import Factor, factorise, solve
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 class Supports(NamedTuple):

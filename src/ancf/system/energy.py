@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from .core import inertia, total_strain_energy
 from .system import System
-
-FloatArray = NDArray[np.float64]
 
 
 def energies(system: System, q: FloatArray, v: FloatArray) -> FloatArray:

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..elements.measures import axial_strain, axial_strain_rate, curvature, normal_curvature
 from ..elements.shapes import gauss, hermite
 from ..errors import ModelError
@@ -16,9 +16,6 @@ from ..model.lookup import own_point, parse_point
 from ..model.points import Point
 from . import sections
 from .probe import R_X, R_XX, R_Y, R_Z, BeamProbe, Probe, locate
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 class Fields:

@@ -7,11 +7,10 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..model.functions import TimeFunction
 from .core import Tables
 from .supports import Constraints, Rotation
-
-FloatArray = NDArray[np.float64]
 
 #: Points of the difference formulas for the rates of given motions: sixth order.
 STENCIL = 7

@@ -7,13 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import IntArray
 from ..batches import Batches
 from ..compiled import Role, with_role
 from .core import Joints, Supports, assemble
 from .matrix import Places
-
-IntArray = NDArray[np.int64]
-
 
 #: Least mass and stiffness of a row, as a share of the largest of its joint.
 FLOOR = 1e-2

@@ -7,8 +7,8 @@ from importlib import import_module
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..elements.shapes import gauss, hermite
 from ..loads.moment import MomentBatch
 from ..loads.section_moment import SectionMomentBatch
@@ -22,8 +22,6 @@ from ..model.loads import DistributedLoad, Force, Moment
 from ..model.model import Model
 from .probe import R_X, R_Y, R_Z, Probe, R
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 Pattern = tuple[IntArray, FloatArray]  # slots and factors
 Locate = Callable[..., Probe]
 

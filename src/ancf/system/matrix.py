@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-IntArray = NDArray[np.int64]
+from ..arrays import IntArray
 
 
 def block_pairs(batches: list[Any]) -> IntArray:

@@ -14,14 +14,12 @@ rigid body     1      r, d_1, d_2, d_3 (directors)
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..elements.registry import ELEMENTS
 from ..model.beam import Beam
 from ..model.bodies import Body, PointMass, RigidBody
 from ..model.elements import KINDS
-
-FloatArray = NDArray[np.float64]
 
 
 def layout(body: Body) -> tuple[int, int, int]:

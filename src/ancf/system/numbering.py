@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import IntArray
 from ..connections.joint_build import Row, rigid, rows_of
 from ..model.bodies import RigidBody
 from ..model.connections import Spherical
@@ -13,8 +14,6 @@ from ..model.model import Model
 from ..model.points import Point
 from .nodes import layout, names_of, node_of
 from .probe import Probe, locate
-
-IntArray = NDArray[np.int64]
 
 
 class Numbering:

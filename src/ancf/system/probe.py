@@ -5,16 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..elements.registry import ELEMENTS
 from ..model.beam import Beam
 from ..model.bodies import Body
 from ..model.elements import KINDS
 from ..model.points import Point
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Rows of a probe's factors; a cable has the first three.
 R, R_X, R_XX, R_Y, R_Z, R_YX, R_ZX = range(7)

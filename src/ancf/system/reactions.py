@@ -5,15 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.connections import Spring
 from ..model.names import unknown
 from .core import apply_load, residual
 from .system import System
-
-FloatArray = NDArray[np.float64]
 
 AT_REST = 1e-9  # largest velocity, of a position in sizes of the model per s
 BALANCED = 1e-3  # out-of-balance force of a body's nodes, of the largest force

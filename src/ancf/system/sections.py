@@ -7,16 +7,14 @@ deformation gradient at (y, z) is F = [a + y B + z C, b, c].  Arrays have the sh
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..elements.shapes import gauss
 from ..elements.solid_build import stiffnesses
 from ..elements.solid_shapes import initial_vectors
 from ..elements.solid_strains import Vectors, dot, scalar_products
 from ..model.beam import Beam
 from .probe import R_X, R_Y, R_YX, R_Z, R_ZX, BeamProbe
-
-FloatArray = NDArray[np.float64]
 
 
 def section(probe: BeamProbe, states: FloatArray) -> Vectors:

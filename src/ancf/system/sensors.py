@@ -7,14 +7,12 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import IntArray
 from ..model.beam import Beam
 from ..model.connections import Connection, Spring
 from ..model.points import Point
 from .probe import Probe, R
-
-IntArray = NDArray[np.int64]
 
 
 def _none() -> IntArray:

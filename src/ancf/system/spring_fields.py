@@ -5,14 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..model.connections import Spring
 from ..model.names import unknown
 from ..model.points import Point
 from .fields import Fields
-
-FloatArray = NDArray[np.float64]
 
 
 class SpringFields(Fields):

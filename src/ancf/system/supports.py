@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.beam import Beam
 from ..model.bodies import Body, RigidBody
@@ -17,8 +17,6 @@ from ..model.model import Model
 from ..model.supports import Clamp, Hold, Pin, Support
 from .nodes import node_of, start_vectors
 from .numbering import Numbering
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

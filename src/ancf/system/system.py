@@ -6,8 +6,8 @@ import warnings
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import FloatArray, IntArray
 from ..compiled import Role, with_role
 from ..errors import ModelError
 from ..linalg.ordering import fill_pattern
@@ -29,9 +29,6 @@ from .numbering import Numbering
 from .probe import Probe, locate
 from .sensors import Listing
 from .supports import collect
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 class System:

@@ -10,14 +10,14 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from ancf.errors import ModelError
-from ancf.files import exists
-from ancf.model.checks import nearest
-from ancf.model.file.build import Builder
-from ancf.model.file.entries import FileEntry
-from ancf.model.file.messages import combined, of_validation
-from ancf.model.model import Model
-from ancf.model.settings import EquilibriumSettings, SimulationSettings
+from ...errors import ModelError
+from ...files import exists
+from ..checks import nearest
+from ..model import Model
+from ..settings import EquilibriumSettings, SimulationSettings
+from .build import Builder
+from .entries import FileEntry
+from .messages import combined, of_validation
 
 __all__ = ["Study", "parse_study", "read_study", "read_toml", "schema"]
 

@@ -6,9 +6,16 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
-from ancf.errors import ModelError
-from ancf.model.bodies import Body
-from ancf.model.file.entries import (
+from ...errors import ModelError
+from ..bodies import Body
+from ..integrators import integrator_of
+from ..kinds import GROUPS
+from ..model import Model
+from ..names import unknown
+from ..rebuild import add_item
+from ..section import Section
+from ..settings import EquilibriumSettings, SimulationSettings
+from .entries import (
     AnyBody,
     BeamEntry,
     CircleEntry,
@@ -19,14 +26,7 @@ from ancf.model.file.entries import (
     SectionEntry,
     SimulationEntry,
 )
-from ancf.model.file.messages import place
-from ancf.model.integrators import integrator_of
-from ancf.model.kinds import GROUPS
-from ancf.model.model import Model
-from ancf.model.names import unknown
-from ancf.model.rebuild import add_item
-from ancf.model.section import Section
-from ancf.model.settings import EquilibriumSettings, SimulationSettings
+from .messages import place
 
 T = TypeVar("T")
 Shaped = SectionEntry | RectangleEntry | CircleEntry | MomentsEntry

@@ -6,19 +6,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, Union
 
 from pydantic import Discriminator, Field, Tag
 
-from ancf.model.file.fields import (
-    ElementName,
-    Entry,
-    Inertia,
-    Integrator,
-    Matrix,
-    NonNegative,
-    Positive,
-    StrainName,
-    Vector,
-)
-from ancf.model.kind import Kind
-from ancf.model.kinds import CONNECTIONS, LOADS, SUPPORTS
+from ..kind import Kind
+from ..kinds import CONNECTIONS, LOADS, SUPPORTS
+from .fields import ElementName, Entry, Inertia, Integrator, Matrix, NonNegative, Positive, StrainName, Vector
 
 
 class SectionEntry(Entry):

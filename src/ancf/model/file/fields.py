@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.bodies import as_inertia
-from ancf.model.elements import KINDS
-from ancf.model.functions import TimeFunction
-from ancf.model.integrators import INTEGRATORS, integrator_of, table_schema
-from ancf.model.state_function import check_force
+from ...errors import ModelError
+from .. import checks
+from ..bodies import as_inertia
+from ..elements import KINDS
+from ..functions import TimeFunction
+from ..integrators import INTEGRATORS, integrator_of, table_schema
+from ..state_function import check_force
 
 if TYPE_CHECKING:  # the names are known at run time alone
     ElementName: TypeAlias = str

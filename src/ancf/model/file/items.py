@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from ancf.model.file.fields import (
+from .fields import (
     Entry,
     ForceFunction,
     ItemName,

@@ -8,10 +8,10 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from ancf.errors import ModelError
-from ancf.model.checks import listed, nearest, shown
-from ancf.model.file.entries import NESTED, TAGGED, FileEntry
-from ancf.model.file.fields import Entry
+from ...errors import ModelError
+from ..checks import listed, nearest, shown
+from .entries import NESTED, TAGGED, FileEntry
+from .fields import Entry
 
 MOST_LINES = 10
 WANTED = {

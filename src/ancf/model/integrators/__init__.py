@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.integrators.base import FORMULATIONS, Coefficients, Integrator, NewmarkFamily
-from ancf.model.integrators.explicit import Explicit
-from ancf.model.integrators.generalized_alpha import GeneralizedAlpha
-from ancf.model.integrators.newton import Newton
-from ancf.model.integrators.radau import Radau
-from ancf.model.integrators.trapezoidal import Trapezoidal
+from ...errors import ModelError
+from .. import checks
+from .base import FORMULATIONS, Coefficients, Integrator, NewmarkFamily
+from .explicit import Explicit
+from .generalized_alpha import GeneralizedAlpha
+from .newton import Newton
+from .radau import Radau
+from .trapezoidal import Trapezoidal
 
 __all__ = [
     "FORMULATIONS",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import Field, asdict, dataclass, field, fields
 from typing import Any, ClassVar, NamedTuple
 
-from ancf.model.integrators.newton import Newton
+from .newton import Newton
 
 #: How joints with multipliers are kept: by their second derivatives (Baumgarte), their first ones, these with
 #: the positions corrected (Gear, Gupta & Leimkuhler), the positions.

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ancf.model import checks
-from ancf.model.integrators.base import FORMULATIONS, Coefficients, NewmarkFamily, formulation, option
-from ancf.model.integrators.newton import Newton
+from .. import checks
+from .base import FORMULATIONS, Coefficients, NewmarkFamily, formulation, option
+from .newton import Newton
 
 
 @dataclass(frozen=True)

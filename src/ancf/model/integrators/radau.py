@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.integrators.base import Integrator, option
+from ...errors import ModelError
+from .. import checks
+from .base import Integrator, option
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ancf.errors import ModelError
-from ancf.model import checks
-from ancf.model.integrators.base import Coefficients, NewmarkFamily, formulation
-from ancf.model.integrators.newton import Newton
+from ...errors import ModelError
+from .. import checks
+from .base import Coefficients, NewmarkFamily, formulation
+from .newton import Newton
 
 
 @dataclass(frozen=True)

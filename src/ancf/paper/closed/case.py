@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import ancf
 
 if TYPE_CHECKING:
-    from ancf import Beam, Model
+    from ... import Beam, Model
 
 LENGTH = 2.0  # m, of the beams
 SIDE, MODULUS, DENSITY, NU = 0.1, 1e9, 1000.0, 0.3  # m, N/m^2, kg/m^3, of beams with a section

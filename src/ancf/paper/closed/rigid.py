@@ -12,7 +12,7 @@ import ancf
 from .case import Case
 
 if TYPE_CHECKING:
-    from ancf import Model, RigidBody
+    from ... import Model, RigidBody
 
 G = 9.81  # m/s^2
 LENGTH = 1.0  # m, of the rod; it has 1 kg

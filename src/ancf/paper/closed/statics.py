@@ -10,7 +10,7 @@ import ancf
 from .case import EI, LENGTH, MODULUS, NU, RHO_A, SIDE, Case, cable, solid
 
 if TYPE_CHECKING:
-    from ancf import State
+    from ... import State
 
 WEIGHT = 9.81 * RHO_A  # N/m
 SPAN, ARC = 10.0, 10.5  # m, of the catenaries

@@ -6,12 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import FloatArray, IntArray
 from ...model.elements import KINDS
-from ..scene import FloatArray, Link, Marker, Scene, Strip, Thread, Triad, looks
-
-IntArray = NDArray[np.int64]
+from ..scene import Link, Marker, Scene, Strip, Thread, Triad, looks
 
 
 def part_kinds() -> tuple[str, ...]:

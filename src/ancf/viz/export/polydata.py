@@ -9,14 +9,15 @@ from typing import Any
 
 import numpy as np
 
+from ...arrays import FloatArray, IntArray
 from ...errors import ModelError
 from ...files import drafted, writing
 from ...model import checks
 from ...model.beam import Beam
 from ...results.modes import Modes
-from ..scene import QUANTITIES, FloatArray, Scene, make_scene
+from ..scene import QUANTITIES, Scene, make_scene
 from ..scene.sampling import CORNERS
-from .parts import IntArray, Part, part_kinds, parts
+from .parts import Part, part_kinds, parts
 from .vtkhdf import TOPOLOGIES, Mesh, TemporalFile
 
 SUFFIXES = (".vtkhdf", ".hdf")

@@ -7,16 +7,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ...arrays import FloatArray
 from ...files import cell, drafted
 from ...model.beam import Beam
 from ...model.points import Point
 from ...results.result import Result
 from ...results.sensors import Sensors
 
-FloatArray = NDArray[np.float64]
 Column = tuple[str, FloatArray]
 
 #: Components of multipliers by unit: forces come first, what holds axes follows.

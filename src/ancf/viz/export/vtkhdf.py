@@ -16,8 +16,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from ...arrays import FloatArray, IntArray
 
 VERSION = (2, 2)
 #: Groups of cells, in the order in which the reader numbers them.

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...arrays import FloatArray
 from ...errors import ModelError
 from ...model import checks
 from .. import style
 from .picture import Picture
 from .projection import Projection, parse_plane, projection
-from .questions import QUANTITIES, SCALARS, FloatArray, ask, label, quantity_of
+from .questions import QUANTITIES, SCALARS, ask, label, quantity_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

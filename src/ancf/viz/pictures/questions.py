@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import FloatArray
 from ...errors import ModelError
 from ...model import checks
 from ...model.beam import Beam
@@ -15,8 +15,6 @@ from ...model.kind import CONTACT, JOINT, SLIDE, SPRING
 from ...model.kinds import CONNECTIONS, kind_of
 from ...model.names import POINT_LABEL
 from ...model.points import Point
-
-FloatArray = NDArray[np.float64]
 
 
 class Question(NamedTuple):

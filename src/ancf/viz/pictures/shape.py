@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...arrays import FloatArray
 from ...errors import ModelError
 from ...model import checks
 from .. import style
 from ..scene import Link, Marker, Scene, Strip, Thread, Triad, chosen_times, make_scene
 from .picture import Picture
 from .plot import size_of
-from .projection import FloatArray, Projection, parse_plane, projection
+from .projection import Projection, parse_plane, projection
 from .stage import Stage, add_lines, check_color
 
 if TYPE_CHECKING:

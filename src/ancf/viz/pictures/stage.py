@@ -7,8 +7,8 @@ from dataclasses import astuple
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import FloatArray
 from ...errors import ModelError
 from ...model import checks
 from .. import style
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from matplotlib.colors import Normalize
     from matplotlib.figure import Figure
 
-FloatArray = NDArray[np.float64]
 
 COLORS = (*QUANTITIES, "plain")
 #: How wide lines are drawn, points.

@@ -1,7 +1,8 @@
 """A result as things to draw at some times; viewer, movies and exports share it. Needs no extra."""
 
+from ...arrays import FloatArray
 from .compose import chosen_times, make_scene
-from .parts import QUANTITIES, FloatArray, Link, Marker, Scene, Strip, Thread, Triad, looks
+from .parts import QUANTITIES, Link, Marker, Scene, Strip, Thread, Triad, looks
 
 __all__ = [
     "QUANTITIES",

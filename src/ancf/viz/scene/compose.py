@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import FloatArray, IntArray
 from ...errors import ModelError
 from ...model import checks
 from ...model.beam import Beam
@@ -22,9 +22,7 @@ from ...results.result import Result
 from ...results.state import State
 from ...system.spring_fields import SpringFields
 from . import sampling
-from .parts import FloatArray, Link, Marker, Scene, Strip, Thread, Triad
-
-IntArray = NDArray[np.int64]
+from .parts import Link, Marker, Scene, Strip, Thread, Triad
 
 FRAMES, POINTS = 240, 1500
 #: Largest displacement of a mode as it is drawn, of the model's size.

@@ -5,13 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import BoolArray, FloatArray
 from ...model.kind import Look
 from ...model.kinds import marked
-
-FloatArray = NDArray[np.float64]
-BoolArray = NDArray[np.bool_]
 
 #: What the points of a thread know beside their place, with units.
 QUANTITIES = {"tension": "N", "curvature": "1/m", "speed": "m/s"}

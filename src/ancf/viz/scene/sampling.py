@@ -6,13 +6,14 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from ...arrays import FloatArray
 from ...errors import ModelError
 from ...model.beam import Beam
 from ...model.section import Section
 from ...model.shapes import Circle, Rectangle
 from ...system.fields import Fields
 from ...system.probe import R_Y, R_Z
-from .parts import FloatArray, Thread
+from .parts import Thread
 
 #: Points per element, at most: a cubic looks smooth.
 FINEST = 16

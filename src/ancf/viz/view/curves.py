@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from ...arrays import FloatArray
 from ...errors import ModelError
 from ..scene import Scene
-from .curve import Curve, FloatArray, decimated, within
+from .curve import Curve, decimated, within
 from .histories import Histories
 from .traces import Trace, short_label
 

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...arrays import FloatArray
 from ...model.kinds import by_word
-from ..scene import QUANTITIES, FloatArray, Scene, Thread, looks
+from ..scene import QUANTITIES, Scene, Thread, looks
 from .curve import Curve
 from .traces import Trace
 

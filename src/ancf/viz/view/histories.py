@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from ...arrays import FloatArray
 from ...model.beam import Beam
 from ...system.joint_fields import JointFields
 from ...system.spring_fields import SpringFields
-from .curve import FloatArray
 
 #: States at most, and numbers of their q and v at most: 64 MB each.
 STATES, NUMBERS = 20_000, 8_000_000

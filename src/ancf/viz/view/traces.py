@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from ...arrays import FloatArray
 from ..scene import Scene
-from .curve import FloatArray, within
+from .curve import within
 from .histories import Histories
 
 #: How many are shown when none is asked for, and points of a path at most.
