@@ -13,7 +13,8 @@ from ancf.solvers import corotation as turning
 from ancf.solvers.corotation import remember, turn, turn_back, turn_forth, turn_rows
 from ancf.solvers.low_rank import eliminate
 from ancf.solvers.memory import H_PREV, KNOWN, allocate
-from ancf.solvers.newmark import Scheme, predict, worst_unknown
+from ancf.solvers.newmark import worst_unknown
+from ancf.solvers.scheme import Scheme, predict
 from ancf.system.inputs import differences
 from ancf.system.system import System
 from helpers import SOLIDS, cable, rotation, shaken

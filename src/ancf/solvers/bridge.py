@@ -11,9 +11,10 @@ from ..system.core import Core, apply_load
 from ..system.energy import energies
 from ..system.system import System
 from .memory import H_FACTOR, KNOWN, VECTORS, Memory
-from .newmark import FURTHEST, LAST, UNLIMITED, Rule, Scheme, advance, balance
+from .newmark import FURTHEST, LAST, UNLIMITED, Rule, advance, balance
 from .rescue import Rescue
 from .sampling import Output, Sampling
+from .scheme import Scheme
 from .status import EVENT, INVERTED, OK, RETRIES, SINGULAR, STEPS, TOO_MANY, UNBALANCED
 
 #: A step is cut into at most 2 ** MOST_HALVINGS parts.

@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..batches import add_tangents, find_events
-from ..compiled import formula, inline_kernel, kernel
+from ..compiled import inline_kernel, kernel
 from ..system.core import (
     assemble,
     constraint_rows,
@@ -43,8 +43,9 @@ from ..system.core import (
 from ..system.powers import powers
 from .corotation import remember, turn, turn_back, turn_forth, turn_rows
 from .low_rank import correct, forget, move_on
-from .memory import ETA, H_FACTOR, H_PREV, KNOWN, NOISE, NORM, POWER, WORST
+from .memory import ETA, H_FACTOR, NOISE, NORM, POWER, WORST
 from .sampling import sample
+from .scheme import coefficients, finish, predict, restore
 from .status import (
     DIVERGED,
     EVENT,
@@ -57,7 +58,6 @@ from .status import (
     OK,
     SINGULAR,
     SLOW,
-    STEPS,
 )
 
 #: Least theta/(1 - theta) that is believed before a step has shown its own contraction.
@@ -69,8 +69,6 @@ LARGEST_ROUND_OFF = 1e-7
 
 #: Attempts at a step: 0 with the matrix that is kept, 1 with a new one, 2 with one for every iteration.
 LAST = 2
-#: Steps of one length after which the predictor knows the motion.
-FAMILIAR = 3.0
 
 #: Largest change of a slope, or of a position in sizes of the model, in a step that is looked at closely.
 FURTHEST, UNLIMITED = 0.5, 1e300
@@ -81,15 +79,6 @@ HELD = 0.1
 #: Error of the accelerations that is left in a step with constraints: what is left in q returns divided
 #: by B, with one sign, where a joint keeps it from being felt as a displacement.
 JOINTED = 1e-6
-
-
-class Scheme(NamedTuple):
-    """Coefficients of the Newmark family."""
-
-    beta: float
-    gamma: float
-    alpha_m: float
-    alpha_f: float
 
 
 class Rule(NamedTuple):
@@ -107,51 +96,6 @@ class Rule(NamedTuple):
     furthest: float  # largest change of an unknown in a step, in units of the size of the model or of a slope
     first: int  # attempts at a step, from 0 to LAST
     last: int
-
-
-@formula
-def coefficients(h, scheme):
-    """B and G of a step h."""
-    c = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
-    return scheme.beta * h * h * c, scheme.gamma * h * c
-
-
-@inline_kernel
-def predict(s, h, scheme, keep):
-    """Accelerations extrapolated from the last four steps; q, v at the end of the step.
-
-    2 (a_n - a_n-2) + a_n-3 is exact for accelerations that are quadratic in time and for vibrations that
-    the step does not resolve, which change their sign from step to step: extrapolating the smooth part
-    alone would triple them.  With fewer steps known it is a_n + a_n-1 - a_n-2, or a_n-1.  keep = 0 is the
-    cautious guess of no acceleration.
-    """
-    am, af = scheme.alpha_m, scheme.alpha_f
-    c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
-    hh, be, ga = h * h, scheme.beta, scheme.gamma
-    known = s.memo[KNOWN] if s.memo[H_PREV] == h else 0.0
-    w0, w1, w2, w3 = keep, 0.0, 0.0, 0.0
-    if known >= FAMILIAR:
-        w0, w2, w3 = 2.0 * keep, -2.0 * keep, keep
-    elif known >= 2.0:
-        w1, w2 = keep, -keep
-    elif known >= 1.0:
-        w0, w1 = 0.0, keep
-    for i in range(s.q.shape[0]):
-        q, v, a = s.q[i], s.v[i], s.a[i]
-        s.q0[i], s.v0[i], s.a0[i] = q, v, a
-        guess = w0 * a + w1 * s.a1[i] + w2 * s.a2[i] + w3 * s.a3[i]
-        bar = s.abar[i]
-        bar_new = c1 * guess + c2 * a + c3 * bar
-        s.a[i] = guess
-        s.q[i] = q + h * v + hh * ((0.5 - be) * bar + be * bar_new)
-        s.v[i] = v + h * ((1.0 - ga) * bar + ga * bar_new)
-
-
-@inline_kernel
-def restore(s):
-    """Back to the start of the step."""
-    for i in range(s.q.shape[0]):
-        s.q[i], s.v[i], s.a[i] = s.q0[i], s.v0[i], s.a0[i]
 
 
 @inline_kernel
@@ -339,21 +283,6 @@ def check_sections(core, s):
         return OK
     s.memo[WORST] = slot
     return INVERTED
-
-
-@inline_kernel
-def finish(s, h, scheme):
-    """Accept the step: algorithmic acceleration and memory of the predictor."""
-    am, af = scheme.alpha_m, scheme.alpha_f
-    c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
-    for i in range(s.a.shape[0]):
-        s.abar[i] = c1 * s.a[i] + c2 * s.a0[i] + c3 * s.abar[i]
-        s.a3[i] = s.a2[i]
-        s.a2[i] = s.a1[i]
-        s.a1[i] = s.a0[i]
-    s.memo[KNOWN] = s.memo[KNOWN] + 1.0 if s.memo[H_PREV] == h else 1.0
-    s.memo[H_PREV] = h
-    s.counts[STEPS] += 1
 
 
 @kernel

@@ -35,7 +35,8 @@ from ..system.core import (
 from ..system.system import System
 from .differences import accept, differences
 from .memory import H_FACTOR, NORM, WORST, Memory
-from .newmark import LARGEST_ROUND_OFF, Rule, Scheme
+from .newmark import LARGEST_ROUND_OFF, Rule
+from .scheme import Scheme
 from .status import EVENT, FACTORIZATIONS, ITERATIONS, JACOBIANS, NOT_FINITE, OK, SINGULAR, SLOW
 
 #: Iterations, and cuts of one correction, before a guess is given up.

@@ -22,9 +22,10 @@ from .events import happen
 from .formulations import FORMULATIONS
 from .low_rank import room_for_patches
 from .memory import H_FACTOR, H_PREV, KNOWN, NORM, WORST, Memory, allocate
-from .newmark import UNLIMITED, Rule, Scheme, advance, balance
+from .newmark import UNLIMITED, Rule, advance, balance
 from .record import Progress, Recorder, Stats
 from .sampling import Output, sample, sampling_of
+from .scheme import Scheme
 from .start import consistent_start
 from .status import (
     COLLAPSED,
