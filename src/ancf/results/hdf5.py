@@ -106,7 +106,7 @@ def _growing(path: Path) -> Any:
         time.sleep(pause)
         try:
             with Unmarked(path) as plain, h5py.File(plain, "r") as file:
-                _look_over(path, file, plain.size)
+                _look_over(path, file, whole=True)
             return h5py.File(path, "r", libver="latest", swmr=True)
         except ModelError:
             raise
@@ -116,16 +116,16 @@ def _growing(path: Path) -> Any:
     raise damaged(path, found)
 
 
-def _look_over(path: Path, file: Any, size: int | None = None) -> None:
-    """Refuse data that are kept elsewhere; with a size read all metadata, and check that data are inside."""
+def _look_over(path: Path, file: Any, whole: bool = False) -> None:
+    """Refuse data that are kept elsewhere; of the whole file read all metadata and see that data are there."""
     for name, item in _items(path, h5py.h5g.open(file.id, b"/")):
         if isinstance(item, h5py.h5d.DatasetID):
             plan = item.get_create_plist()
             if plan.get_external_count() or plan.get_layout() == h5py.h5d.VIRTUAL:
                 raise ModelError(str(path), f'is refused: "{name}" keeps its data in another file')
-            if size is not None:
-                _inside(item, plan.get_layout(), size)
-        if size is not None:
+            if whole:
+                _inside(item, plan.get_layout(), path)
+        if whole:
             _read_attributes(item)
 
 
@@ -157,13 +157,14 @@ def _read_attributes(item: Any) -> None:
         whole.attrs[key]
 
 
-def _inside(data: Any, layout: int, size: int) -> None:
+def _inside(data: Any, layout: int, path: Path) -> None:
     """Raise OSError when a piece of a data set is beyond the end of its file."""
     pieces: list[int] = []
     if layout == h5py.h5d.CHUNKED:
         data.chunk_iter(lambda chunk: pieces.append(chunk.byte_offset + chunk.size))
     elif layout == h5py.h5d.CONTIGUOUS and data.get_offset() is not None:
         pieces.append(data.get_offset() + data.get_storage_size())
+    size = path.stat().st_size  # now: a run may have written more since the file was opened
     if pieces and max(pieces) > size:
         raise OSError(f"it is cut off: {size} of at least {max(pieces)} bytes are there")
 

@@ -205,7 +205,7 @@ class Run:
             sample(self.sampling, m.q, m.v, out.samples[n])
 
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
-        if self.memory.memo[KNOWN] == 0.0:  # a start, perhaps with a jump: looked at closely
+        if self.memory.memo[KNOWN] == 0.0 and self.system.core.damped:  # a start, perhaps with a jump
             return 0, SLOW
         core, tables = self.system.core, self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end)
         n, status = advance(core, self.memory, tables, h, self.scheme, self.rule(h), row, self.sampling, out)
