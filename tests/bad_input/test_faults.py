@@ -61,17 +61,6 @@ class TestNames:
                 other = self.NAMES[k]  # the same place in the model
                 assert np.array_equal(loaded.multiplier(name), memory.multiplier(other))
 
-    def test_file_with_names_instead_of_numbers(self, tmp_path):
-        result = stored(None, names=("first", "second"))
-        result.save(tmp_path / "r.h5")
-        with h5py.File(tmp_path / "r.h5", "r+", libver="latest") as file:
-            for item in list(file["joints"].values()):
-                file["joints"].move(item.name.split("/")[-1], item.attrs["name"])
-                del item.attrs["name"]
-        old = ancf.load(tmp_path / "r.h5")
-        assert set(old.joints) == {"first", "second"}
-        assert np.array_equal(old.multiplier("second"), result.multiplier("second"))
-
     def test_formulas_are_text_in_csv(self, tmp_path):
         names = ("=1+1", "+a", "-a", "@sum", "=cmd|' /C calc'!A0")
         write_csv(stored(tmp_path / "r.h5", names=names), tmp_path)

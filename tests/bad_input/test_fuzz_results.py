@@ -205,15 +205,6 @@ class TestFound:
             data(f"joints/{key}", lambda x: x[turned])(file)
         assert np.array_equal(ancf.load(path).multiplier("hinge"), whole.multiplier("hinge")[:, turned])
 
-    def test_a_file_that_does_not_keep_its_model_is_drawn(self, right, tmp_path):
-        path = tmp_path / "bare.h5"
-        shutil.copyfile(right, path)
-        with h5py.File(path, "r+", libver="latest") as file:
-            plain = json.loads(file.attrs["header"])
-            del plain["model"]
-            file.attrs["header"] = json.dumps(plain)
-        assert write_vtk(ancf.load(path), path.with_suffix(".vtkhdf")).exists()
-
     @pytest.mark.parametrize("version", [0, 2, "1.0"])
     def test_of_another_version(self, right, tmp_path, version):
         path = tmp_path / "later.h5"

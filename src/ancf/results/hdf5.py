@@ -117,7 +117,7 @@ def _growing(path: Path) -> Any:
 
 
 def _look_over(path: Path, file: Any, whole: bool = False) -> None:
-    """Refuse data that are kept elsewhere; of the whole file read all metadata and see that data are there."""
+    """Refuse data that are kept elsewhere; of the whole file read all metadata, see that data are there."""
     for name, item in _items(path, h5py.h5g.open(file.id, b"/")):
         if isinstance(item, h5py.h5d.DatasetID):
             plan = item.get_create_plist()

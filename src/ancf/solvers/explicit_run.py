@@ -46,6 +46,11 @@ class ExplicitRun(Run):
         self.method = integrator
 
     @property
+    def caution(self) -> str:
+        """Nothing: the stable step is what judges explicit steps, whose energy swings near it."""
+        return ""
+
+    @property
     def keeps_energy(self) -> bool:
         """Central differences take nothing out."""
         return True
