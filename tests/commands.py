@@ -1,7 +1,11 @@
 """What a command leaves, and Python in a process of its own."""
 
+import functools
+import os
 import subprocess
 import sys
+import traceback
+import warnings
 from pathlib import Path
 from typing import NamedTuple
 
@@ -20,6 +24,31 @@ class Ran(NamedTuple):
     def said(self):
         """Standard error as one line: the width of the screen does not matter."""
         return " ".join(self.err.split())
+
+
+def apart(test):
+    """Run a test in a forked process: an HDF5 library that could not write ends with it."""
+
+    @functools.wraps(test)
+    def run(*arguments, **named):
+        reading, writing = os.pipe()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)  # of a process with threads
+            child = os.fork()
+        if child == 0:
+            said = b""
+            try:
+                test(*arguments, **named)
+            except BaseException:
+                said = traceback.format_exc().encode()[-60_000:]
+            os.write(writing, said)
+            os._exit(1 if said else 0)
+        os.close(writing)
+        with open(reading, encoding="utf-8") as pipe:
+            said = pipe.read()
+        assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0, said
+
+    return run
 
 
 def python(code, *arguments, options=()):

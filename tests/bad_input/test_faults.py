@@ -23,7 +23,7 @@ from ancf.cli import screen
 from ancf.files import cell, exists, visible
 from ancf.results import hdf5
 from ancf.viz.export import write_csv
-from commands import LONG, MODEL, SIMULATION, write
+from commands import LONG, MODEL, SIMULATION, apart, write
 
 #: Classes of Unicode that turn the direction in which a text is written.
 TURNS = ("LRE", "RLE", "PDF", "LRO", "RLO", "LRI", "RLI", "FSI", "PDI")
@@ -173,6 +173,7 @@ class TestFullDisk:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
     @pytest.mark.parametrize("sensors", [None, ["beam.end"]])
+    @apart
     def test_the_error_carries_the_result(self, tmp_path, limited, sensors):
         path = tmp_path / "r.h5"
         with pytest.raises(ancf.SolveError, match=re_of(path) + ".*File too large") as caught:
@@ -185,16 +186,17 @@ class TestFullDisk:
         assert result.state(-1).q.shape == memory.q[-1].shape
         assert len(ancf.load(path).t) == len(result.t)
 
+    @apart
     def test_saving(self, tmp_path, limited):
         long = ancf.simulate(hanging(), t_end=5.0, step=1e-3)
         with pytest.raises(ancf.ModelError, match="File too large"):
             long.save(tmp_path / "r.h5")
 
-    @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # h5py says it as well
-    def test_nothing_fits(self, tmp_path, limited):
+    @pytest.mark.parametrize("room", [0, 3000, 60_000])
+    def test_nothing_fits(self, tmp_path, limited, room):
         import resource
 
-        resource.setrlimit(resource.RLIMIT_FSIZE, (3000, resource.RLIM_INFINITY))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (room, resource.RLIM_INFINITY))
         with pytest.raises(ancf.ModelError, match="File too large"):
             stored(tmp_path / "r.h5")
 

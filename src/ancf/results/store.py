@@ -29,6 +29,9 @@ from . import hdf5, remembered
 from .layout import write_layout
 from .layout_sensors import DATA, write_listing
 
+#: Room that the head of a file needs besides what the model says, bytes; it is tried first, because HDF5 may
+#: end the process where not even that can be written.
+LEAST = 2**16
 FORMAT = "ancf results"
 VERSION = 1
 STATUS = ("running", "complete", "failed", "interrupted")
@@ -143,6 +146,7 @@ class FileStore:
         self.path = Path(path)
         with writing(path):
             self.path.unlink(missing_ok=True)  # a result that still reads the old file keeps it
+            self.path.write_bytes(bytes(LEAST + 2 * len(json.dumps(header)) + 32 * system.size))
             self._file = h5py.File(self.path, "w", libver="latest")
             try:
                 self._create(header)
