@@ -180,9 +180,11 @@ class TestSingularPositions:
         sound = ancf.simulate(model, t_end=t_end, step=step)
         assert np.abs(sound.energy.drift).max() < 1e-3 * sound.energy.kinetic.max()
         assert sound.notes == []
-        result = ancf.simulate(
-            model, t_end=t_end, step=step, integrator=ancf.Trapezoidal(formulation="index2")
-        )
+        method = ancf.Trapezoidal(formulation="index2")
+        try:
+            result = ancf.simulate(model, t_end=t_end, step=step, integrator=method)
+        except ancf.SolveError as error:  # thrown off so far that the run ends
+            result = error.result
         (note,) = result.notes
         assert np.abs(result.energy.drift).max() > 0.02 * result.energy.kinetic.max()
         assert '"foot"' in note

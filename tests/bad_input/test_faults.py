@@ -193,6 +193,7 @@ class TestFullDisk:
             long.save(tmp_path / "r.h5")
 
     @pytest.mark.parametrize("room", [0, 3000, 60_000])
+    @apart
     def test_nothing_fits(self, tmp_path, limited, room):
         import resource
 
