@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -13,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .errors import Interrupted, ModelError, SolveError, StorageError
+from .interrupts import heed, kept
 from .model import checks
 from .model.beam import Beam
 from .model.bodies import PointMass, RigidBody
@@ -221,9 +223,14 @@ def carried_out(made: Prepared, store: Any, progress: Callable[[Progress], None]
         store.close()
         return load(store.path, system)
 
-    with _salvaged(system):
+    def look(now: Progress) -> None:
+        heed()
+        if progress is not None:
+            progress(now)
+
+    with _salvaged(system), kept(signal.SIGINT):
         try:
-            run.go(store, progress)
+            run.go(store, look)
         except StorageError:
             raise
         except (SolveError, ModelError) as error:

@@ -15,12 +15,15 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+import typer
 
 import ancf
 import hostile_files
 from ancf import compiled, kernel_cache
 from ancf.cli import screen
+from ancf.cli.guard import reported
 from ancf.files import cell, exists, visible
+from ancf.interrupts import heed
 from ancf.results import hdf5
 from ancf.viz.export import write_csv
 from commands import LONG, MODEL, SIMULATION, apart, write
@@ -266,6 +269,9 @@ class TestStreams:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
+@pytest.mark.filterwarnings(
+    "ignore::pytest.PytestUnraisableExceptionWarning"
+)  # a signal may come at a deletion
 class TestSignals:
     def send(self, number):
         """Send a signal to this process once a run has stored states."""
@@ -297,6 +303,39 @@ class TestSignals:
         assert '"status": "interrupted"' in Path("out/summary.json").read_text(encoding="utf-8")
         assert ancf.load("out/results.h5").status == "interrupted"
         assert signal.getsignal(number) is before
+
+    @pytest.mark.parametrize(
+        ("number", "command"), [(signal.SIGINT, False), (signal.SIGINT, True), (signal.SIGTERM, True)]
+    )
+    def test_a_signal_that_python_drops_stops_the_run(self, number, command):
+        """What a handler raises while an object is deleted goes nowhere."""
+
+        class Deleted:
+            def __del__(self):
+                signal.raise_signal(number)
+
+        seen, before = [], signal.getsignal(number)
+
+        def progress(now):
+            seen.append(now)
+            if len(seen) == 1:
+                Deleted()
+
+        def run():
+            ancf.simulate(hanging(), t_end=1e6, step=0.01, progress=progress)
+
+        if command:
+            with pytest.raises(typer.Exit) as end, reported():
+                run()
+            assert end.value.exit_code == 128 + number
+        else:
+            with pytest.raises(ancf.errors.Interrupted) as stop:
+                run()
+            assert stop.value.result.status == "interrupted"
+            assert len(stop.value.result.t) > 1
+        assert len(seen) == 1
+        assert signal.getsignal(number) is before
+        heed()  # nothing is kept
 
     def test_ctrl_c_in_an_import(self, call, monkeypatch):
         """An import that is cut off ends as another error; what stopped it is said."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import threading
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,19 +13,16 @@ import typer
 
 from ..errors import ModelError, SolveError
 from ..files import visible
+from ..interrupts import Terminated, kept
 
 FAILED, WRONG_INPUT, STOPPED, TERMINATED = 1, 2, 130, 143
 TRACEBACK = "ANCF_TRACEBACK"
 
 
-class Terminated(KeyboardInterrupt):
-    """The system asks the program to end (SIGTERM); it ends as after Ctrl-C."""
-
-
 @contextmanager
 def reported() -> Iterator[None]:
     """Turn what goes wrong inside into a message and ``typer.Exit``; warnings become one line each."""
-    with warnings.catch_warnings(), _terminable():
+    with warnings.catch_warnings(), kept(signal.SIGINT, signal.SIGTERM):
         warnings.showwarning = _show_warning
         try:
             yield
@@ -38,24 +34,6 @@ def reported() -> Iterator[None]:
             found = _stop(error) or error
             show(found)
             raise typer.Exit(exit_code(found)) from None
-
-
-@contextmanager
-def _terminable() -> Iterator[None]:
-    """Within this context SIGTERM stops what runs as Ctrl-C does, unless it is ignored or handled already."""
-    free = threading.current_thread() is threading.main_thread()
-    if not free or signal.getsignal(signal.SIGTERM) is not signal.SIG_DFL:
-        yield
-        return
-
-    def stop(*signal: Any) -> None:
-        raise Terminated
-
-    signal.signal(signal.SIGTERM, stop)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
 def _stop(error: BaseException) -> KeyboardInterrupt | None:
