@@ -38,7 +38,7 @@ PART: Any = {**_OPTIONS, "no_cpython_wrapper": True}
 
 
 #: Folders whose files hold kernels, or constants of kernels.
-FOLDERS = ("elements", "bodies", "connections", "loads", "linalg", "system", "solvers")
+FOLDERS = ("simd", "elements", "bodies", "connections", "loads", "linalg", "system", "solvers")
 
 
 def stamped() -> list[Path]:

@@ -17,6 +17,7 @@ LAYERS = (
     {"compiled"},
     {"vectors"},
     {"batches"},
+    {"simd"},
     {"model"},
     {"elements", "bodies", "linalg"},
     {"connections", "loads"},

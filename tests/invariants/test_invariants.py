@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.elements.lanes import STRAIGHT
+from ancf.elements.cable_damping import STRAIGHT
 from ancf.elements.registry import ELEMENTS
 from ancf.system.system import System
 from helpers import (

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from ancf.compiled import kernel
-from ancf.elements.lanes import LANES
 from ancf.elements.shapes import gauss
 from ancf.elements.solid import SolidBatch
 from ancf.elements.solid_shapes import shape
 from ancf.elements.solid_strains import quadratic_part
+from ancf.simd import LANES
 from ancf.solvers import corotation as turning
 from ancf.solvers.corotation import remember, turn, turn_back, turn_forth, turn_rows
 from ancf.solvers.low_rank import eliminate
@@ -109,7 +109,7 @@ def test_quadratic_part_of_the_strains(kind):
         return np.array(found)
 
     wanted = 0.5 * (scalars(q + dq) - 2 * scalars(q) + scalars(q - dq))
-    got = quadratic_part(batch._replace(lane_reference=np.zeros((1, 15 * len(x) * LANES))), dq)
+    got = quadratic_part(batch._replace(lane_reference=np.zeros((1, 15 * len(x), LANES))), dq)
     got = got.reshape(len(x), 15, LANES)[..., :2].transpose(2, 0, 1)
     assert got == pytest.approx(wanted, abs=1e-12)
 

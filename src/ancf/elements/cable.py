@@ -12,50 +12,40 @@ what remains when the section turns freely about the tangent, as it does without
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, implements, inline_kernel
-from ..vectors import dot
-from .lanes import (
-    A1,
-    CONSTANTS,
-    EA_L,
-    EI_L,
-    FD,
-    INV_L,
-    KDD,
-    LANES,
-    LENGTH,
-    MASS,
-    NODAL,
-    REFERENCE,
-    SLOPE,
-    SMOOTHING,
-    VD,
-    VISCOUS,
-    D,
+from ..compiled import Role, formula, implements, inline_kernel
+from ..simd import every, gather, gather_nodes, load, scatter, scatter_nodes, total, zero
+from .cable_damping import axial_damping, bending_damping, bending_damping_tangent, slope_damping
+from .cable_strain import (
+    a_of,
+    add_a,
+    add_abc,
+    axial_energy,
     axial_force,
     axial_tangent,
+    b_of,
+    bend,
+    bending_energy,
     bending_force,
     bending_tangent,
-    clear,
-    inertia_force,
+    c_of,
+    forces,
+    product_rates,
+    products,
+    slope,
 )
-from .lanes_damping import (
-    bending_damping,
-    bending_damping_tangent,
-    damped_axial_force,
-    shape_at,
-    slope_damping,
-    slope_damping_tangent,
-)
-from .lanes_tangent import BLOCKS, PLACES, add_block, spread_axial, spread_bending
+from .cable_tangent import BLOCKS, KDD, PLACES, add_block, spread, spread_slope, spread_slope_damping
+from .workspace import clear
 
+# rows of the elements' constants: L, 1/L, EA L, EI L, damping D_a L and D_b L, rhoA L/420, damping/rhoA
+LENGTH, INV_L, EA_L, EI_L, DA_L, DB_L, MASS, VISCOUS = range(8)
+#: First row of the curvatures in the reference strains.
+CURVATURE = 10
 #: Bits of the column ``damped`` of the groups.
 VISCOUSLY, AXIALLY, IN_BENDING, IN_SLOPE = 1, 2, 4, 8
 
@@ -69,120 +59,171 @@ class CableBatch(NamedTuple):
     base: NDArray[np.int64]  # (n, 4) first unknown of r, r_x, r, r_x of each element
     dest: NDArray[np.int64]  # (n, 16) place of each 3x3 block in the matrix, -1: none
     first: NDArray[np.int64]  # (chunks + 1,) first element of each chunk
-    lane_base: NDArray[np.int64]  # (chunks, 4 LANES) base by slot and lane
-    lane_data: FloatArray  # (chunks, CONSTANTS LANES) rows LENGTH ... VISCOUS
-    lane_slope: FloatArray  # (chunks, LANES) row SLOPE, apart: undamped elements do not load it
-    lane_reference: FloatArray  # (chunks, 20 LANES) strain at axial, then at 10.. curvature at bending gp
+    lane_base: NDArray[np.int64]  # (chunks, 4, LANES) base by slot and lane
+    nodal: NDArray[np.bool_]  # (chunks,) whether r_x follows r in the state vector at all nodes
+    lane_data: FloatArray  # (chunks, 8, LANES) rows LENGTH ... VISCOUS
+    lane_slope: FloatArray  # (chunks, 1, LANES) slope damping c L/30
+    lane_reference: (
+        FloatArray  # (chunks, 20, LANES) strain at axial, from CURVATURE on curvature at bending gp
+    )
     groups: NDArray[np.int64]  # (k, 8) first chunk, end, paper, first gp, axial, bending, damped, curved
-    gp: FloatArray  # (m, 7) coefficients of the Gauss points
+    gp: FloatArray  # (m, 20) coefficients of the Gauss points
+
+
+@formula
+def nodes(batch, x, chunk):
+    """Values x of the four slots r, r_x, r, r_x."""
+    base = batch.lane_base
+    if batch.nodal[chunk]:
+        r1, t1 = gather_nodes(x, base, chunk, 0)
+        r2, t2 = gather_nodes(x, base, chunk, 2)
+    else:
+        r1, t1 = gather(x, base, chunk, 0), gather(x, base, chunk, 1)
+        r2, t2 = gather(x, base, chunk, 2), gather(x, base, chunk, 3)
+    return r1, t1, r2, t2
+
+
+@formula
+def shape(batch, x, chunk):
+    """d, t1 and t2 of a chunk, or their rates."""
+    r1, t1, r2, t2 = nodes(batch, x, chunk)
+    return load(batch.lane_data, chunk, INV_L) * (r2 - r1), t1, t2
+
+
+@formula
+def reference(batch, chunk, k, curved):
+    """Row k of the reference strains; zero for a straight reference."""
+    return load(batch.lane_reference, chunk, k) if curved else every(0.0)
+
+
+@formula
+def differences(x):
+    """d, u1 and u2 of d, t1 and t2."""
+    d, t1, t2 = x
+    return d, t1 - d, t2 - d
+
+
+@formula
+def elastic(batch, group, chunk, G):
+    """R = 2 dW/dG of the strain energy."""
+    gp, first, axial, paper, curved = batch.gp, group[3], group[4], group[2] != 0, group[7] != 0
+    none = every(0.0)
+    R = none, none, none, none, none, none
+    ea = load(batch.lane_data, chunk, EA_L)
+    for k in range(axial):
+        at = gp[first + k]
+        R = add_a(R, at, at[6] * ea * axial_force(a_of(at, G), reference(batch, chunk, k, curved), paper))
+    ei, inv_l = load(batch.lane_data, chunk, EI_L), load(batch.lane_data, chunk, INV_L)
+    inv_l2 = inv_l * inv_l
+    for k in range(group[5]):
+        at = gp[first + axial + k]
+        kappa0 = reference(batch, chunk, CURVATURE + k, curved)
+        wa, wb, wc = bending_force(
+            a_of(at, G), inv_l * b_of(at, G), inv_l2 * c_of(at, G), kappa0, paper, curved
+        )
+        w = at[6] * ei
+        R = add_abc(R, at, w * wa, w * inv_l * wb, w * inv_l2 * wc)
+    return R
+
+
+@formula
+def axially_damped(batch, group, chunk, x, v, R):
+    """Add to R what the axial damping does; v are the rates of d, t1 and t2."""
+    G, dG = products(x), product_rates(x, differences(v))
+    da = load(batch.lane_data, chunk, DA_L)
+    for g in range(group[3], group[3] + group[4]):
+        at = batch.gp[g]
+        R = add_a(R, at, at[6] * da * axial_damping(a_of(at, G), a_of(at, dG), group[2] != 0))
+    return R
+
+
+@formula
+def bending_damped(batch, group, chunk, x, v, force):
+    """Add the damping of bending to the forces on d, t1 and t2; v are the rates of these."""
+    (d, t1, t2), (vd, v1, v2), (fd, f1, f2) = x, v, force
+    gp, first = batch.gp, group[3] + group[4]
+    db, inv_l = load(batch.lane_data, chunk, DB_L), load(batch.lane_data, chunk, INV_L)
+    for g in range(first, first + group[5]):
+        p, s = slope(gp, g, d, t1, t2), bend(gp, g, d, t1, t2, inv_l)
+        dp, ds = slope(gp, g, vd, v1, v2), bend(gp, g, vd, v1, v2, inv_l)
+        n, m = bending_damping(p, s, dp, ds, group[2] != 0, inv_l)
+        n, m = gp[g, 6] * db * n, gp[g, 6] * db * inv_l * m
+        fd = fd + gp[g, 0] * n + gp[g, 3] * m
+        f1 = f1 + gp[g, 1] * n + gp[g, 4] * m
+        f2 = f2 + gp[g, 2] * n + gp[g, 5] * m
+    return fd, f1, f2
 
 
 @inline_kernel
-def load_data(batch, ws, chunk):
-    """Rows of the elements' constants."""
-    for i in range(CONSTANTS * LANES):
-        ws[LENGTH * LANES + i] = batch.lane_data[chunk, i]
+def damped_force(batch, group, chunk, x, v):
+    """Elastic and damping forces on d, t1 and t2 at the velocities v."""
+    u, rates, damped = differences(x), shape(batch, v, chunk), group[6]
+    R = elastic(batch, group, chunk, products(u))
+    if damped & AXIALLY:
+        R = axially_damped(batch, group, chunk, u, rates, R)
+    force = forces(R, u)
+    if damped & IN_BENDING:
+        force = bending_damped(batch, group, chunk, x, rates, force)
+    if damped & IN_SLOPE:
+        (fd, f1, f2), (vd, v1, v2) = force, rates
+        nd, n1, n2 = slope_damping(load(batch.lane_slope, chunk, 0), vd, v1, v2)
+        force = fd + nd, f1 + n1, f2 + n2
+    return force
 
 
-@inline_kernel
-def load_reference(batch, ws, chunk, k, curved):
-    """Row REFERENCE: column k of the reference strains; it stays zero for a straight reference."""
-    if curved:
-        for m in range(LANES):
-            ws[REFERENCE * LANES + m] = batch.lane_reference[chunk, k * LANES + m]
+@formula
+def accelerations(batch, v, a, chunk, viscous):
+    """Of the four slots, plus (damping/rhoA) velocity for the external damping."""
+    a1, s1, a2, s2 = nodes(batch, a, chunk)
+    if viscous:
+        c = load(batch.lane_data, chunk, VISCOUS)
+        v1, w1, v2, w2 = nodes(batch, v, chunk)
+        a1, s1, a2, s2 = a1 + c * v1, s1 + c * w1, a2 + c * v2, s2 + c * w2
+    return a1, s1, a2, s2
 
 
-@inline_kernel
-def load_slope(batch, ws, chunk):
-    """Row SLOPE of a damped chunk."""
-    for m in range(LANES):
-        ws[SLOPE * LANES + m] = batch.lane_slope[chunk, m]
-
-
-@inline_kernel
-def load_shape(batch, q, ws, chunk, first):
-    """Rows d, t1, t2 (starting at ``first``) of a chunk from the nodal values q."""
-    for m in range(LANES):
-        i0, i1 = batch.lane_base[chunk, m], batch.lane_base[chunk, LANES + m]
-        i2, i3 = batch.lane_base[chunk, 2 * LANES + m], batch.lane_base[chunk, 3 * LANES + m]
-        il = ws[INV_L * LANES + m]
-        for k in range(3):
-            ws[(first + k) * LANES + m] = (q[i2 + k] - q[i0 + k]) * il
-            ws[(first + 3 + k) * LANES + m] = q[i1 + k]
-            ws[(first + 6 + k) * LANES + m] = q[i3 + k]
-
-
-@inline_kernel
-def load_acceleration(batch, v, a, ws, chunk, damped):
-    """Rows A1 ... AS2: acceleration, plus (damping / rhoA) velocity for the external damping."""
-    for slot in range(4):
-        for m in range(LANES):
-            i = batch.lane_base[chunk, slot * LANES + m]
-            for k in range(3):
-                ws[(A1 + 3 * slot + k) * LANES + m] = a[i + k]
-    if damped:
-        for slot in range(4):
-            for m in range(LANES):
-                i = batch.lane_base[chunk, slot * LANES + m]
-                c = ws[VISCOUS * LANES + m]
-                for k in range(3):
-                    ws[(A1 + 3 * slot + k) * LANES + m] += c * v[i + k]
-
-
-@inline_kernel
-def store_nodal(batch, r, ws, chunk):
-    """Add the rows NODAL of a chunk to the residual."""
-    for m in range(LANES):
-        for slot in range(4):
-            i = batch.lane_base[chunk, slot * LANES + m]
-            for k in range(3):
-                r[i + k] += ws[(NODAL + 3 * slot + k) * LANES + m]
+@formula
+def store_force(batch, r, chunk, acceleration, force):
+    """Add the forces on d, t1, t2 and the consistent mass (eq. 23) times the accelerations to r."""
+    (a1, s1, a2, s2), (fd, f1, f2) = acceleration, force
+    h, m = load(batch.lane_data, chunk, LENGTH), load(batch.lane_data, chunk, MASS)
+    fd, s1, s2, mh = load(batch.lane_data, chunk, INV_L) * fd, h * s1, h * s2, m * h
+    r1 = m * (156.0 * a1 + 22.0 * s1 + 54.0 * a2 - 13.0 * s2) - fd
+    t1 = mh * (22.0 * a1 + 4.0 * s1 + 13.0 * a2 - 3.0 * s2) + f1
+    r2 = m * (54.0 * a1 + 13.0 * s1 + 156.0 * a2 - 22.0 * s2) + fd
+    t2 = mh * (4.0 * s2 - 13.0 * a1 - 3.0 * s1 - 22.0 * a2) + f2
+    if batch.nodal[chunk]:
+        scatter_nodes(r1, t1, r, batch.lane_base, chunk, 0)
+        scatter_nodes(r2, t2, r, batch.lane_base, chunk, 2)
+    else:
+        scatter(r1, r, batch.lane_base, chunk, 0)
+        scatter(t1, r, batch.lane_base, chunk, 1)
+        scatter(r2, r, batch.lane_base, chunk, 2)
+        scatter(t2, r, batch.lane_base, chunk, 3)
 
 
 @inline_kernel
 def cable_force(batch, q, v, a, r, ws):
     """Add inertia, elastic and damping forces to r."""
-    gp = batch.gp
     for n in range(batch.groups.shape[0]):
         group = batch.groups[n]
-        paper, g0, axial, bending = group[2] != 0, group[3], group[4], group[5]
-        damped, curved = group[6], group[7] != 0
-        clear(ws, REFERENCE, 1)
+        damped = group[6]
         for chunk in range(group[0], group[1]):
-            load_data(batch, ws, chunk)
-            load_shape(batch, q, ws, chunk, D)
-            load_acceleration(batch, v, a, ws, chunk, damped & VISCOUSLY != 0)
-            clear(ws, FD, 9)
+            x = shape(batch, q, chunk)
             if damped & ~VISCOUSLY:
-                load_shape(batch, v, ws, chunk, VD)
-            for g in range(axial):
-                load_reference(batch, ws, chunk, g, curved)
-                if damped & AXIALLY:
-                    damped_axial_force(ws, gp, g0 + g, paper)
-                else:
-                    axial_force(ws, gp, g0 + g, paper)
-            for g in range(bending):
-                load_reference(batch, ws, chunk, 10 + g, curved)
-                bending_force(ws, gp, g0 + axial + g, paper, curved)
-            if damped & IN_BENDING:
-                for g in range(bending):
-                    bending_damping(ws, gp, g0 + axial + g, paper)
-            if damped & IN_SLOPE:
-                load_slope(batch, ws, chunk)
-                slope_damping(ws)
-            inertia_force(ws)
-            store_nodal(batch, r, ws, chunk)
+                force = damped_force(batch, group, chunk, x, v)
+            else:
+                u = differences(x)
+                force = forces(elastic(batch, group, chunk, products(u)), u)
+            store_force(batch, r, chunk, accelerations(batch, v, a, chunk, damped & VISCOUSLY != 0), force)
 
 
 @inline_kernel
 def cable_inertia(batch, a, r, ws):
     """Add the mass matrix times a to r (eq. 23)."""
-    clear(ws, FD, 9)
     for chunk in range(batch.first.shape[0] - 1):
-        load_data(batch, ws, chunk)
-        load_acceleration(batch, a, a, ws, chunk, False)
-        inertia_force(ws)
-        store_nodal(batch, r, ws, chunk)
+        none = zero(), zero(), zero()
+        store_force(batch, r, chunk, accelerations(batch, a, a, chunk, False), none)
 
 
 @inline_kernel
@@ -202,10 +243,11 @@ def mass_entry(x, y, length):
 @inline_kernel
 def store_tangent(batch, A, ws, chunk, c_mass, c_damping):
     """Add stiffness blocks and mass of a chunk to the block values A."""
+    data = batch.lane_data
     for m in range(batch.first[chunk + 1] - batch.first[chunk]):
         e = batch.first[chunk] + m
-        length, il = ws[LENGTH * LANES + m], ws[INV_L * LANES + m]
-        mass = (c_mass + c_damping * ws[VISCOUS * LANES + m]) * ws[MASS * LANES + m]
+        length, il = data[chunk, LENGTH, m], data[chunk, INV_L, m]
+        mass = (c_mass + c_damping * data[chunk, VISCOUS, m]) * data[chunk, MASS, m]
         for x in range(4):
             for y in range(4):
                 place = batch.dest[e, 4 * x + y]
@@ -215,68 +257,67 @@ def store_tangent(batch, A, ws, chunk, c_mass, c_damping):
 
 
 @inline_kernel
-def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
-    """Add c_mass M + c_damping C + c_stiffness K (c_stiffness is 0 or 1) to the block values A."""
-    gp = batch.gp
-    for n in range(batch.groups.shape[0]):
-        group = batch.groups[n]
-        paper, g0, axial, bending = group[2] != 0, group[3], group[4], group[5]
-        damped, curved = group[6] if c_damping != 0.0 else 0, group[7] != 0
-        clear(ws, REFERENCE, 1)
-        for chunk in range(group[0], group[1]):
-            load_data(batch, ws, chunk)
-            load_shape(batch, q, ws, chunk, D)
-            if c_stiffness == 0.0:
-                clear(ws, EA_L, 2)
-            clear(ws, KDD, BLOCKS)
-            for g in range(axial):
-                load_reference(batch, ws, chunk, g, curved)
-                axial_tangent(ws, gp, g0 + g, paper, c_damping)
-                spread_axial(ws, gp, g0 + g)
-            for g in range(bending):
-                load_reference(batch, ws, chunk, 10 + g, curved)
-                bending_tangent(ws, gp, g0 + axial + g, paper, curved)
-                if damped & IN_BENDING:
-                    bending_damping_tangent(ws, gp, g0 + axial + g, paper, c_damping)
-                spread_bending(ws, gp, g0 + axial + g)
-            if damped & IN_SLOPE:
-                load_slope(batch, ws, chunk)
-                slope_damping_tangent(ws, c_damping)
-            store_tangent(batch, A, ws, chunk, c_mass, c_damping)
+def stiffness(batch, group, chunk, x, ws, c_damping, c_stiffness):
+    """Add the tangents of strains and damping in the shape x to the blocks between d, t1 and t2."""
+    d, t1, t2 = x
+    gp, first, axial, paper, curved = batch.gp, group[3], group[4], group[2] != 0, group[7] != 0
+    damped = group[6] if c_damping != 0.0 else 0
+    ea, da = c_stiffness * load(batch.lane_data, chunk, EA_L), c_damping * load(batch.lane_data, chunk, DA_L)
+    for k in range(axial):
+        g = first + k
+        w, p = gp[g, 6], slope(gp, g, d, t1, t2)
+        spread_slope(ws, gp, g, axial_tangent(p, reference(batch, chunk, k, curved), w * ea, w * da, paper))
+    ei, db = c_stiffness * load(batch.lane_data, chunk, EI_L), c_damping * load(batch.lane_data, chunk, DB_L)
+    inv_l = load(batch.lane_data, chunk, INV_L)
+    for k in range(group[5]):
+        g = first + axial + k
+        w, p, s = gp[g, 6], slope(gp, g, d, t1, t2), bend(gp, g, d, t1, t2, inv_l)
+        kappa0 = reference(batch, chunk, CURVATURE + k, curved)
+        spread(ws, gp, g, inv_l, bending_tangent(p, s, kappa0, w * ei, paper, curved))
+        if damped & IN_BENDING:
+            spread(ws, gp, g, inv_l, bending_damping_tangent(p, s, w * db, paper, inv_l))
+    if damped & IN_SLOPE:
+        spread_slope_damping(ws, c_damping * load(batch.lane_slope, chunk, 0))
 
 
 @inline_kernel
-def gauss_energy(ws, gp, g, m, paper, bending):
-    """Energy of one Gauss point of lane m."""
-    p, s = shape_at(ws, gp, g, D, m)
-    a = dot(p, p)
-    ref = ws[REFERENCE * LANES + m]
-    if not bending:
-        eps = 0.5 * (a - 1.0) if paper else math.sqrt(a) - 1.0
-        return 0.5 * gp[g, 6] * ws[EA_L * LANES + m] * (eps - ref) ** 2
-    b, c = dot(p, s), dot(s, s)
-    k2 = max((a * c - b * b) / (a * a * (a if paper else 1.0)), 0.0)
-    khat = math.sqrt((1.0 + SMOOTHING**2) * (k2 + (SMOOTHING * ref) ** 2))
-    constant = ref * ref * (1.0 + 2.0 * SMOOTHING**2)
-    return 0.5 * gp[g, 6] * ws[EI_L * LANES + m] * (k2 - 2.0 * ref * khat + constant)
+def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    """Add c_mass M + c_damping C + c_stiffness K (c_stiffness is 0 or 1) to the block values A."""
+    for n in range(batch.groups.shape[0]):
+        group = batch.groups[n]
+        for chunk in range(group[0], group[1]):
+            clear(ws, KDD, BLOCKS)
+            stiffness(batch, group, chunk, shape(batch, q, chunk), ws, c_damping, c_stiffness)
+            store_tangent(batch, A, ws, chunk, c_mass, c_damping)
 
 
 @inline_kernel
 def cable_energy(batch, q, ws):
     """Strain energy, J (the integral behind eq. 27)."""
-    energy = 0.0
+    energy, gp, data = 0.0, batch.gp, batch.lane_data
     for n in range(batch.groups.shape[0]):
         group = batch.groups[n]
-        g0, axial = group[3], group[4]
-        clear(ws, REFERENCE, 1)
+        first, axial, paper, curved = group[3], group[4], group[2] != 0, group[7] != 0
         for chunk in range(group[0], group[1]):
-            load_data(batch, ws, chunk)
-            load_shape(batch, q, ws, chunk, D)
-            for g in range(axial + group[5]):
-                load_reference(batch, ws, chunk, g if g < axial else 10 + g - axial, group[7] != 0)
-                for m in range(LANES):
-                    energy += gauss_energy(ws, batch.gp, g0 + g, m, group[2] != 0, g >= axial)
+            G = products(differences(shape(batch, q, chunk)))
+            ea, ei, inv_l = load(data, chunk, EA_L), load(data, chunk, EI_L), load(data, chunk, INV_L)
+            for k in range(axial):
+                at = gp[first + k]
+                found = ea * axial_energy(a_of(at, G), reference(batch, chunk, k, curved), paper)
+                energy += at[6] * total(found)
+            for k in range(group[5]):
+                at = gp[first + axial + k]
+                b, c = inv_l * b_of(at, G), inv_l * inv_l * c_of(at, G)
+                kappa0 = reference(batch, chunk, CURVATURE + k, curved)
+                energy += at[6] * total(ei * bending_energy(a_of(at, G), b, c, kappa0, paper))
     return energy
+
+
+def bind(plain, seen, places):
+    """See :class:`ancf.compiled.Traits`; shadows may part r_x from r."""
+    base = seen.lane_base
+    nodal = np.all(base[:, 1::2] == base[:, ::2] + 3, axis=(1, 2))
+    return seen._replace(dest=places.dest(plain.base), nodal=nodal)
 
 
 implements(
@@ -287,5 +328,6 @@ implements(
     energy=cable_energy,
     role=Role.DISSIPATES,
     slots=("base", "lane_base"),
+    bind=bind,
     damped=lambda batch: bool(np.any(batch.groups[:, 6])),
 )

@@ -10,10 +10,11 @@ from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray, IntArray
 from ..model.beam import Beam
+from ..simd import LANES
 from .cable import AXIALLY, IN_BENDING, IN_SLOPE, VISCOUSLY, CableBatch
 from .cable_slack import slack
+from .cable_strain import gauss_table
 from .chunks import in_lanes
-from .lanes import LANES, gauss_table
 from .measures import axial_strain, curvature
 from .shapes import gauss, hermite
 
@@ -33,7 +34,7 @@ def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> CableBatch:
     """
     parts = sorted((_part(beam, slot) for beam, slot in zip(beams, slots, strict=True)), key=lambda p: p[0])
     groups: list[list[int]] = []
-    tables = [np.zeros((0, 7))]
+    tables = [np.zeros((0, 20))]
     first = [np.zeros(1, dtype=np.int64)]
     start = chunk = first_gp = 0
     for key, members in groupby(parts, key=lambda part: part[0]):
@@ -51,6 +52,7 @@ def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> CableBatch:
         dest=np.full((start, 16), -1, dtype=np.int64),
         first=bounds,
         lane_base=in_lanes(base, bounds).astype(np.int64),
+        nodal=np.zeros(len(bounds) - 1, dtype=np.bool_),
         lane_data=in_lanes(data, bounds, empty=2),
         lane_slope=in_lanes(slope, bounds, empty=0),
         lane_reference=in_lanes(reference, bounds),

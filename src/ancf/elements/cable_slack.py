@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
-from .cable import CableBatch
+from .cable import EA_L, LENGTH, CableBatch
 from .chunks import in_lanes
-from .lanes import EA_L, LANES, LENGTH
 
 #: Columns of the groups of a batch.
 BEGIN, END, PAPER, FIRST_GP, AXIAL, BENDING, DAMPED, CURVED = range(8)
@@ -26,14 +25,14 @@ class Slack:
 
     def __init__(self, batch: CableBatch, q: FloatArray) -> None:
         self._batch = batch
-        self._stiffness = _row(batch, EA_L)
+        self._stiffness = batch.lane_data[:, EA_L]
         self._natural = self._stiffness.copy(), batch.lane_reference.copy(), batch.groups[:, CURVED].copy()
         self._strain = compression(batch, q)
 
     @property
     def stiffest(self) -> float:
         """Largest EA, N."""
-        return float(np.max(self._natural[0] / _row(self._batch, LENGTH)))
+        return float(np.max(self._natural[0] / self._batch.lane_data[:, LENGTH]))
 
     def set(self, factor: float, held: float) -> None:
         """EA times a factor, and no forces from this share of the initial compression; (1, 0): as it was."""
@@ -48,17 +47,11 @@ def slack(batch: CableBatch, q: FloatArray) -> Slack:
     return Slack(batch, q)
 
 
-def _row(batch: CableBatch, row: int) -> FloatArray:
-    """One number of all elements by chunk and lane, not a copy."""
-    first = (row - LENGTH) * LANES
-    return batch.lane_data[:, first : first + LANES]
-
-
 def compression(batch: CableBatch, q: FloatArray) -> FloatArray:
     """Axial strain of the chords that are shorter than their element, in the form of lane_reference."""
     counts = np.diff(batch.first)
     lane = np.arange(len(batch.base)) - np.repeat(batch.first[:-1], counts)
-    h = batch.lane_data[np.repeat(np.arange(len(counts)), counts), lane]
+    h = batch.lane_data[np.repeat(np.arange(len(counts)), counts), LENGTH, lane]
     first, second = (q[batch.base[:, k, None] + np.arange(3)] for k in (0, 2))
     stretch = np.minimum(np.linalg.norm(second - first, axis=1) / h, 1.0)
     strain = np.zeros((len(batch.base), 20))

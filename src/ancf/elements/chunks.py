@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .lanes import LANES
+from ..simd import LANES
 
 
 def in_lanes(values: NDArray[Any], bounds: NDArray[np.int64], empty: int | None = None) -> NDArray[Any]:
-    """Rows of values by element, (n, k), as (chunks, k LANES): component by component, lane by lane.
+    """Rows of values by element, (n, k), as (chunks, k, LANES): component by component, lane by lane.
 
     Chunk c has the elements from bounds[c] to bounds[c + 1].  Lanes without an element repeat the last one,
     with zeros from component ``empty`` on.
@@ -21,4 +21,4 @@ def in_lanes(values: NDArray[Any], bounds: NDArray[np.int64], empty: int | None 
     out = values[bounds[:-1, None] + np.minimum(lane, counts[:, None] - 1)]  # (chunks, LANES, k)
     if empty is not None:
         out[lane >= counts[:, None], empty:] = 0.0
-    return np.ascontiguousarray(out.transpose(0, 2, 1).reshape(len(counts), -1))
+    return np.ascontiguousarray(out.transpose(0, 2, 1))

@@ -2,7 +2,7 @@
 
 Unknowns of a node: r, r_x, r_y, r_z (eqs. 3, 4); the nonlocking element has r_yx and r_zx at its first node
 as well (eq. 15).  The material is that of St. Venant and Kirchhoff: the energy is quadratic in the
-Green-Lagrange strains of the whole volume.  How it is evaluated: :mod:`ancf.elements.solid_lanes`.
+Green-Lagrange strains of the whole volume.  How it is evaluated: :mod:`ancf.elements.solid_force`.
 """
 
 from __future__ import annotations
@@ -14,15 +14,18 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
+from ..simd import LANES, gather, load, scatter, store, total, vector
 from ..vectors import dot
-from .lanes import LANES, clear
-from .lanes_tangent import add_block
-from .solid_lanes import (
+from .cable_tangent import add_block
+from .solid_force import (
     ACCELERATION,
     B1,
     BX,
+    C1,
     CONSTANTS,
+    CX,
     DB,
+    DC,
     FORCE,
     INV_L,
     LENGTH,
@@ -41,6 +44,7 @@ from .solid_lanes import (
     vectors,
 )
 from .solid_tangent import BLOCKS, ELEMENT, PLACES, diagonal_blocks, other_blocks, spread_tangent
+from .workspace import add_rows, clear, row, rows, set_rows
 
 
 class SolidBatch(NamedTuple):
@@ -52,80 +56,64 @@ class SolidBatch(NamedTuple):
     base: NDArray[np.int64]  # (n, 8 or 10) first unknown of r, r_x, r_y, r_z, twice; of r_yx, r_zx
     dest: NDArray[np.int64]  # (n, 64 or 100) place of each 3x3 block in the matrix, -1: none
     first: NDArray[np.int64]  # (chunks + 1,) first element of each chunk
-    lane_base: NDArray[np.int64]  # (chunks, columns of base x LANES)
-    lane_data: FloatArray  # (chunks, CONSTANTS LANES) rows LENGTH ... VISCOUS
-    lane_reference: FloatArray  # (chunks, 15 points LANES) scalars of the natural shape; (., 0) if straight
+    lane_base: NDArray[np.int64]  # (chunks, columns of base, LANES)
+    lane_data: FloatArray  # (chunks, CONSTANTS, LANES) rows LENGTH ... VISCOUS
+    lane_reference: FloatArray  # (chunks, 15 points, LANES) scalars of the natural shape; none if straight
     groups: NDArray[np.int64]  # (k, 7) first chunk, end, first gp, points, damping, viscous, curved
     gp: FloatArray  # (m, 14) coefficients of the Gauss points
     mass: FloatArray  # (10, 10) factors of the mass matrix by columns of base
-    lane_scale: FloatArray  # (chunks, 20 LANES) by column: d(element's vector)/d(unknown), root of mass
+    lane_scale: FloatArray  # (chunks, 20, LANES) by column: d(element's vector)/d(unknown), root of mass
 
 
 @inline_kernel
-def load(batch, q, ws, chunk, first):
+def take(batch, x, ws, chunk, first):
     """Rows from ``first`` on: the unknowns of all columns of base.
 
     ``first`` comes as np.int64(...): numba would compile a version of its own for each literal.
     """
-    if first < 0:
-        return  # never: but now the compiler knows that no index counts from the end
     for slot in range(batch.base.shape[1]):
-        for m in range(LANES):
-            i = batch.lane_base[chunk, slot * LANES + m]
-            for k in range(3):
-                ws[(first + 3 * slot + k) * LANES + m] = q[i + k]
+        set_rows(ws, first + 3 * slot, gather(x, batch.lane_base, chunk, slot))
 
 
 @inline_kernel
-def to_element(ws, first):
-    """Turn the unknowns in the rows from ``first`` on into the element's vectors."""
-    if first < 0:
-        return  # as above
-    o = first * LANES
-    for m in range(LANES):
-        h, il = ws[LENGTH * LANES + m], ws[INV_L * LANES + m]
-        for k in range(3):
-            i = o + k * LANES + m
-            ws[i + D * LANES] = (ws[i + R2 * LANES] - ws[i + D * LANES]) * il
-        for k in range(6):
-            i = o + k * LANES + m
-            ws[i + DB * LANES] -= ws[i + B1 * LANES]
-            ws[i + BX * LANES] *= h
+def take_vectors(batch, x, ws, chunk, first):
+    """Rows from ``first`` on: the element's vectors."""
+    take(batch, x, ws, chunk, first)
+    h, il = row(ws, LENGTH), row(ws, INV_L)
+    set_rows(ws, first + D, il * (rows(ws, first + R2) - rows(ws, first + D)))
+    set_rows(ws, first + DB, rows(ws, first + DB) - rows(ws, first + B1))
+    set_rows(ws, first + DC, rows(ws, first + DC) - rows(ws, first + C1))
+    set_rows(ws, first + BX, h * rows(ws, first + BX))
+    set_rows(ws, first + CX, h * rows(ws, first + CX))
 
 
 @inline_kernel
 def add_viscous(batch, v, ws, chunk):
     """Rows ACCELERATION of the centreline: add (damping / rhoA) velocity, the external damping."""
     for slot in (0, 1, 4, 5):
-        for m in range(LANES):
-            i, c = batch.lane_base[chunk, slot * LANES + m], ws[VISCOUS * LANES + m]
-            for k in range(3):
-                ws[(ACCELERATION + 3 * slot + k) * LANES + m] += c * v[i + k]
+        add_rows(ws, ACCELERATION + 3 * slot, row(ws, VISCOUS) * gather(v, batch.lane_base, chunk, slot))
 
 
 @inline_kernel
 def load_constants(batch, ws, chunk):
     """Rows LENGTH ... VISCOUS."""
-    for i in range(CONSTANTS * LANES):
-        ws[LENGTH * LANES + i] = batch.lane_data[chunk, i]
+    for k in range(CONSTANTS):
+        store(load(batch.lane_data, chunk, k), ws, (LENGTH + k) * LANES)
 
 
 @inline_kernel
 def load_natural(batch, ws, chunk, g, curved):
     """Rows NATURAL at a Gauss point; they stay zero for a straight natural shape."""
     if curved:
-        for i in range(15 * LANES):
-            ws[NATURAL * LANES + i] = batch.lane_reference[chunk, 15 * LANES * g + i]
+        for k in range(15):
+            store(load(batch.lane_reference, chunk, 15 * g + k), ws, (NATURAL + k) * LANES)
 
 
 @inline_kernel
 def store_nodal(batch, r, ws, chunk):
     """Add the rows FORCE of a chunk to the residual."""
-    for m in range(LANES):
-        for slot in range(batch.base.shape[1]):
-            i = batch.lane_base[chunk, slot * LANES + m]
-            for k in range(3):
-                r[i + k] += ws[(FORCE + 3 * slot + k) * LANES + m]
+    for slot in range(batch.base.shape[1]):
+        scatter(rows(ws, FORCE + 3 * slot), r, batch.lane_base, chunk, slot)
 
 
 @inline_kernel
@@ -147,18 +135,16 @@ def solid_force(batch, q, v, a, r, ws):
         clear_unused(ws)
         for chunk in range(group[0], group[1]):
             load_constants(batch, ws, chunk)
-            load(batch, q, ws, chunk, np.int64(D))
-            to_element(ws, np.int64(D))
+            take_vectors(batch, q, ws, chunk, np.int64(D))
             clear(ws, FORCE, VECTORS)
             for g in range(points):
                 load_natural(batch, ws, chunk, g, curved)
                 elastic_force(ws, gp, g0 + g)
             if group[4] != 0:
-                load(batch, v, ws, chunk, np.int64(RATE))
-                to_element(ws, np.int64(RATE))
+                take_vectors(batch, v, ws, chunk, np.int64(RATE))
                 for g in range(points):
                     damping_force(ws, gp, g0 + g)
-            load(batch, a, ws, chunk, np.int64(ACCELERATION))
+            take(batch, a, ws, chunk, np.int64(ACCELERATION))
             if group[5] != 0:
                 add_viscous(batch, v, ws, chunk)
             inertia_force(ws, batch.mass)
@@ -171,7 +157,7 @@ def solid_inertia(batch, a, r, ws):
     clear_unused(ws)
     for chunk in range(batch.first.shape[0] - 1):
         load_constants(batch, ws, chunk)
-        load(batch, a, ws, chunk, np.int64(ACCELERATION))
+        take(batch, a, ws, chunk, np.int64(ACCELERATION))
         clear(ws, FORCE, VECTORS)
         inertia_force(ws, batch.mass)
         store_nodal(batch, r, ws, chunk)
@@ -187,8 +173,8 @@ def store_tangent(batch, A, ws, chunk, c_mass, c_damping):
             for m in range(batch.first[chunk + 1] - first):
                 place = batch.dest[first + m, columns * x + y]
                 if place >= 0:
-                    scale = factors[chunk, x * LANES + m] * factors[chunk, y * LANES + m]
-                    mass = factors[chunk, (10 + x) * LANES + m] * factors[chunk, (10 + y) * LANES + m]
+                    scale = factors[chunk, x, m] * factors[chunk, y, m]
+                    mass = factors[chunk, 10 + x, m] * factors[chunk, 10 + y, m]
                     viscous = c_damping * ws[VISCOUS * LANES + m] if centreline else 0.0
                     mass *= batch.mass[x, y] * (c_mass + viscous)
                     add_block(A, place, ws, PLACES[x, y], m, scale, mass)
@@ -205,8 +191,7 @@ def solid_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
         clear_unused(ws)
         for chunk in range(group[0], group[1]):
             load_constants(batch, ws, chunk)
-            load(batch, q, ws, chunk, np.int64(D))
-            to_element(ws, np.int64(D))
+            take_vectors(batch, q, ws, chunk, np.int64(D))
             clear(ws, ELEMENT, 9 * BLOCKS)
             for g in range(points):
                 load_natural(batch, ws, chunk, g, curved)
@@ -226,16 +211,14 @@ def solid_energy(batch, q, ws):
         clear_unused(ws)
         for chunk in range(group[0], group[1]):
             load_constants(batch, ws, chunk)
-            load(batch, q, ws, chunk, np.int64(D))
-            to_element(ws, np.int64(D))
+            take_vectors(batch, q, ws, chunk, np.int64(D))
             for g in range(group[3]):
                 load_natural(batch, ws, chunk, g, group[6] != 0)
                 at = point(batch.gp, group[2] + g)
-                for m in range(LANES):
-                    e = strains(ws, vectors(ws, at, m), m)
-                    s = stresses(ws, at[7], e, m)
-                    for k in range(15):
-                        energy += 0.5 * e[k] * s[k]
+                e = strains(ws, vectors(ws, at, D))
+                s = stresses(ws, at[7], e)
+                for k in range(15):
+                    energy += 0.5 * total(e[k] * s[k])
     return energy
 
 
@@ -247,14 +230,14 @@ def solid_inverted(batch, q, ws):
         clear_unused(ws)
         for chunk in range(group[0], group[1]):
             load_constants(batch, ws, chunk)
-            load(batch, q, ws, chunk, np.int64(D))
-            to_element(ws, np.int64(D))
+            take_vectors(batch, q, ws, chunk, np.int64(D))
             for g in range(group[3]):
                 at = point(batch.gp, group[2] + g)
+                a, b, _, c, _ = vectors(ws, at, D)
+                bc = vector(b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0])
+                store(dot(a, bc), ws, FORCE * LANES)
                 for m in range(LANES):
-                    a, b, _, c, _ = vectors(ws, at, m)
-                    bc = (b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0])
-                    if not dot(a, bc) > 0.0:
+                    if not ws[FORCE * LANES + m] > 0.0:
                         return batch.base[min(batch.first[chunk] + m, batch.first[chunk + 1] - 1), 2]
     return -1
 

@@ -11,11 +11,11 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..model.beam import Beam
 from ..model.section import Rectangle
+from ..simd import LANES
 from .chunks import in_lanes
-from .lanes import LANES
 from .shapes import gauss
 from .solid import SolidBatch
-from .solid_lanes import gauss_table
+from .solid_force import gauss_table
 from .solid_shapes import INTERNAL, initial_vectors, shape
 from .solid_strains import quadratic_strains
 
@@ -112,7 +112,7 @@ def natural_scalars(beam: Beam, xi: FloatArray) -> FloatArray:
 
 
 def _scalars(a: FloatArray, b: FloatArray, B: FloatArray, c: FloatArray, C: FloatArray) -> FloatArray:
-    """The scalars of :func:`ancf.elements.solid_lanes.strains`, shape (points, 15)."""
+    """The scalars of :func:`ancf.elements.solid_force.strains`, shape (points, 15)."""
     squares = [(v, v) for v in (a, b, c)]
     products = [(B, B), (C, C), (B, C), (a, B), (a, C), (a, b), (a, c), (b, c)]
     mixed = [(b, B), (c, C), (b, C), (c, B)]

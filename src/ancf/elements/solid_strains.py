@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray
+from ..simd import LANES
 from .chunks import in_lanes
-from .lanes import LANES
 from .shapes import gauss
 from .solid import SolidBatch
 from .solid_shapes import shape
@@ -55,8 +55,8 @@ class QuadraticStrains:
     """
 
     def __init__(self, batch: SolidBatch) -> None:
-        width = PRODUCTS * LANES * int(np.max(batch.groups[:, POINTS]))
-        self._natural = np.zeros((len(batch.first) - 1, width))
+        rows = PRODUCTS * int(np.max(batch.groups[:, POINTS]))
+        self._natural = np.zeros((len(batch.first) - 1, rows, LANES))
         self._natural[:, : batch.lane_reference.shape[1]] = batch.lane_reference
         groups = batch.groups.copy()
         groups[:, CURVED] = 1  # the kernels look at the scalars
@@ -77,12 +77,12 @@ def quadratic_part(batch: SolidBatch, dq: FloatArray) -> FloatArray:
     n = len(batch.base)
     counts = np.diff(batch.first)
     lane = np.arange(n) - np.repeat(batch.first[:-1], counts)
-    h = batch.lane_data[np.repeat(np.arange(len(counts)), counts), lane][:, None, None]
+    h = batch.lane_data[np.repeat(np.arange(len(counts)), counts), 0, lane][:, None, None]
     element = "original" if batch.base.shape[1] == 8 else "nonlocking"
     vectors = dq[batch.base[:, :, None] + np.arange(3)]  # as for an element of the length 1
     vectors[:, [0, 4]] /= h
     vectors[:, 8:] *= h
-    out = np.zeros((n, batch.lane_reference.shape[1] // LANES))
+    out = np.zeros((n, batch.lane_reference.shape[1]))
     for group in batch.groups.tolist():
         rows, points = slice(int(batch.first[group[BEGIN]]), int(batch.first[group[END]])), group[POINTS]
         factors = (

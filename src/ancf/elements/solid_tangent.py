@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compiled import formula, inline_kernel
-from .lanes import LANES, ROWS
-from .solid_lanes import (
+from ..simd import every, vector
+from .cable_strain import dyads
+from .solid_force import (
     AXIAL,
     BENDING,
     D_A,
@@ -34,11 +35,13 @@ from .solid_lanes import (
     M_Z,
     M_ZZ,
     TANGENT,
+    D,
     point,
     strains,
     stresses,
     vectors,
 )
+from .workspace import ROWS, add_row, row, set_rows
 
 # 3x3 blocks of a Gauss point, nine rows each, in the order in which spread_tangent needs them
 A_A, A_B, A_BB, A_C, A_CC = (TANGENT + 9 * k for k in range(5))
@@ -53,70 +56,76 @@ if ELEMENT + 9 * BLOCKS > ROWS:
 
 
 @formula
-def put(ws, o, T, H, h, x, y):
-    """Block T I + H x y^T + h y x^T of one lane, which starts at o."""
-    for k in range(3):
-        for n in range(3):
-            ws[o + (3 * k + n) * LANES] = H * x[k] * y[n] + h * y[k] * x[n] + (T if k == n else 0.0)
+def put(ws, first, T, H, h, x, y):
+    """Block T I + H x y^T + h y x^T in the nine rows from `first` on."""
+    none = every(0.0)
+    put_rows(ws, first, dyads(T, x, y, none, H, h, none))
 
 
 @formula
-def put_diagonal(ws, o, T, ha, hb, hB, hc, hC, x):
+def put_rows(ws, first, block):
+    """A block, three rows of a matrix."""
+    set_rows(ws, first, block[0])
+    set_rows(ws, first + 3, block[1])
+    set_rows(ws, first + 6, block[2])
+
+
+@formula
+def put_diagonal(ws, first, T, ha, hb, hB, hc, hC, x):
     """Block T I + sum of moduli times the squares of the five vectors."""
     a, b, B, c, C = x
-    for k in range(3):
-        for n in range(k, 3):
-            value = ha * a[k] * a[n] + hb * b[k] * b[n] + hB * B[k] * B[n] + hc * c[k] * c[n]
-            value += hC * C[k] * C[n] + (T if k == n else 0.0)
-            ws[o + (3 * k + n) * LANES] = value
-            ws[o + (3 * n + k) * LANES] = value
+    ua, ub, uB, uc, uC, none = ha * a, hb * b, hB * B, hc * c, hC * C, every(0.0)
+    put_rows(
+        ws,
+        first,
+        (
+            ua[0] * a + ub[0] * b + uB[0] * B + uc[0] * c + uC[0] * C + vector(T, none, none),
+            ua[1] * a + ub[1] * b + uB[1] * B + uc[1] * c + uC[1] * C + vector(none, T, none),
+            ua[2] * a + ub[2] * b + uB[2] * B + uc[2] * c + uC[2] * C + vector(none, none, T),
+        ),
+    )
 
 
 @inline_kernel
 def diagonal_blocks(ws, gp, g, w, damping):
     """Blocks of a Gauss point of one vector; ``w``: its weight, ``damping``: that of the dampers."""
-    at = point(gp, g)
-    for m in range(LANES):
-        x = vectors(ws, at, m)
-        s = stresses(ws, w, strains(ws, x, m), m)
-        da = w * ws[D_A * LANES + m]
-        ab, ac, bc = w * ws[G_XY * LANES + m], w * ws[G_XZ * LANES + m], w * ws[G_YZ * LANES + m]
-        bB, cC = w * ws[G_BB * LANES + m], w * ws[G_CC * LANES + m]
-        bC, cB = w * ws[G_BC * LANES + m], w * ws[G_CB * LANES + m]
-        BB, BC, CC = w * ws[M_YY * LANES + m], w * ws[M_YZ * LANES + m], w * ws[M_ZZ * LANES + m]
-        aa, bend = da + damping * ws[AXIAL * LANES + m], damping * ws[BENDING * LANES + m]
-        aB, aC = w * ws[M_Y * LANES + m] + bend, w * ws[M_Z * LANES + m] + bend
-        put_diagonal(ws, A_A * LANES + m, s[0], aa, ab, aB, ac, aC, x)
-        put_diagonal(ws, B_B * LANES + m, s[1], ab, da, bB, bc, bC, x)
-        put_diagonal(ws, C_C * LANES + m, s[2], ac, bc, cB, da, cC, x)
-        put_diagonal(ws, BB_BB * LANES + m, 2.0 * s[3], aB, bB, BB, cB, BC, x)
-        put_diagonal(ws, CC_CC * LANES + m, 2.0 * s[4], aC, bC, BC, cC, CC, x)
+    x = vectors(ws, point(gp, g), D)
+    s = stresses(ws, w, strains(ws, x))
+    da = w * row(ws, D_A)
+    ab, ac, bc = w * row(ws, G_XY), w * row(ws, G_XZ), w * row(ws, G_YZ)
+    bB, cC, bC, cB = w * row(ws, G_BB), w * row(ws, G_CC), w * row(ws, G_BC), w * row(ws, G_CB)
+    BB, BC, CC = w * row(ws, M_YY), w * row(ws, M_YZ), w * row(ws, M_ZZ)
+    aa, bend = da + damping * row(ws, AXIAL), damping * row(ws, BENDING)
+    aB, aC = w * row(ws, M_Y) + bend, w * row(ws, M_Z) + bend
+    put_diagonal(ws, A_A, s[0], aa, ab, aB, ac, aC, x)
+    put_diagonal(ws, B_B, s[1], ab, da, bB, bc, bC, x)
+    put_diagonal(ws, C_C, s[2], ac, bc, cB, da, cC, x)
+    put_diagonal(ws, BB_BB, 2.0 * s[3], aB, bB, BB, cB, BC, x)
+    put_diagonal(ws, CC_CC, 2.0 * s[4], aC, bC, BC, cC, CC, x)
 
 
 @inline_kernel
 def other_blocks(ws, gp, g, w, damping):
     """Blocks of a Gauss point of two different vectors."""
-    at = point(gp, g)
-    for m in range(LANES):
-        x = vectors(ws, at, m)
-        s = stresses(ws, w, strains(ws, x, m), m)
-        a, b, B, c, C = x
-        la, bend = w * ws[LAM_A * LANES + m], damping * ws[BENDING * LANES + m]
-        my, mz, yz = w * ws[M_Y * LANES + m], w * ws[M_Z * LANES + m], w * ws[M_YZ * LANES + m]
-        ly, lz = w * ws[L_Y * LANES + m], w * ws[L_Z * LANES + m]
-        bB, cC = w * ws[G_BB * LANES + m], w * ws[G_CC * LANES + m]
-        put(ws, A_B * LANES + m, s[8], la, w * ws[G_XY * LANES + m], a, b)
-        put(ws, A_C * LANES + m, s[9], la, w * ws[G_XZ * LANES + m], a, c)
-        put(ws, B_C * LANES + m, s[10], la, w * ws[G_YZ * LANES + m], b, c)
-        put(ws, A_BB * LANES + m, s[6], my, my + bend, a, B)
-        put(ws, A_CC * LANES + m, s[7], mz, mz + bend, a, C)
-        put(ws, BB_CC * LANES + m, s[5], yz, yz, B, C)
-        put(ws, B_BB * LANES + m, s[11], ly, bB, b, B)
-        put(ws, BB_B * LANES + m, s[11], ly, bB, B, b)
-        put(ws, C_CC * LANES + m, s[12], lz, cC, c, C)
-        put(ws, CC_C * LANES + m, s[12], lz, cC, C, c)
-        put(ws, B_CC * LANES + m, s[13], lz, w * ws[G_BC * LANES + m], b, C)
-        put(ws, BB_C * LANES + m, s[14], ly, w * ws[G_CB * LANES + m], B, c)
+    x = vectors(ws, point(gp, g), D)
+    s = stresses(ws, w, strains(ws, x))
+    a, b, B, c, C = x
+    la, bend = w * row(ws, LAM_A), damping * row(ws, BENDING)
+    my, mz, yz = w * row(ws, M_Y), w * row(ws, M_Z), w * row(ws, M_YZ)
+    ly, lz = w * row(ws, L_Y), w * row(ws, L_Z)
+    bB, cC = w * row(ws, G_BB), w * row(ws, G_CC)
+    put(ws, A_B, s[8], la, w * row(ws, G_XY), a, b)
+    put(ws, A_C, s[9], la, w * row(ws, G_XZ), a, c)
+    put(ws, B_C, s[10], la, w * row(ws, G_YZ), b, c)
+    put(ws, A_BB, s[6], my, my + bend, a, B)
+    put(ws, A_CC, s[7], mz, mz + bend, a, C)
+    put(ws, BB_CC, s[5], yz, yz, B, C)
+    put(ws, B_BB, s[11], ly, bB, b, B)
+    put(ws, BB_B, s[11], ly, bB, B, b)
+    put(ws, C_CC, s[12], lz, cC, c, C)
+    put(ws, CC_C, s[12], lz, cC, C, c)
+    put(ws, B_CC, s[13], lz, w * row(ws, G_BC), b, C)
+    put(ws, BB_C, s[14], ly, w * row(ws, G_CB), B, c)
 
 
 @formula
@@ -125,28 +134,20 @@ def element_row(x, y):
     return ELEMENT + 9 * (x * (17 - x) // 2 + y)
 
 
-@formula
-def unsigned(row):
-    """Place of a row in ws.  Of an unsigned index the compiler knows that it does not count from the end."""
-    return np.uint64(row * LANES)
+@inline_kernel
+def add2(ws, to, first, s, t):
+    """Add s and t times the blocks at rows ``first`` and next to it to the block at row ``to``."""
+    for n in range(9):
+        add_row(ws, to + n, s * row(ws, first + n) + t * row(ws, first + 9 + n))
 
 
 @inline_kernel
-def add2(ws, row, first, s, t):
-    """Add s and t times the blocks at rows ``first`` and next to it to the block at ``row``."""
-    i, j, k = unsigned(row), unsigned(first), unsigned(first + 9)
-    for n in range(np.uint64(9 * LANES)):
-        ws[i + n] += s * ws[j + n] + t * ws[k + n]
-
-
-@inline_kernel
-def add4(ws, row, first, s, S, t, T):
-    """Add s t, s T, S t and S T times the blocks at rows ``first`` and behind it to the block at ``row``."""
-    i, j, k = unsigned(row), unsigned(first), unsigned(first + 9)
-    p, q = unsigned(first + 18), unsigned(first + 27)
-    u, v, w, z = s * t, s * T, S * t, S * T
-    for n in range(np.uint64(9 * LANES)):
-        ws[i + n] += u * ws[j + n] + v * ws[k + n] + w * ws[p + n] + z * ws[q + n]
+def add4(ws, to, first, s, S, t, T):
+    """Add s t, s T, S t and S T times four blocks from row ``first`` on to the block at row ``to``."""
+    for n in range(9):
+        x = t * row(ws, first + n) + T * row(ws, first + 9 + n)
+        y = t * row(ws, first + 18 + n) + T * row(ws, first + 27 + n)
+        add_row(ws, to + n, s * x + S * y)
 
 
 @inline_kernel
@@ -158,14 +159,14 @@ def spread_tangent(ws, gp, g, own):
             add2(ws, element_row(x, y), A_A, s * gp[g, y], 0.0)
         for axis in range(2):
             for y in range(own):
-                row = element_row(x, 3 + 3 * axis + y)
-                add2(ws, row, A_B + 18 * axis, s * gp[g, 8 + y], s * gp[g, 11 + y])
+                to = element_row(x, 3 + 3 * axis + y)
+                add2(ws, to, A_B + 18 * axis, s * gp[g, 8 + y], s * gp[g, 11 + y])
     for pair in range(3):  # of r_y with itself, of r_z with itself, of r_y with r_z
         first, second = (6 if pair == 1 else 3), (3 if pair == 0 else 6)
         for x in range(own):
             for y in range(0 if pair == 2 else x, own):
-                row = element_row(first + x, second + y)
-                add4(ws, row, B_B + 36 * pair, gp[g, 8 + x], gp[g, 11 + x], gp[g, 8 + y], gp[g, 11 + y])
+                to = element_row(first + x, second + y)
+                add4(ws, to, B_B + 36 * pair, gp[g, 8 + x], gp[g, 11 + x], gp[g, 8 + y], gp[g, 11 + y])
 
 
 def _places() -> NDArray[np.int64]:

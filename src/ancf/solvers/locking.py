@@ -16,7 +16,7 @@ from scipy.sparse.linalg import splu
 from ..arrays import FloatArray
 from ..batches import Batches
 from ..elements.cable import CableBatch
-from ..elements.lanes import LANES, gauss_table
+from ..elements.cable_strain import gauss_table
 from ..elements.shapes import gauss
 from ..linalg.sparse import to_sparse
 from ..system.contacts import touching
@@ -81,10 +81,9 @@ def _softened(batch: CableBatch, left: float) -> CableBatch:
         tables.append(np.concatenate([two, own]))
         groups[k, 3], groups[k, 4] = first, TWO + kept
         first += len(tables[-1])
-        strains = batch.lane_reference[start:end, : axial * LANES].reshape(end - start, axial, LANES)
+        strains = batch.lane_reference[start:end, :axial]
         at = np.concatenate([gauss(TWO)[0], gauss(kept)[0]])
-        values = np.einsum("gk,ckl->cgl", _lagrange(gauss(axial)[0], at), strains)
-        reference[start:end, : len(at) * LANES] = values.reshape(end - start, -1)
+        reference[start:end, : len(at)] = np.einsum("gk,ckl->cgl", _lagrange(gauss(axial)[0], at), strains)
     return batch._replace(
         groups=groups, gp=np.ascontiguousarray(np.concatenate(tables)), lane_reference=reference
     )

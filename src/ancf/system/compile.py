@@ -20,8 +20,8 @@ from ..connections import joint_build
 from ..connections.contact_build import contacts
 from ..connections.sliding_build import sliding
 from ..connections.spring_build import springs
-from ..elements.lanes import workspace
 from ..elements.registry import ELEMENTS
+from ..elements.workspace import workspace
 from ..linalg.block_ldl import allocate
 from ..linalg.ordering import behind, order
 from ..model.beam import Beam

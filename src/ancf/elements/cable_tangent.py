@@ -1,0 +1,79 @@
+"""The tangent of the cable for LANES elements at a time: from Gauss points to the blocks of the matrix."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..compiled import formula, inline_kernel
+from ..simd import LANES
+from .cable_damping import SLOPES
+from .workspace import add_row, add_rows
+
+# rows of the workspace: 3x3 blocks between d, t1 and t2, row by row
+KDD, KD1, KD2, K11, K12, K22 = 0, 9, 18, 27, 36, 45
+BLOCKS = 54
+#: The blocks and the parts of the element's shape, d, t1 and t2, between which they are.
+PAIRS = ((KDD, 0, 0), (KD1, 0, 1), (KD2, 0, 2), (K11, 1, 1), (K12, 1, 2), (K22, 2, 2))
+
+
+@formula
+def spread_slope(ws, gp, g, pp):
+    """Add the matrix on p of a Gauss point, three rows, to the blocks."""
+    for block, x, y in PAIRS:
+        c = gp[g, x] * gp[g, y]
+        add_rows(ws, block, c * pp[0])
+        add_rows(ws, block + 3, c * pp[1])
+        add_rows(ws, block + 6, c * pp[2])
+
+
+@formula
+def spread(ws, gp, g, inv_l, matrices):
+    """Add the matrices of a Gauss point by p p, p s, s p and s s, three rows each, to the blocks."""
+    pp, ps, sp, ss = matrices
+    spread_row(ws, gp, g, inv_l, 0, pp[0], ps[0], sp[0], ss[0])
+    spread_row(ws, gp, g, inv_l, 3, pp[1], ps[1], sp[1], ss[1])
+    spread_row(ws, gp, g, inv_l, 6, pp[2], ps[2], sp[2], ss[2])
+
+
+@inline_kernel
+def spread_row(ws, gp, g, inv_l, first, pp, ps, sp, ss):
+    """Rows of the blocks that begin ``first`` rows behind the first row of each."""
+    for block, x, y in PAIRS:
+        cx, cy, ex, ey = gp[g, x], gp[g, y], gp[g, 3 + x] * inv_l, gp[g, 3 + y] * inv_l
+        add_rows(ws, block + first, cy * (cx * pp + ex * sp) + ey * (cx * ps + ex * ss))
+
+
+@formula
+def spread_slope_damping(ws, c):
+    """Add the matrix of the slope damping on the rates of (d, t1, t2)."""
+    for block, x, y in PAIRS:
+        for i in range(3):
+            add_row(ws, block + 4 * i, c * SLOPES[x][y])
+
+
+@inline_kernel
+def add_block(A, place, ws, origin, m, scale, mass):
+    """Add scale times a 3x3 block of lane m, and mass times the unit matrix, to A at ``place``."""
+    first, row, column = origin[0] * LANES + m, origin[1] * LANES, origin[2] * LANES
+    if min(place, first, row, column) < 0:
+        return  # never: but now the compiler knows that no index counts from the end
+    for i in range(3):
+        A[place + 7 * i] += mass
+        for j in range(3):
+            A[place + 6 * i + j] += scale * ws[first + i * row + j * column]
+
+
+def _places() -> NDArray[np.int64]:
+    """First row and strides of the 3x3 block between slots x and y of (r1, r_x1, r2, r_x2), shape (16, 3)."""
+    blocks = {(x, y): block for block, x, y in PAIRS}
+    part = (0, 1, 0, 2)  # r1 and r2 act through d
+    rows = []
+    for x in range(4):
+        for y in range(4):
+            i, j = part[x], part[y]
+            rows.append((blocks[i, j], 3, 1) if i <= j else (blocks[j, i], 1, 3))
+    return np.array(rows, dtype=np.int64)
+
+
+PLACES = _places()

@@ -1,0 +1,134 @@
+"""Lanes and triples in kernels against NumPy on the same data, of any sizes, places and strides."""
+
+import numpy as np
+import pytest
+
+from ancf.compiled import kernel
+from ancf.simd import (
+    LANES,
+    absolute,
+    every,
+    gather,
+    gather_nodes,
+    load,
+    scatter,
+    scatter_nodes,
+    sqrt,
+    store,
+    total,
+    vector,
+    zero,
+)
+
+RNG = np.random.default_rng(5)
+SPECIAL = np.array([0.0, -0.0, np.inf, -np.inf, np.nan, 5e-324, -1e308, 1e308])
+
+
+@kernel
+def of_lanes(x, y, s, out):
+    """Every operator of lanes with lanes and with a number, on both sides."""
+    a, b = load(x, 0), load(y, 1, 0)
+    found = (
+        a + b,
+        a - b,
+        a * b,
+        a / b,
+        -a,
+        a + s,
+        s - a,
+        a - 2,
+        2 * a,
+        a * s,
+        s / a,
+        a / 3,
+        absolute(a),
+        sqrt(absolute(a)),
+        every(s),
+    )
+    for k in range(15):
+        store(found[k], out, k)
+
+
+@kernel
+def sums(x):
+    return total(2.0 * (load(x, 3) - 1.0))
+
+
+@kernel
+def of_triples(x, s, out):
+    """Operators of triples with triples, lanes and numbers."""
+    a, b, c = load(x, 0, 0), load(x, 0, 1), load(x, 0, 2)
+    p, q = vector(a, b, c), vector(c, 2.0 * a, b) + zero()
+    found = (p + q, p - q, a * p, p * a, s * p, p * s, p / c, p / s, -p, 3 * p)
+    for k in range(10):
+        store(found[k][0], out, k, 0)
+        store(found[k][1], out, k, 1)
+        store(found[k][2], out, k, 2)
+
+
+@kernel
+def moved(x, places, r):
+    scatter(2.0 * gather(x, places, 0, 1), r, places, 1, 0)
+    first, second = gather_nodes(x, places, 1, 1)
+    scatter_nodes(first + second, first - second, r, places, 0, 0)
+
+
+@pytest.mark.parametrize("x", [RNG.standard_normal(LANES), SPECIAL], ids=["random", "special"])
+def test_operators_of_lanes(x):
+    """To the last bit, but the division, which may be a product with the inverse."""
+    y, s = RNG.standard_normal((2, 2, LANES)), 0.7
+    out, plain = np.zeros((2, 15, LANES))
+    of_lanes(x, y, s, out)
+    with np.errstate(all="ignore"):
+        of_lanes.py_func(x, y, s, plain)
+    np.testing.assert_allclose(out, plain, rtol=3e-16, atol=0)
+    exact = [0, 1, 2, 4, 5, 6, 7, 8, 9, 12, 13, 14]
+    np.testing.assert_array_equal(out[exact], plain[exact])
+
+
+@pytest.mark.parametrize("at", [3, 5])
+def test_sum_from_any_place(at):
+    x = RNG.standard_normal(20)
+    assert sums(x[at - 3 :].copy()) == pytest.approx(np.sum(2 * x[at : at + LANES] - 2), rel=1e-14)
+
+
+def test_operators_of_triples():
+    x, s = RNG.standard_normal((1, 3, LANES)), -1.3
+    out, plain = np.zeros((2, 10, 3, LANES))
+    of_triples(x, s, out)
+    of_triples.py_func(x, s, plain)
+    np.testing.assert_allclose(out, plain, rtol=5e-16, atol=0)
+
+
+@pytest.mark.parametrize("kind", ["chain", "reversed", "same", "overlapping", "anywhere"])
+def test_from_places_and_back(kind):
+    """Also where lanes share numbers: each lane adds to what the one before has left."""
+    lane = np.arange(LANES)
+    first = {
+        "chain": 6 * lane,
+        "reversed": 6 * lane[::-1],
+        "same": 0 * lane + 4,
+        "overlapping": 2 * lane,
+        "anywhere": RNG.permutation(40)[:LANES],
+    }[kind]
+    places = np.stack([first, first + 3, first + 1, first]).reshape(2, 2, LANES)
+    x = RNG.standard_normal(60)
+    r, wanted = np.zeros((2, 60))
+    moved(x, places, r)
+    moved.py_func(x, places, wanted)
+    np.testing.assert_allclose(r, wanted, rtol=1e-14, atol=1e-15)
+
+
+def test_what_does_not_fit_is_refused_when_it_is_compiled():
+    @kernel
+    def two_triples(x):
+        p = vector(load(x, 0), load(x, 0), load(x, 0))
+        return (p * p)[0]
+
+    @kernel
+    def floats_as_places(x):
+        return total(gather(x, x.reshape(1, 8), 0)[0])
+
+    for wrong in (two_triples, floats_as_places):
+        with pytest.raises(Exception, match="No implementation of function"):
+            wrong(np.ones(8))
