@@ -62,6 +62,13 @@ def kernel(function: F) -> F:
     return cast(F, dispatcher)
 
 
+def inlined_kernel(function: F) -> F:
+    """Like :func:`kernel`, but kernels take its code in: a call would pass hundreds of numbers."""
+    dispatcher: Any = numba.njit(**_OPTIONS, forceinline=True)(function)
+    kernel_cache.use(dispatcher, _STAMP)
+    return cast(F, dispatcher)
+
+
 def separate_kernel(function: F) -> F:
     """Compile ``function`` for kernels that call it by its address, and cache it like :func:`kernel`."""
     dispatcher = _inner(function)

@@ -11,10 +11,12 @@ from ancf.simd import (
     gather,
     gather_nodes,
     load,
+    load_six,
     scatter,
     scatter_nodes,
     sqrt,
     store,
+    store_six,
     total,
     vector,
     zero,
@@ -117,6 +119,23 @@ def test_from_places_and_back(kind):
     moved(x, places, r)
     moved.py_func(x, places, wanted)
     np.testing.assert_allclose(r, wanted, rtol=1e-14, atol=1e-15)
+
+
+@kernel
+def sixes(x, i, j):
+    store_six(2.0 * load_six(x, i), x, j)
+
+
+@pytest.mark.parametrize(("size", "i", "j"), [(6, 0, 0), (12, 6, 0), (12, 0, 6), (19, 3, 13)])
+def test_six_numbers_touch_no_others(size, i, j):
+    """The last six of an array as well; what is behind it may belong to somebody else."""
+    room = RNG.standard_normal(size + 2)
+    x, wanted = room[:size].copy(), room[:size].copy()
+    sixes(x, i, j)
+    wanted[j : j + 6] = 2.0 * wanted[i : i + 6]
+    np.testing.assert_array_equal(x, wanted)
+    sixes.py_func(room, i, j)
+    np.testing.assert_array_equal(room[:size], wanted)
 
 
 def test_what_does_not_fit_is_refused_when_it_is_compiled():

@@ -8,7 +8,8 @@ definite matrices of a time step; pivots are chosen inside the diagonal blocks a
 negative ones tells how far from positive definite the matrix is (Sylvester's law of inertia).
 
 Values: block k of a matrix is ``A[36 k : 36 k + 36]``, row by row; the diagonal blocks come first,
-then the blocks below the diagonal, row by row.
+then the blocks below the diagonal, row by row.  The six unknowns of a node are one value, as the
+products of a block and a vector add up its columns; for them L is kept by columns as well.
 """
 
 from __future__ import annotations
@@ -18,7 +19,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import inline_kernel
+from ..compiled import formula, inline_kernel
+from ..simd import every, load_six, store_six
 
 #: A pivot below this fraction of its original diagonal entry counts as zero.
 SINGULAR = 1e-14
@@ -29,7 +31,8 @@ class Factor(NamedTuple):
 
     row_start: NDArray[np.int64]  # (n + 1,) first block of each row
     column: NDArray[np.int64]  # (m,) column of each block, ascending in a row
-    L: NDArray[np.float64]  # (36 m,)
+    L: NDArray[np.float64]  # (36 m,) row by row
+    LT: NDArray[np.float64]  # (36 m,) column by column
     D_inv: NDArray[np.float64]  # (36 n,)
     T: NDArray[np.float64]  # (36 longest row,) workspace, L D of one row
     place: NDArray[np.int64]  # (n,) workspace, place of a column in the row at hand
@@ -42,6 +45,7 @@ def allocate(row_start: NDArray[np.int64], column: NDArray[np.int64]) -> Factor:
     return Factor(
         np.ascontiguousarray(row_start, dtype=np.int64),
         np.ascontiguousarray(column, dtype=np.int64),
+        np.zeros(36 * len(column)),
         np.zeros(36 * len(column)),
         np.zeros(36 * n),
         np.zeros(36 * max(longest, 1)),
@@ -80,30 +84,46 @@ def invert_symmetric(A, o, original):
     return negative
 
 
-@inline_kernel
-def subtract_product_t(C, oc, A, oa, B, ob):
-    """C -= A B^T for 6x6 blocks at the given offsets."""
-    for i in range(6):
-        for j in range(6):
-            s = 0.0
-            for k in range(6):
-                s += A[oa + 6 * i + k] * B[ob + 6 * j + k]
-            C[oc + 6 * i + j] -= s
+@formula
+def columns(A, o, f0, f1, f2, f3, f4, f5):
+    """Sum of six columns, which stand one after the other from ``A[o]`` on, with these factors."""
+    first = load_six(A, o) * f0 + load_six(A, o + 6) * f1
+    second = load_six(A, o + 12) * f2 + load_six(A, o + 18) * f3
+    return first + second + (load_six(A, o + 24) * f4 + load_six(A, o + 30) * f5)
+
+
+@formula
+def times(A, o, x, i):
+    """Product of the block whose columns stand from ``A[o]`` on and the six numbers x[i] ... x[i + 5]."""
+    return columns(
+        A, o, every(x[i]), every(x[i + 1]), every(x[i + 2]), every(x[i + 3]), every(x[i + 4]), every(x[i + 5])
+    )
 
 
 @inline_kernel
-def subtract_symmetric(C, oc, A, oa, B, ob):
-    """C -= A B^T where the product is known to be symmetric.
+def subtract_product(C, oc, A, oa, B, ob):
+    """C -= A B for 6x6 blocks, row by row, at the given offsets."""
+    for i in range(0, 36, 6):
+        store_six(load_six(C, oc + i) - times(B, ob, A, oa + i), C, oc + i)
 
-    C must stay exactly symmetric: along a chain of many nodes an antisymmetric error would grow.
+
+@inline_kernel
+def mirror(C, o):
+    """Make a block that is symmetric but for round-off exactly so.
+
+    Along a chain of many nodes an antisymmetric error would grow.
     """
     for i in range(6):
-        for j in range(i + 1):
-            s = 0.0
-            for k in range(6):
-                s += A[oa + 6 * i + k] * B[ob + 6 * j + k]
-            C[oc + 6 * i + j] -= s
-            C[oc + 6 * j + i] = C[oc + 6 * i + j]
+        for j in range(i):
+            C[o + 6 * j + i] = C[o + 6 * i + j]
+
+
+@inline_kernel
+def transpose(A, B, o):
+    """B = A^T for the blocks at ``A[o]`` and ``B[o]``."""
+    for i in range(6):
+        for j in range(6):
+            B[o + 6 * j + i] = A[o + 6 * i + j]
 
 
 @inline_kernel
@@ -122,7 +142,7 @@ def factorise(A, factor, start):
     Rows before ``start`` are taken as they are: when A has changed in its last rows alone, these are all
     that has to be done again.
     """
-    row_start, column, L, D_inv, T, place = factor
+    row_start, column, L, LT, D_inv, T, place = factor
     n = row_start.shape[0] - 1
     negative = 0
     for i in range(start, n):
@@ -137,7 +157,7 @@ def factorise(A, factor, start):
             j, t = column[k], 36 * (k - first)
             for m in range(36):
                 T[t + m] = A[36 * (n + k) + m]
-                L[36 * k + m] = 0.0
+                L[36 * k + m] = LT[36 * k + m] = 0.0
             if leading:
                 leading = is_zero(T, t)
                 if leading:
@@ -145,11 +165,12 @@ def factorise(A, factor, start):
             for h in range(row_start[j], row_start[j + 1]):
                 c = place[column[h]]
                 if c >= 0:
-                    subtract_product_t(T, t, T, 36 * c, L, 36 * h)
-            subtract_product_t(L, 36 * k, T, t, D_inv, 36 * j)  # D_inv is symmetric
-            for m in range(36 * k, 36 * k + 36):
-                L[m] = -L[m]
-            subtract_symmetric(D_inv, 36 * i, T, t, L, 36 * k)
+                    subtract_product(T, t, T, 36 * c, LT, 36 * h)
+            for m in range(0, 36, 6):
+                store_six(times(D_inv, 36 * j, T, t + m), L, 36 * k + m)
+            transpose(L, LT, 36 * k)
+            subtract_product(D_inv, 36 * i, T, t, LT, 36 * k)
+            mirror(D_inv, 36 * i)
         for k in range(first, last):
             place[column[k]] = -1
         bad = invert_symmetric(D_inv, 36 * i, A)
@@ -159,67 +180,23 @@ def factorise(A, factor, start):
     return negative
 
 
-@inline_kernel
+@formula
 def solve(factor, x, first):
-    """Replace the right-hand side x, shape (6 n,), which is zero before block ``first``, by the solution."""
-    row_start, column, L, D_inv, _, _ = factor
+    """Replace the right-hand side x, shape (6 n,) or more, which is zero before block ``first``."""
+    row_start, column, L, LT, D_inv, _, _ = factor
     n = row_start.shape[0] - 1
     for i in range(first, n):
-        s0, s1, s2, s3, s4, s5 = (
-            x[6 * i],
-            x[6 * i + 1],
-            x[6 * i + 2],
-            x[6 * i + 3],
-            x[6 * i + 4],
-            x[6 * i + 5],
-        )
-        for k in range(row_start[i], row_start[i + 1]):
-            j, o = 6 * column[k], 36 * k
-            for c in range(6):
-                f = x[j + c]
-                s0 -= L[o + c] * f
-                s1 -= L[o + 6 + c] * f
-                s2 -= L[o + 12 + c] * f
-                s3 -= L[o + 18 + c] * f
-                s4 -= L[o + 24 + c] * f
-                s5 -= L[o + 30 + c] * f
-        x[6 * i], x[6 * i + 1], x[6 * i + 2], x[6 * i + 3], x[6 * i + 4], x[6 * i + 5] = (
-            s0,
-            s1,
-            s2,
-            s3,
-            s4,
-            s5,
-        )
-    for i in range(n - 1, first - 1, -1):
-        o = 36 * i
-        s0, s1, s2, s3, s4, s5 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        for c in range(6):  # D_inv is symmetric: rows serve as columns
-            f = x[6 * i + c]
-            s0 += D_inv[o + 6 * c] * f
-            s1 += D_inv[o + 6 * c + 1] * f
-            s2 += D_inv[o + 6 * c + 2] * f
-            s3 += D_inv[o + 6 * c + 3] * f
-            s4 += D_inv[o + 6 * c + 4] * f
-            s5 += D_inv[o + 6 * c + 5] * f
-        x[6 * i], x[6 * i + 1], x[6 * i + 2], x[6 * i + 3], x[6 * i + 4], x[6 * i + 5] = (
-            s0,
-            s1,
-            s2,
-            s3,
-            s4,
-            s5,
-        )
+        if row_start[i] < row_start[i + 1]:
+            s = load_six(x, 6 * i)
+            for k in range(row_start[i], row_start[i + 1]):
+                s = s - times(LT, 36 * k, x, 6 * column[k])
+            store_six(s, x, 6 * i)
+    for i in range(first, n):
+        store_six(times(D_inv, 36 * i, x, 6 * i), x, 6 * i)  # D_inv is symmetric: rows serve as columns
     for i in range(n - 1, -1, -1):
-        for k in range(row_start[i], row_start[i + 1]):
-            j, o = 6 * column[k], 36 * k
-            s0, s1, s2, s3, s4, s5 = x[j], x[j + 1], x[j + 2], x[j + 3], x[j + 4], x[j + 5]
-            for c in range(6):
-                f = x[6 * i + c]
-                s0 -= L[o + 6 * c] * f
-                s1 -= L[o + 6 * c + 1] * f
-                s2 -= L[o + 6 * c + 2] * f
-                s3 -= L[o + 6 * c + 3] * f
-                s4 -= L[o + 6 * c + 4] * f
-                s5 -= L[o + 6 * c + 5] * f
-            x[j], x[j + 1], x[j + 2], x[j + 3], x[j + 4], x[j + 5] = s0, s1, s2, s3, s4, s5
+        if row_start[i] < row_start[i + 1]:
+            f0, f1, f2 = every(x[6 * i]), every(x[6 * i + 1]), every(x[6 * i + 2])
+            f3, f4, f5 = every(x[6 * i + 3]), every(x[6 * i + 4]), every(x[6 * i + 5])
+            for k in range(row_start[i], row_start[i + 1]):
+                j = 6 * column[k]
+                store_six(load_six(x, j) - columns(L, 36 * k, f0, f1, f2, f3, f4, f5), x, j)

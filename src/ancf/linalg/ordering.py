@@ -11,6 +11,9 @@ from ..arrays import IntArray
 
 #: Ratio of the numbers of blocks in L up to which an ordering counts as equally good.
 NEAR = 1.15
+MINIMUM_DEGREE = "minimum degree"
+#: Least length of a band that is eliminated from both ends, in squares of its width.
+SHORT = 8
 
 
 def fill_pattern(pairs: IntArray, n: int) -> tuple[IntArray, IntArray]:
@@ -67,8 +70,8 @@ def order(pairs: IntArray, n: int) -> tuple[IntArray, str]:
     counts = {name: len(fill_pattern(rank[pairs], n)[1]) for name, rank in candidates.items()}
     least = len({(min(p), max(p)) for p in map(tuple, pairs.tolist()) if p[0] != p[1]})
     if min(counts.values()) > 1.02 * least:  # a tree or a chain cannot do better than no fill
-        candidates["minimum degree"] = _minimum_degree(pairs, n)
-        counts["minimum degree"] = len(fill_pattern(candidates["minimum degree"][pairs], n)[1])
+        candidates[MINIMUM_DEGREE] = _minimum_degree(pairs, n)
+        counts[MINIMUM_DEGREE] = len(fill_pattern(candidates[MINIMUM_DEGREE][pairs], n)[1])
     best = min(counts.values())
     name = next(k for k in candidates if counts[k] <= NEAR * best)
     return candidates[name], name
@@ -101,6 +104,30 @@ def behind(rank: IntArray, pairs: IntArray, later: IntArray, last: list[int]) ->
     place = np.empty(len(rank), dtype=np.int64)
     place[np.argsort(key, kind="stable")] = np.arange(len(rank))
     return place
+
+
+def from_both_ends(rank: IntArray, spread: int) -> IntArray:
+    """The blocks of a band in turn from its beginning and from its end.
+
+    The two eliminations and solves, which meet in the middle, do not wait for each other: a processor works
+    at both at a time.  Where they meet there are about spread^2 blocks more.
+
+    Parameters
+    ----------
+    rank : ndarray, shape (n,)
+        Place of each block.
+    spread : int
+        Largest difference of the places of two blocks that are coupled.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        As it is where the band is too short for its width.
+    """
+    n = len(rank)
+    if n < SHORT * max(spread, 1) ** 2:
+        return rank
+    return np.where(2 * rank < n, 2 * rank, 2 * (n - 1 - rank) + 1)
 
 
 def _graph(pairs: IntArray, n: int) -> csr_matrix:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .memory import gather, gather_nodes, load, scatter, scatter_nodes, store
+from .memory import gather, gather_nodes, load, load_six, scatter, scatter_nodes, store, store_six
 from .values import LANES, absolute, every, sqrt, total, vector, zero
 
 __all__ = [
@@ -12,10 +12,12 @@ __all__ = [
     "gather",
     "gather_nodes",
     "load",
+    "load_six",
     "scatter",
     "scatter_nodes",
     "sqrt",
     "store",
+    "store_six",
     "total",
     "vector",
     "zero",

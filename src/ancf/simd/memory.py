@@ -30,6 +30,16 @@ def store(value: Any, array: Any, *place: Any) -> None:
         array[place] = value
 
 
+def load_six(array: Any, place: Any) -> Any:
+    """Six numbers of a one-dimensional array from a place on, and two zeros."""
+    return np.append(array[place : place + 6], (0.0, 0.0))
+
+
+def store_six(value: Any, array: Any, place: Any) -> None:
+    """Write the first six numbers to a one-dimensional array, from a place on."""
+    array[place : place + 6] = value[:6]
+
+
 def gather(x: Any, slots: Any, *place: Any) -> Any:
     """The Triple of x[i], x[i + 1], x[i + 2] for the eight i = slots[place]."""
     return x[slots[place][None] + np.arange(3)[:, None]]
@@ -77,6 +87,27 @@ def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
 def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     pointer = _pointer(context, builder, signature.args[1], arguments[1], arguments[2:], signature.args[2:])
     builder.store(arguments[0], builder.bitcast(pointer, VECTOR.as_pointer()), align=8)
+    return context.get_dummy_value()
+
+
+@in_kernels(load_six, lambda array, place: lanes if _is_rows(array, (place,)) else None)
+def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    begin = _pointer(context, builder, signature.args[0], arguments[0], arguments[1:], signature.args[1:])
+    four = builder.load(_at(builder, begin, 0, 4), align=8)
+    two = builder.load(_at(builder, begin, 4, 2), align=8)
+    rest = _shuffle(builder, two, ir.Constant(two.type, None), 0, 1, 2, 3)
+    return _shuffle(builder, four, rest, *range(LANES))
+
+
+@in_kernels(
+    store_six,
+    lambda value, array, place: types.none if value is lanes and _is_rows(array, (place,)) else None,
+)
+def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    value, array, place = arguments
+    begin = _pointer(context, builder, signature.args[1], array, [place], signature.args[2:])
+    builder.store(_shuffle(builder, value, value, 0, 1, 2, 3), _at(builder, begin, 0, 4), align=8)
+    builder.store(_shuffle(builder, value, value, 4, 5), _at(builder, begin, 4, 2), align=8)
     return context.get_dummy_value()
 
 

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..compiled import inline_kernel
+from ..compiled import formula, inline_kernel
 from ..system.system import System
 
 
@@ -85,7 +85,7 @@ def turning_nodes(system: System) -> Frames:
     return allocate(slots, system.core.supports.held, attached, tail)
 
 
-@inline_kernel
+@formula
 def tangent_at(q, i):
     """Unit vector along q[i : i + 3]."""
     x, y, z = q[i], q[i + 1], q[i + 2]
@@ -93,7 +93,7 @@ def tangent_at(q, i):
     return x * il, y * il, z * il
 
 
-@inline_kernel
+@formula
 def normal_at(q, j, x, y, z):
     """Unit vector normal to the tangent (x, y, z) towards q[j : j + 3]."""
     u, v, w = q[j], q[j + 1], q[j + 2]
@@ -116,7 +116,7 @@ def remember(frames, q):
             frames.Q[k, c] = 1.0 if c % 4 == 0 else 0.0
 
 
-@inline_kernel
+@formula
 def turn(frames, q):
     """Rotations from the remembered axes to the present ones."""
     for k in range(frames.slope.shape[0]):
@@ -128,7 +128,7 @@ def turn(frames, q):
             turn_tangent(frames.axes, frames.Q, k, x, y, z)
 
 
-@inline_kernel
+@formula
 def turn_tangent(axes, Q, k, x, y, z):
     """Row k of Q: the smallest rotation to the tangent (x, y, z)."""
     a, b, c = axes[k, 0], axes[k, 1], axes[k, 2]
@@ -147,7 +147,7 @@ def turn_tangent(axes, Q, k, x, y, z):
     Q[k, 8] = co + f * w * w
 
 
-@inline_kernel
+@formula
 def turn_axes(axes, Q, k, x, y, z, u, v, w):
     """Row k of Q: the rotation to the tangent (x, y, z) and the normal (u, v, w)."""
     a, b, c, d, e, f = axes[k, 0], axes[k, 1], axes[k, 2], axes[k, 3], axes[k, 4], axes[k, 5]
@@ -164,7 +164,7 @@ def turn_axes(axes, Q, k, x, y, z, u, v, w):
     Q[k, 8] = z * c + w * f + s * i
 
 
-@inline_kernel
+@formula
 def turn_back(frames, r):
     """r -> Q^T r."""
     for k in range(frames.slope.shape[0]):
@@ -176,7 +176,7 @@ def turn_back(frames, r):
             r[i + 2] = frames.Q[k, 2] * x + frames.Q[k, 5] * y + frames.Q[k, 8] * z
 
 
-@inline_kernel
+@formula
 def turn_forth(frames, r):
     """r -> Q r."""
     for k in range(frames.slope.shape[0]):

@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..batches import add_tangents, find_events
-from ..compiled import inline_kernel, kernel
+from ..compiled import formula, inline_kernel, kernel
 from ..system.core import (
     assemble,
     constraint_rows,
@@ -98,7 +98,7 @@ class Rule(NamedTuple):
     last: int
 
 
-@inline_kernel
+@formula
 def update(s, weight, gb, ib):
     """Take the correction in s.r from q, v, a; returns its norm (NaN when it is not finite)."""
     norm, total = 0.0, 0.0
@@ -113,7 +113,7 @@ def update(s, weight, gb, ib):
     return norm if total < 1e300 else np.nan
 
 
-@inline_kernel
+@formula
 def still(joints, v, a):
     """Multipliers have no rates."""
     for k in range(joints.multipliers.shape[0]):
@@ -121,7 +121,7 @@ def still(joints, v, a):
         a[joints.multipliers[k]] = 0.0
 
 
-@inline_kernel
+@formula
 def solve_turned(core, s, rule):
     """Replace the residual s.r by the correction, with a factorisation that turns with the nodes."""
     to_local(core.supports, s.r)
@@ -172,7 +172,7 @@ def project(batches, core, s, rule):
     return norm
 
 
-@inline_kernel
+@formula
 def largest(x, weight):
     """Largest entry by size, weighted."""
     size = 0.0
@@ -194,7 +194,7 @@ def worst_unknown(s, weight):
     return worst
 
 
-@inline_kernel
+@formula
 def newton(core, s, h, rule, modified, B, G):
     """Solve the equations of one step from the prediction in s; returns a status."""
     renew, fresh = s.memo[H_FACTOR] != h, False  # fresh: the matrix was renewed in this step
@@ -261,7 +261,7 @@ def newton(core, s, h, rule, modified, B, G):
     return SLOW
 
 
-@inline_kernel
+@formula
 def check_way(core, s, furthest):
     """Status after a converged step: no unknown may have gone further than a step can tell.
 
@@ -275,7 +275,7 @@ def check_way(core, s, furthest):
     return OK
 
 
-@inline_kernel
+@formula
 def check_sections(core, s):
     """Status after a converged step: no cross-section may have collapsed or turned inside out."""
     slot = inverted_section(core.batches, core.ws, s.q)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..compiled import formula, inline_kernel
+from ..compiled import formula
 from .memory import H_PREV, KNOWN
 from .status import STEPS
 
@@ -28,7 +28,7 @@ def coefficients(h, scheme):
     return scheme.beta * h * h * c, scheme.gamma * h * c
 
 
-@inline_kernel
+@formula
 def predict(s, h, scheme, keep):
     """Accelerations extrapolated from the last four steps; q, v at the end of the step.
 
@@ -59,14 +59,14 @@ def predict(s, h, scheme, keep):
         s.v[i] = v + h * ((1.0 - ga) * bar + ga * bar_new)
 
 
-@inline_kernel
+@formula
 def restore(s):
     """Back to the start of the step."""
     for i in range(s.q.shape[0]):
         s.q[i], s.v[i], s.a[i] = s.q0[i], s.v0[i], s.a0[i]
 
 
-@inline_kernel
+@formula
 def finish(s, h, scheme):
     """Accept the step: algorithmic acceleration and memory of the predictor."""
     am, af = scheme.alpha_m, scheme.alpha_f

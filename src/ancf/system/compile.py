@@ -23,7 +23,7 @@ from ..connections.spring_build import springs
 from ..elements.registry import ELEMENTS
 from ..elements.workspace import workspace
 from ..linalg.block_ldl import allocate
-from ..linalg.ordering import behind, order
+from ..linalg.ordering import MINIMUM_DEGREE, behind, from_both_ends, order
 from ..model.beam import Beam
 from ..model.contact import Contact
 from ..model.joints import Slide
@@ -103,10 +103,14 @@ def order_blocks(parts: Parts, numbering: Numbering) -> tuple[IntArray, IntArray
     pairs = np.concatenate([plain, *(own(b) for own, b in couples if own is not None)])
     rank, ordering = order(pairs, numbering.blocks)
     joints = np.unique(numbering.all_multipliers() // 6)
-    rank = behind(rank, pairs, np.setdiff1d(joints, numbering.sliding), numbering.sliding)
+    behind_bodies = np.setdiff1d(joints, numbering.sliding)
+    band = behind(rank, pairs, behind_bodies, numbering.sliding)
+    spread = int(np.max(np.abs(np.diff(band[pairs], axis=1)), initial=0))
+    if ordering != MINIMUM_DEGREE:
+        rank = from_both_ends(rank, int(np.max(np.abs(np.diff(rank[pairs], axis=1)), initial=0)))
+    rank = behind(rank, pairs, behind_bodies, numbering.sliding)
     numbering.renumber(rank)
     moving = [own(b) for b in last if (own := traits(b).couples) is not None]
-    spread = int(np.max(np.abs(np.diff(rank[pairs], axis=1)), initial=0))
     return rank, rank[np.concatenate([pairs, *moving])], ordering, 6 * (spread + 1) - 1
 
 

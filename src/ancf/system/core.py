@@ -16,7 +16,7 @@ from ..batches import (
     last_inverted,
     strain_energies,
 )
-from ..compiled import inline_kernel, kernel
+from ..compiled import formula, inline_kernel, inlined_kernel, kernel
 from ..linalg.block_ldl import Factor, factorise, solve
 
 
@@ -95,7 +95,7 @@ class Tables(NamedTuple):
     rotation: FloatArray  # (steps, moving, 3, 3, 3) R, dR/dt, d2R/dt2
 
 
-@inline_kernel
+@formula
 def external_force(loads, load, f):
     """Load vector f from gravity and the inputs, shape (inputs, 3), of which the patterns have the first."""
     for i in range(f.shape[0]):
@@ -107,7 +107,7 @@ def external_force(loads, load, f):
                 f[i + c] += w * load[k, c]
 
 
-@kernel
+@inlined_kernel
 def residual(batches, ws, q, v, a, f, r):
     """r = M a + internal forces - f, in the physical components; supports not yet applied."""
     for i in range(r.shape[0]):
@@ -123,7 +123,7 @@ def assemble(batches, ws, q, v, A, c_mass, c_damping, c_stiffness):
     add_tangents(batches, q, v, A, c_mass, c_damping, c_stiffness, ws)
 
 
-@inline_kernel
+@formula
 def to_local(supports, r):
     """Residual as the solve wants it: components along local axes, zero for held unknowns."""
     for k in range(supports.rot_slot.shape[0]):
@@ -137,7 +137,7 @@ def to_local(supports, r):
         r[supports.held[k]] = 0.0
 
 
-@inline_kernel
+@formula
 def follow(supports, q, v, a):
     """Shadows from the unknowns: r_x = R y and its two time derivatives."""
     for k in range(supports.rot_slot.shape[0]):
@@ -152,7 +152,7 @@ def follow(supports, q, v, a):
             q[j + c], v[j + c], a[j + c] = x, dx, ddx
 
 
-@inline_kernel
+@formula
 def drive(supports, value, tables, n, q, v, a):
     """Inputs and given motions of the supports at the end of step n of the block; fills the shadows."""
     for k in range(value.shape[0]):
@@ -228,7 +228,7 @@ def constraints(joints, q, v, a, r, ws):
     constraint_rows(joints, q, v, a, r, ws)
 
 
-@kernel
+@inlined_kernel
 def solve_matrix(factor, x):
     """Replace a residual that :func:`to_local` has prepared by the correction."""
     solve(factor, x, np.int64(0))
@@ -254,7 +254,7 @@ def total_strain_energy(batches, ws, q):
     return strain_energies(batches, q, ws)
 
 
-@inline_kernel
+@formula
 def inverted_section(batches, ws, q):
     """Slot of r_y at the start of an element whose section has collapsed or turned inside out, or -1."""
     return last_inverted(batches, q, ws)
