@@ -10,8 +10,11 @@ from ancf.simd import (
     every,
     gather,
     gather_nodes,
+    greatest,
     load,
     load_six,
+    put,
+    put_nodes,
     scatter,
     scatter_nodes,
     sqrt,
@@ -46,8 +49,9 @@ def of_lanes(x, y, s, out):
         absolute(a),
         sqrt(absolute(a)),
         every(s),
+        greatest(a, 0.1),
     )
-    for k in range(15):
+    for k in range(16):
         store(found[k], out, k)
 
 
@@ -75,16 +79,23 @@ def moved(x, places, r):
     scatter_nodes(first + second, first - second, r, places, 0, 0)
 
 
+@kernel
+def written(x, places, r):
+    put(gather(x, places, 0, 1), r, places, 1, 0)
+    first, second = gather_nodes(x, places, 1, 1)
+    put_nodes(second, first, r, places, 0, 0)
+
+
 @pytest.mark.parametrize("x", [RNG.standard_normal(LANES), SPECIAL], ids=["random", "special"])
 def test_operators_of_lanes(x):
     """To the last bit, but the division, which may be a product with the inverse."""
     y, s = RNG.standard_normal((2, 2, LANES)), 0.7
-    out, plain = np.zeros((2, 15, LANES))
+    out, plain = np.zeros((2, 16, LANES))
     of_lanes(x, y, s, out)
     with np.errstate(all="ignore"):
         of_lanes.py_func(x, y, s, plain)
     np.testing.assert_allclose(out, plain, rtol=3e-16, atol=0)
-    exact = [0, 1, 2, 4, 5, 6, 7, 8, 9, 12, 13, 14]
+    exact = [0, 1, 2, 4, 5, 6, 7, 8, 9, 12, 13, 14, 15]
     np.testing.assert_array_equal(out[exact], plain[exact])
 
 
@@ -119,6 +130,10 @@ def test_from_places_and_back(kind):
     moved(x, places, r)
     moved.py_func(x, places, wanted)
     np.testing.assert_allclose(r, wanted, rtol=1e-14, atol=1e-15)
+    r, wanted = np.zeros((2, 60))
+    written(x, places, r)
+    written.py_func(x, places, wanted)
+    np.testing.assert_array_equal(r, wanted)
 
 
 @kernel

@@ -151,7 +151,7 @@ class TestFrames:
         frames = turning.allocate([slots], np.zeros(0, dtype=np.int64))
         turned(frames, q.ravel(), (q @ self.R.T).ravel())
         for k in range(2):
-            Q = frames.Q[k].reshape(3, 3)
+            Q = frames.Q[0, :, k].reshape(3, 3)
             assert pytest.approx(np.eye(3), abs=1e-14) == Q @ Q.T
             assert np.linalg.det(Q) == pytest.approx(1.0)
             assert Q @ q[k, 1] == pytest.approx(self.R @ q[k, 1], abs=1e-13)
@@ -170,7 +170,7 @@ class TestFrames:
         there = r.ravel().copy()
         forth(frames, there)
         for k in range(2):
-            Q = frames.Q[k].reshape(3, 3)
+            Q = frames.Q[0, :, k].reshape(3, 3)
             assert there.reshape(r.shape)[k] == pytest.approx(r[k] @ Q.T, abs=1e-14)
         back(frames, there)
         assert there == pytest.approx(r.ravel(), abs=1e-14)
@@ -185,7 +185,7 @@ class TestFrames:
         A = RNG.standard_normal(100)
         wanted = A.copy()
         for node, place in ((0, 40), (1, 3)):
-            Q = frames.Q[node].reshape(3, 3)
+            Q = frames.Q[0, :, node].reshape(3, 3)
             for o in range(place, place + 36, 6):
                 wanted[o : o + 3] = A[o : o + 3] @ Q
         rows(frames, A)
@@ -196,8 +196,39 @@ class TestFrames:
         slots = 3 * np.arange(8).reshape(4, 2)
         slots[3, 0] = slots[2, 0]
         held = np.array([1, 6, 7, 8, 9, 10, 11])  # one component of node 0, all of node 1
-        assert turning.allocate([slots], held).slope.tolist() == [9]
-        assert turning.allocate([slots], held, attached=np.array([9])).slope.tolist() == []
+        frames = turning.allocate([slots], held)
+        assert (frames.nodes.tolist(), np.unique(frames.slot[1]).tolist()) == ([1], [9])
+        assert turning.allocate([slots], held, attached=np.array([9])).nodes.tolist() == []
+
+    @pytest.mark.parametrize("counts", [(1,), (8,), (9,), (17, 3)])
+    def test_any_number_of_nodes(self, counts):
+        """Of two and of four vectors, in pairs or apart, in any order; what is no node's stays as it is."""
+        places = RNG.permutation(150)[:, None] * 6
+        apart = [3, 0] if len(counts) > 1 else [0, 3]
+        slots, begin = [], 0
+        for count, pairs in zip(counts, (1, 2), strict=False):
+            of_nodes = places[begin : begin + count * pairs].reshape(count, pairs, 1) + apart
+            slots.append(of_nodes.reshape(count, -1))
+            begin += count * pairs
+        q, frames = RNG.standard_normal((300, 3)), turning.allocate(slots, np.zeros(0, dtype=np.int64))
+        turned(frames, q.ravel(), (q @ self.R.T).ravel())
+        r = RNG.standard_normal(900)
+        there = r.copy()
+        forth(frames, there)
+        for node in (node for some in slots for node in some):
+            first = q.ravel()[node[1] : node[1] + 3] @ self.R.T
+            assert np.linalg.norm(first) > 0
+            for slot in node:
+                assert np.linalg.norm(there[slot : slot + 3]) == pytest.approx(
+                    np.linalg.norm(r[slot : slot + 3])
+                )
+                assert there[slot] != r[slot]
+        others = np.setdiff1d(
+            np.arange(900), np.concatenate([s.ravel() for s in slots])[:, None] + np.arange(3)
+        )
+        np.testing.assert_array_equal(there[others], r[others])
+        back(frames, there)
+        assert there == pytest.approx(r, abs=1e-13)
 
 
 class TestDifferences:

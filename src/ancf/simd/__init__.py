@@ -2,8 +2,19 @@
 
 from __future__ import annotations
 
-from .memory import gather, gather_nodes, load, load_six, scatter, scatter_nodes, store, store_six
-from .values import LANES, absolute, every, sqrt, total, vector, zero
+from .memory import (
+    gather,
+    gather_nodes,
+    load,
+    load_six,
+    put,
+    put_nodes,
+    scatter,
+    scatter_nodes,
+    store,
+    store_six,
+)
+from .values import LANES, absolute, every, greatest, sqrt, total, vector, zero
 
 __all__ = [
     "LANES",
@@ -11,8 +22,11 @@ __all__ = [
     "every",
     "gather",
     "gather_nodes",
+    "greatest",
     "load",
     "load_six",
+    "put",
+    "put_nodes",
     "scatter",
     "scatter_nodes",
     "sqrt",

@@ -50,6 +50,12 @@ def scatter(value: Any, x: Any, slots: Any, *place: Any) -> None:
     np.add.at(x, slots[place][None] + np.arange(3)[:, None], value)
 
 
+def put(value: Any, x: Any, slots: Any, *place: Any) -> None:
+    """Write a Triple to where :func:`gather` would take it from, lane after lane."""
+    for m, i in enumerate(slots[place]):
+        x[i : i + 3] = value[:, m]
+
+
 def gather_nodes(x: Any, slots: Any, *place: Any) -> Any:
     """Two Triples: of x[i], x[i + 1], x[i + 2] and of x[i + 3], x[i + 4], x[i + 5]."""
     return gather(x, slots, *place), gather(x[3:], slots, *place)
@@ -59,6 +65,12 @@ def scatter_nodes(first: Any, second: Any, x: Any, slots: Any, *place: Any) -> N
     """Add two Triples to where :func:`gather_nodes` would take them from."""
     scatter(first, x, slots, *place)
     scatter(second, x[3:], slots, *place)
+
+
+def put_nodes(first: Any, second: Any, x: Any, slots: Any, *place: Any) -> None:
+    """Write two Triples to where :func:`gather_nodes` would take them from, lane after lane."""
+    for m, i in enumerate(slots[place]):
+        x[i : i + 6] = np.append(first[:, m], second[:, m])
 
 
 def _is_rows(array: Any, place: Any, dtype: Any = types.float64) -> bool:
@@ -136,22 +148,34 @@ def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     return whole(builder, parts)
 
 
-@in_kernels(
-    scatter,
-    lambda value, x, slots, *place: (
-        types.none if value is triple and _is_vector(x) and _is_rows(slots, place, types.int64) else None
-    ),
-)
-def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-    parts = parts_of(context, builder, triple, arguments[0])
-    for m, begin in enumerate(_begins(context, builder, signature.args[1:], arguments[1:])):
-        for k in range(3):
-            pointer, more = (
-                builder.gep(begin, [INT(k)], inbounds=True),
-                builder.extract_element(parts[k], INT(m)),
-            )
-            builder.store(builder.fadd(builder.load(pointer), more), pointer)
-    return context.get_dummy_value()
+def _takes(*values: Any) -> Any:
+    """Kinds of a function that writes values of these kinds to places of x and returns nothing."""
+
+    def kinds(*given: Any) -> Any:
+        n = len(values)
+        x, slots, *place = given[n:]
+        fits = given[:n] == values and _is_vector(x) and _is_rows(slots, place, types.int64)
+        return types.none if fits else None
+
+    return kinds
+
+
+def _writer(plain: Any, adds: bool) -> None:
+    """Compiled form of :func:`scatter` and :func:`put`."""
+
+    @in_kernels(plain, _takes(triple))
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        parts = parts_of(context, builder, triple, arguments[0])
+        for m, begin in enumerate(_begins(context, builder, signature.args[1:], arguments[1:])):
+            for k in range(3):
+                pointer = builder.gep(begin, [INT(k)], inbounds=True)
+                number = builder.extract_element(parts[k], INT(m))
+                builder.store(builder.fadd(builder.load(pointer), number) if adds else number, pointer)
+        return context.get_dummy_value()
+
+
+_writer(scatter, True)
+_writer(put, False)
 
 
 def _shuffle(builder: Any, x: Any, y: Any, *mask: int) -> Any:
@@ -192,26 +216,23 @@ def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     )
 
 
-@in_kernels(
-    scatter_nodes,
-    lambda first, second, x, slots, *place: (
-        types.none
-        if first is second is triple and _is_vector(x) and _is_rows(slots, place, types.int64)
-        else None
-    ),
-)
-def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-    begins = _begins(context, builder, signature.args[2:], arguments[2:])
-    parts = [p for value in arguments[:2] for p in parts_of(context, builder, triple, value)]
-    for h in (0, 4):
-        half = [_shuffle(builder, p, p, *range(h, h + 4)) for p in parts]
-        rows = _transposed(builder, half[:4])
-        pairs = (
-            _shuffle(builder, half[4], half[5], 0, 4, 2, 6),
-            _shuffle(builder, half[4], half[5], 1, 5, 3, 7),
-        )
-        ends = [_shuffle(builder, p, p, *k) for k in ((0, 1), (2, 3)) for p in pairs]
-        for begin, row, end in zip(begins[h : h + 4], rows, ends, strict=True):
-            for place, more in ((_at(builder, begin, 0, 4), row), (_at(builder, begin, 4, 2), end)):
-                builder.store(builder.fadd(builder.load(place, align=8), more), place, align=8)
-    return context.get_dummy_value()
+def _node_writer(plain: Any, adds: bool) -> None:
+    """Compiled form of :func:`scatter_nodes` and :func:`put_nodes`."""
+
+    @in_kernels(plain, _takes(triple, triple))
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        begins = _begins(context, builder, signature.args[2:], arguments[2:])
+        parts = [p for value in arguments[:2] for p in parts_of(context, builder, triple, value)]
+        for h in (0, 4):
+            half = [_shuffle(builder, p, p, *range(h, h + 4)) for p in parts]
+            pairs = [_shuffle(builder, half[4], half[5], *mask) for mask in ((0, 4, 2, 6), (1, 5, 3, 7))]
+            ends = [_shuffle(builder, p, p, *k) for k in ((0, 1), (2, 3)) for p in pairs]
+            for begin, row, end in zip(begins[h : h + 4], _transposed(builder, half[:4]), ends, strict=True):
+                for place, numbers in ((_at(builder, begin, 0, 4), row), (_at(builder, begin, 4, 2), end)):
+                    more = builder.fadd(builder.load(place, align=8), numbers) if adds else numbers
+                    builder.store(more, place, align=8)
+        return context.get_dummy_value()
+
+
+_node_writer(scatter_nodes, True)
+_node_writer(put_nodes, False)

@@ -215,6 +215,11 @@ def absolute(x: Any) -> Any:
     return np.abs(x)
 
 
+def greatest(x: Any, least: Any) -> Any:
+    """The numbers of x, but this number where they are less or not a number."""
+    return np.fmax(x, least)
+
+
 def total(x: Any) -> Any:
     """Sum of the eight numbers."""
     return np.sum(x)
@@ -232,6 +237,14 @@ def _called(plain: Any, name: str) -> None:
 
 _called(sqrt, "sqrt")
 _called(absolute, "fabs")
+
+
+@in_kernels(greatest, lambda x, least: lanes if x is lanes and isinstance(least, types.Number) else None)
+def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    x, least = (
+        parts_of(context, builder, *given)[0] for given in zip(signature.args, arguments, strict=True)
+    )
+    return builder.select(builder.fcmp_ordered(">", x, least), x, least)
 
 
 @in_kernels(total, lambda x: types.float64 if x is lanes else None)

@@ -12,27 +12,28 @@ a beam with r_y by that of the right angle of r_x and r_y, so that it follows th
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..compiled import formula, inline_kernel
+from ..simd import LANES, gather, gather_nodes, greatest, load, put, put_nodes, sqrt, store, vector
 from ..system.system import System
+from ..vectors import dot
 
 
 class Frames(NamedTuple):
-    """Nodes that turn."""
+    """Nodes that turn, in chunks of LANES with as many vectors; a chunk that is not full repeats its last."""
 
-    first: IntArray  # (m + 1,) where the slots of each node start
-    slot: IntArray  # slots of all vectors of the nodes: r, r_x, ...
-    slope: IntArray  # (m,) slot of r_x
-    across: IntArray  # (m,) slot of r_y, -1: there is none
-    tail: IntArray  # (slots, k) places of the 6x3 pieces in the rows that are renewed in every step, or -1
-    axes: FloatArray  # (m, 6) unit tangent and unit normal towards r_y when the matrix was made
-    Q: FloatArray  # (m, 9) rotation since then, row by row
+    first: IntArray  # (chunks + 1,) first row in slot of each chunk
+    slot: IntArray  # (rows, LANES) slots of all vectors of the nodes: r, r_x, and perhaps r_y, ...
+    nodes: IntArray  # (chunks,) nodes of each chunk
+    paired: BoolArray  # (chunks,) whether r_x follows r in the state vector, r_z follows r_y, ...
+    tail: IntArray  # (rows, LANES, k) places of 6x3 pieces in the rows that are renewed in every step, or -1
+    axes: FloatArray  # (chunks, 6, LANES) unit tangent and unit normal towards r_y when the matrix was made
+    Q: FloatArray  # (chunks, 9, LANES) rotation since then, row by row
 
 
 def allocate(
@@ -59,17 +60,35 @@ def allocate(
         fixed = ((count_held == 1) | (count_held == 2)).any(axis=1)
         joined = np.isin(s, attached).any(axis=1)
         nodes += list(s[~fixed & ~joined & ~np.isin(s[:, 0], shared)])
-    m = len(nodes)
-    every = np.concatenate([np.zeros(0, dtype=np.int64), *nodes])
+    chunks = _chunks(nodes)
+    every = np.concatenate([np.zeros((0, LANES), dtype=np.int64), *[c for c, _ in chunks]])
+    places = np.zeros((every.size, 0), dtype=np.int64) if tail is None else tail(every.ravel())
     return Frames(
-        first=np.cumsum([0, *[len(n) for n in nodes]]).astype(np.int64),
-        slot=every,
-        tail=np.zeros((len(every), 0), dtype=np.int64) if tail is None else tail(every),
-        slope=np.array([n[1] for n in nodes], dtype=np.int64),
-        across=np.array([n[2] if len(n) > 2 else -1 for n in nodes], dtype=np.int64),
-        axes=np.zeros((m, 6)),
-        Q=np.zeros((m, 9)),
+        first=np.cumsum([0, *[len(c) for c, _ in chunks]]).astype(np.int64),
+        slot=np.ascontiguousarray(every),
+        nodes=np.array([count for _, count in chunks], dtype=np.int64),
+        paired=np.array([_paired(c) for c, _ in chunks], dtype=np.bool_),
+        tail=places.reshape(*every.shape, -1) if every.size else np.zeros((0, LANES, 0), dtype=np.int64),
+        axes=np.zeros((len(chunks), 6, LANES)),
+        Q=np.zeros((len(chunks), 9, LANES)),
     )
+
+
+def _chunks(nodes: list[IntArray]) -> list[tuple[IntArray, int]]:
+    """Slots of LANES nodes at a time, (vectors, LANES), and how many nodes there are."""
+    found = []
+    for vectors in sorted({len(node) for node in nodes}):
+        alike = np.array([node for node in nodes if len(node) == vectors], dtype=np.int64)
+        for start in range(0, len(alike), LANES):
+            part = alike[start : start + LANES]
+            repeated = np.minimum(np.arange(LANES), len(part) - 1)
+            found.append((np.ascontiguousarray(part[repeated].T), len(part)))
+    return found
+
+
+def _paired(slots: IntArray) -> bool:
+    """Whether the vectors of all nodes stand in pairs in the state vector."""
+    return len(slots) % 2 == 0 and bool(np.all(slots[1::2] == slots[::2] + 3))
 
 
 def turning_nodes(system: System) -> Frames:
@@ -86,121 +105,139 @@ def turning_nodes(system: System) -> Frames:
 
 
 @formula
-def tangent_at(q, i):
-    """Unit vector along q[i : i + 3]."""
-    x, y, z = q[i], q[i + 1], q[i + 2]
-    il = 1.0 / math.sqrt(x * x + y * y + z * z)
-    return x * il, y * il, z * il
+def tangent_at(frames, q, k):
+    """Unit tangents of chunk k."""
+    t = gather(q, frames.slot, frames.first[k] + 1)
+    return 1.0 / sqrt(dot(t, t)) * t
 
 
 @formula
-def normal_at(q, j, x, y, z):
-    """Unit vector normal to the tangent (x, y, z) towards q[j : j + 3]."""
-    u, v, w = q[j], q[j + 1], q[j + 2]
-    s = u * x + v * y + w * z
-    u, v, w = u - s * x, v - s * y, w - s * z
-    il = 1.0 / math.sqrt(u * u + v * v + w * w)
-    return u * il, v * il, w * il
+def normal_at(frames, q, k, t):
+    """Unit vectors normal to the tangents t, towards r_y."""
+    n = gather(q, frames.slot, frames.first[k] + 2)
+    n = n - dot(n, t) * t
+    return 1.0 / sqrt(dot(n, n)) * n
+
+
+@formula
+def across(frames, k):
+    """Whether the nodes of chunk k have r_y."""
+    return frames.first[k + 1] - frames.first[k] > 2
+
+
+@formula
+def rows_of(array, k, first):
+    """Vectors in three rows of a chunk."""
+    return vector(load(array, k, first), load(array, k, first + 1), load(array, k, first + 2))
+
+
+@formula
+def set_rows_of(array, k, first, x):
+    """Write vectors into three rows of a chunk."""
+    store(x[0], array, k, first)
+    store(x[1], array, k, first + 1)
+    store(x[2], array, k, first + 2)
+
+
+@formula
+def cross(a, b):
+    """Vector products."""
+    return vector(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 @inline_kernel
 def remember(frames, q):
     """The matrix is being made now: no rotation yet."""
-    for k in range(frames.slope.shape[0]):
-        x, y, z = tangent_at(q, frames.slope[k])
-        frames.axes[k, 0], frames.axes[k, 1], frames.axes[k, 2] = x, y, z
-        if frames.across[k] >= 0:
-            u, v, w = normal_at(q, frames.across[k], x, y, z)
-            frames.axes[k, 3], frames.axes[k, 4], frames.axes[k, 5] = u, v, w
+    for k in range(frames.nodes.shape[0]):
+        t = tangent_at(frames, q, k)
+        set_rows_of(frames.axes, k, 0, t)
+        if across(frames, k):
+            set_rows_of(frames.axes, k, 3, normal_at(frames, q, k, t))
         for c in range(9):
-            frames.Q[k, c] = 1.0 if c % 4 == 0 else 0.0
+            for m in range(LANES):
+                frames.Q[k, c, m] = 1.0 if c % 4 == 0 else 0.0
 
 
 @formula
 def turn(frames, q):
     """Rotations from the remembered axes to the present ones."""
-    for k in range(frames.slope.shape[0]):
-        x, y, z = tangent_at(q, frames.slope[k])
-        if frames.across[k] >= 0:
-            u, v, w = normal_at(q, frames.across[k], x, y, z)
-            turn_axes(frames.axes, frames.Q, k, x, y, z, u, v, w)
+    for k in range(frames.nodes.shape[0]):
+        t, old = tangent_at(frames, q, k), rows_of(frames.axes, k, 0)
+        if across(frames, k):
+            turn_axes(frames.Q, k, old, rows_of(frames.axes, k, 3), t, normal_at(frames, q, k, t))
         else:
-            turn_tangent(frames.axes, frames.Q, k, x, y, z)
+            turn_tangent(frames.Q, k, old, t)
 
 
 @formula
-def turn_tangent(axes, Q, k, x, y, z):
-    """Row k of Q: the smallest rotation to the tangent (x, y, z)."""
-    a, b, c = axes[k, 0], axes[k, 1], axes[k, 2]
-    u, v, w = b * z - c * y, c * x - a * z, a * y - b * x
+def turn_tangent(Q, k, old, t):
+    """Chunk k of Q: the smallest rotation that takes the tangents `old` to t."""
+    w = cross(old, t)
     # 1 + cos, away from zero: near a half turn the rotation is poor, not wrong: Newton renews
-    f = 1.0 / max(1.0 + a * x + b * y + c * z, 1e-3)
-    co = 1.0 - f * (u * u + v * v + w * w)
-    Q[k, 0] = co + f * u * u
-    Q[k, 1] = f * u * v - w
-    Q[k, 2] = f * u * w + v
-    Q[k, 3] = f * u * v + w
-    Q[k, 4] = co + f * v * v
-    Q[k, 5] = f * v * w - u
-    Q[k, 6] = f * u * w - v
-    Q[k, 7] = f * v * w + u
-    Q[k, 8] = co + f * w * w
+    f = 1.0 / greatest(1.0 + dot(old, t), 1e-3)
+    co, x, y, z = 1.0 - f * dot(w, w), f * w[0], f * w[1], f * w[2]
+    set_rows_of(Q, k, 0, vector(co + x * w[0], x * w[1] - w[2], x * w[2] + w[1]))
+    set_rows_of(Q, k, 3, vector(y * w[0] + w[2], co + y * w[1], y * w[2] - w[0]))
+    set_rows_of(Q, k, 6, vector(z * w[0] - w[1], z * w[1] + w[0], co + z * w[2]))
 
 
 @formula
-def turn_axes(axes, Q, k, x, y, z, u, v, w):
-    """Row k of Q: the rotation to the tangent (x, y, z) and the normal (u, v, w)."""
-    a, b, c, d, e, f = axes[k, 0], axes[k, 1], axes[k, 2], axes[k, 3], axes[k, 4], axes[k, 5]
-    g, h, i = b * f - c * e, c * d - a * f, a * e - b * d  # third axes: tangent x normal
-    o, p, s = y * w - z * v, z * u - x * w, x * v - y * u
-    Q[k, 0] = x * a + u * d + o * g
-    Q[k, 1] = x * b + u * e + o * h
-    Q[k, 2] = x * c + u * f + o * i
-    Q[k, 3] = y * a + v * d + p * g
-    Q[k, 4] = y * b + v * e + p * h
-    Q[k, 5] = y * c + v * f + p * i
-    Q[k, 6] = z * a + w * d + s * g
-    Q[k, 7] = z * b + w * e + s * h
-    Q[k, 8] = z * c + w * f + s * i
+def turn_axes(Q, k, old, old_normal, t, n):
+    """Chunk k of Q: the rotation to the tangents t and the normals n."""
+    third, b = cross(old, old_normal), cross(t, n)
+    set_rows_of(Q, k, 0, t[0] * old + n[0] * old_normal + b[0] * third)
+    set_rows_of(Q, k, 3, t[1] * old + n[1] * old_normal + b[1] * third)
+    set_rows_of(Q, k, 6, t[2] * old + n[2] * old_normal + b[2] * third)
 
 
 @formula
 def turn_back(frames, r):
     """r -> Q^T r."""
-    for k in range(frames.slope.shape[0]):
-        for m in range(frames.first[k], frames.first[k + 1]):
-            i = frames.slot[m]
-            x, y, z = r[i], r[i + 1], r[i + 2]
-            r[i] = frames.Q[k, 0] * x + frames.Q[k, 3] * y + frames.Q[k, 6] * z
-            r[i + 1] = frames.Q[k, 1] * x + frames.Q[k, 4] * y + frames.Q[k, 7] * z
-            r[i + 2] = frames.Q[k, 2] * x + frames.Q[k, 5] * y + frames.Q[k, 8] * z
+    for k in range(frames.nodes.shape[0]):
+        a, b, c = rows_of(frames.Q, k, 0), rows_of(frames.Q, k, 3), rows_of(frames.Q, k, 6)
+        if frames.paired[k]:
+            for m in range(frames.first[k], frames.first[k + 1], 2):
+                x, y = gather_nodes(r, frames.slot, m)
+                x, y = x[0] * a + x[1] * b + x[2] * c, y[0] * a + y[1] * b + y[2] * c
+                put_nodes(x, y, r, frames.slot, m)
+        else:
+            for m in range(frames.first[k], frames.first[k + 1]):
+                x = gather(r, frames.slot, m)
+                put(x[0] * a + x[1] * b + x[2] * c, r, frames.slot, m)
 
 
 @formula
 def turn_forth(frames, r):
     """r -> Q r."""
-    for k in range(frames.slope.shape[0]):
-        for m in range(frames.first[k], frames.first[k + 1]):
-            i = frames.slot[m]
-            x, y, z = r[i], r[i + 1], r[i + 2]
-            r[i] = frames.Q[k, 0] * x + frames.Q[k, 1] * y + frames.Q[k, 2] * z
-            r[i + 1] = frames.Q[k, 3] * x + frames.Q[k, 4] * y + frames.Q[k, 5] * z
-            r[i + 2] = frames.Q[k, 6] * x + frames.Q[k, 7] * y + frames.Q[k, 8] * z
+    for k in range(frames.nodes.shape[0]):
+        a, b, c = rows_of(frames.Q, k, 0), rows_of(frames.Q, k, 3), rows_of(frames.Q, k, 6)
+        if frames.paired[k]:
+            for m in range(frames.first[k], frames.first[k + 1], 2):
+                x, y = gather_nodes(r, frames.slot, m)
+                x, y = vector(dot(a, x), dot(b, x), dot(c, x)), vector(dot(a, y), dot(b, y), dot(c, y))
+                put_nodes(x, y, r, frames.slot, m)
+        else:
+            for m in range(frames.first[k], frames.first[k + 1]):
+                x = gather(r, frames.slot, m)
+                put(vector(dot(a, x), dot(b, x), dot(c, x)), r, frames.slot, m)
 
 
 @inline_kernel
 def turn_rows(frames, A):
     """C -> C Q for the rows that are not kept: a joint's row then fits the matrix that is."""
-    Q = frames.Q
-    for k in range(frames.slope.shape[0]):
+    for k in range(frames.nodes.shape[0]):
         for m in range(frames.first[k], frames.first[k + 1]):
-            for t in range(frames.tail.shape[1]):
-                place = frames.tail[m, t]
-                if place < 0:
-                    continue
-                for o in range(place, place + 36, 6):
-                    x, y, z = A[o], A[o + 1], A[o + 2]
-                    if x != 0.0 or y != 0.0 or z != 0.0:
-                        A[o] = x * Q[k, 0] + y * Q[k, 3] + z * Q[k, 6]
-                        A[o + 1] = x * Q[k, 1] + y * Q[k, 4] + z * Q[k, 7]
-                        A[o + 2] = x * Q[k, 2] + y * Q[k, 5] + z * Q[k, 8]
+            for lane in range(frames.nodes[k]):
+                for t in range(frames.tail.shape[2]):
+                    if frames.tail[m, lane, t] >= 0:
+                        turn_piece(frames.Q, k, lane, A, frames.tail[m, lane, t])
+
+
+@inline_kernel
+def turn_piece(Q, k, lane, A, place):
+    """C -> C Q for six rows of three numbers."""
+    for o in range(place, place + 36, 6):
+        x, y, z = A[o], A[o + 1], A[o + 2]
+        if x != 0.0 or y != 0.0 or z != 0.0:
+            for c in range(3):
+                A[o + c] = x * Q[k, c, lane] + y * Q[k, 3 + c, lane] + z * Q[k, 6 + c, lane]
