@@ -16,13 +16,14 @@ from ..system.consistency import open_contacts
 from ..system.core import Tables, apply_load, first_event
 from ..system.energy import energies
 from ..system.system import System
+from .balance import balance
 from .bridge import MOST_PARTS, Bridge
 from .corotation import turning_nodes
 from .events import happen
 from .formulations import FORMULATIONS
 from .low_rank import room_for_patches
 from .memory import H_FACTOR, H_PREV, KNOWN, NORM, WORST, Memory, allocate
-from .newmark import UNLIMITED, Rule, advance, balance
+from .newmark import UNLIMITED, Rule, advance
 from .record import Progress, Recorder, Stats
 from .sampling import Output, sample, sampling_of
 from .scheme import Scheme
