@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..compiled import inline_kernel
 
 #: A pivot below this fraction of its original diagonal entry counts as zero.
@@ -29,9 +30,9 @@ class Factor(NamedTuple):
 
     row_start: NDArray[np.int64]  # (n + 1,) first block of each row
     column: NDArray[np.int64]  # (m,) column of each block, ascending in a row
-    L: NDArray[np.float64]  # (36 m,)
-    D_inv: NDArray[np.float64]  # (36 n,)
-    T: NDArray[np.float64]  # (36 longest row,) workspace, L D of one row
+    L: FloatArray  # (36 m,)
+    D_inv: FloatArray  # (36 n,)
+    T: FloatArray  # (36 longest row,) workspace, L D of one row
     place: NDArray[np.int64]  # (n,) workspace, place of a column in the row at hand
 
 

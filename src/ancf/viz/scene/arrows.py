@@ -12,7 +12,7 @@ from ...arrays import FloatArray
 from ...errors import ModelError
 from ...model.beam import Beam
 from ...model.kind import Push
-from ...model.kinds import kind_of
+from ...model.kinds import kind_of, pushing
 from ...model.points import Point
 from ...model.state_function import StateFunction
 from .parts import Arrow
@@ -40,15 +40,15 @@ def make_arrows(shown: Any, drawn: list[FloatArray]) -> list[Arrow]:
         Places of what the arrows are drawn at.
     """
     longest, found = longest_of(drawn), []
-    pushed = [(item, kind_of(item)) for item in shown.model.loads]
-    for kind in dict.fromkeys(kind for _, kind in pushed if kind.push is not None):
-        known = [(item, *acting(shown, item, kind.push)) for item, own in pushed if own is kind and kind.push]
+    for kind, push in pushing().items():
+        items = [item for item in shown.model.loads if kind_of(item).noun == kind]
+        known = [(item, *acting(shown, item, push)) for item in items]
         largest = max((float(size.max()) for *_, size in known if size.size), default=0.0)
         for item, places, value, size in known:
             if size.size and float(size.max()) > SHORTEST * largest:
-                ends = _ends(places, value * (longest / largest), kind.push)
-                reach = _rims(ends) if kind.push.turns else ends
-                found.append(Arrow(item.name, kind.noun, ends, size, kind.push, HEAD * longest, reach))
+                ends = _ends(places, value * (longest / largest), push)
+                reach = _rims(ends) if push.turns else ends
+                found.append(Arrow(item.name, kind, ends, size, push, HEAD * longest, reach))
     return found
 
 
