@@ -12,11 +12,14 @@ from ancf.viz import style
 
 FOLDER = Path(__file__).parent / "_static"
 
-#: From the top floor down: folder, what it holds, what it hands up.
+#: From the top floor down: folders and files, what they hold; the same as in `tests/house/test_layers.py`.
 FLOORS = (
     ("cli", "commands, terminal, folders of output"),
-    ("paper  catenary", "the paper's exhibits; overhead lines"),
+    ("paper", "the paper's exhibits"),
+    ("catenary", "overhead lines"),
+    ("verification", "half the step, twice the elements"),
     ("viz", "scene → viewer, pictures, exports"),
+    ("resumption", "a run that goes on where its file ends"),
     ("analysis", "equilibrium, simulate, modes"),
     ("results", "states, histories, files"),
     ("solvers", "steps, statics, eigenvalues"),
@@ -24,7 +27,14 @@ FLOORS = (
     ("connections  loads", "kernels of springs, joints, contact, moments"),
     ("elements  bodies  linalg", "kernels of elements, block factorisation"),
     ("model", "the description: bodies, kinds, integrators"),
+    ("batches", "batches of all kinds under one type"),
+    ("vectors", "arithmetic of three numbers in kernels"),
+    ("compiled", "kernels, and operations by type of batch"),
+    ("files", "files that are complete or absent"),
+    ("errors  arrays  interrupts", "messages, types of arrays, signals kept until heeded"),
 )
+#: On the lowest floor too, but for the package alone.
+UNSHOWN = ("_version", "kernel_cache")
 #: One step: what is computed from what.
 STEP = (
     ("Tables", "functions of time,\none row a step"),
@@ -53,18 +63,18 @@ def box(axes: Axes, x: float, y: float, width: float, height: float, color: str)
 
 
 def floors() -> None:
-    """The house: a folder imports from those below."""
-    figure, axes = plt.subplots(figsize=(7.4, 4.4))
+    """The house: a floor imports from those below."""
+    figure, axes = plt.subplots(figsize=(7.6, 6.6))
     for k, (name, what) in enumerate(reversed(FLOORS)):
-        box(axes, 0.0, k, 12.4, 0.8, "white")
-        axes.text(0.2, k + 0.4, name, va="center", family="monospace", fontsize=9, weight="bold")
-        axes.text(5.6, k + 0.4, what, va="center", fontsize=8.5)
+        box(axes, 0.0, k, 14.2, 0.8, "white")
+        axes.text(0.2, k + 0.38, name, va="center", family="monospace", fontsize=8.5, weight="bold")
+        axes.text(5.6, k + 0.38, what, va="center", fontsize=8.5)
     axes.annotate(
-        "", (12.9, 0.2), (12.9, len(FLOORS) - 0.4), arrowprops={"arrowstyle": "-|>", "color": style.BLUE}
+        "", (14.7, 0.2), (14.7, len(FLOORS) - 0.4), arrowprops={"arrowstyle": "-|>", "color": style.BLUE}
     )
-    axes.text(13.1, len(FLOORS) / 2, "imports", rotation=270, va="center", color=style.BLUE, fontsize=9)
-    axes.set(xlim=(-0.1, 13.6), ylim=(-0.1, len(FLOORS)))
-    save(figure, axes, "architecture_floors")
+    axes.text(14.9, len(FLOORS) / 2, "imports", rotation=270, va="center", color=style.BLUE, fontsize=9)
+    axes.set(xlim=(-0.1, 15.4), ylim=(-0.1, len(FLOORS)))
+    save(figure, axes, "architecture_floors", "; ".join(name for name, _ in FLOORS))
 
 
 def step() -> None:
@@ -88,13 +98,14 @@ def step() -> None:
     axes.annotate("", (12.9, 2.6), (13.32, 2.6), arrowprops=back)
     axes.text(10.7, -0.75, "not converged: residual anew", ha="center", color=style.ORANGE, fontsize=7.5)
     axes.set(xlim=(-0.1, 13.5), ylim=(-0.95, 3.3))
-    save(figure, axes, "architecture_step")
+    save(figure, axes, "architecture_step", "; ".join(name for name, _ in STEP))
 
 
-def save(figure: plt.Figure, axes: Axes, name: str) -> None:
-    """Write docs/_static/NAME.png."""
+def save(figure: plt.Figure, axes: Axes, name: str, shows: str) -> None:
+    """Write docs/_static/NAME.png, with what it shows as its description."""
     axes.set_axis_off()
-    figure.savefig(FOLDER / f"{name}.png", dpi=160, bbox_inches="tight")
+    metadata = {"Description": shows}
+    figure.savefig(FOLDER / f"{name}.png", dpi=160, bbox_inches="tight", metadata=metadata)
     plt.close(figure)
 
 

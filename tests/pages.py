@@ -17,13 +17,18 @@ WITH_CODE = [
 ]
 
 
-def code_blocks():
-    """The module docs/code_blocks.py, which is no part of a package."""
-    spec = importlib.util.spec_from_file_location("code_blocks", DOCS / "code_blocks.py")
+def script(name):
+    """The module docs/NAME.py, which is no part of a package."""
+    spec = importlib.util.spec_from_file_location(name, DOCS / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module
     spec.loader.exec_module(module)
     return module
+
+
+def code_blocks():
+    """What finds and runs the code of a page."""
+    return script("code_blocks")
 
 
 def name_of(page):

@@ -292,13 +292,8 @@ def modes(model: Model, *, about: State | None = None, count: int = 10) -> Modes
         The state is not a stable equilibrium.
     """
     system = _system(model)
-    if about is None:
-        q, v = system.initial_state()
-        about = State(system, 0.0, q, np.zeros_like(v))
-    elif isinstance(about, State):
-        about = State(system, about.t, *_adopted(about, system, "modes.about"))
-    else:
-        raise ModelError("modes.about", f"must be a State, is {checks.shown(about)}", "see ancf.equilibrium")
+    q, v = _given_state(system, about, "modes.about")
+    about = State(system, 0.0, q, np.zeros_like(v)) if about is None else State(system, about.t, q, v)
     omega, shapes = natural_modes(about.system, about.q, count)
     return Modes(omega, shapes, about)
 
@@ -325,17 +320,18 @@ def stable_step(model: Model, *, about: State | None = None, safety: float = 0.9
     SolveError
         The mass matrix is singular.
     """
-    method = Explicit(safety=safety)
-    system = _system(model)
-    if about is None:
-        q, v = system.initial_state()
-    elif isinstance(about, State):
-        q, v = _adopted(about, system, "stable_step.about")
-    else:
-        raise ModelError(
-            "stable_step.about", f"must be a State, is {checks.shown(about)}", "see ancf.equilibrium"
-        )
+    method, system = Explicit(safety=safety), _system(model)
+    q, v = _given_state(system, about, "stable_step.about")
     return method.safety * stable_limit(system, q, v)
+
+
+def _given_state(system: System, about: Any, where: str) -> tuple[Any, Any]:
+    """State vectors of a state, or of the initial shape and motion where none is given."""
+    if about is None:
+        return system.initial_state()
+    if not isinstance(about, State):
+        raise ModelError(where, f"must be a State, is {checks.shown(about)}", "see ancf.equilibrium")
+    return _adopted(about, system, where)
 
 
 def _sensors(system: System, given: Any) -> Listing:

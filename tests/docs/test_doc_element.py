@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import ancf
+from additions import Addition
 from ancf.compiled import add_force, add_inertia, add_tangent, strain_energy
 from ancf.elements.registry import ELEMENTS
 from ancf.model.elements import KINDS, ElementKind
@@ -154,8 +155,46 @@ class TestRegistered:
         ]
         assert frequencies[0] == pytest.approx(frequencies[1], rel=1e-9)
 
-    def test_prints_and_saves(self, tmp_path):
-        model = self.cantilever("hencky")
-        assert "hencky" in str(model)
-        ancf.simulate(model, t_end=1e-3, step=1e-3, file=tmp_path / "a.h5")
-        assert ancf.load(tmp_path / "a.h5").position("beam.end").shape == (2, 3)
+
+PAGE = (HOWTO / "write_an_element.md").read_text(encoding="utf-8")
+MODULE, TABLE = "elements/hencky.py", "model/elements.py"
+LINE = '"hencky": ElementKind("hencky", ("material",), vectors=2, internal=0),\n'
+SCRIPT = """
+import json
+import ancf
+from ancf.model.file import parse_study
+from shown import shown
+
+section = {"shape": "rectangle", "width": 0.01, "height": 0.01, "E": 1e8, "rho": 500.0}
+study = {"gravity": [0.0, 0.0, -9.81], "bodies": [
+    {"name": "beam", "start": [0.0, 0.0, 0.0], "end": [1.0, 0.0, 0.0], "elements": 2, "section": section,
+     "element": "hencky"}],
+    "supports": [{"type": "clamp", "point": "beam.start"}],
+    "loads": [{"type": "force", "point": "beam.end", "force": [0.0, "sin(t)", 0.0]}]}
+print(json.dumps(shown(parse_study(study).model, ".", sensors=["beam.end"])))
+"""
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory):
+    """A copy of the package with the file and the line of the page."""
+    lines = {TABLE: {"KINDS: dict[str, ElementKind] = {\n": "    " + LINE}}
+    return Addition(tmp_path_factory.mktemp("element"), {FILE.name: MODULE}, lines)
+
+
+def test_touches_two_files(copy):
+    assert copy.touched() == [MODULE, TABLE]
+    assert LINE in PAGE
+    assert all(f"`{place}`" in PAGE for place in (f"src/ancf/{MODULE}", TABLE))
+
+
+def test_is_printed_saved_drawn_exported_and_sampled(copy):
+    """Read from a file; the two steps run with kernels that Python interprets."""
+    done = copy.found(SCRIPT, interpreted=True)
+    assert "hencky" in done["printed"][0]
+    assert done["described"]["bodies"][0]["element"] == "hencky"
+    assert done["traces"] == {"beam": "hencky"}
+    assert ["beam", "hencky"] in done["parts"]
+    assert "clamp" in done["legend"]
+    assert done["sensors"] == ["beam.end"]
+    assert "beam.end position z [m]" in done["columns"]

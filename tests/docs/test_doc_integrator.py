@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import ancf
+from additions import Addition
 from ancf.errors import ModelError
 from ancf.model.integrators import INTEGRATORS, integrator_of, table_schema
 from motions import SLOW, step_rates, straight
@@ -92,3 +93,49 @@ def test_is_kept_in_results(HHT, tmp_path):
     settings = ancf.load(tmp_path / "a.h5").provenance["settings"]
     assert settings["integrator"] == "hht"
     assert settings["scheme"]["alpha_f"] == 0.2
+
+
+PAGE = (HOWTO / "write_an_integrator.md").read_text(encoding="utf-8")
+MODULE, TABLE = "model/integrators/hht.py", "model/integrators/__init__.py"
+IMPORT, BEHIND = "from .hht import HHT\n", "from .generalized_alpha import GeneralizedAlpha\n"
+CODE = PAGE.split("{code-block} python\n")[1].split("```")[0]
+SCRIPT = """
+import json
+import ancf
+from ancf.model.file import parse_study
+from shown import shown
+
+study = parse_study({"gravity": [0.0, 0.0, -9.81],
+    "bodies": [{"type": "point_mass", "name": "bob", "at": [0.0, 0.0, 0.0], "mass": 1.0}],
+    "connections": [{"type": "spring", "a": "bob", "b": [0.0, 0.0, 1.0], "stiffness": 10.0}],
+    "simulation": {"t_end": 0.2, "step": 0.1, "integrator": {"type": "hht", "dissipation": 0.05}}})
+asked = study.simulation
+settings = {"integrator": asked.integrator, "t_end": asked.t_end, "step": asked.step}
+print(json.dumps(shown(study.model, ".", sensors=["bob"], **settings)))
+"""
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory):
+    """A copy of the package with the file of the page and its name in the table."""
+    lines = {TABLE: {BEHIND: IMPORT, "(Trapezoidal, GeneralizedAlpha, Radau, Explicit": ", HHT"}}
+    return Addition(tmp_path_factory.mktemp("integrator"), {FILE.name: MODULE}, lines)
+
+
+def test_touches_two_files(copy):
+    assert copy.touched() == [TABLE, MODULE]
+    text = (copy.root / TABLE).read_text(encoding="utf-8")
+    assert CODE.startswith(IMPORT)
+    assert CODE.removeprefix(IMPORT).strip() in text
+    assert all(f"`{place}`" in PAGE for place in copy.touched())
+
+
+def test_its_result_is_printed_saved_drawn_exported_and_sampled(copy):
+    """The name and the settings stand in what is printed and kept."""
+    done = copy.found(SCRIPT, interpreted=True)
+    assert "hht" in done["printed"][1]
+    assert done["settings"]["integrator"] == "hht"
+    assert done["markers"]["bob"] == "point mass"
+    assert ["bob", "point mass"] in done["parts"]
+    assert done["sensors"] == ["bob"]
+    assert "bob position z [m]" in done["columns"]

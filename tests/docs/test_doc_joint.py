@@ -1,15 +1,8 @@
 """The joint of docs/howto/write_a_joint.md: two files and a line in a copy of the package."""
 
-import json
-import os
-import shutil
-import subprocess
-import sys
-from pathlib import Path
-
 import pytest
 
-import ancf
+from additions import Addition
 from places import HOWTO
 
 #: What the page adds: files, and lines behind a line of the registry.
@@ -21,11 +14,11 @@ LINES = {
 }
 
 SCRIPT = """
-import json, sys
-from pathlib import Path
+import json
 import numpy as np
 import ancf
 from ancf.model.file import parse_study, schema
+from shown import shown
 
 def model():
     made = ancf.Model(title="shafts")
@@ -38,8 +31,8 @@ def model():
     return made
 
 made = model()
-found = {"printed": str(made), "dir": "universal" in dir(made)}
-plain = made.to_dict()
+found = shown(made, ".", t_end=0.05, step=1e-3, sensors=["cross"])
+found["dir"] = "universal" in dir(made)
 study = {"bodies": [
     {"type": "rigid_body", "name": n, "at": [x, 0.0, 0.0], "mass": 1.0, "inertia": [0.1, 0.2, 0.2]}
     for n, x in (("one", 0.5), ("two", 1.5))], "connections": [
@@ -57,44 +50,30 @@ try:
 except ancf.ModelError as error:
     found["repeated"] = str(error)
 found["schema"] = "UniversalEntry" in schema()["$defs"]
-folder = Path(sys.argv[1])
-ancf.simulate(made, t_end=0.05, step=1e-3, file=folder / "run.h5")
-run = ancf.load(folder / "run.h5")
+run = ancf.load("run.h5")
 found["multiplier"] = run.multiplier("cross").shape
 gap = run.position("one.at(0.5, 0, 0)") - run.position("two.at(-0.5, 0, 0)")
 axes = [run.section_rotation(name) for name in ("one", "two")]
 found["gap"] = float(np.abs(gap).max())
 found["cross"] = float(np.abs(np.sum(axes[0][:, :, 1] * axes[1][:, :, 2], axis=1)).max())
-import matplotlib
-matplotlib.use("Agg")
-run.plot("cross")
-found["legend"] = [t.get_text() for t in run.plot_shape().figure.legends[0].get_texts()]
-from ancf.viz.scene import make_scene
-found["scene"] = sorted({m.kind for m in make_scene(run).markers})
-from ancf.viz.export.parts import part_kinds
-found["parts"] = "universal" in part_kinds()
 print(json.dumps(found))
 """
 
 
 @pytest.fixture(scope="module")
-def added(tmp_path_factory):
-    """A copy of the package with the joint of the page, and what a script finds there."""
-    folder = tmp_path_factory.mktemp("joint")
-    root = folder / "src" / "ancf"
-    shutil.copytree(Path(ancf.__file__).parent, root, ignore=shutil.ignore_patterns("__pycache__"))
-    for name, place in FILES.items():
-        shutil.copy(HOWTO / name, root / place)
-    text = (root / REGISTRY).read_text(encoding="utf-8")
-    for behind, line in LINES.items():
-        assert text.count(behind) == 1
-        text = text.replace(behind, behind + line)
-    (root / REGISTRY).write_text(text, encoding="utf-8")
-    env = {**os.environ, "PYTHONPATH": str(folder / "src"), "NUMBA_CACHE_DIR": str(folder / "cache")}
-    command = [sys.executable, "-c", SCRIPT, str(folder)]
-    ran = subprocess.run(command, env=env, capture_output=True, text=True, timeout=600, check=False)
-    assert ran.returncode == 0, ran.stderr
-    return json.loads(ran.stdout.splitlines()[-1])
+def copy(tmp_path_factory):
+    """A copy of the package with the joint of the page."""
+    return Addition(tmp_path_factory.mktemp("joint"), FILES, {REGISTRY: LINES})
+
+
+@pytest.fixture(scope="module")
+def added(copy):
+    """What a script finds there."""
+    return copy.found(SCRIPT)
+
+
+def test_touches_three_files(copy):
+    assert copy.touched() == sorted([*FILES.values(), REGISTRY])
 
 
 def test_page_shows_the_files_and_the_lines():
@@ -106,8 +85,8 @@ def test_page_shows_the_files_and_the_lines():
 
 def test_is_a_method_of_a_model_and_is_printed(added):
     assert added["dir"]
-    assert "universal joint" in added["printed"]
-    assert "axes (0, 1, 0), (0, 0, 1)" in added["printed"]
+    assert "universal joint" in added["printed"][0]
+    assert "axes (0, 1, 0), (0, 0, 1)" in added["printed"][0]
 
 
 def test_is_read_from_files_and_refused_there(added):
@@ -124,7 +103,10 @@ def test_moves_as_a_cross(added):
     assert added["multiplier"] == [51, 4]
 
 
-def test_is_drawn_and_exported(added):
+def test_is_drawn_exported_and_sampled(added):
+    """In the plot, the page, the file of ParaView and the tables."""
     assert "universal" in added["legend"]
-    assert "universal" in added["scene"]
-    assert added["parts"]
+    assert added["markers"]["cross"] == "universal"
+    assert ["cross", "universal"] in added["parts"]
+    assert added["sensors"] == ["cross"]
+    assert any(name.startswith("cross") for name in added["columns"])

@@ -1,18 +1,11 @@
 """The load of docs/howto/write_a_load.md: a file and a record in a copy of the package."""
 
-import json
-import os
-import shutil
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-import ancf
-from places import HOWTO, ROOT
+from additions import Addition
+from places import HOWTO
 
 PAGE = (HOWTO / "write_a_load.md").read_text(encoding="utf-8")
 #: What the page adds: a file, and an import and the record in the registry.
@@ -20,7 +13,7 @@ KERNELS, REGISTRY = "loads/attraction.py", "model/kinds.py"
 IMPORT = "from .laws import Parameter, law\n"
 LIST = "LOADS: list[Kind] = [\n"
 RECORD = PAGE.split(LIST)[1].split("    ...\n]")[0]
-BEFORE = "from .loads import DistributedLoad, Force, Moment\n"
+BEHIND = "from .kind import CONTACT, JOINT, SLIDE, SPRING, Kind, Look, Push\n"
 
 #: Attraction S/d^2 of a unit mass that starts at the apsis A, from the centre, with the speed W.
 S, A, W = 4.0, (1.0, 0.0, 0.0), (0.0, 1.8, 0.6)
@@ -34,11 +27,11 @@ FALL, DRAG, MASS, G = 2.0, 0.3, 2.0, 9.81
 SPRING = {"stiffness": 40.0, "length": 1.0}
 
 COMPILED = f"""
-import json, sys
-from pathlib import Path
+import json
 import numpy as np
 import ancf
 from ancf.model.file import parse_study, schema
+from shown import shown
 
 CENTRE = np.array((0.3, -0.2, 0.1))
 
@@ -96,22 +89,7 @@ model.add_attraction(point, {S}, centre=(3, 0, 0), drag={DRAG})
 state = ancf.equilibrium(model, load_steps=3)
 found["rest"] = state.position("point").tolist()
 found["omega"] = ancf.modes(model, about=state, count=1).frequencies.tolist()
-folder = Path(sys.argv[1])
-ancf.simulate(orbit(), t_end=0.1, step=1e-3, file=folder / "run.h5")
-run = ancf.load(folder / "run.h5")
-again = ancf.simulate(orbit(), t_end=0.1, step=1e-3)
-found["loaded"] = bool(np.array_equal(run.position("point"), again.position("point")))
-import matplotlib
-matplotlib.use("Agg")
-found["legend"] = [t.get_text() for t in run.plot_shape().figure.legends[0].get_texts()]
-from ancf.viz.scene import make_scene
-found["scene"] = [[m.kind, m.position[0].tolist()] for m in make_scene(run).markers]
-from ancf.viz.export.parts import part_kinds
-found["parts"] = "attraction" in part_kinds()
-from ancf.viz.view import view_page
-from ancf.viz.export import write_vtk
-found["view"] = "attraction" in view_page(run)
-found["vtk"] = str(write_vtk(run, folder / "run.vtkhdf"))
+found["done"] = shown(orbit(), ".", t_end=0.1, step=1e-3, sensors=["point"])
 print(json.dumps(found))
 """
 
@@ -119,7 +97,6 @@ print(json.dumps(found))
 INTERPRETED = """
 import json
 import numpy as np
-import tests.mutants.plugin
 import ancf
 from ancf.system.core import assemble, residual
 from ancf.system.system import System
@@ -166,49 +143,22 @@ print(json.dumps({"tangent": worst, "work": float(work), "power": float(power)})
 """
 
 
-def ran(root, script, *arguments, **variables):
-    env = {**os.environ, "PYTHONPATH": os.pathsep.join((str(root / "src"), str(ROOT))), **variables}
-    command = [sys.executable, "-c", script, *map(str, arguments)]
-    done = subprocess.run(command, env=env, capture_output=True, text=True, timeout=900, check=False)
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout.splitlines()[-1])
-
-
 @pytest.fixture(scope="module")
 def copy(tmp_path_factory):
     """A copy of the package with the file and the record of the page; nothing else is touched."""
-    folder = tmp_path_factory.mktemp("load")
-    root = folder / "src" / "ancf"
-    shutil.copytree(Path(ancf.__file__).parent, root, ignore=shutil.ignore_patterns("__pycache__"))
-    shutil.copy(HOWTO / "attraction.py", root / KERNELS)
-    text = (root / REGISTRY).read_text(encoding="utf-8")
-    assert text.count(BEFORE) == text.count(LIST) == 1
-    text = text.replace(BEFORE, IMPORT + BEFORE).replace(LIST, LIST + RECORD)
-    (root / REGISTRY).write_text(text, encoding="utf-8")
-    return folder
+    lines = {REGISTRY: {BEHIND: IMPORT, LIST: RECORD}}
+    return Addition(tmp_path_factory.mktemp("load"), {"attraction.py": KERNELS}, lines)
 
 
 @pytest.fixture(scope="module")
 def added(copy):
-    return ran(copy, COMPILED, copy, NUMBA_CACHE_DIR=str(copy / "cache"))
+    return copy.found(COMPILED)
 
 
 def test_touches_two_files(copy):
-    """Counted: what differs from the package."""
-    root, package = copy / "src" / "ancf", Path(ancf.__file__).parent
-    changed = [
-        path.relative_to(root).as_posix()
-        for path in sorted(root.rglob("*"))
-        if path.is_file()
-        and "__pycache__" not in path.parts
-        and (
-            not (package / path.relative_to(root)).exists()
-            or path.read_bytes() != (package / path.relative_to(root)).read_bytes()
-        )
-    ]
-    assert changed == [KERNELS, REGISTRY]
+    assert copy.touched() == [KERNELS, REGISTRY]
     assert "{literalinclude} attraction.py" in PAGE
-    assert all(f"`{name}`" in PAGE for name in changed)
+    assert all(f"`{name}`" in PAGE for name in copy.touched())
     assert IMPORT in PAGE
 
 
@@ -285,16 +235,19 @@ def test_equilibrium_and_its_mode(added):
     assert added["omega"] == pytest.approx([np.sqrt(k - 2 * S / (3.0 - x) ** 3)], rel=1e-9)
 
 
-def test_is_saved_drawn_and_exported(added):
-    assert added["loaded"]
-    assert "attraction" in added["legend"]
-    assert ["attraction", [1.3, -0.2, 0.1]] in added["scene"]
-    assert added["parts"]
-    assert added["view"]
+def test_is_saved_drawn_exported_and_sampled(added):
+    """In the plot, the page, the file of ParaView and the tables."""
+    done = added["done"]
+    assert "1 attraction" in done["printed"][0]
+    assert "attraction" in done["legend"]
+    assert done["markers"]["sun"] == "attraction"
+    assert ["sun", "attraction"] in done["parts"]
+    assert done["sensors"] == ["point"]
+    assert "point position x [m]" in done["columns"]
 
 
 def test_tangent_and_work_on_every_kind_of_body(copy):
     """A cable, off a beam's axis, rigid body and mass: against differences, and F . v of the points."""
-    found = ran(copy, INTERPRETED, ANCF_MUTANTS="interpreted")
+    found = copy.found(INTERPRETED, interpreted=True)
     assert max(found["tangent"]) < 1e-8
     assert found["work"] == pytest.approx(found["power"], rel=1e-12)

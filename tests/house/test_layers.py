@@ -4,9 +4,12 @@ import ast
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 import ancf
 from commands import python
+from pages import script
+from places import DOCS
 
 ROOT = Path(ancf.__file__).parent
 
@@ -123,6 +126,28 @@ class TestImports:
         assert {"model", "solvers", "system"} <= seen
         seen = {name for name, _ in imported(ROOT / "analysis.py")}
         assert {"errors", "model", "results", "solvers", "system"} <= seen
+
+
+@pytest.fixture(scope="module")
+def drawn():
+    return script("architecture_pictures")
+
+
+class TestPictures:
+    """Those of docs/architecture.md show the floors that are tested here."""
+
+    def test_floors(self, drawn):
+        floors = [set(names.split()) for names, _ in reversed(drawn.FLOORS)]
+        floors[0] |= set(drawn.UNSHOWN)
+        assert floors == list(LAYERS)
+
+    @pytest.mark.parametrize(
+        ("name", "rows"), [("architecture_floors", "FLOORS"), ("architecture_step", "STEP")]
+    )
+    def test_are_drawn_from_what_the_script_has_now(self, drawn, name, rows):
+        """The description of the file is written with it."""
+        with Image.open(DOCS / "_static" / f"{name}.png") as picture:
+            assert picture.text["Description"] == "; ".join(name for name, _ in getattr(drawn, rows))
 
 
 class TestNames:

@@ -9,7 +9,8 @@ import pytest
 import ancf
 from ancf.batches import Batches, add_forces
 from ancf.compiled import kernel
-from ancf.solvers.newmark import advance, balance
+from ancf.solvers.balance import balance
+from ancf.solvers.newmark import advance
 from ancf.system.core import assemble, find_inverted, inertia, residual, total_strain_energy
 from ancf.system.system import System
 from helpers import SOFT, random_rate, shaken

@@ -1,5 +1,6 @@
 """Every registered kind of support, load and connection is printed, in files, drawn and asked for."""
 
+import functools
 import inspect
 import json
 import re
@@ -8,58 +9,40 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.model.beam import Beam
+from ancf.model.elements import KINDS as ELEMENTS
 from ancf.model.file import parse_study, schema
+from ancf.model.integrators import INTEGRATORS
 from ancf.model.kind import SLIDE, body_of
-from ancf.model.kinds import GROUPS, all_kinds, kind_of, marked
+from ancf.model.kinds import GROUPS, all_kinds, by_word, kind_of, marked
 from ancf.model.touching import bodies_of, to_ground
 from ancf.system.system import System
 from ancf.viz.export.parts import part_kinds
 from ancf.viz.pictures.questions import DEFAULTS, noun_of
 from ancf.viz.scene import make_scene
 from places import HOWTO
+from registered import SECTION, study_with
+from shown import shown
 
-WIRE = {"EA": 1e4, "EI": 0.01, "rhoA": 0.1}
-#: One of each kind; a kind that is registered and missing here fails the first test.
-SAMPLE = {
-    "title": "one of each",
-    "gravity": [0.0, 0.0, -9.81],
-    "bodies": [
-        {"name": "wire", "section": WIRE, "start": [0.0, 0, 0], "end": [4.0, 0, 0], "elements": 4},
-        {"name": "tail", "section": WIRE, "start": [4.0, 0, 0], "end": [5.0, 0, 0], "elements": 2},
-        {"type": "rigid_body", "name": "hub", "at": [0.0, 0, 0], "mass": 1.0, "inertia": [0.1, 0.1, 0.1]},
-        {"type": "rigid_body", "name": "arm", "at": [0.0, 1.0, 0], "mass": 1.0, "inertia": [0.1, 0.1, 0.1]},
-        {"type": "point_mass", "name": "bead", "at": [1.5, 0.0, 0.0], "mass": 0.2},
-        {"type": "point_mass", "name": "head", "at": [2.5, 0.0, -0.01], "mass": 0.2},
-        {"type": "point_mass", "name": "bob", "at": [1.0, 0.0, -1.0], "mass": 0.2},
-    ],
-    "supports": [
-        {"type": "pin", "point": "wire.end"},
-        {"type": "clamp", "point": "tail.end", "name": "wall"},
-        {"type": "hold", "point": "head", "position": "xy"},
-    ],
-    "loads": [
-        {"type": "force", "point": "tail.at(0.5)", "force": [0.0, "sin(t)", 0.0]},
-        {"type": "moment", "point": "arm", "moment": [0.0, 0.0, 0.1]},
-        {"type": "distributed", "body": "wire", "load": [0.0, 0.2, 0.0], "between": [1.0, 2.0]},
-    ],
-    "connections": [
-        {"type": "spherical", "a": "wire.at(3)", "b": [3.0, 0.0, 0.0], "name": "ball"},
-        {"type": "hinge", "a": "hub.at(0, 0.5, 0)", "b": "arm.at(0, -0.5, 0)", "axis": [1.0, 0, 0]},
-        {"type": "fixation", "point": "wire.start", "to": "hub"},
-        {"type": "slide", "point": "bead", "along": "wire"},
-        {"type": "spring", "a": "bob", "b": "wire.at(1)", "stiffness": 100.0, "slack": True},
-        {"type": "contact", "point": "head", "along": "wire", "stiffness": 1e3},
-    ],
-}
 KINDS = [(group, kind.word) for group, kinds in GROUPS.items() for kind in kinds]
 
 
-@pytest.fixture(scope="module")
-def model():
-    return parse_study(SAMPLE).model
+@functools.cache
+def study(group, word):
+    return study_with(group, by_word(group)[word])
 
 
-@pytest.fixture(scope="module")
+@functools.cache
+def model_of(group, word):
+    return parse_study(study(group, word)).model
+
+
+@pytest.fixture
+def model(group, word):
+    return model_of(group, word)
+
+
+@pytest.fixture
 def state(model):
     system = System(model)
     return ancf.State(system, 0.0, *system.initial_state())
@@ -69,11 +52,6 @@ def found(model, group, word):
     """The item of a kind in the sample, with its record."""
     kind = next(kind for kind in GROUPS[group] if kind.word == word)
     return next(item for item in getattr(model, group) if type(item) is kind.item), kind
-
-
-def test_sample_has_one_of_each():
-    for group, kinds in GROUPS.items():
-        assert [item["type"] for item in SAMPLE[group]] == [kind.word for kind in kinds]
 
 
 def test_words_types_and_nouns_are_unique():
@@ -155,7 +133,59 @@ class TestKind:
         assert f"{kind.method}(" in text
 
 
-def test_unknown_methods_are_refused(model):
+class TestEverything:
+    """What is registered is printed, written, read, drawn, exported and sampled; nothing is listed here."""
+
+    @pytest.mark.parametrize(("group", "word"), KINDS)
+    def test_kind(self, group, word, tmp_path):
+        model = model_of(group, word)
+        item, kind = found(model, group, word)
+        asked = item if group == "connections" else kind.ends_of(item)[0]
+        asked = asked.at(0.5) if isinstance(asked, Beam) else asked
+        seen = shown(model, tmp_path, sensors=[asked])
+        assert kind.noun in seen["printed"][0]
+        assert seen["described"][group][0]["type"] == word
+        assert model_of(group, word).to_dict() == ancf.Model.from_dict(seen["described"]).to_dict()
+        assert (kind.look is not None) <= (word in seen["legend"])
+        assert kind.push is None or kind.noun in seen["legend"]
+        assert (kind.look is not None) == (seen["markers"].get(item.name) == word)
+        assert item.name in seen["drawn"]
+        assert item.name in [name for name, _ in seen["parts"]]
+        assert any(name.startswith(str(getattr(asked, "name", asked))) for name in seen["columns"])
+
+    @pytest.mark.parametrize("name", ELEMENTS)
+    def test_element(self, name, tmp_path):
+        for strain in ELEMENTS[name].strains:
+            bodies = [{"name": "body", "element": name, "strain": strain, "section": SECTION, "elements": 2}]
+            bodies[0] |= {"start": [0.0, 0, 0], "end": [1.0, 0, 0]}
+            model = parse_study({"gravity": [0.0, 0, -9.81], "bodies": bodies}).model
+            (tmp_path / strain).mkdir()
+            seen = shown(model, tmp_path / strain, sensors=["body.at(0.5)"])
+            assert name in seen["printed"][0]
+            assert seen["described"]["bodies"][0]["element"] == name
+            assert seen["traces"] == {"body": name}
+            assert ["body", name] in seen["parts"]
+            assert (["body", "surface"] in seen["parts"]) == ELEMENTS[name].has_section
+            assert seen["sensors"] == ["body.at(0.5)"]
+
+    @pytest.mark.parametrize("name", INTEGRATORS)
+    def test_integrator(self, name, tmp_path):
+        bodies = [{"type": "point_mass", "name": "bob", "at": [0.0, 0, 0], "mass": 1.0}]
+        plain = {"gravity": [0.0, 0, -9.81], "bodies": bodies}
+        plain["simulation"] = {"t_end": 0.02, "step": 0.01, "integrator": {"type": name}}
+        read = parse_study(plain)
+        method = read.simulation.integrator
+        assert type(method) is INTEGRATORS[name]
+        seen = shown(read.model, tmp_path, integrator=method, t_end=0.02, step=0.01, sensors=["bob"])
+        assert seen["settings"]["integrator"] == name
+        assert name.replace("_", " ") in seen["printed"][1].replace("-", " ")
+        assert seen["markers"] == {"bob": "point mass"}
+        end = ancf.load(tmp_path / "run.h5").position("bob")[-1]
+        assert end == pytest.approx([0.0, 0.0, -0.5 * 9.81 * 0.02**2], rel=1e-9)
+
+
+def test_unknown_methods_are_refused():
+    model = model_of("supports", "pin")
     with pytest.raises(AttributeError, match="add_foce"):
         model.add_foce  # noqa: B018
     assert kind_of(model.supports[0]).word == "pin"

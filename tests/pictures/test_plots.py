@@ -236,7 +236,7 @@ class TestSlidesAndContacts:
     def test_shape_has_joint_and_strip(self, sliding, touching):
         assert legend_texts(sliding[0].plot_shape(2, color="speed")) == ["point mass", "pin", "slide"]
         picture = touching[0].plot_shape(2, plane="xy")
-        assert legend_texts(picture) == ["point mass", "pin", "hold"]
+        assert legend_texts(picture) == ["point mass", "pin", "hold", "force"]
         (strips,) = [c for c in picture.axes[0].collections if c.get_linewidth() == [2.4]]
         ends = np.array(strips.get_segments())
         assert ends.shape == (2, 2, 2)

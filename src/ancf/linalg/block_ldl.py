@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..compiled import formula, inline_kernel
 from ..simd import every, load_six, store_six
 
@@ -31,10 +32,10 @@ class Factor(NamedTuple):
 
     row_start: NDArray[np.int64]  # (n + 1,) first block of each row
     column: NDArray[np.int64]  # (m,) column of each block, ascending in a row
-    L: NDArray[np.float64]  # (36 m,) row by row
-    LT: NDArray[np.float64]  # (36 m,) column by column
-    D_inv: NDArray[np.float64]  # (36 n,)
-    T: NDArray[np.float64]  # (36 longest row,) workspace, L D of one row
+    L: FloatArray  # (36 m,) row by row
+    LT: FloatArray  # (36 m,) column by column
+    D_inv: FloatArray  # (36 n,)
+    T: FloatArray  # (36 longest row,) workspace, L D of one row
     place: NDArray[np.int64]  # (n,) workspace, place of a column in the row at hand
 
 

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csc_array
 
+from ..arrays import FloatArray
+
 
 class Pattern(Protocol):
     """Which blocks are stored; see :class:`ancf.system.matrix.Places`."""
@@ -17,7 +19,7 @@ class Pattern(Protocol):
     column: NDArray[np.int64]
 
 
-def to_sparse(A: NDArray[np.float64], places: Pattern) -> csc_array:
+def to_sparse(A: FloatArray, places: Pattern) -> csc_array:
     """Whole symmetric matrix of block values."""
     n = places.n
     rows = np.concatenate([np.arange(n), places.rows])

@@ -34,6 +34,24 @@ class Look:
 
 
 @dataclass(frozen=True)
+class Push:
+    """What an arrow in pictures shows of a load.
+
+    Parameters
+    ----------
+    field : str
+        Of its items: a function of time, or of the state, with three components.
+    unit : str
+    turns : bool
+        It turns things about an axis, and the arrow is round.
+    """
+
+    field: str
+    unit: str
+    turns: bool = False
+
+
+@dataclass(frozen=True)
 class Kind:
     """What the package knows of a kind; see ``docs/howto/write_a_joint.md`` for a new one.
 
@@ -65,6 +83,8 @@ class Kind:
         Module in ``ancf.connections`` with its ``rows``, of a joint made of rows.
     look : Look or None
         Marker in pictures; None: it has none, or a shape of its own.
+    push : Push, optional
+        Arrow in pictures.
     add : function, optional
         ``add(model, ...)``, what ``model.<method>(...)`` calls if Model itself has no such method.
     batch : str
@@ -88,6 +108,7 @@ class Kind:
     asked: str = ""
     rows: str = ""
     look: Look | None = None
+    push: Push | None = None
     add: Callable[..., Any] | None = None
     batch: str = ""
     on_state: Callable[[Any], bool] | None = None

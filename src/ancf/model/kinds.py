@@ -11,7 +11,7 @@ from .connections import Spring
 from .contact import Contact
 from .functions import TimeFunction
 from .joints import Fixation, Revolute, Slide, Spherical
-from .kind import CONTACT, JOINT, SLIDE, SPRING, Kind, Look
+from .kind import CONTACT, JOINT, SLIDE, SPRING, Kind, Look, Push
 from .loads import DistributedLoad, Force, Moment
 from .state_function import StateFunction
 from .supports import Clamp, Hold, Pin
@@ -42,11 +42,20 @@ LOADS: list[Kind] = [
         "add_force",
         _entry("ForceEntry"),
         sheets.force,
+        push=Push("force", "N"),
         batch="state_force",
         on_state=lambda item: isinstance(item.force, StateFunction),
         inputs=lambda item: [TimeFunction(["t", 0.0, 0.0], 3, item.name)],
     ),
-    Kind(Moment, "moment", "moment", "add_moment", _entry("MomentEntry"), sheets.moment),
+    Kind(
+        Moment,
+        "moment",
+        "moment",
+        "add_moment",
+        _entry("MomentEntry"),
+        sheets.moment,
+        push=Push("moment", "N m", turns=True),
+    ),
     Kind(
         DistributedLoad,
         "distributed",
@@ -56,6 +65,7 @@ LOADS: list[Kind] = [
         sheets.distributed,
         ends=("body",),
         between=sheets.part,
+        push=Push("load", "N/m"),
     ),
 ]
 CONNECTIONS: list[Kind] = [
@@ -154,3 +164,8 @@ def by_word(group: str) -> dict[str, Kind]:
 def marked() -> dict[str, Look]:
     """Kinds of which pictures have markers, by word: supports, then joints."""
     return {kind.word: kind.look for kind in all_kinds() if kind.look is not None}
+
+
+def pushing() -> dict[str, Push]:
+    """Kinds of loads that pictures draw as arrows, by noun."""
+    return {kind.noun: kind.push for kind in all_kinds() if kind.push is not None}

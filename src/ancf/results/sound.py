@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
 from ..model.beam import NODE_TOLERANCE, Beam
@@ -86,7 +87,7 @@ def check_listing(listing: Listing, width: int, widths: dict[str, int]) -> None:
         _unknowns(places, f'sensors "{name}"', (4,), len(listing.entries))
 
 
-def check_times(t: NDArray[np.float64], where: str) -> None:
+def check_times(t: FloatArray, where: str) -> None:
     """Times that ascend."""
     checks.array(t, where, (None,))
     if np.any(np.diff(t) <= 0.0):

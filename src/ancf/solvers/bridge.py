@@ -10,8 +10,9 @@ from ..arrays import FloatArray
 from ..system.core import Core, apply_load
 from ..system.energy import energies
 from ..system.system import System
+from .balance import balance
 from .memory import H_FACTOR, KNOWN, VECTORS, Memory
-from .newmark import FURTHEST, LAST, UNLIMITED, Rule, advance, balance
+from .newmark import FURTHEST, LAST, UNLIMITED, Rule, advance
 from .rescue import Rescue
 from .sampling import Output, Sampling
 from .scheme import Scheme

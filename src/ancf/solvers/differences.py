@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from ..compiled import kernel
 from ..system.core import follow, residual, to_local
-from .newmark import balance, check_sections, check_way
+from .balance import balance
+from .newmark import check_sections, check_way
 from .scheme import finish
 from .status import OK
 

@@ -24,8 +24,8 @@ from ..system.core import (
     solve_matrix,
     to_local,
 )
+from .balance import balance
 from .memory import NORM, WORST
-from .newmark import balance
 from .sampling import sample
 from .status import DIVERGED, NOT_FINITE, OK, SINGULAR, STEPS
 

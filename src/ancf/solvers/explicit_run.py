@@ -11,9 +11,9 @@ from ..model.integrators import Explicit
 from ..system.core import apply_load
 from ..system.energy import energies
 from ..system.system import System
+from .balance import balance
 from .explicit import advance_explicit
 from .memory import NORM, WORST
-from .newmark import balance
 from .sampling import Output
 from .stability import stable_limit
 from .start import consistent_start

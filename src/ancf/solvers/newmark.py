@@ -40,10 +40,10 @@ from ..system.core import (
     solve_sparse,
     to_local,
 )
-from ..system.powers import powers
+from .balance import balance
 from .corotation import remember, turn, turn_back, turn_forth, turn_rows
 from .low_rank import correct, forget, move_on
-from .memory import ETA, H_FACTOR, NOISE, NORM, POWER, WORST
+from .memory import ETA, H_FACTOR, NOISE, NORM, WORST
 from .sampling import sample
 from .scheme import coefficients, finish, predict, restore
 from .status import (
@@ -283,19 +283,6 @@ def check_sections(core, s):
         return OK
     s.memo[WORST] = slot
     return INVERTED
-
-
-@kernel
-def balance(core, s, h):
-    """Add a step's share to the energies dissipated and supplied (trapezoidal rule); h = 0 at the start."""
-    push = s.push_new
-    power = powers(core, s.q, s.v, s.a, s.f, push, s.r)
-    s.work[0] += 0.5 * h * (s.memo[POWER] + power)
-    s.memo[POWER] = power
-    for i in range(push.shape[0]):
-        if h > 0.0:
-            s.work[1] += 0.5 * (s.push[i] + push[i]) * (s.q[i] - s.q0[i])
-        s.push[i] = push[i]
 
 
 @kernel

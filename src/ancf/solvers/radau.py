@@ -41,6 +41,16 @@ NEWTON_SHARE = 5e-3
 SAFETY, SHRINK, GROW = 0.9, 0.2, 5.0
 #: A step that should change by less than this keeps its size, and with it its matrices.
 MILD, WORTH = 0.9, 1.2
+#: Exponents of the control (Hairer & Wanner, IV.8), of the error now and of the one before; least values.
+NOW, BEFORE, LEAST_ERROR, LEAST_BEFORE = 0.7, 0.3, 1e-10, 1e-2
+#: Error of a step that has none.
+ENDLESS = 1e10
+#: In each step the last contraction is believed less, and round-off that was seen is forgotten.
+BELIEF, FADING = 0.8, 0.99
+#: A correction of so many sizes of the model is none; what stands for a contraction that is none.
+FAR, NEVER = 1e3, 1e300
+#: Pivots on the diagonal are kept down to this share of the largest entry of a column.
+PIVOT = 0.1
 
 
 @dataclass
@@ -187,7 +197,7 @@ class Stepper:
             force = -self.problem.residuals(np.array([self.t]), q[None], v[None], 0.0 * v[None])[0]
             force[~self.rates] = 0.0
             error = self._size(step, *self._estimate(step, v, force))
-        return float(error) if np.isfinite(error) else 1e10
+        return float(error) if np.isfinite(error) else ENDLESS
 
     def next_size(self, h: float, error: float) -> float:
         """Size of the next step after an accepted or a rejected one (proportional-integral control)."""
@@ -195,10 +205,10 @@ class Stepper:
         if error >= 1.0:
             self._rejected = True
             return h * float(min(max(SAFETY * error**-power, SHRINK), MILD))
-        error = max(error, 1e-10)
-        factor: float = SAFETY * error ** (-0.7 * power) * self._error_before ** (0.3 * power)
+        error = max(error, LEAST_ERROR)
+        factor: float = SAFETY * error ** (-NOW * power) * self._error_before ** (BEFORE * power)
         factor = min(max(factor, SHRINK), 1.0 if self._rejected and self.last is not None else GROW)
-        self._error_before, self._rejected = max(error, 1e-2), False
+        self._error_before, self._rejected = max(error, LEAST_BEFORE), False
         return h if MILD <= factor <= WORTH else factor * h
 
     def failed(self) -> None:
@@ -238,7 +248,7 @@ class Stepper:
             E.data *= self.scale[E.indices] * np.repeat(self.scale, np.diff(E.indptr))
             self.counts.factorizations += 1
             try:
-                self.factors.append(splu(E, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.1))
+                self.factors.append(splu(E, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=PIVOT))
             except RuntimeError:
                 return SINGULAR
         self._h_matrices = step.h
@@ -256,8 +266,8 @@ class Stepper:
         method, h = self.method, step.h
         to_v, to_a = method.inverse / h, method.inverse @ method.inverse / h**2
         bound = max(bound, self._noise)
-        self._noise *= 0.99
-        old, eta, theta = -1.0, max(self._eta**0.8, STALE), 0.0
+        self._noise *= FADING
+        old, eta, theta = -1.0, max(self._eta**BELIEF, STALE), 0.0
         for _ in range(MAX_ITERATIONS):
             r = self.problem.residuals(step.times, step.Q, step.V, step.A)
             if not np.all(np.isfinite(r)):
@@ -273,11 +283,11 @@ class Stepper:
             sizes = np.max(np.abs(d), axis=0) * self.weight
             self.worst = int(np.argmax(sizes))
             self.norm = norm = float(sizes[self.worst])
-            if not np.isfinite(norm) or norm > 1e3:
+            if not np.isfinite(norm) or norm > FAR:
                 return DIVERGED if np.isfinite(norm) else NOT_FINITE
             if old > 0.0:
                 theta = norm / old
-                eta = theta / (1.0 - theta) if theta < 1.0 else 1e300
+                eta = theta / (1.0 - theta) if theta < 1.0 else NEVER
                 self._contraction = theta
             if eta * norm <= bound:
                 self._eta = eta

@@ -22,6 +22,8 @@ from .explicit import mass_factor
 
 #: Relative error of the eigenvalue, and the most Lanczos steps for it.
 SHARP, MOST_VECTORS = 2e-3, 200
+#: Parts of the highest frequency that are looked at, halvings of the step, and a growth that is none.
+PARTS, HALVINGS, STEADY = (0.0, 0.25, 0.5, 0.75, 1.0), 40, 1e-9
 
 
 def stable_limit(system: System, q: FloatArray, v: FloatArray) -> float:
@@ -51,10 +53,10 @@ def limit(omega: float, damping: float) -> float:
     if damping == 0.0:
         return high
     low = 0.0
-    for _ in range(40):
+    for _ in range(HALVINGS):
         h = 0.5 * (low + high)
-        growth = max(_growth(part * omega * h, damping * h) for part in (0.0, 0.25, 0.5, 0.75, 1.0))
-        low, high = (h, high) if growth <= 1.0 + 1e-9 else (low, h)
+        growth = max(_growth(part * omega * h, damping * h) for part in PARTS)
+        low, high = (h, high) if growth <= 1.0 + STEADY else (low, h)
     return low
 
 

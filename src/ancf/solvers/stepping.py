@@ -16,13 +16,14 @@ from ..system.consistency import open_contacts
 from ..system.core import Tables, apply_load, first_event
 from ..system.energy import energies
 from ..system.system import System
+from .balance import balance
 from .bridge import MOST_PARTS, Bridge
 from .corotation import turning_nodes
 from .events import happen
 from .formulations import FORMULATIONS
 from .low_rank import room_for_patches
 from .memory import H_FACTOR, H_PREV, KNOWN, NORM, WORST, Memory, allocate
-from .newmark import UNLIMITED, Rule, advance, balance
+from .newmark import UNLIMITED, Rule, advance
 from .record import Progress, Recorder, Stats
 from .sampling import Output, sample, sampling_of
 from .scheme import Scheme
@@ -48,6 +49,9 @@ BLOCK_BYTES = 32e6  # of stored states, and of samples
 FIRST_LOOK, NEXT_LOOK, FAR_LOOK, WIDE_LOOK = 8, 4, 64, 2**17
 MOST_MADE = 0.5  # energy from nowhere, as a share of the energy exchanged
 WORTHLESS = 0.2  # energy that does not add up, as the same share, of which a run that ends warns
+#: Energy that may come from round-off: shares of the energies at the start, and of what strain 1 and the
+#: loads would take; and an energy, J, that is none.
+ROUNDED, ROUNDED_FORCES, NOTHING = 1e-9, 1e-10, 1e-15
 
 
 class Run:
@@ -263,7 +267,7 @@ class Run:
     @property
     def caution(self) -> str:
         """What to tell who did not ask: energies that do not add up by far."""
-        floor = 1e-9 * float(np.sum(np.abs(self.energy0))) + 1e-15
+        floor = ROUNDED * float(np.sum(np.abs(self.energy0))) + NOTHING
         if self.astray <= WORTHLESS * self.exchanged + floor:
             return ""
         share = 100.0 * self.astray / self.exchanged
@@ -278,7 +282,7 @@ class Run:
         stiff = sum(b.section.EA * b.length for b in beams)  # energy of strain 1
         loads = np.sum(np.abs(self.system.core.loads.gravity)) + np.sum(np.abs(self.memory.f))
         weight = float(loads) * self.system.model.size
-        return 1e-9 * float(np.sum(np.abs(self.energy0))) + 1e-10 * (stiff + weight)
+        return ROUNDED * float(np.sum(np.abs(self.energy0))) + ROUNDED_FORCES * (stiff + weight)
 
     def _failure(self, t: float, number: int, reason: str, h: float) -> SolveError:
         unknown = int(self.memory.memo[WORST])

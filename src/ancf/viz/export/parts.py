@@ -9,12 +9,13 @@ import numpy as np
 
 from ...arrays import FloatArray, IntArray
 from ...model.elements import KINDS
-from ..scene import Link, Marker, Scene, Strip, Thread, Triad, looks
+from ...model.kinds import pushing
+from ..scene import Arrow, Link, Marker, Scene, Strip, Thread, Triad, looks
 
 
 def part_kinds() -> tuple[str, ...]:
     """Kinds of parts; the array ``kind`` holds the number of one of these."""
-    return (*KINDS, "surface", "spring", "strip", "axes", *looks())
+    return (*KINDS, "surface", "spring", "strip", "axes", *looks(), *pushing())
 
 
 @dataclass(frozen=True)
@@ -53,6 +54,7 @@ def parts(scene: Scene) -> Iterator[Part]:
     yield from map(_strip, scene.strips)
     yield from map(_axes, scene.triads)
     yield from map(_vertex, scene.markers)
+    yield from map(_arrows, scene.arrows)
 
 
 def _line(thread: Thread) -> Part:
@@ -87,6 +89,13 @@ def _axes(triad: Triad) -> Part:
     tips = triad.centre[:, None] + triad.size * np.swapaxes(triad.axes, 1, 2)
     points = np.concatenate([triad.centre[:, None], tips], axis=1)
     return Part(triad.name, "axes", points, {"Lines": [np.array([0, k]) for k in (1, 2, 3)]})
+
+
+def _arrows(arrow: Arrow) -> Part:
+    """A line each, from tail to tip."""
+    n, k = arrow.ends.shape[:2]
+    cells = {"Lines": list(np.arange(2 * k).reshape(k, 2))}
+    return Part(arrow.name, arrow.kind, arrow.ends.reshape(n, 2 * k, 3), cells)
 
 
 def _vertex(marker: Marker) -> Part:

@@ -12,7 +12,7 @@ from ...arrays import FloatArray
 from ...errors import ModelError
 from ...model import checks
 from .. import style
-from ..scene import Link, Marker, Scene, Strip, Thread, Triad, chosen_times, make_scene
+from ..scene import Arrow, Link, Marker, Scene, Strip, Thread, Triad, chosen_times, make_scene
 from .picture import Picture
 from .plot import size_of
 from .projection import Projection, parse_plane, projection
@@ -100,11 +100,13 @@ def together(scenes: Iterable[Scene]) -> Scene:
     markers: list[Marker] = []
     triads: list[Triad] = []
     strips: list[Strip] = []
+    arrows: list[Arrow] = []
     for scene in given:
         threads += [_timed(thread, scene.t[0]) for thread in scene.threads]
         links, markers, triads = links + scene.links, markers + scene.markers, triads + scene.triads
-        strips = strips + scene.strips
-    return Scene(given[0].title, given[0].t, threads, links, markers, triads, strips, given[0].stored)
+        strips, arrows = strips + scene.strips, arrows + scene.arrows
+    title, t, stored = given[0].title, given[0].t, given[0].stored
+    return Scene(title, t, threads, links, markers, triads, strips, stored, arrows)
 
 
 def _timed(thread: Thread, t: float) -> Thread:
@@ -127,7 +129,7 @@ def _picture(scene: Scene, plane: Any, color: str, size: Any) -> Picture:
 def finish(figure: Figure, stage: Stage) -> None:
     """Add the colour bar and the legend of the markers."""
     stage.add_colorbar(figure)
-    if stage.kinds:
+    if stage.kinds or stage.scene.arrows:
         style.legend_above(figure, stage.axes, columns=6)
 
 
@@ -141,6 +143,7 @@ def _parts(scene: Scene) -> list[FloatArray]:
     parts += [thread.outline for thread in scene.threads if thread.outline is not None]
     parts += [link.ends for link in scene.links] + [strip.ends for strip in scene.strips]
     parts += [triad.centre[:, None] + triad.size * np.swapaxes(triad.axes, 1, 2) for triad in scene.triads]
+    parts += [arrow.reach for arrow in scene.arrows]
     return parts + [marker.position for marker in scene.markers]
 
 

@@ -11,8 +11,9 @@ import numpy as np
 from ...arrays import FloatArray
 from ...errors import ModelError
 from ...model import checks
+from ...model.kinds import pushing
 from .. import style
-from ..scene import QUANTITIES, Scene, Thread, looks
+from ..scene import QUANTITIES, Arrow, Scene, Thread, looks, strokes
 from ..scene.parts import BODIES
 from .projection import Projection
 
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 COLORS = (*QUANTITIES, "plain")
 #: How wide lines are drawn, points.
-BODY, EDGE, SPRING, STRIP, AXIS = 1.8, 0.4, 0.8, 2.4, 1.4
+BODY, EDGE, SPRING, STRIP, AXIS, ARROW = 1.8, 0.4, 0.8, 2.4, 1.4, 1.0
 #: Shapes and fills of :class:`ancf.model.kind.Look` in matplotlib.
 SHAPES = {"circle": "o", "square": "s", "diamond": "d", "up": "^", "down": "v", "slider": "D"}
 FILLS = {
@@ -34,6 +35,9 @@ FILLS = {
     "white": "white",
     "orange": style.ORANGE,
 }
+
+#: Colours of loads, in the order of their kinds.
+PUSHED = (style.WINE, style.GREEN, style.BLUE)
 
 
 class Trace(NamedTuple):
@@ -71,6 +75,7 @@ class Stage:
         self._bodies = self._threads()
         self._triads = [self._lines(color, AXIS) for color in (style.ORANGE, style.GREEN, style.SKY)]
         self._markers = {kind: self._marker(kind) for kind in self.kinds}
+        self._arrows = {kind: self._arrow(kind) for kind in pushing() if self._pushed(kind)}
         for artist in (*axes.lines, *axes.collections):
             artist.set_clip_on(False)  # all lies within the limits, which in space are larger than the axes
 
@@ -94,6 +99,9 @@ class Stage:
         for lines, loose in ((self._springs, False), (self._loose, True)):
             lines.set_segments(self._flat([link.ends[k] for link in scene.links if link.slack[k] == loose]))
         self._strips.set_segments(self._flat([strip.ends[k] for strip in scene.strips]))
+        for kind, drawn in self._arrows.items():
+            lines = [strokes(arrow, k) for arrow in self._pushed(kind)]
+            drawn.set_segments(self._flat(list(np.concatenate(lines))))
         for j, lines in enumerate(self._triads):
             tips = [t.centre[k] + t.size * t.axes[k][:, j] for t in scene.triads]
             lines.set_segments(
@@ -125,6 +133,12 @@ class Stage:
 
     def _lines(self, color: str, width: float, **more: Any) -> Any:
         return add_lines(self.axes, self.view, [], colors=color, linewidths=width, **more)
+
+    def _pushed(self, kind: str) -> list[Arrow]:
+        return [arrow for arrow in self.scene.arrows if arrow.kind == kind]
+
+    def _arrow(self, kind: str) -> Any:
+        return self._lines(PUSHED[list(pushing()).index(kind) % len(PUSHED)], ARROW, label=kind, zorder=4.5)
 
     def _threads(self) -> Any:
         start = self._flat([segment for t in self.scene.threads for segment in segments(t, 0)])

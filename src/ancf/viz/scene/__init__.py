@@ -1,11 +1,13 @@
 """A result as things to draw at some times; viewer, movies and exports share it. Needs no extra."""
 
 from ...arrays import FloatArray
+from .arrows import strokes
 from .compose import chosen_times, make_scene
-from .parts import QUANTITIES, Link, Marker, Scene, Strip, Thread, Triad, looks
+from .parts import QUANTITIES, Arrow, Link, Marker, Scene, Strip, Thread, Triad, looks
 
 __all__ = [
     "QUANTITIES",
+    "Arrow",
     "FloatArray",
     "Link",
     "Marker",
@@ -16,4 +18,5 @@ __all__ = [
     "chosen_times",
     "looks",
     "make_scene",
+    "strokes",
 ]

@@ -22,6 +22,7 @@ from ...results.result import Result
 from ...results.state import State
 from ...system.spring_fields import SpringFields
 from . import sampling
+from .arrows import make_arrows
 from .parts import Link, Marker, Scene, Strip, Thread, Triad
 
 FRAMES, POINTS = 240, 1500
@@ -112,6 +113,7 @@ def make_scene(
         triads=triads,
         strips=_strips(shown, source, threads, extent),
         stored=stored,
+        arrows=make_arrows(shown, drawn) if moving else [],
     )
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...arrays import BoolArray, FloatArray
-from ...model.kind import Look
+from ...model.kind import Look, Push
 from ...model.kinds import marked
 
 #: What the points of a thread know beside their place, with units.
@@ -120,6 +120,35 @@ class Strip:
 
 
 @dataclass(frozen=True, slots=True)
+class Arrow:
+    """A load, as one arrow or as a row of them.
+
+    Parameters
+    ----------
+    name : str
+    kind : str
+        Its noun.
+    ends : (n, k, 2, 3) m
+        Tails and tips; of what turns, where it acts and its axis from there.
+    size : (n,)
+        Of what acts, in the unit of `push`.
+    push : Push
+    head : float, m
+        Length of a head.
+    reach : (n, k, m, 3) m
+        What a picture must hold: a round arrow and not its axis, which may lie across a plane.
+    """
+
+    name: str
+    kind: str
+    ends: FloatArray
+    size: FloatArray
+    push: Push
+    head: float
+    reach: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
 class Scene:
     """What there is to draw, at n times.
 
@@ -127,7 +156,7 @@ class Scene:
     ----------
     title : str
     t : (n,) s
-    threads, links, markers, triads, strips : list
+    threads, links, markers, triads, strips, arrows : list
     stored : int
         Number of states of the result, of which these are some.
     """
@@ -140,6 +169,7 @@ class Scene:
     triads: list[Triad] = field(default_factory=list)
     strips: list[Strip] = field(default_factory=list)
     stored: int = 1
+    arrows: list[Arrow] = field(default_factory=list)
 
     @property
     def box(self) -> FloatArray:
@@ -147,7 +177,7 @@ class Scene:
         parts = [thread.position for thread in self.threads]
         parts += [thread.outline for thread in self.threads if thread.outline is not None]
         parts += [link.ends for link in self.links] + [strip.ends for strip in self.strips]
-        parts += [marker.position for marker in self.markers]
+        parts += [marker.position for marker in self.markers] + [arrow.reach for arrow in self.arrows]
         points = np.concatenate([part.reshape(-1, 3) for part in parts])
         return np.stack([points.min(axis=0), points.max(axis=0)])
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import FloatArray
-from ...model.kinds import by_word
+from ...model.kinds import by_word, pushing
 from ..scene import QUANTITIES, Scene, Thread, looks
 from .curve import Curve
 from .traces import Trace
@@ -89,6 +89,7 @@ def plain_scene(scene: Scene, numbers: Numbers) -> Plain:
             ends=[strip.ends for strip in scene.strips],
             force=[_known(strip.force, scene.t) for strip in scene.strips],
         ),
+        "arrows": _arrows(scene, numbers),
     }
 
 
@@ -159,6 +160,21 @@ def _markers(scene: Scene, numbers: Numbers) -> list[Plain]:
         if stacked is not None:
             joint = kind in by_word("connections")
             found.append({"kind": kind, "joint": joint, "shape": look.shape, "fill": look.fill, **stacked})
+    return found
+
+
+def _arrows(scene: Scene, numbers: Numbers) -> list[Plain]:
+    """Loads by kind; a row of arrows has one name."""
+    found = []
+    for kind, push in pushing().items():
+        mine = [arrow for arrow in scene.arrows if arrow.kind == kind]
+        if mine:
+            ends = numbers.floats(np.concatenate([arrow.ends for arrow in mine], axis=1))
+            size = numbers.floats(np.stack([arrow.size for arrow in mine], axis=1))
+            count = [arrow.ends.shape[1] for arrow in mine]
+            look = {"kind": kind, "unit": push.unit, "turns": push.turns, "head": mine[0].head}
+            names = [arrow.name for arrow in mine]
+            found.append({**look, "names": names, "count": count, "ends": ends, "size": size})
     return found
 
 

@@ -23,6 +23,7 @@ function layersOf(scene, traces) {
     ...scene.strips ? [stripLayer(scene.strips)] : [],
     ...scene.triads ? [triadLayer(scene.triads)] : [],
     ...scene.markers.map(markerLayer),
+    ...scene.arrows.map(arrowLayer),
     ...traces.flatMap(traceLayers),
   ];
 }
@@ -177,6 +178,53 @@ function markerLayer(group) {
       return { ...path };
     },
   };
+}
+
+// A shaft and four lines for a head; a row of arrows says the same at each.
+function arrowLayer(group, i) {
+  const trace = line(group.kind, { width: 4, color: [LOOKS.curves[4], LOOKS.green, LOOKS.blue][i % 3] }, { text: [] });
+  return {
+    trace,
+    at(k) {
+      const path = new Path(), text = [], ends = group.ends.row(k), size = group.size.row(k);
+      let at = 0;
+      group.names.forEach((name, g) => {
+        const said = `${name}: ${written(size[g])} ${group.unit}`;
+        for (let c = 0; c < group.count[g]; c++, at += 6) {
+          for (const [from, to] of strokesOf(ends.subarray(at, at + 3), ends.subarray(at + 3, at + 6), group)) {
+            path.add(from); path.add(to); path.gap();
+            text.push(said, said, "");
+          }
+        }
+      });
+      return { ...path, text };
+    },
+  };
+}
+
+// As in scene/arrows.py: straight, or three quarters of a circle about its axis.
+function strokesOf(tail, tip, { head, turns }) {
+  const add = (a, x, b) => [0, 1, 2].map((d) => a[d] + x * b[d]), unit = (a) => a.map((x) => x / Math.hypot(...a));
+  const cross = (a, b) => [0, 1, 2].map((d) => a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3]);
+  const whole = add(tip, -1, tail), length = Math.hypot(...whole);
+  if (!(length > 0)) return [];
+  const axis = unit(whole), sizes = axis.map(Math.abs), least = sizes.indexOf(Math.min(...sizes));
+  const first = unit(cross(axis, [0, 1, 2].map((d) => d === least ? 1 : 0))), second = cross(axis, first);
+  const path = [tail, tip];
+  if (turns) {
+    path.length = 0;
+    for (let i = 0; i <= 24; i++) {
+      const angle = 1.5 * Math.PI * (i / 24 - 1), radius = 0.4 * length;
+      path.push(add(add(tail, radius * Math.sin(angle), first), -radius * Math.cos(angle), second));
+    }
+  }
+  const end = path[path.length - 1], back = add(end, -Math.min(head, 0.5 * length), turns ? first : axis);
+  const wide = 0.4 * Math.min(head, 0.5 * length);
+  const lines = path.slice(1).map((point, i) => [path[i], point]);
+  for (const side of turns ? [second, axis] : [first, second]) {
+    lines.push([end, add(back, wide, side)], [end, add(back, -wide, side)]);
+  }
+  return lines;
 }
 
 // The whole path is faint, what was passed is bold.
