@@ -22,6 +22,7 @@ from ..compiled import Role, formula, implements, inline_kernel
 from ..simd import every, gather, gather_nodes, load, scatter, scatter_nodes, total, zero
 from .cable_damping import axial_damping, bending_damping, bending_damping_tangent, slope_damping
 from .cable_strain import (
+    WEIGHT,
     a_of,
     add_a,
     add_abc,
@@ -46,6 +47,9 @@ from .workspace import clear
 LENGTH, INV_L, EA_L, EI_L, DA_L, DB_L, MASS, VISCOUS = range(8)
 #: First row of the curvatures in the reference strains.
 CURVATURE = 10
+# columns of the groups: first chunk and end, paper's strains or not, first row of gp, numbers of axial and of
+# bending Gauss points, which damping there is, whether there are reference strains
+BEGIN, END, PAPER, FIRST, AXIAL, BENDING, DAMPED, CURVED = range(8)
 #: Bits of the column ``damped`` of the groups.
 VISCOUSLY, AXIALLY, IN_BENDING, IN_SLOPE = 1, 2, 4, 8
 
@@ -63,10 +67,8 @@ class CableBatch(NamedTuple):
     nodal: NDArray[np.bool_]  # (chunks,) whether r_x follows r in the state vector at all nodes
     lane_data: FloatArray  # (chunks, 8, LANES) rows LENGTH ... VISCOUS
     lane_slope: FloatArray  # (chunks, 1, LANES) slope damping c L/30
-    lane_reference: (
-        FloatArray  # (chunks, 20, LANES) strain at axial, from CURVATURE on curvature at bending gp
-    )
-    groups: NDArray[np.int64]  # (k, 8) first chunk, end, paper, first gp, axial, bending, damped, curved
+    lane_reference: FloatArray  # (chunks, 20, LANES) strain at the axial gp, from CURVATURE on curvature
+    groups: NDArray[np.int64]  # (k, 8) columns BEGIN ... CURVED
     gp: FloatArray  # (m, 20) coefficients of the Gauss points
 
 
@@ -106,22 +108,30 @@ def differences(x):
 @formula
 def elastic(batch, group, chunk, G):
     """R = 2 dW/dG of the strain energy."""
-    gp, first, axial, paper, curved = batch.gp, group[3], group[4], group[2] != 0, group[7] != 0
+    gp, first, axial, paper, curved = (
+        batch.gp,
+        group[FIRST],
+        group[AXIAL],
+        group[PAPER] != 0,
+        group[CURVED] != 0,
+    )
     none = every(0.0)
     R = none, none, none, none, none, none
     ea = load(batch.lane_data, chunk, EA_L)
     for k in range(axial):
         at = gp[first + k]
-        R = add_a(R, at, at[6] * ea * axial_force(a_of(at, G), reference(batch, chunk, k, curved), paper))
+        R = add_a(
+            R, at, at[WEIGHT] * ea * axial_force(a_of(at, G), reference(batch, chunk, k, curved), paper)
+        )
     ei, inv_l = load(batch.lane_data, chunk, EI_L), load(batch.lane_data, chunk, INV_L)
     inv_l2 = inv_l * inv_l
-    for k in range(group[5]):
+    for k in range(group[BENDING]):
         at = gp[first + axial + k]
         kappa0 = reference(batch, chunk, CURVATURE + k, curved)
         wa, wb, wc = bending_force(
             a_of(at, G), inv_l * b_of(at, G), inv_l2 * c_of(at, G), kappa0, paper, curved
         )
-        w = at[6] * ei
+        w = at[WEIGHT] * ei
         R = add_abc(R, at, w * wa, w * inv_l * wb, w * inv_l2 * wc)
     return R
 
@@ -131,9 +141,9 @@ def axially_damped(batch, group, chunk, x, v, R):
     """Add to R what the axial damping does; v are the rates of d, t1 and t2."""
     G, dG = products(x), product_rates(x, differences(v))
     da = load(batch.lane_data, chunk, DA_L)
-    for g in range(group[3], group[3] + group[4]):
+    for g in range(group[FIRST], group[FIRST] + group[AXIAL]):
         at = batch.gp[g]
-        R = add_a(R, at, at[6] * da * axial_damping(a_of(at, G), a_of(at, dG), group[2] != 0))
+        R = add_a(R, at, at[WEIGHT] * da * axial_damping(a_of(at, G), a_of(at, dG), group[PAPER] != 0))
     return R
 
 
@@ -141,13 +151,13 @@ def axially_damped(batch, group, chunk, x, v, R):
 def bending_damped(batch, group, chunk, x, v, force):
     """Add the damping of bending to the forces on d, t1 and t2; v are the rates of these."""
     (d, t1, t2), (vd, v1, v2), (fd, f1, f2) = x, v, force
-    gp, first = batch.gp, group[3] + group[4]
+    gp, first = batch.gp, group[FIRST] + group[AXIAL]
     db, inv_l = load(batch.lane_data, chunk, DB_L), load(batch.lane_data, chunk, INV_L)
-    for g in range(first, first + group[5]):
+    for g in range(first, first + group[BENDING]):
         p, s = slope(gp, g, d, t1, t2), bend(gp, g, d, t1, t2, inv_l)
         dp, ds = slope(gp, g, vd, v1, v2), bend(gp, g, vd, v1, v2, inv_l)
-        n, m = bending_damping(p, s, dp, ds, group[2] != 0, inv_l)
-        n, m = gp[g, 6] * db * n, gp[g, 6] * db * inv_l * m
+        n, m = bending_damping(p, s, dp, ds, group[PAPER] != 0, inv_l)
+        n, m = gp[g, WEIGHT] * db * n, gp[g, WEIGHT] * db * inv_l * m
         fd = fd + gp[g, 0] * n + gp[g, 3] * m
         f1 = f1 + gp[g, 1] * n + gp[g, 4] * m
         f2 = f2 + gp[g, 2] * n + gp[g, 5] * m
@@ -157,7 +167,7 @@ def bending_damped(batch, group, chunk, x, v, force):
 @inline_kernel
 def damped_force(batch, group, chunk, x, v):
     """Elastic and damping forces on d, t1 and t2 at the velocities v."""
-    u, rates, damped = differences(x), shape(batch, v, chunk), group[6]
+    u, rates, damped = differences(x), shape(batch, v, chunk), group[DAMPED]
     R = elastic(batch, group, chunk, products(u))
     if damped & AXIALLY:
         R = axially_damped(batch, group, chunk, u, rates, R)
@@ -207,8 +217,8 @@ def cable_force(batch, q, v, a, r, ws):
     """Add inertia, elastic and damping forces to r."""
     for n in range(batch.groups.shape[0]):
         group = batch.groups[n]
-        damped = group[6]
-        for chunk in range(group[0], group[1]):
+        damped = group[DAMPED]
+        for chunk in range(group[BEGIN], group[END]):
             x = shape(batch, q, chunk)
             if damped & ~VISCOUSLY:
                 force = damped_force(batch, group, chunk, x, v)
@@ -260,18 +270,24 @@ def store_tangent(batch, A, ws, chunk, c_mass, c_damping):
 def stiffness(batch, group, chunk, x, ws, c_damping, c_stiffness):
     """Add the tangents of strains and damping in the shape x to the blocks between d, t1 and t2."""
     d, t1, t2 = x
-    gp, first, axial, paper, curved = batch.gp, group[3], group[4], group[2] != 0, group[7] != 0
-    damped = group[6] if c_damping != 0.0 else 0
+    gp, first, axial, paper, curved = (
+        batch.gp,
+        group[FIRST],
+        group[AXIAL],
+        group[PAPER] != 0,
+        group[CURVED] != 0,
+    )
+    damped = group[DAMPED] if c_damping != 0.0 else 0
     ea, da = c_stiffness * load(batch.lane_data, chunk, EA_L), c_damping * load(batch.lane_data, chunk, DA_L)
     for k in range(axial):
         g = first + k
-        w, p = gp[g, 6], slope(gp, g, d, t1, t2)
+        w, p = gp[g, WEIGHT], slope(gp, g, d, t1, t2)
         spread_slope(ws, gp, g, axial_tangent(p, reference(batch, chunk, k, curved), w * ea, w * da, paper))
     ei, db = c_stiffness * load(batch.lane_data, chunk, EI_L), c_damping * load(batch.lane_data, chunk, DB_L)
     inv_l = load(batch.lane_data, chunk, INV_L)
-    for k in range(group[5]):
+    for k in range(group[BENDING]):
         g = first + axial + k
-        w, p, s = gp[g, 6], slope(gp, g, d, t1, t2), bend(gp, g, d, t1, t2, inv_l)
+        w, p, s = gp[g, WEIGHT], slope(gp, g, d, t1, t2), bend(gp, g, d, t1, t2, inv_l)
         kappa0 = reference(batch, chunk, CURVATURE + k, curved)
         spread(ws, gp, g, inv_l, bending_tangent(p, s, kappa0, w * ei, paper, curved))
         if damped & IN_BENDING:
@@ -285,7 +301,7 @@ def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add c_mass M + c_damping C + c_stiffness K (c_stiffness is 0 or 1) to the block values A."""
     for n in range(batch.groups.shape[0]):
         group = batch.groups[n]
-        for chunk in range(group[0], group[1]):
+        for chunk in range(group[BEGIN], group[END]):
             clear(ws, KDD, BLOCKS)
             stiffness(batch, group, chunk, shape(batch, q, chunk), ws, c_damping, c_stiffness)
             store_tangent(batch, A, ws, chunk, c_mass, c_damping)
@@ -297,19 +313,19 @@ def cable_energy(batch, q, ws):
     energy, gp, data = 0.0, batch.gp, batch.lane_data
     for n in range(batch.groups.shape[0]):
         group = batch.groups[n]
-        first, axial, paper, curved = group[3], group[4], group[2] != 0, group[7] != 0
-        for chunk in range(group[0], group[1]):
+        first, axial, paper, curved = group[FIRST], group[AXIAL], group[PAPER] != 0, group[CURVED] != 0
+        for chunk in range(group[BEGIN], group[END]):
             G = products(differences(shape(batch, q, chunk)))
             ea, ei, inv_l = load(data, chunk, EA_L), load(data, chunk, EI_L), load(data, chunk, INV_L)
             for k in range(axial):
                 at = gp[first + k]
                 found = ea * axial_energy(a_of(at, G), reference(batch, chunk, k, curved), paper)
-                energy += at[6] * total(found)
-            for k in range(group[5]):
+                energy += at[WEIGHT] * total(found)
+            for k in range(group[BENDING]):
                 at = gp[first + axial + k]
                 b, c = inv_l * b_of(at, G), inv_l * inv_l * c_of(at, G)
                 kappa0 = reference(batch, chunk, CURVATURE + k, curved)
-                energy += at[6] * total(ei * bending_energy(a_of(at, G), b, c, kappa0, paper))
+                energy += at[WEIGHT] * total(ei * bending_energy(a_of(at, G), b, c, kappa0, paper))
     return energy
 
 
@@ -329,5 +345,5 @@ implements(
     role=Role.DISSIPATES,
     slots=("base", "lane_base"),
     bind=bind,
-    damped=lambda batch: bool(np.any(batch.groups[:, 6])),
+    damped=lambda batch: bool(np.any(batch.groups[:, DAMPED])),
 )

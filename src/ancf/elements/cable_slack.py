@@ -5,11 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
-from .cable import EA_L, LENGTH, CableBatch
+from .cable import AXIAL, BEGIN, CURVED, EA_L, END, LENGTH, PAPER, CableBatch
 from .chunks import in_lanes
-
-#: Columns of the groups of a batch.
-BEGIN, END, PAPER, FIRST_GP, AXIAL, BENDING, DAMPED, CURVED = range(8)
 
 
 class Slack:

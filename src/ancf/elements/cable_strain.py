@@ -31,6 +31,8 @@ from .shapes import gauss
 SMOOTHING = 1e-4
 SCALE = math.sqrt(1.0 + SMOOTHING * SMOOTHING)
 TINY = 1e-200  # keeps the square root of a straight cable from zero
+#: Column of the weight in ``gp``.
+WEIGHT = 6
 
 
 def gauss_table(axial: int, bending: int) -> FloatArray:
