@@ -2,8 +2,8 @@
 
 The iteration stops with a residual d_n of the equations of motion, M a + ... = d_n: a force from nowhere.
 Where the motion is smooth it has one sign, and over a run its impulses h d_n add up, the more the finer the
-steps.  So the next step is solved with what was left, M a + ... = -(d_1 + ... + d_n): the impulses of all
-steps together are then that of the last one alone, whatever the tolerance.
+steps.  So the next step is solved with what was left, M a + ... = -(d_1 + ... + d_n): all steps together then
+miss no more than the last one, whatever the tolerance.
 
 That costs one more residual in a step.  It is done where rows of joints are kept with the matrix: a kept row
 that has turned contracts slowly, and what is left changes the energy and the angular momentum.

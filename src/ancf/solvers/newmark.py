@@ -10,7 +10,8 @@ gamma = 1/2.  Newton corrects q by dq, v by (G/B) dq and a by dq/B with the matr
 
 Modified Newton keeps that matrix over iterations and steps.  With the contraction theta of successive
 corrections the error left is about theta/(1 - theta) |dq|, and the iteration stops when that is below
-the tolerance.  The matrix is renewed when theta exceeds the limit or the iterations run out.
+the tolerance.  The matrix is renewed when theta exceeds the limit or the iterations run out.  What is left
+of the forces is carried over to the next step where that matters (:mod:`ancf.solvers.carry`).
 
 Constraints add multipliers to the unknowns, which have no rates: dq alone is added to them.  Which time
 derivative of a constraint its row asks for is the formulation's choice (:mod:`ancf.solvers.formulations`).
