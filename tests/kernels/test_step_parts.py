@@ -249,6 +249,7 @@ class TestCarry:
         """Constraints and what supports hold have no share."""
         system, memory = self.built()
         memory.q[system.multipliers] = 3.0
+        memory.q[system.numbering.slots["load"][0, 0]] += 0.1  # the joint is open
         carried(system.core, memory, 0.01)
         assert np.all(memory.left[system.multipliers] == 0.0)
         assert np.all(memory.left[system.core.supports.held] == 0.0)
