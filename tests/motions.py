@@ -3,7 +3,7 @@
 import numpy as np
 
 import ancf
-from helpers import rate, square
+from helpers import matrix, rate, square
 
 G = 9.81
 LENGTH, EA, EI, RHO_A = 1.3, 2e4, 0.5, 0.4
@@ -93,3 +93,13 @@ def rod_on_a_hinge(inertia=(0.01, 1 / 12, 1 / 12), axis=(0, 1, 0), turn=None, ma
     model.add_moment(rod, (0, 0, 0))
     joint = model.hinge(rod.at(-half, 0, 0), (0, 0, 0), axis=turn @ axis, name="hinge")
     return model, rod, joint
+
+
+def momentum(result, k):
+    """Momentum and angular momentum about the origin at the stored time k, by the mass matrix."""
+    system, q, v = result._system, result.q[k], result.v[k]
+    M = matrix(system, q, mass=1.0)
+    p = (M @ v[: system.n]).reshape(-1, 3)
+    at = np.unique(np.concatenate([s[:, 0] for s in system.numbering.slots.values()])) // 3
+    x = q[: system.n].reshape(-1, 3)
+    return p[at].sum(axis=0), np.cross(x, p).sum(axis=0)

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import ancf
-from helpers import matrix, rotation
+from helpers import rotation
+from motions import momentum
 
 G = 9.81
 EXACT = ancf.Trapezoidal(newton=ancf.Newton(tolerance=1e-13, modified=False))
@@ -62,16 +63,6 @@ def part(model, kind, name, where, direction):
 
 KINDS = ("cable", "beam", "rigid", "mass")
 PAIRS = list(combinations(KINDS, 2)) + [(k, k) for k in KINDS] + [(k, "ground") for k in KINDS]
-
-
-def momentum(result, k):
-    """Momentum and angular momentum about the origin at the stored time k, by the mass matrix."""
-    system, q, v = result._system, result.q[k], result.v[k]
-    M = matrix(system, q, mass=1.0)
-    p = (M @ v[: system.n]).reshape(-1, 3)
-    at = np.unique(np.concatenate([s[:, 0] for s in system.numbering.slots.values()])) // 3
-    x = q[: system.n].reshape(-1, 3)
-    return p[at].sum(axis=0), np.cross(x, p).sum(axis=0)
 
 
 class TestSpherical:

@@ -1,8 +1,9 @@
-"""Parts of a step: the predictor, the elimination of the patches, frames that turn, rates of motions."""
+"""Parts of a step: predictor, elimination of the patches, turning frames, what is left, rates of motions."""
 
 import numpy as np
 import pytest
 
+import ancf
 from ancf.compiled import kernel
 from ancf.elements.shapes import gauss
 from ancf.elements.solid import SolidBatch
@@ -10,14 +11,16 @@ from ancf.elements.solid_shapes import shape
 from ancf.elements.solid_strains import quadratic_part
 from ancf.simd import LANES
 from ancf.solvers import corotation as turning
+from ancf.solvers.carry import carry
 from ancf.solvers.corotation import remember, turn, turn_back, turn_forth, turn_rows
 from ancf.solvers.low_rank import eliminate
 from ancf.solvers.memory import H_PREV, KNOWN, allocate
 from ancf.solvers.newmark import worst_unknown
 from ancf.solvers.scheme import Scheme, predict
+from ancf.system.core import inertia
 from ancf.system.inputs import differences
 from ancf.system.system import System
-from helpers import SOLIDS, cable, rotation, shaken
+from helpers import SOLIDS, cable, random_rate, rotation, shaken
 
 RNG = np.random.default_rng(3)
 TRAPEZOIDAL = Scheme(0.25, 0.5, 0.0, 0.0)
@@ -229,6 +232,58 @@ class TestFrames:
         np.testing.assert_array_equal(there[others], r[others])
         back(frames, there)
         assert there == pytest.approx(r, abs=1e-13)
+
+
+@kernel
+def carried(core, s, h):
+    carry(core, s, h)
+
+
+class TestCarry:
+    """What Newton's method leaves: the residual of all steps of one length."""
+
+    def built(self):
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        bar = model.add_rigid_body("bar", at=(0.5, 0, 0), mass=2.0, inertia=(0.1, 0.2, 0.2))
+        load = model.add_point_mass("load", at=(1, 0, 0), mass=0.5)
+        model.pin(bar)
+        model.connect(bar.at(0.5, 0, 0), load)
+        system = System(model)
+        memory = allocate(system.size, turning.turning_nodes(system), ())
+        memory.q[:], memory.f[:] = system.initial_state()[0], system.core.loads.gravity
+        memory.a[:] = random_rate(system)
+        system.core.joints.level[:] = 1.0, 0.0, 0.0  # the initial state keeps the constraints
+        return system, memory
+
+    def left(self, system, memory):
+        """The mass times the accelerations less the weight, where nothing is held."""
+        r, out = np.zeros((2, system.size))
+        inertia(system.core.batches, system.core.ws, memory.a, r)
+        r -= memory.f
+        free = np.setdiff1d(system.free, system.multipliers)
+        out[free] = r[free]
+        return out
+
+    @pytest.mark.parametrize(("before", "steps"), [(0.0, 1), (0.01, 2), (0.02, 1)])
+    def test_adds_up_over_steps_of_one_length(self, before, steps):
+        system, memory = self.built()
+        memory.q[system.multipliers] = 0.0
+        carried(system.core, memory, 0.01)
+        once = memory.left.copy()
+        assert once == pytest.approx(self.left(system, memory), abs=1e-12)
+        assert np.max(np.abs(once)) > 0.1
+        memory.memo[H_PREV] = before
+        carried(system.core, memory, 0.01)
+        assert memory.left == pytest.approx(steps * once, abs=1e-12)
+
+    def test_forces_alone(self):
+        """Constraints and what supports hold have no share."""
+        system, memory = self.built()
+        memory.q[system.multipliers] = 3.0
+        memory.q[system.numbering.slots["load"][0, 0]] += 0.1  # the joint is open
+        carried(system.core, memory, 0.01)
+        assert np.all(memory.left[system.multipliers] == 0.0)
+        assert np.all(memory.left[system.core.supports.held] == 0.0)
 
 
 class TestDifferences:

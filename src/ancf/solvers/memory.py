@@ -28,6 +28,7 @@ class Memory(NamedTuple):
     a0: FloatArray
     r: FloatArray
     f: FloatArray
+    left: FloatArray  # forces that Newton's method has left in all steps, see carry
     push: FloatArray  # forces that do work at the start of the step
     push_new: FloatArray
     counts: NDArray[np.int64]  # (5,) see COUNTS
@@ -38,7 +39,7 @@ class Memory(NamedTuple):
 
 
 #: Entries of Memory that are vectors of length n; they come first.
-VECTORS = 14
+VECTORS = 15
 
 # entries of Memory.memo
 H_FACTOR, ETA, H_PREV, WORST, NORM, POWER, NOISE, KNOWN = range(8)

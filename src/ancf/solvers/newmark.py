@@ -10,7 +10,8 @@ gamma = 1/2.  Newton corrects q by dq, v by (G/B) dq and a by dq/B with the matr
 
 Modified Newton keeps that matrix over iterations and steps.  With the contraction theta of successive
 corrections the error left is about theta/(1 - theta) |dq|, and the iteration stops when that is below
-the tolerance.  The matrix is renewed when theta exceeds the limit or the iterations run out.
+the tolerance.  The matrix is renewed when theta exceeds the limit or the iterations run out.  What is left
+of the forces is carried over to the next step where that matters (:mod:`ancf.solvers.carry`).
 
 Constraints add multipliers to the unknowns, which have no rates: dq alone is added to them.  Which time
 derivative of a constraint its row asks for is the formulation's choice (:mod:`ancf.solvers.formulations`).
@@ -34,13 +35,13 @@ from ..system.core import (
     factorise_tail,
     follow,
     inverted_section,
-    residual,
     restrict,
     solve_matrix,
     solve_sparse,
     to_local,
 )
 from .balance import balance
+from .carry import carry, unbalanced
 from .corotation import remember, turn, turn_back, turn_forth, turn_rows
 from .low_rank import correct, forget, move_on
 from .memory import ETA, H_FACTOR, NOISE, NORM, WORST
@@ -124,7 +125,6 @@ def still(joints, v, a):
 @formula
 def solve_turned(core, s, rule):
     """Replace the residual s.r by the correction, with a factorisation that turns with the nodes."""
-    to_local(core.supports, s.r)
     if rule.corotate:
         turn_back(s.frames, s.r)
     solve_matrix(core.factor, s.r)
@@ -227,19 +227,21 @@ def newton(core, s, h, rule, modified, B, G):
             s.memo[H_FACTOR] = h
             forget(s.patches)
             renew, fresh, older, old, eta, since = False, True, -1.0, -1.0, 1.0, 0
-        residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)
+        unbalanced(core, s, h)
         solve_turned(core, s, rule)
         if not rule.corotate:
             correct(s.patches, core, s.q, s.v, G / B, s.r)
         norm = update(s, core.weight, G / B, 1.0 / B)
+        size = norm
         if has_joints:
             still(core.joints, s.v, s.a)
-            if rule.projects:
-                norm = max(norm, project(core.joints.batches, core, s, rule))
+            if rule.projects:  # the shift leaves the accelerations alone: its own tolerance is the rule's
+                shift = project(core.joints.batches, core, s, rule)
+                size, norm = max(norm, shift), max(norm, shift * min(tolerance / rule.tolerance, 1.0))
         follow(core.supports, s.q, s.v, s.a)
         s.counts[ITERATIONS] += 1
-        s.memo[NORM] = norm
-        if not norm < 1e300:
+        s.memo[NORM] = size
+        if not size < 1e300:
             return NOT_FINITE
         theta = norm / old if old > 0.0 else -1.0
         if theta >= 0.0:
@@ -248,10 +250,10 @@ def newton(core, s, h, rule, modified, B, G):
             s.memo[ETA] = eta
             return OK
         noise = min(ROUND_OFF * rule.tolerance, LARGEST_ROUND_OFF)
-        if fresh and theta > rule.contraction and norm <= noise:
+        if fresh and theta > rule.contraction and size <= noise:
             s.memo[NOISE], s.memo[ETA] = 2.0 * norm, 1.0
             return OK
-        if norm > 1e3 or theta >= 2.0 or (theta >= 1.0 and fresh and iteration > 3):
+        if size > 1e3 or theta >= 2.0 or (theta >= 1.0 and fresh and iteration > 3):
             return DIVERGED
         # of a taut wire position and slope take turns: two corrections tell how fast they shrink
         rate = math.sqrt(norm / older) if older > 0.0 and taut else theta
@@ -316,6 +318,7 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out):
             s.memo[H_FACTOR], s.memo[ETA] = 0.0, 1.0
         if status != OK:
             return n, status
+        carry(core, s, h)
         finish(s, h, scheme)
         if core.accounted and (core.damped or core.loaded):
             balance(core, s, h)
