@@ -10,7 +10,7 @@ import pytest
 import ancf
 from ancf.linalg import ordering
 from ancf.linalg.block_ldl import allocate
-from ancf.linalg.ordering import behind, fill_pattern, order
+from ancf.linalg.ordering import behind, fill_pattern, from_both_ends, order
 from ancf.linalg.sparse import to_sparse
 from ancf.system.core import (
     apply_supports,
@@ -362,7 +362,7 @@ class TestOrder:
             pairs = np.concatenate([chain(n), extra])
             least = min(
                 fill_of(pairs, rank)
-                for rank in (np.arange(n), ordering._band(pairs, n), ordering._minimum_degree(pairs, n))
+                for rank in (np.arange(n), ordering.band(pairs, n), ordering._minimum_degree(pairs, n))
             )
             assert fill_of(pairs, order(pairs, n)[0]) <= 1.15 * least
 
@@ -434,6 +434,31 @@ class TestSystems:
         slot = supports.rot_slot[0]
         assert r[slot] == pytest.approx(beam.node_tangent[0] @ physical)
         assert not np.any(r[supports.held])
+
+
+class TestBothEnds:
+    @pytest.mark.parametrize("n", [1, 2, 3, 8, 9, 200])
+    def test_halves_of_a_chain_meet_in_the_middle(self, n):
+        """Blocks of one half come in turn with those of the other, and L has no block more."""
+        rank = from_both_ends(np.arange(n), 1)
+        assert sorted(rank.tolist()) == list(range(n))
+        if n >= 4:
+            assert rank[[0, -1, 1, -2]].tolist() == [0, 1, 2, 3]
+            coupled = np.abs(np.diff(rank[chain(n)], axis=1)).ravel()
+            assert sorted(coupled.tolist()) == [1] + [2] * (n - 2)
+        assert len(fill_pattern(rank[chain(n).reshape(-1, 2).astype(int)], n)[1]) == n - 1
+
+    @pytest.mark.parametrize(("n", "every"), [(40, 3), (100, 1), (100, 10)])
+    def test_wires_fill_hardly_more(self, n, every):
+        pairs = np.concatenate([chain(n), chain(n) + n, [(i, n + i) for i in range(0, n, every)]])
+        rank = ordering.band(pairs, 2 * n)
+        spread = int(np.max(np.abs(np.diff(rank[pairs], axis=1))))
+        fill = [len(fill_pattern(r[pairs], 2 * n)[1]) for r in (rank, from_both_ends(rank, spread))]
+        assert fill[1] <= fill[0] + 3 * spread**2
+
+    def test_short_bands_stay(self):
+        rank = np.random.default_rng(2).permutation(20)
+        assert from_both_ends(rank, 4) is rank
 
 
 class TestBehind:

@@ -14,8 +14,9 @@ from ancf.solvers import corotation as turning
 from ancf.solvers.carry import carry
 from ancf.solvers.corotation import remember, turn, turn_back, turn_forth, turn_rows
 from ancf.solvers.low_rank import eliminate
-from ancf.solvers.memory import H_PREV, KNOWN, allocate
+from ancf.solvers.memory import FIRST_LIMIT, H_FACTOR, H_PREV, KNOWN, LIMIT, allocate
 from ancf.solvers.newmark import worst_unknown
+from ancf.solvers.renewal import count, renewed
 from ancf.solvers.scheme import Scheme, predict
 from ancf.system.core import inertia
 from ancf.system.inputs import differences
@@ -209,10 +210,10 @@ class TestFrames:
         places = RNG.permutation(150)[:, None] * 6
         apart = [3, 0] if len(counts) > 1 else [0, 3]
         slots, begin = [], 0
-        for count, pairs in zip(counts, (1, 2), strict=False):
-            of_nodes = places[begin : begin + count * pairs].reshape(count, pairs, 1) + apart
-            slots.append(of_nodes.reshape(count, -1))
-            begin += count * pairs
+        for m, pairs in zip(counts, (1, 2), strict=False):
+            of_nodes = places[begin : begin + m * pairs].reshape(m, pairs, 1) + apart
+            slots.append(of_nodes.reshape(m, -1))
+            begin += m * pairs
         q, frames = RNG.standard_normal((300, 3)), turning.allocate(slots, np.zeros(0, dtype=np.int64))
         turned(frames, q.ravel(), (q @ self.R.T).ravel())
         r = RNG.standard_normal(900)
@@ -284,6 +285,52 @@ class TestCarry:
         carried(system.core, memory, 0.01)
         assert np.all(memory.left[system.multipliers] == 0.0)
         assert np.all(memory.left[system.core.supports.held] == 0.0)
+
+
+@kernel
+def steps_taken(memory, iterations, renewals):
+    """Converged steps with these numbers of iterations; a new matrix where the rule gives up the old one."""
+    for n in range(iterations.shape[0]):
+        fresh = memory.memo[H_FACTOR] == 0.0
+        if fresh:
+            renewed(memory)
+            memory.memo[H_FACTOR] = 1.0
+        count(memory, iterations[n], fresh)
+        renewals[n] = fresh
+
+
+class TestRenewal:
+    """A matrix is given up when what its steps took beyond the usual has become what a new one costs."""
+
+    def renewals(self, iterations):
+        memory = allocate(1, turning.allocate([], np.zeros(0, dtype=np.int64)), ())
+        found = np.zeros(len(iterations), dtype=np.bool_)
+        steps_taken(memory, np.array(iterations, dtype=float), found)
+        return np.flatnonzero(found).tolist(), memory.memo[LIMIT]
+
+    @pytest.mark.parametrize("usual", [1, 2, 5])
+    def test_steady_steps_keep_it(self, usual):
+        assert self.renewals([usual + 3] + [usual] * 10_000) == ([0], FIRST_LIMIT)
+
+    @pytest.mark.parametrize("excess", [1, 2, 4])
+    def test_after_the_excess(self, excess):
+        """The first step has the matrix of its own, the second tells the usual number."""
+        steps = int(FIRST_LIMIT // excess) + 1
+        assert self.renewals([3, 2] + [2 + excess] * steps + [3, 2])[0] == [0, 2 + steps]
+
+    def test_a_renewal_that_helps_brings_the_next_one_nearer(self):
+        worn = [3, 2] + [4] * 9
+        first, limit = self.renewals([*worn, 3, 2])
+        assert (first, limit) == ([0, 11], FIRST_LIMIT / 2)
+
+    def test_one_that_does_not_puts_it_off(self):
+        worn = [3, 2] + [4] * 9
+        first, limit = self.renewals([*worn, 3, 4])
+        assert (first, limit) == ([0, 11], 2 * FIRST_LIMIT)
+
+    def test_faster_steps_are_no_credit(self):
+        """A quiet time does not pay for a matrix that is worn afterwards."""
+        assert self.renewals([3, 4] + [1] * 1000 + [5] * 17 + [2])[0] == [0, 1019]
 
 
 class TestDifferences:

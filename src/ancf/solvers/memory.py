@@ -32,7 +32,7 @@ class Memory(NamedTuple):
     push: FloatArray  # forces that do work at the start of the step
     push_new: FloatArray
     counts: NDArray[np.int64]  # (5,) see COUNTS
-    memo: FloatArray  # (8,) see below
+    memo: FloatArray  # (12,) see below
     work: FloatArray  # (2,) energy dissipated and supplied since the start, J
     frames: Frames
     patches: tuple[Patches, ...]  # one or none
@@ -42,14 +42,16 @@ class Memory(NamedTuple):
 VECTORS = 15
 
 # entries of Memory.memo
-H_FACTOR, ETA, H_PREV, WORST, NORM, POWER, NOISE, KNOWN = range(8)
+H_FACTOR, ETA, H_PREV, WORST, NORM, POWER, NOISE, KNOWN, USUAL, EXCESS, LIMIT, WORN = range(12)
+#: Iterations more than usual after which a matrix is renewed for the first time, see renewal.
+FIRST_LIMIT = 16.0
 
 
 def allocate(n: int, frames: Frames, patches: tuple[Patches, ...]) -> Memory:
     """Memory for state vectors of length n."""
     vectors: Any = {name: np.zeros(n) for name in Memory._fields[:VECTORS]}
     counts = np.zeros(len(COUNTS), dtype=np.int64)
-    own: Any = {"counts": counts, "memo": np.zeros(8), "work": np.zeros(2)}
+    own: Any = {"counts": counts, "memo": np.zeros(12), "work": np.zeros(2)}
     memory = Memory(**vectors, **own, frames=frames, patches=patches)
-    memory.memo[ETA] = 1.0
+    memory.memo[ETA], memory.memo[LIMIT] = 1.0, FIRST_LIMIT
     return memory

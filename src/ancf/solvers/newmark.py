@@ -45,6 +45,7 @@ from .carry import carry, unbalanced
 from .corotation import remember, turn, turn_back, turn_forth, turn_rows
 from .low_rank import correct, forget, move_on
 from .memory import ETA, H_FACTOR, NOISE, NORM, WORST
+from .renewal import count, renewed
 from .sampling import sample
 from .scheme import coefficients, finish, predict, restore
 from .status import (
@@ -226,6 +227,7 @@ def newton(core, s, h, rule, modified, B, G):
                 return SINGULAR
             s.memo[H_FACTOR] = h
             forget(s.patches)
+            renewed(s)
             renew, fresh, older, old, eta, since = False, True, -1.0, -1.0, 1.0, 0
         unbalanced(core, s, h)
         solve_turned(core, s, rule)
@@ -248,6 +250,8 @@ def newton(core, s, h, rule, modified, B, G):
             eta = theta / (1.0 - theta) if theta < 1.0 else 1e300
         if eta * norm <= tolerance:
             s.memo[ETA] = eta
+            if rule.corotate and modified:
+                count(s, iteration + 1.0, fresh)
             return OK
         noise = min(ROUND_OFF * rule.tolerance, LARGEST_ROUND_OFF)
         if fresh and theta > rule.contraction and size <= noise:

@@ -22,6 +22,7 @@ from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
 from ..arrays import FloatArray, IntArray
+from ..linalg.ordering import band
 from ..system.core import (
     Core,
     Tables,
@@ -66,7 +67,7 @@ def groups_of(system: System) -> Groups | None:
     pairs = np.unique(pairs, axis=0)  # sorted by the first
     near = np.split(pairs[:, 1], np.flatnonzero(np.diff(pairs[:, 0])) + 1)
     color = np.full(n, -1)
-    for block in range(n):  # blocks with a common neighbour differ
+    for block in np.argsort(band(system.pairs, n)).tolist():  # blocks with a common neighbour differ
         taken = {color[other] for beside in near[block] for other in near[beside]}
         color[block] = next(c for c in range(n + 1) if c not in taken)
     if 6 * (color.max() + 1) > MOST_GROUPS:
