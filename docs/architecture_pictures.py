@@ -27,6 +27,7 @@ FLOORS = (
     ("connections  loads", "kernels of springs, joints, contact, moments"),
     ("elements  bodies  linalg", "kernels of elements, block factorisation"),
     ("model", "the description: bodies, kinds, integrators"),
+    ("simd", "eight elements as one value in kernels"),
     ("batches", "batches of all kinds under one type"),
     ("vectors", "arithmetic of three numbers in kernels"),
     ("compiled", "kernels, and operations by type of batch"),

@@ -59,7 +59,7 @@ def _interpret() -> None:
     def optional(function, default=None):
         return lambda items, *arguments: function(items, *arguments) if len(items) else default
 
-    for decorator in ("kernel", "separate_kernel", "inline_kernel", "formula"):
+    for decorator in ("kernel", "inlined_kernel", "separate_kernel", "inline_kernel", "formula"):
         setattr(compiled, decorator, _plain)
     for name, operation in _OPERATIONS.items():
         setattr(compiled, operation, chosen(name))
