@@ -62,12 +62,19 @@ from .status import (
     SLOW,
 )
 
-#: Least theta/(1 - theta) that is believed before a step has shown its own contraction.
-STALE = 0.03
+#: Least theta/(1 - theta) that is believed before a step has shown its own contraction, and the power that
+#: brings the one of the step before nearer to 1.
+STALE, AGED = 0.03, 0.8
 #: Corrections up to this multiple of the tolerance, and up to this size, that a new matrix does not reduce
 #: are round-off.
 ROUND_OFF = 1e4
 LARGEST_ROUND_OFF = 1e-7
+#: By which round-off that was seen once is forgotten from step to step.
+FADING = 0.99
+#: It diverges: so large a correction, a ratio of two, or one above 1 after so many iterations with a new one.
+FLOWN, GROWN, TRIED = 1e3, 2.0, 3
+#: Iterations with one matrix after which it is renewed at the latest, and the first that may tell so.
+LONGEST, FIRST_TOLD = 7, 2
 
 #: Attempts at a step: 0 with the matrix that is kept, 1 with a new one, 2 with one for every iteration.
 LAST = 2
@@ -79,8 +86,8 @@ FURTHEST, UNLIMITED = 0.5, 1e300
 HELD = 0.1
 
 #: Error of the accelerations that is left in a step with constraints: what is left in q returns divided
-#: by B, with one sign, where a joint keeps it from being felt as a displacement.
-JOINTED = 1e-6
+#: by B, with one sign, where a joint keeps it from being felt as a displacement.  And the least tolerance.
+JOINTED, FINEST = 1e-6, 1e-15
 
 
 class Rule(NamedTuple):
@@ -112,7 +119,7 @@ def update(s, weight, gb, ib):
         x = abs(d) * weight[i]
         total += x
         norm = max(norm, x)
-    return norm if total < 1e300 else np.nan
+    return norm if total < UNLIMITED else np.nan
 
 
 @formula
@@ -188,11 +195,29 @@ def worst_unknown(s, weight):
     worst, largest = 0, -1.0
     for i in range(weight.shape[0]):
         x = abs(s.r[i]) * weight[i]
-        if not x < 1e300:
+        if not x < UNLIMITED:
             return i
         if x > largest:
             worst, largest = i, x
     return worst
+
+
+@inline_kernel
+def new_matrix(core, s, h, B, G):
+    """Make and factorise the matrix of a step h in the present state; whether that is possible."""
+    assemble(core.batches, core.ws, s.q, s.v, core.A, 1.0 / B, G / B, 1.0)
+    restrict(core.supports, core.A)
+    remember(s.frames, s.q)
+    s.counts[JACOBIANS] += 1
+    s.counts[FACTORIZATIONS] += 1
+    bad = factorise_matrix(core.A, core.factor)
+    if bad < 0:
+        s.memo[WORST] = 6.0 * (-bad - 1)
+        return False
+    s.memo[H_FACTOR] = h
+    forget(s.patches)
+    renewed(s)
+    return True
 
 
 @formula
@@ -207,27 +232,17 @@ def newton(core, s, h, rule, modified, B, G):
         renew = not renew_tail(core.joints.tail, core, s, rule, B, G)
         forget(s.patches)
     move_on(s.patches)
-    eta = max(s.memo[ETA] ** 0.8, STALE)
+    eta = max(s.memo[ETA] ** AGED, STALE)
     tolerance = rule.tolerance
     if has_joints:
-        tolerance = max(min(tolerance, JOINTED * B * largest(s.a, core.weight)), 1e-15)
+        tolerance = max(min(tolerance, JOINTED * B * largest(s.a, core.weight)), FINEST)
     tolerance = max(tolerance, s.memo[NOISE])
-    s.memo[NOISE] *= 0.99
+    s.memo[NOISE] *= FADING
     older, old, since = -1.0, -1.0, 0
     for iteration in range(rule.max_iterations):
         if renew:
-            assemble(core.batches, core.ws, s.q, s.v, core.A, 1.0 / B, G / B, 1.0)
-            restrict(core.supports, core.A)
-            remember(s.frames, s.q)
-            s.counts[JACOBIANS] += 1
-            s.counts[FACTORIZATIONS] += 1
-            bad = factorise_matrix(core.A, core.factor)
-            if bad < 0:
-                s.memo[WORST] = 6.0 * (-bad - 1)
+            if not new_matrix(core, s, h, B, G):
                 return SINGULAR
-            s.memo[H_FACTOR] = h
-            forget(s.patches)
-            renewed(s)
             renew, fresh, older, old, eta, since = False, True, -1.0, -1.0, 1.0, 0
         unbalanced(core, s, h)
         solve_turned(core, s, rule)
@@ -243,11 +258,11 @@ def newton(core, s, h, rule, modified, B, G):
         follow(core.supports, s.q, s.v, s.a)
         s.counts[ITERATIONS] += 1
         s.memo[NORM] = size
-        if not size < 1e300:
+        if not size < UNLIMITED:
             return NOT_FINITE
         theta = norm / old if old > 0.0 else -1.0
         if theta >= 0.0:
-            eta = theta / (1.0 - theta) if theta < 1.0 else 1e300
+            eta = theta / (1.0 - theta) if theta < 1.0 else UNLIMITED
         if eta * norm <= tolerance:
             s.memo[ETA] = eta
             if rule.corotate and modified:
@@ -257,12 +272,13 @@ def newton(core, s, h, rule, modified, B, G):
         if fresh and theta > rule.contraction and size <= noise:
             s.memo[NOISE], s.memo[ETA] = 2.0 * norm, 1.0
             return OK
-        if size > 1e3 or theta >= 2.0 or (theta >= 1.0 and fresh and iteration > 3):
+        if size > FLOWN or theta >= GROWN or (theta >= 1.0 and fresh and iteration > TRIED):
             return DIVERGED
         # of a taut wire position and slope take turns: two corrections tell how fast they shrink
         rate = math.sqrt(norm / older) if older > 0.0 and taut else theta
         older, old = old, norm
-        renew = not modified or (rate > rule.contraction and since > 1) or rate > 1.0 or since == 7
+        renew = not modified or (rate > rule.contraction and since >= FIRST_TOLD) or rate > 1.0
+        renew = renew or since == LONGEST
         since += 1
     return SLOW
 
