@@ -23,7 +23,7 @@ from ancf import compiled, kernel_cache
 from ancf.cli import screen
 from ancf.cli.guard import reported
 from ancf.files import cell, exists, visible
-from ancf.interrupts import heed
+from ancf.interrupts import heed, kept
 from ancf.results import hdf5
 from ancf.viz.export import write_csv
 from commands import LONG, MODEL, SIMULATION, apart, write
@@ -273,6 +273,22 @@ class TestStreams:
     "ignore::pytest.PytestUnraisableExceptionWarning"
 )  # a signal may come at a deletion
 class TestSignals:
+    @pytest.fixture(autouse=True)
+    def heard(self):
+        """A shell starts what it puts into the background with Ctrl-C ignored, and so it stays."""
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        yield
+        signal.signal(signal.SIGINT, before)
+
+    def test_what_is_ignored_stays_ignored(self):
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        with kept(signal.SIGINT, signal.SIGTERM):
+            signal.raise_signal(signal.SIGINT)
+            assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+            with pytest.raises(KeyboardInterrupt):
+                signal.raise_signal(signal.SIGTERM)
+        assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+
     def send(self, number):
         """Send a signal to this process once a run has stored states."""
 
@@ -318,6 +334,7 @@ class TestSignals:
 
         def progress(now):
             seen.append(now)
+            assert len(seen) < 5, "it goes on"
             if len(seen) == 1:
                 Deleted()
 
