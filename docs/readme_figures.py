@@ -90,7 +90,9 @@ def speed() -> str:
 def each(seconds: float, steps: int) -> str:
     """Time of a step."""
     micro = 1e6 * seconds / steps
-    return f"{short(micro)} µs/step" if micro < 200 else f"{micro / 1e3:.2g} ms/step"
+    if micro < 200:
+        return f"{short(micro)} µs/step"
+    return f"{micro / 1e3:.2g} ms/step" if micro < 99.5e3 else f"{micro / 1e6:.2g} s/step"
 
 
 def short(value: float) -> str:
