@@ -110,18 +110,20 @@ class TestTangent:
         core, n, rng = system.core, system.n, np.random.default_rng(which)
         method = ancf.GeneralizedAlpha(0.5)
         rescue = Rescue(system, Run(system, method, 0.0, 1.0, 1e-3, 1).memory)
+        rated = np.ones(n)
+        rated[system.numbering.all_multipliers()] = 0.0  # they have no rates
         q, v = system.initial_state()
         state = np.stack([q, v, 0.0 * q])
         free = system.free
         state[0, free] += 0.02 * rng.standard_normal(len(free))
-        state[1, free] = 3.0 * rng.standard_normal(len(free)) * rescue.rated[free]
+        state[1, free] = 3.0 * rng.standard_normal(len(free)) * rated[free]
         follow_supports(core.supports, *state)
         gb, ib = 900.0, 8e5
 
         def force(along, size):
             moved = state.copy()
             for row, rate in zip(moved, (1.0, gb, ib), strict=True):
-                row[:n] += size * rate * along * (1.0 if rate == 1.0 else rescue.rated[:n])
+                row[:n] += size * rate * along * (1.0 if rate == 1.0 else rated)
             follow_supports(core.supports, *moved)
             r = np.zeros(system.size)
             residual(core.batches, core.ws, *moved, np.zeros(system.size), r)
