@@ -150,6 +150,19 @@ class TestCurves:
         np.testing.assert_array_equal(lower.lines[0].get_ydata(), balance - balance[0])
         assert lower.get_ylabel() == "drift of the balance [J]"
 
+    def test_drift_of_what_moves_from_the_start(self):
+        """The balance starts with the energy that there is, its drift at zero."""
+        model = ancf.Model()
+        section = ancf.Section(EA=1e3, EI=1.0, rhoA=0.1)
+        model.add_beam("rod", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section).set_motion(
+            velocity=(0, 0, 1)
+        )
+        moving = ancf.simulate(model, t_end=5e-3, step=1e-3)
+        _, lower = moving.plot().axes
+        assert moving.energy.balance[0] > 0.01
+        np.testing.assert_array_equal(lower.lines[0].get_ydata(), moving.energy.drift)
+        assert lower.lines[0].get_ydata()[0] == 0.0
+
     def test_sensors_draw_every_step(self, result):
         (axes,) = result.sensors.plot("taut").axes
         assert len(curves(axes)["taut"]) == 201
