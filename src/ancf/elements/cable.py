@@ -108,21 +108,15 @@ def differences(x):
 @formula
 def elastic(batch, group, chunk, G):
     """R = 2 dW/dG of the strain energy."""
-    gp, first, axial, paper, curved = (
-        batch.gp,
-        group[FIRST],
-        group[AXIAL],
-        group[PAPER] != 0,
-        group[CURVED] != 0,
-    )
+    gp, first, axial = batch.gp, group[FIRST], group[AXIAL]
+    paper, curved = group[PAPER] != 0, group[CURVED] != 0
     none = every(0.0)
     R = none, none, none, none, none, none
     ea = load(batch.lane_data, chunk, EA_L)
     for k in range(axial):
         at = gp[first + k]
-        R = add_a(
-            R, at, at[WEIGHT] * ea * axial_force(a_of(at, G), reference(batch, chunk, k, curved), paper)
-        )
+        eps0 = reference(batch, chunk, k, curved)
+        R = add_a(R, at, at[WEIGHT] * ea * axial_force(a_of(at, G), eps0, paper))
     ei, inv_l = load(batch.lane_data, chunk, EI_L), load(batch.lane_data, chunk, INV_L)
     inv_l2 = inv_l * inv_l
     for k in range(group[BENDING]):
@@ -270,13 +264,8 @@ def store_tangent(batch, A, ws, chunk, c_mass, c_damping):
 def stiffness(batch, group, chunk, x, ws, c_damping, c_stiffness):
     """Add the tangents of strains and damping in the shape x to the blocks between d, t1 and t2."""
     d, t1, t2 = x
-    gp, first, axial, paper, curved = (
-        batch.gp,
-        group[FIRST],
-        group[AXIAL],
-        group[PAPER] != 0,
-        group[CURVED] != 0,
-    )
+    gp, first, axial = batch.gp, group[FIRST], group[AXIAL]
+    paper, curved = group[PAPER] != 0, group[CURVED] != 0
     damped = group[DAMPED] if c_damping != 0.0 else 0
     ea, da = c_stiffness * load(batch.lane_data, chunk, EA_L), c_damping * load(batch.lane_data, chunk, DA_L)
     for k in range(axial):

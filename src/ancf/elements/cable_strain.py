@@ -12,7 +12,7 @@ The strain energies per stiffness are those of :mod:`ancf.elements.measures`,
 
 They know the shape by its six scalar products G = (d.d, d.u1, d.u2, u1.u1, u1.u2, u2.u2) alone: a, b and c
 are linear in G with factors that a row of the table ``gp`` holds.  A kernel of the force adds up R = 2 dW/dG,
-which costs half of adding up vectors, and nothing is lost: the products of the small u are small.
+six sums instead of nine components, and nothing is lost: the products of the small u are small.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 A kernel reads the numbers of a chunk of elements as rows of eight, and the unknowns of their nodes through a
 table of places, lane by lane.  Where the six unknowns of a node lie side by side, whole nodes are read and
-turned from rows to columns in registers, which costs a third of reading number by number.
+turned from rows to columns in registers instead of number by number.
 """
 
 from __future__ import annotations
