@@ -49,10 +49,12 @@ def method(request):
     return METHODS[request.param]
 
 
-def pytest_itemcollected(item):
-    """The tests of a file share a worker, and so its fixtures; a test with a group of its own does not."""
-    if item.get_closest_marker("xdist_group") is None:
-        item.add_marker(pytest.mark.xdist_group(item.path.name))
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """The tests of a file share a worker, and so its fixtures; see dealing.py."""
+    from dealing import ByFile
+
+    return ByFile(config, log)
 
 
 def pytest_addoption(parser):

@@ -36,5 +36,5 @@ def name_of(page):
 
 
 def alone(page):
-    """A page is a unit of its own for the workers: all of them in one file take as long as the rest."""
-    return pytest.param(page, marks=pytest.mark.xdist_group(name_of(page)), id=name_of(page))
+    """A page as a parameter with its name, which makes it a unit of its own for the workers (dealing.py)."""
+    return pytest.param(page, id=name_of(page))

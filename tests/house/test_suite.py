@@ -1,14 +1,14 @@
 """The suite itself: patient on a busy machine, dealt out to workers page by page, helpers written once."""
 
 import ast
-import tomllib
+import os
 from collections import defaultdict
-from pathlib import Path
 
 import pytest
 
+from dealing import unit_of
 from pages import WITH_CODE, alone
-from places import ROOT, TESTS
+from places import TESTS
 
 FILES = sorted(TESTS.rglob("*.py"))
 FIVE_MINUTES = 300
@@ -49,12 +49,19 @@ def test_helpers_are_written_once():
     assert [names for names in found.values() if len(names) > 1] == []
 
 
-def test_workers_get_the_pages_one_by_one():
-    marks = [alone(page).marks[0] for page in WITH_CODE]
-    assert len({mark.args[0] for mark in marks}) == len(WITH_CODE)
-    options = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["pytest"]
-    assert "--dist loadgroup" in options["ini_options"]["addopts"]
+def test_pages_are_units_of_their_own():
+    units = {unit_of(f"tests/docs/test_docs.py::test_code[{alone(page).id}]") for page in WITH_CODE}
+    assert len(units) == len(WITH_CODE)
+    assert unit_of("tests/a/test_b.py::TestC::test_d[1.0-x]") == "tests/a/test_b.py"
+    assert unit_of("tests/a/test_b.py::test_d") == "tests/a/test_b.py"
 
 
-def test_other_tests_of_a_file_stay_together(request):
-    assert request.node.get_closest_marker("xdist_group").args == (Path(__file__).name,)
+@pytest.mark.parametrize("number", range(20))
+def test_the_tests_of_a_file_share_a_worker(number, tmp_path_factory):
+    """Whatever versions of pytest and its plugin are installed: else each worker makes each fixture."""
+    worker_id = os.environ.get("PYTEST_XDIST_WORKER", "none")
+    base = tmp_path_factory.getbasetemp()
+    seen = (base if worker_id == "none" else base.parent) / "workers_of_this_file.txt"
+    with seen.open("a", encoding="utf-8") as file:
+        file.write(f"{worker_id}\n")
+    assert set(seen.read_text(encoding="utf-8").split()) == {worker_id}
