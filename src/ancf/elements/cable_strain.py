@@ -18,6 +18,7 @@ six sums instead of nine components, and nothing is lost: the products of the sm
 from __future__ import annotations
 
 import math
+from functools import cache
 
 import numpy as np
 
@@ -35,6 +36,7 @@ TINY = 1e-200  # keeps the square root of a straight cable from zero
 WEIGHT = 6
 
 
+@cache
 def gauss_table(axial: int, bending: int) -> FloatArray:
     """Coefficients at the axial, then the bending Gauss points, shape (n, 20).
 
@@ -50,7 +52,9 @@ def gauss_table(axial: int, bending: int) -> FloatArray:
         in_b = e1, e2, c1 * e1, c1 * e2 + c2 * e1, c2 * e2
         in_c = e1 * e1, 2 * e1 * e2, e2 * e2
         rows.append(np.stack([cd, c1, c2, ed, e1, e2, weight, *in_a, *in_b, *in_c], axis=1))
-    return np.ascontiguousarray(np.concatenate(rows))
+    table = np.ascontiguousarray(np.concatenate(rows))
+    table.flags.writeable = False  # everybody gets it
+    return table
 
 
 @formula

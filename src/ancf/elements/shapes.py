@@ -10,14 +10,14 @@ from numpy.typing import ArrayLike
 from ..arrays import FloatArray
 
 
-def hermite(xi: ArrayLike, length: float, derivative: int = 0) -> FloatArray:
+def hermite(xi: ArrayLike, length: ArrayLike, derivative: int = 0) -> FloatArray:
     """Shape functions ``S1 ... S4`` of eq. 22, or a derivative with respect to x.
 
     Parameters
     ----------
     xi : array_like, shape (...,)
         Position in the element, 0 at the first node and 1 at the second (the paper's xi is 2 xi - 1).
-    length : float
+    length : float or array_like that xi can be broadcast with
         Reference length of the element, m.
     derivative : {0, 1, 2}
         Order of the derivative with respect to x = xi * length.
@@ -27,8 +27,7 @@ def hermite(xi: ArrayLike, length: float, derivative: int = 0) -> FloatArray:
     ndarray, shape (..., 4)
         Factors of r(0), r_x(0), r(L), r_x(L).
     """
-    s = np.asarray(xi, dtype=np.float64)
-    h = float(length)
+    s, h = np.asarray(xi, dtype=np.float64), np.asarray(length, dtype=np.float64)
     if derivative == 0:
         columns = [1 - s**2 * (3 - 2 * s), h * s * (1 - s) ** 2, s**2 * (3 - 2 * s), h * s**2 * (s - 1)]
     elif derivative == 1:

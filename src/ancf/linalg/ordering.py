@@ -66,9 +66,13 @@ def order(pairs: IntArray, n: int) -> tuple[IntArray, str]:
     name : str
         ``"as given"``, ``"band"`` or ``"minimum degree"``.
     """
-    candidates = {"as given": np.arange(n), "band": band(pairs, n)}
-    counts = {name: len(fill_pattern(rank[pairs], n)[1]) for name, rank in candidates.items()}
+    candidates = {"as given": np.arange(n)}
+    counts = {"as given": len(fill_pattern(pairs, n)[1])}
     least = len({(min(p), max(p)) for p in map(tuple, pairs.tolist()) if p[0] != p[1]})
+    if counts["as given"] <= NEAR * least:  # no other order can be better by more
+        return candidates["as given"], "as given"
+    candidates["band"] = band(pairs, n)
+    counts["band"] = len(fill_pattern(candidates["band"][pairs], n)[1])
     if min(counts.values()) > 1.02 * least:  # a tree or a chain cannot do better than no fill
         candidates[MINIMUM_DEGREE] = _minimum_degree(pairs, n)
         counts[MINIMUM_DEGREE] = len(fill_pattern(candidates[MINIMUM_DEGREE][pairs], n)[1])

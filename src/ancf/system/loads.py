@@ -139,13 +139,15 @@ def _on_sections(
 def distributed(beam: Beam, slots: IntArray, x0: float, x1: float) -> Pattern:
     """Consistent nodal factors of a unit load per reference length from x0 to x1."""
     xi, weight = gauss(2)  # exact: the integrand is cubic
+    a, b = beam.node_x[:-1], beam.node_x[1:]
+    low = np.clip(a, x0, x1)
+    loaded = np.clip(b, x0, x1) - low
+    h = b - a
+    S = hermite((low + xi[:, None] * loaded - a) / h, h)  # (2, elements, 4)
+    share = np.einsum("g,e,gek->ek", weight, loaded, S)
     factors = np.zeros((beam.elements + 1, 2))
-    for e in range(beam.elements):
-        a, b = beam.node_x[e], beam.node_x[e + 1]
-        lo, hi = max(a, x0), min(b, x1)
-        if hi > lo:
-            S = hermite((lo + (hi - lo) * xi - a) / (b - a), b - a)
-            factors[e : e + 2] += ((hi - lo) * weight @ S).reshape(2, 2)
+    factors[:-1] += share[:, :2]
+    factors[1:] += share[:, 2:]
     return slots[:, :2].ravel(), factors.ravel()
 
 
