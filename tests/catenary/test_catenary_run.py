@@ -145,6 +145,25 @@ class TestTrain:
             assert found["deviation"].value == pytest.approx(wanted[which]["sigma"], rel=0.02)
             assert found["mean_force"].value == pytest.approx(wanted[which]["mean"], rel=5e-3)
 
+    @pytest.mark.slow
+    @pytest.mark.parametrize("kmh", [250, 275, 300, 320])
+    @pytest.mark.parametrize("spacing", [90.0, 200.0])
+    @pytest.mark.parametrize(("name", "spans"), [("en50318-2002", 10), ("en50318-2018-ac-simple", 16)])
+    @pytest.mark.filterwarnings("ignore:run.window")
+    def test_a_finer_mesh_has_the_same(self, name, spans, spacing, kmh):
+        given = read_line(name)
+        height, stagger = float(given.system_height[0]), float(given.stagger[0])
+        line = replace(given, spans=given.spans[:1] * spans, system_height=height, stagger=stagger)
+        unit = catenary.find_pantograph(reference_case(name).pantograph)
+        runs = [
+            run(line, speed=kmh / 3.6, pantograph=unit, spacing=spacing, mesh=mesh)
+            for mesh in (None, Mesh(contact=0.25, messenger=0.5))
+        ]
+        for k in (0, 1):
+            default, fine = (statistics(done, k, FILTER) for done in runs)
+            assert default["deviation"].value == pytest.approx(fine["deviation"].value, rel=0.02)
+            assert default["mean_force"].value == pytest.approx(fine["mean_force"].value, rel=1e-3)
+
 
 def damped(radius):
     """The integrator of a run with this spectral radius."""
