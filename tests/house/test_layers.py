@@ -27,6 +27,7 @@ LAYERS = (
     {"system"},
     {"solvers"},
     {"results"},
+    {"preparation"},
     {"analysis"},
     {"resumption"},
     {"viz"},
