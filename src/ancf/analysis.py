@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from .control.lead import check_controller, led
+from .control.live import Live
 from .errors import ModelError, SolveError, StorageError
 from .model import checks
 from .model.beam import Beam
@@ -77,6 +79,8 @@ def simulate(
     energy: bool = True,
     file: str | Path | None = None,
     progress: Callable[[Progress], None] | None = None,
+    controller: Callable[[Live], Any] | None = None,
+    control_step: float | None = None,
 ) -> Result:
     """Simulate a model from its start to ``t_end``.
 
@@ -103,6 +107,11 @@ def simulate(
         HDF5 file that takes the states while they are computed; default in memory.
     progress : callable, optional
         Called between blocks of steps with a :class:`ancf.results.Progress`.
+    controller : callable, optional
+        Called at the start and then every ``control_step`` with the run as it is, which answers as a
+        :class:`State` and has ``inputs``: ``run.inputs["thrust"] = 5.0`` holds from the next step on.
+    control_step : float, optional
+        In s, a multiple of ``step``; default every step.
 
     Returns
     -------
@@ -111,7 +120,7 @@ def simulate(
     Raises
     ------
     ModelError
-        A wrong number, or a file that cannot be written.
+        A wrong number, a file that cannot be written, or a controller that raised.
     SolveError
         A step failed; ``error.result`` holds what was computed until then.
     StorageError
@@ -133,6 +142,10 @@ def simulate(
         sensors=sensors,
         energy=energy,
     )
+    if controller is not None:
+        made = led(made, controller, check_controller(controller, control_step, step, "simulate"), "simulate")
+    elif control_step is not None:
+        raise ModelError("simulate.control_step", "has no effect without a controller")
     store = MemoryStore(made.system) if file is None else FileStore(file, made.system, made.header)
     try:
         return carried_out(made, store, progress)

@@ -38,6 +38,7 @@ class Prepared(NamedTuple):
     system: System
     run: AnyRun
     header: dict[str, Any]
+    method: Integrator
 
 
 def prepared(
@@ -90,7 +91,7 @@ def compiled(
     if not checks.flag(energy, f"{where}.energy"):
         system.skip_energies()
     header = header_of(system, method, t_start, t_end, step, output_step)
-    return Prepared(system, run_of(method, system, t_start, t_end, step, every), header)
+    return Prepared(system, run_of(method, system, t_start, t_end, step, every), header, method)
 
 
 def carried_out(made: Prepared, store: Any, progress: Callable[[Progress], None] | None) -> Result:
@@ -107,7 +108,7 @@ def carried_out(made: Prepared, store: Any, progress: Callable[[Progress], None]
     SolveError, StorageError, ModelError, Interrupted
         With what was computed until then.
     """
-    system, run, header = made
+    system, run, header, _ = made
 
     def finished(status: str) -> Result:
         store.update(run.stats, status)
@@ -148,13 +149,13 @@ def _salvaged(system: System) -> Iterator[None]:
         raise
 
 
-def method_of(given: Integrator | None) -> Integrator:
+def method_of(given: Integrator | None, where: str = "simulate") -> Integrator:
     """The integrator that was given, or the default; ModelError for anything else."""
     if given is None:
         return Trapezoidal()
     if not isinstance(given, tuple(INTEGRATORS.values())):
         known = "one of " + ", ".join(f"ancf.{kind.__name__}()" for kind in INTEGRATORS.values())
-        raise ModelError("simulate.integrator", f"must be {known}, is {checks.shown(given)}")
+        raise ModelError(f"{where}.integrator", f"must be {known}, is {checks.shown(given)}")
     return given
 
 

@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from .control.lead import check_controller, led
+from .control.live import Live
 from .errors import ModelError
 from .files import drafted, writing
 from .model import checks
@@ -40,6 +42,7 @@ def resume(
     t_end: float | None = None,
     model: Model | None = None,
     progress: Callable[[Progress], None] | None = None,
+    controller: Callable[[Live], Any] | None = None,
 ) -> Result:
     """Simulate on from the checkpoint of a results file, with its settings.
 
@@ -58,6 +61,8 @@ def resume(
         the file.
     progress : callable, optional
         Called between blocks of steps.
+    controller : callable, optional
+        That of the run, if it had one; what it remembers itself it has to keep.
 
     Raises
     ------
@@ -75,6 +80,7 @@ def resume(
     """
     old = load(file)
     settings, path = _settings(old, file, model), Path(file)
+    _check_led(settings, controller, file)
     end = settings["t_end"] if t_end is None else checks.number(t_end, "resume.t_end")
     last = float(old.t[-1])
     checkpoint = old._store.checkpoint() if isinstance(old._store, ReadStore) else None
@@ -85,7 +91,7 @@ def resume(
         raise ModelError("resume.t_end", what, "give a later t_end")
     given = model or old.model, integrator_from(settings["integrator"], settings["method"])
     if checkpoint is None:
-        return _anew(old, given, settings, end, path, progress)
+        return _anew(old, given, settings, end, path, progress, controller)
     times = settings["t_start"], end, settings["step"], settings["output_step"]
     made = compiled(*given, *times, _sensors(old), settings["energy"], "resume")
     try:
@@ -93,6 +99,8 @@ def resume(
     except (ModelError, LookupError, TypeError, ValueError) as error:
         what = "has a checkpoint that does not fit its model"
         raise ModelError(str(path), f"{what}: {error}", "resume with the version that made it") from None
+    if controller is not None:
+        made = led(made, controller, round(settings["control_step"] / settings["step"]), "resume")
     header = _header(old, made.header, checkpoint.snapshot.t)
     with writing(path), drafted(path) as draft:
         _copy(old, FileStore(draft, made.system, header), checkpoint.rows, checkpoint.samples, checkpoint)
@@ -106,6 +114,7 @@ def _anew(
     end: float,
     path: Path,
     progress: Callable[[Progress], None] | None,
+    controller: Callable[[Live], Any] | None,
 ) -> Result:
     """Start from the last stored state, as of any result."""
     text = f'"{path}" has no checkpoint: the run starts anew from its last state, with new accelerations'
@@ -122,6 +131,8 @@ def _anew(
         energy=settings["energy"],
         where="resume",
     )
+    if controller is not None:
+        made = led(made, controller, round(settings["control_step"] / settings["step"]), "resume")
     header = _header(old, made.header, last)
     samples = 0
     if settings["sensors"]:  # some may be ahead of the states
@@ -194,6 +205,17 @@ def _settings(old: Result, file: str | Path, model: Model | None) -> dict[str, A
         hint = "go on in the script that has them: ancf.resume(file, model=model, ...)"
         raise ModelError(str(file), what, f"{hint}; formulas and tables are kept")
     return settings
+
+
+def _check_led(settings: dict[str, Any], controller: Any, file: str | Path) -> None:
+    """Raise ModelError unless a controller is given where the run had one, and nowhere else."""
+    name = settings.get("controller")
+    if (name is None) != (controller is None):
+        what = f'of "{file}" had no controller' if name is None else f'of "{file}" was led by "{name}"'
+        hint = "leave it out" if name is None else "give it: ancf.resume(file, controller=...)"
+        raise ModelError("resume.controller", f"the run {what}", hint)
+    if controller is not None:
+        check_controller(controller, settings["control_step"], settings["step"], "resume")
 
 
 def _sensors(old: Result) -> list[Any] | None:

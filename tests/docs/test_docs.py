@@ -18,6 +18,7 @@ from ancf import catenary
 from ancf.cli.app import app
 from ancf.model.file import parse_study
 from ancf.model.file.entries import FileEntry
+from ancf.model.inputs import named
 from pages import DOCS, PAGES, ROOT, WITH_CODE, alone, code_blocks, name_of
 
 #: A block that is left out needs a reason, and there may not be many.

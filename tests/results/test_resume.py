@@ -12,6 +12,7 @@ import pytest
 import ancf
 from ancf.results.remembered import of_system
 from long_run import started
+from runs_to_continue import thrown
 
 METHODS = [
     ancf.Trapezoidal(),
@@ -189,17 +190,6 @@ class TestRefused:
     def test_no_file(self, tmp_path):
         with pytest.raises(ancf.ModelError, match="there is no such file"):
             ancf.resume(tmp_path / "nothing.h5", t_end=1.0)
-
-
-def thrown(at_end):
-    """A bead that runs off the end of a bar which is held."""
-    model = ancf.Model(gravity=(0, 0, -9.81))
-    bar = model.add_rigid_body("bar", at=(0.5, 0, 0), mass=1.0, inertia=(0.1, 0.1, 0.1))
-    model.clamp(bar)
-    bead = model.add_point_mass("bead", at=(0.9, 0, 0), mass=0.2)
-    bead.set_motion(velocity=(2.0, 0, 0))
-    model.slide(bead, along=bar, line=((-0.5, 0, 0), (0.5, 0, 0)), at_end=at_end, name="slider")
-    return model
 
 
 @pytest.mark.parametrize(("at_end", "mode"), [("clamp", 1), ("release", 2)])

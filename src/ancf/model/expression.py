@@ -118,7 +118,7 @@ class Expression:
         given = {**values, "t": times}
         return np.array(np.broadcast_to(self._evaluate(given), times.shape), dtype=np.float64)
 
-    def at(self, state: dict[str, float]) -> float:
+    def at(self, state: Mapping[str, float]) -> float:
         """Value where its names have these values; may be not finite."""
         return float(self._evaluate(state))
 

@@ -124,6 +124,12 @@ class TimeFunction:
             return self.table(times)
         return self._finite(times, lambda at: self._columns(at, inputs))
 
+    @property
+    def led(self) -> list[tuple[int, Expression]]:
+        """Components that depend on inputs, with their formulas."""
+        parts = enumerate(self.parts)
+        return [(k, p) for k, p in parts if isinstance(p, Expression) and set(p.used) - {"t"}]
+
     def _finite(self, times: FloatArray, evaluate: Evaluate) -> FloatArray:
         values = evaluate(times)
         bad = ~np.all(np.isfinite(values), axis=1)
@@ -148,8 +154,8 @@ class TimeFunction:
         self.parts = parts
         used = [name for p in parts if isinstance(p, Expression) for name in p.used if name != "t"]
         self.inputs = {name: self.inputs[name] for name in dict.fromkeys(used)}
-        depends = bool(self.inputs) or any(isinstance(p, Expression) and p.uses_t for p in parts)
-        return lambda times: self._columns(times, self.inputs), not depends
+        timely = any(isinstance(p, Expression) and p.uses_t for p in parts)
+        return lambda times: self._columns(times, self.inputs), not (timely or self.inputs)
 
     def _refuse(self, times: FloatArray) -> FloatArray:
         what = f'is the Python function "{self.missing}", of which a description keeps the name only'

@@ -68,7 +68,7 @@ class Signal:
     def _with(self, sign: str, other: Any, swapped: bool = False) -> Signal:
         text, inputs = _term(other)
         if text is None:
-            return NotImplemented
+            return NotImplemented  # type: ignore[no-any-return]
         sides = (text, self._bracketed) if swapped else (self._bracketed, text)
         return Signal(f"{sides[0]} {sign} {sides[1]}", self.inputs | inputs)
 

@@ -93,6 +93,10 @@ class MemoryStore:
         rows, samples = (sum(len(part[0]) for part in parts) for parts in (self._parts, self._samples))
         self.checkpoint = Checkpoint(snapshot, rows, samples)
 
+    def forget(self) -> None:
+        """Let go of the states; samples stay."""
+        self._parts, self._joined = [], {}
+
     def record(self, t: FloatArray, samples: FloatArray) -> None:
         """Add samples."""
         self._samples.append((t, samples))

@@ -103,7 +103,7 @@ class ExplicitRun(Run):
         )
         return int(n), int(self._status)
 
-    def _bridge(self, t: float, h: float, number: int) -> None:
+    def bridged(self, t: float, h: float, number: int) -> None:
         """Nothing helps a step that has failed."""
         raise self._failure(t, number, _REASONS.get(self._status, "the forces are no longer finite"), h)
 
@@ -114,7 +114,7 @@ class ExplicitRun(Run):
         self.limit = stable_limit(self.system, self.memory.q, self.memory.v)
         self.estimated = done
         if self.h > self.limit:
-            raise self._failure(self._time(done), done, "the step is no longer stable", self.h)
+            raise self._failure(self.time(done), done, "the step is no longer stable", self.h)
 
     def _failure(self, t: float, number: int, reason: str, h: float) -> SolveError:
         memo = self.memory.memo

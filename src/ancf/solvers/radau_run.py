@@ -142,7 +142,7 @@ class RadauRun:
         self._looked, self._cpu = clock.perf_counter(), clock.process_time()
         try:
             if not self.begun:
-                self._begin(recorder)
+                self.begin(recorder)
             if self.method.adaptive:
                 self._adaptive(recorder, progress)
             else:
@@ -150,7 +150,7 @@ class RadauRun:
         finally:
             self._flush(recorder)
 
-    def _begin(self, recorder: Recorder) -> None:
+    def begin(self, recorder: Recorder) -> None:
         """Store the start."""
         begin, (q, v) = np.array([self.t_start]), self.problem.base[:, None]
         if self.sampling.width:

@@ -17,6 +17,7 @@ from .record import Progress, Recorder, Stats
 class AnyRun(Protocol):
     """One simulation of a System."""
 
+    begun: bool  # the start has been handed over
     done: int  # steps of one length
     h: float  # their length, s
     t_start: float
@@ -42,6 +43,10 @@ class AnyRun(Protocol):
 
     def go(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
         """Take all steps that are left."""
+        ...
+
+    def begin(self, recorder: Recorder) -> None:
+        """Hand over the start."""
         ...
 
     def snapshot(self) -> Snapshot:

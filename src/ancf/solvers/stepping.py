@@ -125,7 +125,7 @@ class Run:
         values = {name: getattr(self, name) for name in self.KEPT}
         values |= {"parts": self.bridge.parts, "inputs": dict(self.system.inputs.given)}
         own = copies({"memory": self.memory, "energy0": self.energy0})
-        return Snapshot(self._time(self.done), values, {**self.watched.changed(), **own})
+        return Snapshot(self.time(self.done), values, {**self.watched.changed(), **own})
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go on from a snapshot, in place of :meth:`start`.
@@ -169,7 +169,7 @@ class Run:
         are judged at numbers of steps that the model alone decides.
         """
         if not self.begun:
-            self._begin(recorder)
+            self.begin(recorder)
         size = FIRST_LOOK
         most = max(1, int(BLOCK_BYTES / (16 * self.system.size + 8 * self.every * self.sampling.width)))
         while self.done < self.steps:
@@ -182,7 +182,7 @@ class Run:
             size = int(np.clip(count * BLOCK_SECONDS / max(seconds, 1e-6), 1, 4 * size))
             self._tell(recorder)
             if progress is not None:
-                progress(Progress(self.done, self.steps, self._time(self.done), self.t_end))
+                progress(Progress(self.done, self.steps, self.time(self.done), self.t_end))
 
     def take(self, count: int, recorder: Recorder) -> None:
         """The next steps, no further than to the next look at the energy or the end of the whole steps."""
@@ -199,10 +199,10 @@ class Run:
             self.apart = min(NEXT_LOOK * self.apart, FAR_LOOK + WIDE_LOOK // self.system.size)
             self.look += self.apart
 
-    def _begin(self, recorder: Recorder) -> None:
+    def begin(self, recorder: Recorder) -> None:
         """Store the start."""
         begin, out = np.array([self.t_start]), self.room(1, 1)
-        self._store(0, 0, out)
+        self.store(0, 0, out)
         if self.sampling.width:
             recorder.record(begin, out.samples)
         recorder.append(begin, out.q, out.v, out.work)
@@ -221,7 +221,8 @@ class Run:
         if self.between and self.done <= self.span.open:
             recorder.keep(self.snapshot())
 
-    def _time(self, done: int) -> float:
+    def time(self, done: int) -> float:
+        """Time after so many steps, s."""
         return self.t_start + done * self.h if done < self.steps else self.t_end
 
     def _block(self, done: int, count: int, recorder: Recorder) -> None:
@@ -235,7 +236,7 @@ class Run:
         first, most = 0, count
         try:
             while first < count:
-                t = self._time(done + first)
+                t = self.time(done + first)
                 try:
                     rest = out._replace(samples=out.samples[first:])
                     n, status = self._advance(t, h, row[first : first + most], rest)
@@ -246,22 +247,22 @@ class Run:
                     continue
                 first += n
                 if status >= EVENT:
-                    self.happened(status - EVENT, self._time(done + first), done + first)
-                    self._store(row[first - 1], first - 1, out)
+                    self.happened(status - EVENT, self.time(done + first), done + first)
+                    self.store(row[first - 1], first - 1, out)
                 elif status != OK:
-                    self._bridge(self._time(done + first), h, done + first + 1)
-                    self._store(row[first], first, out)
+                    self.bridged(self.time(done + first), h, done + first + 1)
+                    self.store(row[first], first, out)
                     first += 1
         finally:
             self.seconds += clock.process_time() - cpu
             stored = int(keep[:first].sum())
             if self.sampling.width:
-                times = np.array([self._time(int(k)) for k in number[:first]])
+                times = np.array([self.time(int(k)) for k in number[:first]])
                 recorder.record(times, out.samples[:first])
-            times = np.array([self._time(int(k)) for k in number[keep]])
+            times = np.array([self.time(int(k)) for k in number[keep]])
             recorder.append(times[:stored], out.q[:stored], out.v[:stored], out.work[:stored])
 
-    def _store(self, k: int, n: int, out: Output) -> None:
+    def store(self, k: int, n: int, out: Output) -> None:
         """The state now as row k of the outputs, -1: not wanted, and its samples as row n of theirs."""
         m = self.memory
         if k >= 0:
@@ -290,7 +291,7 @@ class Run:
         """All that steps one by one take, with room for so many of them."""
         return Implicit(**shared(self, rows), scheme=self.scheme, rule=self.rule(self.h))
 
-    def _bridge(self, t: float, h: float, number: int) -> None:
+    def bridged(self, t: float, h: float, number: int) -> None:
         """Step ``number`` from t to t + h, which has failed."""
         self.bridge.cross(t, h, number)
 
@@ -332,7 +333,7 @@ class Run:
         self.astray = max(self.astray, abs(made) if self.keeps_energy else made)
         if made > MOST_MADE * exchanged + self.round_off():
             m.memo[WORST] = float(np.argmax(np.abs(m.v[: self.system.n]) * self.system.core.weight))
-            raise self._failure(self._time(done), done, f"{made:.3g} J came from nowhere", self.h)
+            raise self._failure(self.time(done), done, f"{made:.3g} J came from nowhere", self.h)
 
     @property
     def keeps_energy(self) -> bool:

@@ -267,6 +267,7 @@ class FileEntry(Entry):
 
 
 NESTED: dict[str, type[Entry]] = {
+    "inputs": InputEntry,
     "motion": MotionEntry,
     "simulation": SimulationEntry,
     "equilibrium": EquilibriumEntry,
