@@ -84,7 +84,5 @@ if __name__ == "__main__":
     for name, brakes in (("holds the trolley", False), ("brakes the swing", True)):
         result = move(brakes)
         place = result.position("load")[-1, 0]
-        print(
         left = 1000 * swing(result, 8.0)
         print(f"{name}: load at {place:.3f} of {TARGET:g} m, swing after 8 s {left:.1f} mm")
-        )

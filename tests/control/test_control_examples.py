@@ -82,11 +82,6 @@ class TestPantograph:
 
     def test_without_gains_it_is_the_passive_one(self):
         script = example("active_pantograph")
-        given = {
-            "mesh": Mesh(contact=2.0, messenger=3.0),
-            "step": 2e-3,
-            "until": 160.0,
-            "window": (60.0, 120.0),
-        }
+        given = {"mesh": Mesh(contact=2.0, messenger=3.0), "step": 2e-3}
         passive, idle = script.passage(**given), script.passage(script.PID(120.0, (0.0, 0.0, 0.0)), **given)
         assert idle.recordings[0].force == pytest.approx(passive.recordings[0].force, abs=1e-3)

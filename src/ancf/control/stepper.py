@@ -177,9 +177,7 @@ def stepper(
             if value is not None:
                 raise ModelError(f"stepper.{key}", "cannot be given: it is that of the file")
         return _gone_on(model, start)
-    if start is not None and not isinstance(start, State):
-        what = f"must be a State or a file, is {checks.shown(start)}"
-        raise ModelError("stepper.start", what, "see ancf.equilibrium")
+    _check_start(start)
     method = method_of(integrator, "stepper")
     refuse_adaptive(method, "stepper")
     size = checks.positive(step, "stepper.step")
@@ -196,6 +194,12 @@ def stepper(
         where="stepper",
     )
     return Stepper(made)
+
+
+def _check_start(start: Any) -> None:
+    if start is not None and not isinstance(start, State):
+        what = f"must be a State or a file, is {checks.shown(start)}"
+        raise ModelError("stepper.start", what, "see ancf.equilibrium")
 
 
 def refuse_adaptive(method: Integrator, where: str) -> None:
