@@ -85,3 +85,35 @@ class TestPantograph:
         given = {"mesh": Mesh(contact=2.0, messenger=3.0), "step": 2e-3}
         passive, idle = script.passage(**given), script.passage(script.PID(120.0, (0.0, 0.0, 0.0)), **given)
         assert idle.recordings[0].force == pytest.approx(passive.recordings[0].force, abs=1e-3)
+
+
+class TestEnvironment:
+    """The crane for Gymnasium; its own checker looks at spaces, seeds and types."""
+
+    @pytest.fixture
+    def env(self):
+        pytest.importorskip("gymnasium")
+        return example("crane_env").CraneEnv(duration=1.0)
+
+    @pytest.mark.filterwarnings("ignore")  # of the checker, about spaces without bounds
+    def test_is_one(self, env):
+        from gymnasium.utils.env_checker import check_env
+
+        check_env(env, skip_render_check=True)
+
+    def test_the_regulator_beats_doing_nothing_and_noise(self, env):
+        crane = example("crane")
+        K, rng = crane.gains(), np.random.default_rng(2)
+
+        def total(policy):
+            seen, _ = env.reset(options={"target": 0.3})
+            rewards, over = 0.0, False
+            while not over:
+                seen, reward, failed, late, info = env.step(np.array([policy(seen)], np.float32))
+                rewards, over = rewards + reward, failed or late
+            assert info["t"] == pytest.approx(1.0)
+            return rewards
+
+        led = total(lambda seen: np.clip(-K @ seen / crane.MOST, -1, 1))
+        assert led > total(lambda seen: 0.0)
+        assert led > total(lambda seen: rng.uniform(-1, 1))

@@ -15,6 +15,8 @@ from ancf.paper import FIGURES, cantilever, pendulum, reproduce, sliding, spin_u
 from places import EXAMPLES
 
 WITH_MAIN = ("cantilever", "pendulum", "spin_up", "coupled_wires", "sliding_beam")
+#: Scripts of tests/control/test_control_examples.py.
+CONTROLLED = ("active_pantograph", "crane", "crane_env")
 #: Model files; line.toml describes an overhead line.
 FILES = sorted(path.name for path in EXAMPLES.glob("*.toml") if path.name != "line.toml")
 
@@ -107,7 +109,8 @@ class TestScripts:
         assert ancf.modes(model, about=state, count=10).frequencies.shape == (10,)
 
     def test_all_scripts_are_tested(self):
-        assert sorted(path.stem for path in EXAMPLES.glob("*.py")) == sorted([*WITH_MAIN, "model_face"])
+        tested = [*WITH_MAIN, "model_face", *CONTROLLED]
+        assert sorted(path.stem for path in EXAMPLES.glob("*.py")) == sorted(tested)
 
 
 class TestFiles:
