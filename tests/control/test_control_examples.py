@@ -1,26 +1,17 @@
 """The examples that control: each does what it says, against the same without its controller."""
 
-import importlib.util
-
 import numpy as np
 import pytest
 from scipy.linalg import expm
 
 import ancf
 from ancf.catenary import Mesh, statistics
-from places import EXAMPLES
-
-
-def example(name):
-    spec = importlib.util.spec_from_file_location(f"example_{name}", EXAMPLES / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+from example_scripts import script
 
 
 class TestCrane:
     def test_brakes_the_swing(self):
-        crane = example("crane")
+        crane = script("crane")
         held, braked = (crane.move(brakes) for brakes in (False, True))
         assert crane.swing(held, 8.0) > 1.0
         assert crane.swing(braked, 8.0) < 0.01
@@ -32,7 +23,7 @@ class TestCrane:
 
         The rope is light, stiff and hangs straight but for its own mass, 0.9 of 15 kg.
         """
-        crane = example("crane")
+        crane = script("crane")
         crane.TARGET = 0.02
         model = crane.build()
         start = ancf.equilibrium(crane.build(locked=True))
@@ -55,7 +46,7 @@ class TestCrane:
 
     def test_steps_one_by_one(self):
         """The same bits from a program of its own."""
-        crane = example("crane")
+        crane = script("crane")
         whole = crane.move(t_end=1.0)
         push = crane.controller()
         run = ancf.stepper(crane.build(), step=crane.STEP, start=ancf.equilibrium(crane.build(locked=True)))
@@ -68,22 +59,25 @@ class TestCrane:
 class TestPantograph:
     def test_lowers_the_deviation(self, request):
         """On a coarse mesh in the short form; with --slow as the example does, without it."""
-        script = example("active_pantograph")
+        active_pantograph = script("active_pantograph")
         given = (
             {}
             if request.config.getoption("--slow")
             else {"mesh": Mesh(contact=2.0, messenger=3.0), "step": 2e-3}
         )
-        passive = statistics(script.passage(**given))
-        controller = script.PID(wanted=passive["mean_force"].value)
-        active = statistics(script.passage(controller, **given))
+        passive = statistics(active_pantograph.passage(**given))
+        controller = active_pantograph.PID(wanted=passive["mean_force"].value)
+        active = statistics(active_pantograph.passage(controller, **given))
         assert active["deviation"].value < 0.93 * passive["deviation"].value
         assert active["mean_force"].value == pytest.approx(passive["mean_force"].value, rel=0.02)
 
     def test_without_gains_it_is_the_passive_one(self):
-        script = example("active_pantograph")
+        active_pantograph = script("active_pantograph")
         given = {"mesh": Mesh(contact=2.0, messenger=3.0), "step": 2e-3}
-        passive, idle = script.passage(**given), script.passage(script.PID(120.0, (0.0, 0.0, 0.0)), **given)
+        passive, idle = (
+            active_pantograph.passage(**given),
+            active_pantograph.passage(active_pantograph.PID(120.0, (0.0, 0.0, 0.0)), **given),
+        )
         assert idle.recordings[0].force == pytest.approx(passive.recordings[0].force, abs=1e-3)
 
 
@@ -93,7 +87,7 @@ class TestEnvironment:
     @pytest.fixture
     def env(self):
         pytest.importorskip("gymnasium")
-        return example("crane_env").CraneEnv(duration=1.0)
+        return script("crane_env").CraneEnv(duration=1.0)
 
     @pytest.mark.filterwarnings("ignore")  # of the checker, about spaces without bounds
     def test_is_one(self, env):
@@ -102,7 +96,7 @@ class TestEnvironment:
         check_env(env, skip_render_check=True)
 
     def test_the_regulator_beats_doing_nothing_and_noise(self, env):
-        crane = example("crane")
+        crane = script("crane")
         K, rng = crane.gains(), np.random.default_rng(2)
 
         def total(policy):

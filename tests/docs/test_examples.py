@@ -1,7 +1,6 @@
 """Every example runs, its file and its script describe one model, and every figure is written."""
 
 import csv
-import importlib.util
 import json
 import runpy
 
@@ -12,6 +11,7 @@ import ancf
 from ancf.errors import ModelError
 from ancf.model.file import read_study
 from ancf.paper import FIGURES, cantilever, pendulum, reproduce, sliding, spin_up
+from example_scripts import script
 from places import EXAMPLES
 
 WITH_MAIN = ("cantilever", "pendulum", "spin_up", "coupled_wires", "sliding_beam")
@@ -54,13 +54,6 @@ KINDS = {
     "fig14": {32.0},
     "en50318": {"en50318-2002"},
 }
-
-
-def script(name):
-    spec = importlib.util.spec_from_file_location(f"example_{name}", EXAMPLES / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def described(model):

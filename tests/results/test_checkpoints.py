@@ -9,6 +9,7 @@ import pytest
 from test_resume import without_checkpoints
 
 import ancf
+from ancf import catenary
 from ancf.preparation import compiled, prepared
 from ancf.results import checkpoints
 from ancf.results.store import MemoryStore
@@ -16,6 +17,7 @@ from ancf.solvers import radau_run, stepping
 from ancf.solvers.checkpoint import Watched
 from ancf.system.system import System
 from motions import pendulum
+from overhead_lines import COARSE, STEP, collector, short_line
 from runs_to_continue import RUNS, adaptive, rope
 
 #: A contact that rests exchanges nothing but round-off at first, and says so.
@@ -324,3 +326,25 @@ class TestModelThatIsGiven:
             ancf.ModelError, match="is a state of another model: its bodies or their nodes differ"
         ):
             ancf.simulate(pendulum(5)[0], t_end=0.06, step=1e-3, start=loaded)
+
+
+@pytest.mark.filterwarnings("ignore")  # of the coarse mesh
+def test_overhead_line(tmp_path):
+    """Wires, droppers that go slack and a pantograph: stopped, and on to the end of the run."""
+    path = tmp_path / "line.h5"
+    given = {"speed": 40.0, "pantograph": collector(), "mesh": COARSE, "step": STEP, "until": 110.0}
+    whole = catenary.run(short_line(), window=(60.0, 100.0), **given).result
+
+    def stop(progress):
+        if progress.step > 300:
+            raise KeyboardInterrupt
+
+    with pytest.raises(ancf.Interrupted):
+        catenary.run(short_line(), window=(60.0, 100.0), file=path, progress=stop, **given)
+    resumed = ancf.resume(path)
+    assert np.array_equal(resumed.q[:], whole.q)
+    for part in ("t", "q", "v"):
+        assert np.array_equal(getattr(resumed.sensors, part)[:], getattr(whole.sensors, part)[:])
+    droppers = [name for name in whole.springs if "dropper" in name]
+    slack = [np.any(whole.sensors.spring_force(name) == 0.0) for name in droppers]
+    assert any(slack)

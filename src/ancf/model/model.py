@@ -324,11 +324,15 @@ class Model(Connecting, Readable):
     def add_distributed_load(
         self, body: Beam | str, load: Any, between: Any = None, name: str | None = None
     ) -> DistributedLoad:
-        """Add a load (3,) in N per m of reference length on a body, or on its part between=(x0, x1) in m."""
+        """Add a load (3,) in N per m of reference length on a body, or on its part between=(x0, x1) in m.
+
+        As a force it may be a function of time or a law of the state, of t and of the place r and velocity v
+        of each point of the line: ``lambda t, r, v: -0.5 * v``.
+        """
         where = self._where("add_distributed_load", name, body)
         clean = self._body(body, f"{where}.body")
         label = self._names.of_item(name, f"load on {clean.name}", where)
-        return self.add_load(make_distributed(where, label, clean, load, between))
+        return self.add_load(make_distributed(where, label, clean, load, between, self.size))
 
     def add_load(self, item: LoadT) -> LoadT:
         """Add a checked load; every method that makes one ends here."""

@@ -11,6 +11,7 @@ from ..model.integrators import Explicit
 from ..system.core import Tables, apply_load
 from ..system.energy import energies
 from ..system.system import System
+from . import failures
 from .balance import balance
 from .explicit import advance_explicit
 from .memory import NORM, WORST
@@ -105,6 +106,9 @@ class ExplicitRun(Run):
 
     def bridged(self, t: float, h: float, number: int) -> None:
         """Nothing helps a step that has failed."""
+        m = self.memory
+        if (error := failures.blamed(self.system, m.q, m.v, t, number, h)) is not None:
+            raise error
         raise self._failure(t, number, _REASONS.get(self._status, "the forces are no longer finite"), h)
 
     def _check_energy(self, done: int) -> None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from ..arrays import FloatArray
-from ..errors import SolveError
+from ..errors import ModelError, SolveError
+from ..loads.state_force import law_of, places_of
+from ..model.kinds import kind_of
 from ..system.system import System
 from .bridge import MOST_PARTS
 from .memory import NORM, WORST
@@ -18,6 +20,27 @@ REASONS = {
     UNBALANCED: "energy came from nowhere, also with smaller steps",
     TOO_MANY: f"steps had to be halved, into more than {MOST_PARTS} parts on average",
 }
+
+
+def blamed(
+    system: System, q: FloatArray, v: FloatArray, t: float, number: int, h: float
+) -> SolveError | None:
+    """The law of a force that has no value in a step from the state q, v at t, or None.
+
+    What a law raises in a step is lost; so it is asked again, in Python, where its point would be on the way.
+    """
+    for load in system.model.loads:
+        if kind_of(load).batch != "state_force" or not kind_of(load).has_batch(load):
+            continue
+        for point, _ in places_of(load):
+            probe, law = system.probe(point), law_of(load)
+            for share in (0.0, 0.25, 0.5, 0.75, 1.0):
+                try:
+                    law(t + share * h, probe.field(q + share * h * v), probe.field(v))
+                except ModelError as error:
+                    where = f"t = {t:.6g} s, step {number}, {error.where}"
+                    return SolveError(where, error.what, "a law must have a value wherever its point may get")
+    return None
 
 
 def failed(system: System, memo: FloatArray, t: float, number: int, reason: str, h: float) -> SolveError:

@@ -13,6 +13,7 @@ from ..model.integrators import Radau
 from ..system.core import first_event
 from ..system.energy import energies
 from ..system.system import System
+from . import failures
 from .bridge import MOST_HALVINGS
 from .checkpoint import Snapshot, Watched, copies, refill
 from .control import Control
@@ -368,6 +369,9 @@ class RadauRun:
 
     def _failure(self, reason: str, h: float) -> SolveError:
         s = self.stepper
+        q, v, _ = self.now()
+        if (error := failures.blamed(self.system, q, v, s.t, s.counts.steps + 1, max(h, self.h))) is not None:
+            return error
         name = self.system.numbering.describe(int(self.problem.free[s.worst]))
         where = f"t = {s.t:.6g} s, step {s.counts.steps + 1}, {name}"
         what = f"{reason}; last correction {s.norm:.3g}, step {h:.3g} s"

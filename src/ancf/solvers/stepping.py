@@ -303,6 +303,9 @@ class Run:
         SolveError
             Always.
         """
+        m = self.memory
+        if (error := failures.blamed(self.system, m.q, m.v, t, number, h)) is not None:
+            raise error
         self._check_energy(number - 1)  # if energy came from nowhere, that is the reason
         if status == INVERTED:
             raise failures.collapsed(self.system, self.memory.memo, t, number, h)

@@ -87,7 +87,7 @@ def parse_study(data: dict[str, Any], source: str = "model") -> Study:
 
     """
     try:
-        with named(first_values(data.get("inputs"))):
+        with named(first_values(data.get("inputs") if isinstance(data, dict) else None)):
             entry = FileEntry.model_validate(data)
     except ValidationError as error:
         raise combined(of_validation(error), source) from None

@@ -247,7 +247,8 @@ class InputEntry(Entry):
         description="Unique among inputs; letters, digits and _, no name of formulas such as t."
     )
     value: float = Field(
-        0.0, description="What it is until something else is given, in the unit where it stands."
+        0.0,
+        description="What it is until something else is given [of what it is multiplied with, such as N].",
     )
 
 
