@@ -21,6 +21,8 @@ FLOORS = (
     ("viz", "scene → viewer, pictures, exports"),
     ("resumption", "a run that goes on where its file ends"),
     ("analysis", "equilibrium, simulate, modes"),
+    ("control", "inputs, controllers, steps one by one"),
+    ("preparation", "a model compiled, started, carried out"),
     ("results", "states, histories, files"),
     ("solvers", "steps, statics, eigenvalues"),
     ("system", "a model as flat arrays, numbered and ordered"),

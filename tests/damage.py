@@ -9,7 +9,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 import ancf
-from ancf import analysis
+from ancf import preparation
 from ancf.model.integrators import Trapezoidal
 from ancf.results.store import FileStore
 from ancf.solvers.stepping import Stats
@@ -56,7 +56,7 @@ def write(path):
     with patch("ancf.system.system.set_scales"), patch("ancf.results.store.energies", energies):
         system = System(model)
         system.sensors = listing(system, [model.sensor(item, "sensors") for item in sensors])
-        file = FileStore(path, system, analysis._header(system, Trapezoidal(), 0.0, 1.0, 0.1, 0.5))
+        file = FileStore(path, system, preparation.header_of(system, Trapezoidal(), 0.0, 1.0, 0.1, 0.5))
         rng = np.random.default_rng(1)
         q, v = system.initial_state()
         t = np.linspace(0.0, 1.0, 11)

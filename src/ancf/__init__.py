@@ -10,6 +10,7 @@ from .errors import Interrupted, ModelError, SolveError
 
 if TYPE_CHECKING:
     from .analysis import equilibrium, load, modes, simulate, stable_step
+    from .control.stepper import Stepper, stepper
     from .model import Model, Section
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
     from .results import Modes, Result, State
@@ -26,6 +27,8 @@ _LATER = {
     "stable_step": "analysis",
     "load": "analysis",
     "resume": "resumption",
+    "stepper": "control.stepper",
+    "Stepper": "control.stepper",
     "Result": "results",
     "State": "results",
     "Modes": "results",
@@ -51,6 +54,7 @@ __all__ = [
     "Section",
     "SolveError",
     "State",
+    "Stepper",
     "Trapezoidal",
     "Verification",
     "__version__",
@@ -60,6 +64,7 @@ __all__ = [
     "resume",
     "simulate",
     "stable_step",
+    "stepper",
     "verify",
 ]
 

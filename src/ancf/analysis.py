@@ -2,40 +2,29 @@
 
 from __future__ import annotations
 
-import signal
-import warnings
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
-from dataclasses import asdict
-from datetime import UTC, datetime
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from .errors import Interrupted, ModelError, SolveError, StorageError
-from .interrupts import heed, kept
+from .control.lead import check_controller, led
+from .control.live import Live
+from .errors import ModelError, SolveError, StorageError
 from .model import checks
 from .model.beam import Beam
 from .model.bodies import PointMass, RigidBody
-from .model.integrators import INTEGRATORS, Explicit, Integrator, Trapezoidal
+from .model.integrators import Explicit, Integrator
 from .model.model import Model
-from .model.settings import steps_between
-from .results import remembered
+from .preparation import carried_out, given_state, method_of, prepared, system_of
 from .results.modes import Modes
-from .results.provenance import versions
-from .results.read_store import ReadStore
-from .results.result import Result, load, read
+from .results.result import Result, load
 from .results.state import State
 from .results.store import FileStore, MemoryStore
 from .solvers import statics
 from .solvers.modal import natural_modes
 from .solvers.record import Progress
-from .solvers.runs import AnyRun, run_of
 from .solvers.stability import stable_limit
-from .system.consistency import check_gaps, check_independent
-from .system.sensors import Listing, listing
-from .system.system import System
 
 __all__ = ["equilibrium", "load", "modes", "simulate", "stable_step"]
 
@@ -73,7 +62,7 @@ def equilibrium(
     checks.integer(load_steps, "equilibrium.load_steps", 1, 100_000)
     time = checks.number(time, "equilibrium.time")
     names = None if of is None else _names(model, of)
-    system = _system(model)
+    system = system_of(model)
     q, stats = statics.equilibrium(system, names, load_steps, time)
     return State(system, float(time), q, system.motion(q, time), stats)
 
@@ -90,6 +79,8 @@ def simulate(
     energy: bool = True,
     file: str | Path | None = None,
     progress: Callable[[Progress], None] | None = None,
+    controller: Callable[[Live], Any] | None = None,
+    control_step: float | None = None,
 ) -> Result:
     """Simulate a model from its start to ``t_end``.
 
@@ -116,6 +107,11 @@ def simulate(
         HDF5 file that takes the states while they are computed; default in memory.
     progress : callable, optional
         Called between blocks of steps with a :class:`ancf.results.Progress`.
+    controller : callable, optional
+        Called at the start and then every ``control_step`` with the run as it is, which answers as a
+        :class:`State` and has ``inputs``: ``run.inputs["thrust"] = 5.0`` holds from the next step on.
+    control_step : float, optional
+        In s, a multiple of ``step``; default every step.
 
     Returns
     -------
@@ -124,7 +120,7 @@ def simulate(
     Raises
     ------
     ModelError
-        A wrong number, or a file that cannot be written.
+        A wrong number, a file that cannot be written, or a controller that raised.
     SolveError
         A step failed; ``error.result`` holds what was computed until then.
     StorageError
@@ -138,7 +134,7 @@ def simulate(
         )
     made = prepared(
         model,
-        method=_integrator(integrator),
+        method=method_of(integrator),
         t_end=t_end,
         step=step,
         start=start,
@@ -146,6 +142,10 @@ def simulate(
         sensors=sensors,
         energy=energy,
     )
+    if controller is not None:
+        made = led(made, controller, check_controller(controller, control_step, step, "simulate"), "simulate")
+    elif control_step is not None:
+        raise ModelError("simulate.control_step", "has no effect without a controller")
     store = MemoryStore(made.system) if file is None else FileStore(file, made.system, made.header)
     try:
         return carried_out(made, store, progress)
@@ -153,114 +153,6 @@ def simulate(
         if start is None and not isinstance(error, StorageError):
             _advise_rest(error, model)
         raise
-
-
-class Prepared(NamedTuple):
-    """A simulation that has not taken a step yet."""
-
-    system: System
-    run: AnyRun
-    header: dict[str, Any]
-
-
-def prepared(
-    model: Model,
-    *,
-    method: Integrator,
-    t_end: float,
-    step: float,
-    start: State | None,
-    output_step: float | None,
-    sensors: Sequence[Any] | None,
-    energy: bool,
-    where: str = "simulate",
-) -> Prepared:
-    """A simulation at its start, see :func:`simulate`; ``where`` stands in messages.
-
-    Raises
-    ------
-    ModelError, SolveError
-        Something given is wrong, or there are no accelerations at the start.
-    """
-    t0 = 0.0 if start is None else start.t
-    every = steps_between(where, t_end, step, output_step, t0)
-    system = _system(model)  # anew: the model may have changed since the start was computed
-    if start is None:
-        q, v = system.initial_state(t0)
-    else:
-        q, v = _adopted(start, system, f"{where}.start")
-        remembered.restore(system, start.known)
-    check_gaps(system, q, f"{where}.start")
-    system.sensors = _sensors(system, sensors)
-    if not checks.flag(energy, f"{where}.energy"):
-        system.skip_energies()
-    header = _header(system, method, t0, t_end, step, output_step)
-    run = run_of(method, system, t0, t_end, step, every)
-    run.start(q, v)
-    return Prepared(system, run, header)
-
-
-def carried_out(made: Prepared, store: Any, progress: Callable[[Progress], None] | None) -> Result:
-    """Take all steps and give the result, also with the errors; see :func:`simulate`.
-
-    Parameters
-    ----------
-    made : Prepared
-    store : MemoryStore, FileStore or another Recorder with ``path`` and ``close``
-    progress : callable or None
-
-    Raises
-    ------
-    SolveError, StorageError, ModelError, Interrupted
-        With what was computed until then.
-    """
-    system, run, header = made
-
-    def finished(status: str) -> Result:
-        store.update(run.stats, status)
-        if isinstance(store, MemoryStore):
-            return Result(store, header, system)
-        store.close()
-        return load(store.path, system)
-
-    def look(now: Progress) -> None:
-        heed()
-        if progress is not None:
-            progress(now)
-
-    with _salvaged(system), kept(signal.SIGINT):
-        try:
-            run.go(store, look)
-        except StorageError:
-            raise
-        except (SolveError, ModelError) as error:
-            error.result = finished("failed")
-            raise
-        except KeyboardInterrupt as stop:
-            raise Interrupted(finished("interrupted")) from stop
-        if run.caution:
-            warnings.warn(run.caution, UserWarning, stacklevel=3)
-        return finished("complete")
-
-
-@contextmanager
-def _salvaged(system: System) -> Iterator[None]:
-    """What a file holds that can no longer be written goes with the error."""
-    try:
-        yield
-    except StorageError as error:
-        with suppress(ModelError):  # nothing may have reached the disk
-            error.result = read(ReadStore(error.where, "failed"), system)
-        raise
-
-
-def _integrator(given: Integrator | None) -> Integrator:
-    if given is None:
-        return Trapezoidal()
-    if not isinstance(given, tuple(INTEGRATORS.values())):
-        known = "one of " + ", ".join(f"ancf.{kind.__name__}()" for kind in INTEGRATORS.values())
-        raise ModelError("simulate.integrator", f"must be {known}, is {checks.shown(given)}")
-    return given
 
 
 def _advise_rest(error: SolveError, model: Model) -> None:
@@ -291,17 +183,11 @@ def modes(model: Model, *, about: State | None = None, count: int = 10) -> Modes
     SolveError
         The state is not a stable equilibrium.
     """
-    system = _system(model)
-    q, v = _given_state(system, about, "modes.about")
+    system = system_of(model)
+    q, v = given_state(system, about, "modes.about")
     about = State(system, 0.0, q, np.zeros_like(v)) if about is None else State(system, about.t, q, v)
     omega, shapes = natural_modes(about.system, about.q, count)
     return Modes(omega, shapes, about)
-
-
-def _system(model: Model) -> System:
-    system = System(model)
-    check_independent(system)
-    return system
 
 
 def stable_step(model: Model, *, about: State | None = None, safety: float = 0.9) -> float:
@@ -320,29 +206,9 @@ def stable_step(model: Model, *, about: State | None = None, safety: float = 0.9
     SolveError
         The mass matrix is singular.
     """
-    method, system = Explicit(safety=safety), _system(model)
-    q, v = _given_state(system, about, "stable_step.about")
+    method, system = Explicit(safety=safety), system_of(model)
+    q, v = given_state(system, about, "stable_step.about")
     return method.safety * stable_limit(system, q, v)
-
-
-def _given_state(system: System, about: Any, where: str) -> tuple[Any, Any]:
-    """State vectors of a state, or of the initial shape and motion where none is given."""
-    if about is None:
-        return system.initial_state()
-    if not isinstance(about, State):
-        raise ModelError(where, f"must be a State, is {checks.shown(about)}", "see ancf.equilibrium")
-    return _adopted(about, system, where)
-
-
-def _sensors(system: System, given: Any) -> Listing:
-    """What ``sensors`` lists."""
-    where = "simulate.sensors"
-    if given is None:
-        return Listing()
-    if not isinstance(given, Sequence) or isinstance(given, str | bytes):
-        what = f"must be a list of points, springs and joints, is {checks.shown(given)}"
-        raise ModelError(where, what, 'such as sensors=["wire.at(3)", dropper]')
-    return listing(system, [system.model.sensor(item, f"{where}[{k}]") for k, item in enumerate(given)])
 
 
 def _names(model: Model, of: Any) -> list[str]:
@@ -357,44 +223,3 @@ def _names(model: Model, of: Any) -> list[str]:
             raise ModelError(f"equilibrium.of[{k}]", f"must be a body or its name, is {checks.shown(item)}")
         found.append(model.body(item if isinstance(item, str) else item.name).name)
     return found
-
-
-def _adopted(state: State, system: System, where: str) -> tuple[Any, Any]:
-    """State vectors of a state in the numbering of a system with the same bodies."""
-    mine, theirs = system.model.bodies, state.bodies
-    same = mine.keys() == theirs.keys() and all(
-        system.slots[n].shape == state.slots[n].shape and _same_nodes(mine[n], theirs[n]) for n in mine
-    )
-    if not same:
-        raise ModelError(where, "is a state of another model: its bodies or their nodes differ")
-    return system.adopt(state.slots, state.joints, state.q, state.v, state.t)
-
-
-def _same_nodes(a: Any, b: Any) -> bool:
-    if not isinstance(a, Beam) or not isinstance(b, Beam):
-        return type(a) is type(b)
-    return a.element == b.element and np.array_equal(a.node_x, b.node_x)
-
-
-def _header(
-    system: System, method: Integrator, t0: float, t_end: float, step: float, output_step: float | None
-) -> dict[str, Any]:
-    """What made a result: model, settings, versions, time."""
-    model, listed = system.model, system.sensors
-    return {
-        "title": model.title,
-        "created": datetime.now(UTC).isoformat(timespec="seconds"),
-        "model": model.to_dict(),
-        "settings": {
-            "t_start": t0,
-            "t_end": t_end,
-            "step": step,
-            "output_step": output_step or step,
-            "integrator": method.name,
-            "method": asdict(method),
-            **method.settings(),
-            "energy": system.core.accounted,
-            "sensors": [*map(str, listed.points), *listed.connections],
-        },
-        "versions": versions(),
-    }

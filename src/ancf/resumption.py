@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import fields
 from datetime import UTC, datetime
@@ -10,14 +11,21 @@ from typing import Any
 
 import numpy as np
 
-from .analysis import carried_out, prepared
+from .control.lead import check_controller, led
+from .control.live import Live
 from .errors import ModelError
 from .files import drafted, writing
 from .model import checks
-from .model.integrators import integrator_from
+from .model.describe import point
+from .model.integrators import Integrator, integrator_from
+from .model.model import Model
+from .preparation import carried_out, compiled, prepared
+from .results.checkpoints import Checkpoint
 from .results.provenance import versions
+from .results.read_store import ReadStore
 from .results.result import Result, load
 from .results.store import FileStore
+from .solvers.checkpoint import Snapshot
 from .solvers.record import Progress, Stats
 
 __all__ = ["resume"]
@@ -29,13 +37,18 @@ AT_ONCE = 2_000_000
 
 
 def resume(
-    file: str | Path, *, t_end: float | None = None, progress: Callable[[Progress], None] | None = None
+    file: str | Path,
+    *,
+    t_end: float | None = None,
+    model: Model | None = None,
+    progress: Callable[[Progress], None] | None = None,
+    controller: Callable[[Live], Any] | None = None,
 ) -> Result:
-    """Simulate on from the last stored state of a results file, with its model and its settings.
+    """Simulate on from the checkpoint of a results file, with its settings.
 
-    What is computed is added to the file: it then holds one history from the first start to ``t_end``, with
-    work and counters that go on. The accelerations are computed anew from the state, as when a simulation
-    starts from any state; what the steps before have left in a method is gone.
+    The file then holds one history from the first start to ``t_end``, the same to the last bit as if the run
+    had not been stopped: states, samples, work, counters and messages. Steps behind the checkpoint, of a run
+    that was killed and of the last ones of a run that ended, are computed once more.
 
     Parameters
     ----------
@@ -43,27 +56,73 @@ def resume(
         Of a run that ended, failed, was stopped or killed; no other process may be writing to it.
     t_end : float, optional
         Default the end time that the run was given.
+    model : Model, optional
+        The model that was computed, with its Python functions, which a file cannot keep; default that of
+        the file.
     progress : callable, optional
         Called between blocks of steps.
+    controller : callable, optional
+        That of the run, if it had one; what it remembers itself it has to keep.
 
     Raises
     ------
     ModelError
-        The file cannot be read or written, holds no state of a simulation, has reached ``t_end``, or its
-        model had a Python function, which a file cannot keep: the message names it.
+        The file cannot be read or written, holds no state of a simulation, has reached ``t_end``, is of
+        another model, or its model had a Python function and is not given: the message names it.
     SolveError, StorageError, Interrupted
         As from :func:`ancf.simulate`; the file keeps what was computed until then.
+
+    Warns
+    -----
+    UserWarning
+        The file has no checkpoint, as one of an earlier version: the run starts anew from the last stored
+        state, with accelerations that are computed anew.
     """
     old = load(file)
-    settings, path = _settings(old, file), Path(file)
+    settings, path = _settings(old, file, model), Path(file)
+    _check_led(settings, controller, file)
     end = settings["t_end"] if t_end is None else checks.number(t_end, "resume.t_end")
     last = float(old.t[-1])
-    if end - last < REACHED * settings["step"]:
+    checkpoint = old._store.checkpoint() if isinstance(old._store, ReadStore) else None
+    slack = REACHED * settings["step"]
+    unfinished = checkpoint is not None and old.status != "complete" and end - last > -slack
+    if end - last < slack and not unfinished:
         what = f'"{path}" has reached t = {last:g} s, there is nothing to do until {end:g} s'
         raise ModelError("resume.t_end", what, "give a later t_end")
-    prepared_run = prepared(
-        old.model,
-        method=integrator_from(settings["integrator"], settings["method"]),
+    given = model or old.model, integrator_from(settings["integrator"], settings["method"])
+    if checkpoint is None:
+        return _anew(old, given, settings, end, path, progress, controller)
+    times = settings["t_start"], end, settings["step"], settings["output_step"]
+    made = compiled(*given, *times, _sensors(old), settings["energy"], "resume")
+    try:
+        made.run.restore(checkpoint.snapshot)
+    except (ModelError, LookupError, TypeError, ValueError) as error:
+        what = "has a checkpoint that does not fit its model"
+        raise ModelError(str(path), f"{what}: {error}", "resume with the version that made it") from None
+    if controller is not None:
+        made = led(made, controller, round(settings["control_step"] / settings["step"]), "resume")
+    header = _header(old, made.header, checkpoint.snapshot.t)
+    with writing(path), drafted(path) as draft:
+        _copy(old, FileStore(draft, made.system, header), checkpoint.rows, checkpoint.samples, checkpoint)
+    return carried_out(made, FileStore.reopened(path, made.system), progress)
+
+
+def _anew(
+    old: Result,
+    given: tuple[Model, Integrator],
+    settings: dict[str, Any],
+    end: float,
+    path: Path,
+    progress: Callable[[Progress], None] | None,
+    controller: Callable[[Live], Any] | None,
+) -> Result:
+    """Start from the last stored state, as of any result."""
+    text = f'"{path}" has no checkpoint: the run starts anew from its last state, with new accelerations'
+    warnings.warn(text, UserWarning, stacklevel=3)
+    last = float(old.t[-1])
+    made = prepared(
+        given[0],
+        method=given[1],
         t_end=end,
         step=settings["step"],
         start=old.state(),
@@ -72,15 +131,19 @@ def resume(
         energy=settings["energy"],
         where="resume",
     )
-    header = _header(old, prepared_run.header, last)
+    if controller is not None:
+        made = led(made, controller, round(settings["control_step"] / settings["step"]), "resume")
+    header = _header(old, made.header, last)
+    samples = 0
+    if settings["sensors"]:  # some may be ahead of the states
+        samples = int(np.searchsorted(old._store.samples["time"], last, side="right"))
     with writing(path), drafted(path) as draft:
-        _copy(old, FileStore(draft, prepared_run.system, header), last)
-    store = Continued(FileStore.reopened(path, prepared_run.system), old)
-    return carried_out(prepared_run, store, progress)
+        _copy(old, FileStore(draft, made.system, header), len(old.t), samples)
+    return carried_out(made, Continued(FileStore.reopened(path, made.system), old), progress)
 
 
 class Continued:
-    """A file that holds a history already; what a run computes is added to it.
+    """A file that holds a history already; what a run computes that starts anew at its end is added to it.
 
     Parameters
     ----------
@@ -109,25 +172,50 @@ class Continued:
         both = (getattr(self._stats, f.name) + getattr(stats, f.name) for f in fields(Stats))
         self._file.update(Stats(*both), status)
 
+    def due(self) -> bool:
+        """Never: the run has another start than the history, which a checkpoint would have to know."""
+        return False
+
+    def keep(self, snapshot: Snapshot) -> None:
+        """Take no checkpoint."""
+
     def close(self) -> None:
         """Close the file."""
         self._file.close()
 
 
-def _settings(old: Result, file: str | Path) -> dict[str, Any]:
+def _settings(old: Result, file: str | Path, model: Model | None) -> dict[str, Any]:
     """Settings of the simulation, once there is something to go on from."""
+    if model is not None and not isinstance(model, Model):
+        raise ModelError("resume.model", f"must be a Model, is {checks.shown(model)}")
     settings: dict[str, Any] = old.provenance["settings"]
     if "method" not in settings:
         raise ModelError(str(file), "holds an equilibrium and no simulation", "start one: ancf.simulate(...)")
     if not len(old.t):
         raise ModelError(str(file), "holds no state to go on from", "simulate it again")
+    if model is not None:
+        if model.to_dict() != old.model.to_dict():
+            hint = "give the model that was computed, or simulate(model, start=ancf.load(file).state(), ...)"
+            raise ModelError("resume.model", f'is not the model that "{file}" describes', hint)
+        return settings
     missing = old.model.missing_functions()
     if missing:
         listed = ", ".join(f'"{function}" of "{item}"' for item, function in missing)
         what = f"has lost Python functions, which a file cannot keep: {listed}"
-        hint = "go on in the script that has them: ancf.simulate(model, start=ancf.load(file).state(), ...)"
+        hint = "go on in the script that has them: ancf.resume(file, model=model, ...)"
         raise ModelError(str(file), what, f"{hint}; formulas and tables are kept")
     return settings
+
+
+def _check_led(settings: dict[str, Any], controller: Any, file: str | Path) -> None:
+    """Raise ModelError unless a controller is given where the run had one, and nowhere else."""
+    name = settings.get("controller")
+    if (name is None) != (controller is None):
+        what = f'of "{file}" had no controller' if name is None else f'of "{file}" was led by "{name}"'
+        hint = "leave it out" if name is None else "give it: ancf.resume(file, controller=...)"
+        raise ModelError("resume.controller", f"the run {what}", hint)
+    if controller is not None:
+        check_controller(controller, settings["control_step"], settings["step"], "resume")
 
 
 def _sensors(old: Result) -> list[Any] | None:
@@ -135,7 +223,7 @@ def _sensors(old: Result) -> list[Any] | None:
     if not old.provenance["settings"]["sensors"]:
         return None
     listing = old.sensors.listing
-    return [*listing.points, *listing.connections]
+    return [*(point(item) for item in listing.points), *listing.connections]
 
 
 def _header(old: Result, new: dict[str, Any], last: float) -> dict[str, Any]:
@@ -150,20 +238,23 @@ def _header(old: Result, new: dict[str, Any], last: float) -> dict[str, Any]:
     return {**before, "settings": settings, "resumed": [*before.get("resumed", []), now]}
 
 
-def _copy(old: Result, file: FileStore, last: float) -> None:
-    """Write a history to another file, in which nothing of a run that was killed is left."""
+def _copy(
+    old: Result, file: FileStore, count: int, samples: int, checkpoint: Checkpoint | None = None
+) -> None:
+    """Write the first states and samples of a history to another file, and what goes with them."""
     rows = max(1, AT_ONCE // old.q.shape[1])
     arrays = old._store.arrays
-    for k in range(0, len(old.t), rows):
-        part = slice(k, k + rows)
+    for k in range(0, count, rows):
+        part = slice(k, min(k + rows, count))
         file.copy(*(np.asarray(arrays[name][part]) for name in ("time", "q", "v", "work", "energy")))
-    if old.provenance["settings"]["sensors"]:
-        samples = old._store.samples
-        count = int(np.searchsorted(samples["time"], last, side="right"))  # some may be ahead of the states
-        rows = max(1, AT_ONCE // max(1, samples["q"].shape[1]))
-        for k in range(0, count, rows):
-            part = slice(k, min(k + rows, count))
-            values = np.concatenate([samples[name][part] for name in ("q", "v", "measured")], axis=1)
-            file.record(samples["time"][part], values)
+    if samples:
+        recorded = old._store.samples
+        rows = max(1, AT_ONCE // max(1, recorded["q"].shape[1]))
+        for k in range(0, samples, rows):
+            part = slice(k, min(k + rows, samples))
+            values = np.concatenate([recorded[name][part] for name in ("q", "v", "measured")], axis=1)
+            file.record(recorded["time"][part], values)
+    if checkpoint is not None:
+        file.put(checkpoint)
     file.update(old.stats, "running")
     file.close()

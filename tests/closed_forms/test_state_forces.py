@@ -156,3 +156,115 @@ class TestBadInput:
 
         with pytest.raises(ancf.ModelError, match="is no plain Python function"):
             ancf.equilibrium(model(Law()))
+
+
+def raises(t, r, v):
+    if r[0] > 0.3:
+        raise ValueError("too far")
+    return (1.0, 0.0, 0.0)
+
+
+def no_number(t, r, v):
+    return (1.0, 0.0, np.sqrt(0.3 - r[0]))
+
+
+def short(t, r, v):
+    return np.array([1.0, 0.0, 0.0])[: 3 if t < 0.5 else 2]
+
+
+class TestLawsWithoutValue:
+    """A law that fails on the way: one message with time, step, name and what it did, whatever the method."""
+
+    @pytest.mark.parametrize(
+        "method",
+        [ancf.Trapezoidal(), ancf.GeneralizedAlpha(0.8), ancf.Radau(), ancf.Explicit(check=False)],
+        ids=lambda method: method.name,
+    )
+    @pytest.mark.parametrize(
+        ("law", "said"),
+        [
+            (raises, r"r = \[0\.3.* m the function raised ValueError: too far"),
+            (no_number, r"is \[1\.0, 0\.0, nan\] at t = .*r = \[0\.3.*must be finite"),
+            (short, r"the function of t, r, v returned shape \(2,\), wanted \(3,\)"),
+            (["1", "0", "sqrt(0.3 - x)"], r"is \[1\.0, 0\.0, nan\] at t = "),
+        ],
+        ids=["raises", "no number", "short", "formula"],
+    )
+    def test_message(self, law, said, method):
+        made = model(law, velocity=(0.5, 0, 0))
+        with pytest.raises(ancf.SolveError, match=said) as caught:
+            ancf.simulate(made, t_end=2.0, step=0.01, integrator=method)
+        found = caught.value
+        assert "add_force(mass).force" in found.where
+        at = float(found.where.split()[2])
+        assert found.result.t[-1] - 1e-9 <= at < found.result.t[-1] + 0.011
+        assert 0.3 < found.result.t[-1] < 0.6
+
+
+class TestAlongABeam:
+    """A law of (t, r, v) per length: against a load that is no law, external damping, and an elastic bed."""
+
+    def rope(self, load=None, between=None, elements=3, **section):
+        made = ancf.Model(gravity=(0, 0, -9.81))
+        given = ancf.Section(**{"EA": 400.0, "EI": 0.2, "rhoA": 0.5} | section)
+        wire = made.add_beam("wire", start=(0, 0, 0), end=(2, 0, 0.3), elements=elements, section=given)
+        made.pin(wire.start)
+        if load is not None:
+            made.add_distributed_load(wire, load, between=between)
+        return made, wire
+
+    @pytest.mark.parametrize("between", [None, (0.3, 1.9), (0.7, 0.9)])
+    def test_constant_law_is_a_dead_load(self, between):
+        """The weights of the Gauss points, with ends of the load within elements."""
+        ends = []
+        for load in ((0.3, "sin(2*t)", -1.0), ["0.3", "sin(2*t) + 0*x", "-1"]):
+            made, wire = self.rope(load, between)
+            ends.append(ancf.simulate(made, t_end=0.3, step=5e-3).position(wire.end))
+        assert ends[0] == pytest.approx(ends[1], abs=1e-10)
+
+    @pytest.mark.parametrize("law", [lambda t, r, v: -0.4 * v, ["-0.4*vx", "-0.4*vy", "-0.4*vz"]])
+    @pytest.mark.parametrize("method", [ancf.Trapezoidal(), ancf.Radau(tolerance=1e-8)], ids=lambda m: m.name)
+    def test_damping_is_that_of_the_section(self, law, method):
+        found = []
+        for made, wire in (self.rope(law), self.rope(damping=0.4)):
+            run = ancf.simulate(made, t_end=0.5, step=2e-3, integrator=method)
+            found.append(run.position(wire.end))
+            assert np.abs(run.energy.drift).max() < 1e-3 * run.energy.kinetic.max()
+        assert found[0] == pytest.approx(found[1], abs=2e-7)
+        assert run.energy.supplied[-1] == 0.0  # of the section it is dissipated, of a law supplied
+
+    @pytest.mark.parametrize("elements", [2, 5])
+    def test_elastic_bed(self, elements):
+        """A straight cable on a bed that its weight presses in evenly: z = -rhoA g/k."""
+        made = ancf.Model(gravity=(0, 0, -9.81))
+        section = ancf.Section(EA=1e3, EI=0.2, rhoA=0.5)
+        wire = made.add_beam("wire", start=(0, 0, 0), end=(2, 0, 0), elements=elements, section=section)
+        made.hold(wire.start, position="xy")
+        made.hold(wire.end, position="y")
+        made.add_distributed_load(wire, lambda t, r, v: np.array([0.0, 0.0, -50.0 * r[2]]))
+        state = ancf.equilibrium(made)
+        for x in (0.0, 0.37, 1.0, 2.0):
+            assert state.position(wire.at(x))[2] == pytest.approx(-0.5 * 9.81 / 50.0, rel=1e-9)
+
+    def test_fails_with_a_message(self):
+        made, _ = self.rope(["0", "0", "sqrt(0.5 + z)"])
+        with pytest.raises(
+            ancf.SolveError, match=r"add_distributed_load\(wire\)\.load: is .*nan.*r = \["
+        ) as caught:
+            ancf.simulate(made, t_end=2.0, step=2e-3)
+        assert caught.value.result.t[-1] > 0.1
+
+    def test_described_and_refused(self):
+        made, wire = self.rope(["-y", "0", "-0.1*vz"])
+        again = ancf.Model.from_dict(made.to_dict())
+        assert again.to_dict() == made.to_dict()
+        runs = [ancf.simulate(m, t_end=0.02, step=1e-3).q for m in (made, again)]
+        assert np.array_equal(*runs)
+        for law, said in (
+            (lambda t, r, v: (1.0, 0.0), "wanted \\(3,\\)"),
+            (lambda t, r, v: 1 / 0, "raised ZeroDivisionError"),
+            (["log(-1 - 0*x)", "0", "0"], "must be finite"),
+        ):
+            with pytest.raises(ancf.ModelError, match=said) as caught:
+                made.add_distributed_load(wire, law, name="wrong")
+            assert "load" in caught.value.where

@@ -16,6 +16,7 @@ from typer.testing import CliRunner
 
 from ancf import catenary
 from ancf.cli.app import app
+from ancf.model import inputs
 from ancf.model.file import parse_study
 from ancf.model.file.entries import FileEntry
 from pages import DOCS, PAGES, ROOT, WITH_CODE, alone, code_blocks, name_of
@@ -89,7 +90,8 @@ def check_toml(block, namespace):
         parse_study(data)
     else:
         try:
-            FileEntry.model_validate(data)
+            with inputs.named(inputs.first_values(data.get("inputs"))):
+                FileEntry.model_validate(data)
         except ValidationError as error:
             wrong = [problem for problem in error.errors() if problem["type"] != "missing"]
             assert not wrong, wrong

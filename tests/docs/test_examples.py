@@ -1,7 +1,6 @@
 """Every example runs, its file and its script describe one model, and every figure is written."""
 
 import csv
-import importlib.util
 import json
 import runpy
 
@@ -12,9 +11,12 @@ import ancf
 from ancf.errors import ModelError
 from ancf.model.file import read_study
 from ancf.paper import FIGURES, cantilever, pendulum, reproduce, sliding, spin_up
+from example_scripts import script
 from places import EXAMPLES
 
 WITH_MAIN = ("cantilever", "pendulum", "spin_up", "coupled_wires", "sliding_beam")
+#: Scripts of tests/control/test_control_examples.py.
+CONTROLLED = ("active_pantograph", "crane", "crane_env")
 #: Model files; line.toml describes an overhead line.
 FILES = sorted(path.name for path in EXAMPLES.glob("*.toml") if path.name != "line.toml")
 
@@ -52,13 +54,6 @@ KINDS = {
     "fig14": {32.0},
     "en50318": {"en50318-2002"},
 }
-
-
-def script(name):
-    spec = importlib.util.spec_from_file_location(f"example_{name}", EXAMPLES / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def described(model):
@@ -107,7 +102,8 @@ class TestScripts:
         assert ancf.modes(model, about=state, count=10).frequencies.shape == (10,)
 
     def test_all_scripts_are_tested(self):
-        assert sorted(path.stem for path in EXAMPLES.glob("*.py")) == sorted([*WITH_MAIN, "model_face"])
+        tested = [*WITH_MAIN, "model_face", *CONTROLLED]
+        assert sorted(path.stem for path in EXAMPLES.glob("*.py")) == sorted(tested)
 
 
 class TestFiles:

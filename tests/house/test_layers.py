@@ -27,6 +27,8 @@ LAYERS = (
     {"system"},
     {"solvers"},
     {"results"},
+    {"preparation"},
+    {"control"},
     {"analysis"},
     {"resumption"},
     {"viz"},
@@ -125,7 +127,7 @@ class TestImports:
         seen = {name for name, _ in imported(ROOT / "solvers" / "runs.py")}
         assert {"model", "solvers", "system"} <= seen
         seen = {name for name, _ in imported(ROOT / "analysis.py")}
-        assert {"errors", "model", "results", "solvers", "system"} <= seen
+        assert {"errors", "model", "results", "solvers", "preparation"} <= seen
 
 
 @pytest.fixture(scope="module")

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import signal
 
 import h5py
@@ -11,6 +12,7 @@ import pytest
 import ancf
 from ancf.results.remembered import of_system
 from long_run import started
+from runs_to_continue import thrown
 
 METHODS = [
     ancf.Trapezoidal(),
@@ -30,6 +32,15 @@ def swing():
     return model
 
 
+def without_checkpoints(path):
+    """A copy of a results file as an earlier version would have written it."""
+    copy = path.with_name("old.h5")
+    shutil.copy(path, copy)
+    with h5py.File(copy, "r+") as file:
+        del file["checkpoints"]
+    return copy
+
+
 GIVEN = {"step": 1e-3, "output_step": 5e-3, "sensors": ["beam.end"]}
 
 
@@ -38,33 +49,39 @@ class TestMethods:
     def stopped(self, path, method, **more):
         return ancf.simulate(swing(), t_end=0.05, file=path, integrator=method, **GIVEN, **more)
 
-    def test_goes_on_as_from_memory(self, method, tmp_path):
+    def test_is_the_run_that_was_not_stopped(self, method, tmp_path):
+        """To the last bit; test_checkpoints.py has other models and places."""
+        path = tmp_path / "run.h5"
+        self.stopped(path, method)
+        resumed = ancf.resume(path, t_end=0.1)
+        whole = ancf.simulate(swing(), t_end=0.1, integrator=method, **GIVEN)
+        if method.name == "radau":  # its steps depend on what is left of a run
+            assert resumed.position("beam.end") == pytest.approx(whole.position("beam.end"), abs=1e-7)
+            return
+        assert (resumed.status, resumed.stats.steps) == ("complete", whole.stats.steps)
+        assert np.array_equal(resumed.t, whole.t)
+        assert np.array_equal(resumed.q[:], whole.q)
+        assert np.array_equal(resumed.energy.supplied, whole.energy.supplied)
+        assert np.array_equal(resumed.sensors.position("beam.end"), whole.sensors.position("beam.end"))
+
+    def test_anew_where_there_is_no_checkpoint(self, method, tmp_path):
+        """As from the state in memory: work, counters and sensors go on."""
         path = tmp_path / "run.h5"
         first = self.stopped(path, method)
+        path = without_checkpoints(path)
         state, stats, work = first.state(), first.stats, first.energy.supplied[-1]
-        resumed = ancf.resume(path, t_end=0.1)
+        with pytest.warns(UserWarning, match="no checkpoint"):
+            resumed = ancf.resume(path, t_end=0.1)
         wanted = ancf.simulate(swing(), t_end=0.1, start=state, integrator=method, **GIVEN)
         assert resumed.status == "complete"
         assert np.array_equal(resumed.q[11:], wanted.q[1:])
         assert np.array_equal(resumed.v[11:], wanted.v[1:])
         assert np.array_equal(resumed.energy.supplied[11:], wanted.energy.supplied[1:] + work)
         assert resumed.stats.steps == stats.steps + wanted.stats.steps
-        assert np.array_equal(
-            resumed.sensors.position("beam.end")[51:], wanted.sensors.position("beam.end")[1:]
-        )
+        ends = [result.sensors.position("beam.end") for result in (resumed, wanted)]
+        assert np.array_equal(ends[0][51:], ends[1][1:])
         assert resumed.t == pytest.approx(np.linspace(0, 0.1, 21), abs=1e-15)
         assert resumed.sensors.t == pytest.approx(np.linspace(0, 0.1, 101), abs=1e-15)
-
-    def test_is_the_run_that_was_not_stopped(self, method, tmp_path):
-        """Up to what a new start costs: the error of Newton's method, or of the steps that Radau chooses."""
-        path = tmp_path / "run.h5"
-        self.stopped(path, method)
-        resumed = ancf.resume(path, t_end=0.1)
-        whole = ancf.simulate(swing(), t_end=0.1, integrator=method, **GIVEN)
-        gap = np.abs(resumed.position("beam.end") - whole.position("beam.end")).max()
-        travelled = np.ptp(whole.position("beam.end"), axis=0).max()
-        assert gap < 1e-4 * travelled if method.name == "generalized_alpha" else gap < 1e-6 * travelled
-        assert np.abs(resumed.energy.drift - whole.energy.drift).max() < 1e-4 * whole.energy.kinetic.max()
 
     def test_settings_and_provenance(self, method, tmp_path):
         path = tmp_path / "run.h5"
@@ -73,11 +90,11 @@ class TestMethods:
         after = ancf.resume(path, t_end=0.1).provenance
         assert after["settings"] == {**before["settings"], "t_end": 0.1}
         assert after["model"] == before["model"]
-        assert [entry["t"] for entry in after["resumed"]] == [0.05]
+        assert [0.04 <= entry["t"] <= 0.05 for entry in after["resumed"]] == [True]
 
 
 def test_twice_and_into_the_middle_of_a_step(tmp_path):
-    """The end need not be a multiple of the step; an earlier result keeps what it has."""
+    """The end need not be a multiple of the step: of a longer run it is no stored time any more."""
     path = tmp_path / "run.h5"
     first = ancf.simulate(swing(), t_end=0.0104, step=1e-3, file=path)
     for end in (0.0205, 0.03):
@@ -85,8 +102,9 @@ def test_twice_and_into_the_middle_of_a_step(tmp_path):
         assert result.t[-1] == end
     assert np.all(np.diff(result.t) > 0)
     assert len(first.t) == 12
-    assert np.array_equal(result.q[:12], first.q[:])
-    assert [entry["t"] for entry in result.provenance["resumed"]] == [0.0104, 0.0205]
+    assert result.t == pytest.approx(np.linspace(0, 0.03, 31), abs=1e-15)
+    assert np.array_equal(result.q[:11], first.q[:11])
+    assert [entry["t"] for entry in result.provenance["resumed"]] == pytest.approx([0.007, 0.017])
 
 
 def test_without_energies(tmp_path):
@@ -145,7 +163,6 @@ class TestRefused:
             error = self.refused(path, "has reached t = 0.01 s", t_end=end)
             assert (error.where, error.hint) == ("resume.t_end", "give a later t_end")
         self.refused(path, "must be a number", t_end="later")
-        self.refused(path, "longer than the whole run", t_end=0.0104)
 
     def test_python_function(self, tmp_path):
         model = swing()
@@ -153,7 +170,7 @@ class TestRefused:
         error = self.refused(
             self.stored(tmp_path, model), 'lost Python functions.*"<lambda>" of "push"', t_end=1.0
         )
-        assert "start=ancf.load(file).state()" in error.hint
+        assert "ancf.resume(file, model=model" in error.hint
 
     def test_equilibrium(self, tmp_path):
         path = self.stored(tmp_path)
@@ -175,17 +192,6 @@ class TestRefused:
             ancf.resume(tmp_path / "nothing.h5", t_end=1.0)
 
 
-def thrown(at_end):
-    """A bead that runs off the end of a bar which is held."""
-    model = ancf.Model(gravity=(0, 0, -9.81))
-    bar = model.add_rigid_body("bar", at=(0.5, 0, 0), mass=1.0, inertia=(0.1, 0.1, 0.1))
-    model.clamp(bar)
-    bead = model.add_point_mass("bead", at=(0.9, 0, 0), mass=0.2)
-    bead.set_motion(velocity=(2.0, 0, 0))
-    model.slide(bead, along=bar, line=((-0.5, 0, 0), (0.5, 0, 0)), at_end=at_end, name="slider")
-    return model
-
-
 @pytest.mark.parametrize(("at_end", "mode"), [("clamp", 1), ("release", 2)])
 class TestEnds:
     """What was held at an end of its line, or let go, still is."""
@@ -203,8 +209,8 @@ class TestEnds:
         resumed = ancf.resume(path, t_end=0.2)
         again = ancf.simulate(thrown(at_end), t_end=0.2, step=1e-3, start=memory.state())
         whole = ancf.simulate(thrown(at_end), t_end=0.2, step=1e-3)
-        assert np.array_equal(resumed.q[101:], again.q[1:])
-        assert resumed.position("bead") == pytest.approx(whole.position("bead"), abs=1e-9)
+        assert np.array_equal(resumed.q[:], whole.q)
+        assert again.position("bead") == pytest.approx(whole.position("bead")[100:], abs=1e-9)
         assert of_system(resumed.state().system).modes == {"slider": mode}
         fallen = whole.position("bead")[-1, 2]
         assert fallen == pytest.approx(0.0 if at_end == "clamp" else -0.5 * 9.81 * 0.149**2, abs=4e-3)

@@ -107,10 +107,12 @@ def add_pantograph(
     height: float,
     raised: float,
     touch: Touch,
+    active: bool = False,
 ) -> Collector:
     """Add a pantograph at the track position ``start`` with its strip where it comes to rest.
 
-    ``raised`` is by how much its lowest spring is relaxed above the place that it gives, m.
+    ``raised`` is by how much its lowest spring is relaxed above the place that it gives, m.  An ``active``
+    one has an input for a force on its lowest mass, see :func:`force_input`.
     """
     motion = _motion(travel)
     count, sprung = len(pantograph.masses), touch.kind == "joint" and touch.stiffness is not None
@@ -131,6 +133,9 @@ def add_pantograph(
     above = height if pantograph.relaxed_at == "nominal" else -raised
     _add_springs(model, pantograph, travel, [roof, *masses], above, label)
     model.add_force(masses[0], _lift(pantograph, travel), name=f"{label} lift")
+    if active:
+        actuator = model.add_input(force_input(label))
+        model.add_force(masses[0], (0.0, 0.0, actuator), name=f"{label} actuator")
     head = masses[-1]
     if sprung:
         head = _add_strip(model, head, touch, motion, pantograph.force(float(travel.speed(0.0))), label)
@@ -144,6 +149,11 @@ def add_pantograph(
     )
     meter = model.add_contact(head, wire, stiffness=WEIGHTLESS, name=f"{label} meter")
     return Collector(label, pantograph, start, head, joint, meter)
+
+
+def force_input(label: str) -> str:
+    """Name of the input of an active pantograph: "pantograph_force", "pantograph_2_force"."""
+    return f"{label.replace(' ', '_')}_force"
 
 
 def _motion(travel: Travel) -> Any:

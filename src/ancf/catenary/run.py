@@ -51,6 +51,8 @@ def run(
     output_step: float | None = None,
     file: str | Path | None = None,
     progress: Callable[[Any], None] | None = None,
+    controller: Callable[[Any], Any] | None = None,
+    control_step: float | None = None,
 ) -> Run:
     """Run pantographs along a line from its equilibrium.
 
@@ -87,6 +89,10 @@ def run(
         HDF5 file that takes the states and what is recorded while it is computed; default in memory.
     progress : callable
         Called with a :class:`ancf.results.Progress` between blocks of steps.
+    controller, control_step : callable and float, s
+        See :func:`ancf.simulate`; its inputs are forces on the lowest masses of the pantographs, N, upwards:
+        ``run.inputs["pantograph_force"]``, of several ``"pantograph_1_force"`` and so on. The contact force
+        is ``run.contact_force("pantograph contact")``, that of several ``"pantograph 1 contact"``.
 
     Returns
     -------
@@ -122,7 +128,8 @@ def run(
     _warn(cautions.before(plan))
     if any(unit.relaxed_at == "mean" for unit in plan.pantographs):
         plan = _relaxed(plan)
-    done = _simulated(plan, integrator, progress, output_step=output_step, file=file)
+    led = {} if controller is None else {"controller": controller, "control_step": control_step}
+    done = _simulated(plan, integrator, progress, output_step=output_step, file=file, **led)
     _warn(cautions.after(done))
     return done
 
@@ -156,9 +163,10 @@ def _simulated(
     progress: Callable[[Any], None] | None,
     output_step: float | None = None,
     file: str | Path | None = None,
+    **led: Any,
 ) -> Run:
     overhead = assemble(plan.form)
-    collectors = _collectors(overhead, plan)
+    collectors = _collectors(overhead, plan, bool(led))
     model, duration = overhead.model, plan.duration
     result = ancf.simulate(
         model,
@@ -171,6 +179,7 @@ def _simulated(
         energy=False,
         file=file,
         progress=progress,
+        **led,
     )
     return _recorded(result, overhead, collectors, plan)
 
@@ -184,7 +193,7 @@ def _integrator(plan: Plan) -> ancf.GeneralizedAlpha:
     return ancf.GeneralizedAlpha(0.9, newton=newton)
 
 
-def _collectors(overhead: Overhead, plan: Plan) -> list[Collector]:
+def _collectors(overhead: Overhead, plan: Plan, active: bool) -> list[Collector]:
     """Add the pantographs where they come to rest."""
     heights, count = _lifted(plan), len(plan.places)
     collectors = []
@@ -200,6 +209,7 @@ def _collectors(overhead: Overhead, plan: Plan) -> list[Collector]:
                 height=heights[k] + plan.touch.overlap(plan.lift(k)),
                 raised=plan.raised[k],
                 touch=plan.touch,
+                active=active,
             )
         )
     return collectors

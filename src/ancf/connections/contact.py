@@ -140,11 +140,23 @@ def contact_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 
 @inline_kernel
 def contact_energy(batch, q, ws):
-    """Energy of the overlaps, J."""
+    """Energy of the overlaps, J.
+
+    It is asked for of any state at any time: ``found`` stays as it is, and the search begins in the middle
+    of the wire, so that the energy of a state is the same whenever it is computed.
+    """
     energy = 0.0
     for j in range(batch.slot.shape[0]):
+        force, overlap = batch.found[j, FORCE], batch.found[j, OVERLAP]
+        arc, aside = batch.found[j, ARC], batch.found[j, ASIDE]
+        batch.found[j, ARC] = np.nan
         touch(batch, j, q, q)
+        if batch.found[j, OVERLAP] == -np.inf:  # from there nothing was found
+            batch.found[j, ARC] = arc
+            touch(batch, j, q, q)
         energy += 0.5 * batch.data[j, STIFFNESS] * max(batch.found[j, OVERLAP], 0.0) ** 2
+        batch.found[j, FORCE], batch.found[j, OVERLAP] = force, overlap
+        batch.found[j, ARC], batch.found[j, ASIDE] = arc, aside
     return energy
 
 

@@ -69,8 +69,13 @@ def _compiled(function: Any) -> Any:
     @cfunc(_SIGNATURE, **_OPTIONS)
     def called(t, data):
         numbers = numba.carray(data, 9)
-        force = law(t, numbers[:3].copy(), numbers[3:6].copy())
-        numbers[6], numbers[7], numbers[8] = force[0], force[1], force[2]
+        numbers[6], numbers[7], numbers[8] = math.nan, math.nan, math.nan
+        try:  # what is raised here would be lost: a force that is none ends the step
+            force = law(t, numbers[:3].copy(), numbers[3:6].copy())
+            if len(force) == 3:
+                numbers[6], numbers[7], numbers[8] = force[0], force[1], force[2]
+        except Exception:
+            return 1.0
         return 0.0
 
     return called

@@ -1,4 +1,4 @@
-"""Forces on points by laws that users give: F(t, r, v), each compiled to a function that the kernels call.
+"""Forces on points and along beams by laws that users give: F(t, r, v), compiled for the kernels to call.
 
 A law is a C function of a time and of nine numbers: position, velocity, and the force that it leaves.  The
 kernels know its address, so that a new law compiles nothing but itself.  The matrix takes the symmetric
@@ -17,12 +17,16 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
+from ..elements.shapes import gauss
+from ..model.loads import DistributedLoad
 from .at_points import add_force_at, add_tangent_at, at_point, at_points
 from .law_functions import address_of
 
 #: Step of the differences, of the size of the model, and of a velocity plus that size per second.
 STEP = 1e-6
 FORCE = 6  # where the force stands in the nine numbers
+#: Gauss points of an element for a load along it: exact where the law is linear in place and velocity.
+POINTS = 4
 
 
 class StateForceBatch(NamedTuple):
@@ -32,23 +36,57 @@ class StateForceBatch(NamedTuple):
     dest: NDArray[np.int64]  # (n, k*k)
     factor: FloatArray  # (n, k)
     law: NDArray[np.int64]  # (n,) addresses
+    weight: FloatArray  # (n,) length for which a point of a distributed load stands, m; 1 at a point
+    item: NDArray[np.int64]  # (n,) row of `value`
     size: FloatArray  # (n,) of the model, m
     data: FloatArray  # (n, 9) scratch memory of the calls
     rows: FloatArray  # (n, 3, 3) of the differences
-    value: FloatArray  # (n, 1, 3) inputs now: t at [e, 0, 0]
+    value: FloatArray  # (items, 1, 3) inputs now: t at [k, 0, 0]
 
 
 def build(items, locate, value):
-    """Batch of these forces."""
-    n = len(items)
+    """Batch of forces at points, and of loads along beams, which act at Gauss points of the elements."""
+    points, weights, laws, rows = [], [], [], []
+    for k, item in enumerate(items):
+        law = law_of(item)
+        for point, weight in places_of(item):
+            points.append(point)
+            weights.append(weight)
+            laws.append(law)
+            rows.append(k)
+    n = len(points)
     return StateForceBatch(
-        **at_points([item.point for item in items], locate),
-        law=np.array([address_of(item.force) for item in items], dtype=np.int64),
-        size=np.array([item.force.size for item in items]),
+        **at_points(points, locate),
+        law=np.array([address_of(law) for law in laws], dtype=np.int64),
+        weight=np.array(weights),
+        item=np.array(rows, dtype=np.int64),
+        size=np.array([law.size for law in laws]),
         data=np.zeros((n, 9)),
         rows=np.zeros((n, 3, 3)),
         value=value,
     )
+
+
+def law_of(item):
+    """The law of a force at a point or of a distributed load."""
+    return item.load if isinstance(item, DistributedLoad) else item.force
+
+
+def places_of(item):
+    """Points where an item acts, and the lengths for which they stand."""
+    if not isinstance(item, DistributedLoad):
+        return [(item.point, 1.0)]
+    beam, (x0, x1) = item.body, item.between
+    xi, share = gauss(POINTS)
+    found = []
+    for a, b in zip(beam.node_x[:-1], beam.node_x[1:], strict=True):
+        low, high = max(float(a), x0), min(float(b), x1)
+        if high > low:
+            found += [
+                (beam.at(low + (high - low) * float(x)), (high - low) * float(w))
+                for x, w in zip(xi, share, strict=True)
+            ]
+    return found
 
 
 @intrinsic
@@ -74,8 +112,9 @@ def put_state(batch, e, q, v):
 @inline_kernel
 def law_force(batch, e):
     """Force of law e in the state that has been put."""
-    call(batch.law[e], batch.value[e, 0, 0], batch.data[e].ctypes.data)
-    return batch.data[e, FORCE], batch.data[e, FORCE + 1], batch.data[e, FORCE + 2]
+    call(batch.law[e], batch.value[batch.item[e], 0, 0], batch.data[e].ctypes.data)
+    w = batch.weight[e]
+    return w * batch.data[e, FORCE], w * batch.data[e, FORCE + 1], w * batch.data[e, FORCE + 2]
 
 
 @inline_kernel

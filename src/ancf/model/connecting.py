@@ -12,6 +12,7 @@ from .beam import Beam
 from .bodies import PointMass, RigidBody
 from .connections import Connection, Spring, make_spring
 from .contact import Contact, make_contact
+from .functions import check_inputs, refuse_inputs
 from .joints import Fixation, Revolute, Slide, Spherical
 from .kinds import kind_of
 from .lookup import Lookup
@@ -287,6 +288,8 @@ class Connecting(Lookup):
             A joint holds what another one holds already.
         """
         kind = kind_of(item)
+        refuse_inputs(item, "motion")
+        check_inputs(item, self.inputs)
         if kind.constrains:
             check_repeated(where, item, kind, self.connections)
         self._names.take(item.name, "connection")

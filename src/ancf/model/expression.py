@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import operator
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import reduce
 from typing import Any
 
@@ -87,7 +87,7 @@ class Expression:
     where : str
         Place for messages.
     names : tuple of str
-        What it may depend on.  Called with more than "t" it takes a dict of them instead of times.
+        What it may depend on; with more than "t" it is asked by :meth:`at` or :meth:`under`.
 
     Raises
     ------
@@ -96,7 +96,7 @@ class Expression:
 
     """
 
-    __slots__ = ("_compiled", "names", "text", "uses_t", "where")
+    __slots__ = ("_compiled", "names", "text", "used", "uses_t", "where")
 
     def __init__(self, text: str, where: str, names: tuple[str, ...] = ("t",)) -> None:
         self.text, self.where, self.names = text, where, names
@@ -105,13 +105,20 @@ class Expression:
             self._compiled = self._compile(tree)
         except (RecursionError, MemoryError):
             raise ModelError(where, "the formula is nested too deeply") from None
-        self.uses_t = any(isinstance(node, ast.Name) and node.id == "t" for node in ast.walk(tree))
+        found = dict.fromkeys(node.id for node in ast.walk(tree) if isinstance(node, ast.Name))
+        self.used = tuple(name for name in found if name in names)
+        self.uses_t = "t" in self.used
 
     def __call__(self, times: FloatArray) -> FloatArray:
         """Values (n,) at the times (n,); may hold non-finite numbers."""
         return np.array(np.broadcast_to(self._evaluate(times), times.shape), dtype=np.float64)
 
-    def at(self, state: dict[str, float]) -> float:
+    def under(self, values: Mapping[str, float], times: FloatArray) -> FloatArray:
+        """Values (n,) at the times (n,) where its other names have these values."""
+        given = {**values, "t": times}
+        return np.array(np.broadcast_to(self._evaluate(given), times.shape), dtype=np.float64)
+
+    def at(self, state: Mapping[str, float]) -> float:
         """Value where its names have these values; may be not finite."""
         return float(self._evaluate(state))
 
@@ -161,7 +168,7 @@ class Expression:
         if self.names == ("t",) == (name,):
             return lambda t: t
         if name in self.names:
-            return lambda given: np.float64(given[name])
+            return lambda given: _number(given[name])
         if name in CONSTANTS:
             return lambda t: CONSTANTS[name]
         if name in FUNCTIONS:
@@ -206,6 +213,10 @@ class Expression:
         return ModelError(
             self.where, f'{self._quoted}: "{part}" is not allowed, known are {self._known}', hint
         )
+
+
+def _number(value: Any) -> Any:
+    return value if isinstance(value, np.ndarray) else np.float64(value)
 
 
 def _apply(function: Callable[..., Any], parts: list[Compiled], truth: bool = False) -> Compiled:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from . import checks
 from .expression import Expression
+from .inputs import Signal, known
 
 Evaluate = Callable[[FloatArray], FloatArray]
 
@@ -39,10 +40,11 @@ class TimeFunction:
 
     Parameters
     ----------
-    given : number, sequence, str, callable, mapping, Missing or TimeFunction
-        A constant; a formula of t (``"sin(2*pi*t)"``) or, for size 3, a list of numbers and formulas;
-        a Python function of t in s that returns a number or a (3,) array; ``{"t": ..., "value": ...}``;
-        a function that is missing, whose values cannot be had.
+    given : number, sequence, str, callable, mapping, Input, Missing or TimeFunction
+        A constant; a formula of t (``"sin(2*pi*t)"``) or, for size 3, a list of numbers and formulas; an
+        input, or a formula of inputs, in place of a number; a Python function of t in s that returns a
+        number or a (3,) array; ``{"t": ..., "value": ...}``; a function that is missing, whose values
+        cannot be had.
     size : int
         1 or 3.
     where : str
@@ -51,7 +53,9 @@ class TimeFunction:
     Attributes
     ----------
     constant : bool
-        It does not depend on time.
+        It does not depend on time, nor on inputs.
+    inputs : dict of str to float
+        Inputs on which it depends, with their first values.
 
     Raises
     ------
@@ -60,13 +64,15 @@ class TimeFunction:
 
     """
 
-    __slots__ = ("_evaluate", "constant", "given", "size", "where")
+    __slots__ = ("_evaluate", "constant", "given", "inputs", "parts", "size", "where")
 
     def __init__(self, given: Any, size: int, where: str) -> None:
         if size not in (1, 3):
             raise ValueError(f"size is {size}, must be 1 or 3")
         self.size, self.where = size, where
         self.given: Any = given.given if isinstance(given, TimeFunction) else given
+        self.inputs: dict[str, float] = {}
+        self.parts: list[Expression | float] = []
         self._evaluate, self.constant = self._interpret(self.given)
         if not self.missing:
             self.table(np.zeros(1))
@@ -110,8 +116,22 @@ class TimeFunction:
             The function raised, returned a wrong shape or a non-finite number; the time is named.
 
         """
-        times = np.asarray(times, dtype=np.float64)
-        values = self._evaluate(times)
+        return self._finite(np.asarray(times, dtype=np.float64), self._evaluate)
+
+    def under(self, inputs: Mapping[str, float], times: FloatArray) -> FloatArray:
+        """The same for other values of the inputs on which it depends."""
+        if not self.inputs:
+            return self.table(times)
+        return self._finite(times, lambda at: self._columns(at, inputs))
+
+    @property
+    def led(self) -> list[tuple[int, Expression]]:
+        """Components that depend on inputs, with their formulas."""
+        parts = enumerate(self.parts)
+        return [(k, p) for k, p in parts if isinstance(p, Expression) and set(p.used) - {"t"}]
+
+    def _finite(self, times: FloatArray, evaluate: Evaluate) -> FloatArray:
+        values = evaluate(times)
         bad = ~np.all(np.isfinite(values), axis=1)
         if np.any(bad):
             first = int(np.argmax(bad))
@@ -130,9 +150,12 @@ class TimeFunction:
             return self._from_mapping(given)
         if callable(given):
             return self._from_callable(given), False
-        if self.size == 1:
-            return self._join([self._component(given, self.where)])
-        return self._join(self._components(given))
+        parts = [self._component(given, self.where)] if self.size == 1 else self._components(given)
+        self.parts = parts
+        used = [name for p in parts if isinstance(p, Expression) for name in p.used if name != "t"]
+        self.inputs = {name: self.inputs[name] for name in dict.fromkeys(used)}
+        timely = any(isinstance(p, Expression) and p.uses_t for p in parts)
+        return lambda times: self._columns(times, self.inputs), not (timely or self.inputs)
 
     def _refuse(self, times: FloatArray) -> FloatArray:
         what = f'is the Python function "{self.missing}", of which a description keeps the name only'
@@ -148,14 +171,23 @@ class TimeFunction:
         return [self._component(part, f"{self.where}[{i}]") for i, part in enumerate(given)]
 
     def _component(self, part: Any, where: str) -> Expression | float:
-        return Expression(part, where) if isinstance(part, str) else checks.number(part, where)
+        if not isinstance(part, str | Signal):
+            return checks.number(part, where)
+        there = part.inputs if isinstance(part, Signal) else known()
+        self.inputs |= there
+        text = part.text if isinstance(part, Signal) else part
+        return Expression(text, where, ("t", *there))
 
-    def _join(self, parts: list[Expression | float]) -> tuple[Evaluate, bool]:
-        def evaluate(times: FloatArray) -> FloatArray:
-            columns = [p(times) if isinstance(p, Expression) else np.full(times.shape, p) for p in parts]
-            return np.column_stack(columns)
-
-        return evaluate, not any(isinstance(p, Expression) and p.uses_t for p in parts)
+    def _columns(self, times: FloatArray, inputs: Mapping[str, float]) -> FloatArray:
+        columns = []
+        for part in self.parts:
+            if not isinstance(part, Expression):
+                columns.append(np.full(times.shape, part))
+            elif part.names == ("t",):
+                columns.append(part(times))
+            else:
+                columns.append(part.under(inputs, times))
+        return np.column_stack(columns)
 
     def _from_callable(self, function: Callable[[float], Any]) -> Evaluate:
         def evaluate(times: FloatArray) -> FloatArray:
@@ -220,6 +252,8 @@ def plain(given: Any) -> Any:
     """JSON-able form of what a user gave for a function; a Python function as ``<function name>``."""
     if isinstance(given, Missing):
         return f"<function {given.name}>"
+    if isinstance(given, Signal):
+        return given.text
     if isinstance(given, np.ndarray | np.generic):
         return given.tolist()
     if isinstance(given, Mapping):
@@ -229,3 +263,25 @@ def plain(given: Any) -> Any:
     if callable(given):
         return f"<function {getattr(given, '__name__', type(given).__name__)}>"
     return given
+
+
+def check_inputs(item: Any, there: Mapping[str, Any]) -> None:
+    """Raise ModelError if a function of an item depends on an input that its model does not have."""
+    for function in _driven(item):
+        for name in function.inputs:
+            if name not in there:
+                what = f'depends on the input "{name}", which this model does not have'
+                raise ModelError(function.where, what, f'model.add_input("{name}") makes it')
+
+
+def refuse_inputs(item: Any, *names: str) -> None:
+    """Raise ModelError if a function of an item, or of its fields with these names, depends on an input."""
+    for function in _driven(item, *names):
+        what = f'is a motion given by the input "{next(iter(function.inputs))}", whose velocity nobody knows'
+        raise ModelError(function.where, what, "let it drive a force, on a mass that is free to move there")
+
+
+def _driven(item: Any, *names: str) -> list[TimeFunction]:
+    """Functions of an item that depend on inputs."""
+    values = (getattr(item, field.name) for field in fields(item) if not names or field.name in names)
+    return [value for value in values if isinstance(value, TimeFunction) and value.inputs]

@@ -66,6 +66,9 @@ LOADS: list[Kind] = [
         ends=("body",),
         between=sheets.part,
         push=Push("load", "N/m"),
+        batch="state_force",
+        on_state=lambda item: isinstance(item.load, StateFunction),
+        inputs=lambda item: [TimeFunction(["t", 0.0, 0.0], 3, item.name)],
     ),
 ]
 CONNECTIONS: list[Kind] = [

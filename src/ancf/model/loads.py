@@ -13,7 +13,7 @@ from .beam import Beam
 from .bodies import Body, PointMass, kind
 from .functions import TimeFunction
 from .points import Point
-from .state_function import StateFunction
+from .state_function import StateFunction, force_function
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,11 +39,14 @@ class Moment:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DistributedLoad:
-    """Load (3,) in N per m of reference length, between two reference arc lengths in m."""
+    """Load (3,) in N per m of reference length, between two reference arc lengths in m.
+
+    In fixed directions, or by a law of the state of the points along the body.
+    """
 
     name: str
     body: Beam
-    load: TimeFunction
+    load: TimeFunction | StateFunction
     between: tuple[float, float]
 
 
@@ -65,12 +68,14 @@ def make_moment(where: str, name: str, point: Point, moment: Any) -> Moment:
     return Moment(name, point, function)
 
 
-def make_distributed(where: str, name: str, body: Body, load: Any, between: Any) -> DistributedLoad:
-    """Check what ``Model.add_distributed_load`` was given."""
+def make_distributed(
+    where: str, name: str, body: Body, load: Any, between: Any, size: float
+) -> DistributedLoad:
+    """Check what ``Model.add_distributed_load`` was given; size of the model in m."""
     if not isinstance(body, Beam):
         what = f'"{body.name}" is a {kind(body)}, a distributed load acts on a beam or cable'
         raise ModelError(f"{where}.body", what, "model.add_force(...) acts on any body")
-    function = TimeFunction(load, 3, f"{where}.load")
+    function = force_function(load, f"{where}.load", body.initial_position(0.5 * body.length), size)
     if between is None:
         return DistributedLoad(name, body, function, (0.0, body.length))
     x0, x1 = checks.array(between, f"{where}.between", (2,)).tolist()

@@ -15,17 +15,19 @@ from . import checks
 from .beam import Beam
 from .bodies import Body, PointMass, RigidBody, kind
 from .connections import Connection, Spherical, initial_position
+from .inputs import Input, make_input
 from .kinds import GROUPS, kind_of
 from .names import POINT_LABEL, Names, numbers_of, split_label, unknown
 from .points import Point
 
 
 class Lookup:
-    """Bodies, connections and names of one model."""
+    """Bodies, connections, inputs and names of one model."""
 
     def __init__(self) -> None:
         self.bodies: dict[str, Body] = {}
         self.connections: list[Connection] = []
+        self.inputs: dict[str, Input] = {}
         self._names = Names()
         self._place = ""
 
@@ -61,9 +63,28 @@ class Lookup:
         """Return the model as it is now: what is added to one later is not in the other."""
         other = copy(self)
         other.bodies, other._names = dict(self.bodies), copy(self._names)
+        other.inputs = dict(self.inputs)
         for key in GROUPS:
             setattr(other, key, list(getattr(self, key)))
         return other
+
+    def add_input(self, name: str, value: float = 0.0) -> Input:
+        """Add a number that is given while a simulation runs, by :func:`ancf.stepper` or a controller.
+
+        It stands wherever a number or a function of time may in loads and drives, also in sums and products:
+        ``model.add_force(tip, (2*u, 0, 0))``. It moves no supports: nobody knows its velocity.
+
+        Parameters
+        ----------
+        name : str
+            Unique among inputs; letters, digits and _, and none that formulas have already, such as t.
+        value : float
+            What it is until something else is given, and in equilibria.
+
+        """
+        made = make_input(self._where("add_input", name), name, value, self.inputs)
+        self.inputs[made.name] = made
+        return made
 
     def body(self, name: str) -> Body:
         """Return the body of a name; an unknown name raises ModelError with the right ones."""

@@ -11,6 +11,7 @@ from . import checks, describe, rebuild
 from .beam import Beam
 from .bodies import Body, PointMass, RigidBody, make_point_mass, make_rigid_body
 from .connecting import Connecting, PointLike
+from .functions import check_inputs, refuse_inputs
 from .joints import Fixation
 from .kinds import GROUPS, all_kinds, kind_of
 from .layout import make_beam
@@ -49,6 +50,7 @@ class Model(Connecting, Readable):
     beams, masses, rigid_bodies : dict
         The bodies of one kind.
     supports, loads, connections : list
+    inputs : dict of str to Input
 
     """
 
@@ -322,14 +324,19 @@ class Model(Connecting, Readable):
     def add_distributed_load(
         self, body: Beam | str, load: Any, between: Any = None, name: str | None = None
     ) -> DistributedLoad:
-        """Add a load (3,) in N per m of reference length on a body, or on its part between=(x0, x1) in m."""
+        """Add a load (3,) in N per m of reference length on a body, or on its part between=(x0, x1) in m.
+
+        As a force it may be a function of time or a law of the state, of t and of the place r and velocity v
+        of each point of the line: ``lambda t, r, v: -0.5 * v``.
+        """
         where = self._where("add_distributed_load", name, body)
         clean = self._body(body, f"{where}.body")
         label = self._names.of_item(name, f"load on {clean.name}", where)
-        return self.add_load(make_distributed(where, label, clean, load, between))
+        return self.add_load(make_distributed(where, label, clean, load, between, self.size))
 
     def add_load(self, item: LoadT) -> LoadT:
         """Add a checked load; every method that makes one ends here."""
+        check_inputs(item, self.inputs)
         self._names.take(item.name, "load")
         self.loads.append(item)
         return item
@@ -340,6 +347,8 @@ class Model(Connecting, Readable):
         Python functions stand there as ``<function name>``.
         """
         plain: dict[str, Any] = {"title": self.title, "gravity": self.gravity.tolist()}
+        if self.inputs:
+            plain["inputs"] = [{"name": item.name, "value": item.value} for item in self.inputs.values()]
         plain["bodies"] = [describe.body(body) for body in self.bodies.values()]
         for key in GROUPS:
             plain[key] = [describe.other(item, kind_of(item)) for item in getattr(self, key)]
@@ -363,6 +372,9 @@ class Model(Connecting, Readable):
         for body, where in rebuild.bodies(table):
             model._names.of_body(body.name, where)
             model._add_body(body)
+        for given in table.tables("inputs"):
+            with model.located(given.where):
+                model.add_input(given.take("name"), given.take("value"))
         rebuild.items(model, table)
         return model
 
@@ -383,6 +395,7 @@ class Model(Connecting, Readable):
 
     def _add_support(self, where: str, item: SupportT) -> SupportT:
         check_overlap(where, item, self.supports)
+        refuse_inputs(item)
         self._names.take(item.name, "support")
         self.supports.append(item)
         return item

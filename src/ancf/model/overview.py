@@ -8,6 +8,7 @@ from typing import Any, Protocol
 from ..arrays import FloatArray
 from .beam import Beam
 from .bodies import Body, kind
+from .inputs import Input
 from .kind import Kind
 from .kinds import kind_of
 from .sheets import place
@@ -32,6 +33,7 @@ class Described(Protocol):
     title: str
     gravity: FloatArray
     bodies: dict[str, Body]
+    inputs: dict[str, Input]
     supports: list[Any]
     loads: list[Any]
     connections: list[Any]
@@ -49,6 +51,7 @@ def of_model(model: Described) -> Sheet:
     ]
     tables = [
         body_table(bodies),
+        Table(("input", "first value"), [(i.name, number(i.value)) for i in model.inputs.values()]),
         Table(("support", "at", "holds"), [_item(item) for item in model.supports]),
         Table(("load", "on", "value"), [_item(item) for item in model.loads]),
         Table(("connection", "kind", "between", "data"), [_connection(item) for item in model.connections]),

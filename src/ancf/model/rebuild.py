@@ -13,6 +13,7 @@ from .beam import Beam
 from .bodies import Body, make_point_mass, make_rigid_body
 from .describe import section_of
 from .functions import Missing, TimeFunction
+from .inputs import Input, named
 from .kinds import GROUPS, by_word
 from .layout import placed_beam
 
@@ -24,6 +25,8 @@ BODIES = ("beam", "point_mass", "rigid_body")
 
 class Located(Protocol):
     """A Model, as far as items are added to it."""
+
+    inputs: dict[str, Input]
 
     def located(self, place: str) -> AbstractContextManager[None]:
         """Within this context errors speak of ``place``."""
@@ -123,5 +126,6 @@ def add_item(model: Located, group: str, number: int, word: str, given: Mapping[
         inspect.signature(add).bind(**given)
     except TypeError as error:
         raise ModelError(where, f"{word}: {error}") from None
-    with model.located(where):
+    first = {item.name: item.value for item in model.inputs.values()}
+    with model.located(where), named(first):
         add(**given)

@@ -77,11 +77,14 @@ class StateFunction:
             with np.errstate(all="ignore"):
                 value = np.asarray(self.given(t, r.copy(), v.copy()))
         except Exception as error:
-            what = f"at t = {t:.6g} s the function raised {type(error).__name__}: {error}"
+            what = f"at t = {t:.6g} s, r = {r.tolist()} m the function raised {type(error).__name__}: {error}"
             raise ModelError(self.where, what) from error
         if value.dtype.kind not in "iuf" or value.shape != (3,):
             shape = f"shape {value.shape}" if value.dtype.kind in "iuf" else checks.shown(value.tolist())
-            raise ModelError(self.where, f"the function of t, r, v returned {shape}, wanted (3,)")
+            what = (
+                f"at t = {t:.6g} s, r = {r.tolist()} m the function of t, r, v returned {shape}, wanted (3,)"
+            )
+            raise ModelError(self.where, what)
         return value.astype(np.float64)
 
 

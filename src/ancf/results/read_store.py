@@ -15,7 +15,8 @@ from ..model.bodies import Body
 from ..model.model import Model
 from ..solvers.record import Stats
 from ..system.sensors import Listing
-from . import hdf5, remembered, sound
+from . import checkpoints, hdf5, remembered, sound
+from .checkpoints import Checkpoint
 from .layout import read_joints, read_slots
 from .layout_sensors import DATA, read_listing
 from .remembered import Remembered
@@ -132,6 +133,17 @@ class ReadStore:
             slots, joints = read_slots(self._file, model.bodies), read_joints(self._file)
             sound.check_unknowns(model, slots, joints, self.width)
             return slots, joints, remembered.read(self._file, model)
+
+    def checkpoint(self) -> Checkpoint | None:
+        """What a run can go on from to the last bit; None where there is none.
+
+        Raises
+        ------
+        ModelError
+            It is damaged in a way that its checksum does not show.
+        """
+        with sound.inside(self.path):
+            return checkpoints.latest(self._file, self._rows, self._samples)
 
     @property
     def width(self) -> int:

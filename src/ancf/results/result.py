@@ -210,6 +210,9 @@ class Result(SpringFields, ContactFields, Filmed, Readable):
             parts = [samples[name] for name in ("q", "v", "measured")]
             file.record(samples["time"], np.concatenate(parts, axis=1))
         file.append(arrays["time"], arrays["q"], arrays["v"], arrays["work"])
+        assert isinstance(self._store, MemoryStore)
+        if self._store.checkpoint is not None:
+            file.put(self._store.checkpoint)
         file.update(self.stats, self.status)
         file.close()
 

@@ -20,12 +20,14 @@ from ..errors import ModelError, StorageError
 from ..files import problem, writing
 from ..model import checks
 from ..model.bodies import Body
+from ..solvers.checkpoint import Snapshot
 from ..solvers.record import Stats
 from ..solvers.status import COUNTS
 from ..system.energy import energies
 from ..system.sensors import Listing
 from ..system.system import System
-from . import hdf5, remembered
+from . import checkpoints, hdf5, remembered
+from .checkpoints import Checkpoint
 from .layout import write_layout
 from .layout_sensors import DATA, write_listing
 
@@ -75,11 +77,25 @@ class MemoryStore:
         self._joined: dict[str, FloatArray] = {}
         self._samples: list[tuple[FloatArray, FloatArray]] = []
         self.stats, self.status = Stats(), "running"
+        self.checkpoint: Checkpoint | None = None
 
     def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
         """Add states; see :class:`ancf.solvers.record.Recorder`."""
         self._parts.append((t, q, v, work))
         self._joined = {}
+
+    def due(self) -> bool:
+        """Never: what is in memory is lost with the process."""
+        return False
+
+    def keep(self, snapshot: Snapshot) -> None:
+        """Take a snapshot from which a run can go on when the result has been saved."""
+        rows, samples = (sum(len(part[0]) for part in parts) for parts in (self._parts, self._samples))
+        self.checkpoint = Checkpoint(snapshot, rows, samples)
+
+    def forget(self) -> None:
+        """Let go of the states; samples stay."""
+        self._parts, self._joined = [], {}
 
     def record(self, t: FloatArray, samples: FloatArray) -> None:
         """Add samples."""
@@ -154,6 +170,7 @@ class FileStore:
             except (OSError, RuntimeError) as error:
                 hdf5.abandon(self._file)
                 raise OSError(problem(error) or str(error)) from None
+        self._places = checkpoints.Places(self._file)
         self.stats, self.status = Stats(), "running"
 
     @classmethod
@@ -165,6 +182,7 @@ class FileStore:
         with writing(path):
             store._file = h5py.File(path, "r+", libver="latest")
             store._file.swmr_mode = True
+        store._places = checkpoints.Places(store._file)
         return store
 
     def _create(self, header: dict[str, Any]) -> None:
@@ -180,6 +198,7 @@ class FileStore:
         write_layout(file, self._system)
         remembered.write(file, remembered.of_system(self._system))
         write_listing(file, self._system.sensors)
+        checkpoints.Places.make(file)
         file.flush()
 
     def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
@@ -210,6 +229,20 @@ class FileStore:
             self._file["status"][()] = STATUS.index(status)
             remembered.write(self._file, remembered.of_system(self._system))
             self._file.flush()
+
+    def due(self) -> bool:
+        """Whether it is time for another checkpoint."""
+        return self._places.due()
+
+    def keep(self, snapshot: Snapshot) -> None:
+        """Write a checkpoint, see :mod:`ancf.results.checkpoints`."""
+        samples = self._file["sensors/time"].shape[0] if self._system.sensors else 0
+        self.put(Checkpoint(snapshot, self._file["time"].shape[0], samples))
+
+    def put(self, checkpoint: Checkpoint) -> None:
+        """Write a checkpoint of which is known what goes with it."""
+        with self._storing():
+            self._places.keep(checkpoint)
 
     def close(self) -> None:
         """Close the file; the states are read from it from now on."""

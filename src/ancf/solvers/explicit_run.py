@@ -8,12 +8,14 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
 from ..model.integrators import Explicit
-from ..system.core import apply_load
+from ..system.core import Tables, apply_load
 from ..system.energy import energies
 from ..system.system import System
+from . import failures
 from .balance import balance
 from .explicit import advance_explicit
 from .memory import NORM, WORST
+from .quick import Direct, shared
 from .sampling import Output
 from .stability import stable_limit
 from .start import consistent_start
@@ -28,6 +30,8 @@ RARE_STEPS, RARE_WIDE = 8000, 2**21
 
 class ExplicitRun(Run):
     """One simulation of a System by central differences; see :class:`ancf.solvers.stepping.Run`."""
+
+    KEPT = (*Run.KEPT, "limit", "estimated")
 
     def __init__(
         self, system: System, method: Explicit, t_start: float, t_end: float, step: float, every: int
@@ -76,9 +80,22 @@ class ExplicitRun(Run):
         apply_load(system.core.loads, first.value[0], m.f)
         balance(system.core, m, 0.0)
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
-        none = np.zeros(0, dtype=np.int64)  # no steps yet: this compiles, outside the CPU time of the run
-        advance_explicit(system.core, m, first, self.h, self.turning, none, self.sampling, self.room(0, 0))
-        self._estimated = 0  # steps done at the last estimate
+        self.estimated = 0  # steps done at the last estimate
+        self._compile(first)
+
+    def _compile(self, tables: Tables) -> None:
+        none, nothing = np.zeros(0, dtype=np.int64), self.room(0, 0)
+        core = self.system.core
+        advance_explicit(core, self.memory, tables, self.h, self.turning, none, self.sampling, nothing)
+
+    @property
+    def hesitates(self) -> bool:
+        """Never: an explicit step is taken or fails."""
+        return False
+
+    def bundle(self, rows: int) -> Direct:
+        """See :class:`ancf.solvers.stepping.Run`."""
+        return Direct(**shared(self, rows), turning=self.turning)
 
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
         core, tables = self.system.core, self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end)
@@ -87,18 +104,21 @@ class ExplicitRun(Run):
         )
         return int(n), int(self._status)
 
-    def _bridge(self, t: float, h: float, number: int) -> None:
+    def bridged(self, t: float, h: float, number: int) -> None:
         """Nothing helps a step that has failed."""
+        m = self.memory
+        if (error := failures.blamed(self.system, m.q, m.v, t, number, h)) is not None:
+            raise error
         raise self._failure(t, number, _REASONS.get(self._status, "the forces are no longer finite"), h)
 
     def _check_energy(self, done: int) -> None:
         super()._check_energy(done)
-        if not self.method.check or done < self._estimated + RARE_STEPS + RARE_WIDE // self.system.size:
+        if not self.method.check or done < self.estimated + RARE_STEPS + RARE_WIDE // self.system.size:
             return
         self.limit = stable_limit(self.system, self.memory.q, self.memory.v)
-        self._estimated = done
+        self.estimated = done
         if self.h > self.limit:
-            raise self._failure(self._time(done), done, "the step is no longer stable", self.h)
+            raise self._failure(self.time(done), done, "the step is no longer stable", self.h)
 
     def _failure(self, t: float, number: int, reason: str, h: float) -> SolveError:
         memo = self.memory.memo

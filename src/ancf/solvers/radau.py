@@ -17,6 +17,7 @@ filtered.  Reference: Hairer & Wanner, Solving Ordinary Differential Equations I
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -51,6 +52,12 @@ BELIEF, FADING = 0.8, 0.99
 FAR, NEVER = 1e3, 1e300
 #: Pivots on the diagonal are kept down to this share of the largest entry of a column.
 PIVOT = 0.1
+#: Numbers, and arrays of the last step, that decide how a run goes on.
+KEPT = (
+    *("t", "speed", "worst", "norm", "_h_matrices", "_contraction", "_noise", "_eta"),
+    *("_fresh", "_rejected", "_error_before"),
+)
+LAST = ("q0", "v0", "Q", "V", "A")
 
 
 @dataclass
@@ -161,6 +168,41 @@ class Stepper:
         """Consistent state at the time t, copied."""
         self.t, self.q, self.v, self.a = t, q.copy(), v.copy(), a.copy()
 
+    def values(self) -> dict[str, float]:
+        """Numbers that decide how it goes on, ready for JSON."""
+        kept = {name: getattr(self, name) for name in KEPT}
+        kept |= {f"counts.{name}": count for name, count in vars(self.counts).items()}
+        if self.last is not None:
+            kept |= {"last.t": self.last.t, "last.h": self.last.h}
+        return kept
+
+    def arrays(self) -> dict[str, Any]:
+        """Arrays that do: the state, the last step, and the matrices whose factors are kept."""
+        kept: dict[str, Any] = {name: getattr(self, name) for name in ("q", "v", "a", "scale")}
+        if self.last is not None:
+            kept["last"] = {name: getattr(self.last, name) for name in LAST}
+        if self._h_matrices > 0.0:
+            kept["matrices"] = {name: getattr(self.matrices, name).data for name in ("M", "D", "K")}
+        return kept
+
+    def restore(self, values: dict[str, Any], arrays: Mapping[str, Any]) -> None:
+        """Be as when :meth:`values` and :meth:`arrays` (by place, after "stepper.") were taken."""
+        for name in KEPT:
+            setattr(self, name, values[name])
+        self.q, self.v, self.a, self.scale = (
+            arrays[f"stepper.{name}"].copy() for name in ("q", "v", "a", "scale")
+        )
+        if "last.t" in values:
+            own = {name: arrays[f"stepper.last.{name}"].copy() for name in LAST}
+            self.last = Step(values["last.t"], values["last.h"], **own, rates=self.rates, method=self.method)
+        if self._h_matrices > 0.0:
+            self.matrices = self.problem.matrices(self.t, self.q, self.v)  # their places
+            for name in ("M", "D", "K"):
+                getattr(self.matrices, name).data[:] = arrays[f"stepper.matrices.{name}"]
+            self._factorise(self._h_matrices)
+        for name in vars(self.counts):
+            setattr(self.counts, name, values[f"counts.{name}"])
+
     def solve(self, h: float, adaptive: bool) -> tuple[int, Step]:
         """Solve the stages of a step of size h from the present state; returns a status and the step."""
         step, self._fresh = self._predicted(h), False
@@ -241,18 +283,24 @@ class Stepper:
         self._fresh, self._h_matrices, self._contraction, self._eta = True, 0.0, 0.0, 1.0
         mass = float(np.max(np.abs(self.matrices.M.data), initial=1e-300))
         self.scale[~self.rates] = mass / step.h**2
+        if not self._factorise(step.h):
+            return SINGULAR
+        self._h_matrices = step.h
+        return OK
+
+    def _factorise(self, h: float) -> bool:
+        """Factorise the matrices for a step h; whether that is possible."""
         self.factors = []
         for mu in self.method.mu:
-            s = 1.0 / (step.h * (mu.real if mu.imag == 0.0 else mu))
+            s = 1.0 / (h * (mu.real if mu.imag == 0.0 else mu))
             E = self.matrices.combined(s * s, s)
             E.data *= self.scale[E.indices] * np.repeat(self.scale, np.diff(E.indptr))
             self.counts.factorizations += 1
             try:
                 self.factors.append(splu(E, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=PIVOT))
             except RuntimeError:
-                return SINGULAR
-        self._h_matrices = step.h
-        return OK
+                return False
+        return True
 
     def _solve(self, k: int, r: NDArray[Any]) -> NDArray[Any]:
         """Solve the system of eigenvalue k."""

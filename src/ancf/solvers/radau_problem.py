@@ -36,14 +36,15 @@ class SystemProblem:
         self._moving = bool(inputs.motions or inputs.rotations)
         self._driven = self._moving or not all(f.constant for f in inputs.loads)
         self._tables: dict[bytes, Tables] = {}
+        self._changes = 0
         self._f, self._push, self._r = (np.zeros(system.size) for _ in range(3))
-        self._base = np.zeros((2, system.size))  # what is held and never moves
+        self.base = np.zeros((2, system.size))  # what is held and never moves
         self._values = np.zeros((3, system.places.size))
         self._pattern()
 
     def start(self, q: FloatArray, v: FloatArray) -> None:
         """Take what is held from full state vectors."""
-        self._base[0], self._base[1] = q, v
+        self.base[0], self.base[1] = q, v
 
     def _pattern(self) -> None:
         """Places in the matrices' data of the entries of the block values."""
@@ -56,6 +57,9 @@ class SystemProblem:
 
     def tables(self, t: FloatArray) -> Tables:
         """Functions of time at any times."""
+        if self._changes != self.system.inputs.changes:  # of what is given from outside
+            self._tables.clear()
+            self._changes = self.system.inputs.changes
         key = t.tobytes() if self._driven else len(t).to_bytes(4, "little")
         if key not in self._tables:
             if len(self._tables) > 8:
@@ -75,7 +79,7 @@ class SystemProblem:
     def full(self, q: FloatArray, v: FloatArray, a: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """State vectors of shape (m, size) from free unknowns; supports are not placed yet."""
         out = np.zeros((3, len(q), self.system.size))
-        out[:2] = self._base[:, None]
+        out[:2] = self.base[:, None]
         out[0][:, self.free], out[1][:, self.free], out[2][:, self.free] = q, v, a
         return out[0], out[1], out[2]
 

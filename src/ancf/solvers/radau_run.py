@@ -13,12 +13,16 @@ from ..model.integrators import Radau
 from ..system.core import first_event
 from ..system.energy import energies
 from ..system.system import System
+from . import failures
 from .bridge import MOST_HALVINGS
+from .checkpoint import Snapshot, Watched, copies, refill
+from .control import Control
 from .events import happen
 from .radau import Step, Stepper
 from .radau_problem import SystemProblem
 from .record import Progress, Recorder, Stats
 from .sampling import sample_rows, sampling_of
+from .span import Span
 from .start import consistent_start
 from .status import DIVERGED, NOT_FINITE, OK, SINGULAR
 from .stepping import BLOCK_SECONDS
@@ -69,6 +73,11 @@ class RadauRun:
         self.t_start, self.t_end = t_start, t_end
         span = t_end - t_start
         self.steps = int(np.ceil(span / step - 1e-9))  # of the nominal size
+        self.open = Span(t_start, t_end, step).open  # constant steps until which the end is not known
+        self.watched = Watched(system)
+        self.begun, self.between = False, False
+        self.control: Control | None = None
+        self.done, self.halved = 0, 0  # constant steps, and those of them that were halved
         digit = float(np.spacing(max(abs(t_start), abs(t_end))))
         self.shortest = LEAST_STEP * digit if method.min_step is None else method.min_step
         self.longest = max(LONGEST_STEP * span, step) if method.max_step is None else method.max_step
@@ -77,7 +86,7 @@ class RadauRun:
         self.stepper = Stepper(self.problem, method.stages, method.tolerance, newton, span)
         self.seconds, self.work = 0.0, np.zeros(2)
         self.sampling = sampling_of(system)
-        self._stored = self._sampled = 0  # outputs and samples so far, the start not counted
+        self.stored = self.sampled = 0  # outputs and samples so far, the start not counted
         self._buffer: list[tuple[FloatArray, ...]] = []
         self._samples: list[tuple[FloatArray, FloatArray]] = []
 
@@ -96,23 +105,45 @@ class RadauRun:
         system.level[:] = 1.0, 0.0, 0.0  # index 3
         self.problem.start(q, v)
         self.problem.step_size(self.h)
-        free, t = self.problem.free, np.array([self.t_start])
+        free = self.problem.free
         self.stepper.start(self.t_start, q[free], v[free], a[free])
-        self._first = q[None], v[None]
-        # this compiles, outside the CPU time of the run
-        state = q[None, free], v[None, free], a[None, free]
-        self.problem.residuals(t, *state)
-        self.problem.powers(t, *state)
-        self.problem.placed(t, *state)
+        self.next = max(min(self.h, self.longest), self.shortest)
+        self._compile(q[free], v[free], a[free])
+
+    def _compile(self, q: FloatArray, v: FloatArray, a: FloatArray) -> None:
+        """Evaluate everything once, outside the CPU time of the run."""
+        t = np.array([self.stepper.t])
+        self.problem.residuals(t, q[None], v[None], a[None])
+        self.problem.powers(t, q[None], v[None], a[None])
+        self.problem.placed(t, q[None], v[None], a[None])
+
+    def snapshot(self) -> Snapshot:
+        """All that decides how the run goes on, copied."""
+        values = {name: getattr(self, name) for name in KEPT} | {"stepper": self.stepper.values()}
+        values |= {"spacing": self.problem.spacing, "inputs": dict(self.system.inputs.given)}
+        own = copies({"work": self.work, "base": self.problem.base, "stepper": self.stepper.arrays()})
+        return Snapshot(self.stepper.t, values, {**self.watched.changed(), **own})
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Go on from a snapshot, in place of :meth:`start`; see :class:`ancf.solvers.stepping.Run`."""
+        for name, value in snapshot.values["inputs"].items():
+            self.system.inputs.give(name, value)
+        refill({"work": self.work, "base": self.problem.base}, snapshot.arrays)
+        for name in KEPT:
+            setattr(self, name, snapshot.values[name])
+        self.problem.spacing = snapshot.values["spacing"]
+        self.stepper.restore(snapshot.values["stepper"], snapshot.arrays)
+        self.begun = True
+        s = self.stepper
+        self._compile(s.q, s.v, s.a)
+        self.watched.restore(snapshot.arrays)  # last: the others have evaluated forces and matrices
 
     def go(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
-        """Take all steps."""
-        begin = np.array([self.t_start])
-        if self.sampling.width:
-            recorder.record(begin, self._sample(*self._first))
-        recorder.append(begin, *self._first, self.work[None].copy())
+        """Take all steps that are left."""
         self._looked, self._cpu = clock.perf_counter(), clock.process_time()
         try:
+            if not self.begun:
+                self.begin(recorder)
             if self.method.adaptive:
                 self._adaptive(recorder, progress)
             else:
@@ -120,50 +151,93 @@ class RadauRun:
         finally:
             self._flush(recorder)
 
+    def begin(self, recorder: Recorder) -> None:
+        """Store the start."""
+        begin, (q, v) = np.array([self.t_start]), self.problem.base[:, None]
+        if self.sampling.width:
+            recorder.record(begin, self._sample(q, v))
+        recorder.append(begin, q.copy(), v.copy(), self.work[None].copy())
+        self.begun = self.between = True
+        if recorder.due():
+            recorder.keep(self.snapshot())
+
     def _adaptive(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
-        stepper, h = self.stepper, max(min(self.h, self.longest), self.shortest)
+        stepper, ends = self.stepper, False
         while stepper.t < self.t_end:
             left = self.t_end - stepper.t
-            h = min(h, self.longest)
+            h = min(self.next, self.longest)
             size = left if h > ALL * left else min(h, 0.5 * left) if h > MORE_THAN_HALF * left else h
+            if size != h and not ends:  # the last state that does not know the end
+                self._leave(recorder)
+                ends = True
             t_next = self.t_end if size == left else stepper.t + size
+            self.between = False
             status, step = self._solve(size, True)
             if status != OK:
                 stepper.failed()
-                h = 0.5 * size
-                self._check_size(h, _REASONS[status])
+                self.next = 0.5 * size
+                self._check_size(self.next, _REASONS[status])
                 continue
             error = stepper.error(step)
-            h = stepper.next_size(size, error)
+            self.next = stepper.next_size(size, error)
             if error >= 1.0:
                 stepper.counts.retries += 1
-                self._check_size(h, f"the error stays at {error:.3g} times the tolerance")
+                self._check_size(self.next, f"the error stays at {error:.3g} times the tolerance")
                 continue
-            self._accept(step, t_next, recorder, progress)
+            self._accept(step, t_next)
+            self.between = True
+            self._look(recorder, progress, not ends)
 
     def _constant(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
-        halved = 0
-        for n in range(self.steps):
-            end = self.t_end if n == self.steps - 1 else self.t_start + (n + 1) * self.h
-            part = end - self.stepper.t
-            if abs(part - self.h) < SAME_TIME * self.h:
-                part = self.h  # round-off of the times must not renew the matrices
-            again, whole = 0, part
-            while self.stepper.t < end:
-                left = end - self.stepper.t
-                last = part > LAST_PART * left
-                status, step = self._solve(part, False)
-                if status != OK:
-                    part *= 0.5
-                    if part < whole * 0.5**MOST_HALVINGS:
-                        raise self._failure(_REASONS[status], part)
-                    halved += 1 - again
-                    self.stepper.counts.retries, again = halved, 1
-                    if halved > 2 + MOST_RETRIED * self.steps:
-                        raise self._failure(f"{halved} of {n + 1} steps had to be halved", self.h)
-                    continue
-                self._accept(step, end if last else self.stepper.t + part, recorder, progress)
-                self.stepper.counts.steps -= not last  # the parts count as one step
+        while self.done < self.steps:
+            if self.control is not None:
+                self.control.ask(self.done)
+            self._whole(recorder, progress)
+            self._look(recorder, progress, self.done < self.open)
+            if self.done == self.open:
+                self._leave(recorder)
+
+    def take(self, count: int, recorder: Recorder) -> None:
+        """The next steps, all of the same length."""
+        self._looked, self._cpu = clock.perf_counter(), clock.process_time()
+        for _ in range(count):
+            self._whole(recorder, None)
+        self._flush(recorder)
+
+    def now(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """State vectors q, v, and work dissipated and supplied."""
+        s = self.stepper
+        q, v, _ = self.problem.placed(np.array([s.t]), s.q[None], s.v[None], s.a[None])
+        return q[0], v[0], self.work
+
+    def _whole(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
+        """A step of constant size, in parts where it must be."""
+        n = self.done
+        end = self.t_end if n == self.steps - 1 else self.t_start + (n + 1) * self.h
+        part = end - self.stepper.t
+        if abs(part - self.h) < SAME_TIME * self.h:
+            part = self.h  # round-off of the times must not renew the matrices
+        again, whole = 0, part
+        self.between = False
+        while self.stepper.t < end:
+            left = end - self.stepper.t
+            last = part > LAST_PART * left
+            status, step = self._solve(part, False)
+            if status != OK:
+                part *= 0.5
+                if part < whole * 0.5**MOST_HALVINGS:
+                    raise self._failure(_REASONS[status], part)
+                self.halved += 1 - again
+                self.stepper.counts.retries, again = self.halved, 1
+                if self.halved > 2 + MOST_RETRIED * self.steps:
+                    raise self._failure(f"{self.halved} of {n + 1} steps had to be halved", self.h)
+                continue
+            self._accept(step, end if last else self.stepper.t + part)
+            self.stepper.counts.steps -= not last  # the parts count as one step
+            if not last:
+                self._look(recorder, progress, False)
+        self.done += 1
+        self.between = True
 
     def _solve(self, h: float, adaptive: bool) -> tuple[int, Step]:
         self.problem.step_size(h)
@@ -173,9 +247,7 @@ class RadauRun:
         if h < self.shortest:
             raise self._failure(reason, h)
 
-    def _accept(
-        self, step: Step, t: float, recorder: Recorder, progress: Callable[[Progress], None] | None
-    ) -> None:
+    def _accept(self, step: Step, t: float) -> None:
         """Outputs and energies of a step."""
         power = self.problem.powers(step.times, step.Q, step.V, step.A)
         self._output(step, t, power)
@@ -183,13 +255,30 @@ class RadauRun:
         self.stepper.accept(step, t)
         if self.system.core.joints.tail:
             self._look_at_joints(step, t)
-        if clock.perf_counter() - self._looked > BLOCK_SECONDS or self._bytes > BLOCK_BYTES:
-            self._flush(recorder)
-            recorder.update(self.stats, "running")
-            if progress is not None:
-                done = self.steps if t >= self.t_end else int((t - self.t_start) / self.h * (1 + 1e-12))
-                progress(Progress(done, self.steps, t, self.t_end))
-            self._looked = clock.perf_counter()
+
+    def _look(self, recorder: Recorder, progress: Callable[[Progress], None] | None, snapshots: bool) -> None:
+        """Hand over what there is, now and then; with a snapshot where the state may be kept."""
+        if clock.perf_counter() - self._looked <= BLOCK_SECONDS and self._bytes <= BLOCK_BYTES:
+            return
+        t = self.stepper.t
+        self._flush(recorder)
+        recorder.update(self.stats, "running")
+        if snapshots and recorder.due():
+            recorder.keep(self.snapshot())
+        if progress is not None:
+            done = self.steps if t >= self.t_end else int((t - self.t_start) / self.h * (1 + 1e-12))
+            progress(Progress(done, self.steps, t, self.t_end))
+        self._looked = clock.perf_counter()
+
+    def _leave(self, recorder: Recorder) -> None:
+        """A snapshot that goes with all that has been handed over."""
+        self._flush(recorder)
+        recorder.keep(self.snapshot())
+
+    def stopped(self, recorder: Recorder) -> None:
+        """Leave a snapshot where the run was stopped, if that was between two steps."""
+        if self.between and (self.method.adaptive or self.done <= self.open):
+            recorder.keep(self.snapshot())
 
     def _look_at_joints(self, step: Step, t: float) -> None:
         """Start anew if something has happened to a sliding joint at the end of a step."""
@@ -209,14 +298,14 @@ class RadauRun:
 
     def _output(self, step: Step, t: float, power: FloatArray) -> None:
         """States at the output times of a step that ends at t."""
-        number, times = self._grid(self.every, self._stored, t)
+        number, times = self._grid(self.every, self.stored, t)
         states = None
         if len(number):
             tau = self._places(step, t, times)
             states = self._states(step, times, tau)
             once = self.stepper.method.integrals(tau)[1]
             self._buffer.append((times, *states, self.work + step.h * (once @ power)))
-            self._stored = int(number[-1])
+            self.stored = int(number[-1])
         if self.sampling.width:
             self._record(step, t, number, states)
 
@@ -244,7 +333,7 @@ class RadauRun:
         self, step: Step, t: float, outputs: IntArray, states: tuple[FloatArray, FloatArray] | None
     ) -> None:
         """Samples of a step that ends at t; at the outputs those of their states, to the last bit."""
-        number, times = self._grid(1, self._sampled, t)
+        number, times = self._grid(1, self.sampled, t)
         if len(number) == 0:
             return
         tau = self._places(step, t, times)
@@ -256,7 +345,7 @@ class RadauRun:
         if states is not None:
             samples[np.minimum(outputs * self.every, self.steps) - number[0]] = self._sample(*states)
         self._samples.append((times, samples))
-        self._sampled = int(number[-1])
+        self.sampled = int(number[-1])
 
     def _sample(self, q: FloatArray, v: FloatArray) -> FloatArray:
         samples = np.empty((len(q), self.sampling.width))
@@ -280,6 +369,9 @@ class RadauRun:
 
     def _failure(self, reason: str, h: float) -> SolveError:
         s = self.stepper
+        q, v, _ = self.now()
+        if (error := failures.blamed(self.system, q, v, s.t, s.counts.steps + 1, max(h, self.h))) is not None:
+            return error
         name = self.system.numbering.describe(int(self.problem.free[s.worst]))
         where = f"t = {s.t:.6g} s, step {s.counts.steps + 1}, {name}"
         what = f"{reason}; last correction {s.norm:.3g}, step {h:.3g} s"
@@ -289,6 +381,8 @@ class RadauRun:
         return SolveError(where, what, hint)
 
 
+#: Of the run: numbers of which a snapshot has the values.
+KEPT = ("done", "halved", "stored", "sampled", "next", "seconds", "longest")
 _REASONS = {
     DIVERGED: "Newton's method did not converge, also with new matrices and smaller steps",
     NOT_FINITE: "the forces are no longer finite, also with smaller steps",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ..arrays import FloatArray
+from .checkpoint import Snapshot
 from .status import COUNTS
 
 
@@ -23,6 +24,14 @@ class Recorder(Protocol):
 
     def update(self, stats: Stats, status: str) -> None:
         """Counters so far, and "running", "complete", "failed" or "interrupted"."""
+        ...
+
+    def due(self) -> bool:
+        """Whether it is time for another snapshot."""
+        ...
+
+    def keep(self, snapshot: Snapshot) -> None:
+        """Take a snapshot that goes with all that was appended and recorded so far."""
         ...
 
 

@@ -9,11 +9,19 @@ from typing import Protocol, cast
 from ..arrays import FloatArray
 from ..model.integrators import Integrator
 from ..system.system import System
+from .checkpoint import Snapshot
+from .control import Control
 from .record import Progress, Recorder, Stats
 
 
 class AnyRun(Protocol):
     """One simulation of a System."""
+
+    begun: bool  # the start has been handed over
+    done: int  # steps of one length
+    h: float  # their length, s
+    t_start: float
+    control: Control | None  # asked between steps
 
     @property
     def stats(self) -> Stats:
@@ -29,8 +37,32 @@ class AnyRun(Protocol):
         """Consistent state at the start time."""
         ...
 
+    def restore(self, snapshot: Snapshot) -> None:
+        """Go on from a snapshot, in place of :meth:`start`."""
+        ...
+
     def go(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
-        """Take all steps."""
+        """Take all steps that are left."""
+        ...
+
+    def begin(self, recorder: Recorder) -> None:
+        """Hand over the start."""
+        ...
+
+    def snapshot(self) -> Snapshot:
+        """All that decides how the run goes on."""
+        ...
+
+    def take(self, count: int, recorder: Recorder) -> None:
+        """The next steps of one length."""
+        ...
+
+    def now(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """State vectors q, v, and work dissipated and supplied."""
+        ...
+
+    def stopped(self, recorder: Recorder) -> None:
+        """Leave a snapshot where the run was stopped, if that was between two steps."""
         ...
 
 

@@ -16,31 +16,24 @@ from ..system.consistency import open_contacts
 from ..system.core import Tables, apply_load, first_event
 from ..system.energy import energies
 from ..system.system import System
+from . import failures
 from .balance import balance
-from .bridge import MOST_PARTS, Bridge
+from .bridge import Bridge
+from .checkpoint import Snapshot, Watched, copies, refill
+from .control import Control
 from .corotation import turning_nodes
 from .events import happen
 from .formulations import FORMULATIONS
 from .low_rank import room_for_patches
-from .memory import H_FACTOR, H_PREV, KNOWN, NORM, WORST, Memory, allocate
+from .memory import H_FACTOR, H_PREV, KNOWN, WORST, Memory, allocate
 from .newmark import UNLIMITED, Rule, advance
+from .quick import Direct, Implicit, shared
 from .record import Progress, Recorder, Stats
 from .sampling import Output, sample, sampling_of
 from .scheme import Scheme
+from .span import Span
 from .start import consistent_start
-from .status import (
-    COLLAPSED,
-    DIVERGED,
-    EVENT,
-    FAR,
-    INVERTED,
-    NOT_FINITE,
-    OK,
-    SINGULAR,
-    SLOW,
-    TOO_MANY,
-    UNBALANCED,
-)
+from .status import EVENT, INVERTED, OK, SLOW
 
 BLOCK_SECONDS = 0.1  # between two looks at the keyboard, the progress and the file
 BLOCK_BYTES = 32e6  # of stored states, and of samples
@@ -57,6 +50,9 @@ ROUNDED, ROUNDED_FORCES, NOTHING = 1e-9, 1e-10, 1e-15
 class Run:
     """One simulation of a System from t_start to t_end with output every ``every`` steps."""
 
+    #: Numbers of which a snapshot has the values, besides the arrays of the memory and of the system.
+    KEPT: tuple[str, ...] = ("done", "look", "apart", "seconds", "astray", "exchanged")
+
     def __init__(
         self,
         system: System,
@@ -68,11 +64,12 @@ class Run:
     ) -> None:
         self.system, self.h, self.every = system, step, every
         self.t_start, self.t_end = t_start, t_end
-        span = t_end - t_start
-        self.full = int(np.floor(span / step + 1e-9))
-        rest = span - self.full * step
-        self.rest = rest if rest > 1e-9 * step else 0.0
-        self.steps = self.full + (self.rest > 0.0)
+        self.span = Span(t_start, t_end, step)
+        self.full, self.rest, self.steps = self.span.full, self.span.rest, self.span.steps
+        self.watched = Watched(system)
+        self.begun, self.between = False, False  # the start is stored; all until `done` is, and nothing else
+        self.done, self.look, self.apart = 0, FIRST_LOOK, FIRST_LOOK
+        self.control: Control | None = None
         self.use(integrator)
         self.memory: Memory = allocate(system.size, turning_nodes(system), room_for_patches(system))
         self.sampling = sampling_of(system)
@@ -115,9 +112,43 @@ class Run:
                 break
             self.happened(int(code), self.t_start, 0)
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
-        none = np.zeros(0, dtype=np.int64)  # no steps yet: this compiles, outside the CPU time of the run
-        rule, nothing = self.rule(self.h), self.room(0, 0)
-        advance(system.core, m, first, self.h, self.scheme, rule, none, self.sampling, nothing)
+        self._compile(first)
+
+    def _compile(self, tables: Tables) -> None:
+        """No steps yet: this compiles, outside the CPU time of the run."""
+        none, nothing = np.zeros(0, dtype=np.int64), self.room(0, 0)
+        rule, core = self.rule(self.h), self.system.core
+        advance(core, self.memory, tables, self.h, self.scheme, rule, none, self.sampling, nothing)
+
+    def snapshot(self) -> Snapshot:
+        """All that decides how the run goes on, copied."""
+        values = {name: getattr(self, name) for name in self.KEPT}
+        values |= {"parts": self.bridge.parts, "inputs": dict(self.system.inputs.given)}
+        own = copies({"memory": self.memory, "energy0": self.energy0})
+        return Snapshot(self.time(self.done), values, {**self.watched.changed(), **own})
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Go on from a snapshot, in place of :meth:`start`.
+
+        Raises
+        ------
+        ModelError
+            It is of another model, or another method.
+        """
+        self._compile(self.system.inputs.tables(snapshot.t - self.h, self.h, 1, self.t_start, self.t_end))
+        self.energy0 = np.zeros(3)
+        self.put_back(snapshot)
+
+    def put_back(self, snapshot: Snapshot) -> None:
+        """Be as when a snapshot was taken."""
+        refill({"memory": self.memory, "energy0": self.energy0}, snapshot.arrays)
+        self.watched.restore(snapshot.arrays)
+        for name in self.KEPT:
+            setattr(self, name, snapshot.values[name])
+        self.bridge.parts = snapshot.values["parts"]
+        for name, value in snapshot.values["inputs"].items():
+            self.system.inputs.give(name, value)
+        self.begun = True
 
     def _restart(self, t: float) -> Tables:
         """Consistent velocities, accelerations and multipliers at t; the memory of earlier steps is lost."""
@@ -137,30 +168,61 @@ class Run:
         at in time.  Nothing that is computed or said may depend on that: states, samples and the energy
         are judged at numbers of steps that the model alone decides.
         """
+        if not self.begun:
+            self.begin(recorder)
+        size = FIRST_LOOK
+        most = max(1, int(BLOCK_BYTES / (16 * self.system.size + 8 * self.every * self.sampling.width)))
+        while self.done < self.steps:
+            count = min(size, most * self.every, self.look - self.done, self.span.room(self.done))
+            if self.control is not None:
+                count = min(count, self.control.ask(self.done))
+            before = clock.perf_counter()
+            self.take(count, recorder)
+            seconds = clock.perf_counter() - before
+            size = int(np.clip(count * BLOCK_SECONDS / max(seconds, 1e-6), 1, 4 * size))
+            self._tell(recorder)
+            if progress is not None:
+                progress(Progress(self.done, self.steps, self.time(self.done), self.t_end))
+
+    def take(self, count: int, recorder: Recorder) -> None:
+        """The next steps, no further than to the next look at the energy or the end of the whole steps."""
+        self.between = False
+        self._block(self.done, count, recorder)
+        self.done += count
+        self.heed_energy()
+        self.between = True
+
+    def heed_energy(self) -> None:
+        """Look at the energy after some numbers of steps, which the model alone decides."""
+        if self.done in (self.look, self.steps):
+            self._check_energy(self.done)
+            self.apart = min(NEXT_LOOK * self.apart, FAR_LOOK + WIDE_LOOK // self.system.size)
+            self.look += self.apart
+
+    def begin(self, recorder: Recorder) -> None:
+        """Store the start."""
         begin, out = np.array([self.t_start]), self.room(1, 1)
-        self._store(0, 0, out)
+        self.store(0, 0, out)
         if self.sampling.width:
             recorder.record(begin, out.samples)
         recorder.append(begin, out.q, out.v, out.work)
-        done, size, look, apart = 0, FIRST_LOOK, FIRST_LOOK, FIRST_LOOK
-        most = max(1, int(BLOCK_BYTES / (16 * self.system.size + 8 * self.every * self.sampling.width)))
-        while done < self.steps:
-            last = self.full if done < self.full else self.steps
-            count = min(size, most * self.every, look - done, last - done)
-            before = clock.perf_counter()
-            self._block(done, count, recorder)
-            done += count
-            if done in (look, self.steps):
-                self._check_energy(done)
-                apart = min(NEXT_LOOK * apart, FAR_LOOK + WIDE_LOOK // self.system.size)
-                look += apart
-            seconds = clock.perf_counter() - before
-            size = int(np.clip(count * BLOCK_SECONDS / max(seconds, 1e-6), 1, 4 * size))
-            recorder.update(self.stats, "running")
-            if progress is not None:
-                progress(Progress(done, self.steps, self._time(done), self.t_end))
+        self.begun = self.between = True
+        if recorder.due():
+            recorder.keep(self.snapshot())
 
-    def _time(self, done: int) -> float:
+    def _tell(self, recorder: Recorder) -> None:
+        """Counters and, now and then, what a run can go on from; nothing of that may know the end."""
+        recorder.update(self.stats, "running")
+        if self.done == self.span.open or (self.done < self.span.open and recorder.due()):
+            recorder.keep(self.snapshot())
+
+    def stopped(self, recorder: Recorder) -> None:
+        """Leave a snapshot where the run was stopped, if that was between two steps."""
+        if self.between and self.done <= self.span.open:
+            recorder.keep(self.snapshot())
+
+    def time(self, done: int) -> float:
+        """Time after so many steps, s."""
         return self.t_start + done * self.h if done < self.steps else self.t_end
 
     def _block(self, done: int, count: int, recorder: Recorder) -> None:
@@ -174,7 +236,7 @@ class Run:
         first, most = 0, count
         try:
             while first < count:
-                t = self._time(done + first)
+                t = self.time(done + first)
                 try:
                     rest = out._replace(samples=out.samples[first:])
                     n, status = self._advance(t, h, row[first : first + most], rest)
@@ -185,22 +247,22 @@ class Run:
                     continue
                 first += n
                 if status >= EVENT:
-                    self.happened(status - EVENT, self._time(done + first), done + first)
-                    self._store(row[first - 1], first - 1, out)
+                    self.happened(status - EVENT, self.time(done + first), done + first)
+                    self.store(row[first - 1], first - 1, out)
                 elif status != OK:
-                    self._bridge(self._time(done + first), h, done + first + 1)
-                    self._store(row[first], first, out)
+                    self.bridged(self.time(done + first), h, done + first + 1)
+                    self.store(row[first], first, out)
                     first += 1
         finally:
             self.seconds += clock.process_time() - cpu
             stored = int(keep[:first].sum())
             if self.sampling.width:
-                times = np.array([self._time(int(k)) for k in number[:first]])
+                times = np.array([self.time(int(k)) for k in number[:first]])
                 recorder.record(times, out.samples[:first])
-            times = np.array([self._time(int(k)) for k in number[keep]])
+            times = np.array([self.time(int(k)) for k in number[keep]])
             recorder.append(times[:stored], out.q[:stored], out.v[:stored], out.work[:stored])
 
-    def _store(self, k: int, n: int, out: Output) -> None:
+    def store(self, k: int, n: int, out: Output) -> None:
         """The state now as row k of the outputs, -1: not wanted, and its samples as row n of theirs."""
         m = self.memory
         if k >= 0:
@@ -209,13 +271,27 @@ class Run:
             sample(self.sampling, m.q, m.v, out.samples[n])
 
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
-        if self.memory.memo[KNOWN] == 0.0 and self.system.core.damped:  # a start, perhaps with a jump
+        if self.hesitates:
             return 0, SLOW
         core, tables = self.system.core, self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end)
         n, status = advance(core, self.memory, tables, h, self.scheme, self.rule(h), row, self.sampling, out)
         return int(n), int(status)
 
-    def _bridge(self, t: float, h: float, number: int) -> None:
+    @property
+    def hesitates(self) -> bool:
+        """Whether the next step is one after a start, perhaps with a jump, which is taken with care."""
+        return bool(self.memory.memo[KNOWN] == 0.0 and self.system.core.damped)
+
+    def now(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """State vectors q, v, and work dissipated and supplied, as they are now and will be changed."""
+        m = self.memory
+        return m.q, m.v, m.work
+
+    def bundle(self, rows: int) -> Implicit | Direct:
+        """All that steps one by one take, with room for so many of them."""
+        return Implicit(**shared(self, rows), scheme=self.scheme, rule=self.rule(self.h))
+
+    def bridged(self, t: float, h: float, number: int) -> None:
         """Step ``number`` from t to t + h, which has failed."""
         self.bridge.cross(t, h, number)
 
@@ -227,10 +303,13 @@ class Run:
         SolveError
             Always.
         """
+        m = self.memory
+        if (error := failures.blamed(self.system, m.q, m.v, t, number, h)) is not None:
+            raise error
         self._check_energy(number - 1)  # if energy came from nowhere, that is the reason
         if status == INVERTED:
-            raise self._collapse(t, number, h)
-        raise self._failure(t, number, _REASONS[status], h)
+            raise failures.collapsed(self.system, self.memory.memo, t, number, h)
+        raise self._failure(t, number, failures.REASONS[status], h)
 
     def happened(self, code: int, t: float, number: int) -> None:
         """What has happened to a sliding joint at the end of a step, and a new start from there."""
@@ -257,7 +336,7 @@ class Run:
         self.astray = max(self.astray, abs(made) if self.keeps_energy else made)
         if made > MOST_MADE * exchanged + self.round_off():
             m.memo[WORST] = float(np.argmax(np.abs(m.v[: self.system.n]) * self.system.core.weight))
-            raise self._failure(self._time(done), done, f"{made:.3g} J came from nowhere", self.h)
+            raise self._failure(self.time(done), done, f"{made:.3g} J came from nowhere", self.h)
 
     @property
     def keeps_energy(self) -> bool:
@@ -285,18 +364,7 @@ class Run:
         return ROUNDED * float(np.sum(np.abs(self.energy0))) + ROUNDED_FORCES * (stiff + weight)
 
     def _failure(self, t: float, number: int, reason: str, h: float) -> SolveError:
-        unknown = int(self.memory.memo[WORST])
-        where = f"t = {t:.6g} s, step {number}, {self.system.numbering.describe(unknown)}"
-        norm = self.memory.memo[NORM]
-        what = f"{reason}; last correction {norm:.3g}, step {h:g} s"
-        hint = f"try a step of {h / 10:.2g} s or less, GeneralizedAlpha, more elements, or some damping"
-        return SolveError(where, what, hint)
-
-    def _collapse(self, t: float, number: int, h: float) -> SolveError:
-        element = self.system.element_of(int(self.memory.memo[WORST]))
-        what = f"{COLLAPSED}; step {h:g} s"
-        hint = f"try a step of {h / 10:.2g} s or less, GeneralizedAlpha, more elements, or a stiffer section"
-        return SolveError(f"t = {t:.6g} s, step {number}, {element}", what, hint)
+        return failures.failed(self.system, self.memory.memo, t, number, reason, h)
 
 
 def _flies(system: System) -> bool:
@@ -308,14 +376,3 @@ def _flies(system: System) -> bool:
     model = system.model
     ends = [getattr(c, name, None) for c in model.connections for name in ("a", "b", "point")]
     return not model.supports and not any(isinstance(end, np.ndarray) for end in ends)
-
-
-_REASONS = {
-    DIVERGED: "Newton's method diverged, also with full Jacobians and smaller steps",
-    NOT_FINITE: "the forces are no longer finite, also with smaller steps",
-    SINGULAR: "the iteration matrix is singular",
-    SLOW: "Newton's method did not converge, also with full Jacobians and smaller steps",
-    FAR: "the motion in a step is too large, also in smaller steps",
-    UNBALANCED: "energy came from nowhere, also with smaller steps",
-    TOO_MANY: f"steps had to be halved, into more than {MOST_PARTS} parts on average",
-}

@@ -25,13 +25,35 @@ class Inputs:
         Inputs of the loads, each of shape (3,): of the dead ones, then of those that depend on the state.
     constraints : Constraints
         Unknowns and rotations in the order of the System.
+    given : dict of str to float
+        The model's inputs, with their first values.
+
+    Attributes
+    ----------
+    given : dict of str to float
+        What the model's inputs are now; changed by :meth:`give` alone.
+    changes : int
+        How often they have changed.
+    led : list of int
+        Loads that depend on them.
     """
 
-    def __init__(self, loads: list[TimeFunction], constraints: Constraints) -> None:
+    def __init__(
+        self, loads: list[TimeFunction], constraints: Constraints, given: dict[str, float] | None = None
+    ) -> None:
         self.loads = loads
+        self.given = {} if given is None else dict(given)
+        self.changes = 0
+        self.led = [k for k, function in enumerate(loads) if function.inputs]
         self.motions = constraints.motions
         self.rotations = [r for r in constraints.rotations if r.angle is not None]
         self.prescribed = np.array([i for m in self.motions for i in m.unknowns], dtype=np.int64)
+
+    def give(self, name: str, value: float) -> None:
+        """Let an input have a value from now on."""
+        if self.given[name] != value:
+            self.given[name] = value
+            self.changes += 1
 
     def tables(self, start: float, step: float, steps: int, first: float, last: float) -> Tables:
         """Tables at start + step, ..., start + steps * step.
@@ -43,7 +65,7 @@ class Inputs:
         motion = [self._motion(k, times, step, first, last) for k in range(len(self.motions))]
         rotation = [self._rotation(r, times, step, first, last) for r in self.rotations]
         return Tables(
-            value=_amplitudes(self.loads, times),
+            value=_amplitudes(self.loads, times, self.given),
             motion=np.ascontiguousarray(np.concatenate([np.zeros((steps, 0, 3)), *motion], axis=1)),
             rotation=np.ascontiguousarray(
                 np.stack(rotation, axis=1) if rotation else np.zeros((steps, 0, 3, 3, 3))
@@ -126,8 +148,8 @@ def differences(
     return values[below : below + n], rate / step, second / step**2
 
 
-def _amplitudes(functions: list[TimeFunction], times: FloatArray) -> FloatArray:
+def _amplitudes(functions: list[TimeFunction], times: FloatArray, given: dict[str, float]) -> FloatArray:
     out = np.empty((len(times), len(functions), 3))
     for k, function in enumerate(functions):
-        out[:, k] = function(float(times[0])) if function.constant else function.table(times)
+        out[:, k] = function(float(times[0])) if function.constant else function.under(given, times)
     return out

@@ -40,7 +40,7 @@ def _dead(model: Model) -> list[tuple[Any, TimeFunction]]:
     for load in model.loads:
         if isinstance(load, Force) and isinstance(load.force, TimeFunction):
             found.append((load, load.force))
-        elif isinstance(load, DistributedLoad):
+        elif isinstance(load, DistributedLoad) and isinstance(load.load, TimeFunction):
             found.append((load, load.load))
     drives = (c for c in model.connections if isinstance(c, Slide))
     return found + [(joint, joint.force) for joint in drives if joint.force is not None]

@@ -85,7 +85,8 @@ class System:
         self.slots = {name: self._shadowed(s) for name, s in self.numbering.slots.items()}
         self.multipliers = self.numbering.all_multipliers()
         self.joints = _joint_unknowns(self.numbering)
-        self.inputs = Inputs(functions, self.constraints)
+        first = {item.name: item.value for item in model.inputs.values()}
+        self.inputs = Inputs(functions, self.constraints, first)
         self.parts = bind_parts(parts, rank, self.constraints, self.places)
         supports = self._supports()
         joints = core_joints(list(self.parts.values()), self, supports)

@@ -13,6 +13,7 @@ from pydantic import ValidationError
 from ...errors import ModelError
 from ...files import exists
 from ..checks import nearest
+from ..inputs import first_values, named
 from ..model import Model
 from ..settings import EquilibriumSettings, SimulationSettings
 from .build import Builder
@@ -86,7 +87,8 @@ def parse_study(data: dict[str, Any], source: str = "model") -> Study:
 
     """
     try:
-        entry = FileEntry.model_validate(data)
+        with named(first_values(data.get("inputs") if isinstance(data, dict) else None)):
+            entry = FileEntry.model_validate(data)
     except ValidationError as error:
         raise combined(of_validation(error), source) from None
     builder = Builder(entry)

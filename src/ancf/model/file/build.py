@@ -21,6 +21,7 @@ from .entries import (
     CircleEntry,
     EquilibriumEntry,
     FileEntry,
+    InputEntry,
     MomentsEntry,
     RectangleEntry,
     SectionEntry,
@@ -57,6 +58,9 @@ class Builder:
         if not self.problems:
             for i, body in enumerate(self.entry.bodies):
                 self._collected(self._add_body, body, f"bodies[{i}]")
+        if not self.problems:
+            for i, item in enumerate(self.entry.inputs):
+                self._collected(self._add_input, item, f"inputs[{i}]")
         if not self.problems:
             self._add_items()
         return self.model
@@ -105,6 +109,10 @@ class Builder:
             body = add[entry.type](entry.name, **given)
         if entry.motion is not None:
             _set_motion(body.set_motion, entry.motion.given(), f"{where}.motion")
+
+    def _add_input(self, entry: InputEntry, where: str) -> None:
+        with self.model.located(where):
+            self.model.add_input(entry.name, entry.value)
 
     def _section_of(self, body: BeamEntry, where: str) -> Section:
         if not isinstance(body.section, str):

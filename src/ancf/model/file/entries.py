@@ -240,6 +240,18 @@ AnyBody = Annotated[
 TAGGED |= {"<beam>": BeamEntry, "<point_mass>": PointMassEntry, "<rigid_body>": RigidBodyEntry}
 
 
+class InputEntry(Entry):
+    """A number that is given while a simulation runs; formulas of loads may name it."""
+
+    name: str = Field(
+        description="Unique among inputs; letters, digits and _, no name of formulas such as t."
+    )
+    value: float = Field(
+        0.0,
+        description="What it is until something else is given [of what it is multiplied with, such as N].",
+    )
+
+
 class FileEntry(Entry):
     """A model file of ancf; SI units."""
 
@@ -247,6 +259,7 @@ class FileEntry(Entry):
     gravity: Vector = Field([0.0, 0.0, 0.0], description="Gravity [m/s^2].")
     sections: dict[str, AnySection] = Field({}, description="Cross-sections by name.")
     bodies: list[AnyBody] = Field(min_length=1, description="Beams, cables, point masses, rigid bodies.")
+    inputs: list[InputEntry] = Field([], description="Numbers that are given while a simulation runs.")
     supports: list[AnySupport] = Field([], description="What holds the bodies.")
     loads: list[AnyLoad] = Field([], description="Forces, moments and distributed loads.")
     connections: list[AnyConnection] = Field([], description="Joints and springs between points.")
@@ -255,6 +268,7 @@ class FileEntry(Entry):
 
 
 NESTED: dict[str, type[Entry]] = {
+    "inputs": InputEntry,
     "motion": MotionEntry,
     "simulation": SimulationEntry,
     "equilibrium": EquilibriumEntry,

@@ -90,7 +90,9 @@ class DistributedEntry(Entry):
 
     type: Literal["distributed"] = Field(description="Kind of load.")
     body: str = Field(description="Name of the body.")
-    load: VectorFunction = Field(description="Load per reference length, function of t [N/m].")
+    load: ForceFunction = Field(
+        description="Load per reference length, function of t, or of t and each point's x ... vz [N/m]."
+    )
     between: Pair | None = Field(
         None, description="Reference arc lengths of its first and last point, default the whole body [m]."
     )

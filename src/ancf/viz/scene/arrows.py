@@ -53,15 +53,17 @@ def make_arrows(shown: Any, drawn: list[FloatArray]) -> list[Arrow]:
 
 
 def acting(shown: Any, item: Any, push: Push) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Places (n, k, 3), m, the vector (n, 3) that acts there and its size (n,); none if nobody knows it."""
+    """Places (n, k, 3), m, vectors (n, k or 1, 3) that act there and the largest (n,); none if unknown."""
     end = kind_of(item).ends_of(item)[0]
     points = [end] if isinstance(end, Point) else list(_along(end, item.between))
     places = np.stack([shown.place(point) for point in points], axis=1)
     try:
-        value = _value(shown, getattr(item, push.field), end)
+        function = getattr(item, push.field)
+        depends = isinstance(function, StateFunction)
+        value = np.stack([_value(shown, function, p) for p in (points if depends else points[:1])], axis=1)
     except ModelError:  # a Python function that a file does not hold
-        return places, np.zeros((0, 3)), np.zeros(0)
-    return places, value, np.linalg.norm(value, axis=1)
+        return places, np.zeros((0, 1, 3)), np.zeros(0)
+    return places, value, np.linalg.norm(value, axis=2).max(axis=1)
 
 
 def _along(beam: Beam, between: tuple[float, float]) -> Iterator[Point]:
@@ -90,7 +92,7 @@ def longest_of(drawn: list[FloatArray]) -> float:
 
 def _ends(places: FloatArray, vector: FloatArray, push: Push) -> FloatArray:
     """Tails and tips (n, k, 2, 3), m: a force ends where it acts, the axis of a moment begins there."""
-    along = np.broadcast_to(vector[:, None], places.shape)
+    along = np.broadcast_to(vector, places.shape)
     ends = (places, places + along) if push.turns else (places - along, places)
     return np.stack(ends, axis=2)
 

@@ -1,0 +1,1 @@
+"""Runs that something else leads: inputs, steps one by one, controllers."""

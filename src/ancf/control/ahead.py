@@ -1,0 +1,133 @@
+"""Steps one by one at little cost: functions of time are tabulated for many steps ahead."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import ModelError, SolveError
+from ..model.expression import Expression
+from ..results.store import MemoryStore
+from ..solvers.quick import Quick
+from ..solvers.status import EVENT, OK, SLOW
+from ..solvers.stepping import Run
+from ..system.inputs import on_grid
+
+#: Steps ahead.
+ROWS = 256
+
+
+class Ahead:
+    """The next steps of a run; how many are taken at once changes nothing of what is computed.
+
+    Parameters
+    ----------
+    run : Run
+        Started, or restored.
+    store : MemoryStore
+        Takes what sensors record.
+    """
+
+    def __init__(self, run: Run, store: MemoryStore) -> None:
+        self.run, self.store = run, store
+        self.inputs, self.memo = run.system.inputs, run.memory.memo
+        self.led: list[tuple[int, Any, Expression]] = []  # loads, their components, formulas of inputs
+        for load in self.inputs.led:
+            function = self.inputs.loads[load]
+            one = function.size == 1  # a number stands in all three
+            self.led += [(load, slice(None) if one else part, formula) for part, formula in function.led]
+        bundle = run.bundle(ROWS)
+        self.tables, self.out = bundle.tables, bundle.out
+        self.quick = Quick(bundle)
+        self.base = run.done  # steps before the first row
+        self.at = self.rows = self.given = (
+            0  # next row, rows that are tabulated, and those with inputs of now
+        )
+        self.width = 1  # rows that get inputs at once
+        self.handed = 0  # rows whose samples are stored
+        self.changes = self.inputs.changes
+
+    def take(self, steps: int) -> None:
+        """Take some steps; see :meth:`ancf.Stepper.advance`."""
+        run, end = self.run, self.run.done + steps
+        while run.done < end:
+            if self.at == self.rows:
+                self.tabulate(end - run.done)
+            if self.changes != self.inputs.changes:
+                self.changes, self.given, self.width = self.inputs.changes, self.at, 1
+            count = min(end, run.look, self.base + self.rows) - run.done
+            if self.given < self.at + count:
+                self.lead(count)
+            done, status = (0, SLOW) if run.hesitates else self.quick.take(self.at, count)
+            self.at += done
+            run.done += done
+            if status >= EVENT:
+                run.happened(status - EVENT, run.time(run.done), run.done)
+                run.store(-1, self.at - 1, self.out)
+            elif status != OK:
+                self.bridge()
+            run.heed_energy()
+
+    def bridge(self) -> None:
+        """A step that has failed, in smaller ones; if these fail too, everything is as it was before."""
+        run, before = self.run, self.run.snapshot()
+        try:
+            run.bridged(run.time(run.done), run.h, run.done + 1)
+        except (SolveError, ModelError):
+            run.put_back(before)
+            raise
+        run.store(-1, self.at, self.out)
+        self.at += 1
+        run.done += 1
+
+    def tabulate(self, wanted: int) -> None:
+        """Functions of time of the next steps; of those that are wanted if one fails further on."""
+        self.hand_over()
+        run = self.run
+        for rows in (ROWS, min(wanted, ROWS), 1):
+            try:
+                found = self.inputs.tables(run.time(run.done), run.h, rows, run.t_start, run.t_end)
+                break
+            except ModelError:
+                if rows == 1:
+                    raise
+        for x, y in zip(found, self.tables, strict=True):
+            y[:rows] = x
+        self.base, self.at, self.handed, self.rows, self.given = run.done, 0, 0, rows, rows
+        self.changes = self.inputs.changes
+
+    def lead(self, count: int) -> None:
+        """Loads that depend on inputs, of the next steps; of ever more while the inputs stay as they are."""
+        first = self.given
+        last = min(first + max(count, self.width), self.rows)
+        self.width *= 2
+        value, given, times = self.tables.value, self.inputs.given, np.zeros(0)
+        for load, component, formula in self.led:
+            if not formula.uses_t:
+                number = formula.at(given)
+                value[first:last, load, component] = number
+                sound = math.isfinite(number)
+            else:
+                times = self.times(first, last) if not len(times) else times
+                values = formula.under(given, times)
+                value[first:last, load, component] = values[:, None] if component == slice(None) else values
+                sound = bool(np.all(np.isfinite(values)))
+            if not sound:  # this says where, when and what
+                self.inputs.loads[load].under(given, self.times(first, last))
+        self.given = last
+
+    def times(self, first: int, last: int) -> FloatArray:
+        """Times at the ends of the steps of some rows, s."""
+        run = self.run
+        return on_grid(run.time(self.base), run.h, np.arange(first + 1, last + 1), run.t_start)
+
+    def hand_over(self) -> None:
+        """Store what was recorded."""
+        if self.run.sampling.width and self.at > self.handed:
+            numbers = range(self.base + self.handed + 1, self.base + self.at + 1)
+            times = np.array([self.run.time(number) for number in numbers])
+            self.store.record(times, self.out.samples[self.handed : self.at].copy())
+        self.handed = self.at

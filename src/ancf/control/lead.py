@@ -1,0 +1,58 @@
+"""Controllers: a function that looks at a run every so often and gives its inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from ..errors import ModelError, SolveError
+from ..model import checks
+from ..model.settings import FITS, MOST_STEPS
+from ..preparation import Prepared
+from ..solvers.control import Control
+from .live import Live
+from .stepper import refuse_adaptive
+
+Controller = Callable[[Live], Any]
+
+
+def check_controller(controller: Any, control_step: Any, step: float, where: str) -> int:
+    """Steps between two calls of a controller.
+
+    Raises
+    ------
+    ModelError
+        It is no function, or its step is no multiple of the time step.
+    """
+    if not callable(controller):
+        what = f"must be a function of the run, is {checks.shown(controller)}"
+        raise ModelError(f"{where}.controller", what, 'such as def f(run): run.inputs["thrust"] = 5.0')
+    if control_step is None:
+        return 1
+    ratio = min(checks.positive(control_step, f"{where}.control_step") / step, MOST_STEPS)
+    if round(ratio) < 1 or abs(ratio - round(ratio)) > FITS:
+        what = f"is {control_step:g} s, must be a multiple of step = {step:g} s"
+        raise ModelError(f"{where}.control_step", what)
+    return round(ratio)
+
+
+def led(made: Prepared, controller: Controller, every: int, where: str) -> Prepared:
+    """Let a controller be called every so many steps of a simulation; its header says so."""
+    settings = made.header["settings"]
+    refuse_adaptive(made.method, where)
+    live = Live(made)
+    name = getattr(controller, "__name__", type(controller).__name__)
+
+    def call() -> None:
+        live.look()
+        try:
+            controller(live)
+        except (ModelError, SolveError):
+            raise
+        except Exception as error:
+            what = f"at t = {live.t:.6g} s the controller raised {type(error).__name__}: {error}"
+            raise ModelError(f"{where}.controller", what) from error
+
+    made.run.control = Control(every, call)
+    led_by = {"controller": name, "control_step": every * settings["step"]}
+    return made._replace(header={**made.header, "settings": {**settings, **led_by}})

@@ -1,0 +1,117 @@
+"""A run between two steps: what controllers, and programs that take steps, see of it and may change."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, MutableMapping
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model import checks
+from ..model.names import unknown
+from ..preparation import Prepared
+from ..results import remembered
+from ..results.overview import line_of_state
+from ..results.remembered import Remembered
+from ..results.state import Energy, State
+from ..solvers.record import Stats
+from ..system.energy import energies
+from ..system.inputs import Inputs
+from ..system.spring_fields import springs_of
+
+
+class InputValues(MutableMapping[str, float]):
+    """The inputs of a model by name, as they are now; a value that is given holds from the next step on.
+
+    Parameters
+    ----------
+    inputs : Inputs
+    """
+
+    def __init__(self, inputs: Inputs) -> None:
+        self._inputs = inputs
+
+    def __getitem__(self, name: str) -> float:
+        if name not in self._inputs.given:
+            raise unknown("inputs", "input", name, self._inputs.given)
+        return self._inputs.given[name]
+
+    def __setitem__(self, name: str, value: float) -> None:
+        if name not in self._inputs.given:
+            raise unknown("inputs", "input", name, self._inputs.given)
+        if type(value) is not float or not math.isfinite(value):
+            value = checks.number(value, f'inputs["{name}"]')
+        self._inputs.give(name, value)
+
+    def __delitem__(self, name: str) -> None:
+        raise ModelError(f'inputs["{name}"]', "cannot be deleted: the model has it")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._inputs.given)
+
+    def __len__(self) -> int:
+        return len(self._inputs.given)
+
+    def __repr__(self) -> str:
+        return f"InputValues({self._inputs.given})"
+
+
+class Live(State):
+    """The present state of a run; it answers as a :class:`ancf.State`, always of now.
+
+    Attributes
+    ----------
+    t : float
+        Time, s.
+    inputs : mapping of str to float
+        Inputs by name, to be read and given.
+    """
+
+    def __init__(self, made: Prepared) -> None:
+        self.system, self.model, self._run = made.system, made.system.model, made.run
+        self.inputs = InputValues(made.system.inputs)
+        self._bodies, self._slots = self.model.bodies, self.system.slots
+        self._joints, self._arcs = self.system.joints, self.system.numbering.arcs
+        self._springs = springs_of(self.model.connections)
+        self.look()
+
+    def look(self) -> None:
+        """See the run as it is now."""
+        self._q, self._v, self._work = self._run.now()
+        self.t = self._run.t_start + self._run.done * self._run.h
+
+    def __repr__(self) -> str:
+        return line_of_state(self)
+
+    @property
+    def q(self) -> FloatArray:
+        """State vector, shape (size,), a copy."""
+        return self._q.copy()
+
+    @property
+    def v(self) -> FloatArray:
+        """Rates of the state vector, shape (size,), a copy."""
+        return self._v.copy()
+
+    @property
+    def stats(self) -> Stats:  # type: ignore[override]
+        """Counters of the run."""
+        return self._run.stats
+
+    @property
+    def known(self) -> Remembered:  # type: ignore[override]
+        """What the run knows beside the state vectors."""
+        return remembered.of_system(self.system)
+
+    @property
+    def energy(self) -> Energy:
+        """Energies now, J; dissipated and supplied since the start."""
+        kinetic, strain, potential = energies(self.system, self._q[None], self._v[None])[0]
+        dissipated, supplied = (np.float64(x) for x in self._work)
+        return Energy(kinetic, strain, potential, dissipated, supplied)  # type: ignore[arg-type]
+
+    def state(self) -> State:
+        """The state now, which stays as it is while the run goes on."""
+        return State(self.system, self.t, self.q, self.v, self.stats, self.known)

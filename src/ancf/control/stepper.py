@@ -1,0 +1,233 @@
+"""Steps one by one: a run that a program of its own leads."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import ModelError, SolveError
+from ..files import writing
+from ..model import checks
+from ..model.integrators import Integrator, Radau, integrator_from
+from ..model.model import Model
+from ..model.settings import MOST_STEPS
+from ..preparation import Prepared, compiled, method_of, prepared
+from ..results.checkpoints import Checkpoint
+from ..results.read_store import ReadStore
+from ..results.sensors import Sensors
+from ..results.state import State
+from ..results.store import FileStore, MemoryStore
+from ..solvers.stepping import Run
+from .ahead import Ahead
+from .live import Live
+
+
+class Stepper(Live):
+    """A run that takes steps when it is asked to; see :func:`ancf.stepper`.
+
+    It answers all questions of a :class:`ancf.State`, of now: ``run.position(tip)``, ``run.energy``.
+    """
+
+    def __init__(self, made: Prepared) -> None:
+        self._made = made
+        self._store = MemoryStore(made.system)
+        super().__init__(made)
+        run = made.run
+        if not run.begun:
+            run.begin(self._store)
+            self._store.forget()
+        self._ahead = Ahead(run, self._store) if isinstance(run, Run) else None
+
+    def advance(self, steps: int = 1) -> None:
+        """Take some steps with the inputs as they are.
+
+        Parameters
+        ----------
+        steps : int
+
+        Raises
+        ------
+        SolveError
+            A step failed. The run is then where it was before that step, can be asked, and can go on,
+            perhaps with other inputs.
+        ModelError
+            A function of time failed.
+        """
+        if type(steps) is not int or steps < 1:
+            checks.integer(steps, "advance.steps", 1, int(MOST_STEPS))
+        run = self._run
+        if run.done + steps > MOST_STEPS:
+            raise ModelError("advance.steps", f"the run would have more than {MOST_STEPS:.0e} steps")
+        if self._ahead is not None:
+            try:
+                self._ahead.take(steps)
+            finally:
+                self.t = run.t_start + run.done * run.h
+            return
+        before = run.snapshot()
+        try:
+            for _ in range(steps):
+                before = run.snapshot()
+                run.take(1, self._store)
+                self._store.forget()
+        except (SolveError, ModelError):
+            run.restore(before)
+            raise
+        finally:
+            self.look()
+
+    @property
+    def sensors(self) -> Sensors:
+        """What was recorded at every step so far; see :attr:`ancf.Result.sensors`.
+
+        Raises
+        ------
+        ModelError
+            There are no sensors.
+        """
+        listing = self.system.sensors
+        if not listing:
+            raise ModelError("stepper.sensors", "there are none", 'give stepper(..., sensors=["wire.at(3)"])')
+        if self._ahead is not None:
+            self._ahead.hand_over()
+        return Sensors(listing, lambda: self._store.samples, _Whole(self))
+
+    def save(self, file: str | Path) -> None:
+        """Write a results file with the present state, from which the run can go on to the last bit.
+
+        ``ancf.stepper(model, start=file)`` does so with steps one by one, ``ancf.resume(file, t_end=...)``
+        with the inputs as they are, and :func:`ancf.load` reads the state.
+
+        Raises
+        ------
+        ModelError
+            It cannot be written.
+        """
+        if self._ahead is not None:
+            self._ahead.hand_over()
+        header = {**self._made.header, "settings": {**self._made.header["settings"], "t_end": self.t}}
+        with writing(file):
+            store = FileStore(file, self.system, header)
+        rows = 0
+        if self.system.sensors:
+            samples = self._store.samples
+            rows = len(samples["time"])
+            store.record(
+                samples["time"], np.concatenate([samples[k] for k in ("q", "v", "measured")], axis=1)
+            )
+        q, v, work = self._run.now()
+        store.append(np.array([self.t]), q[None], v[None], work[None])
+        store.put(Checkpoint(self._run.snapshot(), 1, rows))
+        store.update(self.stats, "interrupted")
+        store.close()
+
+
+class _Whole:
+    """What :class:`ancf.results.sensors.Sensors` asks of a result."""
+
+    def __init__(self, run: Stepper) -> None:
+        self.model, self.bodies, self.slots = run.model, run.bodies, run.slots
+        self.springs, self.joints, self.arcs = run._springs, run._joints, run._arcs
+
+
+def stepper(
+    model: Model,
+    *,
+    step: float | None = None,
+    start: State | str | Path | None = None,
+    integrator: Integrator | None = None,
+    sensors: Sequence[Any] | None = None,
+    energy: bool = True,
+) -> Stepper:
+    """A run whose steps are taken one by one, with inputs that may change between them.
+
+    Parameters
+    ----------
+    model : Model
+    step : float
+        Time step, s.
+    start : State or path, optional
+        Where to start, default the initial shape and motion at t = 0; or a file that
+        :meth:`ancf.Stepper.save` wrote or a simulation, from which the run goes on to the last bit, with
+        its step, integrator and sensors.
+    integrator : Trapezoidal, GeneralizedAlpha, Explicit or Radau(adaptive=False), optional
+        Default the trapezoidal rule.
+    sensors : sequence, optional
+        Points, springs and joints that are recorded at every step, see :attr:`ancf.Stepper.sensors`.
+    energy : bool
+        Account for the energies dissipated and supplied.
+
+    Returns
+    -------
+    Stepper
+
+    Raises
+    ------
+    ModelError
+        Something given is wrong, or a file of another model.
+    SolveError
+        There are no accelerations at the start.
+    """
+    if isinstance(start, str | Path):
+        given = {"step": step, "integrator": integrator, "sensors": sensors}
+        for key, value in given.items():
+            if value is not None:
+                raise ModelError(f"stepper.{key}", "cannot be given: it is that of the file")
+        return _gone_on(model, start)
+    _check_start(start)
+    method = method_of(integrator, "stepper")
+    refuse_adaptive(method, "stepper")
+    size = checks.positive(step, "stepper.step")
+    t0 = 0.0 if start is None else start.t
+    made = prepared(
+        model,
+        method=method,
+        t_end=t0 + MOST_STEPS * size,
+        step=size,
+        start=start,
+        output_step=None,
+        sensors=sensors,
+        energy=energy,
+        where="stepper",
+    )
+    return Stepper(made)
+
+
+def _check_start(start: Any) -> None:
+    if start is not None and not isinstance(start, State):
+        what = f"must be a State or a file, is {checks.shown(start)}"
+        raise ModelError("stepper.start", what, "see ancf.equilibrium")
+
+
+def refuse_adaptive(method: Integrator, where: str) -> None:
+    """Raise ModelError if a method chooses its own steps, which nothing could lead."""
+    if isinstance(method, Radau) and method.adaptive:
+        what = "chooses its own steps, and inputs are given between steps of one length"
+        raise ModelError(f"{where}.integrator", what, "take ancf.Radau(adaptive=False)")
+
+
+def _gone_on(model: Model, file: str | Path) -> Stepper:
+    """A stepper from a checkpoint."""
+    old = ReadStore(file)
+    found = old.checkpoint()
+    if found is None or "method" not in old.header["settings"]:
+        hint = "start=ancf.load(file).state() starts anew from its last state"
+        raise ModelError(str(file), "has no checkpoint from which a run could go on", hint)
+    if model.to_dict() != old.header["model"]:
+        raise ModelError("stepper.model", f'is not the model that "{file}" describes')
+    settings = old.header["settings"]
+    method = integrator_from(settings["integrator"], settings["method"])
+    refuse_adaptive(method, "stepper")
+    t0, step, listed = settings["t_start"], settings["step"], settings["sensors"]
+    t_end = t0 + MOST_STEPS * step
+    made = compiled(model, method, t0, t_end, step, None, listed or None, settings["energy"], "stepper")
+    made.run.restore(found.snapshot)
+    run = Stepper(made)
+    if listed:
+        samples = old.samples
+        values = np.concatenate([samples[k][: found.samples] for k in ("q", "v", "measured")], axis=1)
+        run._store.record(samples["time"][: found.samples], values)
+    return run

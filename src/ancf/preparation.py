@@ -1,0 +1,227 @@
+"""What every computation with a model begins and ends with: compiled, started, carried out."""
+
+from __future__ import annotations
+
+import signal
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import asdict
+from datetime import UTC, datetime
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .errors import Interrupted, ModelError, SolveError, StorageError
+from .interrupts import heed, kept
+from .model import checks
+from .model.beam import Beam
+from .model.integrators import INTEGRATORS, Integrator, Trapezoidal
+from .model.model import Model
+from .model.settings import steps_between
+from .results import remembered
+from .results.provenance import versions
+from .results.read_store import ReadStore
+from .results.result import Result, load, read
+from .results.state import State
+from .results.store import MemoryStore
+from .solvers.record import Progress
+from .solvers.runs import AnyRun, run_of
+from .system.consistency import check_gaps, check_independent
+from .system.sensors import Listing, listing
+from .system.system import System
+
+
+class Prepared(NamedTuple):
+    """A simulation that has not taken a step yet."""
+
+    system: System
+    run: AnyRun
+    header: dict[str, Any]
+    method: Integrator
+
+
+def prepared(
+    model: Model,
+    *,
+    method: Integrator,
+    t_end: float,
+    step: float,
+    start: State | None,
+    output_step: float | None,
+    sensors: Sequence[Any] | None,
+    energy: bool,
+    where: str = "simulate",
+) -> Prepared:
+    """A simulation at its start, see :func:`simulate`; ``where`` stands in messages.
+
+    Raises
+    ------
+    ModelError, SolveError
+        Something given is wrong, or there are no accelerations at the start.
+    """
+    t0 = 0.0 if start is None else start.t
+    made = compiled(model, method, t0, t_end, step, output_step, sensors, energy, where)
+    system = made.system
+    if start is None:
+        q, v = system.initial_state(t0)
+    else:
+        q, v = adopted(start, system, f"{where}.start")
+        remembered.restore(system, start.known)
+    check_gaps(system, q, f"{where}.start")
+    made.run.start(q, v)
+    return made
+
+
+def compiled(
+    model: Model,
+    method: Integrator,
+    t_start: float,
+    t_end: float,
+    step: float,
+    output_step: float | None,
+    sensors: Sequence[Any] | None,
+    energy: bool,
+    where: str,
+) -> Prepared:
+    """A simulation that has no state yet; it is given one by ``run.start`` or ``run.restore``."""
+    every = steps_between(where, t_end, step, output_step, t_start)
+    system = system_of(model)  # anew: the model may have changed since the start was computed
+    system.sensors = _sensors(system, sensors)
+    if not checks.flag(energy, f"{where}.energy"):
+        system.skip_energies()
+    header = header_of(system, method, t_start, t_end, step, output_step)
+    return Prepared(system, run_of(method, system, t_start, t_end, step, every), header, method)
+
+
+def carried_out(made: Prepared, store: Any, progress: Callable[[Progress], None] | None) -> Result:
+    """Take all steps and give the result, also with the errors; see :func:`simulate`.
+
+    Parameters
+    ----------
+    made : Prepared
+    store : MemoryStore, FileStore or another Recorder with ``path`` and ``close``
+    progress : callable or None
+
+    Raises
+    ------
+    SolveError, StorageError, ModelError, Interrupted
+        With what was computed until then.
+    """
+    system, run, header, _ = made
+
+    def finished(status: str) -> Result:
+        store.update(run.stats, status)
+        if isinstance(store, MemoryStore):
+            return Result(store, header, system)
+        store.close()
+        return load(store.path, system)
+
+    def look(now: Progress) -> None:
+        heed()
+        if progress is not None:
+            progress(now)
+
+    with _salvaged(system), kept(signal.SIGINT):
+        try:
+            run.go(store, look)
+        except StorageError:
+            raise
+        except (SolveError, ModelError) as error:
+            error.result = finished("failed")
+            raise
+        except KeyboardInterrupt as stop:
+            run.stopped(store)
+            raise Interrupted(finished("interrupted")) from stop
+        if run.caution:
+            warnings.warn(run.caution, UserWarning, stacklevel=3)
+        return finished("complete")
+
+
+@contextmanager
+def _salvaged(system: System) -> Iterator[None]:
+    """What a file holds that can no longer be written goes with the error."""
+    try:
+        yield
+    except StorageError as error:
+        with suppress(ModelError):  # nothing may have reached the disk
+            error.result = read(ReadStore(error.where, "failed"), system)
+        raise
+
+
+def method_of(given: Integrator | None, where: str = "simulate") -> Integrator:
+    """The integrator that was given, or the default; ModelError for anything else."""
+    if given is None:
+        return Trapezoidal()
+    if not isinstance(given, tuple(INTEGRATORS.values())):
+        known = "one of " + ", ".join(f"ancf.{kind.__name__}()" for kind in INTEGRATORS.values())
+        raise ModelError(f"{where}.integrator", f"must be {known}, is {checks.shown(given)}")
+    return given
+
+
+def system_of(model: Model) -> System:
+    """A model compiled, its joints looked over."""
+    system = System(model)
+    check_independent(system)
+    return system
+
+
+def given_state(system: System, about: Any, where: str) -> tuple[Any, Any]:
+    """State vectors of a state, or of the initial shape and motion where none is given."""
+    if about is None:
+        return system.initial_state()
+    if not isinstance(about, State):
+        raise ModelError(where, f"must be a State, is {checks.shown(about)}", "see ancf.equilibrium")
+    return adopted(about, system, where)
+
+
+def _sensors(system: System, given: Any) -> Listing:
+    """What ``sensors`` lists."""
+    where = "simulate.sensors"
+    if given is None:
+        return Listing()
+    if not isinstance(given, Sequence) or isinstance(given, str | bytes):
+        what = f"must be a list of points, springs and joints, is {checks.shown(given)}"
+        raise ModelError(where, what, 'such as sensors=["wire.at(3)", dropper]')
+    return listing(system, [system.model.sensor(item, f"{where}[{k}]") for k, item in enumerate(given)])
+
+
+def adopted(state: State, system: System, where: str) -> tuple[Any, Any]:
+    """State vectors of a state in the numbering of a system with the same bodies."""
+    mine, theirs = system.model.bodies, state.bodies
+    same = mine.keys() == theirs.keys() and all(
+        system.slots[n].shape == state.slots[n].shape and _same_nodes(mine[n], theirs[n]) for n in mine
+    )
+    if not same:
+        raise ModelError(where, "is a state of another model: its bodies or their nodes differ")
+    return system.adopt(state.slots, state.joints, state.q, state.v, state.t)
+
+
+def _same_nodes(a: Any, b: Any) -> bool:
+    if not isinstance(a, Beam) or not isinstance(b, Beam):
+        return type(a) is type(b)
+    return a.element == b.element and np.array_equal(a.node_x, b.node_x)
+
+
+def header_of(
+    system: System, method: Integrator, t0: float, t_end: float, step: float, output_step: float | None
+) -> dict[str, Any]:
+    """What made a result: model, settings, versions, time."""
+    model, listed = system.model, system.sensors
+    return {
+        "title": model.title,
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "model": model.to_dict(),
+        "settings": {
+            "t_start": t0,
+            "t_end": t_end,
+            "step": step,
+            "output_step": output_step or step,
+            "integrator": method.name,
+            "method": asdict(method),
+            **method.settings(),
+            "energy": system.core.accounted,
+            "sensors": [*map(str, listed.points), *listed.connections],
+        },
+        "versions": versions(),
+    }

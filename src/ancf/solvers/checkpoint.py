@@ -1,0 +1,131 @@
+"""All that a run has in memory between two steps, from which it goes on to the last bit.
+
+What a step may change is found, not listed: a compiled system and the memory of a run are named tuples of
+arrays, and those of the system that differ from what they were when it was compiled are kept.  So a batch
+that keeps a history of its own needs nothing to be kept with the rest.  Arrays that hold addresses of this
+process do not change, and are never kept.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..batches import Batches
+from ..errors import ModelError
+from ..system.system import System
+
+Arrays = dict[str, NDArray[Any]]
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """State of a run between two steps.
+
+    Parameters
+    ----------
+    t : float
+        Time, s.
+    values : dict
+        Numbers and flags by name, ready for JSON.
+    arrays : dict of str to ndarray
+        By their place, such as ``memory.q`` or ``parts.springs.inside``; copies.
+    """
+
+    t: float
+    values: dict[str, Any]
+    arrays: Arrays
+
+
+def arrays_in(item: Any, place: str) -> Iterator[tuple[str, NDArray[Any]]]:
+    """All arrays that are not empty in tuples, named tuples, batches and dicts, with their places."""
+    if isinstance(item, np.ndarray):
+        if item.size:
+            yield place, item
+    elif isinstance(item, Batches) or (isinstance(item, tuple | list) and not hasattr(item, "_fields")):
+        for k, part in enumerate(item):
+            yield from arrays_in(part, f"{place}.{k}")
+    elif isinstance(item, Mapping):
+        for name, part in item.items():
+            yield from arrays_in(part, f"{place}.{name}")
+    elif isinstance(item, tuple):
+        for name in item._fields:  # type: ignore[attr-defined]
+            yield from arrays_in(getattr(item, name), f"{place}.{name}")
+
+
+def distinct(roots: Mapping[str, Any]) -> Arrays:
+    """Arrays below some roots by place; one that is reached twice has its first place."""
+    found: Arrays = {}
+    seen = set()
+    for name, root in roots.items():
+        for place, array in arrays_in(root, name):
+            key = array.__array_interface__["data"][0], array.nbytes
+            if key not in seen:
+                seen.add(key)
+                found[place] = array
+    return found
+
+
+def copies(roots: Mapping[str, Any]) -> Arrays:
+    """Copies of all arrays below some roots."""
+    return {place: array.copy() for place, array in distinct(roots).items()}
+
+
+def refill(roots: Mapping[str, Any], saved: Mapping[str, NDArray[Any]]) -> None:
+    """Put saved values into arrays that are there; those of other roots are left out.
+
+    Raises
+    ------
+    ModelError
+        An array is missing, or has another shape.
+    """
+    there = distinct(roots)
+    for place, values in saved.items():
+        if place.split(".", 1)[0] not in roots:
+            continue
+        mine = there.get(place)
+        if mine is None or mine.shape != values.shape or mine.dtype != values.dtype:
+            what = f'its array "{place}" does not fit the model that was compiled'
+            raise ModelError("checkpoint", what, "resume with the model and the version that made it")
+        mine[...] = values
+
+
+class Watched:
+    """The arrays of a system as they were compiled, so that what a run has changed can be told.
+
+    Parameters
+    ----------
+    system : System
+        Before anything was computed with it.
+    """
+
+    def __init__(self, system: System) -> None:
+        self._roots = {
+            "parts": system.parts,
+            "level": system.level,
+            "measured": system.measured,
+            "core": system.core._replace(batches=Batches(), external=Batches()),
+        }
+        self._arrays = distinct(self._roots)
+        self._digests = {place: _digest(array) for place, array in self._arrays.items()}
+
+    def changed(self) -> Arrays:
+        """Copies of the arrays that are not as they were."""
+        return {
+            place: array.copy()
+            for place, array in self._arrays.items()
+            if _digest(array) != self._digests[place]
+        }
+
+    def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:
+        """Let a system that has just been compiled be as it was when `saved` was taken."""
+        refill(self._roots, saved)
+
+
+def _digest(array: NDArray[Any]) -> bytes:
+    return hashlib.blake2b(np.ascontiguousarray(array).data, digest_size=16).digest()

@@ -1,0 +1,27 @@
+"""When a run asks what is given to its inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Control:
+    """A function that is called every so many steps, first at the start.
+
+    Parameters
+    ----------
+    every : int
+        Steps.
+    call : function
+    """
+
+    every: int
+    call: Callable[[], None]
+
+    def ask(self, done: int) -> int:
+        """Call it if it is time after so many steps; steps until the next time."""
+        if done % self.every == 0:
+            self.call()
+        return self.every - done % self.every

@@ -1,0 +1,58 @@
+"""What is said of a step of the Newmark family that has failed for good."""
+
+from __future__ import annotations
+
+from ..arrays import FloatArray
+from ..errors import ModelError, SolveError
+from ..loads.state_force import law_of, places_of
+from ..model.kinds import kind_of
+from ..system.system import System
+from .bridge import MOST_PARTS
+from .memory import NORM, WORST
+from .status import COLLAPSED, DIVERGED, FAR, NOT_FINITE, SINGULAR, SLOW, TOO_MANY, UNBALANCED
+
+REASONS = {
+    DIVERGED: "Newton's method diverged, also with full Jacobians and smaller steps",
+    NOT_FINITE: "the forces are no longer finite, also with smaller steps",
+    SINGULAR: "the iteration matrix is singular",
+    SLOW: "Newton's method did not converge, also with full Jacobians and smaller steps",
+    FAR: "the motion in a step is too large, also in smaller steps",
+    UNBALANCED: "energy came from nowhere, also with smaller steps",
+    TOO_MANY: f"steps had to be halved, into more than {MOST_PARTS} parts on average",
+}
+
+
+def blamed(
+    system: System, q: FloatArray, v: FloatArray, t: float, number: int, h: float
+) -> SolveError | None:
+    """The law of a force that has no value in a step from the state q, v at t, or None.
+
+    What a law raises in a step is lost; so it is asked again, in Python, where its point would be on the way.
+    """
+    for load in system.model.loads:
+        if kind_of(load).batch != "state_force" or not kind_of(load).has_batch(load):
+            continue
+        for point, _ in places_of(load):
+            probe, law = system.probe(point), law_of(load)
+            for share in (0.0, 0.25, 0.5, 0.75, 1.0):
+                try:
+                    law(t + share * h, probe.field(q + share * h * v), probe.field(v))
+                except ModelError as error:
+                    where = f"t = {t:.6g} s, step {number}, {error.where}"
+                    return SolveError(where, error.what, "a law must have a value wherever its point may get")
+    return None
+
+
+def failed(system: System, memo: FloatArray, t: float, number: int, reason: str, h: float) -> SolveError:
+    """Step ``number`` of length h at t has failed; ``memo`` is that of the run's memory."""
+    where = f"t = {t:.6g} s, step {number}, {system.numbering.describe(int(memo[WORST]))}"
+    what = f"{reason}; last correction {memo[NORM]:.3g}, step {h:g} s"
+    hint = f"try a step of {h / 10:.2g} s or less, GeneralizedAlpha, more elements, or some damping"
+    return SolveError(where, what, hint)
+
+
+def collapsed(system: System, memo: FloatArray, t: float, number: int, h: float) -> SolveError:
+    """A cross-section has collapsed in step ``number`` of length h at t."""
+    what = f"{COLLAPSED}; step {h:g} s"
+    hint = f"try a step of {h / 10:.2g} s or less, GeneralizedAlpha, more elements, or a stiffer section"
+    return SolveError(f"t = {t:.6g} s, step {number}, {system.element_of(int(memo[WORST]))}", what, hint)

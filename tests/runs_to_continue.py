@@ -1,0 +1,119 @@
+"""Models by name, each with a method and steps, whose runs are left anywhere and go on."""
+
+import ancf
+from helpers import soft
+from mechanisms import mechanism
+from motions import ball, driven_clamp, pendulum, rod_on_a_hinge
+
+
+def thrown(at_end):
+    """A bead that runs off the end of a bar which is held."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    bar = model.add_rigid_body("bar", at=(0.5, 0, 0), mass=1.0, inertia=(0.1, 0.1, 0.1))
+    model.clamp(bar)
+    bead = model.add_point_mass("bead", at=(0.9, 0, 0), mass=0.2)
+    bead.set_motion(velocity=(2.0, 0, 0))
+    model.slide(bead, along=bar, line=((-0.5, 0, 0), (0.5, 0, 0)), at_end=at_end, name="slider")
+    return model
+
+
+def rope():
+    model, beam = pendulum()
+    model.add_force(beam.end, ["0.5*sin(40*t)", "0", "0"])
+    return model
+
+
+def bare():
+    """A cable without damping, which the explicit method takes with large steps."""
+    model, beam = pendulum(EA=100.0, damping=0.0)
+    model.add_force(beam.end, ["0.5*sin(40*t)", "0", "0"])
+    return model
+
+
+def strut():
+    """A beam with a section under a torque and an axis that turns."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    beam = model.add_beam(
+        "beam", start=(0, 0, 0), end=(0.8, 0, 0), elements=2, section=soft("nonlocking"), element="nonlocking"
+    )
+    model.clamp(beam.start, rotation="0.3*sin(5*t)", axis=(1, 0.2, 0))
+    model.add_moment(beam.end, ("0.05*sin(9*t)", 0, 0))
+    return model
+
+
+def droppers():
+    """A wire that hangs on slack springs and is lifted now and then."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e4, EI=0.5, rhoA=0.5, damping=0.05)
+    wire = model.add_beam("wire", start=(0, 0, 0), end=(3, 0, 0), elements=6, section=section, length=2.99)
+    model.pin(wire.start)
+    model.pin(wire.end)
+    for k, x in enumerate((0.6, 1.2, 1.9, 2.5)):
+        model.add_spring(
+            wire.at(x), (x, 0, 0.5), stiffness=2e3, damping=1.0, length=0.5, slack=True, name=f"d{k}"
+        )
+    model.add_force(wire.at(1.5), (0, 0, "20*sin(30*t)"))
+    return model
+
+
+def strip():
+    """A sprung mass with a strip runs along a wire and bounces under it."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e5, EI=2.0, rhoA=0.3)
+    wire = model.add_beam("wire", start=(0, 0, 0), end=(4, 0, 0), elements=8, section=section, length=3.99)
+    model.pin(wire.start)
+    model.pin(wire.end)
+    pan = model.add_point_mass("pan", at=(1.0, 0, -0.01), mass=0.5)
+    pan.set_motion(velocity=(3.0, 0, 0))
+    model.hold(pan, position="xy", displacement=("3*t", 0, 0))
+    model.add_force(pan, (0, 0, "8 + 12*sin(25*t)"))
+    model.add_contact(pan, along=wire, stiffness=5e3, damping=1.0, name="strip")
+    return model
+
+
+def pulled():
+    """A contact that is pulled open and closes again."""
+    return ball(force=(0, 0, "2*9.81 + 30*sin(20*t)"))[0]
+
+
+def law():
+    """A force by a law of the state, compiled anew in each process."""
+    model, beam = pendulum()
+    model.add_force(beam.end, ["-0.4*vx", "-0.4*vy", "sin(5*t) - z"])
+    return model
+
+
+PATCHED = ancf.Trapezoidal(newton=ancf.Newton(corotate=False))
+ALPHA = ancf.GeneralizedAlpha(0.7)
+#: By name: model, method, step in s, number of steps, sensors.
+RUNS = {
+    "cable": (rope, ancf.Trapezoidal(), 1e-3, 220, ["beam.end"]),
+    "cable, alpha": (rope, ALPHA, 1e-3, 150, ["beam.end"]),
+    "cable, radau": (rope, ancf.Radau(tolerance=1e-5), 2e-3, 60, ["beam.end"]),
+    "cable, constant radau": (rope, ancf.Radau(adaptive=False, stages=2), 2e-3, 60, ["beam.end"]),
+    "cable, explicit": (bare, ancf.Explicit(check=False), 2e-4, 300, ["beam.end"]),
+    "cable, 7 steps": (rope, ancf.Trapezoidal(), 1e-3, 7, ["beam.end"]),
+    "law": (law, ancf.Trapezoidal(), 1e-3, 80, ["beam.end"]),
+    "led clamp": (lambda: driven_clamp("free")[0], ALPHA, 1e-3, 90, ["beam.end"]),
+    "beam": (strut, ancf.Trapezoidal(), 1e-3, 60, ["beam.end"]),
+    "hinge": (lambda: rod_on_a_hinge()[0], ancf.Trapezoidal(), 7e-4, 120, ["hinge"]),
+    "hinge, radau": (lambda: rod_on_a_hinge()[0], ancf.Radau(), 2e-3, 60, ["hinge"]),
+    "joints": (lambda: mechanism().model, ALPHA, 1e-3, 60, ["on wire", "hook"]),
+    "opens": (
+        lambda: ball(force=(0, 0, "2*9.81 + 30*sin(20*t)"))[0],
+        ancf.Trapezoidal(),
+        1e-3,
+        200,
+        ["contact"],
+    ),
+    "let go": (lambda: thrown("release"), ancf.Trapezoidal(), 1e-3, 90, ["slider"]),
+    "slack springs": (droppers, PATCHED, 1e-3, 150, ["d1"]),
+    "slack springs, turned": (droppers, ancf.Trapezoidal(), 1e-3, 80, ["d1"]),
+    "strip": (strip, PATCHED, 1e-3, 150, ["strip"]),
+    "strip, radau": (strip, ancf.Radau(tolerance=1e-3), 2e-3, 40, ["strip"]),
+}
+
+
+def adaptive(method):
+    """Whether steps are chosen by the time that is left too."""
+    return isinstance(method, ancf.Radau) and method.adaptive
