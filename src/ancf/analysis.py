@@ -34,6 +34,7 @@ from .solvers.record import Progress
 from .solvers.runs import AnyRun, run_of
 from .solvers.stability import stable_limit
 from .system.consistency import check_gaps, check_independent
+from .system.core import keep_memory
 from .system.sensors import Listing, listing
 from .system.system import System
 
@@ -75,7 +76,8 @@ def equilibrium(
     names = None if of is None else _names(model, of)
     system = _system(model)
     q, stats = statics.equilibrium(system, names, load_steps, time)
-    return State(system, float(time), q, system.motion(q, time), stats)
+    known = remembered.Remembered(memory={name: x.copy() for name, x in system.memory.items()})
+    return State(system, float(time), q, system.motion(q, time), stats, known)
 
 
 def simulate(
@@ -187,8 +189,10 @@ def prepared(
     system = _system(model)  # anew: the model may have changed since the start was computed
     if start is None:
         q, v = system.initial_state(t0)
+        keep_memory(system.core.remembering, q, v)
     else:
         q, v = _adopted(start, system, f"{where}.start")
+        keep_memory(system.core.remembering, q, v)  # of a start that remembers nothing
         remembered.restore(system, start.known)
     check_gaps(system, q, f"{where}.start")
     system.sensors = _sensors(system, sensors)

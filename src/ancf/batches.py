@@ -31,6 +31,7 @@ from .compiled import (
     inverted,
     kernel,
     measure,
+    remember,
     separate_kernel,
     strain_energy,
 )
@@ -121,6 +122,12 @@ def measure_at(record, q, v):
     measure(read(record), q, v)
 
 
+@separate_kernel
+def remember_at(record, q, v):
+    """``remember`` of the batch at an address."""
+    remember(read(record), q, v)
+
+
 _V, _x = VECTOR, types.float64
 #: Kernels of the operations on a record, the types of what they take besides it, and what they return.
 OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
@@ -131,9 +138,10 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     find_event: (event_at, (_V,), types.int64),
     inverted: (inverted_at, (_V, _V), types.int64),
     measure: (measure_at, (_V, _V), types.none),
+    remember: (remember_at, (_V, _V), types.none),
 }
 _COLUMNS = 1 + len(OPERATIONS)
-FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE = range(1, _COLUMNS)
+FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, _COLUMNS)
 
 
 class _Table(NamedTuple):
@@ -268,7 +276,7 @@ def _call(context, builder, place, record, items, given, result):
 
 _force, _inertia, _tangent = _caller(add_force), _caller(add_inertia), _caller(add_tangent)
 _energy, _event, _inverted = _caller(strain_energy, 0.0), _caller(find_event, -1), _caller(inverted, -1)
-_measure = _caller(measure)
+_measure, _remember = _caller(measure), _caller(remember)
 
 
 def _each(of_tuple: Callable[..., Any], of_batches: Callable[..., Any], default: Any = None) -> Any:
@@ -384,11 +392,23 @@ def _measures(batches, q, v):
         _measure(table[k, MEASURE], table[k, 0], (q, v))
 
 
+def _remembered_by_tuple(batches, q, v):
+    for batch in literal_unroll(batches):
+        remember(batch, q, v)
+
+
+def _remembered(batches, q, v):
+    table = batches.table
+    for k in range(table.shape[0]):
+        _remember(table[k, REMEMBER], table[k, 0], (q, v))
+
+
 #: The operations, of all batches in turn: see :mod:`ancf.compiled`.
 add_forces = _each(_forces_of_tuple, _forces)
 add_inertias = _each(_inertias_of_tuple, _inertias)
 add_tangents = _each(_tangents_of_tuple, _tangents)
 measure_all = _each(_measures_of_tuple, _measures)
+remember_all = _each(_remembered_by_tuple, _remembered)
 #: Sum of all strain energies, J.
 strain_energies = _each(_energies_of_tuple, _energies, 0.0)
 #: Code of the first event, or -1.

@@ -15,7 +15,7 @@ from . import checks
 from .beam import Beam
 from .bodies import Body, PointMass, RigidBody, kind
 from .connections import Connection, Spherical, initial_position
-from .kinds import GROUPS, kind_of
+from .kinds import GROUPS, SURROUNDINGS, kind_of
 from .names import POINT_LABEL, Names, numbers_of, split_label, unknown
 from .points import Point
 
@@ -61,7 +61,7 @@ class Lookup:
         """Return the model as it is now: what is added to one later is not in the other."""
         other = copy(self)
         other.bodies, other._names = dict(self.bodies), copy(self._names)
-        for key in GROUPS:
+        for key in (*GROUPS, *SURROUNDINGS):
             setattr(other, key, list(getattr(self, key)))
         return other
 

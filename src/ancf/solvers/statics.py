@@ -11,12 +11,15 @@ Because only positive definite matrices are accepted, the result is a stable equ
 from __future__ import annotations
 
 import time as clock
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
+from ..compiled import traits
 from ..connections.sliding import LEFT
-from ..system.core import apply_load, first_event, place_supports
+from ..system.core import apply_load, first_event, keep_memory, place_supports
 from ..system.system import System
 from .events import happen
 from .floating import check_supported
@@ -53,20 +56,40 @@ def equilibrium(
     place_supports(core.supports, core.loads.value, tables, 0, q, v, a)
     force = np.empty_like(q)
     apply_load(core.loads, tables.value[0], force)
+    keep_memory(core.remembering, q, v)  # friction opposes the way from the initial shape
     it = Iteration(system, core, q, force, core.loads.value.copy())
-    slack = Slack(system, q, force)
+    slack, late = Slack(system, q, force), Late(core.batches)
     try:
+        late.bring_on(0.0)
         slack.set(1.0, 1.0)
         halvings = follow_path(it, lambda share: share, load_steps, "of the load")
         if slack.found:
             halvings += follow_path(it, slack.let_out, LET_OUT, "of the slack")
             halvings += follow_path(it, slack.stiffen, slack.steps, "of the axial stiffness")
         settle_contacts(it)
+        if late.found:
+            halvings += follow_path(it, late.bring_on, 1, "of the friction")
     finally:
         slack.set(0.0, 0.0)
+        late.bring_on(1.0)
         core.loads.value[:] = it.inputs
+    keep_memory(core.remembering, it.q, it.zero)
     seconds = clock.process_time() - cpu
     return it.q, Stats(load_steps, it.iterations, it.jacobians, it.jacobians, halvings, seconds)
+
+
+class Late:
+    """What comes last in an equilibrium, as friction: see :class:`ancf.compiled.Traits`."""
+
+    def __init__(self, batches: Iterable[Any]) -> None:
+        ways = [(batch, own(batch)) for batch in batches if (own := traits(batch).late) is not None]
+        self.found = [(batch, way) for batch, way in ways if way is not None]
+
+    def bring_on(self, share: float) -> float:
+        """Let a share of it act; the loads stay whole."""
+        for batch, way in self.found:
+            way(batch, share)
+        return 1.0
 
 
 def settle_contacts(it: Iteration) -> None:
