@@ -198,8 +198,9 @@ class Traits:
         ``follows(batch)``: whether a load may take energy from nothing, as a moment in fixed directions or a
         current does, so that its matrix says nothing about stability; default every load does.
     late : function, optional
-        ``late(batch)``: what an equilibrium brings on when all else is there, a function of the batch and of
-        a share from 0 to 1, or None.
+        ``late(batch)``: what an equilibrium brings on when all else is there, as the friction of a ground: a
+        function of the batch and of q that renews it and returns by how much, relative, it has changed; or
+        None.
     turning_mass : function, optional
         ``turning_mass(batch)``: whether it has a mass that changes with the state; default it has none.
     """
@@ -212,7 +213,7 @@ class Traits:
     row: Callable[..., Any] | None = None
     memory: tuple[str, ...] = ()
     follows: Callable[[Any], bool] | None = None
-    late: Callable[[Any], Callable[[Any, float], None] | None] | None = None
+    late: Callable[[Any], Callable[[Any, Any], float] | None] | None = None
     turning_mass: Callable[[Any], bool] | None = None
 
 

@@ -5,6 +5,9 @@ A point p of a row e stands for the piece of reference length ``weight[e, p]`` a
 
     r = sum_k shape[e, p, k] q[base[e, k]],      r_x = sum_k slope[e, p, k] q[base[e, k]].
 
+The piece reaches from the sum of the weights before it to that with its own, so that the pieces of an element
+cover it; ``shift[e, p]`` is the way from the point to the middle of its piece.
+
 A point mass or the centre of a rigid body is a row with one point of weight 1 and without a slope.
 """
 
@@ -28,7 +31,7 @@ from ..model.points import Point
 def along(
     bodies: Iterable[Body], locate: Callable[[Any], Any], points: int
 ) -> tuple[dict[str, NDArray[Any]], list[Body]]:
-    """Fields ``base``, ``dest``, ``shape``, ``slope`` and ``weight`` of a batch, and the body of each row.
+    """Fields ``base``, ``dest``, ``shape``, ``slope``, ``weight``, ``shift`` of a batch; bodies of its rows.
 
     Parameters
     ----------
@@ -39,7 +42,7 @@ def along(
         Gauss points of an element.
     """
     xi, w = gauss(points)
-    rows: list[tuple[Any, Any, Any, Any]] = []
+    rows: list[tuple[Any, ...]] = []
     owners: list[Body] = []
     for body in bodies:
         found = _of_beam(body, locate, xi, w) if isinstance(body, Beam) else [_of_point(body, locate, points)]
@@ -52,16 +55,17 @@ def along(
         "shape": np.zeros((n, points, k)),
         "slope": np.zeros((n, points, k)),
         "weight": np.zeros((n, points)),
+        "shift": np.zeros((n, points)),
     }
-    for e, (slots, shape, slope, weight) in enumerate(rows):
+    for e, (slots, shape, slope, weight, shift) in enumerate(rows):
         used = slice(0, len(slots))
         fields["base"][e, used] = slots
         fields["shape"][e, :, used], fields["slope"][e, :, used] = shape, slope
-        fields["weight"][e] = weight
+        fields["weight"][e], fields["shift"][e] = weight, shift
     return fields, owners
 
 
-def _of_beam(beam: Beam, locate: Callable[[Any], Any], xi: Any, w: Any) -> list[tuple[Any, Any, Any, Any]]:
+def _of_beam(beam: Beam, locate: Callable[[Any], Any], xi: Any, w: Any) -> list[tuple[Any, ...]]:
     """Slots, factors and weights of each element."""
     shape, made = ELEMENTS[beam.element].shape, {}
     rows = []
@@ -75,16 +79,14 @@ def _of_beam(beam: Beam, locate: Callable[[Any], Any], xi: Any, w: Any) -> list[
         S, dS = made[h]
         slots = locate(Point(beam, 0.5 * (a + b), "")).slots
         used = np.flatnonzero(np.any(S != 0.0, axis=0) | np.any(dS != 0.0, axis=0))
-        rows.append((slots[used], S[:, used], dS[:, used], w * h))
+        rows.append((slots[used], S[:, used], dS[:, used], w * h, (np.cumsum(w) - 0.5 * w - xi) * h))
     return rows
 
 
-def _of_point(
-    body: PointMass | RigidBody, locate: Callable[[Any], Any], points: int
-) -> tuple[Any, Any, Any, Any]:
+def _of_point(body: PointMass | RigidBody, locate: Callable[[Any], Any], points: int) -> tuple[Any, ...]:
     """One point of weight 1, and others without weight in the same place."""
     slots = locate(body.point if isinstance(body, PointMass) else body.centre).slots[:1]
-    return slots, np.ones((points, 1)), np.zeros((points, 1)), np.eye(points)[0]
+    return slots, np.ones((points, 1)), np.zeros((points, 1)), np.eye(points)[0], np.zeros(points)
 
 
 @inline_kernel

@@ -50,6 +50,7 @@ class FluidBatch(NamedTuple):
     shape: FloatArray  # (n, points, k)
     slope: FloatArray  # (n, points, k)
     weight: FloatArray  # (n, points) m
+    shift: FloatArray  # (n, points) m
     fluid: NDArray[np.int64]  # (n,) which fluid
     data: FloatArray  # (n, 6) columns AREA ... MASS_T
     fluids: FloatArray  # (m, 6) columns DENSITY ... GRAVITY
@@ -96,7 +97,8 @@ def _joined(parts):
     joined = {}
     for key, empty in (("base", -1), ("shape", 0.0), ("slope", 0.0)):
         joined[key] = np.concatenate([_widened(part[key], k, empty) for part in parts])
-    joined["weight"] = np.concatenate([part["weight"] for part in parts])
+    for key in ("weight", "shift"):
+        joined[key] = np.concatenate([part[key] for part in parts])
     joined["dest"] = np.full((len(joined["base"]), k * k), -1, dtype=np.int64)
     return joined
 
@@ -144,8 +146,9 @@ def wetted(batch, e, p, z, t, size):
         return 1.0, 0.0
     level = math.sqrt(max(1.0 - t[2] * t[2], 0.0))
     rise = batch.weight[e, p] * size * abs(t[2]) + batch.data[e, DIAMETER] * level
-    top, dtop = below(z, rise, fluid[HIGH])
-    bottom, dbottom = below(z, rise, fluid[LOW])
+    middle = z + batch.shift[e, p] * size * t[2]
+    top, dtop = below(middle, rise, fluid[HIGH])
+    bottom, dbottom = below(middle, rise, fluid[LOW])
     return top - bottom, dbottom - dtop
 
 

@@ -11,8 +11,6 @@ Because only positive definite matrices are accepted, the result is a stable equ
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 
@@ -29,6 +27,8 @@ from .static_iteration import Iteration
 from .static_path import follow_path, settle
 
 STENCIL_STEP = 1e-3  # of the differences that give rates of given motions, s
+RENEWED, MOST_RENEWED = 1e-9, 60  # change of what comes last that is none, and rounds
+UNMOVED = 1e-10  # correction after it that is round-off, positions in sizes of the model
 MOST_EVENTS = 4  # openings and closings of a contact
 
 
@@ -58,38 +58,39 @@ def equilibrium(
     apply_load(core.loads, tables.value[0], force)
     keep_memory(core.remembering, q, v)  # friction opposes the way from the initial shape
     it = Iteration(system, core, q, force, core.loads.value.copy())
-    slack, late = Slack(system, q, force), Late(core.batches)
+    slack = Slack(system, q, force)
     try:
-        late.bring_on(0.0)
         slack.set(1.0, 1.0)
         halvings = follow_path(it, lambda share: share, load_steps, "of the load")
         if slack.found:
             halvings += follow_path(it, slack.let_out, LET_OUT, "of the slack")
             halvings += follow_path(it, slack.stiffen, slack.steps, "of the axial stiffness")
         settle_contacts(it)
-        if late.found:
-            halvings += follow_path(it, late.bring_on, 1, "of the friction")
+        bring_late(it)
     finally:
         slack.set(0.0, 0.0)
-        late.bring_on(1.0)
         core.loads.value[:] = it.inputs
     keep_memory(core.remembering, it.q, it.zero)
     seconds = clock.process_time() - cpu
     return it.q, Stats(load_steps, it.iterations, it.jacobians, it.jacobians, halvings, seconds)
 
 
-class Late:
-    """What comes last in an equilibrium, as friction: see :class:`ancf.compiled.Traits`."""
-
-    def __init__(self, batches: Iterable[Any]) -> None:
-        ways = [(batch, own(batch)) for batch in batches if (own := traits(batch).late) is not None]
-        self.found = [(batch, way) for batch, way in ways if way is not None]
-
-    def bring_on(self, share: float) -> float:
-        """Let a share of it act; the loads stay whole."""
-        for batch, way in self.found:
-            way(batch, share)
-        return 1.0
+def bring_late(it: Iteration) -> None:
+    """Bring on what comes last, such as friction, and renew it until it fits the equilibrium."""
+    ways = [(batch, own(batch)) for batch in it.core.batches if (own := traits(batch).late) is not None]
+    found = [(batch, way) for batch, way in ways if way is not None]
+    for _ in range(MOST_RENEWED if found else 0):
+        changes, before = [way(batch, it.q) for batch, way in found], it.q
+        if max(changes) < RENEWED:
+            return
+        problem = settle(it, 1.0)
+        if problem is not None:
+            raise it.failure("equilibrium with friction", problem, "start nearer to the equilibrium")
+        if it.length((it.q - before)[: it.system.n]) < UNMOVED:
+            return
+    if found:
+        what = f"friction did not settle in {MOST_RENEWED} rounds"
+        raise it.failure("equilibrium with friction", what, "start nearer to the equilibrium")
 
 
 def settle_contacts(it: Iteration) -> None:
