@@ -11,6 +11,11 @@ from ancf.system.system import System
 G, RHO = 9.81, 1025.0
 D, DRAG, MASS = 0.08, (1.3, 0.2), (0.9, 0.3)
 AREA = np.pi * D**2 / 4
+METHODS = {
+    "trapezoidal": ancf.Trapezoidal(),
+    "alpha": ancf.GeneralizedAlpha(0.8),
+    "explicit": ancf.Explicit(check=False),
+}
 
 
 def section(element="cable", **more):
@@ -275,12 +280,6 @@ class TestMotion:
         ratio = 1.5 * 10.0 / (5.0 + 5.0)
         assert run.velocity(ball)[:, 0] == pytest.approx(ratio * 0.3 * np.sin(2 * run.t), abs=1e-6)
 
-    METHODS = {
-        "trapezoidal": ancf.Trapezoidal(),
-        "alpha": ancf.GeneralizedAlpha(0.8),
-        "explicit": ancf.Explicit(check=False),
-    }
-
     @pytest.mark.parametrize("method", METHODS)
     def test_order_two_with_drag_and_added_mass(self, method):
         def swing(step, integrator):
@@ -292,7 +291,7 @@ class TestMotion:
 
         exact = swing(0.02, ancf.Radau(tolerance=1e-9))
         steps = (4e-4, 2e-4) if method == "explicit" else (2e-3, 1e-3)
-        gaps = [np.linalg.norm(swing(h, self.METHODS[method]) - exact) for h in steps]
+        gaps = [np.linalg.norm(swing(h, METHODS[method]) - exact) for h in steps]
         assert gaps[0] / gaps[1] == pytest.approx(4.0, rel=0.1)
 
     def test_energy_is_booked_once(self):

@@ -46,7 +46,7 @@ class Remembered:
         ended = {name for name, mode in self.modes.items() if mode != SLIDES}
         still = {n for n in ended if _stands(q[index:, arcs[n]]) and not np.any(v[index:, arcs[n]])}
         modes = {name: mode if name in still else SLIDES for name, mode in self.modes.items()}
-        last = index % len(q) == len(q) - 1  # the memory is that of the last state
+        last = index == q.shape[0] - 1  # the memory is that of the last state
         return Remembered(modes, self.places, self.memory if last else {})
 
 
