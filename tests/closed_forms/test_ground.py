@@ -101,9 +101,9 @@ class TestFriction:
     def test_rests_on_a_slope_below_the_limit(self):
         """For 1e5 steps; once the spring of its friction has come to rest it does not creep."""
         model, cable, t, _ = lying(z=rest(0.2), tilt=0.2, elements=1, friction=0.6, damping=300.0)
-        run = ancf.simulate(model, t_end=101.0, step=1e-3, output_step=1.0, energy=False)
+        run = ancf.simulate(model, t_end=111.0, step=1e-3, output_step=1.0, energy=False)
         x = run.position(cable.end) @ t
-        assert np.abs(x[1:] - x[1]).max() < 1e-6 * 2.0
+        assert np.abs(x[10:] - x[10]).max() < 1e-6 * 2.0
         assert x[-1] - x[0] == pytest.approx(RHOA * G * np.sin(0.2) / (D * K), rel=1e-6)
 
     @pytest.mark.parametrize("tilt", [0.3, 0.6])
