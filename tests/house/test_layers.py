@@ -32,6 +32,7 @@ LAYERS = (
     {"viz"},
     {"verification"},
     {"catenary"},
+    {"mooring"},
     {"paper"},
     {"cli"},
 )
