@@ -34,7 +34,6 @@ from .solvers.record import Progress
 from .solvers.runs import AnyRun, run_of
 from .solvers.stability import stable_limit
 from .system.consistency import check_gaps, check_independent
-from .system.core import keep_memory
 from .system.sensors import Listing, listing
 from .system.system import System
 
@@ -76,7 +75,7 @@ def equilibrium(
     names = None if of is None else _names(model, of)
     system = _system(model)
     q, stats = statics.equilibrium(system, names, load_steps, time)
-    known = remembered.Remembered(memory={name: x.copy() for name, x in system.memory.items()})
+    known = remembered.Remembered(memory=remembered.memory_of(system))
     return State(system, float(time), q, system.motion(q, time), stats, known)
 
 
@@ -187,13 +186,8 @@ def prepared(
     t0 = 0.0 if start is None else start.t
     every = steps_between(where, t_end, step, output_step, t0)
     system = _system(model)  # anew: the model may have changed since the start was computed
-    if start is None:
-        q, v = system.initial_state(t0)
-        keep_memory(system.core.remembering, q, v)
-    else:
-        q, v = _adopted(start, system, f"{where}.start")
-        keep_memory(system.core.remembering, q, v)  # of a start that remembers nothing
-        remembered.restore(system, start.known)
+    q, v = system.initial_state(t0) if start is None else _adopted(start, system, f"{where}.start")
+    remembered.begin(system, q, v, None if start is None else start.known)
     check_gaps(system, q, f"{where}.start")
     system.sensors = _sensors(system, sensors)
     if not checks.flag(energy, f"{where}.energy"):

@@ -44,7 +44,7 @@ FOLDERS = ("simd", "elements", "bodies", "connections", "loads", "linalg", "syst
 def stamped() -> list[Path]:
     """Sources that hold kernels: when anything in them has changed, all kernels are compiled anew."""
     root = Path(__file__).parent
-    kernels = root / "compiled.py", root / "batches.py", root / "vectors.py"
+    kernels = root / "compiled.py", root / "records.py", root / "batches.py", root / "vectors.py"
     return [*kernels, *(f for folder in FOLDERS for f in sorted((root / folder).rglob("*.py")))]
 
 

@@ -19,6 +19,7 @@ LAYERS = (
     {"files"},
     {"compiled"},
     {"vectors"},
+    {"records"},
     {"batches"},
     {"simd"},
     {"model"},

@@ -17,6 +17,7 @@ from ..connections.sliding import SLIDES, SlidingBatch
 from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
+from ..system.core import keep_memory
 from ..system.system import System
 
 
@@ -55,8 +56,12 @@ def of_system(system: System) -> Remembered:
     batch = _sliding(system)
     modes = [] if batch is None else batch.mode.tolist()
     places = {name: float(system.measured[system.measures[name][ARC]]) for name in _contacts(system.model)}
-    memory = {name: x.copy() for name, x in system.memory.items()}
-    return Remembered(dict(zip(_slides(system.model), modes, strict=True)), places, memory)
+    return Remembered(dict(zip(_slides(system.model), modes, strict=True)), places, memory_of(system))
+
+
+def memory_of(system: System) -> dict[str, FloatArray]:
+    """Copies of what batches remember."""
+    return {name: x.copy() for name, x in system.memory.items()}
 
 
 def restore(system: System, known: Remembered) -> None:
@@ -71,6 +76,13 @@ def restore(system: System, known: Remembered) -> None:
     for name, x in system.memory.items():
         if name in known.memory and known.memory[name].shape == x.shape:
             x[...] = known.memory[name]
+
+
+def begin(system: System, q: FloatArray, v: FloatArray, known: Remembered | None) -> None:
+    """Let a system begin at a state that knows this, or nothing: then its memory starts there."""
+    keep_memory(system.core.remembering, q, v)
+    if known is not None:
+        restore(system, known)
 
 
 def write(file: Any, known: Remembered) -> None:
