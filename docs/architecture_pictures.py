@@ -16,6 +16,7 @@ FOLDER = Path(__file__).parent / "_static"
 FLOORS = (
     ("cli", "commands, terminal, folders of output"),
     ("paper", "the paper's exhibits"),
+    ("mooring", "mooring lines beside other programs"),
     ("catenary", "overhead lines"),
     ("verification", "half the step, twice the elements"),
     ("viz", "scene → viewer, pictures, exports"),
@@ -31,6 +32,7 @@ FLOORS = (
     ("model", "the description: bodies, kinds, integrators"),
     ("simd", "eight elements as one value in kernels"),
     ("batches", "batches of all kinds under one type"),
+    ("records", "batches at an address"),
     ("vectors", "arithmetic of three numbers in kernels"),
     ("compiled", "kernels, and operations by type of batch"),
     ("files", "files that are complete or absent"),

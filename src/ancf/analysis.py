@@ -64,7 +64,8 @@ def equilibrium(
     names = None if of is None else _names(model, of)
     system = system_of(model)
     q, stats = statics.equilibrium(system, names, load_steps, time)
-    return State(system, float(time), q, system.motion(q, time), stats)
+    known = remembered.Remembered(memory=remembered.memory_of(system))
+    return State(system, float(time), q, system.motion(q, time), stats, known)
 
 
 def simulate(

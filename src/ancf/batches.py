@@ -15,10 +15,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import literal_unroll, typeof, types
 from numba.core import cgutils
-from numba.core.datamodel import models
 from numba.core.errors import TypingError
 from numba.core.registry import cpu_target
-from numba.extending import intrinsic, overload, register_model, typeof_impl
+from numba.extending import intrinsic, overload, typeof_impl
 from numpy.typing import NDArray
 
 from .compiled import (
@@ -29,54 +28,14 @@ from .compiled import (
     does_something,
     find_event,
     inverted,
-    kernel,
     measure,
+    remember,
     separate_kernel,
     strain_energy,
 )
+from .records import RecordType, keep, read
 
 VECTOR = types.Array(types.float64, 1, "C")
-
-
-class RecordType(types.Type):
-    """Type in kernels of the address of a batch of a type."""
-
-    def __init__(self, batch: Any) -> None:
-        self.batch = batch
-        super().__init__(name=f"Record({batch})")
-
-
-register_model(RecordType)(models.OpaqueModel)
-
-
-@intrinsic
-def write(typing, batch, words):
-    """Write a batch as a record into an array of words."""
-
-    def generate(context, builder, signature, arguments):
-        place = context.make_array(signature.args[1])(context, builder, arguments[1]).data
-        place = builder.bitcast(place, context.get_data_type(batch).as_pointer())
-        context.pack_value(builder, batch, arguments[0], place)
-        return context.get_dummy_value()
-
-    return types.none(batch, words), generate
-
-
-@intrinsic
-def read(typing, record):
-    """The batch at an address."""
-
-    def generate(context, builder, signature, arguments):
-        place = builder.bitcast(arguments[0], context.get_data_type(record.batch).as_pointer())
-        return context.unpack_value(builder, record.batch, place)
-
-    return record.batch(record), generate
-
-
-@kernel
-def keep(batch, words):
-    """See :func:`write`."""
-    write(batch, words)
 
 
 @separate_kernel
@@ -121,6 +80,12 @@ def measure_at(record, q, v):
     measure(read(record), q, v)
 
 
+@separate_kernel
+def remember_at(record, q, v):
+    """``remember`` of the batch at an address."""
+    remember(read(record), q, v)
+
+
 _V, _x = VECTOR, types.float64
 #: Kernels of the operations on a record, the types of what they take besides it, and what they return.
 OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
@@ -131,9 +96,10 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     find_event: (event_at, (_V,), types.int64),
     inverted: (inverted_at, (_V, _V), types.int64),
     measure: (measure_at, (_V, _V), types.none),
+    remember: (remember_at, (_V, _V), types.none),
 }
 _COLUMNS = 1 + len(OPERATIONS)
-FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE = range(1, _COLUMNS)
+FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, _COLUMNS)
 
 
 class _Table(NamedTuple):
@@ -268,7 +234,7 @@ def _call(context, builder, place, record, items, given, result):
 
 _force, _inertia, _tangent = _caller(add_force), _caller(add_inertia), _caller(add_tangent)
 _energy, _event, _inverted = _caller(strain_energy, 0.0), _caller(find_event, -1), _caller(inverted, -1)
-_measure = _caller(measure)
+_measure, _remember = _caller(measure), _caller(remember)
 
 
 def _each(of_tuple: Callable[..., Any], of_batches: Callable[..., Any], default: Any = None) -> Any:
@@ -384,11 +350,23 @@ def _measures(batches, q, v):
         _measure(table[k, MEASURE], table[k, 0], (q, v))
 
 
+def _remembered_by_tuple(batches, q, v):
+    for batch in literal_unroll(batches):
+        remember(batch, q, v)
+
+
+def _remembered(batches, q, v):
+    table = batches.table
+    for k in range(table.shape[0]):
+        _remember(table[k, REMEMBER], table[k, 0], (q, v))
+
+
 #: The operations, of all batches in turn: see :mod:`ancf.compiled`.
 add_forces = _each(_forces_of_tuple, _forces)
 add_inertias = _each(_inertias_of_tuple, _inertias)
 add_tangents = _each(_tangents_of_tuple, _tangents)
 measure_all = _each(_measures_of_tuple, _measures)
+remember_all = _each(_remembered_by_tuple, _remembered)
 #: Sum of all strain energies, J.
 strain_energies = _each(_energies_of_tuple, _energies, 0.0)
 #: Code of the first event, or -1.

@@ -44,7 +44,7 @@ FOLDERS = ("simd", "elements", "bodies", "connections", "loads", "linalg", "syst
 def stamped() -> list[Path]:
     """Sources that hold kernels: when anything in them has changed, all kernels are compiled anew."""
     root = Path(__file__).parent
-    kernels = root / "compiled.py", root / "batches.py", root / "vectors.py"
+    kernels = root / "compiled.py", root / "records.py", root / "batches.py", root / "vectors.py"
     return [*kernels, *(f for folder in FOLDERS for f in sorted((root / folder).rglob("*.py")))]
 
 
@@ -136,6 +136,11 @@ def measure(batch, q, v):
     raise TypeError(f"nothing to measure on {type(batch).__name__}")
 
 
+def remember(batch, q, v):
+    """Bring the memory of the batch up to the state q, v of an accepted step."""
+    raise TypeError(f"{type(batch).__name__} remembers nothing")
+
+
 def inverted(batch, q, ws):
     """Slot of r_y at the start of the first element with a collapsed or inverted section, else -1."""
     raise TypeError(f"no check of {type(batch).__name__}")
@@ -186,6 +191,18 @@ class Traits:
     row : function, optional
         ``row(batch, j, q, v, row)``, compiled: of what stays out of the matrix of a time step, the stiffness
         of part j and in ``row`` its direction, for equilibria and modes.
+    memory : tuple of str
+        Arrays of floats with what the batch remembers of the motion so far, see :func:`remember`: a step
+        that is tried again finds them as they were, states and files keep them.
+    follows : function, optional
+        ``follows(batch)``: whether a load may take energy from nothing, as a moment in fixed directions or a
+        current does, so that its matrix says nothing about stability; default every load does.
+    late : function, optional
+        ``late(batch)``: what an equilibrium brings on when all else is there, as the friction of a ground: a
+        function of the batch and of q that renews it and returns by how much, relative, it has changed; or
+        None.
+    turning_mass : function, optional
+        ``turning_mass(batch)``: whether it has a mass that changes with the state; default it has none.
     """
 
     role: Role = Role.NONE
@@ -194,6 +211,10 @@ class Traits:
     bind: Callable[[Any, Any, Any], Any] | None = None
     damped: Callable[[Any], bool] | None = None
     row: Callable[..., Any] | None = None
+    memory: tuple[str, ...] = ()
+    follows: Callable[[Any], bool] | None = None
+    late: Callable[[Any], Callable[[Any, Any], float] | None] | None = None
+    turning_mass: Callable[[Any], bool] | None = None
 
 
 _TRAITS: dict[type, Traits] = {}
@@ -229,6 +250,7 @@ def implements(
     event: Callable[..., Any] = no_event,
     inverted: Callable[..., Any] = never_inverted,
     measure: Callable[..., Any] | None = None,
+    remember: Callable[..., Any] | None = None,
     **given: Any,
 ) -> None:
     """Register the operations of a kind of batch (see the functions above) and its :class:`Traits`.
@@ -261,10 +283,14 @@ def implements(
         bind(stub, function)
     if measure is not None:
         bind(_measure, measure)
+    if remember is not None:
+        bind(_remember, remember)
 
 
 def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
-    """Whether an operation of a kind of batch does anything; every kind has all but :func:`measure`."""
+    """Whether an operation of a kind of batch does anything; all kinds have all but :func:`measure` and
+    :func:`remember`.
+    """
     if (batch_type, add_force) not in _DOES:
         raise TypeError(f"no operations for {batch_type.__name__}")
     return _DOES.get((batch_type, stub), False)
@@ -273,7 +299,7 @@ def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
 #: Operations that do nothing.
 _NOTHING = {no_inertia, no_energy, no_event, never_inverted}
 _DOES: dict[tuple[type, Any], bool] = {}
-_inverted, _measure = inverted, measure  # the parameters of implements hide the names
+_inverted, _measure, _remember = inverted, measure, remember  # the parameters of implements hide the names
 
 
 class _Announcer(event.Listener):

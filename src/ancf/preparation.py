@@ -63,11 +63,8 @@ def prepared(
     t0 = 0.0 if start is None else start.t
     made = compiled(model, method, t0, t_end, step, output_step, sensors, energy, where)
     system = made.system
-    if start is None:
-        q, v = system.initial_state(t0)
-    else:
-        q, v = adopted(start, system, f"{where}.start")
-        remembered.restore(system, start.known)
+    q, v = system.initial_state(t0) if start is None else adopted(start, system, f"{where}.start")
+    remembered.begin(system, q, v, None if start is None else start.known)
     check_gaps(system, q, f"{where}.start")
     made.run.start(q, v)
     return made

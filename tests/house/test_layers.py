@@ -19,6 +19,7 @@ LAYERS = (
     {"files"},
     {"compiled"},
     {"vectors"},
+    {"records"},
     {"batches"},
     {"simd"},
     {"model"},
@@ -34,6 +35,7 @@ LAYERS = (
     {"viz"},
     {"verification"},
     {"catenary"},
+    {"mooring"},
     {"paper"},
     {"cli"},
 )

@@ -55,9 +55,15 @@ OptionalFolder = Annotated[
 ]
 Forces = Annotated[list[float] | None, typer.Option("--force", help="Upward force, N; may be repeated.")]
 Case = Annotated[
-    str, typer.Argument(metavar="CASE", help="Reference case, such as en50318-2002.", show_default=False)
+    str,
+    typer.Argument(
+        metavar="CASE", help="Reference case, such as en50318-2002, or mooring.", show_default=False
+    ),
 ]
 Speed = Annotated[float, typer.Option("--speed", metavar="KMH", help="Speed, km/h.", show_default=False)]
+CaseSpeed = Annotated[
+    float | None, typer.Option("--speed", metavar="KMH", help="Speed of a line, km/h.", show_default=False)
+]
 Pantographs = Annotated[
     list[str] | None,
     typer.Option(
@@ -306,17 +312,24 @@ def catenary_elasticity(
 
 @app.command()
 def validate(
-    case: Case, speed: Speed, output: Folder = Path("out"), report: Report = True, quiet: Quiet = False
+    case: Case,
+    speed: CaseSpeed = None,
+    output: Folder = Path("out"),
+    report: Report = True,
+    quiet: Quiet = False,
 ) -> None:
-    """Run a reference case of a standard and compare it with the published ranges.
+    """Run a reference case of a standard, or mooring lines, and compare them with the published ranges.
 
     Writes OUT/validate.json, CSV files and OUT/report.html. Quantities outside their ranges are reported and
     are no error: the exit code is 0 when all was computed.
     """
     with reported():
-        from .validate import validate_case
+        from .validate import validate_case, validate_mooring
 
-        validate_case(case, speed, output, report, quiet)
+        if case == "mooring":
+            validate_mooring(speed, output, report, quiet)
+        else:
+            validate_case(case, speed, output, report, quiet)
 
 
 def start() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..errors import ModelError
 from .output import OutputFolder
 from .screen import Screen, console
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def validate_case(
-    case: str, speed_kmh: float, folder: Path, report: bool = True, quiet: bool = False
+    case: str, speed_kmh: float | None, folder: Path, report: bool = True, quiet: bool = False
 ) -> None:
     """Run, compare, write and print.
 
@@ -31,6 +32,8 @@ def validate_case(
     from ..viz.style import require_matplotlib
 
     reference = reference_case(case)
+    if speed_kmh is None:
+        raise ModelError("--speed", "is missing", f"such as: ancf validate {case} --speed 250")
     positive(speed_kmh, "--speed")
     if report:
         require_matplotlib()
@@ -43,6 +46,41 @@ def validate_case(
     if not quiet:
         show(run, reference)
         console().print("written: " + ", ".join(str(file) for file in files), soft_wrap=True)
+
+
+def validate_mooring(speed_kmh: float | None, folder: Path, report: bool = True, quiet: bool = False) -> None:
+    """Compute mooring lines, compare, write and print.
+
+    Raises
+    ------
+    ModelError
+        A speed, which they do not have, or a folder that cannot be written; nothing was computed.
+
+    """
+    from ..catenary.table import table
+    from ..mooring import validate
+
+    if speed_kmh is not None:
+        raise ModelError("--speed", "mooring lines have none", "leave it out")
+    output, screen = OutputFolder(folder), Screen(quiet)
+    with output.locked():
+        screen.announce_compilation()
+
+        def said(done: int, of: int) -> None:
+            if not quiet:
+                screen.say(f"{done} of {of} cases computed")
+
+        groups = validate.compare(said)
+        files = validate.write(groups, folder, report)
+    if quiet:
+        return
+    to = console()
+    for group in groups:
+        to.print(group.title, style="bold", soft_wrap=True)
+        to.print(table(group.rows))
+    judged = [q.inside for group in groups for q in group.rows if q.inside is not None]
+    to.print(f"{sum(judged)} of {len(judged)} inside the accepted ranges", soft_wrap=True)
+    to.print("written: " + ", ".join(str(file) for file in files), soft_wrap=True)
 
 
 def show(run: Run, reference: Reference) -> None:

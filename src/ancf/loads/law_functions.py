@@ -14,6 +14,7 @@ from ..errors import ModelError
 from ..model import checks
 from ..model.expression import Expression
 from ..model.state_function import StateFunction
+from ..model.velocity_field import VelocityField
 
 _OPTIONS: dict[str, Any] = {"error_model": "numpy"}
 _SIGNATURE = types.float64(types.float64, types.CPointer(types.float64))
@@ -21,6 +22,7 @@ _SIGNATURE = types.float64(types.float64, types.CPointer(types.float64))
 _LAWS: dict[Any, Any] = {}
 
 HINT = "write it with numbers, numpy and math alone, or as formulas of t, x, y, z, vx, vy, vz"
+PLACE_HINT = "write it with numbers, numpy and math alone, or as formulas of t, x, y, z"
 
 _BINARY: dict[type[ast.AST], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
 _COMPARE: dict[type[ast.AST], str] = {
@@ -40,8 +42,10 @@ def _ramp(t, t0, t1):
     return s * s * s * (10.0 - 15.0 * s + 6.0 * s * s)
 
 
-def address_of(function: StateFunction) -> int:
+def address_of(function: StateFunction | VelocityField, of_place: bool = False) -> int:
     """Address of a C function ``double law(double t, double data[9])``, see :mod:`ancf.loads.state_force`.
+
+    ``of_place`` says that a Python function takes t, x, y, z instead of t, r, v.
 
     Raises
     ------
@@ -49,17 +53,19 @@ def address_of(function: StateFunction) -> int:
         The law cannot be compiled.
     """
     texts = [p.text if isinstance(p, Expression) else float(p) for p in function.parts]
-    key = tuple(texts) or function.given
+    key = tuple(texts) or (function.given, of_place)
+    hint = PLACE_HINT if of_place else HINT
     if not texts and not inspect.isfunction(function.given):
         what = f"{checks.shown(function.given)} is no plain Python function, which numba could compile"
-        raise ModelError(function.where, what, HINT)
+        raise ModelError(function.where, what, hint)
     try:
         if key not in _LAWS:
-            _LAWS[key] = _compiled(python_of(texts) if texts else function.given)
+            given = _of_place(function.given) if of_place and not texts else function.given
+            _LAWS[key] = _compiled(python_of(texts) if texts else given)
     except Exception as error:  # numba raises all kinds of them
         lines = [line.strip() for line in str(error).splitlines() if line.strip()] or [type(error).__name__]
         reason = next((line for line in lines if "nopython" not in line), lines[0])
-        raise ModelError(function.where, f"numba cannot compile the law: {reason}", HINT) from None
+        raise ModelError(function.where, f"numba cannot compile the law: {reason}", hint) from None
     return int(_LAWS[key].address)
 
 
@@ -79,6 +85,12 @@ def _compiled(function: Any) -> Any:
         return 0.0
 
     return called
+
+
+def _of_place(function: Any) -> Any:
+    """A function of t, x, y, z as one of t, r and v."""
+    inner = njit(**_OPTIONS)(function)
+    return lambda t, r, v: inner(t, r[0], r[1], r[2])
 
 
 def python_of(texts: list[str | float]) -> Any:

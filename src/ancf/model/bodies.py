@@ -32,6 +32,8 @@ class PointMass:
         Initial position, m.
     velocity : (3,) array
         Initial velocity, m/s.
+    volume, drag_area, added_mass : float
+        In a fluid: displaced volume, m^3, drag coefficient times area, m^2, coefficient of added mass.
 
     """
 
@@ -39,6 +41,9 @@ class PointMass:
     mass: float
     position: FloatArray
     velocity: FloatArray
+    volume: float = 0.0
+    drag_area: float = 0.0
+    added_mass: float = 0.0
 
     def __repr__(self) -> str:
         return f"PointMass({self.name!r}, mass={self.mass:g})"
@@ -82,6 +87,8 @@ class RigidBody:
         Its columns are the initial directions of the body axes d_1, d_2, d_3: orthonormal, right-handed.
     velocity, angular_velocity, about : (3,) arrays
         Initial motion, m/s, rad/s, m; global directions.
+    volume, drag_area, added_mass : float
+        In a fluid, as of a point mass.
 
     """
 
@@ -93,6 +100,9 @@ class RigidBody:
     velocity: FloatArray
     angular_velocity: FloatArray
     about: FloatArray
+    volume: float = 0.0
+    drag_area: float = 0.0
+    added_mass: float = 0.0
 
     def __repr__(self) -> str:
         return f"RigidBody({self.name!r}, mass={self.mass:g})"
@@ -170,15 +180,40 @@ def kind(body: Body) -> str:
     return "point mass" if isinstance(body, PointMass) else "rigid body"
 
 
-def make_point_mass(where: str, name: str, at: Any, mass: Any) -> PointMass:
+#: What bodies without elements have in a fluid.
+IN_FLUID = ("volume", "drag_area", "added_mass")
+
+
+def _in_fluid(where: str, *given: Any) -> dict[str, float]:
+    pairs = zip(IN_FLUID, given, strict=True)
+    return {key: checks.non_negative(value, f"{where}.{key}") for key, value in pairs}
+
+
+def make_point_mass(
+    where: str, name: str, at: Any, mass: Any, volume: Any = 0.0, drag_area: Any = 0.0, added_mass: Any = 0.0
+) -> PointMass:
     """Check what ``Model.add_point_mass`` was given."""
     position = checks.place(at, f"{where}.at")
     return PointMass(
-        name=name, mass=checks.positive(mass, f"{where}.mass"), position=position, velocity=np.zeros(3)
+        name=name,
+        mass=checks.positive(mass, f"{where}.mass"),
+        position=position,
+        velocity=np.zeros(3),
+        **_in_fluid(where, volume, drag_area, added_mass),
     )
 
 
-def make_rigid_body(where: str, name: str, at: Any, mass: Any, inertia: Any, axes: Any) -> RigidBody:
+def make_rigid_body(
+    where: str,
+    name: str,
+    at: Any,
+    mass: Any,
+    inertia: Any,
+    axes: Any,
+    volume: Any = 0.0,
+    drag_area: Any = 0.0,
+    added_mass: Any = 0.0,
+) -> RigidBody:
     """Check what ``Model.add_rigid_body`` was given."""
     position = checks.place(at, f"{where}.at")
     return RigidBody(
@@ -190,6 +225,7 @@ def make_rigid_body(where: str, name: str, at: Any, mass: Any, inertia: Any, axe
         velocity=np.zeros(3),
         angular_velocity=np.zeros(3),
         about=position.copy(),
+        **_in_fluid(where, volume, drag_area, added_mass),
     )
 
 

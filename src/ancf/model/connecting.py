@@ -15,17 +15,17 @@ from .contact import Contact, make_contact
 from .functions import check_inputs, refuse_inputs
 from .joints import Fixation, Revolute, Slide, Spherical
 from .kinds import kind_of
-from .lookup import Lookup
 from .make_joints import make_fixation, make_revolute, make_spherical
 from .points import Point
 from .repeated import check_repeated
 from .slide_checks import make_slide
+from .undeformed import Undeformed
 
 ConnectionT = TypeVar("ConnectionT", bound=Connection)
 PointLike = Point | PointMass | RigidBody | str
 
 
-class Connecting(Lookup):
+class Connecting(Undeformed):
     """Joints and springs of one model."""
 
     def connect(self, a: PointLike, b: Any, name: str | None = None) -> Spherical:

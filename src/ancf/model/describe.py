@@ -8,13 +8,17 @@ from typing import Any
 import numpy as np
 
 from .beam import Beam
+from .bodies import IN_FLUID as BODY_IN_FLUID
 from .bodies import Body, PointMass, RigidBody
 from .functions import TimeFunction
+from .grounds import Relief
 from .kind import Kind
 from .layout import PLACED, is_straight
 from .points import Point
 from .section import DAMPINGS, MOMENTS, Rectangle, Section
+from .section_fluid import IN_FLUID
 from .state_function import StateFunction
+from .velocity_field import VelocityField
 
 MOTION = ("velocity", "angular_velocity", "about")
 
@@ -22,6 +26,8 @@ MOTION = ("velocity", "angular_velocity", "about")
 def section(item: Section) -> dict[str, Any]:
     """Stiffnesses, mass and damping, and shape, material and moments when there are any."""
     plain = {key: getattr(item, key) for key in ("EA", "EI_y", "EI_z", "rhoA", *DAMPINGS)}
+    given = {key: _plain(getattr(item, key)) for key in IN_FLUID}
+    plain |= {key: value for key, value in given.items() if value is not None}
     if item.shear_factors is None:
         return plain
     keys = ("E", "nu", "rho", *MOMENTS)
@@ -34,7 +40,7 @@ def section(item: Section) -> dict[str, Any]:
 
 def section_of(plain: dict[str, Any]) -> Section:
     """The Section that ``section`` described."""
-    given = {key: plain[key] for key in DAMPINGS}
+    given = {key: plain[key] for key in DAMPINGS} | {key: plain[key] for key in IN_FLUID if key in plain}
     kind = plain.get("shape")
     if kind is None:
         return Section(EA=plain["EA"], EI=plain["EI_y"], rhoA=plain["rhoA"], **given)
@@ -42,7 +48,7 @@ def section_of(plain: dict[str, Any]) -> Section:
     if kind == "rectangle":
         return Section.rectangle(plain["width"], plain["height"], **given)
     if kind == "circle":
-        return Section.circle(plain["diameter"], **given)
+        return Section.circle(**given)
     return Section.from_moments(**given, **{key: plain[key] for key in MOMENTS if key != "J"})
 
 
@@ -57,7 +63,12 @@ def point_mass(item: PointMass) -> dict[str, Any]:
     """All of a point mass."""
     motion = {"velocity": item.velocity.tolist()}
     plain = {"type": "point_mass", "name": item.name, "at": item.position.tolist(), "mass": item.mass}
-    return {**plain, "motion": motion}
+    return {**plain, **_in_fluid(item), "motion": motion}
+
+
+def _in_fluid(item: PointMass | RigidBody) -> dict[str, float]:
+    """What a fluid does to it, if it does anything."""
+    return {key: value for key in BODY_IN_FLUID if (value := getattr(item, key))}
 
 
 def rigid_body(item: RigidBody) -> dict[str, Any]:
@@ -66,6 +77,7 @@ def rigid_body(item: RigidBody) -> dict[str, Any]:
     plain["mass"] = item.mass
     for key in ("inertia", "axes"):
         plain[key] = getattr(item, key).tolist()
+    plain |= _in_fluid(item)
     plain["motion"] = {key: getattr(item, key).tolist() for key in MOTION}
     return plain
 
@@ -93,6 +105,12 @@ def other(item: Any, kind: Kind) -> dict[str, Any]:
     return {"type": kind.word, **{keys.get(name, name): _plain(getattr(item, name)) for name in names}}
 
 
+def fields_of(item: Any) -> dict[str, Any]:
+    """A fluid or a ground: its fields but those that are None, under the keys of its method and of files."""
+    plain = {field.name: _plain(getattr(item, field.name)) for field in fields(item)}
+    return {key: value for key, value in plain.items() if value is not None}
+
+
 def point(item: Point) -> str:
     """A point as text from which the very same point is read: its label, or all digits of its place."""
     if item.label == item.body.name or item.label.endswith((".start", ".end", ".centre")):
@@ -111,7 +129,7 @@ def _plain(value: Any) -> Any:
         return point(value)
     if isinstance(value, Beam | PointMass | RigidBody):
         return value.name
-    if isinstance(value, TimeFunction | StateFunction):
+    if isinstance(value, TimeFunction | StateFunction | VelocityField | Relief):
         return value.describe()
     if isinstance(value, np.ndarray):
         return value.tolist()

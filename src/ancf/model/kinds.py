@@ -1,4 +1,4 @@
-"""The kinds of supports, loads and connections; a new one is its file and a line here."""
+"""The kinds of supports, loads, connections and surroundings; a new one is its file and a line here."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from typing import Any
 from . import sheets
 from .connections import Spring
 from .contact import Contact
+from .fluids import Fluid
 from .functions import TimeFunction
+from .grounds import Ground
 from .joints import Fixation, Revolute, Slide, Spherical
 from .kind import CONTACT, JOINT, SLIDE, SPRING, Kind, Look, Push
 from .loads import DistributedLoad, Force, Moment
@@ -17,8 +19,8 @@ from .state_function import StateFunction
 from .supports import Clamp, Hold, Pin
 
 
-def _entry(name: str) -> Callable[[], Any]:
-    return lambda: getattr(import_module("ancf.model.file.items"), name)
+def _entry(name: str, module: str = "items") -> Callable[[], Any]:
+    return lambda: getattr(import_module(f"ancf.model.file.{module}"), name)
 
 
 SUPPORTS: list[Kind] = [
@@ -144,19 +146,44 @@ CONNECTIONS: list[Kind] = [
         asked=CONTACT,
     ),
 ]
+FLUID = Kind(
+    Fluid,
+    "fluid",
+    "fluid",
+    "add_fluid",
+    _entry("FluidEntry", "surroundings"),
+    sheets.fluid,
+    ends=(),
+    between=sheets.between_heights,
+    batch="fluid",
+    inputs=lambda item: item.functions(),
+)
+GROUND = Kind(
+    Ground,
+    "ground",
+    "ground",
+    "add_ground",
+    _entry("GroundEntry", "surroundings"),
+    sheets.ground,
+    ends=(),
+    between=sheets.lie_of_ground,
+    batch="ground",
+)
+#: What is around all bodies, one kind for each key of a model file and attribute of a Model.
+SURROUNDINGS: dict[str, Kind] = {"fluids": FLUID, "grounds": GROUND}
 #: By the key of a model file under which they stand, which is the attribute of a Model too.
 GROUPS: dict[str, list[Kind]] = {"supports": SUPPORTS, "loads": LOADS, "connections": CONNECTIONS}
 
 
 def all_kinds() -> Iterator[Kind]:
-    """Every kind, group by group."""
+    """Every kind of support, load and connection, group by group."""
     for kinds in GROUPS.values():
         yield from kinds
 
 
 def kind_of(item: Any) -> Kind:
-    """The kind of a support, load or connection."""
-    return next(kind for kind in all_kinds() if kind.item is type(item))
+    """The kind of a support, load, connection or surrounding."""
+    return next(kind for kind in (*all_kinds(), *SURROUNDINGS.values()) if kind.item is type(item))
 
 
 def by_word(group: str) -> dict[str, Kind]:

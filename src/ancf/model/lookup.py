@@ -16,7 +16,7 @@ from .beam import Beam
 from .bodies import Body, PointMass, RigidBody, kind
 from .connections import Connection, Spherical, initial_position
 from .inputs import Input, make_input
-from .kinds import GROUPS, kind_of
+from .kinds import GROUPS, SURROUNDINGS, kind_of
 from .names import POINT_LABEL, Names, numbers_of, split_label, unknown
 from .points import Point
 
@@ -64,7 +64,7 @@ class Lookup:
         other = copy(self)
         other.bodies, other._names = dict(self.bodies), copy(self._names)
         other.inputs = dict(self.inputs)
-        for key in GROUPS:
+        for key in (*GROUPS, *SURROUNDINGS):
             setattr(other, key, list(getattr(self, key)))
         return other
 

@@ -9,11 +9,11 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from . import checks, describe, rebuild
 from .beam import Beam
-from .bodies import Body, PointMass, RigidBody, make_point_mass, make_rigid_body
-from .connecting import Connecting, PointLike
+from .bodies import RigidBody
+from .connecting import PointLike
 from .functions import check_inputs, refuse_inputs
 from .joints import Fixation
-from .kinds import GROUPS, all_kinds, kind_of
+from .kinds import GROUPS, SURROUNDINGS, all_kinds, kind_of
 from .layout import make_beam
 from .loads import DistributedLoad, Force, Load, Moment, make_distributed, make_moment
 from .overview import of_model
@@ -21,14 +21,14 @@ from .points import Point, initial_position
 from .section import Section
 from .state_function import force_function
 from .supports import Clamp, Hold, Pin, Support, check_overlap, make_clamp, make_hold, optional, require_node
+from .surroundings import Surroundings
 from .tables import Readable, Sheet
 
 SupportT = TypeVar("SupportT", bound=Support)
 LoadT = TypeVar("LoadT", bound=Load)
-BodyT = TypeVar("BodyT", bound=Body)
 
 
-class Model(Connecting, Readable):
+class Model(Surroundings, Readable):
     """Bodies, supports, loads and connections in a field of gravity.
 
     Points are given as ``beam.start``, ``beam.end``, ``beam.at(x)``, on a beam with a cross-section also
@@ -49,7 +49,7 @@ class Model(Connecting, Readable):
     bodies : dict of str to Beam, PointMass or RigidBody
     beams, masses, rigid_bodies : dict
         The bodies of one kind.
-    supports, loads, connections : list
+    supports, loads, connections, fluids, grounds : list
     inputs : dict of str to Input
 
     """
@@ -155,33 +155,6 @@ class Model(Connecting, Readable):
             y_axis=y_axis,
         )
         return self._add_body(beam)
-
-    def add_point_mass(self, name: str, *, at: Any, mass: float) -> PointMass:
-        """Add a mass at a point, at=(3,) in m, mass in kg > 0, without rotation."""
-        where = self._where("add_point_mass", name if isinstance(name, str) else None)
-        return self._add_body(make_point_mass(where, self._names.of_body(name, where), at, mass))
-
-    def add_rigid_body(
-        self, name: str, *, at: Any, mass: float, inertia: Any = None, axes: Any = None
-    ) -> RigidBody:
-        """Add a rigid body.
-
-        Parameters
-        ----------
-        name : str
-            Unique over the model.
-        at : (3,) m
-            Initial position of its centre of mass.
-        mass : float, kg
-        inertia : (3,) or (3, 3) kg m^2
-            Principal moments, or matrix, about the centre of mass in body axes; must be given.
-        axes : (3, 3)
-            Rotation matrix whose columns are the initial directions of the body axes; default global.
-
-        """
-        where = self._where("add_rigid_body", name if isinstance(name, str) else None)
-        clean = self._names.of_body(name, where)
-        return self._add_body(make_rigid_body(where, clean, at, mass, inertia, axes))
 
     def pin(self, point: PointLike, displacement: Any = None, name: str | None = None) -> Pin:
         """Hold a node, point mass or rigid body's centre, or move it by displacement(t) (3,) in m.
@@ -352,6 +325,8 @@ class Model(Connecting, Readable):
         plain["bodies"] = [describe.body(body) for body in self.bodies.values()]
         for key in GROUPS:
             plain[key] = [describe.other(item, kind_of(item)) for item in getattr(self, key)]
+        for key in SURROUNDINGS:
+            plain[key] = [describe.fields_of(item) for item in getattr(self, key)]
         return plain
 
     @classmethod
@@ -380,18 +355,14 @@ class Model(Connecting, Readable):
 
     def missing_functions(self) -> list[tuple[str, str]]:
         """Items that had a Python function, and its name, where a description could not keep it."""
-        return [pair for key in GROUPS for item in getattr(self, key) for pair in rebuild.missing(item)]
+        keys = *GROUPS, *SURROUNDINGS
+        return [pair for key in keys for item in getattr(self, key) for pair in rebuild.missing(item)]
 
     def _at_node(self, method: str, point: object, name: object) -> tuple[str, Point]:
         where = self._where(method, name, point)
         clean = self._point(point, f"{where}.point")
         require_node(clean, f"{where}.point")
         return where, clean
-
-    def _add_body(self, body: BodyT) -> BodyT:
-        self._names.take(body.name, "body")
-        self.bodies[body.name] = body
-        return body
 
     def _add_support(self, where: str, item: SupportT) -> SupportT:
         check_overlap(where, item, self.supports)

@@ -10,7 +10,7 @@ from .beam import Beam
 from .bodies import Body, kind
 from .inputs import Input
 from .kind import Kind
-from .kinds import kind_of
+from .kinds import SURROUNDINGS, kind_of
 from .sheets import place
 from .tables import Sheet, Table, counted, number, numbers, plural
 
@@ -37,6 +37,8 @@ class Described(Protocol):
     supports: list[Any]
     loads: list[Any]
     connections: list[Any]
+    fluids: list[Any]
+    grounds: list[Any]
 
 
 def of_model(model: Described) -> Sheet:
@@ -56,6 +58,11 @@ def of_model(model: Described) -> Sheet:
         Table(("load", "on", "value"), [_item(item) for item in model.loads]),
         Table(("connection", "kind", "between", "data"), [_connection(item) for item in model.connections]),
     ]
+    for key, record in SURROUNDINGS.items():
+        items = getattr(model, key)
+        if items:
+            facts.append((key, counted(record.noun for _ in items)))
+            tables.append(Table((record.noun, "where", "data"), [_item(item) for item in items]))
     return Sheet(f'Model "{model.title}"' if model.title else "Model", facts, tables)
 
 

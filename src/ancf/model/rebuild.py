@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any, Protocol
 from ..errors import ModelError
 from . import checks
 from .beam import Beam
-from .bodies import Body, make_point_mass, make_rigid_body
+from .bodies import IN_FLUID, Body, make_point_mass, make_rigid_body
 from .describe import section_of
 from .functions import Missing, TimeFunction
 from .inputs import Input, named
-from .kinds import GROUPS, by_word
+from .kinds import GROUPS, SURROUNDINGS, by_word
 from .layout import placed_beam
+from .velocity_field import VelocityField
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
@@ -65,13 +66,14 @@ def _body(table: Table) -> Body:
     kind, where = checks.choice(table.take("type"), f"{table.where}.type", BODIES), table.where
     name, motion = checks.text(table.take("name"), f"{where}.name"), Table(table.take("motion"), where)
     body: Body
+    in_fluid = [table.given.get(key, 0.0) for key in IN_FLUID]
     if kind == "beam":
         body = _beam(table, name)
     elif kind == "point_mass":
-        body = make_point_mass(where, name, table.take("at"), table.take("mass"))
+        body = make_point_mass(where, name, table.take("at"), table.take("mass"), *in_fluid)
     else:
         given = (table.take(key) for key in ("at", "mass", "inertia", "axes"))
-        body = make_rigid_body(where, name, *given)
+        body = make_rigid_body(where, name, *given, *in_fluid)
     keys = ("velocity",) if kind == "point_mass" else ("velocity", "angular_velocity", "about")
     body.set_motion(**{key: motion.take(key) for key in keys})
     return body
@@ -91,21 +93,27 @@ def _beam(table: Table, name: str) -> Beam:
 
 
 def items(model: Any, plain: Table) -> None:
-    """Add supports, loads and connections of a description."""
+    """Add supports, loads, connections and surroundings of a description."""
     for group in GROUPS:
         for k, table in enumerate(plain.tables(group)):
-            given = {key: value for key, value in table.given.items() if key != "type"}
-            functions = {key: Missing.of(value) for key, value in given.items() if key != "name"}
-            given |= {key: value for key, value in functions.items() if value is not None}
-            add_item(model, group, k, table.take("type"), given)
+            add_item(model, group, k, table.take("type"), _arguments(table))
+    for group in SURROUNDINGS:
+        for k, table in enumerate(plain.tables(group)):
+            add_surrounding(model, group, k, _arguments(table))
+
+
+def _arguments(table: Table) -> dict[str, Any]:
+    """Arguments of the method; Python functions that a description could not keep are missing ones."""
+    given = {key: value for key, value in table.given.items() if key != "type"}
+    functions = {key: Missing.of(value) for key, value in given.items() if key != "name"}
+    return given | {key: value for key, value in functions.items() if value is not None}
 
 
 def missing(item: Any) -> list[tuple[str, str]]:
     """Its name and that of each Python function which a description could not keep."""
     given = (getattr(item, field.name) for field in fields(item))
-    return [
-        (item.name, value.missing) for value in given if isinstance(value, TimeFunction) and value.missing
-    ]
+    found = [value.missing for value in given if isinstance(value, TimeFunction | VelocityField)]
+    return [(item.name, missing) for missing in found if missing]
 
 
 def add_item(model: Located, group: str, number: int, word: str, given: Mapping[str, Any]) -> None:
@@ -121,7 +129,17 @@ def add_item(model: Located, group: str, number: int, word: str, given: Mapping[
         what = f"is {checks.shown(word)}, there are: {', '.join(kinds)}"
         hint = checks.nearest(word, kinds) or "a kind of your own is registered in ancf.model.kinds"
         raise ModelError(f"{where}.type", what, hint)
-    add = getattr(model, kinds[word].method)
+    _add(model, kinds[word].method, where, word, given)
+
+
+def add_surrounding(model: Located, group: str, number: int, given: Mapping[str, Any]) -> None:
+    """Add a fluid or a ground by the arguments of its method; errors as of :func:`add_item`."""
+    kind = SURROUNDINGS[group]
+    _add(model, kind.method, f"{group}[{number}]", kind.word, given)
+
+
+def _add(model: Located, method: str, where: str, word: str, given: Mapping[str, Any]) -> None:
+    add = getattr(model, method)
     try:
         inspect.signature(add).bind(**given)
     except TypeError as error:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ModelError
 from . import checks
+from .section_fluid import in_fluid
+from .section_moments import check_moments, of_similar_rectangle
 from .section_sheet import of_section
 from .shapes import Circle, Rectangle
 from .tables import Readable, Sheet
@@ -47,6 +48,10 @@ class Section(Readable):
         Force per length ``d/dx(slope_damping dv/dx)``, N s, of cables only: what is proportional to the
         stiffness that a wire has from its tension T is ``beta T``. It is not objective: a cable that
         turns as a whole is damped too.
+    diameter : float
+        Outer diameter in a fluid and on the ground, m; of a circle its own.
+    drag, added_mass : (float, float)
+        Coefficients normal to the axis and along it, >= 0, see :meth:`ancf.Model.add_fluid`.
 
     Attributes
     ----------
@@ -98,6 +103,9 @@ class Section(Readable):
     I_zzzz: float | None
     I_yyzz: float | None
     shear_factors: tuple[float, float] | None
+    diameter: float | None
+    drag: tuple[float, float] | None
+    added_mass: tuple[float, float] | None
 
     def __init__(
         self,
@@ -109,6 +117,9 @@ class Section(Readable):
         axial_damping: float = 0.0,
         bending_damping: float = 0.0,
         slope_damping: float = 0.0,
+        diameter: float | None = None,
+        drag: tuple[float, float] | None = None,
+        added_mass: tuple[float, float] | None = None,
     ) -> None:
         stiffness = checks.non_negative(EI, "Section.EI")
         _fill(
@@ -118,6 +129,7 @@ class Section(Readable):
             EI_z=stiffness,
             rhoA=checks.positive(rhoA, "Section.rhoA"),
             **_dampings(damping, axial_damping, bending_damping, slope_damping),
+            **in_fluid(diameter, drag, added_mass),
         )
 
     @classmethod
@@ -135,6 +147,9 @@ class Section(Readable):
         axial_damping: float = 0.0,
         bending_damping: float = 0.0,
         slope_damping: float = 0.0,
+        diameter: float | None = None,
+        drag: tuple[float, float] | None = None,
+        added_mass: tuple[float, float] | None = None,
     ) -> Section:
         """Rectangle of a material.
 
@@ -149,11 +164,13 @@ class Section(Readable):
         shear_factors : (float, float)
             Of the shear stiffnesses along local y and z; 5/6 for a rectangle in most textbooks.
         damping, axial_damping, bending_damping, slope_damping : float
+        diameter, drag, added_mass
             As for ``Section``.
 
         """
         b, h = checks.positive(width, "Section.width"), checks.positive(height, "Section.height")
         dampings = _dampings(damping, axial_damping, bending_damping, slope_damping)
+        dampings |= in_fluid(diameter, drag, added_mass)
         return _of_shape(Rectangle(b, h), E, rho, nu, J, shear_factors, dampings)
 
     @classmethod
@@ -170,6 +187,8 @@ class Section(Readable):
         axial_damping: float = 0.0,
         bending_damping: float = 0.0,
         slope_damping: float = 0.0,
+        drag: tuple[float, float] | None = None,
+        added_mass: tuple[float, float] | None = None,
     ) -> Section:
         """Full circle of a material.
 
@@ -183,11 +202,13 @@ class Section(Readable):
         shear_factors : (float, float)
             Of the shear stiffnesses along local y and z; 9/10 for a circle in most textbooks.
         damping, axial_damping, bending_damping, slope_damping : float
+        drag, added_mass : (float, float)
             As for ``Section``.
 
         """
         shape = Circle(checks.positive(diameter, "Section.diameter"))
         dampings = _dampings(damping, axial_damping, bending_damping, slope_damping)
+        dampings |= in_fluid(diameter, drag, added_mass)
         return _of_shape(shape, E, rho, nu, J, shear_factors, dampings)
 
     @classmethod
@@ -209,6 +230,9 @@ class Section(Readable):
         axial_damping: float = 0.0,
         bending_damping: float = 0.0,
         slope_damping: float = 0.0,
+        diameter: float | None = None,
+        drag: tuple[float, float] | None = None,
+        added_mass: tuple[float, float] | None = None,
     ) -> Section:
         """Section of any shape with two axes of symmetry, from the integrals over its area.
 
@@ -229,6 +253,7 @@ class Section(Readable):
         shear_factors : (float, float)
             Of the shear stiffnesses along local y and z.
         damping, axial_damping, bending_damping, slope_damping : float
+        diameter, drag, added_mass
             As for ``Section``.
 
         Raises
@@ -240,11 +265,12 @@ class Section(Readable):
         given = {"A": A, "I_y": I_y, "I_z": I_z}
         moments = {key: checks.positive(value, f"Section.{key}") for key, value in given.items()}
         for key, value in zip(FOURTH_MOMENTS, (I_yyyy, I_zzzz, I_yyzz), strict=True):
-            default = _of_similar_rectangle(key, moments)
+            default = of_similar_rectangle(key, moments)
             moments[key] = checks.positive(default if value is None else value, f"Section.{key}")
-        _check_moments(moments)
+        check_moments(moments)
         torsion = checks.positive(J, "Section.J")
         dampings = _dampings(damping, axial_damping, bending_damping, slope_damping)
+        dampings |= in_fluid(diameter, drag, added_mass)
         return _of_material(None, moments, torsion, E, rho, nu, shear_factors, dampings)
 
     @property
@@ -280,33 +306,7 @@ class Section(Readable):
         return None if self.E is None or self.nu is None else self.E / (2 * (1 + self.nu))
 
 
-def _of_similar_rectangle(key: str, moments: dict[str, float]) -> float:
-    """Fourth moment of the rectangle with the same radii of gyration."""
-    factor, one, other = {
-        "I_yyyy": (1.8, "I_z", "I_z"),
-        "I_zzzz": (1.8, "I_y", "I_y"),
-        "I_yyzz": (1.0, "I_y", "I_z"),
-    }[key]
-    return factor * moments[one] * moments[other] / moments["A"]
-
-
-def _check_moments(m: dict[str, float]) -> None:
-    """Inequalities of Cauchy and Schwarz, which no area breaks; the strain energy would not be positive."""
-    A, I_y, I_z = m["A"], m["I_y"], m["I_z"]
-    spread = {"I_yyyy": m["I_yyyy"] - I_z * I_z / A, "I_zzzz": m["I_zzzz"] - I_y * I_y / A}
-    for key, text in (("I_yyyy", "I_z^2/A"), ("I_zzzz", "I_y^2/A")):
-        if spread[key] < -1e-9 * m[key]:
-            what = f"is {m[key]:g} m^6, must be >= {text} = {m[key] - spread[key]:g} m^6 for any area"
-            raise ModelError(f"Section.{key}", what)
-    middle = I_y * I_z / A
-    most = math.sqrt(max(spread["I_yyyy"], 0.0)) * math.sqrt(max(spread["I_zzzz"], 0.0))
-    if abs(m["I_yyzz"] - middle) > most + 1e-9 * middle:
-        what = f"is {m['I_yyzz']:g} m^6, must be I_y I_z/A = {middle:g} within {most:g} m^6 for any area"
-        hint = "the bound is sqrt((I_yyyy - I_z^2/A) (I_zzzz - I_y^2/A))"
-        raise ModelError("Section.I_yyzz", what, hint)
-
-
-def _dampings(*values: float) -> dict[str, float]:
+def _dampings(*values: float) -> dict[str, Any]:
     given = dict(zip(DAMPINGS, values, strict=True))
     return {key: checks.non_negative(value, f"Section.{key}") for key, value in given.items()}
 
@@ -318,7 +318,7 @@ def _of_shape(
     nu: Any,
     J: Any,
     shear_factors: Any,
-    dampings: dict[str, float],
+    dampings: dict[str, Any],
 ) -> Section:
     torsion = shape.torsion_constant() if J is None else checks.positive(J, "Section.J")
     return _of_material(shape, shape.moments(), torsion, E, rho, nu, shear_factors, dampings)
@@ -332,7 +332,7 @@ def _of_material(
     rho: Any,
     nu: Any,
     shear_factors: Any,
-    dampings: dict[str, float],
+    dampings: dict[str, Any],
 ) -> Section:
     modulus, density = checks.positive(E, "Section.E"), checks.positive(rho, "Section.rho")
     ratio = checks.number(nu, "Section.nu")

@@ -23,6 +23,7 @@ def of_section(section: Any, dampings: tuple[str, ...]) -> Sheet:
         ("stiffness", with_units((("EA", s.EA, "N"), *_bending(s)))),
         ("mass", with_units((("rhoA", s.rhoA, "kg/m"),))),
         ("damping", with_units(damping)),
+        ("in a fluid", _in_fluid(s)),
     ]
     return Sheet("Section", facts)
 
@@ -39,3 +40,13 @@ def _shape(s: Any) -> str:
     if isinstance(s.shape, Circle):
         return f"circle, diameter {number(s.shape.diameter)} m"
     return "" if s.A is None else "given by its moments"
+
+
+def _in_fluid(s: Any) -> str:
+    own = s.diameter if not isinstance(s.shape, Circle) else None
+    parts = [] if own is None else [f"diameter {number(own)} m"]
+    for key in ("drag", "added_mass"):
+        given = getattr(s, key)
+        if given is not None:
+            parts.append(f"{key.replace('_', ' ')} {number(given[0])} normal, {number(given[1])} tangential")
+    return ", ".join(parts)

@@ -9,7 +9,9 @@ import numpy as np
 from .bodies import RigidBody
 from .connections import Spring
 from .contact import Contact
+from .fluids import Fluid
 from .functions import TimeFunction
+from .grounds import Ground, Relief
 from .joints import Revolute, Slide
 from .loads import DistributedLoad, Force, Moment
 from .state_function import StateFunction
@@ -125,3 +127,50 @@ def contact(item: Contact) -> str:
     """Stiffness, damping and place of a contact."""
     given = (("k", item.stiffness, "N/m"), ("c", item.damping or None, "N s/m"), ("s", item.s, "m"))
     return with_units(given)
+
+
+def between_heights(item: Fluid) -> str:
+    """Where a fluid is, and on which bodies it acts."""
+    parts = []
+    if item.above is not None:
+        parts.append(f"above z = {number(item.above)} m")
+    if item.below is not None:
+        parts.append(f"below z = {number(item.below)} m")
+    where = " and ".join(parts) or "everywhere"
+    return where if item.on is None else f"{where}, on {', '.join(item.on)}"
+
+
+def fluid(item: Fluid) -> str:
+    """Density and velocity of a fluid."""
+    density = f"{number(item.density)} kg/m^3"
+    field = item.velocity
+    if not field.moves:
+        return f"{density}, at rest"
+    if len(field.heights):
+        return f"{density}, velocity by a profile of {plural(len(field.heights), 'height')}"
+    if field.law is not None or field.parts:
+        return f"{density}, velocity {_given(field.describe())} [m/s]"
+    return f"{density}, velocity {value(field.uniform, 'm/s')}"
+
+
+def _given(given: Any) -> str:
+    return f"({', '.join(map(str, given))})" if isinstance(given, list) else str(given)
+
+
+def lie_of_ground(item: Ground) -> str:
+    """Where a ground is, and which bodies lie on it."""
+    if isinstance(item.height, Relief):
+        where = f"table of {len(item.height.x)} x {len(item.height.y)} heights"
+    else:
+        where = f"z = {number(item.height)} m"
+    if item.normal is not None:
+        where += f", normal {numbers(item.normal)}"
+    return where if item.on is None else f"{where}, on {', '.join(item.on)}"
+
+
+def ground(item: Ground) -> str:
+    """Stiffness, damping and friction of a ground."""
+    text = f"stiffness {number(item.stiffness)} Pa/m"
+    if item.damping:
+        text += f", damping {number(item.damping)} Pa s/m"
+    return f"{text}, friction {number(item.friction)}" if item.friction else text

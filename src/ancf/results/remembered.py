@@ -1,5 +1,5 @@
-"""What a computation knows beside the state vectors: which sliding points were held or let go, and where
-contacts were found last.
+"""What a computation knows beside the state vectors: which sliding points were held or let go, where
+contacts were found last, and what batches remember, as the friction of grounds.
 
 Whether a unilateral joint is open follows from its gap and is not kept.
 """
@@ -17,6 +17,7 @@ from ..connections.sliding import SLIDES, SlidingBatch
 from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
+from ..system.core import keep_memory
 from ..system.system import System
 
 
@@ -30,10 +31,13 @@ class Remembered:
         SLIDES, FROZEN or FREE by sliding joint, see :mod:`ancf.connections.sliding`.
     places : dict of str to float
         Arc length on the wire by contact, m, from where the next search starts.
+    memory : dict of str to ndarray
+        What batches remember of the motion until the state, see ``System.memory``.
     """
 
     modes: dict[str, int] = field(default_factory=dict)
     places: dict[str, float] = field(default_factory=dict)
+    memory: dict[str, FloatArray] = field(default_factory=dict)
 
     def until(self, index: int, q: Any, v: Any, arcs: dict[str, int]) -> Remembered:
         """The same at an earlier stored state, shapes of q and v (n_t, size).
@@ -43,7 +47,8 @@ class Remembered:
         ended = {name for name, mode in self.modes.items() if mode != SLIDES}
         still = {n for n in ended if _stands(q[index:, arcs[n]]) and not np.any(v[index:, arcs[n]])}
         modes = {name: mode if name in still else SLIDES for name, mode in self.modes.items()}
-        return Remembered(modes, self.places)
+        last = index == q.shape[0] - 1  # the memory is that of the last state
+        return Remembered(modes, self.places, self.memory if last else {})
 
 
 def of_system(system: System) -> Remembered:
@@ -51,7 +56,12 @@ def of_system(system: System) -> Remembered:
     batch = _sliding(system)
     modes = [] if batch is None else batch.mode.tolist()
     places = {name: float(system.measured[system.measures[name][ARC]]) for name in _contacts(system.model)}
-    return Remembered(dict(zip(_slides(system.model), modes, strict=True)), places)
+    return Remembered(dict(zip(_slides(system.model), modes, strict=True)), places, memory_of(system))
+
+
+def memory_of(system: System) -> dict[str, FloatArray]:
+    """Copies of what batches remember."""
+    return {name: x.copy() for name, x in system.memory.items()}
 
 
 def restore(system: System, known: Remembered) -> None:
@@ -63,23 +73,39 @@ def restore(system: System, known: Remembered) -> None:
     for name in _contacts(system.model):
         if name in known.places:
             system.measured[system.measures[name][ARC]] = known.places[name]
+    for name, x in system.memory.items():
+        if name in known.memory and known.memory[name].shape == x.shape:
+            x[...] = known.memory[name]
+
+
+def begin(system: System, q: FloatArray, v: FloatArray, known: Remembered | None) -> None:
+    """Let a system begin at a state that knows this, or nothing: then its memory starts there."""
+    keep_memory(system.core.remembering, q, v)
+    if known is not None:
+        restore(system, known)
 
 
 def write(file: Any, known: Remembered) -> None:
-    """Write the data sets ``modes`` and ``places``, or make them."""
+    """Write the data sets ``modes`` and ``places`` and the group ``memory``, or make them."""
     for key, values in (("modes", known.modes), ("places", known.places)):
         row = np.array([*values.values()], dtype=np.int64 if key == "modes" else np.float64)
         if key in file:
             file[key][...] = row
         else:
             file[key] = row
+    for name, x in known.memory.items():
+        if f"memory/{name}" in file:
+            file[f"memory/{name}"][...] = x
+        else:
+            file[f"memory/{name}"] = x
 
 
 def read(file: Any, model: Model) -> Remembered:
     """What :func:`write` has left, by the names of the model."""
     modes, places = file["modes"][:].tolist(), file["places"][:].tolist()
     found = dict(zip(_slides(model), modes, strict=True)), dict(zip(_contacts(model), places, strict=True))
-    return Remembered(*found)
+    memory = {name: x[...] for name, x in file["memory"].items()} if "memory" in file else {}
+    return Remembered(*found, memory)
 
 
 def _slides(model: Model) -> list[str]:

@@ -140,14 +140,18 @@ class Bridge:
         return status
 
     def _save(self) -> list[FloatArray]:
-        return [x.copy() for x in _state(self.run.memory)]
+        return [x.copy() for x in self._kept()]
 
     def _put_back(self, saved: list[FloatArray]) -> None:
         m = self.run.memory
-        for x, old in zip(_state(m), saved, strict=True):
+        for x, old in zip(self._kept(), saved, strict=True):
             x[:] = old
         m.memo[H_FACTOR] = 0.0
         m.counts[STEPS] -= 1
+
+    def _kept(self) -> list[FloatArray]:
+        """All that a step changes but the counters."""
+        return [*_state(self.run.memory), *self.run.system.memory.values()]
 
     def _energy(self) -> tuple[float, float]:
         """Energy now less what came in, and all that has been exchanged so far."""
@@ -159,6 +163,6 @@ class Bridge:
 
 
 def _state(memory: Memory) -> list[FloatArray]:
-    """All that a step changes but the counters."""
+    """What of it a step changes but the counters."""
     vectors: tuple[Any, ...] = memory[:VECTORS]
     return [*vectors, memory.memo, memory.work]

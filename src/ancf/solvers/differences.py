@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..batches import remember_all
 from ..compiled import kernel
 from ..system.core import follow, residual, to_local
 from .balance import balance
@@ -44,4 +45,5 @@ def accept(core, s, h, scheme, furthest):
         finish(s, h, scheme)
         if core.accounted and (core.damped or core.loaded):
             balance(core, s, h)
+        remember_all(core.remembering, s.q, s.v)
     return status

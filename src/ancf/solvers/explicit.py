@@ -12,6 +12,7 @@ order 2.
 
 from __future__ import annotations
 
+from ..batches import remember_all
 from ..compiled import kernel
 from ..system.core import (
     assemble,
@@ -45,8 +46,8 @@ def mass_factor(core, q, v):
 def advance_explicit(core, s, tables, h, turning, keep, sampling, out):
     """Take the steps of one block; see :func:`ancf.solvers.newmark.advance` for the arguments.
 
-    ``turning`` says that local axes turn, and the mass matrix with them.  ``s.a1`` holds the velocity in
-    the middle of the step.
+    ``turning`` says that local axes, or an added mass, turn, and the mass matrix with them.  ``s.a1`` holds
+    the velocity in the middle of the step.
     """
     n_free = core.weight.shape[0]
     for n in range(keep.shape[0]):
@@ -92,6 +93,7 @@ def advance_explicit(core, s, tables, h, turning, keep, sampling, out):
         s.counts[STEPS] += 1
         if core.accounted and (core.damped or core.loaded):
             balance(core, s, h)
+        remember_all(core.remembering, s.q, s.v)
         if keep[n] >= 0:
             for i in range(s.q.shape[0]):
                 out.q[keep[n], i], out.v[keep[n], i] = s.q[i], s.v[i]

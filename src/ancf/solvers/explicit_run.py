@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
+from ..compiled import traits
 from ..errors import ModelError, SolveError
 from ..model.integrators import Explicit
 from ..system.core import Tables, apply_load
@@ -43,7 +44,8 @@ class ExplicitRun(Run):
                 "use ancf.Radau() or ancf.Trapezoidal()",
             )
         super().__init__(system, method, t_start, t_end, step, every)
-        self.turning = bool(np.any(system.core.supports.rot_moving >= 0))
+        masses = (own(batch) for batch in system.core.batches if (own := traits(batch).turning_mass))
+        self.turning = bool(np.any(system.core.supports.rot_moving >= 0)) or any(masses)
 
     def use(self, integrator: Explicit) -> None:
         """Keep the settings: there are no iterations and no constraints."""

@@ -34,7 +34,8 @@ def check_supported(system: System, ignored: list[str]) -> None:
     for names in {id(g): g for g in groups.values()}.values():
         if names & grounded:
             continue
-        free = [c for c in range(3) if not any(_holds(system, name, c) for name in names)]
+        borne = 2 if any(_borne(system, name) for name in names) else None
+        free = [c for c in range(3) if c != borne and not any(_holds(system, name, c) for name in names)]
         if free:
             label = " and ".join(f'"{n}"' for n in sorted(names))
             axes = ", ".join("xyz"[c] for c in free)
@@ -50,6 +51,12 @@ def _only_resists(load: Force) -> bool:
     return isinstance(load.force, StateFunction) and not load.force.depends_on_place(
         initial_position(load.point)
     )
+
+
+def _borne(system: System, name: str) -> bool:
+    """Whether a body lies on a ground or floats at the surface of a fluid; friction alone holds nothing."""
+    fluids = [fluid for fluid in system.model.fluids if fluid.above is not None or fluid.below is not None]
+    return any(item.acts_on(name) for item in (*system.model.grounds, *fluids))
 
 
 def _holds(system: System, name: str, component: int) -> bool:

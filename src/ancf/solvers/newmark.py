@@ -24,7 +24,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..batches import add_tangents, find_events
+from ..batches import add_tangents, find_events, remember_all
 from ..compiled import formula, inline_kernel, kernel
 from ..system.core import (
     assemble,
@@ -342,6 +342,7 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out):
         finish(s, h, scheme)
         if core.accounted and (core.damped or core.loaded):
             balance(core, s, h)
+        remember_all(core.remembering, s.q, s.v)
         if keep[n] >= 0:
             for i in range(s.q.shape[0]):
                 out.q[keep[n], i], out.v[keep[n], i] = s.q[i], s.v[i]

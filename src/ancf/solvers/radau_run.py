@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..errors import SolveError
 from ..model.integrators import Radau
-from ..system.core import first_event
+from ..system.core import first_event, keep_memory
 from ..system.energy import energies
 from ..system.system import System
 from . import failures
@@ -253,6 +253,8 @@ class RadauRun:
         self._output(step, t, power)
         self.work += step.h * (self.stepper.method.b @ power)
         self.stepper.accept(step, t)
+        if self.system.core.remembering:
+            keep_memory(self.system.core.remembering, *self._end(step, t))
         if self.system.core.joints.tail:
             self._look_at_joints(step, t)
 
@@ -280,10 +282,15 @@ class RadauRun:
         if self.between and (self.method.adaptive or self.done <= self.open):
             recorder.keep(self.snapshot())
 
+    def _end(self, step: Step, t: float) -> tuple[FloatArray, FloatArray]:
+        """State vectors at the end of a step."""
+        q, v, _ = (x[0] for x in self.problem.placed(np.array([t]), step.Q[-1:], step.V[-1:], step.A[-1:]))
+        return q, v
+
     def _look_at_joints(self, step: Step, t: float) -> None:
         """Start anew if something has happened to a sliding joint at the end of a step."""
         system, free = self.system, self.problem.free
-        q, v, _ = (x[0] for x in self.problem.placed(np.array([t]), step.Q[-1:], step.V[-1:], step.A[-1:]))
+        q, v = self._end(step, t)
         code = first_event(system.core.joints.tail, q)
         if code < 0:
             return

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.sparse.linalg import SuperLU, splu
 
 from ..arrays import FloatArray
+from ..compiled import traits
 from ..errors import SolveError
 from ..linalg.sparse import to_sparse
 from ..model.beam import Beam
@@ -63,7 +65,7 @@ class Iteration:
         self.expected = len(np.setdiff1d(self.system.multipliers, self.core.supports.held))
         slenderness = [_slenderness(b) for b in self.system.model.beams.values()]
         self.accepted = ACCEPTED * max([1.0, *slenderness])
-        self.follows = any(len(batch.base) > 0 for batch in self.core.external)
+        self.follows = any(len(batch.base) > 0 and _follows(batch) for batch in self.core.external)
         self.mixed = Mixed(self.core.batches)
         self.spin = Spin(self.system, self.core.supports.held)
         self.spinning = False
@@ -219,6 +221,11 @@ class Iteration:
         assemble(core.batches, core.ws, self.q, self.zero, core.A, 0.0, 0.0, 1.0)
         restrict(core.supports, core.A)
         return is_neutral(to_sparse(core.A, self.system.places), x)
+
+
+def _follows(batch: Any) -> bool:
+    own = traits(batch).follows
+    return own is None or own(batch)
 
 
 def _slenderness(beam: Beam) -> float:

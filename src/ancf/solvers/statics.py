@@ -15,8 +15,9 @@ import time as clock
 import numpy as np
 
 from ..arrays import FloatArray
+from ..compiled import traits
 from ..connections.sliding import LEFT
-from ..system.core import apply_load, first_event, place_supports
+from ..system.core import apply_load, first_event, keep_memory, place_supports
 from ..system.system import System
 from .events import happen
 from .floating import check_supported
@@ -26,6 +27,8 @@ from .static_iteration import Iteration
 from .static_path import follow_path, settle
 
 STENCIL_STEP = 1e-3  # of the differences that give rates of given motions, s
+RENEWED, MOST_RENEWED = 1e-9, 60  # change of what comes last that is none, and rounds
+UNMOVED = 1e-10  # correction after it that is round-off, positions in sizes of the model
 MOST_EVENTS = 4  # openings and closings of a contact
 
 
@@ -53,6 +56,7 @@ def equilibrium(
     place_supports(core.supports, core.loads.value, tables, 0, q, v, a)
     force = np.empty_like(q)
     apply_load(core.loads, tables.value[0], force)
+    keep_memory(core.remembering, q, v)  # friction opposes the way from the initial shape
     it = Iteration(system, core, q, force, core.loads.value.copy())
     slack = Slack(system, q, force)
     try:
@@ -62,11 +66,31 @@ def equilibrium(
             halvings += follow_path(it, slack.let_out, LET_OUT, "of the slack")
             halvings += follow_path(it, slack.stiffen, slack.steps, "of the axial stiffness")
         settle_contacts(it)
+        bring_late(it)
     finally:
         slack.set(0.0, 0.0)
         core.loads.value[:] = it.inputs
+    keep_memory(core.remembering, it.q, it.zero)
     seconds = clock.process_time() - cpu
     return it.q, Stats(load_steps, it.iterations, it.jacobians, it.jacobians, halvings, seconds)
+
+
+def bring_late(it: Iteration) -> None:
+    """Bring on what comes last, such as friction, and renew it until it fits the equilibrium."""
+    ways = [(batch, own(batch)) for batch in it.core.batches if (own := traits(batch).late) is not None]
+    found = [(batch, way) for batch, way in ways if way is not None]
+    for _ in range(MOST_RENEWED if found else 0):
+        changes, before = [way(batch, it.q) for batch, way in found], it.q
+        if max(changes) < RENEWED:
+            return
+        problem = settle(it, 1.0)
+        if problem is not None:
+            raise it.failure("equilibrium with friction", problem, "start nearer to the equilibrium")
+        if it.length((it.q - before)[: it.system.n]) < UNMOVED:
+            return
+    if found:
+        what = f"friction did not settle in {MOST_RENEWED} rounds"
+        raise it.failure("equilibrium with friction", what, "start nearer to the equilibrium")
 
 
 def settle_contacts(it: Iteration) -> None:

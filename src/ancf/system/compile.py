@@ -156,6 +156,7 @@ def make_core(
     return Core(
         batches=Batches(batches),
         external=Batches(external),
+        remembering=Batches(b for b in batches if traits(b).memory),
         ws=workspace(),
         A=np.zeros(places.size),
         factor=allocate(places.row_start, places.column),

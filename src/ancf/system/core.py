@@ -14,6 +14,7 @@ from ..batches import (
     add_tangents,
     find_events,
     last_inverted,
+    remember_all,
     strain_energies,
 )
 from ..compiled import formula, inline_kernel, inlined_kernel, kernel
@@ -75,6 +76,7 @@ class Core(NamedTuple):
 
     batches: Batches  # everything that has forces
     external: Batches  # of them the loads that depend on the state
+    remembering: Batches  # of them those with a memory
     ws: FloatArray  # workspace of the element kernels
     A: FloatArray  # values of the iteration matrix in 6x6 blocks
     factor: Factor
@@ -288,3 +290,9 @@ def follow_supports(supports, q, v, a):
 def place_supports(supports, value, tables, n, q, v, a):
     """Inputs, given motions and shadows, see :func:`drive`."""
     drive(supports, value, tables, n, q, v, a)
+
+
+@kernel
+def keep_memory(remembering, q, v):
+    """Bring the memory of batches up to a state, as each accepted step does."""
+    remember_all(remembering, q, v)

@@ -17,7 +17,7 @@ from ..model.bodies import Body
 from ..model.functions import TimeFunction
 from ..model.joints import Slide
 from ..model.kind import Kind
-from ..model.kinds import LOADS, kind_of
+from ..model.kinds import LOADS, SURROUNDINGS, kind_of
 from ..model.loads import DistributedLoad, Force, Moment
 from ..model.model import Model
 from .probe import R_X, R_Y, R_Z, Probe, R
@@ -54,13 +54,14 @@ def _moments(model: Model) -> tuple[list[Moment], list[Moment]]:
 
 
 def _laws(model: Model) -> list[tuple[Kind, list[Any]]]:
-    """Other loads that depend on the state, by kind."""
+    """Other loads that depend on the state, by kind, surroundings last."""
     found: dict[str, tuple[Kind, list[Any]]] = {kind.word: (kind, []) for kind in LOADS if kind.batch}
     for load in model.loads:
         kind = kind_of(load)
         if kind.has_batch(load):
             found[kind.word][1].append(load)
-    return [(kind, items) for kind, items in found.values() if items]
+    around = [(kind, getattr(model, key)) for key, kind in SURROUNDINGS.items()]
+    return [(kind, items) for kind, items in (*found.values(), *around) if items]
 
 
 def patterns(model: Model, locate: Locate, slots: dict[str, IntArray], arcs: dict[str, int]) -> list[Pattern]:
@@ -95,7 +96,8 @@ def batches(model: Model, locate: Locate, value: FloatArray) -> dict[str, Any]:
     for kind, items in _laws(model):
         inputs = len(kind.inputs_of(items[0]))
         own = value[first : first + inputs * len(items)].reshape(len(items), inputs, 3)
-        found[kind.word] = import_module(f"ancf.loads.{kind.batch}").build(items, locate, own)
+        all_of_it = (model,) if kind in SURROUNDINGS.values() else ()
+        found[kind.word] = import_module(f"ancf.loads.{kind.batch}").build(items, locate, own, *all_of_it)
         first += inputs * len(items)
     return found
 

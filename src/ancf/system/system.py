@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..compiled import Role, with_role
+from ..compiled import Role, traits, with_role
 from ..errors import ModelError
 from ..linalg.ordering import fill_pattern
 from ..model.beam import Beam
@@ -93,6 +93,15 @@ class System:
         self.core = make_core(self.parts, self.places, self._weight(), supports, joints, self._loads(value))
         set_scales(self)
         self.measuring = with_role(self.core.batches, Role.MEASURES)
+
+    @property
+    def memory(self) -> dict[str, FloatArray]:
+        """What batches remember of the motion so far, by "part.array"; no copies."""
+        return {
+            f"{name}.{key}": getattr(batch, key)
+            for name, batch in self.parts.items()
+            for key in traits(batch).memory
+        }
 
     def skip_energies(self) -> None:
         """Do not account for what is dissipated and supplied in a run."""

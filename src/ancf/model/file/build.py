@@ -9,10 +9,10 @@ from typing import Any, TypeVar
 from ...errors import ModelError
 from ..bodies import Body
 from ..integrators import integrator_of
-from ..kinds import GROUPS
+from ..kinds import GROUPS, SURROUNDINGS
 from ..model import Model
 from ..names import unknown
-from ..rebuild import add_item
+from ..rebuild import add_item, add_surrounding
 from ..section import Section
 from ..settings import EquilibriumSettings, SimulationSettings
 from .entries import (
@@ -126,6 +126,9 @@ class Builder:
         for key in GROUPS:
             for i, item in enumerate(getattr(entry, key)):
                 self._collected(add_item, model, key, i, item.type, item.given())
+        for key in SURROUNDINGS:
+            for i, item in enumerate(getattr(entry, key)):
+                self._collected(add_surrounding, model, key, i, item.given())
 
     def _collected(self, work: Callable[..., T], *given: Any) -> T | None:
         try:

@@ -8,7 +8,19 @@ from pydantic import Discriminator, Field, Tag
 
 from ..kind import Kind
 from ..kinds import CONNECTIONS, LOADS, SUPPORTS
-from .fields import ElementName, Entry, Inertia, Integrator, Matrix, NonNegative, Positive, StrainName, Vector
+from .fields import (
+    Coefficients,
+    ElementName,
+    Entry,
+    Inertia,
+    Integrator,
+    Matrix,
+    NonNegative,
+    Positive,
+    StrainName,
+    Vector,
+)
+from .surroundings import FluidEntry, GroundEntry
 
 
 class SectionEntry(Entry):
@@ -21,6 +33,11 @@ class SectionEntry(Entry):
     axial_damping: NonNegative = Field(0.0, description="Axial Kelvin-Voigt damping [N s].")
     bending_damping: NonNegative = Field(0.0, description="Bending Kelvin-Voigt damping [N m^2 s].")
     slope_damping: NonNegative = Field(0.0, description="Damping of the slopes' rates, of cables only [N s].")
+    diameter: Positive | None = Field(None, description="Outer diameter in a fluid and on the ground [m].")
+    drag: Coefficients | None = Field(None, description="Drag coefficients, normal and tangential [-].")
+    added_mass: Coefficients | None = Field(
+        None, description="Added mass coefficients, normal and tangential [-]."
+    )
 
 
 class MaterialEntry(Entry):
@@ -36,6 +53,10 @@ class MaterialEntry(Entry):
     axial_damping: NonNegative = Field(0.0, description="Axial Kelvin-Voigt damping [N s].")
     bending_damping: NonNegative = Field(0.0, description="Bending Kelvin-Voigt damping [N m^2 s].")
     slope_damping: NonNegative = Field(0.0, description="Damping of the slopes' rates, of cables only [N s].")
+    drag: Coefficients | None = Field(None, description="Drag coefficients, normal and tangential [-].")
+    added_mass: Coefficients | None = Field(
+        None, description="Added mass coefficients, normal and tangential [-]."
+    )
 
 
 class RectangleEntry(MaterialEntry):
@@ -45,6 +66,7 @@ class RectangleEntry(MaterialEntry):
     width: Positive = Field(description="Width, along local y [m].")
     height: Positive = Field(description="Height, along local z [m].")
     J: Positive | None = Field(None, description="Torsion constant, default Saint-Venant's [m^4].")
+    diameter: Positive | None = Field(None, description="Outer diameter in a fluid and on the ground [m].")
 
 
 class CircleEntry(MaterialEntry):
@@ -68,6 +90,7 @@ class MomentsEntry(MaterialEntry):
     )
     I_zzzz: Positive | None = Field(None, description="Integral of z^4, default as for I_yyyy [m^6].")
     I_yyzz: Positive | None = Field(None, description="Integral of y^2 z^2, default as for I_yyyy [m^6].")
+    diameter: Positive | None = Field(None, description="Outer diameter in a fluid and on the ground [m].")
 
 
 class MotionEntry(Entry):
@@ -212,6 +235,9 @@ class PointMassEntry(Entry):
     name: str = Field(description="Unique name; letters, digits, _, - and spaces inside.")
     at: Vector = Field(description="Initial position [m].")
     mass: Positive = Field(description="Mass [kg].")
+    volume: NonNegative = Field(0.0, description="Volume that it displaces in a fluid [m^3].")
+    drag_area: NonNegative = Field(0.0, description="Drag coefficient times area [m^2].")
+    added_mass: NonNegative = Field(0.0, description="Added mass in units of the displaced mass [-].")
     motion: MassMotionEntry | None = Field(None, description="Initial motion.")
 
 
@@ -228,6 +254,9 @@ class RigidBodyEntry(Entry):
     axes: Matrix | None = Field(
         None, description="Rotation matrix, its columns are the initial body axes; default global [-]."
     )
+    volume: NonNegative = Field(0.0, description="Volume that it displaces in a fluid [m^3].")
+    drag_area: NonNegative = Field(0.0, description="Drag coefficient times area [m^2].")
+    added_mass: NonNegative = Field(0.0, description="Added mass in units of the displaced mass [-].")
     motion: MotionEntry | None = Field(None, description="Initial rigid motion.")
 
 
@@ -263,12 +292,16 @@ class FileEntry(Entry):
     supports: list[AnySupport] = Field([], description="What holds the bodies.")
     loads: list[AnyLoad] = Field([], description="Forces, moments and distributed loads.")
     connections: list[AnyConnection] = Field([], description="Joints and springs between points.")
+    fluids: list[FluidEntry] = Field([], description="Water, air: what the bodies move in.")
+    grounds: list[GroundEntry] = Field([], description="What beams and cables lie on.")
     simulation: SimulationEntry | None = Field(None, description="Settings of a simulation.")
     equilibrium: EquilibriumEntry | None = Field(None, description="Settings of an equilibrium.")
 
 
 NESTED: dict[str, type[Entry]] = {
     "inputs": InputEntry,
+    "fluids": FluidEntry,
+    "grounds": GroundEntry,
     "motion": MotionEntry,
     "simulation": SimulationEntry,
     "equilibrium": EquilibriumEntry,

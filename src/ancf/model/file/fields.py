@@ -35,7 +35,9 @@ class Entry(BaseModel):
         return {key: getattr(self, key) for key in type(self).model_fields if key in keys}
 
 
-def _checked(check: Callable[[Any], Any]) -> AfterValidator:
+def checked(check: Callable[[Any], Any]) -> AfterValidator:
+    """Validator whose errors are those of a check that raises ModelError."""
+
     def validate(value: Any) -> Any:
         try:
             check(value)
@@ -48,7 +50,8 @@ def _checked(check: Callable[[Any], Any]) -> AfterValidator:
     return AfterValidator(validate)
 
 
-def _function_schema(plain: dict[str, Any], row: dict[str, Any]) -> WithJsonSchema:
+def of_schemas(plain: dict[str, Any], row: dict[str, Any]) -> dict[str, Any]:
+    """JSON Schema of a function of time: constant or formulas, or a table with such rows."""
     times = {
         "type": "array",
         "items": {"type": "number"},
@@ -67,10 +70,15 @@ def _function_schema(plain: dict[str, Any], row: dict[str, Any]) -> WithJsonSche
         "required": ["t", "value"],
         "additionalProperties": False,
     }
-    return WithJsonSchema({"anyOf": [plain, table]})
+    return {"anyOf": [plain, table]}
 
 
-def _vector_schema(items: dict[str, Any]) -> dict[str, Any]:
+def _function_schema(plain: dict[str, Any], row: dict[str, Any]) -> WithJsonSchema:
+    return WithJsonSchema(of_schemas(plain, row))
+
+
+def vector_schema(items: dict[str, Any]) -> dict[str, Any]:
+    """JSON Schema of three of them."""
     return {"type": "array", "items": items, "minItems": 3, "maxItems": 3}
 
 
@@ -80,33 +88,34 @@ _TERM = {"anyOf": [_NUMBER, {"type": "string"}]}
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
 Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
+Coefficients = Annotated[list[NonNegative], Field(min_length=2, max_length=2)]
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
 Matrix = Annotated[list[Vector], Field(min_length=3, max_length=3)]
 Line = Annotated[list[Vector], Field(min_length=2, max_length=2)]
-ScalarFunction = Annotated[Any, _checked(lambda v: TimeFunction(v, 1, "")), _function_schema(_TERM, _NUMBER)]
+ScalarFunction = Annotated[Any, checked(lambda v: TimeFunction(v, 1, "")), _function_schema(_TERM, _NUMBER)]
 VectorFunction = Annotated[
     Any,
-    _checked(lambda v: TimeFunction(v, 3, "")),
-    _function_schema(_vector_schema(_TERM), _vector_schema(_NUMBER)),
+    checked(lambda v: TimeFunction(v, 3, "")),
+    _function_schema(vector_schema(_TERM), vector_schema(_NUMBER)),
 ]
 ForceFunction = Annotated[
     Any,
-    _checked(lambda v: check_force(v, "")),
-    _function_schema(_vector_schema(_TERM), _vector_schema(_NUMBER)),
+    checked(lambda v: check_force(v, "")),
+    _function_schema(vector_schema(_TERM), vector_schema(_NUMBER)),
 ]
 PointOrPosition = Annotated[
     Any,
-    _checked(lambda v: None if isinstance(v, str) else checks.vector(v, "")),
-    WithJsonSchema({"anyOf": [{"type": "string"}, _vector_schema(_NUMBER)]}),
+    checked(lambda v: None if isinstance(v, str) else checks.vector(v, "")),
+    WithJsonSchema({"anyOf": [{"type": "string"}, vector_schema(_NUMBER)]}),
 ]
 Inertia = Annotated[
     Any,
-    _checked(lambda v: as_inertia(v, "")),
-    WithJsonSchema({"anyOf": [_vector_schema(_NUMBER), _vector_schema(_vector_schema(_NUMBER))]}),
+    checked(lambda v: as_inertia(v, "")),
+    WithJsonSchema({"anyOf": [vector_schema(_NUMBER), vector_schema(vector_schema(_NUMBER))]}),
 ]
 Integrator = Annotated[
     Any,
-    _checked(integrator_of),
+    checked(integrator_of),
     WithJsonSchema({"anyOf": [{"enum": list(INTEGRATORS)}, table_schema()]}),
 ]
 PointLabel = Annotated[

@@ -1,0 +1,324 @@
+"""Forces of fluids by Morison's formula, per reference length, on points along bodies.
+
+With t the unit tangent, w = v_f - v the velocity of the fluid past the point, n the part normal to t,
+
+    f = -rho A g                                       buoyancy: the displaced weight
+      + rho d/2 C_Dn |w_n| w_n + rho pi d/2 C_Dt |w_t| w_t          drag; the tangential one on the surface
+      + rho A (1 + C_An) a_f,n + rho A (1 + C_At) a_f,t              Froude-Krylov and inertia of the fluid
+      - rho A C_An a_n - rho A C_At a_t                              added mass.
+
+d and A = pi d^2/4 are those of the section whatever the stretch.  Of a piece that a surface cuts the part
+that is inside counts: its height is the rise of its length and of its diameter, and it fills it evenly.
+
+All of it is the work of a load, the kinetic energy of the water that is carried along included.  The matrix
+leaves out how drag changes as the piece turns, but in an equilibrium, where nothing else may hold it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import FloatArray
+from ..compiled import Role, implements, inline_kernel
+from ..model.beam import Beam
+from ..model.fluids import STEP, require_section
+from .along import add_along, add_block_along, add_slope_block_along, along, place_at, tangent_at
+from .law_functions import address_of
+from .state_force import call
+
+#: Gauss points of an element.
+POINTS = 5
+# columns of ``fluids``: density, heights between which it is, gravity
+DENSITY, LOW, HIGH, GRAVITY = 0, 1, 2, 3
+# columns of ``data``: area, diameter, factors of the drag without the density, coefficients of added mass
+AREA, DIAMETER, DRAG_N, DRAG_T, MASS_N, MASS_T = range(6)
+# rows of ``value``: velocity and acceleration of what is the same everywhere, and the clock (t, share, 0)
+VELOCITY, ACCELERATION, CLOCK = range(3)
+#: Speed below which drag is taken as smooth by the matrix, m/s.
+STILL = 1e-12
+
+
+class FluidBatch(NamedTuple):
+    """All elements in all fluids."""
+
+    base: NDArray[np.int64]  # (n, k)
+    dest: NDArray[np.int64]  # (n, k*k)
+    shape: FloatArray  # (n, points, k)
+    slope: FloatArray  # (n, points, k)
+    weight: FloatArray  # (n, points) m
+    shift: FloatArray  # (n, points) m
+    fluid: NDArray[np.int64]  # (n,) which fluid
+    data: FloatArray  # (n, 6) columns AREA ... MASS_T
+    fluids: FloatArray  # (m, 6) columns DENSITY ... GRAVITY
+    law: NDArray[np.int64]  # (m,) address of the law of the velocity, 0: none
+    first: NDArray[np.int64]  # (m + 1,) first height of the profile
+    heights: FloatArray  # (j,)
+    profile: FloatArray  # (j, 3)
+    moves: NDArray[np.bool_]  # (m,)
+    numbers: FloatArray  # (9,) scratch memory of the laws
+    value: FloatArray  # (m, 3, 3) inputs now
+
+
+def build(items, locate, value, model):
+    """Batch of these fluids; ModelError if a section lacks what they need."""
+    fields, rows, which = [], [], []
+    for k, item in enumerate(items):
+        bodies = [body for name, body in model.bodies.items() if item.acts_on(name) and _takes_part(body)]
+        for body in bodies:
+            if isinstance(body, Beam):
+                require_section(item, body, ("diameter", "drag"))
+        found, owners = along(bodies, locate, POINTS)
+        fields.append(found)
+        rows += [_data(body) for body in owners]
+        which += [k] * len(owners)
+    heights = [item.velocity.heights for item in items]
+    return FluidBatch(
+        **_joined(fields),
+        fluid=np.array(which, dtype=np.int64),
+        data=np.array(rows, dtype=np.float64).reshape(-1, 6),
+        fluids=np.array([[item.density, *item.heights, *model.gravity] for item in items]),
+        law=np.array([_law(item.velocity) for item in items], dtype=np.int64),
+        first=np.cumsum([0, *map(len, heights)]).astype(np.int64),
+        heights=np.concatenate(heights),
+        profile=np.concatenate([item.velocity.profile for item in items]),
+        moves=np.array([item.velocity.moves for item in items]),
+        numbers=np.zeros(9),
+        value=value,
+    )
+
+
+def _joined(parts):
+    """Rows of all fluids, of one width."""
+    k = max(part["base"].shape[1] for part in parts)
+    joined = {}
+    for key, empty in (("base", -1), ("shape", 0.0), ("slope", 0.0)):
+        joined[key] = np.concatenate([_widened(part[key], k, empty) for part in parts])
+    for key in ("weight", "shift"):
+        joined[key] = np.concatenate([part[key] for part in parts])
+    joined["dest"] = np.full((len(joined["base"]), k * k), -1, dtype=np.int64)
+    return joined
+
+
+def _widened(x, k, empty):
+    wide = np.full((*x.shape[:-1], k), empty, dtype=x.dtype)
+    wide[..., : x.shape[-1]] = x
+    return wide
+
+
+def _takes_part(body):
+    return isinstance(body, Beam) or bool(body.volume or body.drag_area)
+
+
+def _law(velocity):
+    by_law = velocity.parts or velocity.law is not None
+    return address_of(velocity, of_place=True) if by_law else 0
+
+
+def _data(body):
+    if not isinstance(body, Beam):
+        diameter = (6.0 * body.volume / math.pi) ** (1.0 / 3.0)
+        return body.volume, diameter, 0.5 * body.drag_area, 0.0, body.added_mass, 0.0
+    s = body.section
+    d, (normal, tangential) = s.diameter, s.drag
+    mass = s.added_mass or (0.0, 0.0)
+    return 0.25 * math.pi * d * d, d, 0.5 * d * normal, 0.5 * math.pi * d * tangential, *mass
+
+
+@inline_kernel
+def below(z, rise, height):
+    """Share of a piece around z with this rise that is below a height, and minus its derivative by z."""
+    if z + 0.5 * rise <= height:
+        return 1.0, 0.0
+    if z - 0.5 * rise >= height:
+        return 0.0, 0.0
+    return 0.5 + (height - z) / rise, 1.0 / rise
+
+
+@inline_kernel
+def wetted(batch, e, p, z, t, size):
+    """Share of the piece of point p inside its fluid, and its derivative by z."""
+    fluid = batch.fluids[batch.fluid[e]]
+    if fluid[LOW] == -math.inf and fluid[HIGH] == math.inf:
+        return 1.0, 0.0
+    level = math.sqrt(max(1.0 - t[2] * t[2], 0.0))
+    rise = batch.weight[e, p] * size * abs(t[2]) + batch.data[e, DIAMETER] * level
+    middle = z + batch.shift[e, p] * size * t[2]
+    top, dtop = below(middle, rise, fluid[HIGH])
+    bottom, dbottom = below(middle, rise, fluid[LOW])
+    return top - bottom, dbottom - dtop
+
+
+@inline_kernel
+def by_law(batch, k, time, x, y, z):
+    """Velocity of fluid k by its law."""
+    batch.numbers[0], batch.numbers[1], batch.numbers[2] = x, y, z
+    call(batch.law[k], time, batch.numbers.ctypes.data)
+    return batch.numbers[6], batch.numbers[7], batch.numbers[8]
+
+
+@inline_kernel
+def by_profile(batch, k, z):
+    """Velocity of fluid k by its profile."""
+    a, b = batch.first[k], batch.first[k + 1] - 1
+    while b - a > 1:
+        middle = (a + b) // 2
+        if batch.heights[middle] <= z:
+            a = middle
+        else:
+            b = middle
+    s = (z - batch.heights[a]) / (batch.heights[b] - batch.heights[a])
+    s = min(max(s, 0.0), 1.0)
+    low, high = batch.profile[a], batch.profile[b]
+    return (
+        low[0] + s * (high[0] - low[0]),
+        low[1] + s * (high[1] - low[1]),
+        low[2] + s * (high[2] - low[2]),
+    )
+
+
+@inline_kernel
+def flow(batch, k, x, y, z):
+    """Velocity and acceleration of fluid k at a place now; in load steps the share of it."""
+    now = batch.value[k]
+    ux, uy, uz = now[VELOCITY, 0], now[VELOCITY, 1], now[VELOCITY, 2]
+    ax, ay, az = now[ACCELERATION, 0], now[ACCELERATION, 1], now[ACCELERATION, 2]
+    share = now[CLOCK, 1]
+    if batch.first[k + 1] > batch.first[k]:
+        px, py, pz = by_profile(batch, k, z)
+        ux, uy, uz = ux + share * px, uy + share * py, uz + share * pz
+    if batch.law[k] != 0 and share > 0.0:
+        time = now[CLOCK, 0] / share
+        lx, ly, lz = by_law(batch, k, time, x, y, z)
+        ux, uy, uz = ux + share * lx, uy + share * ly, uz + share * lz
+        bx, by, bz = by_law(batch, k, time - STEP, x, y, z)
+        lx, ly, lz = by_law(batch, k, time + STEP, x, y, z)
+        c = share / (2.0 * STEP)
+        ax, ay, az = ax + c * (lx - bx), ay + c * (ly - by), az + c * (lz - bz)
+    return (ux, uy, uz), (ax, ay, az)
+
+
+@inline_kernel
+def apart(w, t):
+    """Part of w along t, its normal part and the size of that."""
+    wt = w[0] * t[0] + w[1] * t[1] + w[2] * t[2]
+    n = w[0] - wt * t[0], w[1] - wt * t[1], w[2] - wt * t[2]
+    return wt, n, math.sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
+
+
+@inline_kernel
+def fluid_force(batch, q, v, a, r, ws):
+    """Subtract the forces of the fluids from r."""
+    for e in range(batch.base.shape[0]):
+        k = batch.fluid[e]
+        fluid, data = batch.fluids[k], batch.data[e]
+        share = batch.value[k, CLOCK, 1]
+        for p in range(batch.weight.shape[1]):
+            if batch.weight[e, p] == 0.0:
+                continue
+            x, y, z = place_at(batch, e, p, q)
+            t, size = tangent_at(batch, e, p, q)
+            part, _ = wetted(batch, e, p, z, t, size)
+            if part == 0.0:
+                continue
+            u, du = flow(batch, k, x, y, z)
+            vx, vy, vz = place_at(batch, e, p, v)
+            wt, n, speed = apart((u[0] - vx, u[1] - vy, u[2] - vz), t)
+            bx, by, bz = place_at(batch, e, p, a)
+            ft, fn, _ = apart(du, t)
+            bt, bn, _ = apart((bx, by, bz), t)
+            rho = part * fluid[DENSITY]
+            m, mn, mt = rho * data[AREA], data[MASS_N], data[MASS_T]
+            lift = -share * m
+            dn = rho * data[DRAG_N] * speed
+            along_t = rho * data[DRAG_T] * abs(wt) * wt + m * ((1.0 + mt) * ft - mt * bt)
+            fx = dn * n[0] + along_t * t[0] + m * ((1.0 + mn) * fn[0] - mn * bn[0])
+            fy = dn * n[1] + along_t * t[1] + m * ((1.0 + mn) * fn[1] - mn * bn[1])
+            fz = dn * n[2] + along_t * t[2] + m * ((1.0 + mn) * fn[2] - mn * bn[2])
+            g = fluid[GRAVITY], fluid[GRAVITY + 1], fluid[GRAVITY + 2]
+            add_along(batch, e, p, fx + lift * g[0], fy + lift * g[1], fz + lift * g[2], r)
+
+
+@inline_kernel
+def dyadic(n, t, one, nn, tt, zz):
+    """Rows of one 1 + nn n n^T + tt t t^T + zz e_z e_z^T."""
+    xy, xz, yz = (
+        nn * n[0] * n[1] + tt * t[0] * t[1],
+        nn * n[0] * n[2] + tt * t[0] * t[2],
+        nn * n[1] * n[2] + tt * t[1] * t[2],
+    )
+    return (
+        (one + nn * n[0] * n[0] + tt * t[0] * t[0], xy, xz),
+        (xy, one + nn * n[1] * n[1] + tt * t[1] * t[1], yz),
+        (xz, yz, one + zz + nn * n[2] * n[2] + tt * t[2] * t[2]),
+    )
+
+
+@inline_kernel
+def turning_row(i, wt, n, speed, t, size, dn, dt):
+    """Row i of minus the derivative of the drag by r_x, with its factors dn and dt.
+
+    As t turns by dt, w_t grows by n.dt and n by -w_t dt - (n.dt) t.
+    """
+    s = 1.0 / size
+    here = s * (dn * speed - dt * abs(wt)) * wt
+    c = s * ((dn * wt / speed if speed > STILL else 0.0) * n[i] + (dn * speed - 2.0 * dt * abs(wt)) * t[i])
+    return (
+        c * n[0] + here * ((1.0 if i == 0 else 0.0) - t[i] * t[0]),
+        c * n[1] + here * ((1.0 if i == 1 else 0.0) - t[i] * t[1]),
+        c * n[2] + here * ((1.0 if i == 2 else 0.0) - t[i] * t[2]),
+    )
+
+
+@inline_kernel
+def fluid_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    """Add added mass, the derivatives of drag by the velocity and of buoyancy at a surface to A.
+
+    Without damping, in an equilibrium, also how drag changes as pieces turn.
+    """
+    for e in range(batch.base.shape[0]):
+        k = batch.fluid[e]
+        fluid, data = batch.fluids[k], batch.data[e]
+        for p in range(batch.weight.shape[1]):
+            if batch.weight[e, p] == 0.0:
+                continue
+            x, y, z = place_at(batch, e, p, q)
+            t, size = tangent_at(batch, e, p, q)
+            part, rising = wetted(batch, e, p, z, t, size)
+            if part == 0.0 and rising == 0.0:
+                continue
+            rho = part * fluid[DENSITY]
+            m = c_mass * rho * data[AREA]
+            one, nn, tt = m * data[MASS_N], 0.0, m * (data[MASS_T] - data[MASS_N])
+            lift = batch.value[k, CLOCK, 1] * fluid[DENSITY] * data[AREA] * fluid[GRAVITY + 2]
+            zz = c_stiffness * lift * rising
+            n = 0.0, 0.0, 0.0
+            if batch.moves[k] or c_damping != 0.0:
+                u, _ = flow(batch, k, x, y, z)
+                vx, vy, vz = place_at(batch, e, p, v)
+                wt, n, speed = apart((u[0] - vx, u[1] - vy, u[2] - vz), t)
+                dn, dt = rho * data[DRAG_N], rho * data[DRAG_T]
+                c = c_damping * dn
+                one, tt = one + c * speed, tt + 2.0 * c_damping * dt * abs(wt) - c * speed
+                nn = c / speed if speed > STILL else 0.0
+                if c_damping == 0.0 and c_stiffness != 0.0 and size > 0.0:
+                    rows = (
+                        turning_row(0, wt, n, speed, t, size, dn, dt),
+                        turning_row(1, wt, n, speed, t, size, dn, dt),
+                        turning_row(2, wt, n, speed, t, size, dn, dt),
+                    )
+                    add_slope_block_along(batch, e, p, rows, A)
+            add_block_along(batch, e, p, dyadic(n, t, one, nn, tt, zz), A)
+
+
+implements(
+    FluidBatch,
+    force=fluid_force,
+    tangent=fluid_tangent,
+    role=Role.EXTERNAL,
+    follows=lambda batch: bool(np.any(batch.moves)),
+    turning_mass=lambda batch: bool(np.any(batch.data[:, MASS_N] != batch.data[:, MASS_T])),
+)

@@ -1,0 +1,285 @@
+"""Forces of grounds, per reference length, on points along bodies: spring, damper, friction that sticks.
+
+With the depth g of the axis below the ground, d the diameter of the section, n the normal,
+
+    N = d max(0, k g + c on(g) dg/dt),   on = 0 for g < -SOFT d, 1 for g > 0, linear between,
+
+which never pulls.  The damping comes on in the last hundredth of a diameter above the ground, so that the
+force is continuous and what lies there is damped.  Friction is an elastic-plastic spring with a damper along
+the ground,
+
+    T = -d w,   w = P (k_t (r - anchor) + c_t v),   cut to |T| <= limit,   limit = mu N of the last step,
+
+where P projects on the ground and c_t = c sqrt(k_t/k) is the same share of the critical damping.  The anchor
+is where the spring has no force: a point that does not touch takes it along, one that slips drags it at the
+distance limit/(d k_t).  Anchors and limits are memory: they change once for each accepted step, see
+``ground_remember``.  A limit that is that of the step before keeps the matrix symmetric and the iteration
+stable.  In an equilibrium the anchors are the places of the initial shape, so that friction opposes the way
+from there, whatever the load steps are; it comes on last, with limits that are renewed until they fit.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import FloatArray
+from ..compiled import Role, implements, inline_kernel, kernel
+from ..errors import ModelError
+from ..model.beam import Beam
+from ..model.fluids import require_section
+from ..model.grounds import Relief
+from ..model.points import initial_position
+from .along import add_along, add_block_along, along, place_at
+
+#: Gauss points of an element.
+POINTS = 10
+# columns of ``grounds``: a point of the plane, its normal, k, c, mu, k_t, c_t
+PLACE, NORMAL, STIFFNESS, DAMPING, FRICTION, STICK, DRAG = 0, 3, 6, 7, 8, 9, 10
+#: Height in diameters over which damping comes on.
+SOFT = 0.01
+#: Depth in diameters, below which nothing may be held.
+BURIED = 1.0
+
+
+class GroundBatch(NamedTuple):
+    """All elements on all grounds."""
+
+    base: NDArray[np.int64]  # (n, k)
+    dest: NDArray[np.int64]  # (n, k*k)
+    shape: FloatArray  # (n, points, k)
+    slope: FloatArray  # (n, points, k)
+    weight: FloatArray  # (n, points) m
+    shift: FloatArray  # (n, points) m
+    ground: NDArray[np.int64]  # (n,) which ground
+    diameter: FloatArray  # (n,)
+    grounds: FloatArray  # (m, 11) columns PLACE ... DRAG
+    size: NDArray[np.int64]  # (m, 3) numbers of x and y of a table of heights, 0: a plane; its first number
+    table: FloatArray  # (j,) x, y and z of the tables, one after the other
+    anchor: FloatArray  # (n, points, 3) memory: where friction has no force
+    limit: FloatArray  # (n, points) memory: largest friction, N/m
+
+
+def build(items, locate, value, model):
+    """Batch of these grounds; ModelError if a section has no diameter, or a support is below."""
+    pairs = []
+    for k, item in enumerate(items):
+        for name, body in model.bodies.items():
+            if isinstance(body, Beam) and item.acts_on(name):
+                require_section(item, body, ("diameter",))
+                _refuse_buried(item, body, model)
+                pairs.append((k, body))
+    fields, owners = along([body for _, body in pairs], locate, POINTS)
+    which = [k for k, body in pairs for _ in range(body.elements)]
+    tables = [_table(item) for item in items]
+    starts = np.cumsum([0, *(len(table) for _, _, table in tables)])
+    return GroundBatch(
+        **fields,
+        ground=np.array(which, dtype=np.int64),
+        diameter=np.array([body.section.diameter for body in owners], dtype=np.float64),
+        grounds=np.array([_numbers(item) for item in items]),
+        size=np.array([[t[0], t[1], s] for t, s in zip(tables, starts[:-1], strict=True)], dtype=np.int64),
+        table=np.concatenate([t[2] for t in tables]),
+        anchor=np.zeros((len(owners), POINTS, 3)),
+        limit=np.zeros((len(owners), POINTS)),
+    )
+
+
+def _numbers(item):
+    height = 0.0 if isinstance(item.height, Relief) else item.height
+    stick = item.stiffness if item.stick is None else item.stick
+    drag = item.damping * math.sqrt(stick / item.stiffness)
+    return [0.0, 0.0, height, *item.up, item.stiffness, item.damping, item.friction, stick, drag]
+
+
+def _table(item):
+    if not isinstance(item.height, Relief):
+        return 0, 0, np.zeros(0)
+    x, y, z = item.height.x, item.height.y, item.height.z
+    return len(x), len(y), np.concatenate([x, y, z.ravel()])
+
+
+def _refuse_buried(item, body, model):
+    for support in model.supports:
+        if support.point.body is body:
+            depth = item.depth(initial_position(support.point))
+            if depth > BURIED * body.section.diameter:
+                what = f'"{support.name}" is {depth:.4g} m below the ground "{item.name}"'
+                raise ModelError(item.name, what, "lower the ground, or raise the point that is held")
+
+
+@inline_kernel
+def interval(table, first, count, x):
+    """The place k of x between the numbers ``table[first:first + count]``, and its share of the way on."""
+    if x <= table[first]:
+        return 0, 0.0, 0.0
+    if x >= table[first + count - 1]:
+        return count - 2, 1.0, 0.0
+    a, b = first, first + count - 1
+    while b - a > 1:
+        middle = (a + b) // 2
+        if table[middle] <= x:
+            a = middle
+        else:
+            b = middle
+    length = table[a + 1] - table[a]
+    return a - first, (x - table[a]) / length, 1.0 / length
+
+
+@inline_kernel
+def depth_at(batch, k, x, y, z):
+    """Depth of a place below ground k and its normal there."""
+    ground = batch.grounds[k]
+    nx, ny, first = batch.size[k, 0], batch.size[k, 1], batch.size[k, 2]
+    if nx == 0:
+        n = ground[NORMAL], ground[NORMAL + 1], ground[NORMAL + 2]
+        return (ground[PLACE] - x) * n[0] + (ground[PLACE + 1] - y) * n[1] + (ground[PLACE + 2] - z) * n[2], n
+    i, s, ds = interval(batch.table, first, nx, x)
+    j, t, dt = interval(batch.table, first + nx, ny, y)
+    at = first + nx + ny + i * ny + j
+    z00, z01, z10, z11 = batch.table[at], batch.table[at + 1], batch.table[at + ny], batch.table[at + ny + 1]
+    low, high = z00 + t * (z01 - z00), z10 + t * (z11 - z10)
+    zx, zy = (high - low) * ds, ((1.0 - s) * (z01 - z00) + s * (z11 - z10)) * dt
+    c = 1.0 / math.sqrt(1.0 + zx * zx + zy * zy)
+    return (low + s * (high - low) - z) * c, (-zx * c, -zy * c, c)
+
+
+@inline_kernel
+def pressure(ground, d, g, rate):
+    """Normal force N per length and its derivatives by g and by the rate of g."""
+    soft = SOFT * d
+    on = min(1.0, 1.0 + g / soft)
+    if on <= 0.0:
+        return 0.0, 0.0, 0.0
+    N = ground[STIFFNESS] * g + ground[DAMPING] * on * rate
+    if N <= 0.0:
+        return 0.0, 0.0, 0.0
+    slope = ground[STIFFNESS] + (max(ground[DAMPING] * rate, 0.0) / soft if on < 1.0 else 0.0)
+    return d * N, d * slope, d * ground[DAMPING] * on
+
+
+@inline_kernel
+def touch_at(batch, e, p, q, v):
+    """Place, velocity and normal at point p of row e; normal force with its derivatives."""
+    k, d = batch.ground[e], batch.diameter[e]
+    at = place_at(batch, e, p, q)
+    g, n = depth_at(batch, k, at[0], at[1], at[2])
+    if g <= -SOFT * d:
+        return at, (0.0, 0.0, 0.0), n, 0.0, 0.0, 0.0
+    u = place_at(batch, e, p, v)
+    rate = -(u[0] * n[0] + u[1] * n[1] + u[2] * n[2])
+    N, by_g, by_rate = pressure(batch.grounds[k], d, g, rate)
+    return at, u, n, N, by_g, by_rate
+
+
+@inline_kernel
+def drawn_at(batch, e, p, r, u, n):
+    """The vector w of the friction, its size, and the factor f of the force -f w; whether it slips."""
+    ground, anchor, d = batch.grounds[batch.ground[e]], batch.anchor[e, p], batch.diameter[e]
+    stick, c = ground[STICK], ground[DRAG]
+    x, y, z = (
+        stick * (r[0] - anchor[0]) + c * u[0],
+        stick * (r[1] - anchor[1]) + c * u[1],
+        stick * (r[2] - anchor[2]) + c * u[2],
+    )
+    normal = x * n[0] + y * n[1] + z * n[2]
+    w = x - normal * n[0], y - normal * n[1], z - normal * n[2]
+    size = math.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+    if d * size > batch.limit[e, p]:
+        return w, size, batch.limit[e, p] / size, True
+    return w, size, d, False
+
+
+@inline_kernel
+def ground_force(batch, q, v, a, r, ws):
+    """Subtract the forces of the grounds from r."""
+    for e in range(batch.base.shape[0]):
+        for p in range(batch.weight.shape[1]):
+            at, u, n, N, _, _ = touch_at(batch, e, p, q, v)
+            if batch.limit[e, p] > 0.0:
+                w, _, f, _ = drawn_at(batch, e, p, at, u, n)
+                add_along(batch, e, p, N * n[0] - f * w[0], N * n[1] - f * w[1], N * n[2] - f * w[2], r)
+            elif N > 0.0:
+                add_along(batch, e, p, N * n[0], N * n[1], N * n[2], r)
+
+
+@inline_kernel
+def ground_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    """Add minus the derivatives by position and velocity."""
+    for e in range(batch.base.shape[0]):
+        ground = batch.grounds[batch.ground[e]]
+        for p in range(batch.weight.shape[1]):
+            at, u, n, N, by_g, by_rate = touch_at(batch, e, p, q, v)
+            if N == 0.0 and batch.limit[e, p] == 0.0:
+                continue
+            nn, one, ww = c_stiffness * by_g + c_damping * by_rate, 0.0, 0.0
+            w = 0.0, 0.0, 0.0
+            if batch.limit[e, p] > 0.0:
+                w, size, f, slips = drawn_at(batch, e, p, at, u, n)
+                one = f * (c_stiffness * ground[STICK] + c_damping * ground[DRAG])
+                if slips:
+                    ww = -one / (size * size)
+            nn -= one
+            xy = nn * n[0] * n[1] + ww * w[0] * w[1]
+            xz = nn * n[0] * n[2] + ww * w[0] * w[2]
+            yz = nn * n[1] * n[2] + ww * w[1] * w[2]
+            rows = (
+                (one + nn * n[0] * n[0] + ww * w[0] * w[0], xy, xz),
+                (xy, one + nn * n[1] * n[1] + ww * w[1] * w[1], yz),
+                (xz, yz, one + nn * n[2] * n[2] + ww * w[2] * w[2]),
+            )
+            add_block_along(batch, e, p, rows, A)
+
+
+@inline_kernel
+def ground_remember(batch, q, v):
+    """Move the anchors to where the friction of the state q, v leaves them, and renew the limits."""
+    for e in range(batch.base.shape[0]):
+        ground = batch.grounds[batch.ground[e]]
+        for p in range(batch.weight.shape[1]):
+            at, u, n, N, _, _ = touch_at(batch, e, p, q, v)
+            anchor, stick = batch.anchor[e, p], ground[STICK]
+            w, _, f, slips = drawn_at(batch, e, p, at, u, n)
+            if slips or N == 0.0:
+                keep = f / (batch.diameter[e] * stick) if N > 0.0 else 0.0
+                anchor[0], anchor[1], anchor[2] = (
+                    at[0] - keep * w[0],
+                    at[1] - keep * w[1],
+                    at[2] - keep * w[2],
+                )
+            batch.limit[e, p] = ground[FRICTION] * N
+
+
+@kernel
+def renew_limits(batch, q, v):
+    """Limits of the friction from the state q, v; returns their largest change and the largest of them."""
+    change, most = 0.0, 0.0
+    for e in range(batch.base.shape[0]):
+        for p in range(batch.weight.shape[1]):
+            _, _, _, N, _, _ = touch_at(batch, e, p, q, v)
+            limit = batch.grounds[batch.ground[e], FRICTION] * N
+            change = max(change, abs(limit - batch.limit[e, p]))
+            most = max(most, limit)
+            batch.limit[e, p] = limit
+    return change, most
+
+
+def let_rub(batch, q):
+    """Renew the limits in an equilibrium; returns their relative change."""
+    change, most = renew_limits(batch, q, np.zeros_like(q))
+    return change / most if most > 0.0 else 0.0
+
+
+implements(
+    GroundBatch,
+    force=ground_force,
+    tangent=ground_tangent,
+    remember=ground_remember,
+    role=Role.EXTERNAL,
+    memory=("anchor", "limit"),
+    follows=lambda batch: False,
+    late=lambda batch: let_rub if np.any(batch.grounds[:, FRICTION]) else None,
+)

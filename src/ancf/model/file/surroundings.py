@@ -1,0 +1,73 @@
+"""Fluids and grounds as tables of a model file."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import Field, WithJsonSchema
+
+from ..grounds import height_of
+from ..velocity_field import VelocityField
+from .fields import Entry, NonNegative, Positive, Vector, checked, of_schemas, vector_schema
+
+_NUMBER = {"type": "number"}
+_TERM = {"anyOf": [_NUMBER, {"type": "string"}]}
+_PROFILE = {
+    "type": "object",
+    "properties": {
+        "z": {"type": "array", "items": _NUMBER, "minItems": 2, "description": "Increasing heights [m]."},
+        "velocity": {
+            "type": "array",
+            "items": vector_schema(_NUMBER),
+            "minItems": 2,
+            "description": "Velocities there [m/s].",
+        },
+    },
+    "required": ["z", "velocity"],
+    "additionalProperties": False,
+}
+Velocity = Annotated[
+    Any,
+    checked(lambda v: VelocityField(v, "")),
+    WithJsonSchema({"anyOf": [of_schemas(vector_schema(_TERM), vector_schema(_NUMBER)), _PROFILE]}),
+]
+
+
+class FluidEntry(Entry):
+    """A fluid everywhere, or between two heights."""
+
+    name: str = Field(description="Unique name.")
+    density: Positive = Field(description="Density [kg/m^3].")
+    velocity: Velocity = Field(
+        [0.0, 0.0, 0.0],
+        description="Velocity: numbers or formulas of t, x, y, z, a table over t, or a profile over z [m/s].",
+    )
+    above: float | None = Field(None, description="Lowest height z, default none [m].")
+    below: float | None = Field(None, description="Highest height z, default none [m].")
+    on: list[str] | None = Field(None, description="Bodies on which it acts, default all.")
+
+
+_LINE = {"type": "array", "items": _NUMBER, "minItems": 2, "description": "Increasing places [m]."}
+_ROWS = {"type": "array", "items": {"type": "array", "items": _NUMBER}, "description": "Heights [m]."}
+_RELIEF = {
+    "type": "object",
+    "properties": {"x": _LINE, "y": _LINE, "z": _ROWS},
+    "required": ["x", "y", "z"],
+    "additionalProperties": False,
+}
+Height = Annotated[Any, checked(lambda v: height_of(v, "")), WithJsonSchema({"anyOf": [_NUMBER, _RELIEF]})]
+
+
+class GroundEntry(Entry):
+    """A ground on which beams and cables lie."""
+
+    name: str = Field(description="Unique name.")
+    height: Height = Field(description="Height z of the plane at x = y = 0, or a table of heights [m].")
+    stiffness: Positive = Field(description="Force per length, diameter and depth [Pa/m].")
+    damping: NonNegative = Field(0.0, description="Force per length, diameter and rate of depth [Pa s/m].")
+    friction: NonNegative = Field(0.0, description="Coulomb's coefficient of friction [-].")
+    stick: Positive | None = Field(
+        None, description="Stiffness against sliding before it slips, default stiffness [Pa/m]."
+    )
+    normal: Vector | None = Field(None, description="Normal of a plane that slopes, default up [-].")
+    on: list[str] | None = Field(None, description="Beams and cables that lie on it, default all.")

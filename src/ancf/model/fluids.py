@@ -1,0 +1,66 @@
+"""Fluid: what bodies move in."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from ..errors import ModelError
+from .beam import Beam
+from .functions import TimeFunction
+from .velocity_field import VelocityField
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fluid:
+    """A fluid, made by ``Model.add_fluid``."""
+
+    name: str
+    density: float
+    velocity: VelocityField
+    above: float | None
+    below: float | None
+    on: tuple[str, ...] | None
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """Lowest and highest z, m."""
+        low = -math.inf if self.above is None else self.above
+        return low, math.inf if self.below is None else self.below
+
+    def functions(self) -> list[TimeFunction]:
+        """Inputs of its kernels: velocity and acceleration of the part that is the same everywhere, clock.
+
+        The clock is (t, 1, 0); in the load steps of an equilibrium its second number is the share of the
+        loads.
+        """
+        clock = TimeFunction(["t", 1.0, 0.0], 3, self.velocity.where)
+        return [self.velocity.uniform, _rate(self.velocity.uniform), clock]
+
+    def acts_on(self, name: str) -> bool:
+        """Whether it acts on a body."""
+        return self.on is None or name in self.on
+
+
+#: Step of the differences that give the acceleration of a fluid, s.
+STEP = 1e-4
+
+
+def _rate(function: TimeFunction) -> TimeFunction:
+    if function.constant or function.missing:
+        return TimeFunction([0.0, 0.0, 0.0], 3, function.where)
+    return TimeFunction(lambda t: (function(t + STEP) - function(t - STEP)) / (2.0 * STEP), 3, function.where)
+
+
+def require_section(item: Any, beam: Beam, wanted: tuple[str, ...]) -> None:
+    """Raise ModelError if the section of a beam lacks what a fluid or a ground asks for."""
+    lacking = [key for key in wanted if getattr(beam.section, key) is None]
+    if lacking:
+        what = f'its section has no {" and no ".join(lacking)}, which "{item.name}" needs'
+        example = ", ".join(f"{key}={_EXAMPLES[key]}" for key in lacking)
+        hint = f"give Section(..., {example}), or leave the body out with on=[...]"
+        raise ModelError(f'"{beam.name}"', what, hint)
+
+
+_EXAMPLES = {"diameter": "0.1", "drag": "(1.2, 0.01)"}

@@ -1,0 +1,33 @@
+"""What of a section counts in a fluid: its outer diameter, drag and added mass."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import checks
+
+#: Keywords of a section that fluids and grounds ask for.
+IN_FLUID = ("diameter", "drag", "added_mass")
+
+
+def in_fluid(diameter: Any, drag: Any, added_mass: Any) -> dict[str, Any]:
+    """Checked values, None for what was not given.
+
+    Parameters
+    ----------
+    diameter : float, m, or None
+    drag, added_mass : (2,) or None
+        Coefficients normal to the axis and along it.
+    """
+    return {
+        "diameter": None if diameter is None else checks.positive(diameter, "Section.diameter"),
+        "drag": _pair(drag, "Section.drag"),
+        "added_mass": _pair(added_mass, "Section.added_mass"),
+    }
+
+
+def _pair(given: Any, where: str) -> tuple[float, float] | None:
+    if given is None:
+        return None
+    normal, tangential = checks.array(given, where, (2,)).tolist()
+    return checks.non_negative(normal, f"{where}[0]"), checks.non_negative(tangential, f"{where}[1]")

@@ -1,0 +1,148 @@
+"""VelocityField: velocity of a fluid, the same everywhere, a profile over z, or a law of time and place."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import ModelError
+from . import checks
+from .expression import Expression, depends_on_state
+from .functions import Missing, TimeFunction, plain
+
+#: What a formula of a velocity may depend on.
+NAMES = ("t", "x", "y", "z")
+_NOWHERE = np.zeros(3)
+
+
+class VelocityField:
+    """Three numbers, m/s, that may depend on t in s and on the place x, y, z in m.
+
+    Parameters
+    ----------
+    given : (3,), function of time, dict, list of formulas or callable
+        What a function of time may be; ``{"z": (n,), "velocity": (n, 3)}``, linear between the heights and
+        constant outside; formulas of t, x, y, z; or a Python function of t, x, y, z that returns three
+        numbers, simple enough to be compiled by numba.
+    where : str
+        Place in the model, for messages.
+
+    Attributes
+    ----------
+    uniform : TimeFunction
+        The part that is the same everywhere.
+    heights, profile : ndarray, shapes (n,) and (n, 3)
+        The profile, empty if there is none.
+    parts : list of Expression and float
+        Formulas of the place, if it was given so.
+    law : callable or None
+        A Python function of t, x, y, z.
+
+    Raises
+    ------
+    ModelError
+        It is none of these, or cannot be evaluated at t = 0 in the origin.
+    """
+
+    __slots__ = ("given", "heights", "law", "parts", "profile", "uniform", "where")
+
+    def __init__(self, given: Any, where: str) -> None:
+        self.given: Any = given.given if isinstance(given, VelocityField | TimeFunction) else given
+        self.where = where
+        self.heights, self.profile = np.zeros(0), np.zeros((0, 3))
+        self.parts: list[Expression | float] = []
+        self.law: Any = None
+        given, rest = self.given, [0.0, 0.0, 0.0]
+        if isinstance(given, Mapping) and "z" in given:
+            self._read_profile(given)
+        elif callable(given) and not isinstance(given, Missing) and _arguments(given) == len(NAMES):
+            self.law = given
+            self.at(0.0, _NOWHERE)
+        elif _is_formula(given):
+            self.parts = [
+                Expression(part, f"{where}[{i}]", NAMES)
+                if isinstance(part, str)
+                else checks.number(part, f"{where}[{i}]")
+                for i, part in enumerate(given)
+            ]
+            self.at(0.0, _NOWHERE)
+        else:
+            rest = given
+        self.uniform = TimeFunction(rest, 3, where)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> VelocityField:
+        return self  # it never changes
+
+    @property
+    def missing(self) -> str:
+        """Name of the Python function that a description could not keep, or nothing."""
+        return self.uniform.missing
+
+    @property
+    def moves(self) -> bool:
+        """Whether the fluid moves at some time and place."""
+        still = self.uniform.constant and not np.any(self.uniform(0.0))
+        return not still or bool(np.any(self.profile)) or bool(self.parts) or self.law is not None
+
+    def at(self, t: float, r: FloatArray) -> FloatArray:
+        """Velocity (3,) at the time t and the place r (3,)."""
+        if self.law is not None:
+            value = self._called(t, r)
+        elif self.parts:
+            state = dict(zip(NAMES, (t, *r.tolist()), strict=True))
+            value = np.array([p.at(state) if isinstance(p, Expression) else p for p in self.parts])
+        else:
+            columns = [np.interp(r[2], self.heights, c) for c in self.profile.T] if len(self.heights) else 0.0
+            value = self.uniform(t) + np.asarray(columns)
+        if not np.all(np.isfinite(value)):
+            what = f"is {value.tolist()} at t = {t:.6g} s, r = {r.tolist()} m, must be finite"
+            raise ModelError(self.where, what)
+        return value
+
+    def describe(self) -> Any:
+        """Plain JSON-able form; a Python function as ``<function name>``."""
+        return plain(self.given)
+
+    def _read_profile(self, given: Mapping[str, Any]) -> None:
+        if set(given) != {"z", "velocity"}:
+            what = f'a profile has the keys "z" and "velocity", not {sorted(map(str, given))}'
+            raise ModelError(self.where, what)
+        z = checks.array(given["z"], f"{self.where}.z", (None,))
+        velocity = checks.array(given["velocity"], f"{self.where}.velocity", (None, 3))
+        if len(z) < 2 or not np.all(np.diff(z) > 0):
+            raise ModelError(f"{self.where}.z", "must be at least 2 increasing heights")
+        if len(velocity) != len(z):
+            what = f"has {len(velocity)} values for {len(z)} heights"
+            raise ModelError(f"{self.where}.velocity", what)
+        self.heights, self.profile = z, velocity
+
+    def _called(self, t: float, r: FloatArray) -> FloatArray:
+        try:
+            with np.errstate(all="ignore"):
+                value = np.asarray(self.law(t, *r.tolist()), dtype=object)
+        except Exception as error:
+            what = f"at t = {t:.6g} s, r = {r.tolist()} m the function raised {type(error).__name__}: {error}"
+            raise ModelError(self.where, what) from error
+        if value.shape != (3,) or not all(isinstance(part, int | float | np.number) for part in value):
+            what = f"the function of t, x, y, z returned {checks.shown(value.tolist())}, wanted three numbers"
+            raise ModelError(self.where, what)
+        return value.astype(np.float64)
+
+
+def _is_formula(given: Any) -> bool:
+    if isinstance(given, str) or not isinstance(given, Sequence) or len(given) != 3:
+        return False
+    return any(isinstance(part, str) and depends_on_state(part) for part in given)
+
+
+def _arguments(function: Any) -> int:
+    try:
+        parameters = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):
+        return 1
+    kinds = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    return sum(p.kind in kinds and p.default is p.empty for p in parameters)

@@ -1,0 +1,1 @@
+"""Mooring lines against other programs and measurements: ``ancf validate mooring``."""

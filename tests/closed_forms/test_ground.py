@@ -1,0 +1,202 @@
+"""Bodies on grounds: rest, impact, friction that sticks and slips, memory; catenaries of other programs."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import ancf
+from ancf.analysis import prepared
+from ancf.system.core import residual
+from ancf.system.system import System
+
+G, D, RHOA = 9.81, 0.1, 3.0
+K = 2e4  # Pa/m
+
+
+def lying(z=0.0, tilt=0.0, elements=3, gravity=None, length=2.0, EA=1e5, **ground):
+    """A cable along x on a ground that slopes down towards x by an angle, at the depth -z normal to it."""
+    model = ancf.Model(gravity=(0, 0, -G) if gravity is None else gravity)
+    t, n = np.array([np.cos(tilt), 0, -np.sin(tilt)]), np.array([np.sin(tilt), 0, np.cos(tilt)])
+    section = ancf.Section(EA=EA, EI=10.0, rhoA=RHOA, diameter=D)
+    cable = model.add_beam("cable", start=z * n, end=z * n + length * t, elements=elements, section=section)
+    given = {"height": 0.0, "stiffness": K} | ({"normal": n} if tilt else {}) | ground
+    model.add_ground("ground", **given)
+    return model, cable, t, n
+
+
+def rest(tilt=0.0, k=K):
+    return -RHOA * G * np.cos(tilt) / (D * k)
+
+
+class TestPressure:
+    @pytest.mark.parametrize("k", [2e3, 2e5])
+    @pytest.mark.parametrize("elements", [1, 4])
+    def test_a_cable_lies_where_the_ground_bears_it(self, k, elements):
+        model, cable, *_ = lying(elements=elements, stiffness=k)
+        model.hold(cable.start, position="xy")
+        model.hold(cable.end, position="y")
+        state = ancf.equilibrium(model)
+        for x in (0.0, 0.7, 2.0):
+            assert state.position(cable.at(x))[2] == pytest.approx(rest(k=k), rel=1e-9)
+
+    @pytest.mark.parametrize("c", [0.0, 400.0])
+    def test_a_cable_that_drops_bounces(self, c):
+        """Against the same law for one mass, integrated by another program; it never pulls."""
+        model, cable, *_ = lying(z=0.05, elements=2, damping=c)
+        run = ancf.simulate(model, t_end=0.6, step=1e-4, output_step=1e-2)
+
+        def law(t, y):
+            on = np.clip(1.0 - y[0] / (0.01 * D), 0.0, 1.0)
+            N = D * max(0.0, -K * y[0] - c * on * y[1]) if on > 0.0 else 0.0
+            return [y[1], N / RHOA - G]
+
+        exact = solve_ivp(law, (0, 0.6), (0.05, 0.0), t_eval=run.t, rtol=1e-10, atol=1e-12, max_step=1e-3)
+        assert run.position(cable.at(0.9))[:, 2] == pytest.approx(exact.y[0], abs=3e-5)
+        assert run.velocity(cable.end)[:, 2].max() > 0.3
+        if not c:
+            assert np.abs(run.energy.drift).max() < 1e-3 * RHOA * 2.0 * G * 0.05
+
+    def test_order_two_on_the_ground(self):
+        gaps = []
+        for step in (2e-3, 1e-3):
+            model, cable, *_ = lying(z=-0.03, elements=1, damping=100.0)
+            run = ancf.simulate(model, t_end=0.05, step=step, output_step=0.05)
+            exact = solve_ivp(
+                lambda t, y: [y[1], -D * (K * y[0] + 100.0 * y[1]) / RHOA - G],
+                (0, 0.05),
+                (-0.03, 0.0),
+                rtol=1e-11,
+                atol=1e-13,
+            )
+            gaps.append(abs(run.position(cable.start)[-1, 2] - exact.y[0][-1]))
+        assert gaps[0] / gaps[1] == pytest.approx(4.0, rel=0.1)
+
+    def test_a_table_of_heights(self):
+        """Of a plane it gives the forces of the plane; a slope pushes normal to itself."""
+        x = y = np.linspace(-4.0, 4.0, 5)
+        heights = -0.3 - 0.2 * x[:, None] + 0.1 * y[None, :]
+        forces = []
+        for way in ({"height": {"x": x, "y": y, "z": heights}}, {"height": -0.3, "normal": (0.2, -0.1, 1.0)}):
+            model, *_ = lying(z=-0.6, **way)
+            system = System(model)
+            q, v = system.initial_state()
+            r = np.zeros(system.size)
+            residual((system.parts["ground"],), system.core.ws, q, v, v, np.zeros(system.size), r)
+            forces.append(r)
+        assert np.abs(forces[0]).max() > 1.0
+        assert forces[0] == pytest.approx(forces[1], rel=1e-9)
+
+    def test_a_table_is_level_outside(self):
+        model, *_ = lying(z=-0.1, height={"x": [-9, -8], "y": [-1, 1], "z": [[0, 0], [-0.05, -0.05]]})
+        system = System(model)
+        q, v = system.initial_state()
+        r = np.zeros(system.size)
+        residual((system.parts["ground"],), system.core.ws, q, v, v, np.zeros(system.size), r)
+        places = system.slots["cable"][:, 0]
+        assert -r[places + 2].sum() == pytest.approx(D * K * 0.05 * 2.0)
+        assert r[places].sum() == pytest.approx(0.0, abs=1e-12)
+
+
+class TestFriction:
+    def test_rests_on_a_slope_below_the_limit(self):
+        """For 1e5 steps; once the spring of its friction has come to rest it does not creep."""
+        model, cable, t, _ = lying(z=rest(0.2), tilt=0.2, elements=1, friction=0.6, damping=300.0)
+        run = ancf.simulate(model, t_end=111.0, step=1e-3, output_step=1.0, energy=False)
+        x = run.position(cable.end) @ t
+        assert np.abs(x[10:] - x[10]).max() < 1e-6 * 2.0
+        assert x[-1] - x[0] == pytest.approx(RHOA * G * np.sin(0.2) / (D * K), rel=1e-6)
+
+    @pytest.mark.parametrize("tilt", [0.3, 0.6])
+    def test_slides_down_a_slope_above_the_limit(self, tilt):
+        model, cable, t, _ = lying(z=rest(tilt), tilt=tilt, elements=2, friction=0.2, stick=1e8)
+        run = ancf.simulate(model, t_end=0.5, step=1e-3, output_step=0.5)
+        moved = (run.position(cable.start)[-1] - run.position(cable.start)[0]) @ t
+        wanted = 0.5 * G * (np.sin(tilt) - 0.2 * np.cos(tilt)) * 0.25
+        assert moved == pytest.approx(wanted, rel=1e-2)
+
+    def test_a_push_to_and_fro_leaves_a_loop(self):
+        """Quasi-static, against the elastic-plastic spring by hand: sticks, slips, unloads elastically."""
+        push = {"t": [0, 4, 8, 12], "value": [[0, 0, 0], [40.0, 0, 0], [-40.0, 0, 0], [0, 0, 0]]}
+        model, cable, *_ = lying(z=rest(), elements=1, friction=0.3, damping=50.0, length=1.0, EA=1e6)
+        model.hold(cable.start, position="y")
+        model.add_force(cable.start, push)
+        model.add_spring(cable.start, (-5.0, 0, 0), stiffness=2000.0, damping=50.0)
+        run = ancf.simulate(model, t_end=12.0, step=2e-3, output_step=0.02)
+        x = run.position(cable.start)[:, 0]
+        limit, k, spring, u, path = 0.3 * RHOA * G, D * K, 2000.0, 0.0, []
+        stretch = 0.0
+        for t in run.t:
+            force = np.interp(t, push["t"], [row[0] for row in push["value"]])
+            trial = (force + k * (u - stretch)) / (k + spring)  # elastic from where it is
+            stretch_trial = stretch + trial - u
+            if abs(k * stretch_trial) > limit:
+                trial = (force - np.sign(stretch_trial) * limit) / spring
+                stretch_trial = np.sign(stretch_trial) * limit / k
+            u, stretch = trial, stretch_trial
+            path.append(u)
+        assert np.ptp(path) > 4 * limit / k
+        assert x == pytest.approx(np.array(path), abs=0.05 * np.abs(path).max())
+
+    def test_memory_goes_with_a_state(self, tmp_path):
+        """A run in two halves, through a file, is the whole run."""
+        model, cable, *_ = lying(tilt=0.3, z=rest(0.3), elements=2, friction=0.28, damping=300.0)
+        model.add_force(cable.end, ["15*sin(9*t)", "4*cos(7*t)", 0])
+        whole = ancf.simulate(model, t_end=0.6, step=1e-3)
+        ancf.simulate(model, t_end=0.3, step=1e-3, file=tmp_path / "half.h5")
+        loaded = ancf.load(tmp_path / "half.h5")
+        known = loaded.state(-1).known.memory
+        assert set(known) == {"ground.anchor", "ground.limit"}
+        assert known["ground.limit"].max() > 0.0
+        rest_of_it = ancf.simulate(model, t_end=0.6, step=1e-3, start=loaded.state(-1))
+        assert rest_of_it.position(cable.end)[-1] == pytest.approx(whole.position(cable.end)[-1], abs=2e-6)
+        assert ancf.resume(tmp_path / "half.h5", t_end=0.6).position(cable.end)[-1] == pytest.approx(
+            rest_of_it.position(cable.end)[-1], abs=1e-12
+        )
+
+    def test_a_step_that_is_taken_back_takes_the_memory_back(self):
+        model, *_ = lying(z=rest(), elements=2, friction=0.3)
+        method = ancf.Trapezoidal()
+        given = {"output_step": None, "sensors": None, "energy": True, "start": None}
+        system, run, _ = prepared(model, method=method, t_end=0.1, step=1e-3, **given)
+        before = {name: x.copy() for name, x in system.memory.items()}
+        saved = run.bridge._save()
+        for x in system.memory.values():
+            x += 1.0
+        run.bridge._put_back(saved)
+        assert set(before) == {"ground.anchor", "ground.limit"}
+        for name, x in system.memory.items():
+            assert np.array_equal(x, before[name])
+
+
+def catenary(friction, elements=100, k=1e8):
+    """Of MoorPy: XF 400 m, ZF 200 m, L 500 m, EA 7.51e12 N, w 800 N/m; the anchor lies as the line does."""
+    low = -800.0 / (k * D)
+    model = ancf.Model(gravity=(0, 0, -G))
+    section = ancf.Section(EA=7.51e12, EI=0.0, rhoA=800.0 / G, diameter=D)
+    ends = (0, 0, low), (400.0, 0, 200.0 + low)
+    line = model.add_beam(
+        "line", start=ends[0], end=ends[1], elements=elements, section=section, length=500.0
+    )
+    anchor, fairlead = model.pin(line.start), model.pin(line.end)
+    model.add_ground("seabed", 0.0, stiffness=k, friction=friction)
+    state = ancf.equilibrium(model)
+    return -state.reaction(anchor)[0], state.reaction(fairlead)[0]
+
+
+class TestMoorPy:
+    """Its catenary function, version 1.3.0, with a rigid ground: H 96643.428 N; with CB 0.1 80418.604 N."""
+
+    def test_without_friction(self):
+        anchor, fairlead = catenary(0.0)
+        assert anchor == pytest.approx(96643.428, rel=1e-5)
+        assert fairlead == pytest.approx(96643.428, rel=1e-5)
+
+    def test_error_of_a_soft_ground_shrinks_with_its_stiffness(self):
+        gaps = [abs(catenary(0.0, k=k)[1] / 96643.428 - 1) for k in (1e5, 1e7)]
+        assert gaps[1] < 1e-4
+        assert gaps[0] > 3 * gaps[1]
+
+    def test_with_friction(self):
+        anchor, fairlead = catenary(0.1)
+        assert anchor == pytest.approx(80418.604, rel=1e-4)
+        assert fairlead == pytest.approx(96643.428, rel=1e-4)
