@@ -17,6 +17,7 @@ from .model.bodies import PointMass, RigidBody
 from .model.integrators import Explicit, Integrator
 from .model.model import Model
 from .preparation import carried_out, given_state, method_of, prepared, system_of
+from .results import remembered
 from .results.modes import Modes
 from .results.result import Result, load
 from .results.state import State

@@ -332,6 +332,27 @@ def validate(
             validate_case(case, speed, output, report, quiet)
 
 
+MoorDynInput = Annotated[
+    Path, typer.Argument(metavar="LINES.txt", help="Input file of MoorDyn, version 2.", show_default=False)
+]
+Model = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", metavar="MODEL.toml", help="Model file.", show_default="beside it"),
+]
+
+
+@app.command("import-moordyn")
+def import_moordyn(lines: MoorDynInput, output: Model = None) -> None:
+    """Make a model file from an input file of MoorDyn.
+
+    Prints what the file has and the model has not; it stands at the head of the model file too.
+    """
+    with reported():
+        from .import_moordyn import import_file
+
+        import_file(lines, lines.with_suffix(".toml") if output is None else output)
+
+
 def start() -> None:
     """Parse the arguments and do what they say."""
     _fill_streams()
