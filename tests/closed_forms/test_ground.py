@@ -97,6 +97,21 @@ class TestPressure:
         assert r[places].sum() == pytest.approx(0.0, abs=1e-12)
 
 
+class TestExplicit:
+    """Central differences know the ground before anything touches it."""
+
+    def test_stable_step(self):
+        model, *_ = lying(z=0.05, elements=1, stiffness=1e7, EA=1e2)
+        assert ancf.stable_step(model, safety=1.0) == pytest.approx(2 / np.sqrt(1e7 * D / RHOA), rel=0.05)
+
+    def test_a_step_that_is_too_large_is_refused_before_it_falls(self):
+        model, cable, *_ = lying(z=0.05, elements=1, stiffness=1e7, EA=1e3, damping=500.0)
+        with pytest.raises(ancf.ModelError, match="largest stable step"):
+            ancf.simulate(model, t_end=0.3, step=4e-3, integrator=ancf.Explicit())
+        run = ancf.simulate(model, t_end=0.3, step=2e-4, integrator=ancf.Explicit())
+        assert run.position(cable.start)[:, 2].min() > -0.05
+
+
 class TestFriction:
     def test_rests_on_a_slope_below_the_limit(self):
         """For 1e5 steps; once the spring of its friction has come to rest it does not creep."""

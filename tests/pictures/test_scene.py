@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.system.system import System
 from ancf.viz.scene import QUANTITIES, looks
 from ancf.viz.scene.compose import FAR, chosen_times, make_scene
 from ancf.viz.scene.sampling import FINEST, corners, places
@@ -229,3 +230,38 @@ class TestSources:
         assert strip.force.max() > 0.0
         assert strip.ends.mean(axis=1) == pytest.approx(done.position(head))
         assert np.abs(strip.ends[:, 1] - strip.ends[:, 0])[:, [0, 2]].max() < 1e-12
+
+
+class TestNets:
+    """Grounds and surfaces of fluids."""
+
+    @staticmethod
+    def of(**ground):
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        section = ancf.Section(EA=1e4, EI=0.01, rhoA=0.5, diameter=0.02, drag=(1, 0))
+        wire = model.add_beam("wire", start=(0, 0, -2), end=(4, 0, 0), elements=3, section=section)
+        model.pin(wire.start)
+        model.add_ground("bed", **({"height": -2.0, "stiffness": 1e4} | ground))
+        model.add_fluid("water", 1000.0, below=0.5)
+        model.add_fluid("air", 1.2, above=0.5, below=90.0)
+        system = System(model)
+        return make_scene(ancf.State(system, 0.0, *system.initial_state())).nets
+
+    def test_a_plane_and_one_surface(self):
+        """Of two fluids that meet; one far away is left out."""
+        bed, surface = self.of()
+        assert (bed.kind, surface.kind) == ("ground", "surface")
+        assert np.all(bed.lines[..., 2] == -2.0)
+        assert np.all(surface.lines[..., 2] == 0.5)
+        for net in (bed, surface):
+            assert net.lines[..., 0].min() < 0.0 < 4.0 < net.lines[..., 0].max()
+            assert np.ptp(net.lines[..., 1]) > 1.0
+
+    def test_slopes_and_tables(self):
+        tilted = self.of(normal=(0.3, -0.2, 1.0))[0].lines
+        assert tilted[..., 2] == pytest.approx(-2.0 - 0.3 * tilted[..., 0] + 0.2 * tilted[..., 1])
+        table = self.of(height={"x": [-9, 9], "y": [-9, 9], "z": [[-2, -2], [-3, -3]]})[0].lines
+        assert table[..., 2] == pytest.approx(-2.5 - table[..., 0] / 18.0)
+
+    def test_none_without_surroundings(self):
+        assert scene().nets == []

@@ -88,7 +88,8 @@ class Kind:
     add : function, optional
         ``add(model, ...)``, what ``model.<method>(...)`` calls if Model itself has no such method.
     batch : str
-        Module in ``ancf.loads`` with ``build(items, locate, value)``, of a load that depends on the state.
+        Module in ``ancf.loads`` with ``build(items, locate, value)``, of a load that depends on the state; of
+        surroundings ``build(items, locate, value, model)``.
     on_state : function, optional
         ``on_state(item)``: whether an item depends on the state, where only some do.
     inputs : function, optional

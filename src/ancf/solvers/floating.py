@@ -55,8 +55,9 @@ def _only_resists(load: Force) -> bool:
 
 def _borne(system: System, name: str) -> bool:
     """Whether a body lies on a ground or floats at the surface of a fluid; friction alone holds nothing."""
-    fluids = [fluid for fluid in system.model.fluids if fluid.above is not None or fluid.below is not None]
-    return any(item.acts_on(name) for item in (*system.model.grounds, *fluids))
+    model = system.model
+    fluids = [fluid for fluid in model.fluids if fluid.above is not None or fluid.below is not None]
+    return any(g.acts_on(name) for g in model.grounds) or any(f.acts_on(name) for f in fluids)
 
 
 def _holds(system: System, name: str, component: int) -> bool:

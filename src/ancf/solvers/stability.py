@@ -42,7 +42,22 @@ def stable_limit(system: System, q: FloatArray, v: FloatArray) -> float:
     omega = np.sqrt(_largest(system, q, v, 0.0, 1.0))
     resists = core.damped or any(len(batch.base) > 0 for batch in core.external)
     damping = _largest(system, q, v, 1.0, 0.0) if resists else 0.0
-    return limit(float(omega), damping)
+    stiff, drag = _of_grounds(system)
+    return limit(float(np.hypot(omega, np.sqrt(stiff))), damping + drag)
+
+
+def _of_grounds(system: System) -> tuple[float, float]:
+    """Bounds of what grounds add to omega^2 and to the damping once a body comes to lie on them."""
+    stiff, drag = [0.0], [0.0]
+    for ground in system.model.grounds:
+        for name, beam in system.model.beams.items():
+            if ground.acts_on(name) and beam.section.diameter is not None:
+                share = beam.section.diameter / beam.section.rhoA
+                stiff.append(share * max(ground.stiffness, ground.stick or 0.0))
+                drag.append(
+                    share * ground.damping * np.sqrt(max(1.0, (ground.stick or 0.0) / ground.stiffness))
+                )
+    return max(stiff), float(max(drag))
 
 
 def limit(omega: float, damping: float) -> float:

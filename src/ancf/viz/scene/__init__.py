@@ -3,7 +3,7 @@
 from ...arrays import FloatArray
 from .arrows import strokes
 from .compose import chosen_times, make_scene
-from .parts import QUANTITIES, Arrow, Link, Marker, Scene, Strip, Thread, Triad, looks
+from .parts import QUANTITIES, Arrow, Link, Marker, Net, Scene, Strip, Thread, Triad, looks
 
 __all__ = [
     "QUANTITIES",
@@ -11,6 +11,7 @@ __all__ = [
     "FloatArray",
     "Link",
     "Marker",
+    "Net",
     "Scene",
     "Strip",
     "Thread",

@@ -23,6 +23,7 @@ from ...results.state import State
 from ...system.spring_fields import SpringFields
 from . import sampling
 from .arrows import make_arrows
+from .nets import make_nets
 from .parts import Link, Marker, Scene, Strip, Thread, Triad
 
 FRAMES, POINTS = 240, 1500
@@ -114,6 +115,7 @@ def make_scene(
         strips=_strips(shown, source, threads, extent),
         stored=stored,
         arrows=make_arrows(shown, drawn) if moving else [],
+        nets=make_nets(shown.model, drawn),
     )
 
 

@@ -149,6 +149,22 @@ class Arrow:
 
 
 @dataclass(frozen=True, slots=True)
+class Net:
+    """A ground or the surface of a fluid, at rest.
+
+    Parameters
+    ----------
+    name : str
+    kind : "ground" or "surface"
+    lines : (k, m, 3) m
+    """
+
+    name: str
+    kind: str
+    lines: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
 class Scene:
     """What there is to draw, at n times.
 
@@ -156,7 +172,7 @@ class Scene:
     ----------
     title : str
     t : (n,) s
-    threads, links, markers, triads, strips, arrows : list
+    threads, links, markers, triads, strips, arrows, nets : list
     stored : int
         Number of states of the result, of which these are some.
     """
@@ -170,6 +186,7 @@ class Scene:
     strips: list[Strip] = field(default_factory=list)
     stored: int = 1
     arrows: list[Arrow] = field(default_factory=list)
+    nets: list[Net] = field(default_factory=list)
 
     @property
     def box(self) -> FloatArray:

@@ -66,7 +66,7 @@ def plain_scene(scene: Scene, numbers: Numbers) -> Plain:
     links = scene.links
     return {
         "t": numbers.floats(scene.t),
-        "box": scene.box.tolist(),
+        "box": _box(scene).tolist(),
         "quantities": quantities(scene),
         "threads": [_thread(thread, numbers) for thread in scene.threads],
         "links": _stacked(
@@ -90,7 +90,14 @@ def plain_scene(scene: Scene, numbers: Numbers) -> Plain:
             force=[_known(strip.force, scene.t) for strip in scene.strips],
         ),
         "arrows": _arrows(scene, numbers),
+        "nets": [{"name": n.name, "kind": n.kind, "lines": n.lines.tolist()} for n in scene.nets],
     }
+
+
+def _box(scene: Scene) -> FloatArray:
+    """Of all that is drawn, nets included."""
+    corners = np.concatenate([scene.box, *(net.lines.reshape(-1, 3) for net in scene.nets)])
+    return np.stack([corners.min(axis=0), corners.max(axis=0)])
 
 
 def quantities(scene: Scene) -> list[Plain]:

@@ -24,6 +24,7 @@ function layersOf(scene, traces) {
     ...scene.triads ? [triadLayer(scene.triads)] : [],
     ...scene.markers.map(markerLayer),
     ...scene.arrows.map(arrowLayer),
+    ...scene.nets.map(netLayer),
     ...traces.flatMap(traceLayers),
   ];
 }
@@ -225,6 +226,18 @@ function strokesOf(tail, tip, { head, turns }) {
     lines.push([end, add(back, wide, side)], [end, add(back, -wide, side)]);
   }
   return lines;
+}
+
+// A ground or the surface of a fluid, which stay.
+function netLayer(net) {
+  const path = new Path(), ground = net.kind === "ground";
+  for (const points of net.lines) {
+    for (const point of points) path.add(point);
+    path.gap();
+  }
+  const more = { hoverinfo: "skip", hovertemplate: null, ...path };
+  const look = { width: ground ? 2 : 1, color: ground ? LOOKS.grey : LOOKS.curves[0] };
+  return { trace: line(net.name, look, more), still: true, at: () => ({}) };
 }
 
 // The whole path is faint, what was passed is bold.
