@@ -325,7 +325,7 @@ class Model(Connecting, Readable):
     ) -> DistributedLoad:
         """Add a load (3,) in N per m of reference length on a body, or on its part between=(x0, x1) in m.
 
-        As a force it may be a law of the state, of t and of each point's r and v: ``lambda t, r, v: -0.5 * v``.
+        As a force it may be a law of the state, of t and each point's r and v: ``lambda t, r, v: -0.5 * v``.
         """
         where = self._where("add_distributed_load", name, body)
         clean = self._body(body, f"{where}.body")
