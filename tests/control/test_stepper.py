@@ -40,6 +40,21 @@ def test_same_bits_as_a_simulation(name, pattern):
         assert np.array_equal(recorded[part], wanted[part][: steps + 1]), part
 
 
+def test_all_that_decides_how_it_goes_on():
+    """The snapshots of runs that were stepped in other parts, looks at the energy included."""
+    found = []
+    for pattern in ((1,), (300,), (7, 100, 2)):
+        run = stepped(ancf.stepper(pendulum()[0], step=1e-3), 300, pattern)
+        found.append(run._run.snapshot())
+    for other in found[1:]:
+        same = {k: v for k, v in other.values.items() if k != "seconds"}
+        assert same == {k: v for k, v in found[0].values.items() if k != "seconds"}
+        assert same["look"] > 300
+        assert other.arrays.keys() == found[0].arrays.keys()
+        for place, array in other.arrays.items():
+            assert np.array_equal(array, found[0].arrays[place]), place
+
+
 def test_a_million_steps(request):
     """Of a small model; in the short form of the tests twenty thousand."""
     count = 1_000_000 if request.config.getoption("--slow") else 20_000
@@ -222,6 +237,50 @@ class TestFailures:
         assert run.t == calm.t
         assert run.position("beam.end") == pytest.approx(calm.position("beam.end"), abs=1e-8)
         assert run.stats.steps == calm.stats.steps
+
+    def test_a_step_that_fails_in_the_middle(self):
+        """Parts of it were taken before: they are taken back."""
+        model = ancf.Model()
+        body = model.add_point_mass("body", at=(0, 0, 0), mass=2.0)
+        body.set_motion(velocity=(0.5, 0, 0))
+        model.add_force(body, ["1", "0", "sqrt(0.3 - x)"])
+        run = ancf.stepper(model, step=0.01)
+        run.advance(48)
+        before = run.q, run.v, run.t, run.energy.supplied, run.stats.steps
+        with pytest.raises(ancf.SolveError, match=r"r = \[0\.3") as caught:
+            run.advance()
+        assert (
+            float(caught.value.where.split()[2]) > before[2] + 1e-4
+        )  # some parts of the step had been taken
+        for value, wanted in zip(
+            (run.q, run.v, run.t, run.energy.supplied, run.stats.steps), before, strict=True
+        ):
+            assert np.array_equal(value, wanted)
+        with pytest.raises(ancf.SolveError) as again:
+            run.advance()
+        assert str(again.value) == str(caught.value)
+
+    @pytest.mark.parametrize("at_once", [1, 200])
+    def test_energy_from_nowhere(self, at_once):
+        """The energy is looked at after the same steps as in a simulation, with the same message."""
+
+        def whip():
+            model, beam = pendulum(EA=2e5, EI=1e-4, damping=0.0)
+            beam.set_motion(angular_velocity=(0, 0, 40.0))
+            return model
+
+        said = []
+        for step in (5e-3, 1e-2, 2e-2, 5e-2):
+            try:
+                ancf.simulate(whip(), t_end=300 * step, step=step)
+                continue
+            except ancf.SolveError as error:
+                said.append(str(error))
+            run = ancf.stepper(whip(), step=step)
+            with pytest.raises(ancf.SolveError) as caught:
+                stepped(run, 400, (at_once,))
+            assert str(caught.value) == said[-1]
+        assert any("came from nowhere" in text for text in said)
 
     def test_function_of_time_that_fails_ahead(self):
         """Steps before it are taken, and the message names its time."""

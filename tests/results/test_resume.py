@@ -115,7 +115,7 @@ def test_without_energies(tmp_path):
 
 
 def test_killed_run(tmp_path):
-    """kill -9, then on from the last block."""
+    """kill -9 in another process, then on in this one: the run that was not killed, to the last bit."""
     path = tmp_path / "run.h5"
     child, _ = started(path, 1000)
     with child:
@@ -127,6 +127,9 @@ def test_killed_run(tmp_path):
     assert resumed.t[-1] == end
     assert len(resumed.t) == len(killed.t) + 10
     assert np.array_equal(resumed.q[: len(killed.t)], killed.q[:])
+    whole = ancf.simulate(killed.model, t_end=end, step=1e-3)
+    assert np.array_equal(resumed.q[:], whole.q)
+    assert np.array_equal(resumed.energy.total, whole.energy.total)
 
 
 def test_stopped_run_goes_on_to_its_own_end(tmp_path):

@@ -51,7 +51,6 @@ class Model(Surroundings, Readable):
         The bodies of one kind.
     supports, loads, connections, fluids, grounds : list
     inputs : dict of str to Input
-
     """
 
     def __init__(self, gravity: Any = (0.0, 0.0, 0.0), title: str = "") -> None:
@@ -299,8 +298,7 @@ class Model(Surroundings, Readable):
     ) -> DistributedLoad:
         """Add a load (3,) in N per m of reference length on a body, or on its part between=(x0, x1) in m.
 
-        As a force it may be a function of time or a law of the state, of t and of the place r and velocity v
-        of each point of the line: ``lambda t, r, v: -0.5 * v``.
+        As a force it may be a law of the state, of t and each point's r and v: ``lambda t, r, v: -0.5 * v``.
         """
         where = self._where("add_distributed_load", name, body)
         clean = self._body(body, f"{where}.body")
