@@ -164,9 +164,8 @@ class TestFriction:
         assert known["ground.limit"].max() > 0.0
         rest_of_it = ancf.simulate(model, t_end=0.6, step=1e-3, start=loaded.state(-1))
         assert rest_of_it.position(cable.end)[-1] == pytest.approx(whole.position(cable.end)[-1], abs=2e-6)
-        assert ancf.resume(tmp_path / "half.h5", t_end=0.6).position(cable.end)[-1] == pytest.approx(
-            rest_of_it.position(cable.end)[-1], abs=1e-12
-        )
+        resumed = ancf.resume(tmp_path / "half.h5", t_end=0.6)
+        assert np.array_equal(resumed.position(cable.end)[-1], whole.position(cable.end)[-1])
 
     def test_a_step_that_is_taken_back_takes_the_memory_back(self):
         model, *_ = lying(z=rest(), elements=2, friction=0.3)
