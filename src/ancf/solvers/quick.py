@@ -15,8 +15,8 @@ from numba import typeof, types
 from numba.core.registry import cpu_target
 from numpy.typing import NDArray
 
-from ..batches import RecordType, keep, read
 from ..compiled import separate_kernel
+from ..records import RecordType, keep, read
 from ..system.core import Core, Tables
 from .explicit import advance_explicit
 from .memory import Memory
