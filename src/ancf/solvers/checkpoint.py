@@ -8,7 +8,6 @@ process do not change, and are never kept.
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -112,20 +111,16 @@ class Watched:
             "core": system.core._replace(batches=Batches(), external=Batches()),
         }
         self._arrays = distinct(self._roots)
-        self._digests = {place: _digest(array) for place, array in self._arrays.items()}
+        self._before = {place: array.tobytes() for place, array in self._arrays.items()}
 
     def changed(self) -> Arrays:
         """Copies of the arrays that are not as they were."""
         return {
             place: array.copy()
             for place, array in self._arrays.items()
-            if _digest(array) != self._digests[place]
+            if array.tobytes() != self._before[place]
         }
 
     def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:
         """Let a system that has just been compiled be as it was when `saved` was taken."""
         refill(self._roots, saved)
-
-
-def _digest(array: NDArray[Any]) -> bytes:
-    return hashlib.blake2b(np.ascontiguousarray(array).data, digest_size=16).digest()
