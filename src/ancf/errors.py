@@ -73,5 +73,11 @@ class Interrupted(KeyboardInterrupt):
         super().__init__("the simulation was interrupted")
 
 
+def named(name: Any) -> str:
+    """A name as the place of an error; in quotation marks where nothing of it would be seen."""
+    text = str(name)
+    return text if text.strip() else f'"{text}"'
+
+
 def _sentence(where: str, what: str, hint: str) -> str:
     return f"{where}: {what}" + (f" ({hint})" if hint else "")

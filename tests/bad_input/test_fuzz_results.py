@@ -56,6 +56,21 @@ def test_right_file(right):
     written(right)
 
 
+@pytest.mark.parametrize("name", ["", " ", "nobody"])
+@pytest.mark.parametrize(
+    "question",
+    ["multiplier", "arc_length", "arc_rate", "contact_force", "contact_gap", "spring_force", "spring_length"],
+)
+@pytest.mark.parametrize("of", ["result", "state", "sensors"])
+def test_a_name_that_is_not_there_has_a_place(right, of, question, name):
+    """Also an empty one, as a damaged file may list it."""
+    result = ancf.load(right)
+    asked = {"result": result, "state": result.state(-1), "sensors": result.sensors}[of]
+    with pytest.raises(ancf.ModelError) as error:
+        getattr(asked, question)(name)
+    assert error.value.where.strip()
+
+
 @cases(0.16)
 @given(data=st.data())
 def test_results_files(right, data):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..errors import ModelError
+from ..errors import ModelError, named
 from ..model.bodies import PointMass, RigidBody
 from ..model.points import Point
 from ..system.contact_fields import ContactFields
@@ -77,7 +77,7 @@ class Sensors(SpringFields, ContactFields, Plotted):
     def _contact(self, contact: Any) -> FloatArray:
         name = getattr(contact, "name", contact)
         if name not in self.listing.columns:
-            raise ModelError(str(name), "is no contact that the sensors have recorded", self._recorded())
+            raise ModelError(named(name), "is no contact that the sensors have recorded", self._recorded())
         measured = self._arrays()["measured"]
         return np.stack([measured[..., int(column)] for column in self.listing.columns[name]], axis=-1)
 
@@ -97,7 +97,7 @@ class Sensors(SpringFields, ContactFields, Plotted):
             name = (
                 str(point) if isinstance(point, str) or str(point) else f"{probe.body.name}.at({probe.x:g})"
             )
-            raise ModelError(name, "was not recorded by the sensors", self._recorded())
+            raise ModelError(named(name), "was not recorded by the sensors", self._recorded())
 
     def _recorded(self) -> str:
         return "recorded are: " + ", ".join(self.names)

@@ -76,7 +76,7 @@ def _softened(batch: CableBatch, left: float) -> CableBatch:
         kept = min(axial, ROOM - TWO)
         own = np.concatenate([gauss_table(kept, bending)[:kept], own[axial:]])
         own[:kept, 6] *= left
-        two = gauss_table(TWO, bending)[:TWO]
+        two = gauss_table(TWO, bending)[:TWO].copy()
         two[:, 6] *= 1.0 - left
         tables.append(np.concatenate([two, own]))
         groups[k, 3], groups[k, 4] = first, TWO + kept

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..connections.contact import ARC, ASIDE, FORCE, OVERLAP, contact_values
-from ..errors import ModelError
+from ..errors import ModelError, named
 from ..model.contact import Contact
 from ..model.model import Model
 from .joint_fields import JointFields
@@ -66,7 +66,7 @@ class ContactFields(JointFields):
         names = self._contacts()
         if name not in names:
             there = "there are: " + ", ".join(names) if names else "there are none"
-            raise ModelError(str(name), f"is no contact here; {there}")
+            raise ModelError(named(name), f"is no contact here; {there}")
         batch = self._contact_system().parts["contacts"]
         mine = batch._replace(found=batch.found.copy())  # a question must not move where a run goes on
         q, v = np.atleast_2d(self.q[...]), np.atleast_2d(self.v[...])  # type: ignore[attr-defined]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..arrays import FloatArray, IntArray
-from ..errors import ModelError
+from ..errors import ModelError, named
 
 
 class JointFields:
@@ -73,4 +73,4 @@ class JointFields:
 
 def _unknown(name: Any, known: dict[str, Any]) -> ModelError:
     there = "there are: " + ", ".join(known) if known else "there are none"
-    return ModelError(str(name), f"is no joint of this kind here; {there}")
+    return ModelError(named(name), f"is no joint of this kind here; {there}")
