@@ -171,7 +171,8 @@ class TestFriction:
         model, *_ = lying(z=rest(), elements=2, friction=0.3)
         method = ancf.Trapezoidal()
         given = {"output_step": None, "sensors": None, "energy": True, "start": None}
-        system, run, _ = prepared(model, method=method, t_end=0.1, step=1e-3, **given)
+        made = prepared(model, method=method, t_end=0.1, step=1e-3, **given)
+        system, run = made.system, made.run
         before = {name: x.copy() for name, x in system.memory.items()}
         saved = run.bridge._save()
         for x in system.memory.values():

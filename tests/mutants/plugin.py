@@ -18,6 +18,7 @@ _OPERATIONS = {
     "event": "find_event",
     "inverted": "inverted",
     "measure": "measure",
+    "remember": "remember",
 }
 _DEFAULTS = {
     "inertia": compiled.no_inertia,
@@ -33,6 +34,7 @@ _ALL = {
     "add_inertias": "_inertias_of_tuple",
     "add_tangents": "_tangents_of_tuple",
     "measure_all": "_measures_of_tuple",
+    "remember_all": "_remembered_by_tuple",
     "strain_energies": "_energies_of_tuple",
     "find_events": "_events_of_tuple",
     "last_inverted": "_inverted_of_tuple",
