@@ -169,6 +169,10 @@ class TestWhatIsRefused:
             ({"lines": "1 rope 1 2 320 20 p"}, "line 15, type", 'no line type "rope"'),
             ({"lines": "1 chain 1 Body1 320 20 p"}, "line 15", "no point of the file"),
             ({"lines": "1 chain 1 2 320 2.5 p"}, "line 15, segments", "is 2.5"),
+            ({"lines": "1 chain 1 2 320 nan p"}, "line 15, segments", 'is "nan"'),
+            ({"lines": "1 chain 1 2 320 inf p"}, "line 15, segments", 'is "inf"'),
+            ({"types": "chain 0.1 -50 2e8 -1 0 1 1 0 0"}, "line 15, type", "no stiffness or no mass"),
+            ({"points": TWO + "\n2 Fixed 1 1 1"}, "line 12", 'two points "2"'),
             ({"lines": "1 chain 1 2 long 20 p"}, "line 15, length", 'is "long"'),
             ({"points": TWO.replace("Vessel", "Turbine1")}, "line 11", 'attached to "Turbine1"'),
             ({"points": TWO.replace("Vessel 0 0 0 0 0", "Free 0 0 0 0 0.5")}, "line 11", "no mass"),
@@ -197,6 +201,10 @@ class TestCommand:
         study = read_study("sub/chain.toml")
         assert study.source_text.startswith("# Made from lines.txt, an input file of MoorDyn.\n# Coupled")
         assert study.model.title == "lines"
+
+    def test_what_no_comment_may_hold_is_spelt_out(self, call, write):
+        assert call("import-moordyn", write(outputs="Fair\x01Ten1 \x1b[31m"), "-o", "m.toml").code == 0
+        assert call("check", "m.toml").code == 0
 
     def test_beside_the_file_without_a_name(self, call, write):
         path = write()

@@ -6,6 +6,7 @@ begin with a line of dashes and their name, tables have two lines of headings, c
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -113,9 +114,12 @@ def read_number(text: str, where: str) -> float:
         It is none.
     """
     try:
-        return float(text.lower().replace("d", "e"))
+        value = float(text.lower().replace("d", "e"))
     except ValueError:
-        raise ModelError(where, f'is "{text}", must be a number') from None
+        value = math.nan
+    if not math.isfinite(value):
+        raise ModelError(where, f'is "{text}", must be a number')
+    return value
 
 
 def read_moordyn(path: str | Path) -> MoorDynFile:

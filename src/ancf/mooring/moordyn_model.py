@@ -15,6 +15,7 @@ from typing import Any
 import tomli_w
 
 from ..errors import ModelError
+from ..files import visible
 from .moordyn_file import MoorDynFile, Row, read_moordyn, read_number
 
 #: Words for what holds a point.
@@ -70,7 +71,7 @@ class Imported:
         head = [f"# Made from {source}, an input file of MoorDyn."]
         head += [f"# {note}" for note in self.notes]
         head += [f"# Left out: {item}" for item in self.left_out]
-        return "\n".join(head) + "\n" + tomli_w.dumps(self.tables)
+        return "\n".join(map(visible, head)) + "\n" + tomli_w.dumps(self.tables)
 
 
 def import_moordyn(path: str | Path) -> Imported:
@@ -90,7 +91,7 @@ def import_moordyn(path: str | Path) -> Imported:
     made = Imported({"title": Path(path).stem})
     options = _Options(file, made)
     sections, damped = _sections(file, made)
-    points = {row.cells["id"]: row for row in file.tables["points"]}
+    points = _points(file)
     tables = made.tables
     tables["gravity"] = [0.0, 0.0, -options.number(GRAVITY)]
     tables["bodies"], ends = _lines(file, points, sections, damped)
@@ -107,6 +108,17 @@ def import_moordyn(path: str | Path) -> Imported:
         made.left_out.append(f"outputs {' '.join(file.outputs)}: ask results, or give sensors")
     tables["equilibrium"] = {"load_steps": 1}
     return made
+
+
+def _points(file: MoorDynFile) -> dict[str, Row]:
+    """Points by number."""
+    points: dict[str, Row] = {}
+    for row in file.tables["points"]:
+        number = row.cells["id"]
+        if number in points:
+            raise ModelError(row.where, f'there are two points "{number}"')
+        points[number] = row
+    return points
 
 
 class _Options:
@@ -196,6 +208,9 @@ def _lines(
         section: str | dict[str, Any] = kind
         if kind in damped:
             values = sections[kind]
+            if min(values["EA"], values["rhoA"]) <= 0.0:
+                what = f'has a share of critical damping, and "{kind}" no stiffness or no mass'
+                raise ModelError(f"{row.where}, type", what)
             critical = math.sqrt(values["EA"] * values["rhoA"]) * length / segments
             section = {**values, "axial_damping": damped[kind] * critical}
         bodies.append(
