@@ -383,6 +383,26 @@ class TestCollapse:
         model.add_force(beam.end, (-1e4, 0, 0))
         failed(r"equilibrium at .* of the load", ancf.equilibrium, model)
 
+    @pytest.mark.parametrize(
+        ("strain", "elements", "force"),
+        [("paper", 1, 50.0), ("paper", 2, 100.0), ("material", 2, 100.0), ("material", 5, 30.0)],
+    )
+    def test_of_a_cable(self, strain, elements, force):
+        """A free stretch at a clamp lets bending vanish with r_x where EA is small: no curvature then."""
+        model = ancf.Model()
+        beam = model.add_beam(
+            "rope",
+            start=(0, 0, 0),
+            end=(1, 0, 0.3),
+            elements=elements,
+            section=ancf.Section(EA=1.0, EI=1.0, rhoA=1.0),
+            strain=strain,
+        )
+        model.clamp(beam.start, stretch="free")
+        model.add_force(beam.end, (0, -force, 0))
+        error = failed(r"rope at node 0: .* r_x vanishes", ancf.equilibrium, model)
+        assert "the load is too large" in error.hint
+
     @pytest.mark.parametrize("element", SOLIDS)
     def test_at_the_start(self, element):
         model, _ = cantilever(3, element=element)

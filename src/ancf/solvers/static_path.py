@@ -10,12 +10,13 @@ from ..arrays import FloatArray
 from ..system.core import find_inverted
 from .free_spin import softest_mode
 from .static_iteration import MORE_MU, Iteration
-from .status import COLLAPSED
+from .status import COLLAPSED, VANISHED
 
 TOLERANCE = 1e-12  # of a correction, positions relative to the size of the model
 MAX_ITERATIONS = 300  # in a load step
 PLAIN = 150  # of them without a line search
 MOST_HALVINGS = 12  # of a load step
+LEAST_SLOPE = 1e-6  # |r_x| of a cable, below which its direction and curvature mean nothing
 WHOLE = 1e-12  # of the path, by which its end may be missed
 SPUN = 1e-5  # accepted where sections spin freely, which leaves their angle open
 LONGEST = 0.3  # largest change of a slope, or of a position in sizes of the model, in one correction
@@ -47,8 +48,15 @@ def follow_path(it: Iteration, load: Callable[[float], float], steps: int, of: s
         it.q, it.mu = before, 0.0
         part, halvings = 0.5 * part, halvings + 1
         if halvings > MOST_HALVINGS:
-            raise it.failure(f"equilibrium at {share:.4g} {of}", problem, "give more load_steps")
+            raise it.failure(f"equilibrium at {share:.4g} {of}", problem, _advice(problem))
     return halvings
+
+
+def _advice(problem: str) -> str:
+    """What to do about a path that cannot be followed."""
+    if problem.endswith(VANISHED):
+        return "the load is too large for EA and EI, or a clamp must hold the stretch"
+    return "give more load_steps"
 
 
 def settle(it: Iteration, share: float) -> str | None:
@@ -67,8 +75,7 @@ def settle(it: Iteration, share: float) -> str | None:
         settled = norm <= TOLERANCE or (norm <= accepted and _stalled(it, dq, r, share))
         if settled and (it.mu == 0.0 or it.harmless()):
             it.q = it.moved(dq, 1.0)
-            slot = find_inverted(it.core.batches, it.core.ws, it.q)
-            return None if slot < 0 else f"{it.system.element_of(slot)}: {COLLAPSED}"
+            return _degenerate(it)
         if regular and it.mu > 0.0 and norm < BALANCED and not disturbed and not it.harmless():
             disturbed = True  # balanced, but not stable
             it.q = disturb(it)
@@ -84,6 +91,17 @@ def settle(it: Iteration, share: float) -> str | None:
         it.mixed.correct(it.q - before)
         it.mu = relax(it.mu, s, norm)
     return f"Newton's method did not converge in {MAX_ITERATIONS} iterations, last correction {norm:.2e}"
+
+
+def _degenerate(it: Iteration) -> str | None:
+    """What makes a settled state worthless: a section that is inside out, a cable without a tangent."""
+    slot = find_inverted(it.core.batches, it.core.ws, it.q)
+    if slot >= 0:
+        return f"{it.system.element_of(slot)}: {COLLAPSED}"
+    found = it.system.shortest_slope(it.q)
+    if found is not None and found[1] < LEAST_SLOPE:
+        return f"{found[0]}: {VANISHED}"
+    return None
 
 
 def _stalled(it: Iteration, dq: FloatArray, r: FloatArray, share: float) -> bool:

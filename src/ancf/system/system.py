@@ -195,6 +195,16 @@ class System:
                 return f"{name} element {int(np.flatnonzero(slots[:, 2] == slot)[0])}"
         return f"unknown {slot}"
 
+    def shortest_slope(self, q: FloatArray) -> tuple[str, float] | None:
+        """Node of a cable with the shortest tangent r_x, and its length; None without cables."""
+        found = []
+        for name, slots in self.slots.items():
+            if slots.shape[1] == 2:  # r and r_x
+                sizes = np.linalg.norm(q[slots[:, 1][:, None] + np.arange(3)], axis=1)
+                k = int(np.argmin(sizes))
+                found.append((f"{name} at node {k}", float(sizes[k])))
+        return min(found, key=lambda node: node[1], default=None)
+
     def adopt(
         self,
         slots: dict[str, IntArray],
