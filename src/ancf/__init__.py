@@ -11,7 +11,7 @@ from .errors import Interrupted, ModelError, SolveError
 if TYPE_CHECKING:
     from .analysis import equilibrium, load, modes, simulate, stable_step
     from .control.stepper import Stepper, stepper
-    from .model import Model, Section
+    from .model import Model, Section, Waves
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
     from .results import Modes, Result, State
     from .resumption import resume
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _LATER = {
     "Model": "model",
     "Section": "model",
+    "Waves": "model",
     "equilibrium": "analysis",
     "simulate": "analysis",
     "modes": "analysis",
@@ -57,6 +58,7 @@ __all__ = [
     "Stepper",
     "Trapezoidal",
     "Verification",
+    "Waves",
     "__version__",
     "equilibrium",
     "load",

@@ -7,6 +7,8 @@ from ancf.compiled import kernel
 from ancf.simd import (
     LANES,
     absolute,
+    cos_and_sin,
+    decay,
     every,
     gather,
     gather_nodes,
@@ -167,3 +169,23 @@ def test_what_does_not_fit_is_refused_when_it_is_compiled():
     for wrong in (two_triples, floats_as_places):
         with pytest.raises(Exception, match="No implementation of function"):
             wrong(np.ones(8))
+
+
+@kernel
+def of_functions(x, out):
+    for k in range(x.shape[0]):
+        c, s = cos_and_sin(load(x, k))
+        store(c, out, 0, k)
+        store(s, out, 1, k)
+        store(decay(-absolute(load(x, k))), out, 2, k)
+
+
+@pytest.mark.parametrize("size", [1e-9, 0.3, 3.0, 39.0, 1e3, 1e5])
+def test_functions_of_lanes(size):
+    x = RNG.uniform(-size, size, (200, LANES))
+    x[0] = 0.0, size, -size, 0.5 * np.pi, np.pi, -1.5 * np.pi, 40.0, -41.0
+    out = np.empty((3, *x.shape))
+    of_functions(x, out)
+    assert np.max(np.abs(out[0] - np.cos(x))) < 5e-15
+    assert np.max(np.abs(out[1] - np.sin(x))) < 5e-15
+    assert np.max(np.abs(out[2] / np.exp(-np.minimum(np.abs(x), 40.0)) - 1.0)) < 1e-13

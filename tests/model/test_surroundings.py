@@ -22,6 +22,8 @@ def study(fluids=(), grounds=(), section=None, **more):
     return given | {"supports": [{"type": "pin", "point": "line.start"}]} | more
 
 
+WAVE = {"spectrum": "regular", "height": 1.4, "period": 6.0, "direction": 0.2, "depth": 30.0, "ramp": 4.0}
+SEA = {"spectrum": "jonswap", "height": 2.0, "period": 8.0, "gamma": 2.0, "seed": 4, "components": 9}
 WAYS = {
     "at rest": {},
     "constant": {"velocity": [1.0, 0.0, 0.5]},
@@ -31,6 +33,8 @@ WAYS = {
     "of the place": {"velocity": ["z*t", "x", 0]},
     "between heights": {"above": -20.0, "below": 0.0},
     "on bodies": {"on": ["line"]},
+    "a wave": {"below": 0.0, "waves": WAVE},
+    "a sea": {"below": 0.0, "waves": SEA},
 }
 GROUNDS = {
     "level": {},
@@ -80,6 +84,15 @@ class TestDescriptions:
             assert again.beams["line"].section == model.beams["line"].section
         assert "drag 1.2 normal, 0.1 tangential" in str(parse_study(study()).model.beams["line"].section)
 
+    def test_waves_are_a_table_or_a_method(self):
+        model = parse_study(study(fluids=[FLUID | {"below": 0.0, "waves": SEA}])).model
+        other = ancf.Model(gravity=(0, 0, -9.81))
+        waves = ancf.Waves.jonswap(2.0, 8.0, gamma=2.0, seed=4, components=9)
+        other.add_fluid("water", 1025.0, below=0.0, waves=waves)
+        assert np.array_equal(other.fluids[0].waves.phase, model.fluids[0].waves.phase)
+        assert np.array_equal(other.fluids[0].waves.omega, model.fluids[0].waves.omega)
+        assert "jonswap waves of 2 m and 8 s" in str(model)
+
     def test_a_python_function_is_named_and_missing(self):
         model = parse_study(study()).model
 
@@ -106,6 +119,22 @@ class TestDescriptions:
             assert all("description" in field for field in given["$defs"][name]["properties"].values())
 
 
+WRONG_WAVES = [
+    (3.0, "", "must be ancf.Waves or a table"),
+    ({"height": 1, "period": 5}, ".spectrum", "must be one of"),
+    (SEA | {"spectrum": "jonswop"}, ".spectrum", '"jonswap"'),
+    ({"spectrum": "regular", "period": 5}, ".height", "is missing"),
+    (WAVE | {"gamma": 2}, ".gamma", "no meaning"),
+    (WAVE | {"height": -1.0}, ".height", "> 0"),
+    (SEA | {"gamma": 0.5}, ".gamma", "at least 1"),
+    (SEA | {"components": 0}, ".components", "between 1 and 2000"),
+    (SEA | {"seed": 1.5}, ".seed", "whole number"),
+    (WAVE | {"period": "5"}, ".period", "number"),
+    (WAVE | {"height": 9.0}, ".height", "breaks at 7.9"),
+    (WAVE | {"height": 2, "period": 9, "depth": 2}, ".height", "in 2 m of water"),
+    (WAVE | {"depth": 0}, ".depth", "> 0"),
+    (WAVE | {"stretching": "x"}, ".stretching", "one of"),
+]
 WRONG = {
     "no density": ({"fluids": [FLUID | {"density": 0.0}]}, "fluids[0].density", "> 0"),
     "velocity of two": ({"fluids": [FLUID | {"velocity": [1, 2]}]}, "fluids[0].velocity", "3"),
@@ -130,6 +159,23 @@ WRONG = {
         "fluids[1]",
         "between z = -1 and 0 m",
     ),
+    **{
+        f"waves: {what}": (
+            {"fluids": [FLUID | {"below": 0.0, "waves": given}]},
+            f"fluids[0].waves{where}",
+            what,
+        )
+        for given, where, what in WRONG_WAVES
+    },
+    "waves without a surface": ({"fluids": [FLUID | {"waves": WAVE}]}, "fluids[0].waves", "need a surface"),
+    **{
+        f"waves under gravity {g}": (
+            {"fluids": [FLUID | {"below": 0.0, "waves": WAVE}], "gravity": g},
+            "fluids[0].waves",
+            "gravity along -z",
+        )
+        for g in ([0.0, 0.0, 0.0], [0.0, 0.0, 9.81], [1.0, 0.0, -9.81])
+    },
     "unknown body": ({"fluids": [FLUID | {"on": ["lime"]}]}, "fluids[0].on[0]", "line"),
     "soft": ({"grounds": [GROUND | {"stiffness": 0.0}]}, "grounds[0].stiffness", "> 0"),
     "hanging": ({"grounds": [GROUND | {"normal": [0, 0, -1.0]}]}, "grounds[0].normal", "point up"),

@@ -29,6 +29,7 @@ from ..model.fluids import STEP, require_section
 from .along import add_along, add_block_along, add_slope_block_along, along, place_at, tangent_at
 from .law_functions import address_of
 from .state_force import call
+from .waves import KEPT, RATE, RISE, SPEED, TIME, renew_waves, tables
 
 #: Gauss points of an element.
 POINTS = 5
@@ -59,6 +60,11 @@ class FluidBatch(NamedTuple):
     heights: FloatArray  # (j,)
     profile: FloatArray  # (j, 3)
     moves: NDArray[np.bool_]  # (m,)
+    sea: FloatArray  # (m, 7) see loads/waves.py
+    waves: NDArray[np.int64]  # (m + 1,) first chunk of components
+    wave: FloatArray  # (chunks, 6, LANES) components
+    angle: FloatArray  # (2, most chunks, LANES) scratch memory
+    kept: FloatArray  # (n, points, KEPT) what waves gave last
     numbers: FloatArray  # (9,) scratch memory of the laws
     value: FloatArray  # (m, 3, 3) inputs now
 
@@ -76,8 +82,13 @@ def build(items, locate, value, model):
         rows += [_data(body) for body in owners]
         which += [k] * len(owners)
     heights = [item.velocity.heights for item in items]
+    joined = _joined(fields)
+    kept = np.zeros((*joined["weight"].shape, KEPT))
+    kept[..., TIME] = np.inf
     return FluidBatch(
-        **_joined(fields),
+        **joined,
+        **tables(items, model.gravity),
+        kept=kept,
         fluid=np.array(which, dtype=np.int64),
         data=np.array(rows, dtype=np.float64).reshape(-1, 6),
         fluids=np.array([[item.density, *item.heights, *model.gravity] for item in items]),
@@ -85,7 +96,7 @@ def build(items, locate, value, model):
         first=np.cumsum([0, *map(len, heights)]).astype(np.int64),
         heights=np.concatenate(heights),
         profile=np.concatenate([item.velocity.profile for item in items]),
-        moves=np.array([item.velocity.moves for item in items]),
+        moves=np.array([item.velocity.moves or item.waves is not None for item in items]),
         numbers=np.zeros(9),
         value=value,
     )
@@ -139,16 +150,16 @@ def below(z, rise, height):
 
 
 @inline_kernel
-def wetted(batch, e, p, z, t, size):
-    """Share of the piece of point p inside its fluid, and its derivative by z."""
+def wetted(batch, e, p, z, t, size, rise):
+    """Share of the piece of point p inside its fluid, its surface higher by rise; the derivative by z."""
     fluid = batch.fluids[batch.fluid[e]]
     if fluid[LOW] == -math.inf and fluid[HIGH] == math.inf:
         return 1.0, 0.0
     level = math.sqrt(max(1.0 - t[2] * t[2], 0.0))
-    rise = batch.weight[e, p] * size * abs(t[2]) + batch.data[e, DIAMETER] * level
+    high = batch.weight[e, p] * size * abs(t[2]) + batch.data[e, DIAMETER] * level
     middle = z + batch.shift[e, p] * size * t[2]
-    top, dtop = below(middle, rise, fluid[HIGH])
-    bottom, dbottom = below(middle, rise, fluid[LOW])
+    top, dtop = below(middle, high, fluid[HIGH] + rise)
+    bottom, dbottom = below(middle, high, fluid[LOW])
     return top - bottom, dbottom - dtop
 
 
@@ -181,9 +192,9 @@ def by_profile(batch, k, z):
 
 
 @inline_kernel
-def flow(batch, k, x, y, z):
-    """Velocity and acceleration of fluid k at a place now; in load steps the share of it."""
-    now = batch.value[k]
+def flow(batch, e, p, k, at, v):
+    """Velocity, acceleration and rise of the surface of fluid k at a point now; in load steps a share."""
+    now, (x, y, z) = batch.value[k], at
     ux, uy, uz = now[VELOCITY, 0], now[VELOCITY, 1], now[VELOCITY, 2]
     ax, ay, az = now[ACCELERATION, 0], now[ACCELERATION, 1], now[ACCELERATION, 2]
     share = now[CLOCK, 1]
@@ -198,7 +209,14 @@ def flow(batch, k, x, y, z):
         lx, ly, lz = by_law(batch, k, time + STEP, x, y, z)
         c = share / (2.0 * STEP)
         ax, ay, az = ax + c * (lx - bx), ay + c * (ly - by), az + c * (lz - bz)
-    return (ux, uy, uz), (ax, ay, az)
+    rise = 0.0
+    if batch.waves[k + 1] > batch.waves[k] and share > 0.0:
+        renew_waves(batch, e, p, k, now[CLOCK, 0] / share, at, v)
+        w = batch.kept[e, p]
+        ux, uy, uz = ux + share * w[SPEED], uy + share * w[SPEED + 1], uz + share * w[SPEED + 2]
+        ax, ay, az = ax + share * w[RATE], ay + share * w[RATE + 1], az + share * w[RATE + 2]
+        rise = share * w[RISE]
+    return (ux, uy, uz), (ax, ay, az), rise
 
 
 @inline_kernel
@@ -219,14 +237,13 @@ def fluid_force(batch, q, v, a, r, ws):
         for p in range(batch.weight.shape[1]):
             if batch.weight[e, p] == 0.0:
                 continue
-            x, y, z = place_at(batch, e, p, q)
+            at, own = place_at(batch, e, p, q), place_at(batch, e, p, v)
             t, size = tangent_at(batch, e, p, q)
-            part, _ = wetted(batch, e, p, z, t, size)
+            u, du, rise = flow(batch, e, p, k, at, own)
+            part, _ = wetted(batch, e, p, at[2], t, size, rise)
             if part == 0.0:
                 continue
-            u, du = flow(batch, k, x, y, z)
-            vx, vy, vz = place_at(batch, e, p, v)
-            wt, n, speed = apart((u[0] - vx, u[1] - vy, u[2] - vz), t)
+            wt, n, speed = apart((u[0] - own[0], u[1] - own[1], u[2] - own[2]), t)
             bx, by, bz = place_at(batch, e, p, a)
             ft, fn, _ = apart(du, t)
             bt, bn, _ = apart((bx, by, bz), t)
@@ -285,9 +302,10 @@ def fluid_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
         for p in range(batch.weight.shape[1]):
             if batch.weight[e, p] == 0.0:
                 continue
-            x, y, z = place_at(batch, e, p, q)
+            at, own = place_at(batch, e, p, q), place_at(batch, e, p, v)
             t, size = tangent_at(batch, e, p, q)
-            part, rising = wetted(batch, e, p, z, t, size)
+            u, _, rise = flow(batch, e, p, k, at, own)
+            part, rising = wetted(batch, e, p, at[2], t, size, rise)
             if part == 0.0 and rising == 0.0:
                 continue
             rho = part * fluid[DENSITY]
@@ -297,9 +315,7 @@ def fluid_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
             zz = c_stiffness * lift * rising
             n = 0.0, 0.0, 0.0
             if batch.moves[k] or c_damping != 0.0:
-                u, _ = flow(batch, k, x, y, z)
-                vx, vy, vz = place_at(batch, e, p, v)
-                wt, n, speed = apart((u[0] - vx, u[1] - vy, u[2] - vz), t)
+                wt, n, speed = apart((u[0] - own[0], u[1] - own[1], u[2] - own[2]), t)
                 dn, dt = rho * data[DRAG_N], rho * data[DRAG_T]
                 c = c_damping * dn
                 one, tt = one + c * speed, tt + 2.0 * c_damping * dt * abs(wt) - c * speed

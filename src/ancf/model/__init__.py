@@ -11,6 +11,7 @@ from .model import Model
 from .points import Point
 from .section import Circle, Rectangle, Section
 from .supports import Clamp, Hold, Pin
+from .waves import Waves
 
 __all__ = [
     "Beam",
@@ -34,4 +35,5 @@ __all__ = [
     "Spherical",
     "Spring",
     "TimeFunction",
+    "Waves",
 ]

@@ -19,6 +19,7 @@ from .section import DAMPINGS, MOMENTS, Rectangle, Section
 from .section_fluid import IN_FLUID
 from .state_function import StateFunction
 from .velocity_field import VelocityField
+from .waves import Waves
 
 MOTION = ("velocity", "angular_velocity", "about")
 
@@ -129,7 +130,7 @@ def _plain(value: Any) -> Any:
         return point(value)
     if isinstance(value, Beam | PointMass | RigidBody):
         return value.name
-    if isinstance(value, TimeFunction | StateFunction | VelocityField | Relief):
+    if isinstance(value, TimeFunction | StateFunction | VelocityField | Relief | Waves):
         return value.describe()
     if isinstance(value, np.ndarray):
         return value.tolist()

@@ -10,6 +10,7 @@ from ..errors import ModelError
 from .beam import Beam
 from .functions import TimeFunction
 from .velocity_field import VelocityField
+from .waves import Waves
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -22,6 +23,7 @@ class Fluid:
     above: float | None
     below: float | None
     on: tuple[str, ...] | None
+    waves: Waves | None = None
 
     @property
     def heights(self) -> tuple[float, float]:

@@ -17,6 +17,7 @@ from .loads import DistributedLoad, Force, Moment
 from .state_function import StateFunction
 from .supports import Clamp, Hold, Pin
 from .tables import number, numbers, plural, with_units
+from .velocity_field import VelocityField
 
 
 def place(end: Any) -> str:
@@ -141,16 +142,22 @@ def between_heights(item: Fluid) -> str:
 
 
 def fluid(item: Fluid) -> str:
-    """Density and velocity of a fluid."""
-    density = f"{number(item.density)} kg/m^3"
-    field = item.velocity
+    """Density, velocity and waves of a fluid."""
+    text = f"{number(item.density)} kg/m^3, {_velocity(item.velocity)}"
+    if item.waves is None:
+        return text
+    word, tall, period = item.waves.given["spectrum"], number(item.waves.height), number(item.waves.period)
+    return f"{text}, {word} waves of {tall} m and {period} s"
+
+
+def _velocity(field: VelocityField) -> str:
     if not field.moves:
-        return f"{density}, at rest"
+        return "at rest"
     if len(field.heights):
-        return f"{density}, velocity by a profile of {plural(len(field.heights), 'height')}"
+        return f"velocity by a profile of {plural(len(field.heights), 'height')}"
     if field.law is not None or field.parts:
-        return f"{density}, velocity {_given(field.describe())} [m/s]"
-    return f"{density}, velocity {value(field.uniform, 'm/s')}"
+        return f"velocity {_given(field.describe())} [m/s]"
+    return f"velocity {value(field.uniform, 'm/s')}"
 
 
 def _given(given: Any) -> str:

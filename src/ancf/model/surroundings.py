@@ -5,16 +5,22 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
+from ..arrays import FloatArray
 from ..errors import ModelError
 from . import checks
 from .connecting import Connecting
 from .fluids import Fluid
 from .grounds import Ground, Relief, height_of, upward
 from .velocity_field import VelocityField
+from .waves import Waves
 
 
 class Surroundings(Connecting):
     """Fluids and grounds of one model."""
+
+    gravity: FloatArray
 
     def __init__(self) -> None:
         super().__init__()
@@ -29,6 +35,7 @@ class Surroundings(Connecting):
         above: float | None = None,
         below: float | None = None,
         on: Any = None,
+        waves: Any = None,
     ) -> Fluid:
         """Add a fluid everywhere, or between two heights, in which bodies have buoyancy, drag and added mass.
 
@@ -47,6 +54,8 @@ class Surroundings(Connecting):
             Heights z between which the fluid is; default everywhere.
         on : sequence of bodies or names, optional
             Bodies on which it acts; default all.
+        waves : Waves or dict, optional
+            On its surface at ``below``: :class:`ancf.Waves`, or the table of one. Gravity must point down.
 
         """
         where = self._where("add_fluid", name if isinstance(name, str) else None)
@@ -57,6 +66,7 @@ class Surroundings(Connecting):
             None if above is None else checks.number(above, f"{where}.above"),
             None if below is None else checks.number(below, f"{where}.below"),
             self._acted_on(on, f"{where}.on"),
+            None if waves is None else self._waves(waves, below, f"{where}.waves"),
         )
         low, high = item.heights
         if not low < high:
@@ -118,6 +128,16 @@ class Surroundings(Connecting):
         self._names.take(item.name, "ground")
         self.grounds.append(item)
         return item
+
+    def _waves(self, given: Any, below: Any, where: str) -> Waves:
+        waves = Waves(given, where)
+        if below is None:
+            raise ModelError(where, "need a surface", "give the fluid below=, its mean height")
+        if not (self.gravity[2] < 0.0 and not np.any(self.gravity[:2])):
+            what = f"need gravity along -z, which is {self.gravity.tolist()}"
+            raise ModelError(where, what, "give Model(gravity=(0, 0, -9.81))")
+        waves.refuse_breaking(where, -float(self.gravity[2]))
+        return waves
 
     def _acted_on(self, given: Any, where: str) -> tuple[str, ...] | None:
         if given is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .functions import cos_and_sin, decay
 from .memory import (
     gather,
     gather_nodes,
@@ -19,6 +20,8 @@ from .values import LANES, absolute, every, greatest, sqrt, total, vector, zero
 __all__ = [
     "LANES",
     "absolute",
+    "cos_and_sin",
+    "decay",
     "every",
     "gather",
     "gather_nodes",

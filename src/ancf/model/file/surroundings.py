@@ -8,6 +8,7 @@ from pydantic import Field, WithJsonSchema
 
 from ..grounds import height_of
 from ..velocity_field import VelocityField
+from ..waves import SPECTRA, STRETCHINGS, Waves
 from .fields import Entry, NonNegative, Positive, Vector, checked, of_schemas, vector_schema
 
 _NUMBER = {"type": "number"}
@@ -33,6 +34,27 @@ Velocity = Annotated[
 ]
 
 
+_WAVES = {
+    "type": "object",
+    "properties": {
+        "spectrum": {"enum": list(SPECTRA), "description": "Kind of waves."},
+        "height": {**_NUMBER, "exclusiveMinimum": 0, "description": "Height, of a sea significant [m]."},
+        "period": {**_NUMBER, "exclusiveMinimum": 0, "description": "Period, of a sea of its peak [s]."},
+        "gamma": {**_NUMBER, "minimum": 1, "description": "Peak enhancement of jonswap, default 3.3 [-]."},
+        "seed": {"type": "integer", "minimum": 0, "description": "Of the random phases, default 1."},
+        "components": {"type": "integer", "minimum": 1, "description": "Number of waves, default 100."},
+        "phase": {**_NUMBER, "description": "Of a regular wave at x = y = 0, t = 0, default 0 [rad]."},
+        "direction": {**_NUMBER, "description": "Of travel, from x towards y, default 0 [rad]."},
+        "depth": {**_NUMBER, "exclusiveMinimum": 0, "description": "Of the water, default deep [m]."},
+        "ramp": {**_NUMBER, "minimum": 0, "description": "Time in which they grow, default the period [s]."},
+        "stretching": {"enum": list(STRETCHINGS), "description": "How the profile follows the surface."},
+    },
+    "required": ["spectrum", "height", "period"],
+    "additionalProperties": False,
+}
+Sea = Annotated[Any, checked(lambda v: Waves(v, "")), WithJsonSchema(_WAVES)]
+
+
 class FluidEntry(Entry):
     """A fluid everywhere, or between two heights."""
 
@@ -45,6 +67,7 @@ class FluidEntry(Entry):
     above: float | None = Field(None, description="Lowest height z, default none [m].")
     below: float | None = Field(None, description="Highest height z, default none [m].")
     on: list[str] | None = Field(None, description="Bodies on which it acts, default all.")
+    waves: Sea | None = Field(None, description="Waves on its surface at `below`.")
 
 
 _LINE = {"type": "array", "items": _NUMBER, "minItems": 2, "description": "Increasing places [m]."}
