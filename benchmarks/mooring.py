@@ -1,0 +1,139 @@
+"""Measure a mooring line with ancf and with MoorDyn in turn: processor time at equal accuracy.
+
+``pip install -e . moordyn`` and ``python benchmarks/mooring.py``. A chain of 320 m in 100 m of water whose
+fairlead moves by 2 m in 10 s for 60 s, as in ``ancf validate mooring``. The error is that of the least and
+the largest force at the fairlead from 40 to 60 s and of the static one, the worst of the three, against ancf
+with short elements and steps.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+import ancf
+from ancf.mooring.cases import GRADED, chain
+
+END, FROM, COUPLING = 60.0, 40.0, 0.05
+FINE_STEP, RUNS = 0.0125, 3  # runs of ours; one of theirs, whose statics take minutes
+LINES = """--- chain of 320 m
+---------------------- LINE TYPES
+TypeName Diam Mass/m EA BA/-zeta EI Cdn Can Cdt Cat
+(-) (m) (kg/m) (N) (N-s/-) (N-m^2) (-) (-) (-) (-)
+chain 0.1 50 2e8 -1 0 1.6 1.0 0.1 0.0
+---------------------- POINTS
+ID Type X Y Z M V CdA CA
+(-) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)
+1 Fixed 0 0 -100 0 0 0 0
+2 Coupled 290 0 0 0 0 0 0
+---------------------- LINES
+ID LineType AttachA AttachB UnstrLen NumSegs Outputs
+(-) (-) (-) (-) (m) (-) (-)
+1 chain 1 2 320 {segments} -
+---------------------- OPTIONS
+0 writeLog
+{step} dtM
+3e6 kBot
+3e5 cBot
+1025 WtrDnsty
+9.80665 g
+100 WtrDpth
+0.1 dtIC
+400 TmaxIC
+4 CdScaleIC
+1e-6 threshIC
+---------------------- END
+"""
+
+
+def ours(nodes: np.ndarray, step: float) -> tuple[list[float], float]:
+    """Static, least and largest force, N; processor time of the run, s."""
+    still = ancf.equilibrium(chain(nodes, motion=0.0)[0])
+    model, line = chain(nodes)
+    start = ancf.equilibrium(model)
+    begin = time.process_time()
+    rule = ancf.GeneralizedAlpha(0.8)
+    run = ancf.simulate(model, t_end=END, step=step, start=start, integrator=rule)
+    taken = time.process_time() - begin
+    force = run.tension(line.end)[run.t >= FROM]
+    return [float(np.linalg.norm(still.reaction("fairlead"))), force.min(), force.max()], taken
+
+
+@contextmanager
+def silence() -> Iterator[None]:
+    """What MoorDyn prints, time after time, is not shown."""
+    shown = os.dup(1)
+    with open(os.devnull, "w") as nothing:
+        os.dup2(nothing.fileno(), 1)
+    try:
+        yield
+    finally:
+        os.dup2(shown, 1)
+        os.close(shown)
+
+
+def theirs(segments: int, step: float) -> tuple[list[float], float]:
+    """The same of MoorDyn."""
+    import moordyn
+
+    with tempfile.TemporaryDirectory() as folder, silence():
+        file = Path(folder) / "lines.txt"
+        file.write_text(LINES.format(segments=segments, step=step))
+        system = moordyn.Create(str(file))
+        place, speed = [290.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+        moordyn.Init(system, place, speed)
+        line = moordyn.GetLine(system, 1)
+        static = float(np.linalg.norm(moordyn.GetLineNodeTen(line, segments)))
+        forces, begin, omega = [], time.process_time(), 2.0 * math.pi / 10.0
+        for k in range(round(END / COUPLING)):
+            t = k * COUPLING
+            place[0] = 290.0 + 2.0 * math.sin(omega * t)
+            speed[0] = 2.0 * omega * math.cos(omega * t)
+            moordyn.Step(system, place, speed, t, COUPLING)
+            if t >= FROM:
+                forces.append(float(np.linalg.norm(moordyn.GetLineNodeTen(line, segments))))
+        taken = time.process_time() - begin
+        moordyn.Close(system)
+    return [static, min(forces), max(forces)], taken
+
+
+def best(measure, *given) -> tuple[list[float], float]:
+    """Forces, and the least processor time of some runs."""
+    found = [measure(*given) for _ in range(RUNS)]
+    return found[0][0], min(taken for _, taken in found)
+
+
+def steps() -> Iterator[tuple[int, float]]:
+    """Segments of the peer, and the longest step with which they are stable."""
+    for segments in (20, 40, 80, 160):
+        yield segments, 0.04 / segments
+
+
+def main() -> None:
+    """Print the table."""
+    fine = np.concatenate([np.linspace(a, b, 5)[1:] for a, b in pairwise(GRADED)])
+    ours(GRADED, 0.2)  # compiles
+    exact, _ = ours(np.concatenate([[0.0], fine]), FINE_STEP)
+    print(f"{'':36}{'static':>10}{'least':>10}{'largest':>10}{'error':>9}{'time':>9}")
+    rows = [(f"ancf, 20 elements, {step} s", best(ours, GRADED, step)) for step in (0.2, 0.1, 0.05, 0.025)]
+    try:
+        for segments, step in steps():
+            rows.append((f"MoorDyn, {segments} segments, {step:g} s", theirs(segments, step)))
+    except ImportError:
+        print("pip install moordyn measures the other side too")
+    for name, (forces, taken) in [("ancf, 80 elements, 0.0125 s", (exact, math.nan)), *rows]:
+        error = max(abs(f / e - 1.0) for f, e in zip(forces, exact, strict=True))
+        shown = "".join(f"{f / 1e3:10.3f}" for f in forces)
+        print(f"{name:36}{shown}{100 * error:8.3f} %{taken:7.3f} s")
+
+
+if __name__ == "__main__":
+    main()
