@@ -16,6 +16,7 @@ FOLDER = Path(__file__).parent / "_static"
 FLOORS = (
     ("cli", "commands, terminal, folders of output"),
     ("paper", "the paper's exhibits"),
+    ("cosimulation", "a model file as a unit of FMI"),
     ("mooring", "mooring lines beside other programs"),
     ("catenary", "overhead lines"),
     ("verification", "half the step, twice the elements"),

@@ -36,6 +36,7 @@ LAYERS = (
     {"verification"},
     {"catenary"},
     {"mooring"},
+    {"cosimulation"},
     {"paper"},
     {"cli"},
 )

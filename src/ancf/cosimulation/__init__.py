@@ -1,0 +1,1 @@
+"""Models as units of co-simulation by the functional mock-up interface (FMI)."""

@@ -1,0 +1,119 @@
+"""Motion: a model file as a unit of co-simulation runs it; the script in the unit calls nothing else."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from ..analysis import equilibrium
+from ..control.stepper import Stepper, stepper
+from ..errors import ModelError
+from ..model.file import Study, read_study
+from ..model.model import Model
+from ..model.settings import FITS, SimulationSettings
+from .outputs import Output
+
+#: Files in a unit.
+MODEL, OUTPUTS = "model.toml", "outputs.json"
+
+
+class Motion:
+    """A model that another program leads: inputs in, steps, outputs out. Its time 0 is where that begins.
+
+    The run begins when something is asked first; an input that changes before its first step changes the
+    equilibrium from which it starts.
+
+    Parameters
+    ----------
+    folder : Path
+        With the model file and the list of outputs.
+
+    Attributes
+    ----------
+    inputs : dict of str to float
+    outputs : list of Output
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.study = read_study(folder / MODEL)
+        self.outputs = [Output(**given) for given in json.loads((folder / OUTPUTS).read_text("utf-8"))]
+        self.inputs = {name: item.value for name, item in self.study.model.inputs.items()}
+        self._run: Stepper | None = None
+        self._start, self._done = 0.0, 0
+
+    @property
+    def run(self) -> Stepper:
+        """The run, which begins now if it has not."""
+        if self._run is None:
+            self._run = begun(self.study, self.inputs)
+        return self._run
+
+    def give(self, name: str, value: float) -> None:
+        """Give an input."""
+        if self.inputs[name] != value and self._done == 0:
+            self._run = None
+        self.inputs[name] = value
+        if self._run is not None:
+            self._run.inputs[name] = value
+
+    def value(self, output: Output) -> float:
+        """What an output is now."""
+        return output.value(self.run)
+
+    def advance(self, time: float, interval: float) -> None:
+        """Go on from a time by an interval of communication, s.
+
+        Raises
+        ------
+        ModelError
+            The interval is no multiple of the model's step, or the time is not where the run is.
+        SolveError
+            A step failed.
+        """
+        step = settings_of(self.study).step
+        if self._done == 0:
+            self._start = time
+        ratio = (time - self._start) / step
+        if abs(ratio - self._done) > max(FITS * abs(ratio), 0.01):
+            now = self._start + self._done * step
+            raise ModelError("do_step.time", f"is {time:.9g} s, the run is at {now:.9g} s")
+        last = round((time + interval - self._start) / step)
+        if last <= self._done or abs((time + interval - self._start) / step - last) > 0.01:
+            what = f"is {interval:g} s, must be a multiple of the model's step of {step:g} s"
+            raise ModelError("do_step.interval", what, "change the communication step, or simulation.step")
+        self.run.advance(last - self._done)
+        self._done = last
+
+
+def settings_of(study: Study) -> SimulationSettings:
+    """The simulation of a study.
+
+    Raises
+    ------
+    ModelError
+        It has none.
+    """
+    if study.simulation is None:
+        hint = "add a table [simulation] with t_end, step and sensors"
+        raise ModelError("simulation", "is missing: a unit of co-simulation needs a step", hint)
+    return study.simulation
+
+
+def begun(study: Study, inputs: dict[str, float], sensors: tuple[str, ...] = ()) -> Stepper:
+    """A stepper from the start that a model file asks for, with these inputs."""
+    settings, model = settings_of(study), study.model
+    if any(model.inputs[name].value != value for name, value in inputs.items()):
+        given = [{"name": name, "value": value} for name, value in inputs.items()]
+        model = Model.from_dict({**model.to_dict(), "inputs": given})
+    start = None
+    if settings.start == "equilibrium":
+        steps = study.equilibrium.load_steps if study.equilibrium else 1
+        start = equilibrium(model, of=settings.equilibrium_of, load_steps=steps)
+    return stepper(
+        model,
+        step=settings.step,
+        start=start,
+        integrator=settings.integrator,
+        sensors=sensors or None,
+        energy=False,
+    )

@@ -1,0 +1,85 @@
+"""What a unit gives: questions to the state of a run, and names and units of their answers."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..control.stepper import Stepper
+from ..model.beam import Beam
+from ..results.state import State
+
+#: Questions with their units, and the names of their parts.
+OF_POINT = {"position": "m", "velocity": "m/s"}
+OF_LINE = {"tension": "N"}
+OF_SPRING = {"spring_force": "N", "spring_length": "m"}
+OF_JOINT = {"multiplier": "N"}
+OF_CONTACT = {"contact_force": "N", "contact_gap": "m", "arc_length": "m"}
+_IDENTIFIER = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*")
+
+
+@dataclass(frozen=True)
+class Output:
+    """One number.
+
+    Parameters
+    ----------
+    name : str
+        By FMI's rules for structured names.
+    question, of : str
+        Method of a state, and the point or connection that it is asked for.
+    part : int
+        Place in the answer.
+    unit : str
+    """
+
+    name: str
+    question: str
+    of: str
+    part: int
+    unit: str
+
+    def value(self, state: State) -> float:
+        """What it is in a state."""
+        return float(np.ravel(getattr(state, self.question)(self.of))[self.part])
+
+
+def outputs_of(run: Stepper) -> list[Output]:
+    """Outputs for all sensors of a run."""
+    return [
+        output for of, question, unit in _questions(run) for output in _parts(run, str(of), question, unit)
+    ]
+
+
+def _questions(run: Stepper) -> Iterator[tuple[Any, str, str]]:
+    listing = run.system.sensors
+    for point in listing.points:
+        questions = OF_POINT | (OF_LINE if isinstance(point.body, Beam) else {})
+        yield from ((point, question, unit) for question, unit in questions.items())
+    for name in listing.connections:
+        questions = OF_SPRING if name in run.springs else {}
+        questions = questions | (OF_JOINT if name in run.joints else {})
+        if name in run.arcs:
+            questions = questions | {"arc_length": "m"}
+        questions = questions | (OF_CONTACT if name in listing.columns else {})
+        yield from ((name, question, unit) for question, unit in questions.items())
+
+
+def _parts(run: Stepper, of: str, question: str, unit: str) -> Iterator[Output]:
+    count = np.size(getattr(run, question)(of))
+    word = question.removeprefix("spring_").removeprefix("contact_")
+    for k in range(count):
+        part = f".{'xyz'[k]}" if question in OF_POINT else (f"[{k + 1}]" if question in OF_JOINT else "")
+        yield Output(f"{structured(of)}.{word}{part}", question, of, k, unit)
+
+
+def structured(name: str) -> str:
+    """A name as FMI has it: quoted unless it is made of identifiers and dots."""
+    if _IDENTIFIER.fullmatch(name):
+        return name
+    escaped = name.replace("\\", "\\\\").replace("'", "\\'")
+    return f"'{escaped}'"

@@ -1,0 +1,231 @@
+"""Units of co-simulation, run by an importer of others (FMPy), against the stepper."""
+
+import json
+import subprocess
+import sys
+import zipfile
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import ancf
+from ancf.cli.app import app
+from ancf.cosimulation.fmu import export_fmu
+from ancf.cosimulation.motion import Motion
+from ancf.cosimulation.outputs import structured
+from ancf.errors import ModelError
+from ancf.model.file import read_study
+
+fmpy = pytest.importorskip("fmpy")
+validation = pytest.importorskip("fmpy.validation")
+
+MODEL = """
+title = "A rope that \\"an input\\" pulls"
+gravity = [0, 0, -9.81]
+
+[[inputs]]
+name = "thrust"
+value = 0.5
+
+[[inputs]]
+name = "lift"
+
+[[bodies]]
+type = "beam"
+name = "rope"
+start = [0, 0, 0]
+end = [0, 0, -2]
+elements = 3
+section = { EA = 1e4, EI = 0.1, rhoA = 0.5 }
+
+[[bodies]]
+type = "point_mass"
+name = "load"
+at = [0, 0, -1.5]
+mass = 2.0
+
+[[supports]]
+type = "pin"
+point = "rope.start"
+
+[[connections]]
+type = "spherical"
+name = "hook"
+a = "rope.at(1.5)"
+b = "load"
+
+[[connections]]
+type = "spring"
+name = "tie"
+a = "rope.at(1)"
+b = [1, 0, -1]
+stiffness = 5.0
+
+[[loads]]
+type = "force"
+point = "load"
+force = ["thrust + 0.1*sin(t)", 0, "lift"]
+
+[simulation]
+t_end = 1.0
+step = 1e-3
+start = "equilibrium"
+sensors = ["rope.end", "rope.at(1)", "load", "tie", "hook"]
+"""
+#: What an importer does, in a process of its own: such units may end a Python process badly when it exits.
+IMPORTER = """
+import json, os, sys
+import fmpy, numpy as np
+file, begin, first = sys.argv[1], float(sys.argv[2]), float(sys.argv[3])
+t = begin + np.array([0.0, 0.1, 0.3])
+given = np.array(list(zip(t, [first, 3.0, -1.0])), dtype=[("time", float), ("thrust", float)])
+found = fmpy.simulate_fmu(file, start_time=begin, stop_time=begin + 0.3, step_size=0.01, output_interval=0.01,
+                          input=given, start_values={"lift": 0.25})
+print(json.dumps({name: found[name].tolist() for name in found.dtype.names}))
+sys.stdout.flush()
+os._exit(0)
+"""
+
+
+@pytest.fixture(scope="module")
+def units(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("fmu")
+    file = folder / "pulled rope.toml"
+    file.write_text(MODEL, "utf-8")
+    for version in ("2.0", "3.0"):
+        export_fmu(file, folder / f"unit{version[0]}.fmu", version)
+    return folder
+
+
+def imported(file, begin=0.0, first=0.5):
+    command = [sys.executable, "-c", IMPORTER, str(file), str(begin), str(first)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stderr[-2000:]
+    return {name: np.array(x) for name, x in json.loads(done.stdout.splitlines()[-1]).items()}
+
+
+def by_the_stepper(folder, first=0.5):
+    plain = read_study(folder / "pulled rope.toml").model.to_dict()
+    plain["inputs"] = [{"name": "thrust", "value": first}, {"name": "lift", "value": 0.25}]
+    model = ancf.Model.from_dict(plain)
+    run = ancf.stepper(model, step=1e-3, start=ancf.equilibrium(model))
+    seen = {
+        name: [] for name in ("rope.end.position.x", "load.velocity.z", "tie.force", "hook.multiplier[3]")
+    }
+
+    def look():
+        seen["rope.end.position.x"].append(run.position("rope.end")[0])
+        seen["load.velocity.z"].append(run.velocity("load")[2])
+        seen["tie.force"].append(run.spring_force("tie"))
+        seen["hook.multiplier[3]"].append(run.multiplier("hook")[2])
+
+    look()
+    for k in range(30):
+        run.inputs["thrust"] = float(np.interp(0.01 * k, [0.0, 0.1, 0.3], [first, 3.0, -1.0]))
+        run.advance(10)
+        look()
+    return {name: np.array(x) for name, x in seen.items()}
+
+
+@pytest.mark.parametrize("version", [2, 3])
+@pytest.mark.parametrize(("begin", "first"), [(0.0, 0.5), (7.0, -2.0)])
+def test_moves_as_the_stepper_does(units, version, begin, first):
+    found = imported(units / f"unit{version}.fmu", begin, first)
+    for name, wanted in by_the_stepper(units, first).items():
+        assert np.ptp(wanted) > 1e-3
+        assert np.allclose(found[name], wanted, rtol=1e-9, atol=1e-9 * np.max(np.abs(wanted)))
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_description_is_valid_and_complete(units, version):
+    file = units / f"unit{version}.fmu"
+    assert validation.validate_fmu(str(file)) == []
+    description = fmpy.read_model_description(str(file), validate=True)
+    assert description.fmiVersion == f"{version}.0"
+    assert not description.modelExchange
+    by_name = {v.name: v for v in description.modelVariables}
+    assert {n for n, v in by_name.items() if v.causality == "input"} == {"thrust", "lift"}
+    assert float(by_name["thrust"].start) == 0.5
+    wanted = {"'rope.at(1)'.position.x", "rope.end.tension", "tie.length", "hook.multiplier[1]"}
+    assert wanted <= by_name.keys()
+    assert "load.tension" not in by_name
+    assert by_name["tie.length"].description == "[m]"
+
+
+def test_names_by_the_rules_of_fmi():
+    assert structured("rope.end") == "rope.end"
+    assert structured("rope.at(1.5)") == "'rope.at(1.5)'"
+    assert structured("Joe's \\ rope") == r"'Joe\'s \\ rope'"
+
+
+class TestMotion:
+    def motion(self, units):
+        folder = units / "motion"
+        if not folder.exists():
+            with zipfile.ZipFile(units / "unit3.fmu") as file:
+                file.extractall(folder)
+        return Motion(folder / "resources")
+
+    def test_an_interval_that_does_not_fit(self, units):
+        motion = self.motion(units)
+        motion.advance(0.0, 0.004)
+        with pytest.raises(ModelError, match=r"do_step.interval: is 0.0025 s, must be a multiple .* 0.001 s"):
+            motion.advance(0.004, 0.0025)
+        with pytest.raises(ModelError, match=r"do_step.time: is 0.01 s, the run is at 0.004 s"):
+            motion.advance(0.01, 0.001)
+        motion.advance(0.004, 0.001)
+        assert motion.run.t == pytest.approx(0.005)
+
+    def test_an_input_before_the_first_step_moves_the_start(self, units):
+        motion, x = self.motion(units), lambda m: m.run.position("rope.end")[0]
+        before = x(motion)
+        motion.give("thrust", 5.0)
+        assert x(motion) > before + 0.01
+        motion.advance(0.0, 0.001)
+        now = motion.run
+        motion.give("thrust", 0.0)
+        assert motion.run is now
+
+
+class TestCommand:
+    def test_says_what_goes_in_and_out(self, units, tmp_path):
+        (tmp_path / "rope.toml").write_text(MODEL, "utf-8")
+        done = CliRunner().invoke(app, ["export-fmu", str(tmp_path / "rope.toml")])
+        assert done.exit_code == 0, done.output
+        assert "inputs: thrust, lift" in done.output
+        assert "'rope.at(1)'.tension [N]" in done.output
+        assert (tmp_path / "rope.fmu").stat().st_size > 1e5
+
+    @pytest.mark.parametrize(
+        ("change", "where", "what"),
+        [
+            (("[simulation]", "[equilibrium]\n#"), "simulation", "is missing"),
+            (('sensors = ["', '#"'), "simulation.sensors", "is empty"),
+            (('"rope.end", "rope', '"rope.ends", "rope'), "sensors", "rope.ends"),
+        ],
+    )
+    def test_models_that_make_no_unit(self, tmp_path, change, where, what):
+        text = MODEL.replace(*change)
+        if change[0] == "[simulation]":
+            text = text[: text.index("[equilibrium]")]
+        (tmp_path / "rope.toml").write_text(text, "utf-8")
+        with pytest.raises(ModelError) as caught:
+            export_fmu(tmp_path / "rope.toml", tmp_path / "rope.fmu")
+        assert where in caught.value.where
+        assert what in str(caught.value)
+
+    def test_a_version_that_is_none(self, tmp_path):
+        with pytest.raises(ModelError, match=r"2.0, 3.0"):
+            export_fmu(tmp_path / "rope.toml", tmp_path / "rope.fmu", "1.0")
+
+    def test_two_variables_of_one_name(self, tmp_path):
+        (tmp_path / "rope.toml").write_text(MODEL.replace("lift", "time"), "utf-8")
+        with pytest.raises(ModelError, match='"time" would be the name of two variables'):
+            export_fmu(tmp_path / "rope.toml", tmp_path / "rope.fmu")
+
+    def test_without_the_library_it_says_what_to_install(self, tmp_path, monkeypatch):
+        monkeypatch.setitem(sys.modules, "pythonfmu3.builder", None)
+        (tmp_path / "rope.toml").write_text(MODEL, "utf-8")
+        with pytest.raises(ModelError, match=r"pip install 'ancf\[fmu\]'"):
+            export_fmu(tmp_path / "rope.toml", tmp_path / "rope.fmu")
