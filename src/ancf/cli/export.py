@@ -1,4 +1,4 @@
-"""``ancf export``: a results file for ParaView, as CSV tables or as a movie."""
+"""``ancf export``: a results file for ParaView, as tables or as a movie."""
 
 from __future__ import annotations
 
@@ -15,11 +15,17 @@ from .screen import Screen, console
 if TYPE_CHECKING:
     from .. import Result
 
-#: Suffix of what is written, by the word after --to; CSV tables go to a folder.
-SUFFIXES = {"vtk": ".vtkhdf", "csv": "", "mp4": ".mp4", "gif": ".gif"}
+#: Suffix of what is written, by the word after --to; tables go to a folder.
+SUFFIXES = {"vtk": ".vtkhdf", "csv": "", "parquet": "", "mp4": ".mp4", "gif": ".gif"}
 TIMES, PICTURES = ("frames", "start", "end"), ("color", "fps", "view")
 #: Options that mean something, by the word after --to.
-OPTIONS = {"vtk": TIMES, "csv": ("points",), "mp4": TIMES + PICTURES, "gif": TIMES + PICTURES}
+OPTIONS = {
+    "vtk": TIMES,
+    "csv": ("points",),
+    "parquet": ("points",),
+    "mp4": TIMES + PICTURES,
+    "gif": TIMES + PICTURES,
+}
 
 
 def export_file(
@@ -31,7 +37,7 @@ def export_file(
     ----------
     file : Path
         Results file, also of a run that was stopped, failed or goes on.
-    to : "vtk", "csv", "mp4" or "gif"
+    to : "vtk", "csv", "parquet", "mp4" or "gif"
     output : Path, optional
         File to write, or folder; default beside the results file.
     options : dict
@@ -52,7 +58,10 @@ def export_file(
     if result.status != "complete":
         screen.say(f"the run is not complete ({result.status}): exporting up to t = {result.t[-1]:.6g} s")
     target = _target(file, to, output)
-    written = _tables(result, target, given, screen) if to == "csv" else [_moving(result, to, target, given)]
+    if SUFFIXES[to]:
+        written = [_moving(result, to, target, given)]
+    else:
+        written = _tables(result, to, target, given, screen)
     if not quiet:
         console().print("written: " + ", ".join(map(str, written)), soft_wrap=True)
 
@@ -79,7 +88,7 @@ def _target(file: Path, to: str, output: Path | None) -> Path:
     """File or folder to write to."""
     suffix = SUFFIXES[to]
     if not suffix:
-        if output is not None and (output.suffix.lower() == ".csv" or exists(output, "is_file")):
+        if output is not None and (output.suffix.lower() == f".{to}" or exists(output, "is_file")):
             what = "names one file, but there are several tables"
             raise ModelError(f"-o {output}", what, "give a folder")
         return file.parent if output is None else output
@@ -106,13 +115,13 @@ def _moving(result: Result, to: str, target: Path, given: dict[str, Any]) -> Pat
     return target
 
 
-def _tables(result: Result, target: Path, given: dict[str, Any], screen: Screen) -> list[Path]:
-    from ..viz.export import write_csv
+def _tables(result: Result, to: str, target: Path, given: dict[str, Any], screen: Screen) -> list[Path]:
+    from ..viz.export import write_csv, write_parquet
     from ..viz.export.csv_files import has_sensors
 
     points = split_points(given["points"]) if "points" in given else None
     if points == []:
         raise ModelError("--points", "names no point", 'such as --points "beam.end,beam.at(0.5)"')
     if points is None and not has_sensors(result):
-        screen.say("no sensors were recorded: points.csv has ends and middles; --points chooses others")
-    return write_csv(result, target, points)
+        screen.say(f"no sensors were recorded: points.{to} has ends and middles; --points chooses others")
+    return (write_csv if to == "csv" else write_parquet)(result, target, points)

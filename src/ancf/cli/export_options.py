@@ -8,7 +8,9 @@ from typing import Annotated
 import typer
 
 ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.h5", help="Results file.", show_default=False)]
-Kind = Annotated[str, typer.Option("--to", metavar="KIND", help="vtk, csv, mp4 or gif.", show_default=False)]
+Kind = Annotated[
+    str, typer.Option("--to", metavar="KIND", help="vtk, csv, parquet, mp4 or gif.", show_default=False)
+]
 Target = Annotated[
     Path | None,
     typer.Option(
@@ -22,7 +24,7 @@ Target = Annotated[
 Points = Annotated[
     str | None,
     typer.Option(
-        metavar="POINTS", help='For csv: points such as "beam.end,beam.at(0.5)".', show_default=False
+        metavar="POINTS", help='For tables: points such as "beam.end,beam.at(0.5)".', show_default=False
     ),
 ]
 Frames = Annotated[

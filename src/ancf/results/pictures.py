@@ -1,4 +1,4 @@
-"""Pictures: the methods of results that draw. What draws lies above and is imported when it is asked for."""
+"""Pictures and tables: methods of results for which what lies above is imported when it is asked for."""
 
 from __future__ import annotations
 
@@ -53,6 +53,54 @@ class Plotted:
         from ..viz.pictures.plot import plot
 
         return plot(self, what, quantity=quantity, x=x, plane=plane, size=size)
+
+    def to_pandas(self, items: Sequence[Any] | None = None) -> Any:
+        """Histories as a table: a DataFrame over the time, with units in the names and in ``attrs["units"]``.
+
+        Parameters
+        ----------
+        items : sequence, optional
+            Points, springs, joints and contacts, as objects of the model or by name, and "energy". Default of
+            sensors all that they recorded; of a result start, middle and end of its bodies, springs, joints
+            and energies.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ModelError
+            There is no such item, or pandas is missing.
+        """
+        from ..viz.export.frames import to_pandas
+
+        return to_pandas(self, items)
+
+    def to_xarray(self, items: Sequence[Any] | None = None) -> Any:
+        """Histories as arrays with names: a Dataset over time, points and axes, units as attributes.
+
+        ``position`` and ``velocity`` have the dimensions (t, point, axis), ``tension`` and ``curvature`` (t,
+        point), not a number at points without, ``spring_force`` and ``spring_length`` (t, spring); joints,
+        contacts and energies a variable for each number.
+
+        Parameters
+        ----------
+        items : sequence, optional
+            As of :meth:`to_pandas`.
+
+        Returns
+        -------
+        xarray.Dataset
+
+        Raises
+        ------
+        ModelError
+            There is no such item, or xarray is missing.
+        """
+        from ..viz.export.frames import to_xarray
+
+        return to_xarray(self, items)
 
 
 class Filmed(Plotted):

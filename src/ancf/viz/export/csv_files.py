@@ -43,11 +43,18 @@ def write_csv(result: Result, folder: str | Path, points: Sequence[str] | None =
     ModelError
         There is no such point, nothing was stored, or a file cannot be written; then nothing was written.
     """
-    place = _checked(result, folder)
-    named = None if points is None else _named(points)
-    found = list(_tables(result, named))
+    place, found = all_tables(result, folder, points, "write_csv")
     with writing(place, place):
         return [tables.write_table(place / f"{name}.csv", columns) for name, columns in found]
+
+
+def all_tables(
+    result: Result, folder: str | Path, points: Sequence[str] | None, method: str
+) -> tuple[Path, list[tuple[str, list[tables.Column]]]]:
+    """Folder and tables by name, checked; for errors the name of the function that was called."""
+    place = _checked(result, folder, method)
+    named = None if points is None else _named(points, method)
+    return place, list(_tables(result, named))
 
 
 def default_points(result: Result) -> list[str]:
@@ -69,9 +76,9 @@ def has_sensors(result: Result) -> bool:
         return False
 
 
-def _named(points: Sequence[str]) -> list[str]:
+def _named(points: Sequence[str], method: str) -> list[str]:
     listed = [points] if isinstance(points, str) else list(points)
-    return [checks.text(point, f"write_csv.points[{k}]") for k, point in enumerate(listed)]
+    return [checks.text(point, f"{method}.points[{k}]") for k, point in enumerate(listed)]
 
 
 def _tables(result: Result, points: Sequence[str] | None) -> Iterator[tuple[str, list[tables.Column]]]:
@@ -94,11 +101,11 @@ def _joints(result: Result) -> list[str]:
     return [name for name in result.joints if name not in result.bodies]
 
 
-def _checked(result: Result, folder: str | Path) -> Path:
+def _checked(result: Result, folder: str | Path, method: str) -> Path:
     if not isinstance(result, Result):
-        raise ModelError("write_csv.result", f"must be a Result, is {checks.shown(result)}")
+        raise ModelError(f"{method}.result", f"must be a Result, is {checks.shown(result)}")
     if not len(result.t):
-        raise ModelError("write_csv.result", "nothing was stored", "wait for the first states")
+        raise ModelError(f"{method}.result", "nothing was stored", "wait for the first states")
     if not isinstance(folder, str | Path):
-        raise ModelError("write_csv.folder", f"must be a path, is {checks.shown(folder)}")
+        raise ModelError(f"{method}.folder", f"must be a path, is {checks.shown(folder)}")
     return Path(folder)

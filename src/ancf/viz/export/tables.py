@@ -19,6 +19,7 @@ Column = tuple[str, FloatArray]
 #: Components of multipliers by unit: forces come first, what holds axes follows.
 FORCES = "xyz"
 ENERGIES = ("kinetic", "strain", "potential", "total", "dissipated", "supplied", "balance", "drift")
+MOTION = {"position": "m", "velocity": "m/s"}
 #: What the points of beams and cables know beside position and velocity.
 INSIDE = {"tension": "N", "curvature": "1/m"}
 
@@ -43,7 +44,7 @@ def sensor_columns(sensors: Sensors) -> Iterator[Column]:
             yield f"{name} force [N]", sensors.spring_force(name)
             yield f"{name} length [m]", sensors.spring_length(name)
         if name in sensors.joints:
-            yield from _joint(sensors, name)
+            yield from joint_parts(sensors, name)
         if name in sensors.listing.columns:
             yield f"{name} force [N]", sensors.contact_force(name)
             yield f"{name} gap [m]", sensors.contact_gap(name)
@@ -52,7 +53,7 @@ def sensor_columns(sensors: Sensors) -> Iterator[Column]:
 
 def motion_columns(known: Any, point: Point | str, label: str) -> Iterator[Column]:
     """Position and velocity of a point."""
-    for quantity, unit in (("position", "m"), ("velocity", "m/s")):
+    for quantity, unit in MOTION.items():
         values = getattr(known, quantity)(point)
         yield from ((f"{label} {quantity} {c} [{unit}]", values[:, k]) for k, c in enumerate("xyz"))
 
@@ -62,10 +63,15 @@ def point_columns(result: Result, labels: Sequence[str]) -> Iterator[Column]:
     yield "t [s]", result.t
     for label in labels:
         yield from motion_columns(result, label, label)
-        if isinstance(result._probe(label).body, Beam):
-            yield from (
-                (f"{label} {name} [{unit}]", getattr(result, name)(label)) for name, unit in INSIDE.items()
-            )
+        yield from inside_columns(result, label)
+
+
+def inside_columns(known: Any, label: str) -> Iterator[Column]:
+    """What a point of a beam or cable knows beside its motion."""
+    if isinstance(known._probe(label).body, Beam):
+        yield from (
+            (f"{label} {name} [{unit}]", getattr(known, name)(label)) for name, unit in INSIDE.items()
+        )
 
 
 def spring_columns(result: Result) -> Iterator[Column]:
@@ -78,7 +84,7 @@ def joint_columns(result: Result, names: Sequence[str]) -> Iterator[Column]:
     """Forces of joints, and arc lengths of sliding joints, at the stored times."""
     yield "t [s]", result.t
     for name in names:
-        yield from _joint(result, name)
+        yield from joint_parts(result, name)
 
 
 def energy_columns(result: Result) -> Iterator[Column]:
@@ -88,7 +94,7 @@ def energy_columns(result: Result) -> Iterator[Column]:
     yield from ((f"{name} [J]", getattr(energy, name)) for name in ENERGIES)
 
 
-def _joint(known: Any, name: str) -> Iterator[Column]:
+def joint_parts(known: Any, name: str) -> Iterator[Column]:
     """Multipliers, and s of a sliding joint."""
     values = known.multiplier(name)
     for k in range(values.shape[1]):
