@@ -21,6 +21,7 @@ from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 from . import accuracy, remembered, tension
+from .momenta import Momenta
 from .overview import line_of_result, of_result
 from .pictures import Filmed
 from .read_store import ReadStore
@@ -29,7 +30,7 @@ from .state import Energy, State
 from .store import FileStore, MemoryStore
 
 
-class Result(SpringFields, ContactFields, Filmed, Readable):
+class Result(SpringFields, ContactFields, Momenta, Filmed, Readable):
     """History of a simulation; see :class:`Fields` for positions, velocities, strains, tensions, ...
 
     ``print(result)`` says how it went; ``model`` is the model that was computed.

@@ -16,6 +16,7 @@ from ..system.reactions import reaction
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 from . import accuracy
+from .momenta import Momenta
 from .overview import line_of_state, of_state
 from .pictures import StatePlotted
 from .remembered import Remembered
@@ -53,7 +54,7 @@ class Energy:
         return drift
 
 
-class State(SpringFields, ContactFields, StatePlotted, Readable):
+class State(SpringFields, ContactFields, Momenta, StatePlotted, Readable):
     """Positions and velocities of a model at one time; see :class:`Fields` for what it answers.
 
     Parameters
