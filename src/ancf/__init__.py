@@ -11,7 +11,7 @@ from .errors import Interrupted, ModelError, SolveError
 if TYPE_CHECKING:
     from .analysis import equilibrium, load, modes, simulate, stable_step
     from .control.stepper import Stepper, stepper
-    from .model import Model, Section, Waves
+    from .model import Gusts, Model, Section, Waves
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
     from .results import Modes, Result, State
     from .resumption import resume
@@ -22,6 +22,7 @@ _LATER = {
     "Model": "model",
     "Section": "model",
     "Waves": "model",
+    "Gusts": "model",
     "equilibrium": "analysis",
     "simulate": "analysis",
     "modes": "analysis",
@@ -45,6 +46,7 @@ _LATER = {
 __all__ = [
     "Explicit",
     "GeneralizedAlpha",
+    "Gusts",
     "Interrupted",
     "Model",
     "ModelError",

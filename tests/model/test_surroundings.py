@@ -23,6 +23,7 @@ def study(fluids=(), grounds=(), section=None, **more):
 
 
 WAVE = {"spectrum": "regular", "height": 1.4, "period": 6.0, "direction": 0.2, "depth": 30.0, "ramp": 4.0}
+GUSTS = {"speed": 12.0, "deviation": 2.0, "length": 60.0, "extent": [0.0, 40.0], "duration": 20.0, "seed": 3}
 SEA = {"spectrum": "jonswap", "height": 2.0, "period": 8.0, "gamma": 2.0, "seed": 4, "components": 9}
 WAYS = {
     "at rest": {},
@@ -35,6 +36,7 @@ WAYS = {
     "on bodies": {"on": ["line"]},
     "a wave": {"below": 0.0, "waves": WAVE},
     "a sea": {"below": 0.0, "waves": SEA},
+    "gusts": {"velocity": [12.0, 0, 0], "gusts": GUSTS},
 }
 GROUNDS = {
     "level": {},

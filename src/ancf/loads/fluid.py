@@ -26,6 +26,7 @@ from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
 from ..model.beam import Beam
 from ..model.fluids import STEP, require_section
+from . import gusts
 from .along import add_along, add_block_along, add_slope_block_along, along, place_at, tangent_at
 from .law_functions import address_of
 from .state_force import call
@@ -65,6 +66,9 @@ class FluidBatch(NamedTuple):
     wave: FloatArray  # (chunks, 6, LANES) components
     angle: FloatArray  # (2, most chunks, LANES) scratch memory
     kept: FloatArray  # (n, points, KEPT) what waves gave last
+    squall: FloatArray  # (m, 9) see loads/gusts.py
+    gale: NDArray[np.int64]  # (m, 3) places and sizes of the tables of gusts
+    gust: FloatArray  # (j,) tables of gusts, one after the other
     numbers: FloatArray  # (9,) scratch memory of the laws
     value: FloatArray  # (m, 3, 3) inputs now
 
@@ -88,6 +92,7 @@ def build(items, locate, value, model):
     return FluidBatch(
         **joined,
         **tables(items, model.gravity),
+        **gusts.tables(items),
         kept=kept,
         fluid=np.array(which, dtype=np.int64),
         data=np.array(rows, dtype=np.float64).reshape(-1, 6),
@@ -96,7 +101,7 @@ def build(items, locate, value, model):
         first=np.cumsum([0, *map(len, heights)]).astype(np.int64),
         heights=np.concatenate(heights),
         profile=np.concatenate([item.velocity.profile for item in items]),
-        moves=np.array([item.velocity.moves or item.waves is not None for item in items]),
+        moves=np.array([item.moves for item in items]),
         numbers=np.zeros(9),
         value=value,
     )
@@ -209,6 +214,11 @@ def flow(batch, e, p, k, at, v):
         lx, ly, lz = by_law(batch, k, time + STEP, x, y, z)
         c = share / (2.0 * STEP)
         ax, ay, az = ax + c * (lx - bx), ay + c * (ly - by), az + c * (lz - bz)
+    if batch.gale[k, gusts.STATIONS] > 0 and share > 0.0:
+        squall = batch.squall[k]
+        speed, rate = gusts.gust_at(squall, batch.gale[k], batch.gust, now[CLOCK, 0] / share, x, y, z)
+        to_x, to_y = share * squall[gusts.TO_X], share * squall[gusts.TO_Y]
+        ux, uy, ax, ay = ux + speed * to_x, uy + speed * to_y, ax + rate * to_x, ay + rate * to_y
     rise = 0.0
     if batch.waves[k + 1] > batch.waves[k] and share > 0.0:
         renew_waves(batch, e, p, k, now[CLOCK, 0] / share, at, v)

@@ -5,6 +5,7 @@ from .bodies import PointMass, RigidBody
 from .connections import Spring
 from .contact import Contact
 from .functions import TimeFunction
+from .gusts import Gusts
 from .joints import Fixation, Revolute, Slide, Spherical
 from .loads import DistributedLoad, Force, Moment
 from .model import Model
@@ -21,6 +22,7 @@ __all__ = [
     "DistributedLoad",
     "Fixation",
     "Force",
+    "Gusts",
     "Hold",
     "Model",
     "Moment",

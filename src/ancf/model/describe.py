@@ -12,6 +12,7 @@ from .bodies import IN_FLUID as BODY_IN_FLUID
 from .bodies import Body, PointMass, RigidBody
 from .functions import TimeFunction
 from .grounds import Relief
+from .gusts import Gusts
 from .kind import Kind
 from .layout import PLACED, is_straight
 from .points import Point
@@ -130,7 +131,7 @@ def _plain(value: Any) -> Any:
         return point(value)
     if isinstance(value, Beam | PointMass | RigidBody):
         return value.name
-    if isinstance(value, TimeFunction | StateFunction | VelocityField | Relief | Waves):
+    if isinstance(value, TimeFunction | StateFunction | VelocityField | Relief | Waves | Gusts):
         return value.describe()
     if isinstance(value, np.ndarray):
         return value.tolist()

@@ -9,6 +9,7 @@ from typing import Any
 from ..errors import ModelError
 from .beam import Beam
 from .functions import TimeFunction
+from .gusts import Gusts
 from .velocity_field import VelocityField
 from .waves import Waves
 
@@ -24,6 +25,12 @@ class Fluid:
     below: float | None
     on: tuple[str, ...] | None
     waves: Waves | None = None
+    gusts: Gusts | None = None
+
+    @property
+    def moves(self) -> bool:
+        """Whether it moves at some time and place."""
+        return self.velocity.moves or self.waves is not None or self.gusts is not None
 
     @property
     def heights(self) -> tuple[float, float]:

@@ -144,10 +144,12 @@ def between_heights(item: Fluid) -> str:
 def fluid(item: Fluid) -> str:
     """Density, velocity and waves of a fluid."""
     text = f"{number(item.density)} kg/m^3, {_velocity(item.velocity)}"
-    if item.waves is None:
-        return text
-    word, tall, period = item.waves.given["spectrum"], number(item.waves.height), number(item.waves.period)
-    return f"{text}, {word} waves of {tall} m and {period} s"
+    if (gusts := item.gusts) is not None:
+        text += f", gusts of {number(gusts.values['deviation'])} m/s"
+    if (waves := item.waves) is not None:
+        word = waves.given["spectrum"]
+        text += f", {word} waves of {number(waves.height)} m and {number(waves.period)} s"
+    return text
 
 
 def _velocity(field: VelocityField) -> str:

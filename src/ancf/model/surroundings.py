@@ -13,6 +13,7 @@ from . import checks
 from .connecting import Connecting
 from .fluids import Fluid
 from .grounds import Ground, Relief, height_of, upward
+from .gusts import Gusts
 from .velocity_field import VelocityField
 from .waves import Waves
 
@@ -36,6 +37,7 @@ class Surroundings(Connecting):
         below: float | None = None,
         on: Any = None,
         waves: Any = None,
+        gusts: Any = None,
     ) -> Fluid:
         """Add a fluid everywhere, or between two heights, in which bodies have buoyancy, drag and added mass.
 
@@ -56,6 +58,8 @@ class Surroundings(Connecting):
             Bodies on which it acts; default all.
         waves : Waves or dict, optional
             On its surface at ``below``: :class:`ancf.Waves`, or the table of one. Gravity must point down.
+        gusts : Gusts or dict, optional
+            Turbulence that is added to its velocity: :class:`ancf.Gusts`, or the table of one.
 
         """
         where = self._where("add_fluid", name if isinstance(name, str) else None)
@@ -67,6 +71,7 @@ class Surroundings(Connecting):
             None if below is None else checks.number(below, f"{where}.below"),
             self._acted_on(on, f"{where}.on"),
             None if waves is None else self._waves(waves, below, f"{where}.waves"),
+            None if gusts is None else Gusts(gusts, f"{where}.gusts"),
         )
         low, high = item.heights
         if not low < high:

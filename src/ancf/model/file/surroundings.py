@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from pydantic import Field, WithJsonSchema
 
 from ..grounds import height_of
+from ..gusts import Gusts
 from ..velocity_field import VelocityField
 from ..waves import SPECTRA, STRETCHINGS, Waves
 from .fields import Entry, NonNegative, Positive, Vector, checked, of_schemas, vector_schema
@@ -53,6 +54,32 @@ _WAVES = {
     "additionalProperties": False,
 }
 Sea = Annotated[Any, checked(lambda v: Waves(v, "")), WithJsonSchema(_WAVES)]
+_GUSTS = {
+    "type": "object",
+    "properties": {
+        "speed": {**_NUMBER, "exclusiveMinimum": 0, "description": "Mean speed of the wind [m/s]."},
+        "deviation": {**_NUMBER, "minimum": 0, "description": "Standard deviation of the speed [m/s]."},
+        "length": {**_NUMBER, "exclusiveMinimum": 0, "description": "Of the turbulence [m]."},
+        "extent": {
+            "type": "array",
+            "items": _NUMBER,
+            "minItems": 2,
+            "maxItems": 2,
+            "description": "From where to where along the line [m].",
+        },
+        "direction": {**_NUMBER, "description": "Of the wind, from x towards y, default 0 [rad]."},
+        "line": vector_schema(_NUMBER),
+        "spacing": {**_NUMBER, "exclusiveMinimum": 0, "description": "Of stations, default 5 [m]."},
+        "decay": {**_NUMBER, "minimum": 0, "description": "Of the coherence, default 10 [-]."},
+        "duration": {**_NUMBER, "exclusiveMinimum": 0, "description": "Until they repeat, default 600 [s]."},
+        "step": {**_NUMBER, "exclusiveMinimum": 0, "description": "Of the table, default 0.1 [s]."},
+        "ramp": {**_NUMBER, "minimum": 0, "description": "Time in which they grow, default 0 [s]."},
+        "seed": {"type": "integer", "minimum": 0, "description": "Of the random numbers, default 1."},
+    },
+    "required": ["speed", "deviation", "length", "extent"],
+    "additionalProperties": False,
+}
+Squalls = Annotated[Any, checked(lambda v: Gusts(v, "")), WithJsonSchema(_GUSTS)]
 
 
 class FluidEntry(Entry):
@@ -67,6 +94,7 @@ class FluidEntry(Entry):
     above: float | None = Field(None, description="Lowest height z, default none [m].")
     below: float | None = Field(None, description="Highest height z, default none [m].")
     on: list[str] | None = Field(None, description="Bodies on which it acts, default all.")
+    gusts: Squalls | None = Field(None, description="Turbulence that is added to its velocity.")
     waves: Sea | None = Field(None, description="Waves on its surface at `below`.")
 
 
