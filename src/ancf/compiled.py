@@ -38,7 +38,7 @@ PART: Any = {**_OPTIONS, "no_cpython_wrapper": True}
 
 
 #: Folders whose files hold kernels, or constants of kernels.
-FOLDERS = ("simd", "elements", "bodies", "connections", "loads", "linalg", "system", "solvers")
+FOLDERS = ("simd", "elements", "bodies", "connections", "loads", "contact", "linalg", "system", "solvers")
 
 
 def stamped() -> list[Path]:
@@ -168,6 +168,7 @@ class Role(Flag):
     SLIDES = auto()  #: of them, rows that change as bodies move: they come last and are renewed in every step
     EXTERNAL = auto()  #: a load: the work of its forces is supplied
     DISSIPATES = auto()  #: what its forces lose without velocities is dissipated
+    RUBS = auto()  #: friction: all work of its forces is dissipated, also what they do without velocities
     MEASURES = auto()  #: leaves something for sensors
 
 
@@ -233,7 +234,7 @@ def with_role(batches: Iterable[Any], role: Role) -> tuple[Any, ...]:
 def describe(batch_type: type, **given: Any) -> None:
     """Keep the :class:`Traits` of a kind of batch."""
     found = Traits(**given)
-    if Role.EXTERNAL in found.role and Role.DISSIPATES in found.role:
+    if Role.EXTERNAL in found.role and found.role & (Role.DISSIPATES | Role.RUBS):
         raise ValueError(f"{batch_type.__name__}: what is supplied is not dissipated as well")
     if Role.DISSIPATES in found.role and found.damped is None:
         raise ValueError(f"{batch_type.__name__}: damped() says whether it does dissipate")

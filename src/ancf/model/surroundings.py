@@ -7,13 +7,13 @@ from typing import Any
 
 from ..errors import ModelError
 from . import checks
-from .connecting import Connecting
 from .fluids import Fluid
 from .grounds import Ground, Relief, height_of, upward
 from .velocity_field import VelocityField
+from .with_surfaces import WithSurfaces
 
 
-class Surroundings(Connecting):
+class Surroundings(WithSurfaces):
     """Fluids and grounds of one model."""
 
     def __init__(self) -> None:
