@@ -202,6 +202,9 @@ class Traits:
         ``late(batch)``: what an equilibrium brings on when all else is there, as the friction of a ground: a
         function of the batch and of q that renews it and returns by how much, relative, it has changed; or
         None.
+    early : function, optional
+        ``early(batch, q, holds)``: lets friction hold what touches in the initial shape q of an equilibrium,
+        while the loads come on, or takes it away.
     turning_mass : function, optional
         ``turning_mass(batch)``: whether it has a mass that changes with the state; default it has none.
     """
@@ -215,6 +218,7 @@ class Traits:
     memory: tuple[str, ...] = ()
     follows: Callable[[Any], bool] | None = None
     late: Callable[[Any], Callable[[Any, Any], float] | None] | None = None
+    early: Callable[[Any, Any, bool], None] | None = None
     turning_mass: Callable[[Any], bool] | None = None
 
 

@@ -62,14 +62,17 @@ def batches(
         "surfaces": np.array([_lie(surface) for surface in surfaces]),
         "shape_of": np.array([NUMBER[s.shape.word] for s in surfaces], dtype=np.int64),
         "found": measured,
+        "far": np.full((len(base), 4), -np.inf),
     }
     found: dict[str, Any] = {"pressing": PressBatch(**given)}
     rough = np.array([items[k].friction > 0.0 for k in which.tolist()], dtype=bool)
     if np.any(rough):
-        rows = ("base", "dest", "shape", "reach", "weight", "contact", "surface")
+        rows = ("base", "dest", "shape", "reach", "weight", "contact", "surface", "far")
         mine = {key: x[rough].copy() if key in rows else x for key, x in given.items()}
         anchor = np.concatenate([_places(item) for item in items if item.friction > 0.0])
-        found["rubbing"] = RubBatch(**mine, anchor=anchor, limit=np.zeros(anchor.shape[:2]))
+        found["rubbing"] = RubBatch(
+            **mine, anchor=anchor, limit=np.zeros(anchor.shape[:2]), most=np.zeros(len(anchor))
+        )
     return found
 
 

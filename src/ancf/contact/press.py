@@ -28,8 +28,9 @@ from .touch import (
     add_pair_block,
     carrier,
     in_body,
-    is_near,
+    is_far,
     lie,
+    look_around,
     outside,
     place_on,
     pressure,
@@ -55,6 +56,9 @@ class PressBatch(NamedTuple):
     surfaces: FloatArray  # (surfaces, 10) columns PLACE ... NUMBERS
     shape_of: NDArray[np.int64]  # (surfaces,) number of the profile
     found: FloatArray  # (contacts, 4) columns FORCE, DEPTH when it was measured last
+    far: (
+        FloatArray  # (n, 4) memory: where the first node was, and how far it may go until something may touch
+    )
 
 
 @inline_kernel
@@ -76,14 +80,14 @@ def pressed(batch, e, p, q, v, body, moving, at, axis):
 def press_force(batch, q, v, a, r, ws):
     """Subtract the normal forces from r."""
     for e in range(batch.base.shape[0]):
-        body = carrier(batch, e, q)
+        if is_far(batch, e, q):
+            continue
+        body, moving = carrier(batch, e, q), still_or(batch, e, v)
         at, axis = lie(batch, e, body)
-        if is_near(batch, e, q, at, axis):
-            moving = still_or(batch, e, v)
-            for p in range(batch.weight.shape[1]):
-                _, x, N, _, _, n, _, _, _ = pressed(batch, e, p, q, v, body, moving, at, axis)
-                if N > 0.0:
-                    add_pair(batch, e, p, x, N * n[0], N * n[1], N * n[2], r)
+        for p in range(batch.weight.shape[1]):
+            _, x, N, _, _, n, _, _, _ = pressed(batch, e, p, q, v, body, moving, at, axis)
+            if N > 0.0:
+                add_pair(batch, e, p, x, N * n[0], N * n[1], N * n[2], r)
 
 
 @inline_kernel
@@ -99,11 +103,10 @@ def still_or(batch, e, v):
 def press_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add minus the derivatives by position and velocity."""
     for e in range(batch.base.shape[0]):
-        body = carrier(batch, e, q)
-        at, axis = lie(batch, e, body)
-        if not is_near(batch, e, q, at, axis):
+        if is_far(batch, e, q):
             continue
-        moving = still_or(batch, e, v)
+        body, moving = carrier(batch, e, q), still_or(batch, e, v)
+        at, axis = lie(batch, e, body)
         for p in range(batch.weight.shape[1]):
             _, x, N, by_g, by_rate, n, away, bend, about = pressed(batch, e, p, q, v, body, moving, at, axis)
             if N == 0.0:
@@ -123,13 +126,14 @@ def press_energy(batch, q, ws):
     """Energy of the depths, J."""
     energy = 0.0
     for e in range(batch.base.shape[0]):
+        if is_far(batch, e, q):
+            continue
         at, axis = lie(batch, e, carrier(batch, e, q))
-        if is_near(batch, e, q, at, axis):
-            data = batch.data[batch.contact[e]]
-            for p in range(batch.weight.shape[1]):
-                d, _, _, _, _ = outside(batch, e, place_on(batch, e, p, q), at, axis)
-                g = max(data[RADIUS] - d, 0.0)
-                energy += 0.5 * batch.weight[e, p] * data[STIFFNESS] * g * g
+        data = batch.data[batch.contact[e]]
+        for p in range(batch.weight.shape[1]):
+            d, _, _, _, _ = outside(batch, e, place_on(batch, e, p, q), at, axis)
+            g = max(data[RADIUS] - d, 0.0)
+            energy += 0.5 * batch.weight[e, p] * data[STIFFNESS] * g * g
     return energy
 
 
@@ -139,13 +143,21 @@ def press_measure(batch, q, v):
     for j in range(batch.found.shape[0]):
         batch.found[j, FORCE], batch.found[j, DEPTH] = 0.0, -np.inf
     for e in range(batch.base.shape[0]):
-        body = carrier(batch, e, q)
+        if is_far(batch, e, q):
+            continue
+        body, moving, j = carrier(batch, e, q), still_or(batch, e, v), batch.contact[e]
         at, axis = lie(batch, e, body)
-        moving, j = still_or(batch, e, v), batch.contact[e]
         for p in range(batch.weight.shape[1]):
             g, _, N, _, _, _, _, _, _ = pressed(batch, e, p, q, v, body, moving, at, axis)
             batch.found[j, FORCE] += batch.weight[e, p] * N
             batch.found[j, DEPTH] = max(batch.found[j, DEPTH], g)
+
+
+@inline_kernel
+def press_remember(batch, q, v):
+    """See which elements are far."""
+    for e in range(batch.base.shape[0]):
+        look_around(batch, e, q)
 
 
 implements(
@@ -154,7 +166,9 @@ implements(
     tangent=press_tangent,
     energy=press_energy,
     measure=press_measure,
+    remember=press_remember,
     role=Role.DISSIPATES | Role.MEASURES,
+    memory=("far",),
     damped=lambda batch: bool(np.any(batch.data[:, DAMPING])),
 )
 

@@ -11,8 +11,9 @@ and limits are memory: they change once for each accepted step, see ``rub_rememb
 before keeps the matrix symmetric and the iteration stable.
 
 In an equilibrium the anchors are the places of the initial shape, so that friction opposes the way from
-there; it comes on last, with limits that are renewed until they fit.  All work of friction counts as
-dissipated: what the spring holds while it sticks, T^2/(2 k_t) per length, is given back by it.
+there.  It holds what touches there while the loads come on, so that nothing falls off that friction alone
+bears; then its limits are renewed until they fit.  All work of friction counts as dissipated: what the spring
+holds while it sticks, T^2/(2 k_t) per length, it gives back.
 """
 
 from __future__ import annotations
@@ -29,14 +30,15 @@ from .press import pressed, still_or
 from .touch import (
     DRAG,
     FRICTION,
+    RADIUS,
     STICK,
     add_pair,
     add_pair_block,
     carried,
     carrier,
     in_body,
-    is_near,
     lie,
+    look_around,
     outside,
     place_on,
     relative,
@@ -44,6 +46,11 @@ from .touch import (
 
 #: Columns of ``found``: friction of all points added up by size, N, and the share of it that slips.
 RUBBED, SLIPPED = 2, 3
+#: Share of a change of the limits that a round of an equilibrium takes: all of it would swing past a cable
+#: that friction holds on several turns.
+TAKEN = 0.4
+#: A limit that nothing reaches, N/m, and the gap in radii up to which a point counts as one that touches.
+GRIP, CLOSE = 1e100, 0.05
 
 
 class RubBatch(NamedTuple):
@@ -60,17 +67,16 @@ class RubBatch(NamedTuple):
     surfaces: FloatArray
     shape_of: NDArray[np.int64]
     found: FloatArray  # (contacts, 4) columns RUBBED, SLIPPED when it was measured last
+    far: FloatArray  # (n, 4) memory
     anchor: FloatArray  # (n, points, 3) memory: where friction has no force, in axes of what carries
     limit: FloatArray  # (n, points) memory: largest friction, N/m
+    most: FloatArray  # (n,) memory: the largest of them
 
 
 @inline_kernel
 def rubs(batch, e):
     """Whether a row may have friction in this step."""
-    found = False
-    for p in range(batch.limit.shape[1]):
-        found |= batch.limit[e, p] > 0.0
-    return found
+    return batch.most[e] > 0.0
 
 
 @inline_kernel
@@ -145,11 +151,12 @@ def rub_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 def rub_remember(batch, q, v):
     """Move the anchors to where the friction of the state q, v leaves them, and renew the limits."""
     for e in range(batch.base.shape[0]):
+        if look_around(batch, e, q) and not rubs(batch, e):
+            continue
+        batch.most[e] = 0.0
+        data, moving = batch.data[batch.contact[e]], still_or(batch, e, v)
         body = carrier(batch, e, q)
         at, axis = lie(batch, e, body)
-        if not (rubs(batch, e) or is_near(batch, e, q, at, axis)):
-            continue
-        data, moving = batch.data[batch.contact[e]], still_or(batch, e, v)
         for p in range(batch.weight.shape[1]):
             _, _, N, _, _, n, _, _, _ = pressed(batch, e, p, q, v, body, moving, at, axis)
             r, x, u, _ = rubbed(batch, e, p, q, v, body, moving, at, axis)
@@ -161,6 +168,7 @@ def rub_remember(batch, q, v):
                 left = in_body(body, (r[0] - keep * w[0], r[1] - keep * w[1], r[2] - keep * w[2]))
                 batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = left
             batch.limit[e, p] = data[FRICTION] * N
+            batch.most[e] = max(batch.most[e], batch.limit[e, p])
 
 
 @inline_kernel
@@ -189,6 +197,7 @@ def renew_limits(batch, q, v):
     """Limits of the friction from the state q, v; returns their largest change and the largest of them."""
     change, most = 0.0, 0.0
     for e in range(batch.base.shape[0]):
+        batch.most[e] = 0.0
         body, moving = carrier(batch, e, q), still_or(batch, e, v)
         at, axis = lie(batch, e, body)
         for p in range(batch.weight.shape[1]):
@@ -196,8 +205,23 @@ def renew_limits(batch, q, v):
             limit = batch.data[batch.contact[e], FRICTION] * N
             change = max(change, abs(limit - batch.limit[e, p]))
             most = max(most, limit)
-            batch.limit[e, p] = limit
+            taken = TAKEN if batch.limit[e, p] < GRIP else 1.0
+            batch.limit[e, p] += taken * (limit - batch.limit[e, p])
+            batch.most[e] = max(batch.most[e], batch.limit[e, p])
     return change, most
+
+
+@kernel
+def grip(batch, q, holds):
+    """Let friction hold all that touches in the state q, whatever it takes, or nothing."""
+    for e in range(batch.base.shape[0]):
+        at, axis = lie(batch, e, carrier(batch, e, q))
+        radius, batch.most[e] = batch.data[batch.contact[e], RADIUS], 0.0
+        for p in range(batch.weight.shape[1]):
+            d, _, _, _, _ = outside(batch, e, place_on(batch, e, p, q), at, axis)
+            batch.limit[e, p] = GRIP if holds and d < (1.0 + CLOSE) * radius else 0.0
+            batch.most[e] = max(batch.most[e], batch.limit[e, p])
+            batch.most[e] = max(batch.most[e], batch.limit[e, p])
 
 
 def let_rub(batch, q):
@@ -213,6 +237,7 @@ implements(
     remember=rub_remember,
     measure=rub_measure,
     role=Role.RUBS | Role.MEASURES,
-    memory=("anchor", "limit"),
+    memory=("far", "anchor", "limit", "most"),
     late=lambda batch: let_rub,
+    early=grip,
 )

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from ..compiled import inline_kernel
 from ..vectors import dot
 from .profiles import profile_of
@@ -22,6 +24,12 @@ PLACE, AXIS, NUMBERS = 0, 3, 6
 RADIUS, STIFFNESS, DAMPING, FRICTION, STICK, DRAG = range(6)
 #: Depth in radii over which damping comes on.
 SOFT = 0.02
+#: Column of ``far`` behind a place in body axes: how far the first node may go from there, m.
+ROOM = 3
+#: Factor of the size of an element by which it may grow before its ball is renewed.
+STRETCHED = 1.25
+#: Indices without a sign: it need not be looked at.
+ONE, TWO = np.uint64(1), np.uint64(2)
 EX, EY, EZ = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
@@ -105,14 +113,31 @@ def place_on(batch, e, p, q):
 
 
 @inline_kernel
-def is_near(batch, e, q, at, axis):
-    """Whether a point of a row may touch: all lie in a ball about the first node.
+def in_body(body, r):
+    """Place in body axes."""
+    c, a, b, d = body
+    x = r[0] - c[0], r[1] - c[1], r[2] - c[2]
+    return dot(x, a), dot(x, b), dot(x, d)
+
+
+@inline_kernel
+def first_node(batch, e, q):
+    """Place of the first node of a row, in the axes of what carries the surface."""
+    k = batch.base.shape[1] - BODY
+    r = at_slot(q, batch.base[e, 0])
+    if batch.base[e, k] < 0:
+        return r
+    return in_body(carrier(batch, e, q), r)
+
+
+@inline_kernel
+def reach_of(batch, e, q):
+    """Radius of a ball about the first node of a row, with the radius of the beam, that holds all its points.
 
     With the factors S_k of the points in q_k, r_0 the first node, sum |S_k| |q_k - r_0|, or |q_k| of a
-    slope, bounds its radius; the sum of the sizes of the components bounds the size of a vector.
+    slope, bounds it; the sum of the sizes of the components bounds the size of a vector.
     """
-    i = batch.base[e, 0]
-    r = q[i], q[i + 1], q[i + 2]
+    r = at_slot(q, batch.base[e, 0])
     reach = batch.data[batch.contact[e], RADIUS]
     for k in range(1, batch.base.shape[1] - BODY):
         i, w = batch.base[e, k], batch.reach[e, k]
@@ -121,18 +146,30 @@ def is_near(batch, e, q, at, axis):
                 reach += w * (abs(q[i]) + abs(q[i + 1]) + abs(q[i + 2]))
             else:
                 reach -= w * (abs(q[i] - r[0]) + abs(q[i + 1] - r[1]) + abs(q[i + 2] - r[2]))
-    k = batch.surface[e]
-    h, rho, _ = cylindrical(r, at, axis)
-    d, _, _, _ = profile_of(batch.shape_of[k], batch.surfaces[k, NUMBERS:], rho, h)
-    return d < reach
+    return reach
 
 
 @inline_kernel
-def in_body(body, r):
-    """Place in body axes."""
-    c, a, b, d = body
-    x = r[0] - c[0], r[1] - c[1], r[2] - c[2]
-    return dot(x, a), dot(x, b), dot(x, d)
+def is_far(batch, e, q):
+    """Whether no point of a row can touch: its first node has not left the ball in which none does."""
+    i, far = np.uint64(batch.base[e, 0]), batch.far[e]
+    if batch.base[e, batch.base.shape[1] - BODY] < 0:
+        return abs(q[i] - far[0]) + abs(q[i + ONE] - far[1]) + abs(q[i + TWO] - far[2]) < far[ROOM]
+    r = first_node(batch, e, q)
+    return abs(r[0] - far[0]) + abs(r[1] - far[1]) + abs(r[2] - far[2]) < far[ROOM]
+
+
+@inline_kernel
+def look_around(batch, e, q):
+    """Whether a row is far; its ball is renewed when half of it is used up."""
+    r, far = first_node(batch, e, q), batch.far[e]
+    if 2.0 * (abs(r[0] - far[0]) + abs(r[1] - far[1]) + abs(r[2] - far[2])) < far[ROOM]:
+        return True
+    at, axis = lie(batch, e, carrier(batch, e, q))
+    d, _, _, _, _ = outside(batch, e, at_slot(q, batch.base[e, 0]), at, axis)
+    far[0], far[1], far[2] = r
+    far[ROOM] = d - STRETCHED * reach_of(batch, e, q)
+    return far[ROOM] > 0.0
 
 
 @inline_kernel
