@@ -204,7 +204,7 @@ class Traits:
         None.
     early : function, optional
         ``early(batch, q, holds)``: lets friction hold what touches in the initial shape q of an equilibrium,
-        while the loads come on, or takes it away.
+        while the loads come on, or takes it away; returns whether there is friction.
     turning_mass : function, optional
         ``turning_mass(batch)``: whether it has a mass that changes with the state; default it has none.
     """
@@ -218,7 +218,7 @@ class Traits:
     memory: tuple[str, ...] = ()
     follows: Callable[[Any], bool] | None = None
     late: Callable[[Any], Callable[[Any, Any], float] | None] | None = None
-    early: Callable[[Any, Any, bool], None] | None = None
+    early: Callable[[Any, Any, bool], bool] | None = None
     turning_mass: Callable[[Any], bool] | None = None
 
 

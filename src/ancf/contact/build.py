@@ -79,7 +79,8 @@ def batches(
 def _numbers(item: SurfaceContact) -> list[float]:
     stick = item.stiffness if item.stick is None else item.stick
     drag = item.damping * math.sqrt(stick / item.stiffness)
-    return [item.radius, item.stiffness, item.damping, item.friction, stick, drag]
+    narrow = item.surface.shape.narrowest
+    return [item.radius, item.stiffness, item.damping, item.friction, stick, drag, narrow]
 
 
 def _lie(surface: Surface) -> list[float]:

@@ -12,6 +12,7 @@ curvatures of the surface, and the damping; it leaves out how the surface turns 
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -22,11 +23,14 @@ from ..compiled import Role, implements, inline_kernel, kernel
 from ..vectors import dot
 from .touch import (
     DAMPING,
+    NARROW,
     RADIUS,
+    ROOM,
     STIFFNESS,
     add_pair,
     add_pair_block,
     carrier,
+    first_node,
     in_body,
     is_far,
     lie,
@@ -40,6 +44,8 @@ from .touch import (
 
 #: Columns of ``found``: force of all points, N, and the largest depth, m.
 FORCE, DEPTH = range(2)
+#: Share of the depth at which a surface has no sides that a beam may reach.
+PASSED = 0.5
 
 
 class PressBatch(NamedTuple):
@@ -160,6 +166,40 @@ def press_remember(batch, q, v):
         look_around(batch, e, q)
 
 
+@inline_kernel
+def press_passed(batch, q, ws):
+    """Slot of the first node of an element that may have gone through a surface since the last step, else -1.
+
+    It is deeper than half of where a surface has no sides, or has come as far near it in one step.
+    """
+    for e in range(batch.base.shape[0]):
+        if is_far(batch, e, q):
+            continue
+        narrow, r, far = batch.data[batch.contact[e], NARROW], first_node(batch, e, q), batch.far[e]
+        way = math.sqrt((r[0] - far[0]) ** 2 + (r[1] - far[1]) ** 2 + (r[2] - far[2]) ** 2)
+        if way > narrow and far[ROOM] > -math.inf:
+            return batch.base[e, 0]
+        at, axis = lie(batch, e, carrier(batch, e, q))
+        for p in range(batch.weight.shape[1]):
+            d, _, _, _, _ = outside(batch, e, place_on(batch, e, p, q), at, axis)
+            if d < -PASSED * narrow:
+                return batch.base[e, 0]
+    return -1
+
+
+@kernel
+def press_lost(batch, q, holds):
+    """Forget in the initial shape of an equilibrium where elements were: its steps are long."""
+    for e in range(batch.base.shape[0]):
+        batch.far[e, ROOM] = -math.inf
+
+
+def look_everywhere(batch, q, holds):
+    """See :func:`press_lost`; there is nothing that it could hold."""
+    press_lost(batch, q, holds)
+    return False
+
+
 implements(
     PressBatch,
     force=press_force,
@@ -167,16 +207,9 @@ implements(
     energy=press_energy,
     measure=press_measure,
     remember=press_remember,
+    inverted=press_passed,
+    early=look_everywhere,
     role=Role.DISSIPATES | Role.MEASURES,
     memory=("far",),
     damped=lambda batch: bool(np.any(batch.data[:, DAMPING])),
 )
-
-
-@kernel
-def press_values(batch, q, v, out):
-    """What ``found`` says of each contact in each state, ``out`` of shape (states, contacts, 2)."""
-    for n in range(q.shape[0]):
-        press_measure(batch, q[n], v[n])
-        for j in range(batch.found.shape[0]):
-            out[n, j, 0], out[n, j, 1] = batch.found[j, FORCE], batch.found[j, DEPTH]

@@ -224,6 +224,12 @@ def grip(batch, q, holds):
             batch.most[e] = max(batch.most[e], batch.limit[e, p])
 
 
+def hold(batch, q, holds):
+    """See :func:`grip`."""
+    grip(batch, q, holds)
+    return True
+
+
 def let_rub(batch, q):
     """Renew the limits in an equilibrium; returns their relative change."""
     change, most = renew_limits(batch, q, np.zeros_like(q))
@@ -239,5 +245,5 @@ implements(
     role=Role.RUBS | Role.MEASURES,
     memory=("far", "anchor", "limit", "most"),
     late=lambda batch: let_rub,
-    early=grip,
+    early=hold,
 )

@@ -20,8 +20,8 @@ from .profiles import profile_of
 BODY = 4
 #: Columns of ``surfaces``: its place and its axis in body axes, then the numbers of its shape.
 PLACE, AXIS, NUMBERS = 0, 3, 6
-#: Columns of ``data``: radius of the beam, k, c, mu, k_t, c_t.
-RADIUS, STIFFNESS, DAMPING, FRICTION, STICK, DRAG = range(6)
+#: Columns of ``data``: radius of the beam, k, c, mu, k_t, c_t, depth at which a surface has no sides.
+RADIUS, STIFFNESS, DAMPING, FRICTION, STICK, DRAG, NARROW = range(7)
 #: Depth in radii over which damping comes on.
 SOFT = 0.02
 #: Column of ``far`` behind a place in body axes: how far the first node may go from there, m.

@@ -9,7 +9,7 @@ from . import checks
 from .beam import Beam
 from .bodies import RigidBody, kind
 from .connecting import Connecting, PointLike
-from .contact import Contact, make_contact
+from .contact import make_contact
 from .names import unknown
 from .surface_shapes import Shape
 from .surfaces import Surface, SurfaceContact, make_surface_contact, shape_of
@@ -75,7 +75,7 @@ class WithSurfaces(Connecting):
         normal: Any = None,
         s: float | None = None,
         name: str | None = None,
-    ) -> Contact | SurfaceContact:
+    ) -> Any:
         """Let a beam or cable touch a surface, or a wire rest on a straight strip through a point.
 
         With a surface, ``add_contact(rope, drum, ...)``, it is :meth:`add_surface_contact`: stiffness and
@@ -105,6 +105,10 @@ class WithSurfaces(Connecting):
             Reference arc length near which the wire crosses the strip at the start, default the nearest.
         name : str
             Default "contact of head and wire".
+
+        Returns
+        -------
+        SurfaceContact or Contact
 
         """
         where = self._where("add_contact", name, point)
@@ -173,6 +177,10 @@ class WithSurfaces(Connecting):
         where = self._where("add_surface_contact", name)
         clean, found = self._body(body, f"{where}.body"), self.surface(surface, f"{where}.surface")
         label = self._names.of_item(name, f"contact of {clean.name} and {found.name}", where)
+        for other in self.connections:
+            if isinstance(other, SurfaceContact) and other.body is clean and other.surface is found:
+                what = f'"{other.name}" is between "{clean.name}" and "{found.name}" already'
+                raise ModelError(f"{where}.surface", what)
         item = make_surface_contact(
             where,
             label,

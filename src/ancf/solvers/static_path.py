@@ -8,9 +8,9 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..system.core import find_inverted
+from .failures import inverted
 from .free_spin import softest_mode
 from .static_iteration import MORE_MU, Iteration
-from .status import COLLAPSED
 
 TOLERANCE = 1e-12  # of a correction, positions relative to the size of the model
 MAX_ITERATIONS = 300  # in a load step
@@ -68,7 +68,7 @@ def settle(it: Iteration, share: float) -> str | None:
         if settled and (it.mu == 0.0 or it.harmless()):
             it.q = it.moved(dq, 1.0)
             slot = find_inverted(it.core.batches, it.core.ws, it.q)
-            return None if slot < 0 else f"{it.system.element_of(slot)}: {COLLAPSED}"
+            return None if slot < 0 else ": ".join(inverted(it.system, slot)[:2])
         if regular and it.mu > 0.0 and norm < BALANCED and not disturbed and not it.harmless():
             disturbed = True  # balanced, but not stable
             it.q = disturb(it)

@@ -11,8 +11,6 @@ Because only positive definite matrices are accepted, the result is a stable equ
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -63,7 +61,8 @@ def equilibrium(
     it = Iteration(system, core, q, force, core.loads.value.copy())
     slack = Slack(system, q, force)
     try:
-        halvings = gripped(it, slack, load_steps) if grips(core) else bring_on(it, slack, load_steps)
+        way = gripped if grips(core, q, False) else bring_on
+        halvings = way(it, slack, load_steps)
     finally:
         slack.set(0.0, 0.0)
         core.loads.value[:] = it.inputs
@@ -84,9 +83,11 @@ def bring_on(it: Iteration, slack: Slack, load_steps: int) -> int:
     return halvings
 
 
-def grips(core: Core) -> list[tuple[Any, Callable[[Any, FloatArray, bool], None]]]:
-    """Batches that can hold what touches while the loads come on, and how."""
-    return [(batch, own) for batch in core.batches if (own := traits(batch).early) is not None]
+def grips(core: Core, q: FloatArray, holds: bool) -> bool:
+    """Let friction hold what it touches, or not; whether there is any."""
+    ways = [(batch, own) for batch in core.batches if (own := traits(batch).early) is not None]
+    found = [early(batch, q, holds) for batch, early in ways]
+    return any(found)
 
 
 def gripped(it: Iteration, slack: Slack, load_steps: int) -> int:
@@ -98,8 +99,7 @@ def gripped(it: Iteration, slack: Slack, load_steps: int) -> int:
     first, q = None, it.q.copy()
     for holds in (True, False):
         it.q, it.mu = q.copy(), 0.0
-        for batch, early in grips(it.core):
-            early(batch, it.q, holds)
+        grips(it.core, it.q, holds)
         try:
             return bring_on(it, slack, load_steps)
         except SolveError as error:

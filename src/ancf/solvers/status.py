@@ -6,6 +6,7 @@ OK, DIVERGED, NOT_FINITE, SINGULAR, SLOW, INVERTED, FAR, UNBALANCED, TOO_MANY = 
 EVENT = 16  # plus the code of an event after a step that is OK
 #: What is said of INVERTED.
 COLLAPSED = "the cross-section has collapsed or turned inside out"
+THROUGH = "it goes through a surface that it touches"
 #: Names of what is counted, and their places.
 COUNTS = ("steps", "newton_iterations", "jacobians", "factorizations", "retries")
 STEPS, ITERATIONS, JACOBIANS, FACTORIZATIONS, RETRIES = range(5)
