@@ -194,19 +194,24 @@ def rub_measure(batch, q, v):
 
 @kernel
 def renew_limits(batch, q, v):
-    """Limits of the friction from the state q, v; returns their largest change and the largest of them."""
+    """Limits of the friction from the state q, v; returns their largest change and the largest of them.
+
+    What has been held by whatever it took is let go by and by: the pressure comes to where the load goes.
+    """
     change, most = 0.0, 0.0
     for e in range(batch.base.shape[0]):
         batch.most[e] = 0.0
-        body, moving = carrier(batch, e, q), still_or(batch, e, v)
+        body, moving, data = carrier(batch, e, q), still_or(batch, e, v), batch.data[batch.contact[e]]
         at, axis = lie(batch, e, body)
         for p in range(batch.weight.shape[1]):
             _, _, N, _, _, _, _, _, _ = pressed(batch, e, p, q, v, body, moving, at, axis)
-            limit = batch.data[batch.contact[e], FRICTION] * N
-            change = max(change, abs(limit - batch.limit[e, p]))
-            most = max(most, limit)
-            taken = TAKEN if batch.limit[e, p] < GRIP else 1.0
-            batch.limit[e, p] += taken * (limit - batch.limit[e, p])
+            wanted, limit = data[FRICTION] * N, batch.limit[e, p]
+            if limit == GRIP:
+                r, _, u, n = rubbed(batch, e, p, q, v, body, moving, at, axis)
+                limit = max(wanted, drawn(batch, e, p, r, u, n, body)[1])
+            change = max(change, abs(wanted - limit))
+            most = max(most, wanted)
+            batch.limit[e, p] = limit + TAKEN * (wanted - limit)
             batch.most[e] = max(batch.most[e], batch.limit[e, p])
     return change, most
 
