@@ -106,10 +106,10 @@ class TestWithoutFriction:
         line = ancf.equilibrium(model).contact_line("contact of rope and drum")
         force = line.normal.reshape(-1, 5) @ GAUSS
         at = line.x.reshape(-1, 5) @ GAUSS
-        inside = (at > 0.15) & (at < 0.05 + np.pi * RC)
+        inside = np.abs(at - 0.1 - 0.5 * np.pi * RC) < 0.25 * np.pi * RC  # its ends bend
         wanted = load * (1.0 + load / 1e6) / (RC - load / (RC * 1e8))  # per length without load
         assert force[inside] == pytest.approx(np.full(inside.sum(), wanted), rel=1e-3)
-        assert line.normal.reshape(-1, 5)[inside].ravel() == pytest.approx(wanted, rel=2e-2)
+        assert np.abs(line.normal.reshape(-1, 5)[inside] / wanted - 1.0).max() < 2e-2
 
     @pytest.mark.parametrize("low", [0.1, 0.3])
     def test_ends_at_different_heights(self, low):
