@@ -78,10 +78,14 @@ class ContactFields(JointFields):
         """Names of the contacts that can be asked for."""
         return [*_named(self.model, Contact), *_named(self.model, SurfaceContact)]
 
+    def rubs(self, contact: Any) -> bool:
+        """Whether a contact is one with a surface, which may have friction."""
+        return getattr(contact, "name", contact) in _named(self.model, SurfaceContact)
+
     def _strip(self, contact: Any) -> FloatArray:
         """The same of a contact with a strip."""
         name = getattr(contact, "name", contact)
-        if name in _named(self.model, SurfaceContact):
+        if self.rubs(contact):
             what = "is a contact with a surface, which has many places along its beam"
             raise ModelError(named(name), what, "ask state.contact_line(...) for them")
         return self._contact(contact)
