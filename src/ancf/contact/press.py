@@ -149,8 +149,6 @@ def press_measure(batch, q, v):
     for j in range(batch.found.shape[0]):
         batch.found[j, FORCE], batch.found[j, DEPTH] = 0.0, -np.inf
     for e in range(batch.base.shape[0]):
-        if is_far(batch, e, q):
-            continue
         body, moving, j = carrier(batch, e, q), still_or(batch, e, v), batch.contact[e]
         at, axis = lie(batch, e, body)
         for p in range(batch.weight.shape[1]):

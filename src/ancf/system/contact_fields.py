@@ -39,7 +39,7 @@ class ContactFields(JointFields):
         """Gap between strip and wire along the normal, m; negative while they touch.
 
         Infinite where the wire does not cross the strip at all. Of a contact with a surface it is the least
-        gap along the beam, infinite where all of it is far.
+        gap along the beam.
         """
         return -self._contact(contact)[..., OVERLAP]
 
