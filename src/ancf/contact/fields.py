@@ -13,9 +13,9 @@ from ..elements.shapes import gauss
 from ..model.surfaces import SurfaceContact
 from .press import press_measure, pressed, still_or
 from .rub import RUBBED, SLIPPED, drawn, rub_measure, rubbed
-from .touch import carrier, lie
+from .touch import carrier, lie, outside, place_on
 
-__all__ = ["RUBBED", "SLIPPED", "ContactLine", "contact_line", "frictions", "pressures"]
+__all__ = ["RUBBED", "SLIPPED", "ContactLine", "contact_line", "frictions", "nearest_places", "pressures"]
 
 #: Share of the limit from which friction counts as slipping: the memory of a state has come back to it.
 AT_LIMIT = 0.999
@@ -94,6 +94,34 @@ def rub_line(batch, j, q, v, out):
             out[m, p, 0], out[m, p, 1], out[m, p, 2] = -f * w[0], -f * w[1], -f * w[2]
             out[m, p, 3] = batch.limit[e, p]
         m += 1
+
+
+@kernel
+def press_nearest(batch, j, q, out):
+    """Of contact j in states: the place on the axis that is nearest to the surface, and the surface there.
+
+    ``out`` of shape (states, 2, 3).
+    """
+    for n in range(q.shape[0]):
+        nearest = np.inf
+        for e in range(batch.base.shape[0]):
+            if batch.contact[e] != j:
+                continue
+            at, axis = lie(batch, e, carrier(batch, e, q[n]))
+            for p in range(batch.weight.shape[1]):
+                r = place_on(batch, e, p, q[n])
+                d, normal, _, _, _ = outside(batch, e, r, at, axis)
+                if d < nearest:
+                    nearest = d
+                    for c in range(3):
+                        out[n, 0, c], out[n, 1, c] = r[c], r[c] - d * normal[c]
+
+
+def nearest_places(batch: Any, j: int, q: FloatArray) -> FloatArray:
+    """Where contact j is nearest in states (n, size): on the axis and on the surface, (n, 2, 3) m."""
+    out = np.empty((len(q), 2, 3))
+    press_nearest(batch, j, np.ascontiguousarray(q), out)
+    return out
 
 
 def pressures(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:

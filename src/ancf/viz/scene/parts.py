@@ -104,7 +104,7 @@ class Triad:
 
 @dataclass(frozen=True, slots=True)
 class Strip:
-    """The strip of a contact, drawn as long as it has to be.
+    """The strip of a contact, as long as it has to be, or the way to a surface where that is nearest.
 
     Parameters
     ----------
