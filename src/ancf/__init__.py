@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .control.stepper import Stepper, stepper
     from .model import Gusts, Model, Section, Waves
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
+    from .model.surface_shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
     from .results import Modes, Result, State
     from .resumption import resume
     from .verification import Verification, verify
@@ -34,6 +35,12 @@ _LATER = {
     "Result": "results",
     "State": "results",
     "Modes": "results",
+    "Capsule": "model.surface_shapes",
+    "Cylinder": "model.surface_shapes",
+    "Plane": "model.surface_shapes",
+    "Sheave": "model.surface_shapes",
+    "Sphere": "model.surface_shapes",
+    "Torus": "model.surface_shapes",
     "Trapezoidal": "model.integrators",
     "Explicit": "model.integrators",
     "GeneralizedAlpha": "model.integrators",
@@ -44,6 +51,8 @@ _LATER = {
 }
 
 __all__ = [
+    "Capsule",
+    "Cylinder",
     "Explicit",
     "GeneralizedAlpha",
     "Gusts",
@@ -52,12 +61,16 @@ __all__ = [
     "ModelError",
     "Modes",
     "Newton",
+    "Plane",
     "Radau",
     "Result",
     "Section",
+    "Sheave",
     "SolveError",
+    "Sphere",
     "State",
     "Stepper",
+    "Torus",
     "Trapezoidal",
     "Verification",
     "Waves",

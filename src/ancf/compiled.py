@@ -38,7 +38,7 @@ PART: Any = {**_OPTIONS, "no_cpython_wrapper": True}
 
 
 #: Folders whose files hold kernels, or constants of kernels.
-FOLDERS = ("simd", "elements", "bodies", "connections", "loads", "linalg", "system", "solvers")
+FOLDERS = ("simd", "elements", "bodies", "connections", "loads", "contact", "linalg", "system", "solvers")
 
 
 def stamped() -> list[Path]:
@@ -168,6 +168,7 @@ class Role(Flag):
     SLIDES = auto()  #: of them, rows that change as bodies move: they come last and are renewed in every step
     EXTERNAL = auto()  #: a load: the work of its forces is supplied
     DISSIPATES = auto()  #: what its forces lose without velocities is dissipated
+    RUBS = auto()  #: friction: all work of its forces is dissipated, also what they do without velocities
     MEASURES = auto()  #: leaves something for sensors
 
 
@@ -201,6 +202,9 @@ class Traits:
         ``late(batch)``: what an equilibrium brings on when all else is there, as the friction of a ground: a
         function of the batch and of q that renews it and returns by how much, relative, it has changed; or
         None.
+    early : function, optional
+        ``early(batch, q, holds)``: lets friction hold what touches in the initial shape q of an equilibrium,
+        while the loads come on, or takes it away; returns whether there is friction.
     turning_mass : function, optional
         ``turning_mass(batch)``: whether it has a mass that changes with the state; default it has none.
     """
@@ -214,6 +218,7 @@ class Traits:
     memory: tuple[str, ...] = ()
     follows: Callable[[Any], bool] | None = None
     late: Callable[[Any], Callable[[Any, Any], float] | None] | None = None
+    early: Callable[[Any, Any, bool], bool] | None = None
     turning_mass: Callable[[Any], bool] | None = None
 
 
@@ -233,7 +238,7 @@ def with_role(batches: Iterable[Any], role: Role) -> tuple[Any, ...]:
 def describe(batch_type: type, **given: Any) -> None:
     """Keep the :class:`Traits` of a kind of batch."""
     found = Traits(**given)
-    if Role.EXTERNAL in found.role and Role.DISSIPATES in found.role:
+    if Role.EXTERNAL in found.role and found.role & (Role.DISSIPATES | Role.RUBS):
         raise ValueError(f"{batch_type.__name__}: what is supplied is not dissipated as well")
     if Role.DISSIPATES in found.role and found.damped is None:
         raise ValueError(f"{batch_type.__name__}: damped() says whether it does dissipate")

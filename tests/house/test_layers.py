@@ -25,6 +25,7 @@ LAYERS = (
     {"model"},
     {"elements", "bodies", "linalg"},
     {"connections", "loads"},
+    {"contact"},
     {"system"},
     {"solvers"},
     {"results"},

@@ -263,5 +263,27 @@ class TestNets:
         table = self.of(height={"x": [-9, 9], "y": [-9, 9], "z": [[-2, -2], [-3, -3]]})[0].lines
         assert table[..., 2] == pytest.approx(-2.5 - table[..., 0] / 18.0)
 
+    def test_surfaces_that_beams_touch(self):
+        """Circles and meridians, of one on a rigid body in its axes; the way where a beam is nearest."""
+        model = ancf.Model()
+        section = ancf.Section(EA=1e4, EI=0.01, rhoA=0.5, diameter=0.02)
+        rope = model.add_beam("rope", start=(-1, 0, 0.35), end=(1, 0, 0.35), elements=5, section=section)
+        hub = model.add_rigid_body("hub", at=(0, 0, -1), mass=1.0, inertia=(1, 1, 1))
+        ball = model.add_surface("ball", ancf.Sphere(radius=0.3))
+        model.add_surface("drum", ancf.Cylinder(0.2, at=(0, 0.1, 0), axis=(0, 1, 0), length=0.5), on=hub)
+        model.add_surface("floor", ancf.Plane(at=(0, 0, -2)))
+        model.add_contact(rope, ball, stiffness=1e4, name="way")
+        system = System(model)
+        scene = make_scene(ancf.State(system, 0.0, *system.initial_state()))
+        nets = {net.name: net for net in scene.nets}
+        assert np.linalg.norm(nets["ball"].lines, axis=-1) == pytest.approx(0.3)
+        drum = nets["drum"].lines
+        assert nets["drum"].on == "hub"
+        assert np.hypot(drum[..., 0], drum[..., 2]).max() == pytest.approx(0.2)
+        assert (drum[..., 1].min(), drum[..., 1].max()) == pytest.approx((-0.15, 0.35))
+        assert nets["floor"].lines[..., 2] == pytest.approx(-2.0)
+        [way] = [strip for strip in scene.strips if strip.name == "way"]
+        assert way.ends[0, :, 2] == pytest.approx([0.35, 0.3])
+
     def test_none_without_surroundings(self):
         assert scene().nets == []

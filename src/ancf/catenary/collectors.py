@@ -142,12 +142,14 @@ def add_pantograph(
     name = f"{label} contact"
     if touch.kind == "penalty":
         assert touch.stiffness is not None
-        contact = model.add_contact(head, wire, stiffness=touch.stiffness, damping=touch.damping, name=name)
+        contact: Contact = model.add_contact(
+            head, wire, stiffness=touch.stiffness, damping=touch.damping, name=name
+        )
         return Collector(label, pantograph, start, head, contact, contact)
     joint = model.slide(
         head, wire, release=(0, 1, 0), unilateral=(0, 0, 1), tolerance=NEAR, at_end="release", name=name
     )
-    meter = model.add_contact(head, wire, stiffness=WEIGHTLESS, name=f"{label} meter")
+    meter: Contact = model.add_contact(head, wire, stiffness=WEIGHTLESS, name=f"{label} meter")
     return Collector(label, pantograph, start, head, joint, meter)
 
 

@@ -1,4 +1,4 @@
-"""Connecting: the part of a Model that adds joints, springs and contacts."""
+"""Connecting: the part of a Model that adds joints and springs."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from . import checks
 from .beam import Beam
 from .bodies import PointMass, RigidBody
 from .connections import Connection, Spring, make_spring
-from .contact import Contact, make_contact
 from .functions import check_inputs, refuse_inputs
 from .joints import Fixation, Revolute, Slide, Spherical
 from .kinds import kind_of
@@ -185,60 +184,6 @@ class Connecting(Undeformed):
         label = self._names.of_item(name, f"spring from {first} to {shown(second)}", where)
         item = make_spring(
             where, label, first, second, stiffness=stiffness, damping=damping, length=length, slack=slack
-        )
-        return self.add_connection(where, item)
-
-    def add_contact(
-        self,
-        point: PointLike,
-        along: Beam | str,
-        *,
-        stiffness: float,
-        damping: float = 0.0,
-        strip: Any = (0.0, 1.0, 0.0),
-        normal: Any = (0.0, 0.0, 1.0),
-        s: float | None = None,
-        name: str | None = None,
-    ) -> Contact:
-        """Let a wire rest on a straight strip through a point, as a contact wire does on a pantograph.
-
-        The force is a penalty on the overlap, it pushes only, and there is no friction: the wire is free to
-        sweep along the strip and the strip to run along the wire. Beyond the wire's ends nothing touches.
-
-        Parameters
-        ----------
-        point : Point, PointMass or RigidBody
-            The strip's.
-        along : Beam
-            The wire.
-        stiffness : float, N/m
-            Force per overlap.
-        damping : float, N s/m
-            Force per rate of overlap, while they overlap.
-        strip : (3,)
-            Direction of the strip.
-        normal : (3,)
-            Direction of the force that the wire receives, perpendicular to `strip`. The wire runs along
-            strip x normal.
-        s : float, m
-            Reference arc length near which the wire crosses the strip at the start, default the nearest.
-        name : str
-            Default "contact of head and wire".
-
-        """
-        where = self._where("add_contact", name, point)
-        clean, wire = self._point(point, f"{where}.point"), self._body(along, f"{where}.along")
-        label = self._names.of_item(name, f"contact of {clean} and {wire.name}", where)
-        item = make_contact(
-            where,
-            label,
-            clean,
-            wire,
-            stiffness=stiffness,
-            damping=damping,
-            strip=strip,
-            normal=normal,
-            s=s,
         )
         return self.add_connection(where, item)
 

@@ -12,6 +12,7 @@ from . import checks
 from .contact import Contact
 from .joints import Fixation, Revolute, Slide, Spherical
 from .points import Point, initial_position
+from .surfaces import SurfaceContact
 
 __all__ = ["Connection", "Spherical", "Spring", "initial_position", "make_spring"]
 
@@ -42,7 +43,7 @@ class Spring:
     slack: bool
 
 
-Connection = Spherical | Revolute | Fixation | Slide | Spring | Contact
+Connection = Spherical | Revolute | Fixation | Slide | Spring | Contact | SurfaceContact
 
 
 def make_spring(

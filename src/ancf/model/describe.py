@@ -19,6 +19,7 @@ from .points import Point
 from .section import DAMPINGS, MOMENTS, Rectangle, Section
 from .section_fluid import IN_FLUID
 from .state_function import StateFunction
+from .surfaces import Surface
 from .velocity_field import VelocityField
 from .waves import Waves
 
@@ -108,7 +109,9 @@ def other(item: Any, kind: Kind) -> dict[str, Any]:
 
 
 def fields_of(item: Any) -> dict[str, Any]:
-    """A fluid or a ground: its fields but those that are None, under the keys of its method and of files."""
+    """A fluid, ground or surface: what is not None of it, under the keys of its method and of files."""
+    if isinstance(item, Surface):
+        return item.describe()
     plain = {field.name: _plain(getattr(item, field.name)) for field in fields(item)}
     return {key: value for key, value in plain.items() if value is not None}
 
@@ -129,7 +132,7 @@ def _digits(value: float) -> str:
 def _plain(value: Any) -> Any:
     if isinstance(value, Point):
         return point(value)
-    if isinstance(value, Beam | PointMass | RigidBody):
+    if isinstance(value, Beam | PointMass | RigidBody | Surface):
         return value.name
     if isinstance(value, TimeFunction | StateFunction | VelocityField | Relief | Waves | Gusts):
         return value.describe()

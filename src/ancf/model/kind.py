@@ -12,6 +12,7 @@ from .points import Point
 
 #: Under which noun results answer questions about a connection, see ancf.viz.pictures.questions.
 SPRING, CONTACT, SLIDE, JOINT = "spring", "contact", "sliding joint", "joint"
+SURFACE_CONTACT = "contact with a surface"
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,8 @@ class Kind:
     between : function, optional
         What a table says of where it is; default its ends one after the other.
     asked : str
-        SPRING, CONTACT, SLIDE or JOINT: what results answer of it; "" for supports and loads.
+        SPRING, CONTACT, SURFACE_CONTACT, SLIDE or JOINT: what results answer of it; "" for supports and
+        loads.
     rows : str
         Module in ``ancf.connections`` with its ``rows``, of a joint made of rows.
     look : Look or None
@@ -139,6 +141,6 @@ class Kind:
 
 
 def body_of(end: Any) -> Body | None:
-    """The body of an end; None: a fixed position."""
-    body = end.body if isinstance(end, Point) else end
+    """The body of an end, of a surface the one that carries it; None: a fixed position."""
+    body = end.body if isinstance(end, Point) else getattr(end, "on", end)
     return body if isinstance(body, Body) else None

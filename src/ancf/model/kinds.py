@@ -6,14 +6,14 @@ from collections.abc import Callable, Iterator
 from importlib import import_module
 from typing import Any
 
-from . import sheets
+from . import sheets, surfaces
 from .connections import Spring
 from .contact import Contact
 from .fluids import Fluid
 from .functions import TimeFunction
 from .grounds import Ground
 from .joints import Fixation, Revolute, Slide, Spherical
-from .kind import CONTACT, JOINT, SLIDE, SPRING, Kind, Look, Push
+from .kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT, Kind, Look, Push
 from .loads import DistributedLoad, Force, Moment
 from .state_function import StateFunction
 from .supports import Clamp, Hold, Pin
@@ -145,6 +145,17 @@ CONNECTIONS: list[Kind] = [
         between=sheets.along,
         asked=CONTACT,
     ),
+    Kind(
+        surfaces.SurfaceContact,
+        "surface_contact",
+        "contact with a surface",
+        "add_surface_contact",
+        _entry("SurfaceContactEntry"),
+        surfaces.data,
+        ends=("body", "surface"),
+        between=surfaces.between,
+        asked=SURFACE_CONTACT,
+    ),
 ]
 FLUID = Kind(
     Fluid,
@@ -169,8 +180,18 @@ GROUND = Kind(
     between=sheets.lie_of_ground,
     batch="ground",
 )
+SURFACE = Kind(
+    surfaces.Surface,
+    "surface",
+    "surface",
+    "add_surface",
+    _entry("AnySurface", "surfaces"),
+    surfaces.shape,
+    ends=(),
+    between=surfaces.lie,
+)
 #: What is around all bodies, one kind for each key of a model file and attribute of a Model.
-SURROUNDINGS: dict[str, Kind] = {"fluids": FLUID, "grounds": GROUND}
+SURROUNDINGS: dict[str, Kind] = {"fluids": FLUID, "grounds": GROUND, "surfaces": SURFACE}
 #: By the key of a model file under which they stand, which is the attribute of a Model too.
 GROUPS: dict[str, list[Kind]] = {"supports": SUPPORTS, "loads": LOADS, "connections": CONNECTIONS}
 

@@ -49,7 +49,7 @@ class Model(Surroundings, Readable):
     bodies : dict of str to Beam, PointMass or RigidBody
     beams, masses, rigid_bodies : dict
         The bodies of one kind.
-    supports, loads, connections, fluids, grounds : list
+    supports, loads, connections, fluids, grounds, surfaces : list
     inputs : dict of str to Input
     """
 

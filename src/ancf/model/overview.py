@@ -39,6 +39,7 @@ class Described(Protocol):
     connections: list[Any]
     fluids: list[Any]
     grounds: list[Any]
+    surfaces: list[Any]
 
 
 def of_model(model: Described) -> Sheet:

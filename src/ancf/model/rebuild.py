@@ -93,13 +93,13 @@ def _beam(table: Table, name: str) -> Beam:
 
 
 def items(model: Any, plain: Table) -> None:
-    """Add supports, loads, connections and surroundings of a description."""
-    for group in GROUPS:
-        for k, table in enumerate(plain.tables(group)):
-            add_item(model, group, k, table.take("type"), _arguments(table))
+    """Add surroundings, then supports, loads and connections of a description: some name a surface."""
     for group in SURROUNDINGS:
         for k, table in enumerate(plain.tables(group)):
             add_surrounding(model, group, k, _arguments(table))
+    for group in GROUPS:
+        for k, table in enumerate(plain.tables(group)):
+            add_item(model, group, k, table.take("type"), _arguments(table))
 
 
 def _arguments(table: Table) -> dict[str, Any]:
@@ -133,7 +133,7 @@ def add_item(model: Located, group: str, number: int, word: str, given: Mapping[
 
 
 def add_surrounding(model: Located, group: str, number: int, given: Mapping[str, Any]) -> None:
-    """Add a fluid or a ground by the arguments of its method; errors as of :func:`add_item`."""
+    """Add a fluid, a ground or a surface by the arguments of its method; errors as of :func:`add_item`."""
     kind = SURROUNDINGS[group]
     _add(model, kind.method, f"{group}[{number}]", kind.word, given)
 

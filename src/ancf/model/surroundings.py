@@ -10,15 +10,15 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from . import checks
-from .connecting import Connecting
 from .fluids import Fluid
 from .grounds import Ground, Relief, height_of, upward
 from .gusts import Gusts
 from .velocity_field import VelocityField
 from .waves import Waves
+from .with_surfaces import WithSurfaces
 
 
-class Surroundings(Connecting):
+class Surroundings(WithSurfaces):
     """Fluids and grounds of one model."""
 
     gravity: FloatArray

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
+from ..contact.fields import ContactLine, contact_line
+from ..errors import ModelError, named
 from ..model.supports import Support
+from ..model.surfaces import SurfaceContact
 from ..model.tables import Readable, Sheet
 from ..solvers.record import Stats
 from ..system.contact_fields import ContactFields
@@ -92,6 +96,39 @@ class State(SpringFields, ContactFields, Momenta, StatePlotted, Readable):
 
     def _sheet(self) -> Sheet:
         return of_state(self)
+
+    def contact_line(self, contact: Any) -> ContactLine:
+        """What a beam and a surface do to each other along the beam: gap, normal force, friction, slip.
+
+        Friction depends on the way until the state. It is known of an equilibrium and of the last state of a
+        simulation; of others it is zero here, with the limit zero.
+
+        Parameters
+        ----------
+        contact : SurfaceContact or its name
+
+        Raises
+        ------
+        ModelError
+            There is no such contact with a surface.
+        """
+        items = [c for c in self.model.connections if isinstance(c, SurfaceContact)]
+        item = next((c for c in items if c is contact or c.name == contact), None)
+        if item is None:
+            name = getattr(contact, "name", contact)
+            there = ", ".join(c.name for c in items) or "none"
+            raise ModelError(named(name), f"is no contact with a surface here; there are: {there}")
+        parts = dict(self.system.parts)
+        if "rubbing" in parts:
+            known = self._memory_of("rubbing") or {"limit": np.zeros_like(parts["rubbing"].limit)}
+            parts["rubbing"] = parts["rubbing"]._replace(**known)
+        return contact_line(parts, items, item, self.q, self.v)
+
+    def _memory_of(self, part: str) -> dict[str, FloatArray] | None:
+        found = {
+            key.partition(".")[2]: x for key, x in self.known.memory.items() if key.startswith(f"{part}.")
+        }
+        return found or None
 
     def _contact_system(self) -> System:
         return self.system

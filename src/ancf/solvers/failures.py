@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
 from ..loads.state_force import law_of, places_of
@@ -9,7 +11,7 @@ from ..model.kinds import kind_of
 from ..system.system import System
 from .bridge import MOST_PARTS
 from .memory import NORM, WORST
-from .status import COLLAPSED, DIVERGED, FAR, NOT_FINITE, SINGULAR, SLOW, TOO_MANY, UNBALANCED
+from .status import COLLAPSED, DIVERGED, FAR, NOT_FINITE, SINGULAR, SLOW, THROUGH, TOO_MANY, UNBALANCED
 
 REASONS = {
     DIVERGED: "Newton's method diverged, also with full Jacobians and smaller steps",
@@ -52,7 +54,16 @@ def failed(system: System, memo: FloatArray, t: float, number: int, reason: str,
 
 
 def collapsed(system: System, memo: FloatArray, t: float, number: int, h: float) -> SolveError:
-    """A cross-section has collapsed in step ``number`` of length h at t."""
-    what = f"{COLLAPSED}; step {h:g} s"
-    hint = f"try a step of {h / 10:.2g} s or less, GeneralizedAlpha, more elements, or a stiffer section"
-    return SolveError(f"t = {t:.6g} s, step {number}, {system.element_of(int(memo[WORST]))}", what, hint)
+    """In step ``number`` of length h at t a section has collapsed, or a beam gone through a surface."""
+    place, reason, hint = inverted(system, int(memo[WORST]))
+    hint = f"try a step of {h / 10:.2g} s or less, {hint}"
+    return SolveError(f"t = {t:.6g} s, step {number}, {place}", f"{reason}; step {h:g} s", hint)
+
+
+def inverted(system: System, slot: int) -> tuple[str, str, str]:
+    """Where and what a slot says that a batch has given as inverted, and what to do beside smaller steps."""
+    for name, slots in system.slots.items():
+        if slot in slots[:, 0]:
+            place = f"{name} element {int(np.flatnonzero(slots[:, 0] == slot)[0])}"
+            return place, THROUGH, "or a stiffer contact"
+    return system.element_of(slot), COLLAPSED, "GeneralizedAlpha, more elements, or a stiffer section"

@@ -16,6 +16,7 @@ from scipy.sparse import csc_array
 from ..arrays import FloatArray
 from ..errors import SolveError
 from ..linalg.sparse import to_sparse
+from ..model.surfaces import SurfaceContact
 from ..system.core import assemble, restrict, solve_matrix
 from ..system.system import System
 from .explicit import mass_factor
@@ -47,7 +48,7 @@ def stable_limit(system: System, q: FloatArray, v: FloatArray) -> float:
 
 
 def _of_grounds(system: System) -> tuple[float, float]:
-    """Bounds of what grounds add to omega^2 and to the damping once a body comes to lie on them."""
+    """Bounds of what grounds and surfaces add to omega^2 and to the damping once a body touches them."""
     stiff, drag = [0.0], [0.0]
     for ground in system.model.grounds:
         for name, beam in system.model.beams.items():
@@ -57,6 +58,11 @@ def _of_grounds(system: System) -> tuple[float, float]:
                 drag.append(
                     share * ground.damping * np.sqrt(max(1.0, (ground.stick or 0.0) / ground.stiffness))
                 )
+    for item in system.model.connections:
+        if isinstance(item, SurfaceContact):
+            k, stick = item.stiffness, item.stick or item.stiffness
+            stiff.append(max(k, stick if item.friction else 0.0) / item.body.section.rhoA)
+            drag.append(item.damping * float(np.sqrt(max(1.0, stick / k))) / item.body.section.rhoA)
     return max(stiff), float(max(drag))
 
 

@@ -8,9 +8,10 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..system.core import find_inverted
+from .failures import inverted
 from .free_spin import softest_mode
 from .static_iteration import MORE_MU, Iteration
-from .status import COLLAPSED, VANISHED
+from .status import VANISHED
 
 TOLERANCE = 1e-12  # of a correction, positions relative to the size of the model
 MAX_ITERATIONS = 300  # in a load step
@@ -97,7 +98,7 @@ def _degenerate(it: Iteration) -> str | None:
     """What makes a settled state worthless: a section that is inside out, a cable without a tangent."""
     slot = find_inverted(it.core.batches, it.core.ws, it.q)
     if slot >= 0:
-        return f"{it.system.element_of(slot)}: {COLLAPSED}"
+        return ": ".join(inverted(it.system, slot)[:2])
     found = it.system.shortest_slope(it.q)
     if found is not None and found[1] < LEAST_SLOPE:
         return f"{found[0]}: {VANISHED}"

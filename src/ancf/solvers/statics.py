@@ -17,7 +17,8 @@ import numpy as np
 from ..arrays import FloatArray
 from ..compiled import traits
 from ..connections.sliding import LEFT
-from ..system.core import apply_load, first_event, keep_memory, place_supports
+from ..errors import SolveError
+from ..system.core import Core, apply_load, first_event, keep_memory, place_supports
 from ..system.system import System
 from .events import happen
 from .floating import check_supported
@@ -27,7 +28,7 @@ from .static_iteration import Iteration
 from .static_path import follow_path, settle
 
 STENCIL_STEP = 1e-3  # of the differences that give rates of given motions, s
-RENEWED, MOST_RENEWED = 1e-9, 60  # change of what comes last that is none, and rounds
+RENEWED, MOST_RENEWED = 1e-9, 240  # change of what comes last that is none, and rounds
 UNMOVED = 1e-10  # correction after it that is round-off, positions in sizes of the model
 MOST_EVENTS = 4  # openings and closings of a contact
 
@@ -60,19 +61,52 @@ def equilibrium(
     it = Iteration(system, core, q, force, core.loads.value.copy())
     slack = Slack(system, q, force)
     try:
-        slack.set(1.0, 1.0)
-        halvings = follow_path(it, lambda share: share, load_steps, "of the load")
-        if slack.found:
-            halvings += follow_path(it, slack.let_out, LET_OUT, "of the slack")
-            halvings += follow_path(it, slack.stiffen, slack.steps, "of the axial stiffness")
-        settle_contacts(it)
-        bring_late(it)
+        way = gripped if grips(core, q, False) else bring_on
+        halvings = way(it, slack, load_steps)
     finally:
         slack.set(0.0, 0.0)
         core.loads.value[:] = it.inputs
     keep_memory(core.remembering, it.q, it.zero)
     seconds = clock.process_time() - cpu
     return it.q, Stats(load_steps, it.iterations, it.jacobians, it.jacobians, halvings, seconds)
+
+
+def bring_on(it: Iteration, slack: Slack, load_steps: int) -> int:
+    """The loads, then what slack cables need, then what comes last; returns the halvings of steps."""
+    slack.set(1.0, 1.0)
+    halvings = follow_path(it, lambda share: share, load_steps, "of the load")
+    if slack.found:
+        halvings += follow_path(it, slack.let_out, LET_OUT, "of the slack")
+        halvings += follow_path(it, slack.stiffen, slack.steps, "of the axial stiffness")
+    settle_contacts(it)
+    bring_late(it)
+    return halvings
+
+
+def grips(core: Core, q: FloatArray, holds: bool) -> bool:
+    """Let friction hold what it touches, or not; whether there is any."""
+    ways = [(batch, own) for batch in core.batches if (own := traits(batch).early) is not None]
+    found = [early(batch, q, holds) for batch, early in ways]
+    return any(found)
+
+
+def gripped(it: Iteration, slack: Slack, load_steps: int) -> int:
+    """Bring on the loads while friction holds what it touches, or else while it is not there.
+
+    Where friction alone holds a cable there is no equilibrium without it; where a cable has to slide into
+    its place, holding it may press it together until it buckles.
+    """
+    first, q = None, it.q.copy()
+    for holds in (True, False):
+        it.q, it.mu = q.copy(), 0.0
+        grips(it.core, it.q, holds)
+        try:
+            return bring_on(it, slack, load_steps)
+        except SolveError as error:
+            slack.set(0.0, 0.0)
+            first = first or error
+    assert first is not None
+    raise first
 
 
 def bring_late(it: Iteration) -> None:

@@ -7,6 +7,7 @@ EVENT = 16  # plus the code of an event after a step that is OK
 #: What is said of INVERTED.
 COLLAPSED = "the cross-section has collapsed or turned inside out"
 VANISHED = "the cable is pressed together until its tangent r_x vanishes"
+THROUGH = "it goes through a surface that it touches"
 #: Names of what is counted, and their places.
 COUNTS = ("steps", "newton_iterations", "jacobians", "factorizations", "retries")
 STEPS, ITERATIONS, JACOBIANS, FACTORIZATIONS, RETRIES = range(5)

@@ -20,6 +20,7 @@ from ..connections import joint_build
 from ..connections.contact_build import contacts
 from ..connections.sliding_build import sliding
 from ..connections.spring_build import springs
+from ..contact.build import batches as surface_contacts
 from ..elements.registry import ELEMENTS
 from ..elements.workspace import workspace
 from ..linalg.block_ldl import allocate
@@ -29,6 +30,7 @@ from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
 from ..model.points import Point
+from ..model.surfaces import SurfaceContact
 from . import loads
 from .core import Core, Joints, Loads, Supports
 from .matrix import Places, block_pairs
@@ -65,7 +67,10 @@ def build_parts(
         parts["bodies"] = inertia(undeformed, slots)
     touching = [c for c in model.connections if isinstance(c, Contact)]
     if touching:
-        parts["contacts"] = contacts(touching, find, slots, measured)
+        parts["contacts"] = contacts(touching, find, slots, measured[: len(touching)])
+    pressed = [c for c in model.connections if isinstance(c, SurfaceContact)]
+    if pressed:
+        parts |= surface_contacts(pressed, find, slots, measured[len(touching) :])
     return parts | _joints(model, numbering, level, find)
 
 
@@ -152,10 +157,11 @@ def make_core(
 ) -> Core:
     """What the kernels work on."""
     batches = tuple(parts.values())
-    external = with_role(batches, Role.EXTERNAL)
+    external, rubbing = with_role(batches, Role.EXTERNAL), with_role(batches, Role.RUBS)
     return Core(
         batches=Batches(batches),
         external=Batches(external),
+        rubbing=Batches(rubbing),
         remembering=Batches(b for b in batches if traits(b).memory),
         ws=workspace(),
         A=np.zeros(places.size),
@@ -164,7 +170,7 @@ def make_core(
         supports=supports,
         joints=joints,
         loads=dead,
-        damped=any(_damped(b) for b in with_role(batches, Role.DISSIPATES)),
+        damped=bool(rubbing) or any(_damped(b) for b in with_role(batches, Role.DISSIPATES)),
         loaded=bool(len(dead.value) or any(len(b.base) for b in external) or len(supports.driven)),
         accounted=True,
     )

@@ -1,4 +1,4 @@
-"""What contacts do, from state vectors: the same face for one state or a history."""
+"""What contacts with strips and surfaces do, from state vectors: the same face for one state or a history."""
 
 from __future__ import annotations
 
@@ -8,9 +8,11 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..connections.contact import ARC, ASIDE, FORCE, OVERLAP, contact_values
+from ..contact.fields import RUBBED, SLIPPED, frictions, pressures
 from ..errors import ModelError, named
 from ..model.contact import Contact
 from ..model.model import Model
+from ..model.surfaces import SurfaceContact
 from .joint_fields import JointFields
 from .system import System
 
@@ -24,7 +26,7 @@ class ContactFields(JointFields):
         """Size of the force that the wire receives across the strip, N, never negative.
 
         It is the part along the contact's ``normal``, to which that along the track adds where the wire
-        climbs.
+        climbs. Of a contact with a surface it is the sum of the normal forces along the beam, by size.
 
         Raises
         ------
@@ -36,13 +38,29 @@ class ContactFields(JointFields):
     def contact_gap(self, contact: Any) -> FloatArray:
         """Gap between strip and wire along the normal, m; negative while they touch.
 
-        Infinite where the wire does not cross the strip at all.
+        Infinite where the wire does not cross the strip at all. Of a contact with a surface it is the least
+        gap along the beam.
         """
         return -self._contact(contact)[..., OVERLAP]
 
     def contact_offset(self, contact: Any) -> FloatArray:
         """Place of the wire on the strip, from the strip's point along its direction, m."""
-        return self._contact(contact)[..., ASIDE]
+        return self._strip(contact)[..., ASIDE]
+
+    def friction_force(self, contact: Any) -> FloatArray:
+        """Sum of the friction forces along a beam on a surface, by size, N.
+
+        Raises
+        ------
+        ModelError
+            There is no such contact with a surface, or it is not known: friction depends on the way until a
+            state, sensors record it and the last state knows it.
+        """
+        return self._rubbed(contact, RUBBED)
+
+    def slipping(self, contact: Any) -> FloatArray:
+        """Share of the friction of a beam on a surface that slips, 0 to 1; errors as of `friction_force`."""
+        return self._rubbed(contact, SLIPPED)
 
     def arc_length(self, joint: Any) -> FloatArray:
         """Reference arc length s of a sliding joint on its carrier, or of a wire at a contact, m.
@@ -53,27 +71,74 @@ class ContactFields(JointFields):
             There is no such sliding joint or contact.
         """
         if getattr(joint, "name", joint) in self._contacts():
-            return self._contact(joint)[..., ARC]
+            return self._strip(joint)[..., ARC]
         return super().arc_length(joint)
 
     def _contacts(self) -> list[str]:
         """Names of the contacts that can be asked for."""
-        return [c.name for c in self.model.connections if isinstance(c, Contact)]
+        return [*_named(self.model, Contact), *_named(self.model, SurfaceContact)]
+
+    def rubs(self, contact: Any) -> bool:
+        """Whether a contact is one with a surface, which may have friction."""
+        return getattr(contact, "name", contact) in _named(self.model, SurfaceContact)
+
+    def _strip(self, contact: Any) -> FloatArray:
+        """The same of a contact with a strip."""
+        name = getattr(contact, "name", contact)
+        if self.rubs(contact):
+            what = "is a contact with a surface, which has many places along its beam"
+            raise ModelError(named(name), what, "ask state.contact_line(...) for them")
+        return self._contact(contact)
+
+    def _rubbed(self, contact: Any, column: int) -> FloatArray:
+        name = getattr(contact, "name", contact)
+        if name in _named(self.model, Contact):
+            raise ModelError(named(name), "is a contact with a strip, which has no friction")
+        found = self._contact(contact)[..., column]
+        if np.any(np.isnan(found)):
+            what = "its friction is not known of all states"
+            raise ModelError(named(name), what, "record it: sensors=[...]; or ask the last state")
+        return found
 
     def _contact(self, contact: Any) -> FloatArray:
-        """Force, overlap, s and place on the strip, shape (..., 4)."""
+        """Force, overlap, s and place on the strip, or friction and the share that slips, shape (..., 4)."""
         name = getattr(contact, "name", contact)
         names = self._contacts()
         if name not in names:
             there = "there are: " + ", ".join(names) if names else "there are none"
             raise ModelError(named(name), f"is no contact here; {there}")
+        strips = _named(self.model, Contact)
+        if name not in strips:
+            return self._pressed(name)
         batch = self._contact_system().parts["contacts"]
         mine = batch._replace(found=batch.found.copy())  # a question must not move where a run goes on
         q, v = np.atleast_2d(self.q[...]), np.atleast_2d(self.v[...])  # type: ignore[attr-defined]
         out = np.empty((len(q), 4))
-        contact_values(mine, names.index(name), np.ascontiguousarray(q), np.ascontiguousarray(v), out)
+        contact_values(mine, strips.index(name), np.ascontiguousarray(q), np.ascontiguousarray(v), out)
         values: FloatArray = out if len(self.q.shape) > 1 else out[0]  # type: ignore[attr-defined]
         return values
 
+    def _pressed(self, name: str) -> FloatArray:
+        """What ``found`` of a contact with a surface says, friction as far as it is known."""
+        q, v = np.atleast_2d(self.q[...]), np.atleast_2d(self.v[...])  # type: ignore[attr-defined]
+        k = _named(self.model, SurfaceContact).index(name)
+        parts = self._contact_system().parts
+        out = pressures(parts["pressing"], np.ascontiguousarray(q), np.ascontiguousarray(v))[:, k]
+        rough = self._memory_of("rubbing")
+        if "rubbing" not in parts:
+            out[:, RUBBED:] = 0.0
+        elif rough is not None:
+            out[-1, RUBBED:] = frictions(parts["rubbing"]._replace(**rough), q[-1], v[-1])[k]
+        values: FloatArray = out if len(self.q.shape) > 1 else out[0]  # type: ignore[attr-defined]
+        return values
+
+    def _memory_of(self, part: str) -> dict[str, FloatArray] | None:
+        """What a batch remembers of the motion until the last state, None where that is not known."""
+        return None
+
     def _contact_system(self) -> System:
         raise NotImplementedError
+
+
+def _named(model: Model, kind: type) -> list[str]:
+    return [c.name for c in model.connections if isinstance(c, kind)]

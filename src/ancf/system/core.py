@@ -76,6 +76,7 @@ class Core(NamedTuple):
 
     batches: Batches  # everything that has forces
     external: Batches  # of them the loads that depend on the state
+    rubbing: Batches  # of them those with friction
     remembering: Batches  # of them those with a memory
     ws: FloatArray  # workspace of the element kernels
     A: FloatArray  # values of the iteration matrix in 6x6 blocks

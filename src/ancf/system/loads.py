@@ -60,7 +60,7 @@ def _laws(model: Model) -> list[tuple[Kind, list[Any]]]:
         kind = kind_of(load)
         if kind.has_batch(load):
             found[kind.word][1].append(load)
-    around = [(kind, getattr(model, key)) for key, kind in SURROUNDINGS.items()]
+    around = [(kind, getattr(model, key)) for key, kind in SURROUNDINGS.items() if kind.batch]
     return [(kind, items) for kind, items in (*found.values(), *around) if items]
 
 

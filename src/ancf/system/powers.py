@@ -2,7 +2,8 @@
 
 The work of loads is supplied: of those that depend on time alone, of batches with the role EXTERNAL whatever
 they depend on, and of the reactions of moving supports.  Gravity has a potential instead.  What all other
-forces do because of velocities is dissipated: what they lose when the velocities are set to zero.
+forces do because of velocities is dissipated: what they lose when the velocities are set to zero.  All that
+batches with the role RUBS do is dissipated: friction needs no velocity to hold.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ def powers(core, q, v, a, f, push, r):
         for i in range(n):
             r[i] = -r[i]
         add_forces(core.external, q, push, a, r, core.ws)
+        add_forces(core.rubbing, q, push, a, r, core.ws)
         for i in range(n):
             dissipated += v[i] * r[i]
     if core.damped or core.supports.driven.shape[0] > 0:

@@ -17,6 +17,7 @@ from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
 from ..model.points import Point
+from ..model.surfaces import SurfaceContact
 from ..model.touching import bodies_of
 from . import loads
 from .compile import bind_parts, build_parts, held_arrays, joined, make_core, order_blocks, rotation_arrays
@@ -44,8 +45,8 @@ class System:
         What the kernels work on.
     parts : dict of str to batch
         The batches of the core by name: elements by their kind, "springs", "moments", "section moments",
-        other loads that depend on the state by the word of their kind, "bodies", "contacts", "joints" (their
-        rows) and "slides".
+        other loads that depend on the state by the word of their kind, "bodies", "contacts", "pressing" and
+        "rubbing" (on surfaces), "joints" (their rows) and "slides".
     inputs : Inputs
         Functions of time.
     n : int
@@ -71,7 +72,8 @@ class System:
         self.numbering = Numbering(model)
         self.level = np.array([1.0, 0.0, 0.0])
         self.sensors = Listing()
-        contacts = [c.name for c in model.connections if isinstance(c, Contact)]
+        kinds = Contact, SurfaceContact
+        contacts = [c.name for kind in kinds for c in model.connections if isinstance(c, kind)]
         self.measured = np.zeros(4 * len(contacts))
         self.measures = {name: 4 * k + np.arange(4) for k, name in enumerate(contacts)}
         functions = loads.functions(model)

@@ -123,12 +123,12 @@ class Builder:
 
     def _add_items(self) -> None:
         model, entry = self.model, self.entry
-        for key in GROUPS:
-            for i, item in enumerate(getattr(entry, key)):
-                self._collected(add_item, model, key, i, item.type, item.given())
         for key in SURROUNDINGS:
             for i, item in enumerate(getattr(entry, key)):
                 self._collected(add_surrounding, model, key, i, item.given())
+        for key in GROUPS:
+            for i, item in enumerate(getattr(entry, key)):
+                self._collected(add_item, model, key, i, item.type, item.given())
 
     def _collected(self, work: Callable[..., T], *given: Any) -> T | None:
         try:

@@ -20,6 +20,8 @@ from .fields import (
     StrainName,
     Vector,
 )
+from .surfaces import TAGGED as SURFACE_SHAPES
+from .surfaces import AnySurface
 from .surroundings import FluidEntry, GroundEntry
 
 
@@ -266,6 +268,7 @@ AnyBody = Annotated[
     | Annotated[RigidBodyEntry, Tag("<rigid_body>")],
     _by_type("beam", "point_mass", "rigid_body", default="beam"),
 ]
+TAGGED |= SURFACE_SHAPES
 TAGGED |= {"<beam>": BeamEntry, "<point_mass>": PointMassEntry, "<rigid_body>": RigidBodyEntry}
 
 
@@ -294,6 +297,7 @@ class FileEntry(Entry):
     connections: list[AnyConnection] = Field([], description="Joints and springs between points.")
     fluids: list[FluidEntry] = Field([], description="Water, air: what the bodies move in.")
     grounds: list[GroundEntry] = Field([], description="What beams and cables lie on.")
+    surfaces: list[AnySurface] = Field([], description="Drums, sheaves: what beams and cables touch.")
     simulation: SimulationEntry | None = Field(None, description="Settings of a simulation.")
     equilibrium: EquilibriumEntry | None = Field(None, description="Settings of an equilibrium.")
 

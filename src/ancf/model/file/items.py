@@ -185,3 +185,21 @@ class ContactEntry(Entry):
     normal: Vector = Field([0.0, 0.0, 1.0], description="Direction of the force on the wire [-].")
     s: NonNegative | None = Field(None, description="Arc length near which it starts [m].")
     name: ItemName = None
+
+
+class SurfaceContactEntry(Entry):
+    """A beam or cable may touch a surface, all along it."""
+
+    type: Literal["surface_contact"] = Field(description="Kind of connection.")
+    body: str = Field(description="Name of the beam or cable.")
+    surface: str = Field(description="Name of the surface.")
+    stiffness: Positive = Field(description="Normal force per length and depth [Pa].")
+    damping: NonNegative = Field(0.0, description="Normal force per length and rate of depth [Pa s].")
+    friction: NonNegative = Field(0.0, description="Coulomb's coefficient of friction [-].")
+    stick: Positive | None = Field(
+        None, description="Force per length and way before it slips, default stiffness [Pa]."
+    )
+    radius: Positive | None = Field(
+        None, description="Radius of the beam, default half the diameter of its section [m]."
+    )
+    name: ItemName = None

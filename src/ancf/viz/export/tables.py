@@ -48,7 +48,11 @@ def sensor_columns(sensors: Sensors) -> Iterator[Column]:
         if name in sensors.listing.columns:
             yield f"{name} force [N]", sensors.contact_force(name)
             yield f"{name} gap [m]", sensors.contact_gap(name)
-            yield f"{name} s [m]", sensors.arc_length(name)
+            if sensors.rubs(name):
+                yield f"{name} friction [N]", sensors.friction_force(name)
+                yield f"{name} slipping [-]", sensors.slipping(name)
+            else:
+                yield f"{name} s [m]", sensors.arc_length(name)
 
 
 def motion_columns(known: Any, point: Point | str, label: str) -> Iterator[Column]:

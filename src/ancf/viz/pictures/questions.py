@@ -11,7 +11,7 @@ from ...errors import ModelError
 from ...model import checks
 from ...model.beam import Beam
 from ...model.bodies import PointMass, RigidBody
-from ...model.kind import CONTACT, JOINT, SLIDE, SPRING
+from ...model.kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT
 from ...model.kinds import CONNECTIONS, kind_of
 from ...model.names import POINT_LABEL
 from ...model.points import Point
@@ -39,8 +39,10 @@ QUANTITIES: dict[str, Question] = {
     "twist": Question("twist", (POINT,)),
     "spring_force": Question("spring_force", (SPRING,)),
     "spring_length": Question("spring_length", (SPRING,)),
-    "contact_force": Question("contact_force", (CONTACT,)),
-    "contact_gap": Question("contact_gap", (CONTACT,)),
+    "contact_force": Question("contact_force", (CONTACT, SURFACE_CONTACT)),
+    "contact_gap": Question("contact_gap", (CONTACT, SURFACE_CONTACT)),
+    "friction_force": Question("friction_force", (SURFACE_CONTACT,)),
+    "slipping": Question("slipping", (SURFACE_CONTACT,)),
     "arc_length": Question("arc_length", (SLIDE, CONTACT)),
     "arc_rate": Question("arc_rate", (SLIDE,)),
     "multiplier": Question("multiplier", (JOINT, SLIDE), vector=True),
@@ -51,6 +53,7 @@ DEFAULTS = {
     POINT: "position",
     SPRING: "spring_force",
     CONTACT: "contact_force",
+    SURFACE_CONTACT: "contact_force",
     SLIDE: "arc_length",
     JOINT: "multiplier",
 }

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...arrays import FloatArray, IntArray
+from ...contact.fields import nearest_places
 from ...errors import ModelError
 from ...model import checks
 from ...model.beam import Beam
@@ -17,6 +18,7 @@ from ...model.joints import Spherical
 from ...model.kind import body_of
 from ...model.kinds import kind_of
 from ...model.points import Point
+from ...model.surfaces import SurfaceContact
 from ...results.modes import Modes
 from ...results.result import Result
 from ...results.state import State
@@ -241,7 +243,20 @@ def _strips(shown: Frames, source: Any, threads: list[Thread], extent: float) ->
             middle = shown.place(item.point)
             ends = np.stack([middle - half, middle + half], axis=1)
             found.append(Strip(item.name, ends, _contact_force(shown, source, item.name)))
-    return found
+    return found + _ways_to_surfaces(shown, source)
+
+
+def _ways_to_surfaces(shown: Frames, source: Any) -> list[Strip]:
+    """Of each contact with a surface the way from the axis to the surface where it is shortest."""
+    items = [item for item in shown.model.connections if isinstance(item, SurfaceContact)]
+    if not items:
+        return []
+    known = source.about if isinstance(source, Modes) else source
+    pressing = known._contact_system().parts["pressing"]
+    return [
+        Strip(item.name, nearest_places(pressing, k, shown.q), _contact_force(shown, source, item.name))
+        for k, item in enumerate(items)
+    ]
 
 
 def _contact_force(shown: Frames, source: Any, name: str) -> FloatArray | None:

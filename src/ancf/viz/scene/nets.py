@@ -1,4 +1,4 @@
-"""Nets: the grounds and the surfaces of fluids, as lines about as far as the bodies reach."""
+"""Nets: grounds and surfaces of fluids, as far as the bodies reach, and surfaces that beams touch."""
 
 from __future__ import annotations
 
@@ -8,18 +8,24 @@ import numpy as np
 
 from ...arrays import FloatArray
 from ...model.grounds import Ground, Relief
+from ...model.surface_shapes import Plane
+from ...model.surfaces import Surface
 from .parts import Net
 
 #: Lines of a net in each direction, share by which it is larger than the bodies, least width as a share.
 LINES, MARGIN, NARROW = 9, 0.1, 0.3
 #: A surface that is farther from all bodies than so many of their extents is not drawn.
 FAR = 0.5
+#: Of a surface of revolution: points of a circle, meridians, and the most circles.
+CIRCLE, MERIDIANS, RINGS = 48, 12, 7
 
 
 def make_nets(model: Any, drawn: list[FloatArray]) -> list[Net]:
     """Nets of a model around points that are drawn."""
-    if not model.grounds and not model.fluids:
-        return []
+    solids = [net for item in model.surfaces if (net := _solid(item)) is not None]
+    planes = [item for item in model.surfaces if isinstance(item.shape, Plane) and item.on is None]
+    if not model.grounds and not model.fluids and not planes:
+        return solids
     points = np.concatenate([part.reshape(-1, 3) for part in drawn])
     low, high = points.min(axis=0), points.max(axis=0)
     size = float(np.max(high - low)) or 1.0
@@ -35,7 +41,47 @@ def make_nets(model: Any, drawn: list[FloatArray]) -> list[Net]:
                 levels.add(level)
                 flat = np.full((LINES, LINES), level)
                 nets.append(Net(f"surface of {item.name}", "surface", _lines(x, y, flat)))
-    return nets
+    reach = float(np.linalg.norm(half))
+    return nets + [_plane(item, 0.5 * (low + high), reach) for item in planes] + solids
+
+
+def _solid(item: Surface) -> Net | None:
+    """Circles and meridians of a surface of revolution; None for a plane, which has none."""
+    outline = np.array(item.shape.outline)
+    if not len(outline):
+        return None
+    a, b, c = _triad(item.shape.direction)
+    angles = np.linspace(0.0, 2.0 * np.pi, CIRCLE + 1)
+    around = np.cos(angles)[:, None] * a + np.sin(angles)[:, None] * b
+    rho, z = outline[:, 0], outline[:, 1]
+    places = item.shape.place + rho[:, None, None] * around + z[:, None, None] * c
+    kept = np.unique(np.linspace(0, len(outline) - 1, min(len(outline), RINGS)).round().astype(int))
+    rings = list(places[kept][rho[kept] > 0.0])
+    meridians = [places[:, k] for k in range(0, CIRCLE, CIRCLE // MERIDIANS)]
+    longest = max(map(len, (*rings, *meridians)))
+    lines = np.array([_filled(line, longest) for line in (*rings, *meridians)])
+    return Net(item.name, "contact", lines, "" if item.on is None else item.on.name)
+
+
+def _plane(item: Surface, middle: FloatArray, reach: float) -> Net:
+    """A piece of a plane below the bodies."""
+    a, b, c = _triad(item.shape.direction)
+    middle = middle - ((middle - item.shape.place) @ c) * c
+    at = np.linspace(-reach, reach, LINES)
+    grid = middle + at[:, None, None] * a + at[None, :, None] * b
+    return Net(item.name, "contact", np.concatenate([grid, grid.transpose(1, 0, 2)]))
+
+
+def _triad(axis: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Two unit vectors across an axis, and the axis."""
+    a = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
+    a = a / np.linalg.norm(a)
+    return a, np.cross(axis, a), axis
+
+
+def _filled(line: FloatArray, count: int) -> FloatArray:
+    """A line of so many points: the last one again and again."""
+    return np.concatenate([line, np.repeat(line[-1:], count - len(line), axis=0)])
 
 
 def _heights(item: Ground, x: FloatArray, y: FloatArray) -> FloatArray:

@@ -104,7 +104,7 @@ class Triad:
 
 @dataclass(frozen=True, slots=True)
 class Strip:
-    """The strip of a contact, drawn as long as it has to be.
+    """The strip of a contact, as long as it has to be, or the way to a surface where that is nearest.
 
     Parameters
     ----------
@@ -150,18 +150,21 @@ class Arrow:
 
 @dataclass(frozen=True, slots=True)
 class Net:
-    """A ground or the surface of a fluid, at rest.
+    """A ground, the surface of a fluid or a surface that beams touch, at rest or on a rigid body.
 
     Parameters
     ----------
     name : str
-    kind : "ground" or "surface"
+    kind : "ground", "surface" or "contact"
     lines : (k, m, 3) m
+    on : str
+        Rigid body of which it has the axes; "": at rest.
     """
 
     name: str
     kind: str
     lines: FloatArray
+    on: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...arrays import FloatArray
 from ...model.kinds import by_word, pushing
-from ..scene import QUANTITIES, Scene, Thread, looks
+from ..scene import QUANTITIES, Net, Scene, Thread, looks
 from .curve import Curve
 from .traces import Trace
 
@@ -90,13 +90,31 @@ def plain_scene(scene: Scene, numbers: Numbers) -> Plain:
             force=[_known(strip.force, scene.t) for strip in scene.strips],
         ),
         "arrows": _arrows(scene, numbers),
-        "nets": [{"name": n.name, "kind": n.kind, "lines": n.lines.tolist()} for n in scene.nets],
+        "nets": [_net(net, scene) for net in scene.nets],
     }
+
+
+def _net(net: Net, scene: Scene) -> Plain:
+    """Lines; of one on a rigid body in units of the axes that are drawn of it, and which they are."""
+    plain = {"name": net.name, "kind": net.kind, "lines": net.lines.tolist(), "on": -1}
+    if net.on:
+        k = [triad.name for triad in scene.triads].index(net.on)
+        plain |= {"on": k, "lines": (net.lines / scene.triads[k].size).tolist()}
+    return plain
+
+
+def _corners(net: Net, scene: Scene) -> FloatArray:
+    """Points that hold a net, of one on a rigid body wherever that gets."""
+    if not net.on:
+        return net.lines.reshape(-1, 3)
+    triad = next(triad for triad in scene.triads if triad.name == net.on)
+    reach = float(np.max(np.linalg.norm(net.lines, axis=-1)))
+    return np.concatenate([triad.centre - reach, triad.centre + reach])
 
 
 def _box(scene: Scene) -> FloatArray:
     """Of all that is drawn, nets included."""
-    corners = np.concatenate([scene.box, *(net.lines.reshape(-1, 3) for net in scene.nets)])
+    corners = np.concatenate([scene.box, *(_corners(net, scene) for net in scene.nets)])
     return np.stack([corners.min(axis=0), corners.max(axis=0)])
 
 

@@ -24,7 +24,7 @@ function layersOf(scene, traces) {
     ...scene.triads ? [triadLayer(scene.triads)] : [],
     ...scene.markers.map(markerLayer),
     ...scene.arrows.map(arrowLayer),
-    ...scene.nets.map(netLayer),
+    ...scene.nets.map((net) => netLayer(net, scene.triads)),
     ...traces.flatMap(traceLayers),
   ];
 }
@@ -229,15 +229,28 @@ function strokesOf(tail, tip, { head, turns }) {
 }
 
 // A ground or the surface of a fluid, which stay.
-function netLayer(net) {
-  const path = new Path(), ground = net.kind === "ground";
-  for (const points of net.lines) {
-    for (const point of points) path.add(point);
-    path.gap();
+function netLayer(net, triads) {
+  const look = net.kind === "surface" ? { width: 1, color: LOOKS.curves[0] } : { width: 2, color: LOOKS.grey };
+  const drawn = (place) => {
+    const path = new Path();
+    for (const points of net.lines) {
+      for (const point of points) path.add(place(point));
+      path.gap();
+    }
+    return { ...path };
+  };
+  const more = { hoverinfo: "skip", hovertemplate: null };
+  if (net.on < 0) {
+    return { trace: line(net.name, look, { ...more, ...drawn((point) => point) }), still: true, at: () => ({}) };
   }
-  const more = { hoverinfo: "skip", hovertemplate: null, ...path };
-  const look = { width: ground ? 2 : 1, color: ground ? LOOKS.grey : LOOKS.curves[0] };
-  return { trace: line(net.name, look, more), still: true, at: () => ({}) };
+  return {
+    trace: line(net.name, look, more),
+    at(k) {
+      const centre = triads.centre.row(k).subarray(3 * net.on, 3 * net.on + 3);
+      const axes = triads.axes.row(k).subarray(9 * net.on, 9 * net.on + 9);
+      return drawn((p) => [0, 1, 2].map((i) => centre[i] + [0, 1, 2].reduce((s, j) => s + axes[3 * i + j] * p[j], 0)));
+    },
+  };
 }
 
 // The whole path is faint, what was passed is bold.

@@ -1,0 +1,1 @@
+"""Beams and cables on surfaces: distances, pressure, friction that sticks."""

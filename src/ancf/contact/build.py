@@ -1,0 +1,125 @@
+"""From contacts with surfaces of the model to the flat arrays of their batches."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import FloatArray, IntArray
+from ..elements.registry import ELEMENTS
+from ..elements.shapes import gauss
+from ..errors import ModelError
+from ..loads.along import along
+from ..model.surfaces import Surface, SurfaceContact
+from .press import PressBatch
+from .profiles import NUMBER, distances
+from .rub import RubBatch
+from .touch import BODY, NUMBERS
+
+#: Gauss points of an element.
+POINTS = 5
+#: Room for the numbers of a shape.
+MOST_NUMBERS = 4
+#: Part of a beam's radius by which it may be in a surface in the initial shape.
+SUNK = 0.5
+
+
+def batches(
+    items: Sequence[SurfaceContact],
+    locate: Callable[[Any], Any],
+    slots: dict[str, IntArray],
+    measured: FloatArray,
+) -> dict[str, Any]:
+    """Batches of the normal forces and, where there is any, of the friction.
+
+    They leave what they find in ``measured``, shape (contacts, 4).  ModelError if a surface is inside of a
+    beam in the initial shape.
+    """
+    for item in items:
+        _refuse_sunk(item)
+    surfaces = list(dict.fromkeys(item.surface for item in items))
+    fields, owners = along([item.body for item in items], locate, POINTS)
+    which = np.repeat(np.arange(len(items)), [item.body.elements for item in items])
+    bodies = np.full((len(owners), BODY), -1, dtype=np.int64)
+    for e, k in enumerate(which.tolist()):
+        on = items[k].surface.on
+        if on is not None:
+            bodies[e] = slots[on.name][0]
+    base = np.concatenate([fields["base"], bodies], axis=1)
+    given = {
+        "base": base,
+        "dest": np.full((len(base), base.shape[1] ** 2), -1, dtype=np.int64),
+        "shape": fields["shape"],
+        "reach": _reach(fields, items),
+        "weight": fields["weight"],
+        "contact": which.astype(np.int64),
+        "surface": np.array([surfaces.index(items[k].surface) for k in which.tolist()], dtype=np.int64),
+        "data": np.array([_numbers(item) for item in items]),
+        "surfaces": np.array([_lie(surface) for surface in surfaces]),
+        "shape_of": np.array([NUMBER[s.shape.word] for s in surfaces], dtype=np.int64),
+        "found": measured,
+        "far": np.full((len(base), 4), -np.inf),
+    }
+    found: dict[str, Any] = {"pressing": PressBatch(**given)}
+    rough = np.array([items[k].friction > 0.0 for k in which.tolist()], dtype=bool)
+    if np.any(rough):
+        rows = ("base", "dest", "shape", "reach", "weight", "contact", "surface", "far")
+        mine = {key: x[rough].copy() if key in rows else x for key, x in given.items()}
+        anchor = np.concatenate([_places(item) for item in items if item.friction > 0.0])
+        found["rubbing"] = RubBatch(
+            **mine, anchor=anchor, limit=np.zeros(anchor.shape[:2]), most=np.zeros(len(anchor))
+        )
+    return found
+
+
+def _numbers(item: SurfaceContact) -> list[float]:
+    stick = item.stiffness if item.stick is None else item.stick
+    drag = item.damping * math.sqrt(stick / item.stiffness)
+    narrow = item.surface.shape.narrowest
+    return [item.radius, item.stiffness, item.damping, item.friction, stick, drag, narrow]
+
+
+def _lie(surface: Surface) -> list[float]:
+    shape = surface.shape
+    numbers = [*shape.numbers, *[0.0] * (MOST_NUMBERS - len(shape.numbers))]
+    row = [*shape.place.tolist(), *shape.direction.tolist(), *numbers]
+    assert len(row) == NUMBERS + MOST_NUMBERS
+    return row
+
+
+def _places(item: SurfaceContact) -> FloatArray:
+    """Initial places of points of a beam, in the axes of what carries the surface, (elements, points, 3)."""
+    beam, (xi, _) = item.body, gauss(POINTS)
+    x = beam.node_x[:-1, None] + xi * np.diff(beam.node_x)[:, None]
+    found = np.array([beam.initial_position(s) for s in x.ravel().tolist()])
+    return item.surface.body_axes(found).reshape(*x.shape, 3)
+
+
+def _refuse_sunk(item: SurfaceContact) -> None:
+    """ModelError where the surface is inside of the beam in the initial shape."""
+    places = _places(item).reshape(-1, 3)
+    depth = item.radius - distances(item.surface.shape, places)
+    k = int(np.argmax(depth))
+    if depth[k] > SUNK * item.radius:
+        at = (k // POINTS + gauss(POINTS)[0][k % POINTS]) / item.body.elements * item.body.length
+        what = f'"{item.surface.name}" is {depth[k]:.4g} m inside "{item.body.name}" at about x = {at:.4g} m'
+        hint = f"its axis begins at least {item.radius:.4g} m, its radius, away from the surface"
+        raise ModelError(item.name, what, hint)
+
+
+def _reach(fields: dict[str, NDArray[Any]], items: Sequence[SurfaceContact]) -> FloatArray:
+    """Largest factor of each slot, negative of positions: of these one is 1 at an end of an element."""
+    largest: FloatArray = np.max(np.abs(fields["shape"]), axis=1)
+    first = 0
+    for item in items:
+        rows, beam = slice(first, first + item.body.elements), item.body
+        first, shape = rows.stop, ELEMENTS[beam.element].shape
+        ends, (xi, _) = shape(beam.element, [0.0, 1.0], 1.0), gauss(POINTS)
+        used = np.any(shape(beam.element, xi, 1.0) != 0.0, axis=0)
+        positions = np.max(ends[:, used], axis=0) == 1.0
+        largest[rows, : len(positions)] *= np.where(positions, -1.0, 1.0)
+    return largest

@@ -1,0 +1,162 @@
+"""What contacts with surfaces do in states: sums over a beam, and along it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..arrays import BoolArray, FloatArray
+from ..compiled import kernel
+from ..elements.shapes import gauss
+from ..model.surfaces import SurfaceContact
+from .press import press_measure, pressed, still_or
+from .rub import RUBBED, SLIPPED, drawn, rub_measure, rubbed
+from .touch import carrier, lie, outside, place_on
+
+__all__ = ["RUBBED", "SLIPPED", "ContactLine", "contact_line", "frictions", "nearest_places", "pressures"]
+
+#: Share of the limit from which friction counts as slipping: the memory of a state has come back to it.
+AT_LIMIT = 0.999
+
+
+@dataclass(frozen=True)
+class ContactLine:
+    """What a beam and a surface do to each other at m points along the beam.
+
+    Parameters
+    ----------
+    x : (m,) m
+        Reference arc length.
+    gap : (m,) m
+        Negative where they touch.
+    normal : (m,) N/m
+        Normal force per length.
+    friction : (m, 3) N/m
+        Friction per length on the beam, global components.
+    limit : (m,) N/m
+        Largest friction.
+    slips : (m,) of bool
+        Where friction is at its limit.
+    """
+
+    x: FloatArray
+    gap: FloatArray
+    normal: FloatArray
+    friction: FloatArray
+    limit: FloatArray
+    slips: BoolArray
+
+
+@kernel
+def press_values(batch, q, v, out):
+    """What ``found`` says of each contact in each state, ``out`` of shape (states, contacts, 4)."""
+    for n in range(q.shape[0]):
+        press_measure(batch, q[n], v[n])
+        for j in range(batch.found.shape[0]):
+            out[n, j, 0], out[n, j, 1] = batch.found[j, 0], batch.found[j, 1]
+
+
+@kernel
+def rub_values(batch, q, v):
+    """Fill ``found``."""
+    rub_measure(batch, q, v)
+
+
+@kernel
+def press_line(batch, j, q, v, out):
+    """Gap and normal force at the points of contact j, ``out`` of shape (rows, points, 2)."""
+    m = 0
+    for e in range(batch.base.shape[0]):
+        if batch.contact[e] != j:
+            continue
+        body, moving = carrier(batch, e, q), still_or(batch, e, v)
+        at, axis = lie(batch, e, body)
+        for p in range(batch.weight.shape[1]):
+            g, _, N, _, _, _, _, _, _ = pressed(batch, e, p, q, v, body, moving, at, axis)
+            out[m, p, 0], out[m, p, 1] = -g, N
+        m += 1
+
+
+@kernel
+def rub_line(batch, j, q, v, out):
+    """Friction and its limit at the points of contact j, ``out`` of shape (rows, points, 4)."""
+    m = 0
+    for e in range(batch.base.shape[0]):
+        if batch.contact[e] != j:
+            continue
+        body, moving = carrier(batch, e, q), still_or(batch, e, v)
+        at, axis = lie(batch, e, body)
+        for p in range(batch.weight.shape[1]):
+            r, _, u, n = rubbed(batch, e, p, q, v, body, moving, at, axis)
+            w, _, f, _ = drawn(batch, e, p, r, u, n, body)
+            out[m, p, 0], out[m, p, 1], out[m, p, 2] = -f * w[0], -f * w[1], -f * w[2]
+            out[m, p, 3] = batch.limit[e, p]
+        m += 1
+
+
+@kernel
+def press_nearest(batch, j, q, out):
+    """Of contact j in states: the place on the axis that is nearest to the surface, and the surface there.
+
+    ``out`` of shape (states, 2, 3).
+    """
+    for n in range(q.shape[0]):
+        nearest = np.inf
+        for e in range(batch.base.shape[0]):
+            if batch.contact[e] != j:
+                continue
+            at, axis = lie(batch, e, carrier(batch, e, q[n]))
+            for p in range(batch.weight.shape[1]):
+                r = place_on(batch, e, p, q[n])
+                d, normal, _, _, _ = outside(batch, e, r, at, axis)
+                if d < nearest:
+                    nearest = d
+                    for c in range(3):
+                        out[n, 0, c], out[n, 1, c] = r[c], r[c] - d * normal[c]
+
+
+def nearest_places(batch: Any, j: int, q: FloatArray) -> FloatArray:
+    """Where contact j is nearest in states (n, size): on the axis and on the surface, (n, 2, 3) m."""
+    out = np.empty((len(q), 2, 3))
+    press_nearest(batch, j, np.ascontiguousarray(q), out)
+    return out
+
+
+def pressures(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
+    """Force and depth of each contact in states (n, size), NaN behind them, (n, contacts, 4)."""
+    mine = batch._replace(found=batch.found.copy())  # a question must not move what a run measures
+    out = np.full((len(q), len(batch.found), 4), np.nan)
+    press_values(mine, q, v, out)
+    return out
+
+
+def frictions(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
+    """Friction and the share of it that slips of each contact in a state, (contacts, 2)."""
+    mine = batch._replace(found=batch.found.copy(), limit=AT_LIMIT * batch.limit)
+    rub_values(mine, np.ascontiguousarray(q), np.ascontiguousarray(v))
+    return np.array(mine.found[:, RUBBED:])
+
+
+def contact_line(
+    parts: dict[str, Any], items: list[SurfaceContact], item: SurfaceContact, q: FloatArray, v: FloatArray
+) -> ContactLine:
+    """What a beam and a surface do along the beam in a state; `items` are all such contacts of a model."""
+    beam, pressing = item.body, parts["pressing"]
+    j, (n, points) = items.index(item), (item.body.elements, pressing.weight.shape[1])
+    found, rough = np.empty((n, points, 2)), np.zeros((n, points, 4))
+    press_line(pressing, j, q, v, found)
+    if item.friction > 0.0:
+        rub_line(parts["rubbing"], j, q, v, rough)
+    x = beam.node_x[:-1, None] + gauss(points)[0] * np.diff(beam.node_x)[:, None]
+    size, limit = np.linalg.norm(rough[..., :3], axis=-1), rough[..., 3]
+    slips = (limit > 0.0) & (size >= AT_LIMIT * limit)
+    return ContactLine(
+        x=x.ravel(),
+        gap=found[..., 0].ravel(),
+        normal=found[..., 1].ravel(),
+        friction=rough[..., :3].reshape(-1, 3),
+        limit=limit.ravel(),
+        slips=slips.ravel(),
+    )

@@ -1,0 +1,254 @@
+"""Friction of beams on surfaces, per reference length: an elastic-plastic spring with memory.
+
+At the place x of the axis, which a surface that moves carries along, with the normal n and P = 1 - n n^T,
+
+    T = -w,   w = P (k_t (r - anchor) + c_t v),   cut to |T| <= limit,   limit = mu N of the last step,
+
+where v is the velocity past the surface and c_t = c sqrt(k_t/k).  The anchor is where the spring has no
+force; it stays in the axes of what carries the surface, so that a drum which turns takes it along.  A
+point that does not touch takes its anchor along, one that slips drags it at the distance limit/k_t.  Anchors
+and limits are memory: they change once for each accepted step, see ``rub_remember``.  A limit of the step
+before keeps the matrix symmetric and the iteration stable.
+
+In an equilibrium the anchors are the places of the initial shape, so that friction opposes the way from
+there.  It holds what touches there while the loads come on, so that nothing falls off that friction alone
+bears; then its limits are renewed until they fit.  All work of friction counts as dissipated: what the spring
+holds while it sticks, T^2/(2 k_t) per length, it gives back.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import FloatArray
+from ..compiled import Role, implements, inline_kernel, kernel
+from .press import pressed, still_or
+from .touch import (
+    DRAG,
+    FRICTION,
+    RADIUS,
+    STICK,
+    add_pair,
+    add_pair_block,
+    carried,
+    carrier,
+    in_body,
+    lie,
+    look_around,
+    outside,
+    place_on,
+    relative,
+)
+
+#: Columns of ``found``: friction of all points added up by size, N, and the share of it that slips.
+RUBBED, SLIPPED = 2, 3
+#: Share of a change of the limits that a round of an equilibrium takes: all of it would swing past a cable
+#: that friction holds on several turns.
+TAKEN = 0.4
+#: A limit that nothing reaches, N/m, and the gap in radii up to which a point counts as one that touches.
+GRIP, CLOSE = 1e100, 0.05
+
+
+class RubBatch(NamedTuple):
+    """All elements that may rub on surfaces."""
+
+    base: NDArray[np.int64]  # as in PressBatch, up to ``found``
+    dest: NDArray[np.int64]
+    shape: FloatArray
+    reach: FloatArray
+    weight: FloatArray
+    contact: NDArray[np.int64]
+    surface: NDArray[np.int64]
+    data: FloatArray
+    surfaces: FloatArray
+    shape_of: NDArray[np.int64]
+    found: FloatArray  # (contacts, 4) columns RUBBED, SLIPPED when it was measured last
+    far: FloatArray  # (n, 4) memory
+    anchor: FloatArray  # (n, points, 3) memory: where friction has no force, in axes of what carries
+    limit: FloatArray  # (n, points) memory: largest friction, N/m
+    most: FloatArray  # (n,) memory: the largest of them
+
+
+@inline_kernel
+def rubs(batch, e):
+    """Whether a row may have friction in this step."""
+    return batch.most[e] > 0.0
+
+
+@inline_kernel
+def drawn(batch, e, p, r, u, n, body):
+    """The vector w of the friction, its size, and the factor f of the force -f w; whether it slips."""
+    data, anchor = batch.data[batch.contact[e]], batch.anchor[e, p]
+    k, c = data[STICK], data[DRAG]
+    a = carried(body, anchor[0], anchor[1], anchor[2])
+    x = k * (r[0] - a[0]) + c * u[0]
+    y = k * (r[1] - a[1]) + c * u[1]
+    z = k * (r[2] - a[2]) + c * u[2]
+    normal = x * n[0] + y * n[1] + z * n[2]
+    w = x - normal * n[0], y - normal * n[1], z - normal * n[2]
+    size = math.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+    if size > batch.limit[e, p]:
+        return w, size, batch.limit[e, p] / size, True
+    return w, size, 1.0, False
+
+
+@inline_kernel
+def rubbed(batch, e, p, q, v, body, moving, at, axis):
+    """Place of point p, in body axes too, its velocity past the surface and the normal."""
+    r = place_on(batch, e, p, q)
+    _, n, _, _, _ = outside(batch, e, r, at, axis)
+    x = in_body(body, r)
+    return r, x, relative(place_on(batch, e, p, v), moving, x), n
+
+
+@inline_kernel
+def rub_force(batch, q, v, a, r, ws):
+    """Subtract the friction from r."""
+    for e in range(batch.base.shape[0]):
+        if not rubs(batch, e):
+            continue
+        body, moving = carrier(batch, e, q), still_or(batch, e, v)
+        at, axis = lie(batch, e, body)
+        for p in range(batch.weight.shape[1]):
+            if batch.limit[e, p] > 0.0:
+                place, x, u, n = rubbed(batch, e, p, q, v, body, moving, at, axis)
+                w, _, f, _ = drawn(batch, e, p, place, u, n, body)
+                add_pair(batch, e, p, x, -f * w[0], -f * w[1], -f * w[2], r)
+
+
+@inline_kernel
+def rub_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    """Add minus the derivatives by position and velocity, the normal as it is."""
+    for e in range(batch.base.shape[0]):
+        if not rubs(batch, e):
+            continue
+        data = batch.data[batch.contact[e]]
+        body, moving = carrier(batch, e, q), still_or(batch, e, v)
+        at, axis = lie(batch, e, body)
+        for p in range(batch.weight.shape[1]):
+            if batch.limit[e, p] == 0.0:
+                continue
+            place, x, u, n = rubbed(batch, e, p, q, v, body, moving, at, axis)
+            w, size, f, slips = drawn(batch, e, p, place, u, n, body)
+            one = f * (c_stiffness * data[STICK] + c_damping * data[DRAG])
+            ww = -one / (size * size) if slips else 0.0
+            xy = ww * w[0] * w[1] - one * n[0] * n[1]
+            xz = ww * w[0] * w[2] - one * n[0] * n[2]
+            yz = ww * w[1] * w[2] - one * n[1] * n[2]
+            rows = (
+                (one + ww * w[0] * w[0] - one * n[0] * n[0], xy, xz),
+                (xy, one + ww * w[1] * w[1] - one * n[1] * n[1], yz),
+                (xz, yz, one + ww * w[2] * w[2] - one * n[2] * n[2]),
+            )
+            add_pair_block(batch, e, p, x, rows, A)
+
+
+@inline_kernel
+def rub_remember(batch, q, v):
+    """Move the anchors to where the friction of the state q, v leaves them, and renew the limits."""
+    for e in range(batch.base.shape[0]):
+        if look_around(batch, e, q) and not rubs(batch, e):
+            continue
+        batch.most[e] = 0.0
+        data, moving = batch.data[batch.contact[e]], still_or(batch, e, v)
+        body = carrier(batch, e, q)
+        at, axis = lie(batch, e, body)
+        for p in range(batch.weight.shape[1]):
+            _, _, N, _, _, n, _, _, _ = pressed(batch, e, p, q, v, body, moving, at, axis)
+            r, x, u, _ = rubbed(batch, e, p, q, v, body, moving, at, axis)
+            w, _, f, slips = drawn(batch, e, p, r, u, n, body)
+            if N == 0.0:
+                batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = x
+            elif slips:
+                keep = f / data[STICK]
+                left = in_body(body, (r[0] - keep * w[0], r[1] - keep * w[1], r[2] - keep * w[2]))
+                batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = left
+            batch.limit[e, p] = data[FRICTION] * N
+            batch.most[e] = max(batch.most[e], batch.limit[e, p])
+
+
+@inline_kernel
+def rub_measure(batch, q, v):
+    """Fill ``found`` for the state (q, v), with the limits that acted in it."""
+    for j in range(batch.found.shape[0]):
+        batch.found[j, RUBBED], batch.found[j, SLIPPED] = 0.0, 0.0
+    for e in range(batch.base.shape[0]):
+        if not rubs(batch, e):
+            continue
+        body, moving, j = carrier(batch, e, q), still_or(batch, e, v), batch.contact[e]
+        at, axis = lie(batch, e, body)
+        for p in range(batch.weight.shape[1]):
+            place, _, u, n = rubbed(batch, e, p, q, v, body, moving, at, axis)
+            _, size, f, slips = drawn(batch, e, p, place, u, n, body)
+            force = batch.weight[e, p] * f * size
+            batch.found[j, RUBBED] += force
+            batch.found[j, SLIPPED] += force if slips else 0.0
+    for j in range(batch.found.shape[0]):
+        if batch.found[j, RUBBED] > 0.0:
+            batch.found[j, SLIPPED] /= batch.found[j, RUBBED]
+
+
+@kernel
+def renew_limits(batch, q, v):
+    """Limits of the friction from the state q, v; returns their largest change and the largest of them.
+
+    What has been held by whatever it took is let go by and by: the pressure comes to where the load goes.
+    """
+    change, most = 0.0, 0.0
+    for e in range(batch.base.shape[0]):
+        batch.most[e] = 0.0
+        body, moving, data = carrier(batch, e, q), still_or(batch, e, v), batch.data[batch.contact[e]]
+        at, axis = lie(batch, e, body)
+        for p in range(batch.weight.shape[1]):
+            _, _, N, _, _, _, _, _, _ = pressed(batch, e, p, q, v, body, moving, at, axis)
+            wanted, limit = data[FRICTION] * N, batch.limit[e, p]
+            if limit == GRIP:
+                r, _, u, n = rubbed(batch, e, p, q, v, body, moving, at, axis)
+                limit = max(wanted, drawn(batch, e, p, r, u, n, body)[1])
+            change = max(change, abs(wanted - limit))
+            most = max(most, wanted)
+            batch.limit[e, p] = limit + TAKEN * (wanted - limit)
+            batch.most[e] = max(batch.most[e], batch.limit[e, p])
+    return change, most
+
+
+@kernel
+def grip(batch, q, holds):
+    """Let friction hold all that touches in the state q, whatever it takes, or nothing."""
+    for e in range(batch.base.shape[0]):
+        at, axis = lie(batch, e, carrier(batch, e, q))
+        radius, batch.most[e] = batch.data[batch.contact[e], RADIUS], 0.0
+        for p in range(batch.weight.shape[1]):
+            d, _, _, _, _ = outside(batch, e, place_on(batch, e, p, q), at, axis)
+            batch.limit[e, p] = GRIP if holds and d < (1.0 + CLOSE) * radius else 0.0
+            batch.most[e] = max(batch.most[e], batch.limit[e, p])
+            batch.most[e] = max(batch.most[e], batch.limit[e, p])
+
+
+def hold(batch, q, holds):
+    """See :func:`grip`."""
+    grip(batch, q, holds)
+    return True
+
+
+def let_rub(batch, q):
+    """Renew the limits in an equilibrium; returns their relative change."""
+    change, most = renew_limits(batch, q, np.zeros_like(q))
+    return change / most if most > 0.0 else 0.0
+
+
+implements(
+    RubBatch,
+    force=rub_force,
+    tangent=rub_tangent,
+    remember=rub_remember,
+    measure=rub_measure,
+    role=Role.RUBS | Role.MEASURES,
+    memory=("far", "anchor", "limit", "most"),
+    late=lambda batch: let_rub,
+    early=hold,
+)
