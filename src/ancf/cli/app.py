@@ -38,6 +38,14 @@ Verify = Annotated[
     typer.Option("--verify", help="Compute again with half the step, with twice the elements, and compare."),
 ]
 Resume = Annotated[bool, typer.Option("--resume", help="Go on where OUT/results.h5 ends.")]
+Set = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="PATH=VALUE",
+        help="Other value in the file: sections.rope.EA=2e4; may be repeated.",
+    ),
+]
 Names = Annotated[
     list[str] | None,
     typer.Argument(metavar="NAMES", help="Figures and tables, such as fig2, or all.", show_default="all"),
@@ -147,6 +155,7 @@ def run(
     quiet: Quiet = False,
     verify: Verify = False,
     resume: Resume = False,
+    given: Set = None,
 ) -> None:
     """Compute what a model file asks for.
 
@@ -157,16 +166,16 @@ def run(
     with reported():
         from .run import run_file
 
-        run_file(model, output, quiet, verify, resume)
+        run_file(model, output, quiet, verify, resume, given)
 
 
 @app.command()
-def check(file: AnyInput) -> None:
+def check(file: AnyInput, given: Set = None) -> None:
     """Say whether a file is right: a model file, a line file, or a results file."""
     with reported():
         from .check import check_file
 
-        check_file(file)
+        check_file(file, given)
 
 
 @app.command()
@@ -256,7 +265,9 @@ def view(
 
 
 @catenary.command("form")
-def catenary_form(line: LineName, output: OptionalFolder = None, quiet: Quiet = False) -> None:
+def catenary_form(
+    line: LineName, output: OptionalFolder = None, quiet: Quiet = False, given: Set = None
+) -> None:
     """Find the form of an overhead line and print its dropper schedule.
 
     With -o writes OUT/schedule.csv, lengths in mm.
@@ -264,7 +275,7 @@ def catenary_form(line: LineName, output: OptionalFolder = None, quiet: Quiet = 
     with reported():
         from .catenary import show_form
 
-        show_form(line, output, quiet)
+        show_form(line, output, quiet, given)
 
 
 @catenary.command("run")
@@ -282,6 +293,7 @@ def catenary_run(
     states: States = True,
     report: Report = True,
     quiet: Quiet = False,
+    given: Set = None,
 ) -> None:
     """Run pantographs along an overhead line.
 
@@ -293,12 +305,16 @@ def catenary_run(
 
         options = {"spacing": spacing, "start": start, "window": window, "contact": contact, "step": step}
         options["output_step"] = output_step
-        run_line(line, speed, pantograph, options, output, report, states, quiet)
+        run_line(line, speed, pantograph, options, output, report, states, quiet, given)
 
 
 @catenary.command("elasticity")
 def catenary_elasticity(
-    line: LineName, output: OptionalFolder = None, force: Forces = None, quiet: Quiet = False
+    line: LineName,
+    output: OptionalFolder = None,
+    force: Forces = None,
+    quiet: Quiet = False,
+    given: Set = None,
 ) -> None:
     """Lift the contact wire along the middle span of an overhead line and print how far it gives.
 
@@ -307,7 +323,7 @@ def catenary_elasticity(
     with reported():
         from .catenary import show_elasticity
 
-        show_elasticity(line, output, force or [100.0, 200.0], quiet)
+        show_elasticity(line, output, force or [100.0, 200.0], quiet, given)
 
 
 @app.command()
