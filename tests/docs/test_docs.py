@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 from ancf import catenary
 from ancf.cli.app import app
 from ancf.model import inputs
-from ancf.model.file import parse_study
+from ancf.model.file import parameters, parse_study
 from ancf.model.file.entries import FileEntry
 from pages import DOCS, PAGES, ROOT, WITH_CODE, alone, code_blocks, name_of
 
@@ -90,7 +90,8 @@ def check_toml(block, namespace):
         parse_study(data)
     else:
         try:
-            with inputs.named(inputs.first_values(data.get("inputs"))):
+            first = inputs.first_values(data.get("inputs"))
+            with inputs.named(first), parameters.given(data, first):
                 FileEntry.model_validate(data)
         except ValidationError as error:
             wrong = [problem for problem in error.errors() if problem["type"] != "missing"]
