@@ -11,6 +11,9 @@ from .errors import Interrupted, ModelError, SolveError
 if TYPE_CHECKING:
     from .analysis import equilibrium, load, modes, simulate, stable_step
     from .control.stepper import Stepper, stepper
+    from .design.distributions import Discrete, LogNormal, Normal, Triangular, Uniform
+    from .design.sampling import sample
+    from .design.study import study
     from .model import Model, Section
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
     from .results import Modes, Result, State
@@ -37,18 +40,24 @@ _LATER = {
     "GeneralizedAlpha": "model.integrators",
     "Radau": "model.integrators",
     "Newton": "model.integrators",
+    "sample": "design.sampling",
+    "study": "design.study",
+    **dict.fromkeys(("Uniform", "Normal", "LogNormal", "Triangular", "Discrete"), "design.distributions"),
     "Verification": "verification",
     "verify": "verification",
 }
 
 __all__ = [
+    "Discrete",
     "Explicit",
     "GeneralizedAlpha",
     "Interrupted",
+    "LogNormal",
     "Model",
     "ModelError",
     "Modes",
     "Newton",
+    "Normal",
     "Radau",
     "Result",
     "Section",
@@ -56,15 +65,19 @@ __all__ = [
     "State",
     "Stepper",
     "Trapezoidal",
+    "Triangular",
+    "Uniform",
     "Verification",
     "__version__",
     "equilibrium",
     "load",
     "modes",
     "resume",
+    "sample",
     "simulate",
     "stable_step",
     "stepper",
+    "study",
     "verify",
 ]
 

@@ -348,6 +348,46 @@ def validate(
             validate_case(case, speed, output, report, quiet)
 
 
+StudyFile = Annotated[
+    Path, typer.Argument(metavar="STUDY.toml", help="Study file, or with --status a folder.", show_default=False)
+]
+Workers = Annotated[
+    int | None,
+    typer.Option("--workers", "-j", metavar="N", help="Processes at once.", show_default="one for each core"),
+]
+Scheduler = Annotated[
+    str | None, typer.Option(metavar="ADDRESS", help="Scheduler of a Dask cluster, such as tcp://host:8786.")
+]
+Retry = Annotated[bool, typer.Option("--retry", help="Compute once more what failed before.")]
+Status = Annotated[bool, typer.Option("--status", help="Say how far the study in a folder is.")]
+
+
+@app.command()
+def study(
+    file: StudyFile,
+    output: Folder = Path("out"),
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    retry: Retry = False,
+    status: Status = False,
+    report: Report = True,
+    quiet: Quiet = False,
+) -> None:
+    """Compute many variants of a model or a line.
+
+    Writes OUT/table.csv, OUT/table.parquet, OUT/study.json and OUT/report.html. Whatever is killed, the same
+    command goes on; more samples later repeat none. The exit code is 1 when cases failed.
+    """
+    with reported():
+        from .study import run_study, show_status
+
+        if status:
+            show_status(file)
+            return
+        options = {"workers": workers, "scheduler": scheduler, "retry": retry, "report": report}
+        run_study(file, output, options, quiet)
+
+
 MoorDynInput = Annotated[
     Path, typer.Argument(metavar="LINES.txt", help="Input file of MoorDyn, version 2.", show_default=False)
 ]
