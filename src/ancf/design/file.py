@@ -16,6 +16,7 @@ from ..model.file import read_toml
 from ..model.file.fields import Entry, checked
 from ..model.file.messages import combined, of_validation
 from .cases import ModelCase
+from .columns import read_columns
 from .distributions import distribution_of
 from .extras import pandas
 from .lines import LineCase
@@ -248,21 +249,16 @@ def _kind(given: ParameterEntry, k: int) -> Any:
 def _listed(sampling: SamplingEntry, names: list[str], path: Path) -> DataFrame:
     if sampling.file is None:
         raise ModelError("sampling.file", "is missing: a list is a CSV file with a column for each parameter")
-    frame, file = pandas(), path.parent / sampling.file
-    try:
-        table = frame.read_csv(file, skipinitialspace=True, float_precision="round_trip")
-    except FileNotFoundError:
-        raise ModelError(f"sampling.file {file}", "no such file") from None
-    except (OSError, ValueError) as error:
-        raise ModelError(f"sampling.file {file}", f"cannot be read: {error}") from None
-    missing = [name for name in names if name not in table.columns]
-    extra = [str(name) for name in table.columns if name not in names]
+    file = path.parent / sampling.file
+    table = read_columns(file, "sampling.file")
+    missing = [name for name in names if name not in table]
+    extra = [name for name in table if name not in names]
     if missing or extra:
         parts = [f"lacks {checks.listed(missing)}"] if missing else []
         parts += [f"has {checks.listed(extra)}, which is no parameter"] if extra else []
         hint = checks.nearest(missing[0], extra) if missing else ""
-        raise ModelError(f"sampling.file {file}", " and ".join(parts), hint)
-    made = table[names].copy()
+        raise ModelError("sampling.file", f"{file} {' and '.join(parts)}", hint)
+    made = pandas().DataFrame({name: table[name] for name in names})
     if sampling.count is not None:
         made = made.head(sampling.count)
     made.attrs = {DESIGN: {"method": "list", "count": len(made), "parameters": _described(names)}}
