@@ -26,7 +26,7 @@ def product(a, b):
     return {"sum": a + b, "product": a * b}
 
 
-def slow(a, b):
+def napping(a, b):
     time.sleep(0.02)
     return product(a, b)
 
@@ -52,7 +52,7 @@ def deadly(folder, times, a, b):
         if left < times:
             (Path(folder) / f"death {left}").touch()
             os.kill(os.getpid(), signal.SIGKILL)
-    return slow(a, b)
+    return napping(a, b)
 
 
 def cantilever(EI, elements):

@@ -25,7 +25,7 @@ from design_functions import (
     deadly,
     ishigami,
     product,
-    slow,
+    napping,
     sometimes_wrong,
 )
 from places import TESTS
@@ -134,7 +134,7 @@ class TestAgain:
         assert table["product"].tolist() == [0.5, 1.0, 0.5]
         assert len([*tmp_path.iterdir()]) == 2
 
-    @pytest.mark.parametrize("other", [slow, functools.partial(counted, "."), lambda a, b: {"y": a}])
+    @pytest.mark.parametrize("other", [napping, functools.partial(counted, "."), lambda a, b: {"y": a}])
     def test_another_study_is_refused(self, tmp_path, other):
         quiet(product, samples(3), folder=tmp_path, workers=0)
         before = bytes_of(tmp_path)
@@ -273,8 +273,8 @@ class TestKilled:
                 killed.append(draw.choice(children).pid)
                 os.kill(killed[-1], signal.SIGKILL)
 
-        quiet(slow, samples(80), folder=tmp_path / "a", workers=2, progress=kill)
-        quiet(slow, samples(80), folder=tmp_path / "b", workers=0)
+        quiet(napping, samples(80), folder=tmp_path / "a", workers=2, progress=kill)
+        quiet(napping, samples(80), folder=tmp_path / "b", workers=0)
         assert killed
         assert bytes_of(tmp_path / "a") == bytes_of(tmp_path / "b")
 
@@ -284,10 +284,10 @@ class TestKilled:
             import sys
             sys.path.insert(0, {str(TESTS)!r})
             import ancf
-            from design_functions import slow
+            from design_functions import napping
             two = {{"a": ancf.Uniform(1.0, 3.0), "b": ancf.Uniform(0.0, 1.0)}}
             rows = ancf.sample(two, method="sobol", count=400, seed=2)
-            ancf.study(slow, rows, folder=sys.argv[1], workers=2, report=False)
+            ancf.study(napping, rows, folder=sys.argv[1], workers=2, report=False)
             """)
         draw, kills = random.Random(5), 20 if request.config.getoption("--slow") else 4
         reached = [0]
@@ -304,7 +304,7 @@ class TestKilled:
         assert 0 < reached[1] <= reached[-1] < 400
         ran = python(code, tmp_path / "a")
         assert ran.code == 0, ran.err
-        quiet(slow, samples(400), folder=tmp_path / "b", workers=0)
+        quiet(napping, samples(400), folder=tmp_path / "b", workers=0)
         assert bytes_of(tmp_path / "a") == bytes_of(tmp_path / "b")
 
     def test_interrupt(self, tmp_path):
@@ -315,9 +315,9 @@ class TestKilled:
                 raise KeyboardInterrupt
 
         with pytest.raises(KeyboardInterrupt):
-            quiet(slow, samples(50), folder=tmp_path, workers=2, progress=stop)
+            quiet(napping, samples(50), folder=tmp_path, workers=2, progress=stop)
         assert 5 <= progress_of(tmp_path).done < 50
-        assert len(quiet(slow, samples(50), folder=tmp_path, workers=2)) == 50
+        assert len(quiet(napping, samples(50), folder=tmp_path, workers=2)) == 50
 
 
 def done_in(folder):

@@ -7,6 +7,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from typing import Any
 
 from ..errors import ModelError, SolveError
@@ -73,7 +74,7 @@ class Cluster:
         try:
             self._submit([waiting.popleft()], tasks)
             begun = time.monotonic()
-            while tasks:
+            while tasks or waiting:
                 alone = not self._ended and time.monotonic() - begun < ALONE
                 if not alone:
                     while waiting and len(tasks) < self._room():
@@ -103,10 +104,10 @@ class Cluster:
 
     def _ready(self, tasks: dict[Any, list[Case]]) -> Iterator[tuple[str, Outcome]]:
         """Outcomes of the tasks that have ended since; waits half a second at most."""
-        try:
+        if not tasks:
+            return
+        with self._client.as_current(), suppress(TimeoutError):
             self._distributed.wait([*tasks], timeout=0.5, return_when="FIRST_COMPLETED")
-        except TimeoutError:
-            pass
         if self._client.status not in ("running", "connecting"):
             raise OSError(f"the connection is {self._client.status}")
         for task in [task for task in tasks if task.done()]:
