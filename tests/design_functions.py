@@ -1,4 +1,4 @@
-"""Functions of parameters with which studies are tried: closed forms, slow ones, and such as kill their process."""
+"""Functions of parameters for studies: closed forms, slow ones, and such as end their process."""
 
 import math
 import os

@@ -29,7 +29,8 @@ def main():
                 os.kill(victim.pid, signal.SIGKILL)
             threading.Thread(target=kill, daemon=True).start()
         function = functools.partial(deadly, folder + "/marks", 99) if way == "deadly" else napping
-        table = ancf.study(function, rows, folder=folder + "/out", scheduler=cluster.scheduler_address, report=False)
+        out = {"folder": folder + "/out", "scheduler": cluster.scheduler_address, "report": False}
+        table = ancf.study(function, rows, **out)
     print(len(table), len(set(zip(table["a"], table["b"]))), (table["status"] == "ok").sum())
     print(table["message"][table["status"] == "failed"].unique().tolist())
     function = functools.partial(deadly, folder + "/marks", 99) if way == "deadly" else napping

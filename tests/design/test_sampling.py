@@ -1,4 +1,4 @@
-"""Samples of parameters: against quantiles of SciPy, the properties of their designs, and themselves when they grow."""
+"""Samples of parameters: against quantiles of SciPy, the properties of their designs, and fewer of them."""
 
 import itertools
 
@@ -64,7 +64,10 @@ class TestDistributions:
             ({"type": "uniform", "low": 2, "high": "3"}, "x.high: must be a number"),
             ({"type": "normal", "mean": 1, "deviation": 0}, "x.deviation: must be > 0"),
             ({"type": "lognormal", "mean": -1, "deviation": 1}, "x.mean: must be > 0"),
-            ({"type": "triangular", "low": 1, "mode": 5, "high": 3}, "x.high: is 3, must not be below mode, 5"),
+            (
+                {"type": "triangular", "low": 1, "mode": 5, "high": 3},
+                "x.high: is 3, must not be below mode, 5",
+            ),
             ({"type": "discrete", "values": []}, "x.values: must hold a value"),
             ({"type": "discrete", "values": [1, 2], "weights": [1]}, "x.weights: must be 2 numbers >= 0"),
             ({"type": "discrete", "values": [1, None]}, "x.values[1]: must be a number"),

@@ -9,7 +9,6 @@ import subprocess
 import sys
 import textwrap
 import time
-import types
 
 import numpy as np
 import pandas as pd
@@ -24,8 +23,8 @@ from design_functions import (
     counted,
     deadly,
     ishigami,
-    product,
     napping,
+    product,
     sometimes_wrong,
 )
 from places import TESTS
@@ -179,7 +178,9 @@ class TestFailures:
         function = functools.partial(deadly_once, str(calls))
         assert (quiet(function, samples(4), folder=tmp_path / "out", workers=0)["status"] == "failed").all()
         assert (quiet(function, samples(4), folder=tmp_path / "out", workers=0)["status"] == "failed").all()
-        assert (quiet(function, samples(4), folder=tmp_path / "out", workers=0, retry=True)["status"] == "ok").all()
+        assert (
+            quiet(function, samples(4), folder=tmp_path / "out", workers=0, retry=True)["status"] == "ok"
+        ).all()
 
     @pytest.mark.parametrize(
         ("returned", "phrase"),
@@ -222,13 +223,11 @@ class TestFailures:
             ((product, samples(2).assign(b=[1.0, np.nan])), 'study.samples["b"][1]: must be a finite number'),
             ((product, samples(2).rename(columns={"b": "status"})), "is a name that is taken"),
             ((lambda a, b: {"a": 1.0}, samples(2)), "outputs.a: is the name of a parameter"),
-            ((functools.partial(product, types.SimpleNamespace(f=open)), samples(2)), ""),
         ],
     )
     def test_bad(self, arguments, phrase):
-        with pytest.raises((ancf.ModelError, AssertionError)) as caught:
-            table = quiet(*arguments, workers=0)
-            assert (table["status"] == "ok").all()
+        with pytest.raises(ancf.ModelError) as caught:
+            quiet(*arguments, workers=0)
         assert phrase in str(caught.value)
 
     def test_function_that_cannot_go_to_another_process(self):
@@ -355,7 +354,7 @@ class TestJournal:
 
     def test_damaged(self, tmp_path):
         (tmp_path / "journal.sqlite").write_bytes(b"no database" * 100)
-        with pytest.raises(ancf.ModelError, match=r"journal\.sqlite: cannot be read: file is not a database"):
+        with pytest.raises(ancf.ModelError, match=r"journal\.sqlite cannot be read: file is not a database"):
             quiet(product, samples(2), folder=tmp_path, workers=0)
         with pytest.raises(ancf.ModelError, match="cannot be read"):
             progress_of(tmp_path)
@@ -380,5 +379,5 @@ class TestFiles:
         assert "\n0,'=1+1," in (tmp_path / "table.csv").read_text(encoding="utf-8")
 
     def test_pandas_is_not_imported_with_the_package(self):
-        code = "import sys, ancf, ancf.cli.app, ancf.cli.study; print([m for m in ('pandas', 'dask') if m in sys.modules])"
-        assert python(code).out == "[]\n"
+        code = "import sys, ancf, ancf.cli.app, ancf.cli.study; print({'pandas', 'dask'} & set(sys.modules))"
+        assert python(code).out == "set()\n"

@@ -199,7 +199,10 @@ print("done", len(result.t))
 
 
 class TestExtras:
-    EXTRAS = "pandas,pyarrow,SALib,dask,distributed,cloudpickle,matplotlib,plotly,exudyn,sphinx,psutil,furo,pyvista,vtk,jax,pytest"
+    EXTRAS = (
+        "pandas,pyarrow,SALib,dask,distributed,cloudpickle,"
+        "matplotlib,plotly,exudyn,sphinx,psutil,furo,pyvista,vtk,jax,pytest"
+    )
 
     def test_core_runs_without_them(self):
         done = python(BLOCKED + TINY, self.EXTRAS, options=STRICT)

@@ -349,7 +349,8 @@ def validate(
 
 
 StudyFile = Annotated[
-    Path, typer.Argument(metavar="STUDY.toml", help="Study file, or with --status a folder.", show_default=False)
+    Path,
+    typer.Argument(metavar="STUDY.toml", help="Study file, or with --status a folder.", show_default=False),
 ]
 Workers = Annotated[
     int | None,

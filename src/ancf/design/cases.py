@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -12,7 +12,7 @@ import numpy as np
 import ancf
 
 from ..errors import ModelError
-from ..model.file.paths import changed
+from ..model.file.paths import PathError, changed
 from ..viz.pictures.questions import QUANTITIES, ask
 from .formulas import Formula, Vocabulary
 
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 #: Quantities that need whole states and cannot be recorded at every step.
 OF_STATES = ("twist",)
+#: How the error of a key says that there is none.
+UNKNOWN = "unknown key"
 OF_MODEL = Vocabulary(("t", "frequency"), tuple(QUANTITIES))
 
 
@@ -65,14 +67,15 @@ class ModelCase:
         return parse_study(changed(self.tables, given), "model")
 
     def check(self, values: Mapping[str, Any]) -> None:
-        """Find what is wrong without computing.
+        """Find what is wrong with all cases, without computing; a wrong value is the matter of its case.
 
         Raises
         ------
         ModelError
-            A path, a value, a formula or what it asks for.
+            The model file, a path, a formula or what it asks for.
         """
-        study = self.read(values)
+        study = self.read({})
+        check_paths(self.read, values)
         if study.simulation is None and study.equilibrium is None:
             hint = "add a table [simulation] with t_end and step, or [equilibrium]"
             raise ModelError("model", "nothing to compute", hint)
@@ -85,6 +88,15 @@ class ModelCase:
         study = self.read(values)
         answers = _ModelAnswers(study, self.formulas)
         return {name: formula(answers) for name, formula in self.formulas}
+
+
+def check_paths(read: Callable[[Mapping[str, Any]], Any], values: Mapping[str, Any]) -> None:
+    """Raise ModelError if a value has no place in a file."""
+    try:
+        read(values)
+    except ModelError as error:
+        if isinstance(error, PathError) or UNKNOWN in str(error):
+            raise
 
 
 def _sensor(model: Any, quantity: str, item: str, where: str) -> Any:

@@ -94,8 +94,10 @@ class Cluster:
         tasks[task] = cases
 
     def _room(self) -> int:
-        threads = sum(worker["nthreads"] for worker in self._client.scheduler_info(n_workers=-1)["workers"].values())
-        return max(1, WAITING * threads)
+        threads = sum(
+            worker["nthreads"] for worker in self._client.scheduler_info(n_workers=-1)["workers"].values()
+        )
+        return max(1, WAITING * int(threads))
 
     def _some(self, waiting: deque[Case]) -> list[Case]:
         mean = self._seconds / self._ended if self._ended else AT_ONCE

@@ -203,7 +203,7 @@ KINDS: dict[str, type[Distribution]] = {
 
 
 def distribution_of(given: Any, where: str = "distribution") -> Distribution:
-    """A distribution from itself, from a list of values, or from a table ``{type = "uniform", low =, high =}``.
+    """A distribution from itself, from a list of values, or from a table ``{type = "uniform", ...}``.
 
     Raises
     ------

@@ -32,7 +32,9 @@ class GridEntry(Entry):
     low: float = Field(description="First value [of the parameter].")
     high: float = Field(description="Last value [of the parameter].")
     count: int = Field(ge=2, le=100_000, description="How many.")
-    spacing: Literal["linear", "log"] = Field("linear", description="Whether they or their logarithms are even.")
+    spacing: Literal["linear", "log"] = Field(
+        "linear", description="Whether they or their logarithms are even."
+    )
 
 
 class ParameterEntry(Entry):
@@ -203,7 +205,9 @@ def _samples(entry: StudyEntry, names: list[str], path: Path) -> DataFrame:
     if sampling.method == "list":
         return _listed(sampling, names, path)
     if sampling.file is not None:
-        raise ModelError("sampling.file", f'has no effect with "{sampling.method}"', 'method = "list" reads it')
+        raise ModelError(
+            "sampling.file", f'has no effect with "{sampling.method}"', 'method = "list" reads it'
+        )
     kinds = {name: _kind(p, k) for k, (name, p) in enumerate(zip(names, entry.parameters, strict=True))}
     pairs = {}
     for k, given in enumerate(entry.correlations):

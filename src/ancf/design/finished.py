@@ -31,7 +31,11 @@ def hashes(path: Path) -> dict[str, str]:
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
         sampling = data.get("sampling")
-        named = [data.get("model"), data.get("line"), sampling.get("file") if isinstance(sampling, dict) else None]
+        named = [
+            data.get("model"),
+            data.get("line"),
+            sampling.get("file") if isinstance(sampling, dict) else None,
+        ]
     except (OSError, ValueError, AttributeError):
         named = []
     for name in named:

@@ -165,7 +165,7 @@ class Formula:
     def _entry(self, inner: ast.AST, place: ast.AST) -> Callable[[Answers], Any]:
         """A component of vectors, an entry of an array: of the last axis."""
         try:
-            index = ast.literal_eval(place)  # type: ignore[arg-type]
+            index = ast.literal_eval(place)
         except (ValueError, TypeError):
             index = None
         if not isinstance(index, int) or isinstance(index, bool):
@@ -180,7 +180,9 @@ class Formula:
             count = values.shape[-1] if values.ndim else 0
             if not -count <= index < count:
                 what = f'"{text}" has {count} entries, [{index}] is none'
-                raise ModelError(self.where, what if count else f'"{text}" is one number, it has no [{index}]')
+                raise ModelError(
+                    self.where, what if count else f'"{text}" is one number, it has no [{index}]'
+                )
             return values[..., index]
 
         return entry
@@ -218,7 +220,11 @@ class Formula:
         if len(given) != 1:
             raise ModelError(self.where, f'"{self.text}": {quantity}() is asked of one item')
         node = given[0]
-        item = node.value if isinstance(node, ast.Constant) and isinstance(node.value, str) else ast.unparse(node)
+        item = (
+            node.value
+            if isinstance(node, ast.Constant) and isinstance(node.value, str)
+            else ast.unparse(node)
+        )
         self.asked.append((quantity, item))
         return lambda case: case.ask(quantity, item)
 
@@ -226,7 +232,9 @@ class Formula:
         calls = [*self.words.quantities, *REDUCTIONS, LENGTH, *FUNCTIONS]
         known = [*self.words.names, *CONSTANTS, *(f"{call}()" for call in dict.fromkeys(calls))]
         hint = nearest(name, [*self.words.names, *calls])
-        return ModelError(self.where, f'"{self.text}": unknown name "{name}", known are {", ".join(known)}', hint)
+        return ModelError(
+            self.where, f'"{self.text}": unknown name "{name}", known are {", ".join(known)}', hint
+        )
 
     def _unknown(self, node: ast.AST) -> ModelError:
         what = f'"{self.text}": "{ast.unparse(node)}" is not allowed'

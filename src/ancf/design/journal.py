@@ -23,7 +23,8 @@ OK, FAILED = "ok", "failed"
 TABLES = """
 CREATE TABLE IF NOT EXISTS about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS cases (
-    key TEXT PRIMARY KEY, status TEXT NOT NULL, outputs TEXT NOT NULL, message TEXT NOT NULL, seconds REAL NOT NULL
+    key TEXT PRIMARY KEY, status TEXT NOT NULL, outputs TEXT NOT NULL, message TEXT NOT NULL,
+    seconds REAL NOT NULL
 ) WITHOUT ROWID;
 """
 
@@ -94,7 +95,9 @@ class Journal:
         known = dict(self._base.execute("SELECT key, value FROM about WHERE key NOT LIKE 'plan%'"))
         for key in sorted({*known, *text}) if known else ():
             if known.get(key) != text.get(key):
-                what = f"holds another study: its {key} is {_short(known.get(key))}, not {_short(text.get(key))}"
+                what = (
+                    f"holds another study: its {key} is {_short(known.get(key))}, not {_short(text.get(key))}"
+                )
                 raise ModelError(self.where, what, "choose another folder, or empty this one")
         with self._base:
             rows = text.items()
@@ -130,9 +133,11 @@ class Journal:
     def _storing(self, reading: bool = False) -> Iterator[None]:
         try:
             yield
+        except ModelError:
+            raise
         except (sqlite3.Error, ValueError) as error:
             if reading:
-                raise ModelError(f"{self.where}/journal.sqlite", f"cannot be read: {error}") from None
+                raise ModelError(self.where, f"journal.sqlite cannot be read: {error}") from None
             what = f"cannot be written any more: {error}"
             raise StorageError(self.where, what, "make room; the same command goes on") from None
 

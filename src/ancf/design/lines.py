@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import ModelError
 from ..model import checks
 from ..model.file.paths import changed
+from .cases import check_paths
 from .formulas import Formula, Vocabulary
 
 if TYPE_CHECKING:
@@ -111,16 +112,18 @@ class LineCase:
         return parse_line(changed(self.tables, given), "line"), settings
 
     def check(self, values: Mapping[str, Any]) -> None:
-        """Find what is wrong without computing.
+        """Find what is wrong with all cases, without computing; a wrong value is the matter of its case.
 
         Raises
         ------
         ModelError
-            A path, a value or a formula.
+            The line file, a path or a formula.
         """
         from ..catenary.form import check
 
-        line, settings = self.read(values)
+        line, settings = self.read({})
+        check_paths(self.read, values)
+        settings |= {path: 0 for path in self.paths.values() if path.startswith(RUN)}
         if self.run is None and settings:
             raise ModelError("run", "is missing: a parameter is one of a run")
         if self.run is not None:

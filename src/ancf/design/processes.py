@@ -1,4 +1,4 @@
-"""Cases in processes of this machine: each takes a few, sends every outcome when it is there, takes the next."""
+"""Cases in processes of this machine: each takes a few, sends every outcome at once, takes the next."""
 
 from __future__ import annotations
 

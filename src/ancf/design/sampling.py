@@ -94,7 +94,7 @@ def sample(
         design["correlations"] = [[*pair, float(value)] for pair, value in pairs.items()]
     made = frame.DataFrame(columns)
     made.attrs[DESIGN] = design
-    return made  # type: ignore[no-any-return]
+    return made
 
 
 def unit_samples(method: str, count: int, dimension: int, seed: int) -> FloatArray:
@@ -157,7 +157,7 @@ def _values(kind: Distribution, u: FloatArray, method: str) -> Any:
 
 def _column(values: Any) -> Any:
     """Objects as numbers where they all are."""
-    if getattr(values, "dtype", None) != object:
+    if values.dtype.kind != "O":
         return values
     kinds = {type(v) for v in values}
     if kinds <= {int}:
@@ -169,7 +169,9 @@ def _grid(kinds: dict[str, Distribution], count: Any, pairs: Mapping[Any, Any]) 
     if pairs:
         raise ModelError("sample.correlations", "have no effect on a grid", "leave them out")
     if count is not None:
-        raise ModelError("sample.count", "has no effect on a grid, which has all combinations", "leave it out")
+        raise ModelError(
+            "sample.count", "has no effect on a grid, which has all combinations", "leave it out"
+        )
     levels: list[Sequence[Any]] = []
     total = 1
     for name, kind in kinds.items():
@@ -188,9 +190,7 @@ def _grid(kinds: dict[str, Distribution], count: Any, pairs: Mapping[Any, Any]) 
     return columns
 
 
-def _correlated(
-    u: FloatArray, names: list[str], pairs: Mapping[Any, float], method: str
-) -> FloatArray:
+def _correlated(u: FloatArray, names: list[str], pairs: Mapping[Any, float], method: str) -> FloatArray:
     """Probabilities whose normal scores have these correlations."""
     if not pairs:
         return u

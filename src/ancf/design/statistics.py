@@ -113,7 +113,7 @@ def _described(values: FloatArray, method: str) -> dict[str, Any]:
 
 
 def percentile(ordered: FloatArray, p: float) -> dict[str, float | None]:
-    """A percentile and its confidence interval from the order of the values alone; None where it has no end."""
+    """A percentile and its confidence interval from the order of the values; None where it has no end."""
     from scipy.stats import binom
 
     count = len(ordered)
@@ -179,7 +179,7 @@ def _unit(design: dict[str, Any]) -> FloatArray:
 
 
 def _kept(table: DataFrame, output: str, group: int) -> tuple[FloatArray, Any, int]:
-    """Outputs of the groups of cases none of which failed, which rows these are, and how many groups are not."""
+    """Outputs of the groups without a failed case, which rows these are, and how many groups have one."""
     y = column(table, output)
     whole = np.all(np.isfinite(y.reshape(-1, group)), axis=1)
     rows = np.repeat(whole, group)
@@ -196,7 +196,12 @@ def _sobol(table: DataFrame, output: str, design: dict[str, Any]) -> dict[str, A
     problem = {"num_vars": len(names), "names": names, "bounds": [[0.0, 1.0]] * len(names)}
     analyze = extra("SALib.analyze.sobol").analyze
     found = analyze(
-        problem, y, calc_second_order=False, num_resamples=RESAMPLES, conf_level=LEVEL, seed=design["seed"] % 2**32
+        problem,
+        y,
+        calc_second_order=False,
+        num_resamples=RESAMPLES,
+        conf_level=LEVEL,
+        seed=design["seed"] % 2**32,
     )
     for k, name in enumerate(names):
         made["indices"][name] = {key: float(found[key][k]) for key in ("S1", "S1_conf", "ST", "ST_conf")}
@@ -222,5 +227,7 @@ def _morris(table: DataFrame, output: str, design: dict[str, Any]) -> dict[str, 
         seed=design["seed"] % 2**32,
     )
     for k, name in enumerate(names):
-        made["indices"][name] = {key: float(found[key][k]) for key in ("mu", "mu_star", "mu_star_conf", "sigma")}
+        made["indices"][name] = {
+            key: float(found[key][k]) for key in ("mu", "mu_star", "mu_star_conf", "sigma")
+        }
     return made

@@ -80,8 +80,8 @@ def study(
 ) -> DataFrame:
     """Call a function for every row of a table and gather the numbers that it returns.
 
-    Whatever is killed, the same call goes on: each case is written to ``folder/journal.sqlite`` when it ends, and
-    none is computed twice, also not when there are more samples later. The table does not depend on the
+    Whatever is killed, the same call goes on: each case is written to ``folder/journal.sqlite`` when it
+    ends, and none is computed twice, also not when there are more samples later. The table does not depend on the
     number of workers, nor on the order in which they end.
 
     Parameters
@@ -91,7 +91,7 @@ def study(
     samples : DataFrame
         A row for each case, from :func:`ancf.sample` or made otherwise.
     folder : path, optional
-        For the journal, ``table.csv``, ``table.parquet``, ``study.json`` and ``report.html``; default in memory.
+        For the journal, ``table.csv``, ``table.parquet``, ``study.json`` and ``report.html``; default none.
     workers : int
         Processes, default one for each core; 0: in this process.
     scheduler : str or distributed.Client
@@ -131,7 +131,7 @@ def study(
     content = packed(function)
     place = None if folder is None else writable(Path(folder), f"folder {folder}")
     with locked(place, f"folder {folder}"):
-        journal = Journal(_journal(place), identity(function), str(folder))
+        journal = Journal(_journal(place), identity(function), f"folder {folder}")
         try:
             if retry:
                 journal.forget_failed()
@@ -173,7 +173,7 @@ def rows_of(samples: DataFrame) -> list[dict[str, Any]]:
 
 
 def identity(function: Any) -> dict[str, Any]:
-    """What tells one study from another: the function, by its name and its source, or by what it says itself."""
+    """What tells one study from another: the function's name and source, or what it says itself."""
     if hasattr(function, "identity"):
         return dict(function.identity())
     if isinstance(function, functools.partial):
@@ -204,7 +204,7 @@ def table_of(samples: DataFrame, rows: list[dict[str, Any]], known: Mapping[str,
     made = frame.DataFrame(columns)
     made.index.name = CASE
     made.attrs = {**samples.attrs, "outputs": [*names], "parameters": [str(n) for n in samples.columns]}
-    return made  # type: ignore[no-any-return]
+    return made
 
 
 def _journal(place: Path | None) -> Path | None:
@@ -261,7 +261,7 @@ def _carry_out(
 
 
 def _check_first(one: Outcome, known: Mapping[str, Outcome]) -> None:
-    """Raise ModelError if outputs are no numbers and no case has had any: it is the function that is wrong."""
+    """Raise ModelError if the very first outputs are no numbers: it is the function that is wrong."""
     if len(known) == 1 and one.failed and one.message.startswith(WRONG_KIND):
         where, _, what = one.message.partition(": ")
         raise ModelError(where, what)

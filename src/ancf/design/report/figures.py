@@ -124,7 +124,9 @@ def _tornado(figure: Figure, table: DataFrame, found: dict[str, Any], name: str)
     middle = found["outputs"][name]["mean"]
     places = np.arange(len(rows))
     for k, (label, colour) in enumerate((("lowest values", style.SKY), ("highest values", style.ORANGE)), 1):
-        axes.barh(places, [row[k] - middle for row in rows], left=middle, color=colour, height=0.6, label=label)
+        axes.barh(
+            places, [row[k] - middle for row in rows], left=middle, color=colour, height=0.6, label=label
+        )
     axes.axvline(middle, color=style.BLACK, lw=0.8)
     axes.set_yticks(places, [row[0] for row in rows])
     axes.set_xlabel(f"mean of {name}")
@@ -136,9 +138,21 @@ def _sobol(figure: Figure, table: DataFrame, found: dict[str, Any], name: str) -
     rows = sorted(found["saltelli"][name]["indices"].items(), key=lambda item: -item[1]["ST"])[:MOST_BARS]
     axes = figure.subplots()
     places = np.arange(len(rows))
-    for shift, key, label, colour in ((-0.2, "S1", "first order", style.BLUE), (0.2, "ST", "total", style.ORANGE)):
+    for shift, key, label, colour in (
+        (-0.2, "S1", "first order", style.BLUE),
+        (0.2, "ST", "total", style.ORANGE),
+    ):
         values, half = [row[key] for _, row in rows], [row[f"{key}_conf"] for _, row in rows]
-        axes.bar(places + shift, values, 0.36, yerr=half, color=colour, label=label, capsize=2, error_kw={"lw": 0.8})
+        axes.bar(
+            places + shift,
+            values,
+            0.36,
+            yerr=half,
+            color=colour,
+            label=label,
+            capsize=2,
+            error_kw={"lw": 0.8},
+        )
     axes.set_xticks(places, [key for key, _ in rows], rotation=0 if len(rows) < 6 else 40)
     axes.set_ylabel("Sobol' index")
     axes.grid(axis="x", visible=False)
@@ -213,29 +227,29 @@ FIGURES: dict[str, FigureKind] = {
     ),
     "tornado": FigureKind(
         "Tornado",
-        "Mean of the cases with the lowest and with the highest values of each parameter, from the mean of all.",
+        "Mean of the cases with the lowest and with the highest values of each parameter, beside the mean.",
         _of_bars,
         _tornado,
         _affected,
     ),
     "effects": FigureKind(
         "Main effects",
-        "Mean over the cases with about this value of one parameter, and its standard error; the share of the "
-        "variance that one parameter alone explains.",
+        "Mean over the cases with about this value of one parameter, and its standard error; the share of "
+        "the variance that one parameter alone explains.",
         _of_panels,
         _effects,
         _affected,
     ),
     "sobol": FigureKind(
         "Sobol' indices",
-        "Share of the variance that a parameter has alone, and with all its interactions; bars of 95 % confidence.",
+        "Share of the variance that a parameter has alone, and with all its interactions, with 95 % confidence.",
         _wide,
         _sobol,
         _with_indices("saltelli"),
     ),
     "morris": FigureKind(
         "Morris' elementary effects",
-        "To the right: parameters that matter. Above: those whose effect depends on the others, or is not linear.",
+        "To the right: parameters that matter. Above: those whose effect depends on others or bends.",
         _wide,
         _morris,
         _with_indices("morris"),

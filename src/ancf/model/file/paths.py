@@ -15,6 +15,10 @@ from ..checks import listed, nearest, shown
 STEP = re.compile(r'\.?(?:"(?P<quoted>[^"]*)"|(?P<bare>[^.\[\]"=]+))|\[(?P<index>\d+)\]')
 
 
+class PathError(ModelError):
+    """A path that a file does not have."""
+
+
 def changed(tables: dict[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
     """Tables of a file with other values at some paths.
 
@@ -85,7 +89,7 @@ def assignments(texts: list[str] | None) -> dict[str, Any]:
 def _set(tables: dict[str, Any], path: str, value: Any) -> None:
     holder, step, _ = _place(tables, path)
     if isinstance(holder, dict) and isinstance(holder.get(step), dict | list) and _is_number(value):
-        raise ModelError(path, "is no number but a table or a list", _inside(holder[step]))
+        raise PathError(path, "is no number but a table or a list", _inside(holder[step]))
     holder[step] = value
 
 
@@ -105,7 +109,7 @@ def _place(tables: dict[str, Any], path: str) -> tuple[Any, Any, str]:
         if isinstance(here, list):
             step = _item(here, step, where, path)
         elif not isinstance(here, dict) or isinstance(step, int):
-            raise ModelError(path, f'"{where}" is {shown(here)}, there is nothing inside')
+            raise PathError(path, f'"{where}" is {shown(here)}, there is nothing inside')
         elif step not in here and not (last and (where or _is_no_parameter(step, here))):
             raise _unknown(path, where, step, here)
         if last:
@@ -124,7 +128,7 @@ def _steps(path: str) -> list[str | int]:
         made.append(int(step["index"]) if step["index"] else step["quoted"] or step["bare"] or "")
     if not made or place != len(path) or "" in made:
         hint = 'write it like sections.rope.EA, spans[3].length, connections."dropper 1".stiffness'
-        raise ModelError(path or '""', "is no path to a value of a file", hint)
+        raise PathError(path or '""', "is no path to a value of a file", hint)
     return made
 
 
@@ -136,9 +140,9 @@ def _item(items: list[Any], step: str | int, where: str, path: str) -> int:
             return names.index(step)
         known = [name for name in names if isinstance(name, str)]
         have = f"there are: {listed(known)}" if known else f"its entries have no names: {_count(items)}"
-        raise ModelError(path, f'"{where}" has no entry "{step}", {have}', nearest(step, known))
+        raise PathError(path, f'"{where}" has no entry "{step}", {have}', nearest(step, known))
     if step >= len(items):
-        raise ModelError(path, f'"{where}" has {_count(items)}')
+        raise PathError(path, f'"{where}" has {_count(items)}')
     return step
 
 
@@ -151,10 +155,10 @@ def _count(items: list[Any]) -> str:
     return "1 entry, [0]" if len(items) == 1 else f"{len(items)} entries, [0] to [{len(items) - 1}]"
 
 
-def _unknown(path: str, where: str, step: Any, here: Mapping[str, Any]) -> ModelError:
+def _unknown(path: str, where: str, step: Any, here: Mapping[str, Any]) -> PathError:
     names = [*here] if where else [*here, *_names(here.get("parameters"))]
     inside = f'"{where}" has' if where else "the file has"
-    return ModelError(path, f'{inside} no "{step}", there are: {listed(names, 30)}', nearest(step, names))
+    return PathError(path, f'{inside} no "{step}", there are: {listed(names, 30)}', nearest(step, names))
 
 
 def _inside(value: Any) -> str:
