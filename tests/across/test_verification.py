@@ -11,8 +11,8 @@ from ancf.model.refine import refined
 from ancf.verification import _changed, _halved, _Output, verify
 from places import EXAMPLES
 
-#: Model files; line.toml describes an overhead line.
-FILES = sorted(path.name for path in EXAMPLES.glob("*.toml") if path.name != "line.toml")
+#: Model files; line.toml describes an overhead line, study.toml a study.
+FILES = sorted({path.name for path in EXAMPLES.glob("*.toml")} - {"line.toml", "study.toml"})
 
 
 def cantilever(elements, **more):

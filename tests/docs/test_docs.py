@@ -16,6 +16,7 @@ from typer.testing import CliRunner
 
 from ancf import catenary
 from ancf.cli.app import app
+from ancf.design.file import StudyEntry
 from ancf.model import inputs
 from ancf.model.file import parameters, parse_study
 from ancf.model.file.entries import FileEntry
@@ -86,6 +87,8 @@ def check_toml(block, namespace):
     if "contact_wire" in data:
         Path("line to check.toml").write_text(block.text, encoding="utf-8")
         catenary.read_line("line to check.toml")
+    elif "sampling" in data:
+        StudyEntry.model_validate(data)
     elif "title" in data or "file" in block.comments:
         parse_study(data)
     else:

@@ -17,8 +17,8 @@ from places import EXAMPLES
 WITH_MAIN = ("cantilever", "pendulum", "spin_up", "coupled_wires", "sliding_beam")
 #: Scripts of tests/control/test_control_examples.py.
 CONTROLLED = ("active_pantograph", "crane", "crane_env")
-#: Model files; line.toml describes an overhead line.
-FILES = sorted(path.name for path in EXAMPLES.glob("*.toml") if path.name != "line.toml")
+#: Model files; line.toml describes an overhead line, study.toml a study.
+FILES = sorted({path.name for path in EXAMPLES.glob("*.toml")} - {"line.toml", "study.toml"})
 
 JACOBIANS = ["element", "f", "E", "jacobians", "newton_iterations", "steps", "status", "t_reached"]
 MESH = ["element", "carrier", "slider"]
