@@ -11,7 +11,9 @@ from .errors import Interrupted, ModelError, SolveError
 if TYPE_CHECKING:
     from .analysis import equilibrium, load, modes, simulate, stable_step
     from .control.stepper import Stepper, stepper
+    from .design.calibrate import calibrate
     from .design.distributions import Discrete, LogNormal, Normal, Triangular, Uniform
+    from .design.fit import Fit
     from .design.sampling import sample
     from .design.study import study
     from .model import Model, Section
@@ -40,6 +42,8 @@ _LATER = {
     "GeneralizedAlpha": "model.integrators",
     "Radau": "model.integrators",
     "Newton": "model.integrators",
+    "calibrate": "design.calibrate",
+    "Fit": "design.fit",
     "sample": "design.sampling",
     "study": "design.study",
     **dict.fromkeys(("Uniform", "Normal", "LogNormal", "Triangular", "Discrete"), "design.distributions"),
@@ -50,6 +54,7 @@ _LATER = {
 __all__ = [
     "Discrete",
     "Explicit",
+    "Fit",
     "GeneralizedAlpha",
     "Interrupted",
     "LogNormal",
@@ -69,6 +74,7 @@ __all__ = [
     "Uniform",
     "Verification",
     "__version__",
+    "calibrate",
     "equilibrium",
     "load",
     "modes",

@@ -241,6 +241,7 @@ class TestPaths:
             ("sections.rope", "in it are: "),
             ("gravity[3]", '"gravity" has 3 entries, [0] to [2]'),
             ("nn", 'the file has no "nn"'),
+            ("parameters.nn", '"parameters" has no "nn", there are: "g", "d", "A", "E", "F", "n" (did you'),
             ("titel", 'titel: unknown key, allowed: "title"'),
             ("", "is no path"),
             ("a..b", "is no path"),

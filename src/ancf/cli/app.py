@@ -389,6 +389,29 @@ def study(
         run_study(file, output, options, quiet)
 
 
+CalibrationFile = Annotated[
+    Path, typer.Argument(metavar="CALIBRATE.toml", help="Calibration file.", show_default=False)
+]
+
+
+@app.command()
+def calibrate(
+    file: CalibrationFile,
+    output: Folder = Path("out"),
+    workers: Workers = None,
+    report: Report = True,
+    quiet: Quiet = False,
+) -> None:
+    """Find parameters of a model from measured histories, by least squares.
+
+    Writes OUT/fit.json, OUT/fit.csv and OUT/report.html, and prints the parameters with their confidence.
+    """
+    with reported():
+        from .calibrate import calibrate_file
+
+        calibrate_file(file, output, workers, report, quiet)
+
+
 MoorDynInput = Annotated[
     Path, typer.Argument(metavar="LINES.txt", help="Input file of MoorDyn, version 2.", show_default=False)
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -11,6 +11,7 @@ import numpy as np
 
 import ancf
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.file.paths import PathError, changed
 from ..viz.pictures.questions import QUANTITIES, ask
@@ -79,15 +80,34 @@ class ModelCase:
         if study.simulation is None and study.equilibrium is None:
             hint = "add a table [simulation] with t_end and step, or [equilibrium]"
             raise ModelError("model", "nothing to compute", hint)
-        for name, formula in self.formulas:
-            for quantity, item in formula.asked:
-                _sensor(study.model, quantity, item, f"outputs.{name}")
+        check_asked(study.model, (formula for _, formula in self.formulas))
 
     def __call__(self, **values: Any) -> dict[str, float]:
         """Outputs of the case with these values."""
         study = self.read(values)
         answers = _ModelAnswers(study, self.formulas)
         return {name: formula(answers) for name, formula in self.formulas}
+
+
+def histories(study: Study, formulas: Mapping[str, Formula], times: FloatArray) -> dict[str, FloatArray]:
+    """Values (n,) of formulas at times (n,), s, of the simulation of a study, linear between its steps.
+
+    Raises
+    ------
+    ModelError
+        A formula asks for what there is not, or gives no history.
+    """
+    check_asked(study.model, formulas.values())
+    answers = _ModelAnswers(study, list(formulas.items()))
+    t = np.asarray(answers.value("t"))
+    return {name: np.interp(times, t, formula.history(answers)) for name, formula in formulas.items()}
+
+
+def check_asked(model: Any, formulas: Iterable[Formula]) -> None:
+    """Raise ModelError if a formula asks for what a model does not have."""
+    for formula in formulas:
+        for quantity, item in formula.asked:
+            _sensor(model, quantity, item, formula.where)
 
 
 def check_paths(read: Callable[[Mapping[str, Any]], Any], values: Mapping[str, Any]) -> None:

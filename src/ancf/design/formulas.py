@@ -131,6 +131,22 @@ class Formula:
             raise ModelError(self.where, f'"{self.text}" is {number}, must be a finite number')
         return number
 
+    def history(self, case: Answers) -> Any:
+        """Its values (n,) at the times of the case.
+
+        Raises
+        ------
+        ModelError
+            It gives something else.
+        """
+        with np.errstate(all="ignore"):
+            found = np.asarray(self._compiled(case), dtype=np.float64)
+        times = np.asarray(case.value("t"))
+        if found.shape != times.shape:
+            what = f'"{self.text}" gives {_shape(found)} at {len(times)} times, must give one at each'
+            raise ModelError(self.where, what, "such as position(...)[2]")
+        return found
+
     def _compile(self, node: ast.AST) -> Callable[[Answers], Any]:
         match node:
             case ast.Constant(value=bool() | str()):

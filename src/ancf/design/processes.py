@@ -143,7 +143,7 @@ class Processes:
         context = multiprocessing.get_context("spawn")
         ours, theirs = context.Pipe()
         process = context.Process(target=serve, args=(theirs, self._function), daemon=True)
-        with _one_thread(), _without_script():
+        with one_thread(), without_script():
             process.start()
         theirs.close()
         return Worker(process, ours)
@@ -165,7 +165,7 @@ def _end(process: BaseProcess) -> None:
 
 
 @contextmanager
-def _one_thread() -> Iterator[None]:
+def one_thread() -> Iterator[None]:
     """Variables that a new process inherits, unless the user has set them."""
     added = [name for name in THREADS if name not in os.environ]
     os.environ.update(dict.fromkeys(added, "1"))
@@ -177,7 +177,7 @@ def _one_thread() -> Iterator[None]:
 
 
 @contextmanager
-def _without_script() -> Iterator[None]:
+def without_script() -> Iterator[None]:
     """A new process must not run the user's script again: the function comes to it by value."""
     main = sys.modules["__main__"]
     sys.modules["__main__"] = types.ModuleType("__main__")

@@ -81,8 +81,8 @@ def study(
     """Call a function for every row of a table and gather the numbers that it returns.
 
     Whatever is killed, the same call goes on: each case is written to ``folder/journal.sqlite`` when it
-    ends, and none is computed twice, also not when there are more samples later. The table does not depend on the
-    number of workers, nor on the order in which they end.
+    ends, and none is computed twice, also not when there are more samples later. The table does not depend on
+    the number of workers, nor on the order in which they end.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def study(
     samples : DataFrame
         A row for each case, from :func:`ancf.sample` or made otherwise.
     folder : path, optional
-        For the journal, ``table.csv``, ``table.parquet``, ``study.json`` and ``report.html``; default none.
+        For the journal, the tables, ``study.json`` and ``report.html``; default none.
     workers : int
         Processes, default one for each core; 0: in this process.
     scheduler : str or distributed.Client

@@ -242,14 +242,14 @@ FIGURES: dict[str, FigureKind] = {
     ),
     "sobol": FigureKind(
         "Sobol' indices",
-        "Share of the variance that a parameter has alone, and with all its interactions, with 95 % confidence.",
+        "Share of the variance of a parameter alone, and with its interactions, with 95 % confidence.",
         _wide,
         _sobol,
         _with_indices("saltelli"),
     ),
     "morris": FigureKind(
         "Morris' elementary effects",
-        "To the right: parameters that matter. Above: those whose effect depends on others or bends.",
+        "To the right: parameters that matter. Above: those whose effect varies.",
         _wide,
         _morris,
         _with_indices("morris"),

@@ -110,7 +110,7 @@ def _place(tables: dict[str, Any], path: str) -> tuple[Any, Any, str]:
             step = _item(here, step, where, path)
         elif not isinstance(here, dict) or isinstance(step, int):
             raise PathError(path, f'"{where}" is {shown(here)}, there is nothing inside')
-        elif step not in here and not (last and (where or _is_no_parameter(step, here))):
+        elif step not in here and not (last and _may_be_default(step, where, here)):
             raise _unknown(path, where, step, here)
         if last:
             return here, step, where
@@ -146,9 +146,11 @@ def _item(items: list[Any], step: str | int, where: str, path: str) -> int:
     return step
 
 
-def _is_no_parameter(step: str, tables: Mapping[str, Any]) -> bool:
-    """Whether a name that stands alone is not meant for a parameter: it may be a key with a default."""
-    return not nearest(step, _names(tables.get("parameters")))
+def _may_be_default(step: str, where: str, here: Mapping[str, Any]) -> bool:
+    """Whether a key that is not in a table may be one with a default: who reads the file tells if it is."""
+    if where:
+        return where != "parameters"
+    return not nearest(step, _names(here.get("parameters")))
 
 
 def _count(items: list[Any]) -> str:
