@@ -7,7 +7,6 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from multiprocessing import get_context
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,18 +17,15 @@ from ..model import checks
 from ..model.file import Study
 from ..model.model import Model
 from ..model.settings import SimulationSettings
+from .calibration_data import TIME, bounds_of, columns_of, is_logarithmic, numbers_of, start_of
 from .cases import OF_MODEL, histories
-from .columns import read_columns
 from .fit import Fit
 from .formulas import Formula
 from .processes import one_thread, without_script
 from .work import packed, unpacked
 
-TIME = "t"
 #: Step of the central differences, in units of the distance of the bounds (or of its logarithm).
 STEP = 1e-4
-#: Ratio of positive bounds above which the logarithm of a parameter is looked for.
-WIDE = 10.0
 #: Singular values of the derivatives below this part of the largest tell nothing.
 NOTHING = 1e-9
 #: Residuals of a model that could not be computed, in units of those at the start.
@@ -93,7 +89,7 @@ def calibrate(
     """
     from scipy.optimize import least_squares
 
-    bounds = _bounds(parameters)
+    bounds = bounds_of(parameters)
     columns = columns_of(data)
     times = columns.pop(TIME)
     problem = _Problem(build, bounds, times, columns, _settings(times, step, begin, integrator))
@@ -103,14 +99,14 @@ def calibrate(
         raise ModelError("calibrate.data", f"has {count} numbers for {len(bounds)} parameters", "give more")
     checks.integer(most, "calibrate.most", 1, 100_000)
     with _pool(problem, checks.integer(workers, "calibrate.workers", 0, 10_000)) as compute:
-        first = compute([problem.units(_start(start, bounds))])[0]
+        first = compute([problem.units(start_of(start, bounds))])[0]
         if isinstance(first, Exception):
             raise first
         search = _Search(problem, compute, FAILED * (1.0 + float(np.max(np.abs(first)))))
         found = least_squares(
             search.residuals,
-            problem.units(_start(start, bounds)),
-            jac=search.derivatives,  # type: ignore[arg-type]
+            problem.units(start_of(start, bounds)),
+            jac=search.derivatives,
             bounds=(np.zeros(len(bounds)), np.ones(len(bounds))),
             x_scale="jac",
             xtol=1e-10,
@@ -153,7 +149,7 @@ class _Problem:
         """Parameters of numbers (p,) from 0 to 1."""
         made = {}
         for x, (name, (low, high)) in zip(u.tolist(), self.bounds.items(), strict=True):
-            made[name] = low * (high / low) ** x if _logarithmic(low, high) else low + (high - low) * x
+            made[name] = low * (high / low) ** x if is_logarithmic(low, high) else low + (high - low) * x
         return made
 
     def units(self, values: Mapping[str, float]) -> FloatArray:
@@ -162,7 +158,7 @@ class _Problem:
         for name, (low, high) in self.bounds.items():
             x = values[name]
             linear = (x - low) / (high - low)
-            made.append(np.log(x / low) / np.log(high / low) if _logarithmic(low, high) else linear)
+            made.append(np.log(x / low) / np.log(high / low) if is_logarithmic(low, high) else linear)
         return np.array(made)
 
     def slopes(self, u: FloatArray) -> FloatArray:
@@ -170,7 +166,7 @@ class _Problem:
         values = self.values(u)
         return np.array(
             [
-                values[name] * np.log(high / low) if _logarithmic(low, high) else high - low
+                values[name] * np.log(high / low) if is_logarithmic(low, high) else high - low
                 for name, (low, high) in self.bounds.items()
             ]
         )
@@ -184,7 +180,7 @@ class _Problem:
             given = checks.listed(made) if isinstance(made, Mapping) else checks.shown(made)
             what = f"must return a Model, or numbers for {checks.listed(self.columns)}; returned {given}"
             raise ModelError("calibrate.build", what)
-        return {name: _numbers(made[name], self.times, name) for name in self.columns}
+        return {name: numbers_of(made[name], self.times, name) for name in self.columns}
 
     def _simulated(self, model: Model) -> dict[str, FloatArray]:
         if self.settings is None:
@@ -308,85 +304,6 @@ def _tried(problem: _Problem, point: FloatArray) -> Any:
         return error
 
 
-def _logarithmic(low: float, high: float) -> bool:
-    return low > 0.0 and high > WIDE * low
-
-
-def _bounds(parameters: Any) -> dict[str, tuple[float, float]]:
-    if not isinstance(parameters, Mapping) or not parameters:
-        raise ModelError("calibrate.parameters", "must be bounds (low, high) by name")
-    made = {}
-    for name, given in parameters.items():
-        low, high = checks.array(given, f"calibrate.parameters: {name}", (2,)).tolist()
-        if not low < high:
-            what = f"has the bounds {low:g} and {high:g}, the first must be below"
-            raise ModelError(f"calibrate.parameters: {name}", what)
-        made[str(name)] = (low, high)
-    return made
-
-
-def _start(start: Mapping[str, float] | None, bounds: dict[str, tuple[float, float]]) -> dict[str, float]:
-    """Where to begin: what is given, else the middle of the bounds or of their logarithms."""
-    given = dict(start or {})
-    for name in given:
-        if name not in bounds:
-            raise ModelError(f"calibrate.start: {name}", "is no parameter", checks.nearest(name, bounds))
-    made = {}
-    for name, (low, high) in bounds.items():
-        middle = float(np.sqrt(low * high)) if _logarithmic(low, high) else 0.5 * (low + high)
-        made[name] = checks.between(given.get(name, middle), f"calibrate.start: {name}", low, high)
-    return made
-
-
-def columns_of(data: Any) -> dict[str, FloatArray]:
-    """Columns of numbers (n,) of a file, a table or a mapping; ModelError if they are none."""
-    where = "calibrate.data"
-    if isinstance(data, str | Path):
-        found: Mapping[str, Any] = read_columns(Path(data), where)
-    elif hasattr(data, "columns"):
-        found = {str(name): data[name].to_numpy() for name in data.columns}
-    elif isinstance(data, Mapping):
-        found = data
-    else:
-        raise ModelError(where, f"must be a file, a table or columns by name, is {checks.shown(data)}")
-    made = {str(name): _column(column, f'{where}["{name}"]') for name, column in found.items()}
-    if TIME not in made or len(made) < 2:
-        what = f'has the columns {checks.listed(made)}: wanted "t" and at least one that was measured'
-        raise ModelError(where, what)
-    times = made[TIME]
-    if len(times) < 1 or not np.all(np.isfinite(times)) or np.any(np.diff(times) <= 0) or times[0] < 0:
-        raise ModelError(f'{where}["t"]', "must be increasing times from 0 on, s")
-    for name, column in made.items():
-        if len(column) != len(times):
-            raise ModelError(f'{where}["{name}"]', f"has {len(column)} entries for {len(times)} times")
-    return made
-
-
-def _column(given: Any, where: str) -> FloatArray:
-    values = [float("nan") if isinstance(x, str) and not x.strip() else x for x in list(given)]
-    try:
-        return np.array([float(x) for x in values])
-    except (TypeError, ValueError):
-        wrong = next(x for x in values if not _is_number(x))
-        raise ModelError(where, f"must hold numbers, holds {checks.shown(wrong)}") from None
-
-
-def _is_number(x: Any) -> bool:
-    try:
-        float(x)
-    except (TypeError, ValueError):
-        return False
-    return True
-
-
-def _numbers(given: Any, times: FloatArray, name: str) -> FloatArray:
-    made = np.asarray(given, dtype=np.float64)
-    if made.shape != times.shape or not np.all(np.isfinite(made)):
-        what = f"must be {len(times)} finite numbers, has the shape {made.shape}"
-        raise ModelError(f'calibrate.build: "{name}"', what if made.shape != times.shape else "is not finite")
-    return made
-
-
 def _settings(times: FloatArray, step: Any, begin: str, integrator: Any) -> SimulationSettings | None:
     if step is None:
         return None
@@ -399,5 +316,5 @@ def _settings(times: FloatArray, step: Any, begin: str, integrator: Any) -> Simu
         t_end=steps * clean,
         step=clean,
         integrator=method_of(integrator),
-        start=begin,  # type: ignore[arg-type]
+        start=begin,
     )

@@ -15,7 +15,8 @@ from ..errors import ModelError
 from ..model.file import read_toml
 from ..model.file.fields import Entry, Positive
 from ..model.file.messages import combined, of_validation
-from .calibrate import TIME, calibrate, columns_of
+from .calibrate import calibrate
+from .calibration_data import TIME, columns_of
 from .cases import OF_MODEL, ModelCase, check_asked, check_paths, histories
 from .fit import Fit
 from .formulas import Formula

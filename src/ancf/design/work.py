@@ -63,7 +63,7 @@ def _told(error: Exception) -> str:
     return " ".join((text if named else f"{type(error).__name__}: {text}").split())
 
 
-def packed(function: Function) -> bytes:
+def packed(function: Callable[..., Any]) -> bytes:
     """The function as bytes that another process understands, also one of a script or a notebook.
 
     Raises
@@ -82,7 +82,6 @@ def packed(function: Function) -> bytes:
         raise ModelError("study.function", what, "give it plain data, and open files inside it") from None
 
 
-def unpacked(content: bytes) -> Function:
+def unpacked(content: bytes) -> Any:
     """The function again."""
-    function: Function = pickle.loads(content)
-    return function
+    return pickle.loads(content)
