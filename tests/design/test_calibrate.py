@@ -84,7 +84,7 @@ class TestLinear:
             assert abs(fit.values[name] - value) < 4 * fit.deviations[name]
 
     def test_derivatives_are_of_the_parameters_themselves(self):
-        """Also where their logarithms were looked for: errors of bounds that are near and far are the same."""
+        """Also where their logarithms were looked for: near and far bounds give the same errors."""
         data = noisy(wave(2.0, 0.7), 0.02, 5)
         near, far = (
             ancf.calibrate(wave, data, {"size": b, "rate": (0.1, 5.0)}) for b in ((1.0, 3.0), (1e-3, 1e3))

@@ -11,6 +11,22 @@ import typer
 
 from . import export_options as exporting
 from .guard import reported
+from .line_options import (
+    Case,
+    CaseSpeed,
+    ContactKind,
+    Forces,
+    LineName,
+    OutputStep,
+    Pantographs,
+    Spacing,
+    Speed,
+    Start,
+    Step,
+    Window,
+)
+from .study_options import CalibrationFile, Retry, Scheduler, Status, StudyFile, Workers
+from .view_options import Color, Frames, Open, Page, Traced
 
 app = typer.Typer(
     name="ancf",
@@ -55,48 +71,8 @@ Jobs = Annotated[
     int | None,
     typer.Option("--jobs", "-j", metavar="N", help="Processes at once.", show_default="one for each core"),
 ]
-LineName = Annotated[
-    str, typer.Argument(metavar="LINE", help="Line of the catalogue, or a line file.", show_default=False)
-]
 OptionalFolder = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="OUT", help="Folder for a CSV file.")
-]
-Forces = Annotated[list[float] | None, typer.Option("--force", help="Upward force, N; may be repeated.")]
-Case = Annotated[
-    str,
-    typer.Argument(
-        metavar="CASE", help="Reference case, such as en50318-2002, or mooring.", show_default=False
-    ),
-]
-Speed = Annotated[float, typer.Option("--speed", metavar="KMH", help="Speed, km/h.", show_default=False)]
-CaseSpeed = Annotated[
-    float | None, typer.Option("--speed", metavar="KMH", help="Speed of a line, km/h.", show_default=False)
-]
-Pantographs = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--pantograph",
-        metavar="NAME",
-        help="Of the catalogue; once for all, or once for each, the first ahead.",
-        show_default="benchmark-2015",
-    ),
-]
-Spacing = Annotated[
-    list[float] | None,
-    typer.Option(metavar="M", help="Distance to another pantograph behind, m; may be repeated."),
-]
-Start = Annotated[
-    float | None,
-    typer.Option(metavar="M", help="Track position of the last pantograph at the start, m."),
-]
-Window = Annotated[
-    tuple[float, float] | None, typer.Option(metavar="FROM TO", help="Track interval that is evaluated, m.")
-]
-ContactKind = Annotated[str, typer.Option("--contact", metavar="KIND", help='"penalty" or "joint".')]
-Step = Annotated[float | None, typer.Option(metavar="S", help="Time step, s.", show_default="0.001")]
-OutputStep = Annotated[
-    float | None,
-    typer.Option(metavar="S", help="Time between stored states of the line, s.", show_default="0.02"),
 ]
 States = Annotated[
     bool, typer.Option(help="Write OUT/results.h5 as well, some 10 to 100 MB for ancf view and ancf export.")
@@ -105,24 +81,6 @@ Report = Annotated[bool, typer.Option(help="Write OUT/report.html as well, which
 ResultsFile = Annotated[
     Path, typer.Argument(metavar="RESULTS.h5", help="Results file, or its folder.", show_default=False)
 ]
-Page = Annotated[
-    Path | None,
-    typer.Option("--output", "-o", metavar="FILE", help="HTML file.", show_default="view.html beside it"),
-]
-Frames = Annotated[int, typer.Option(metavar="N", help="States that are shown, at most.")]
-Color = Annotated[
-    str, typer.Option(metavar="WHAT", help='"tension", "curvature", "speed" or "plain" when it opens.')
-]
-Traced = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--trace",
-        metavar="POINT",
-        help="Point whose path is drawn; may be repeated.",
-        show_default="up to three that move most",
-    ),
-]
-Open = Annotated[bool, typer.Option("--open/--no-open", help="Open it in a browser.")]
 SchemaFile = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="FILE", help="File to write, instead of printing it.")
 ]
@@ -348,21 +306,6 @@ def validate(
             validate_case(case, speed, output, report, quiet)
 
 
-StudyFile = Annotated[
-    Path,
-    typer.Argument(metavar="STUDY.toml", help="Study file, or with --status a folder.", show_default=False),
-]
-Workers = Annotated[
-    int | None,
-    typer.Option("--workers", "-j", metavar="N", help="Processes at once.", show_default="one for each core"),
-]
-Scheduler = Annotated[
-    str | None, typer.Option(metavar="ADDRESS", help="Scheduler of a Dask cluster, such as tcp://host:8786.")
-]
-Retry = Annotated[bool, typer.Option("--retry", help="Compute once more what failed before.")]
-Status = Annotated[bool, typer.Option("--status", help="Say how far the study in a folder is.")]
-
-
 @app.command()
 def study(
     file: StudyFile,
@@ -387,11 +330,6 @@ def study(
             return
         options = {"workers": workers, "scheduler": scheduler, "retry": retry, "report": report}
         run_study(file, output, options, quiet)
-
-
-CalibrationFile = Annotated[
-    Path, typer.Argument(metavar="CALIBRATE.toml", help="Calibration file.", show_default=False)
-]
 
 
 @app.command()

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import ancf
-
+from ..analysis import equilibrium, modes, simulate
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.file.paths import PathError, changed
@@ -148,7 +147,7 @@ class _ModelAnswers:
         whole = any(quantity in OF_STATES for quantity, _ in asked)
         items = [] if whole else list(dict.fromkeys(item for _, item in asked))
         steps = max(1, round(settings.t_end / settings.step))
-        result = ancf.simulate(
+        result = simulate(
             study.model,
             t_end=settings.t_end,
             step=settings.step,
@@ -164,12 +163,12 @@ class _ModelAnswers:
         if settings is not None and settings.start != "equilibrium":
             return None
         of = None if settings is None else settings.equilibrium_of
-        return ancf.equilibrium(self.study.model, of=of, load_steps=given.load_steps if given else 1)
+        return equilibrium(self.study.model, of=of, load_steps=given.load_steps if given else 1)
 
     def value(self, name: str) -> Any:
         """Times of the run, or frequencies in Hz about its start."""
         if name == "frequency":
-            return ancf.modes(self.study.model, about=self._start, count=max(self._count, 1)).frequencies_hz
+            return modes(self.study.model, about=self._start, count=max(self._count, 1)).frequencies_hz
         return np.zeros(1) if self._sampled is None else self._sampled.t
 
     def ask(self, quantity: str, item: str) -> Any:
