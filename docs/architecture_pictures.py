@@ -15,6 +15,7 @@ FOLDER = Path(__file__).parent / "_static"
 #: From the top floor down: folders and files, what they hold; the same as in `tests/house/test_layers.py`.
 FLOORS = (
     ("cli", "commands, terminal, folders of output"),
+    ("design", "studies of many variants, in parallel"),
     ("paper", "the paper's exhibits"),
     ("cosimulation", "a model file as a unit of FMI"),
     ("mooring", "mooring lines beside other programs"),

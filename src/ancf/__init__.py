@@ -11,6 +11,11 @@ from .errors import Interrupted, ModelError, SolveError
 if TYPE_CHECKING:
     from .analysis import equilibrium, load, modes, simulate, stable_step
     from .control.stepper import Stepper, stepper
+    from .design.calibrate import calibrate
+    from .design.distributions import Discrete, LogNormal, Normal, Triangular, Uniform
+    from .design.fit import Fit
+    from .design.sampling import sample
+    from .design.study import study
     from .model import Gusts, Model, Section, Waves
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
     from .model.surface_shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
@@ -46,6 +51,11 @@ _LATER = {
     "GeneralizedAlpha": "model.integrators",
     "Radau": "model.integrators",
     "Newton": "model.integrators",
+    "calibrate": "design.calibrate",
+    "Fit": "design.fit",
+    "sample": "design.sampling",
+    "study": "design.study",
+    **dict.fromkeys(("Uniform", "Normal", "LogNormal", "Triangular", "Discrete"), "design.distributions"),
     "Verification": "verification",
     "verify": "verification",
 }
@@ -53,14 +63,18 @@ _LATER = {
 __all__ = [
     "Capsule",
     "Cylinder",
+    "Discrete",
     "Explicit",
+    "Fit",
     "GeneralizedAlpha",
     "Gusts",
     "Interrupted",
+    "LogNormal",
     "Model",
     "ModelError",
     "Modes",
     "Newton",
+    "Normal",
     "Plane",
     "Radau",
     "Result",
@@ -72,16 +86,21 @@ __all__ = [
     "Stepper",
     "Torus",
     "Trapezoidal",
+    "Triangular",
+    "Uniform",
     "Verification",
     "Waves",
     "__version__",
+    "calibrate",
     "equilibrium",
     "load",
     "modes",
     "resume",
+    "sample",
     "simulate",
     "stable_step",
     "stepper",
+    "study",
     "verify",
 ]
 

@@ -325,6 +325,26 @@ def announce_compilation(say: Callable[[], None]) -> None:
     event.register("numba:compile", _Announcer(say))
 
 
+class _Watcher(event.Listener):
+    def __init__(self, tell: Callable[[int], None]) -> None:
+        self.tell, self.depth = tell, 0
+
+    def on_start(self, event: Any) -> None:
+        self.depth += 1
+        if self.depth == 1:
+            self.tell(1)
+
+    def on_end(self, event: Any) -> None:
+        self.depth -= 1
+        if self.depth == 0:
+            self.tell(0)
+
+
+def watch_compilation(tell: Callable[[int], None]) -> None:
+    """Call ``tell(1)`` whenever a kernel begins to be compiled and ``tell(0)`` when none is any more."""
+    event.register("numba:compile", _Watcher(tell))
+
+
 def optional(function: Callable[..., Any], default: Any = None) -> Any:
     """Kernel whose first argument is a tuple; of an empty one it returns `default` and compiles nothing."""
 

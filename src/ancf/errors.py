@@ -30,6 +30,9 @@ class ModelError(ValueError):
         self.where, self.what, self.hint = where, what, hint
         super().__init__(_sentence(where, what, hint))
 
+    def __reduce__(self) -> Any:
+        return _error, (type(self), self.where, self.what, self.hint, self.__dict__)
+
 
 class SolveError(RuntimeError):
     """A solve stopped; what was computed until then is kept.
@@ -55,6 +58,9 @@ class SolveError(RuntimeError):
         self.where, self.what, self.hint = where, what, hint
         super().__init__(_sentence(where, what, hint))
 
+    def __reduce__(self) -> Any:
+        return _error, (type(self), self.where, self.what, self.hint, self.__dict__)
+
     def advise(self, hint: str) -> None:
         """Put a hint before the one that there is."""
         self.hint = f"{hint}; else {self.hint}" if self.hint else hint
@@ -72,6 +78,9 @@ class Interrupted(KeyboardInterrupt):
         self.result = result
         super().__init__("the simulation was interrupted")
 
+    def __reduce__(self) -> Any:
+        return type(self), (self.result,)
+
 
 def named(name: Any) -> str:
     """A name as the place of an error; in quotation marks where nothing of it would be seen."""
@@ -81,3 +90,10 @@ def named(name: Any) -> str:
 
 def _sentence(where: str, what: str, hint: str) -> str:
     return f"{where}: {what}" + (f" ({hint})" if hint else "")
+
+
+def _error(kind: type[Any], where: str, what: str, hint: str, state: dict[str, Any]) -> Any:
+    """An error that was pickled, with its result and its notes."""
+    made = kind(where, what, hint)
+    made.__dict__.update(state)
+    return made

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import re
+import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 from .errors import ModelError
+
+if sys.platform != "win32":
+    import fcntl
 
 #: How HDF5 reports what the system said.
 HDF5_PROBLEM = re.compile(r"errno = \d+, error message = '([^']*)'")
@@ -60,6 +65,33 @@ def writable(folder: Path, name: str = "") -> Path:
     """
     with writing(name or folder, folder), tempfile.TemporaryFile(dir=folder):
         return folder
+
+
+@contextmanager
+def locked(folder: Path | None, name: str) -> Iterator[None]:
+    """No other run writes to the folder meanwhile; a killed run leaves no lock. None is no folder.
+
+    Raises
+    ------
+    ModelError
+        Another process holds it; `name` stands for the folder in the message.
+    """
+    with ExitStack() as stack:
+        if folder is not None:
+            with suppress(OSError):  # a file system without locks
+                _lock(folder, name, stack)
+        yield
+
+
+def _lock(folder: Path, name: str, stack: ExitStack) -> None:
+    if sys.platform == "win32":
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    stack.callback(os.close, descriptor)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise ModelError(name, "another run is writing to it", "choose another with -o") from None
 
 
 def _make(folder: Path) -> None:

@@ -11,8 +11,9 @@ from ancf.model.refine import refined
 from ancf.verification import _changed, _halved, _Output, verify
 from places import EXAMPLES
 
-#: Model files; line.toml describes an overhead line.
-FILES = sorted(path.name for path in EXAMPLES.glob("*.toml") if path.name != "line.toml")
+#: Model files; line.toml describes an overhead line, study.toml a study, calibrate.toml a calibration.
+OTHERS = {"line.toml", "study.toml", "calibrate.toml"}
+FILES = sorted({path.name for path in EXAMPLES.glob("*.toml")} - OTHERS)
 
 
 def cantilever(elements, **more):

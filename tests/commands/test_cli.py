@@ -99,6 +99,43 @@ def test_resumed_run_without_a_file(call):
     assert "out/results.h5: there is no such file" in ran.err
 
 
+def test_run_with_other_values(call):
+    """As if the file had them; the summary says which they were."""
+    path = write(MODEL + SIMULATION.replace("0.4", "0.01"))
+    assert (
+        call("run", path, "-q", "--set", "sections.strip.E=5e7", "--set", "bodies.beam.elements=2").code == 0
+    )
+    beam = ancf.load("out/results.h5").model.beams["beam"]
+    assert (beam.section.E, beam.elements) == (5e7, 2)
+    summary = json.loads(Path("out/summary.json").read_text(encoding="utf-8"))
+    assert summary["set"] == {"sections.strip.E": 5e7, "bodies.beam.elements": 2}
+    assert call("check", path, "--set", "sections.strip.E=5e7").code == 0
+
+
+@pytest.mark.parametrize(
+    ("given", "phrase"),
+    [
+        ("sections.strap.E=1", "sections.strap.E"),
+        ("sections.strip.E=-1", "must be > 0, is -1"),
+        ("sections.strip.E=1,5", "must be a number, is '1,5' (str)"),
+        ("sections.strip.E", "must be PATH=VALUE"),
+    ],
+)
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_other_values_that_are_wrong(call, command, given, phrase):
+    ran = call(command, write(MODEL + SIMULATION), "--set", given)
+    assert ran.code == 2
+    assert phrase in ran.said
+    assert not Path("out").exists()
+
+
+def test_results_have_no_values_to_set(call):
+    assert call("run", write(MODEL + EQUILIBRIUM), "-q").code == 0
+    ran = call("check", "out/results.h5", "--set", "title=x")
+    assert ran.code == 2
+    assert "changes model files and line files" in ran.said
+
+
 def test_quiet_run_prints_nothing(call):
     ran = call("run", write(MODEL + SIMULATION), "--quiet")
     assert (ran.code, ran.out, ran.err) == (0, "", "")

@@ -16,8 +16,9 @@ from typer.testing import CliRunner
 
 from ancf import catenary
 from ancf.cli.app import app
+from ancf.design.file import StudyEntry
 from ancf.model import inputs
-from ancf.model.file import parse_study
+from ancf.model.file import parameters, parse_study
 from ancf.model.file.entries import FileEntry
 from pages import DOCS, PAGES, ROOT, WITH_CODE, alone, code_blocks, name_of
 
@@ -86,11 +87,14 @@ def check_toml(block, namespace):
     if "contact_wire" in data:
         Path("line to check.toml").write_text(block.text, encoding="utf-8")
         catenary.read_line("line to check.toml")
+    elif "sampling" in data:
+        StudyEntry.model_validate(data)
     elif "title" in data or "file" in block.comments:
         parse_study(data)
     else:
         try:
-            with inputs.named(inputs.first_values(data.get("inputs"))):
+            first = inputs.first_values(data.get("inputs"))
+            with inputs.named(first), parameters.given(data, first):
                 FileEntry.model_validate(data)
         except ValidationError as error:
             wrong = [problem for problem in error.errors() if problem["type"] != "missing"]

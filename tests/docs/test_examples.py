@@ -17,8 +17,9 @@ from places import EXAMPLES
 WITH_MAIN = ("cantilever", "pendulum", "spin_up", "coupled_wires", "sliding_beam")
 #: Scripts of tests/control/test_control_examples.py.
 CONTROLLED = ("active_pantograph", "crane", "crane_env")
-#: Model files; line.toml describes an overhead line.
-FILES = sorted(path.name for path in EXAMPLES.glob("*.toml") if path.name != "line.toml")
+#: Model files; line.toml describes an overhead line, study.toml a study, calibrate.toml a calibration.
+OTHERS = {"line.toml", "study.toml", "calibrate.toml"}
+FILES = sorted({path.name for path in EXAMPLES.glob("*.toml")} - OTHERS)
 
 JACOBIANS = ["element", "f", "E", "jacobians", "newton_iterations", "steps", "status", "t_reached"]
 MESH = ["element", "carrier", "slider"]

@@ -39,6 +39,7 @@ LAYERS = (
     {"mooring"},
     {"cosimulation"},
     {"paper"},
+    {"design"},
     {"cli"},
 )
 #: The one way up, for methods that draw: in functions and for types, never when the file is imported.
@@ -200,7 +201,10 @@ print("done", len(result.t))
 
 
 class TestExtras:
-    EXTRAS = "matplotlib,plotly,exudyn,sphinx,psutil,furo,pyvista,vtk,jax,pytest"
+    EXTRAS = (
+        "pandas,pyarrow,SALib,dask,distributed,cloudpickle,"
+        "matplotlib,plotly,exudyn,sphinx,psutil,furo,pyvista,vtk,jax,pytest"
+    )
 
     def test_core_runs_without_them(self):
         done = python(BLOCKED + TINY, self.EXTRAS, options=STRICT)

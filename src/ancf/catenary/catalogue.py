@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from ..errors import ModelError
 from ..files import exists
@@ -26,20 +28,38 @@ def line_file(name: str) -> Path:
     return FOLDER / f"{name}.toml"
 
 
-def read_line(name_or_path: str | Path) -> Line:
+def read_line(name_or_path: str | Path, values: Mapping[str, Any] | None = None) -> Line:
     """Line of the catalogue by its name, or from a line file by its path.
+
+    Parameters
+    ----------
+    name_or_path : str or path
+    values : mapping, optional
+        Other values than those of its file, by path: ``{"spans[3].length": 60.0}``.
 
     Raises
     ------
     ModelError
-        There is no such line or file, or the file is wrong.
+        There is no such line, file or path, or the file is wrong.
+
+    """
+    return read_file(path_of(name_or_path), values)
+
+
+def path_of(name_or_path: str | Path) -> Path:
+    """File of a line of the catalogue by its name, or the path itself.
+
+    Raises
+    ------
+    ModelError
+        It is no name of the catalogue and cannot be a file.
 
     """
     text = str(name_or_path)
     if text in line_names():
-        return read_file(line_file(text))
+        return line_file(text)
     path = Path(name_or_path)
     if not exists(path) and path.suffix != ".toml" and len(path.parts) == 1:
         what = f"no line of the catalogue and no file, the catalogue has: {listed(line_names())}"
         raise ModelError(text, what, nearest(text, line_names()))
-    return read_file(path)
+    return path

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from ..model.file.fields import Entry, NonNegative, Positive
+from ..model.file.fields import Entry, NonNegative, Parameters, Positive
 
 
 class WireEntry(Entry):
@@ -69,6 +69,7 @@ class LineEntry(Entry):
     """A line file."""
 
     title: str = Field("", description="Name of the line.")
+    parameters: Parameters = Field(default_factory=dict)
     source: str = Field("", description="Where the data come from.")
     tags: dict[str, str] = Field(default_factory=dict, description="How sure a value is, by its key.")
     spans: list[SpanEntry] = Field(min_length=1, description="The spans along the track.")

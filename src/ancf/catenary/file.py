@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -10,9 +10,10 @@ from typing import Any
 from pydantic import ValidationError
 
 from ..errors import ModelError
-from ..model.file import read_toml
+from ..model.file import parameters, read_toml
 from ..model.file.fields import Entry
 from ..model.file.messages import combined, of_validation
+from ..model.file.paths import changed
 from .entries import TABLES, LineEntry, SpanEntry, StitchEntry
 from .fittings import Droppers, SteadyArm
 from .line import Line, check_size
@@ -35,8 +36,8 @@ PLAIN = (
 )
 
 
-def read_file(path: str | Path) -> Line:
-    """Read a line file.
+def read_file(path: str | Path, values: Mapping[str, Any] | None = None) -> Line:
+    """Read a line file; `values` replace those at some paths, see :func:`ancf.model.file.paths.changed`.
 
     Raises
     ------
@@ -44,7 +45,8 @@ def read_file(path: str | Path) -> Line:
         The file cannot be read, is no TOML, or describes no valid line; all problems in one error.
 
     """
-    return parse_line(read_toml(Path(path), "line file"), str(path))
+    tables = changed(read_toml(Path(path), "line file"), values or {})
+    return parse_line(tables, str(path))
 
 
 def parse_line(data: dict[str, Any], source: str = "line") -> Line:
@@ -64,7 +66,8 @@ def parse_line(data: dict[str, Any], source: str = "line") -> Line:
 
     """
     try:
-        entry = LineEntry.model_validate(data)
+        with parameters.given(data, {}):
+            entry = LineEntry.model_validate(data)
     except ValidationError as error:
         raise combined(of_validation(error, _entry), source) from None
     droppers = sum(given.repeat * len(given.droppers) for given in entry.spans)

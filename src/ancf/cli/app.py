@@ -11,6 +11,22 @@ import typer
 
 from . import export_options as exporting
 from .guard import reported
+from .line_options import (
+    Case,
+    CaseSpeed,
+    ContactKind,
+    Forces,
+    LineName,
+    OutputStep,
+    Pantographs,
+    Spacing,
+    Speed,
+    Start,
+    Step,
+    Window,
+)
+from .study_options import CalibrationFile, Retry, Scheduler, Status, StudyFile, Workers
+from .view_options import Color, Frames, Open, Page, Traced
 
 app = typer.Typer(
     name="ancf",
@@ -38,6 +54,14 @@ Verify = Annotated[
     typer.Option("--verify", help="Compute again with half the step, with twice the elements, and compare."),
 ]
 Resume = Annotated[bool, typer.Option("--resume", help="Go on where OUT/results.h5 ends.")]
+Set = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="PATH=VALUE",
+        help="Other value in the file: sections.rope.EA=2e4; may be repeated.",
+    ),
+]
 Names = Annotated[
     list[str] | None,
     typer.Argument(metavar="NAMES", help="Figures and tables, such as fig2, or all.", show_default="all"),
@@ -47,54 +71,14 @@ Jobs = Annotated[
     int | None,
     typer.Option("--jobs", "-j", metavar="N", help="Processes at once.", show_default="one for each core"),
 ]
-LineName = Annotated[
-    str, typer.Argument(metavar="LINE", help="Line of the catalogue, or a line file.", show_default=False)
-]
 OptionalFolder = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="OUT", help="Folder for a CSV file.")
-]
-Forces = Annotated[list[float] | None, typer.Option("--force", help="Upward force, N; may be repeated.")]
-Case = Annotated[
-    str,
-    typer.Argument(
-        metavar="CASE", help="Reference case, such as en50318-2002, or mooring.", show_default=False
-    ),
 ]
 UnitFile = Annotated[
     Path | None,
     typer.Option("--output", "-o", metavar="FILE", help="FMU to write.", show_default="beside the model"),
 ]
 FmiVersion = Annotated[str, typer.Option("--fmi", metavar="VERSION", help='"2.0" or "3.0".')]
-Speed = Annotated[float, typer.Option("--speed", metavar="KMH", help="Speed, km/h.", show_default=False)]
-CaseSpeed = Annotated[
-    float | None, typer.Option("--speed", metavar="KMH", help="Speed of a line, km/h.", show_default=False)
-]
-Pantographs = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--pantograph",
-        metavar="NAME",
-        help="Of the catalogue; once for all, or once for each, the first ahead.",
-        show_default="benchmark-2015",
-    ),
-]
-Spacing = Annotated[
-    list[float] | None,
-    typer.Option(metavar="M", help="Distance to another pantograph behind, m; may be repeated."),
-]
-Start = Annotated[
-    float | None,
-    typer.Option(metavar="M", help="Track position of the last pantograph at the start, m."),
-]
-Window = Annotated[
-    tuple[float, float] | None, typer.Option(metavar="FROM TO", help="Track interval that is evaluated, m.")
-]
-ContactKind = Annotated[str, typer.Option("--contact", metavar="KIND", help='"penalty" or "joint".')]
-Step = Annotated[float | None, typer.Option(metavar="S", help="Time step, s.", show_default="0.001")]
-OutputStep = Annotated[
-    float | None,
-    typer.Option(metavar="S", help="Time between stored states of the line, s.", show_default="0.02"),
-]
 States = Annotated[
     bool, typer.Option(help="Write OUT/results.h5 as well, some 10 to 100 MB for ancf view and ancf export.")
 ]
@@ -102,24 +86,6 @@ Report = Annotated[bool, typer.Option(help="Write OUT/report.html as well, which
 ResultsFile = Annotated[
     Path, typer.Argument(metavar="RESULTS.h5", help="Results file, or its folder.", show_default=False)
 ]
-Page = Annotated[
-    Path | None,
-    typer.Option("--output", "-o", metavar="FILE", help="HTML file.", show_default="view.html beside it"),
-]
-Frames = Annotated[int, typer.Option(metavar="N", help="States that are shown, at most.")]
-Color = Annotated[
-    str, typer.Option(metavar="WHAT", help='"tension", "curvature", "speed" or "plain" when it opens.')
-]
-Traced = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--trace",
-        metavar="POINT",
-        help="Point whose path is drawn; may be repeated.",
-        show_default="up to three that move most",
-    ),
-]
-Open = Annotated[bool, typer.Option("--open/--no-open", help="Open it in a browser.")]
 SchemaFile = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="FILE", help="File to write, instead of printing it.")
 ]
@@ -152,6 +118,7 @@ def run(
     quiet: Quiet = False,
     verify: Verify = False,
     resume: Resume = False,
+    given: Set = None,
 ) -> None:
     """Compute what a model file asks for.
 
@@ -162,16 +129,16 @@ def run(
     with reported():
         from .run import run_file
 
-        run_file(model, output, quiet, verify, resume)
+        run_file(model, output, quiet, verify, resume, given)
 
 
 @app.command()
-def check(file: AnyInput) -> None:
+def check(file: AnyInput, given: Set = None) -> None:
     """Say whether a file is right: a model file, a line file, or a results file."""
     with reported():
         from .check import check_file
 
-        check_file(file)
+        check_file(file, given)
 
 
 @app.command()
@@ -261,7 +228,9 @@ def view(
 
 
 @catenary.command("form")
-def catenary_form(line: LineName, output: OptionalFolder = None, quiet: Quiet = False) -> None:
+def catenary_form(
+    line: LineName, output: OptionalFolder = None, quiet: Quiet = False, given: Set = None
+) -> None:
     """Find the form of an overhead line and print its dropper schedule.
 
     With -o writes OUT/schedule.csv, lengths in mm.
@@ -269,7 +238,7 @@ def catenary_form(line: LineName, output: OptionalFolder = None, quiet: Quiet = 
     with reported():
         from .catenary import show_form
 
-        show_form(line, output, quiet)
+        show_form(line, output, quiet, given)
 
 
 @catenary.command("run")
@@ -287,6 +256,7 @@ def catenary_run(
     states: States = True,
     report: Report = True,
     quiet: Quiet = False,
+    given: Set = None,
 ) -> None:
     """Run pantographs along an overhead line.
 
@@ -298,12 +268,16 @@ def catenary_run(
 
         options = {"spacing": spacing, "start": start, "window": window, "contact": contact, "step": step}
         options["output_step"] = output_step
-        run_line(line, speed, pantograph, options, output, report, states, quiet)
+        run_line(line, speed, pantograph, options, output, report, states, quiet, given)
 
 
 @catenary.command("elasticity")
 def catenary_elasticity(
-    line: LineName, output: OptionalFolder = None, force: Forces = None, quiet: Quiet = False
+    line: LineName,
+    output: OptionalFolder = None,
+    force: Forces = None,
+    quiet: Quiet = False,
+    given: Set = None,
 ) -> None:
     """Lift the contact wire along the middle span of an overhead line and print how far it gives.
 
@@ -312,7 +286,7 @@ def catenary_elasticity(
     with reported():
         from .catenary import show_elasticity
 
-        show_elasticity(line, output, force or [100.0, 200.0], quiet)
+        show_elasticity(line, output, force or [100.0, 200.0], quiet, given)
 
 
 @app.command()
@@ -335,6 +309,50 @@ def validate(
             validate_mooring(speed, output, report, quiet)
         else:
             validate_case(case, speed, output, report, quiet)
+
+
+@app.command()
+def study(
+    file: StudyFile,
+    output: Folder = Path("out"),
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    retry: Retry = False,
+    status: Status = False,
+    report: Report = True,
+    quiet: Quiet = False,
+) -> None:
+    """Compute many variants of a model or a line.
+
+    Writes OUT/table.csv, OUT/table.parquet, OUT/study.json and OUT/report.html. Whatever is killed, the same
+    command goes on; more samples later repeat none. The exit code is 1 when cases failed.
+    """
+    with reported():
+        from .study import run_study, show_status
+
+        if status:
+            show_status(file)
+            return
+        options = {"workers": workers, "scheduler": scheduler, "retry": retry, "report": report}
+        run_study(file, output, options, quiet)
+
+
+@app.command()
+def calibrate(
+    file: CalibrationFile,
+    output: Folder = Path("out"),
+    workers: Workers = None,
+    report: Report = True,
+    quiet: Quiet = False,
+) -> None:
+    """Find parameters of a model from measured histories, by least squares.
+
+    Writes OUT/fit.json, OUT/fit.csv and OUT/report.html, and prints the parameters with their confidence.
+    """
+    with reported():
+        from .calibrate import calibrate_file
+
+        calibrate_file(file, output, workers, report, quiet)
 
 
 MoorDynInput = Annotated[

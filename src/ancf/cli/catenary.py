@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..model.file.paths import assignments
 from .output import OutputFolder
 from .screen import Screen, console, table
 
@@ -12,11 +13,11 @@ if TYPE_CHECKING:
     from ..catenary import Elasticity, Form, Line
 
 
-def show_form(name: str, output: Path | None, quiet: bool = False) -> None:
+def show_form(name: str, output: Path | None, quiet: bool = False, given: list[str] | None = None) -> None:
     """Find the form of a line and print its dropper schedule; with a folder also ``schedule.csv`` there."""
     from .. import catenary
 
-    line = catenary.read_line(name)
+    line = catenary.read_line(name, assignments(given))
     folder = None if output is None else OutputFolder(output)
     Screen(quiet).announce_compilation()
     found = catenary.form(line)
@@ -26,11 +27,17 @@ def show_form(name: str, output: Path | None, quiet: bool = False) -> None:
         _written(found.save_schedule(folder.path / "schedule.csv"), quiet)
 
 
-def show_elasticity(name: str, output: Path | None, forces: list[float], quiet: bool = False) -> None:
+def show_elasticity(
+    name: str,
+    output: Path | None,
+    forces: list[float],
+    quiet: bool = False,
+    given: list[str] | None = None,
+) -> None:
     """Compute the static elasticity and print it; with a folder also ``elasticity.csv`` there."""
     from .. import catenary
 
-    line = catenary.read_line(name)
+    line = catenary.read_line(name, assignments(given))
     folder = None if output is None else OutputFolder(output)
     Screen(quiet).announce_compilation()
     found = catenary.elasticity(line, forces)

@@ -28,6 +28,7 @@ def run_line(
     report: bool = True,
     states: bool = True,
     quiet: bool = False,
+    changes: list[str] | None = None,
 ) -> None:
     """Run, write and print.
 
@@ -40,11 +41,12 @@ def run_line(
     from ..catenary.catalogue import read_line
     from ..catenary.run import STEP, run
     from ..model.checks import positive
+    from ..model.file.paths import assignments
     from ..model.settings import MOST_STEPS
     from ..viz.style import require_matplotlib
 
     speed = positive(speed_kmh, "--speed") / 3.6
-    line = read_line(name)
+    line = read_line(name, assignments(changes))
     if report:
         require_matplotlib()
     given = {key: value for key, value in options.items() if value}

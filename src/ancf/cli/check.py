@@ -16,8 +16,10 @@ OF_A_LINE = {"contact_wire", "messenger_wire", "spans", "steady_arm"}
 AT_ONCE = 4_000_000
 
 
-def check_file(path: Path) -> None:
+def check_file(path: Path, given: list[str] | None = None) -> None:
     """Tell what a file is by its first bytes or its tables, and find everything that is wrong with it.
+
+    `given` is what ``--set`` changes in a model or line file.
 
     Raises
     ------
@@ -26,10 +28,13 @@ def check_file(path: Path) -> None:
 
     """
     if is_hdf5(path):
+        if given:
+            raise ModelError("--set", "changes model files and line files, not results", "leave it out")
         return _check_results(path)
     from ..model.file import read_toml
+    from ..model.file.paths import assignments, changed
 
-    data = read_toml(path, "model file")
+    data = changed(read_toml(path, "model file"), assignments(given))
     return _check_line(path, data) if OF_A_LINE & data.keys() else _check_model(path, data)
 
 

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from ..errors import ModelError
-from ..files import drafted, to_json, writable
-
-if sys.platform != "win32":
-    import fcntl
+from ..files import drafted, locked, to_json, writable
 
 
 class OutputFolder:
@@ -61,21 +57,8 @@ class OutputFolder:
     @contextmanager
     def locked(self) -> Iterator[None]:
         """No other run writes to the folder meanwhile; a killed run leaves no lock."""
-        with ExitStack() as stack:
-            with suppress(OSError):  # a file system without locks
-                self._lock(stack)
+        with locked(self.path, f"output folder {self.path}"):
             yield
-
-    def _lock(self, stack: ExitStack) -> None:
-        if sys.platform == "win32":
-            return
-        descriptor = os.open(self.path, os.O_RDONLY)
-        stack.callback(os.close, descriptor)
-        try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            what = "another run is writing to it"
-            raise ModelError(f"output folder {self.path}", what, "choose another with -o") from None
 
     def clear(self) -> None:
         """Take away summary and table of an earlier run, and check that all files can be written."""

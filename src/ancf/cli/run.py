@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from ..errors import ModelError, SolveError
 from ..model.checks import shown
 from ..model.file import Study, read_study
+from ..model.file.paths import assignments
 from ..model.integrators import Integrator
 from ..model.model import Model
 from ..model.points import Point
@@ -22,11 +23,17 @@ if TYPE_CHECKING:
 
 
 def run_file(
-    path: Path, folder: Path, quiet: bool = False, verify: bool = False, resume: bool = False
+    path: Path,
+    folder: Path,
+    quiet: bool = False,
+    verify: bool = False,
+    resume: bool = False,
+    given: list[str] | None = None,
 ) -> None:
     """Read, compute, write and print; with `verify` compute again, finer, and compare.
 
-    With `resume` the simulation goes on where the results file in the folder ends.
+    With `resume` the simulation goes on where the results file in the folder ends. `given` are values in
+    place of those of the file, ``PATH=VALUE``.
 
     Raises
     ------
@@ -36,7 +43,7 @@ def run_file(
         What was computed until then is in the folder; a note of the error says so.
 
     """
-    study = read_study(path)
+    study = read_study(path, assignments(given))
     if study.simulation is None and study.equilibrium is None:
         hint = "add a table [simulation] with t_end and step, or [equilibrium]"
         raise ModelError(str(path), "nothing to compute", hint)

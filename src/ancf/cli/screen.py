@@ -119,6 +119,20 @@ def exhibits_bar(where: Console) -> Bar:
     return Bar(BarColumn(bar_width=24), text, TimeElapsedColumn(), console=where, transient=True)
 
 
+def bar_of(where: Console, things: str) -> Bar:
+    """A bar that counts things, with a text and the time left."""
+    return Bar(
+        BarColumn(bar_width=24),
+        TextColumn("{task.completed:.0f} of {task.total:.0f} " + things),
+        TextColumn("{task.fields[told]}"),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+        console=where,
+        transient=True,
+    )
+
+
 def _bar(where: Console) -> Bar:
     return Bar(
         BarColumn(bar_width=24),
@@ -161,11 +175,12 @@ class _Lines:
         left = elapsed / max(steps, 1) * (progress.steps - progress.step)
         self.say(
             f"{100 * progress.step // progress.steps:3} %  step {progress.step} of {progress.steps}, "
-            f"t = {progress.t:.4g} s, {_duration(elapsed)} elapsed, about {_duration(left)} left"
+            f"t = {progress.t:.4g} s, {duration(elapsed)} elapsed, about {duration(left)} left"
         )
 
 
-def _duration(seconds: float) -> str:
+def duration(seconds: float) -> str:
+    """Seconds, minutes or hours as text."""
     if seconds < 60:
         return f"{seconds:.1f} s"
     minutes, rest = divmod(round(seconds), 60)

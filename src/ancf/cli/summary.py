@@ -39,6 +39,7 @@ def summarise(
     summary: dict[str, Any] = {
         "title": study.title,
         "model_file": str(path),
+        **({"set": dict(study.values)} if study.values else {}),
         "status": result.status,
         "kind": "equilibrium" if study.simulation is None else "simulation",
         "model": sizes(model),

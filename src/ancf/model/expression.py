@@ -133,7 +133,7 @@ class Expression:
 
     @property
     def _known(self) -> str:
-        return f"{', '.join(self.names)}, pi, " + ", ".join(f"{name}()" for name in sorted(FUNCTIONS))
+        return ", ".join([*self.names, *CONSTANTS, *(f"{name}()" for name in sorted(FUNCTIONS))])
 
     @property
     def _quoted(self) -> str:

@@ -14,7 +14,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from . import checks
 from .expression import Expression
-from .inputs import Signal, known
+from .inputs import Signal, known, named
 
 Evaluate = Callable[[FloatArray], FloatArray]
 
@@ -89,6 +89,9 @@ class TimeFunction:
 
     def __deepcopy__(self, memo: dict[int, Any]) -> TimeFunction:
         return self  # it never changes, and what it calls may be anything
+
+    def __reduce__(self) -> Any:
+        return _again, (self.given, self.size, self.where, self.inputs)
 
     def __repr__(self) -> str:
         return f"TimeFunction({checks.shown(self.describe())}, size={self.size})"
@@ -285,3 +288,9 @@ def _driven(item: Any, *names: str) -> list[TimeFunction]:
     """Functions of an item that depend on inputs."""
     values = (getattr(item, field.name) for field in fields(item) if not names or field.name in names)
     return [value for value in values if isinstance(value, TimeFunction) and value.inputs]
+
+
+def _again(given: Any, size: int, where: str, inputs: Mapping[str, float]) -> TimeFunction:
+    """A function of time that was pickled."""
+    with named(inputs):
+        return TimeFunction(given, size, where)

@@ -78,6 +78,15 @@ class Parameter:
         return f"{self.name} = {text}"
 
 
+#: Classes of the items by the word of their kind: no module has them by name, where pickle would look.
+_items: dict[str, Any] = {}
+
+
+def _again(word: str, values: list[Any]) -> Any:
+    """An item that was pickled."""
+    return _items[word](*values)
+
+
 def law(word: str, noun: str, *parameters: Parameter, says: str, look: Look | None = None) -> Kind:
     """Record of a load at a point whose force depends on position, velocity and time.
 
@@ -98,6 +107,8 @@ def law(word: str, noun: str, *parameters: Parameter, says: str, look: Look | No
     names = [("name", str), ("point", Point), *((p.name, Any) for p in parameters)]
     item: Any = make_dataclass(title, names, frozen=True, slots=True, eq=False)
     item.__module__, item.__doc__ = __name__, says
+    item.__reduce__ = lambda made: (_again, (word, [getattr(made, key) for key, _ in names]))
+    _items[word] = item
 
     def add(model: Any, point: Any, *given: Any, name: str | None = None, **named: Any) -> Any:
         bound = signature.bind(point, *given, name=name, **named)

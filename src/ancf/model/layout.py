@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -51,12 +52,7 @@ def make_beam(
     if not 1e-6 < arc_length / natural < 1e6:
         raise ModelError(f"{where}.length", f"is {natural:g} m for an initial shape of {arc_length:g} m")
     node_x = _node_x(where, elements, nodes, natural)
-
-    def lay(fraction: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        position, tangent = shape(fraction)
-        y = _node_y(y_axis, tangent, None if path is None else shape, fraction, where)
-        return position, tangent, y
-
+    lay = Lay(shape, path is not None, y_axis, where)
     position, tangent, y = lay(node_x / natural)
     if KINDS[kind].has_section:
         _check_turns(position, arc_length / natural * tangent, np.diff(node_x), where)
@@ -76,6 +72,68 @@ def make_beam(
         lay=lay,
         **words,
     )
+
+
+@dataclass(frozen=True, slots=True)
+class Lay:
+    """Positions, tangents and local y axes at fractions of a new beam's length; a class, to be pickled.
+
+    Parameters
+    ----------
+    shape : Sampler
+    curved : bool
+        Whether the axes follow a curve.
+    y_axis : (3,) or None
+        As given.
+    where : str
+        Place in the model, for messages.
+    """
+
+    shape: Sampler
+    curved: bool
+    y_axis: Any
+    where: str
+
+    def __call__(self, fraction: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Three arrays (n, 3) at fractions (n,)."""
+        position, tangent = self.shape(fraction)
+        y = _node_y(self.y_axis, tangent, self.shape if self.curved else None, fraction, self.where)
+        return position, tangent, y
+
+
+@dataclass(frozen=True, slots=True)
+class Between:
+    """Positions and tangents at fractions of a straight line between two points (3,), m."""
+
+    start: FloatArray
+    end: FloatArray
+
+    def __call__(self, fraction: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Two arrays (n, 3) at fractions (n,)."""
+        return path.straight(self.start, self.end, fraction)
+
+
+@dataclass(frozen=True, slots=True)
+class Straight:
+    """Positions, tangents and the local y axis (3,) at fractions of a straight beam."""
+
+    line: Between
+    y: FloatArray
+
+    def __call__(self, fraction: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Three arrays (n, 3) at fractions (n,)."""
+        return *self.line(fraction), np.tile(self.y, (fraction.size, 1))
+
+
+@dataclass(frozen=True, slots=True)
+class Along:
+    """Positions and tangents at fractions of a curve's length."""
+
+    curve: path.Curve
+
+    def __call__(self, fraction: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Two arrays (n, 3) at fractions (n,)."""
+        return self.curve.at(fraction * self.curve.length)
 
 
 def placed_beam(
@@ -124,16 +182,7 @@ def _rows(where: str, count: int, take: Callable[[str], Any]) -> Iterator[FloatA
 
 def _lay_between(where: str, take: Callable[[str], Any]) -> Shape:
     start, end = (checks.place(take(key), f"{where}.{key}") for key in ("start", "end"))
-    return straight_between(start, end, checks.direction(take("y_axis"), f"{where}.y_axis"))
-
-
-def straight_between(start: FloatArray, end: FloatArray, y: FloatArray) -> Shape:
-    """Positions, tangents and local y axes at fractions of a straight beam."""
-
-    def lay(fraction: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        return *path.straight(start, end, fraction), np.tile(y, (fraction.size, 1))
-
-    return lay
+    return Straight(Between(start, end), checks.direction(take("y_axis"), f"{where}.y_axis"))
 
 
 def is_straight(beam: Beam) -> bool:
@@ -141,7 +190,7 @@ def is_straight(beam: Beam) -> bool:
     start, end = beam.node_position[[0, -1]]
     if np.array_equal(start, end) or beam.stretch != math.dist(start, end) / beam.length:
         return False
-    rows = straight_between(start, end, beam.node_y[0])(beam.node_x / beam.length)
+    rows = Straight(Between(start, end), beam.node_y[0])(beam.node_x / beam.length)
     return all(np.array_equal(getattr(beam, key), mine) for key, mine in zip(PLACED, rows, strict=True))
 
 
@@ -191,7 +240,7 @@ def _initial_shape(where: str, start: Any, end: Any, given: Any) -> tuple[float,
         if start is not None or end is not None:
             raise ModelError(f"{where}.path", "give either start and end, or path, not both")
         curve = _curve(given, f"{where}.path")
-        return curve.length, lambda fraction: curve.at(fraction * curve.length)
+        return curve.length, Along(curve)
     for key, value in (("start", start), ("end", end)):
         if value is None:
             raise ModelError(f"{where}.{key}", "is missing: give start and end, or path")
@@ -199,7 +248,7 @@ def _initial_shape(where: str, start: Any, end: Any, given: Any) -> tuple[float,
     distance = math.dist(first, last)
     if distance <= 1e-12 * max(math.hypot(*first), math.hypot(*last)):
         raise ModelError(f"{where}.end", f"coincides with start at {first.tolist()}")
-    return distance, lambda fraction: path.straight(first, last, fraction)
+    return distance, Between(first, last)
 
 
 def _curve(given: Any, where: str) -> path.Curve:

@@ -43,9 +43,18 @@ class StateFunction:
     constant = False
 
     def __init__(self, given: Any, where: str, position: FloatArray, size: float) -> None:
+        self._take(given, where, size)
+        self(0.0, np.asarray(position), np.zeros(3))
+
+    def _take(self, given: Any, where: str, size: float) -> None:
         self.given, self.where, self.size = given, where, size
         self.parts = [] if callable(given) else _formulas(given, where)
-        self(0.0, np.asarray(position), np.zeros(3))
+
+    def __getstate__(self) -> Any:
+        return self.given, self.where, self.size
+
+    def __setstate__(self, state: Any) -> None:
+        self._take(*state)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> StateFunction:
         return self  # it never changes

@@ -74,6 +74,9 @@ class VelocityField:
             rest = given
         self.uniform = TimeFunction(rest, 3, where)
 
+    def __reduce__(self) -> Any:
+        return VelocityField, (self.given, self.where)
+
     def __deepcopy__(self, memo: dict[int, Any]) -> VelocityField:
         return self  # it never changes
 

@@ -46,6 +46,10 @@ class ReadStore:
         with sound.inside(self.path):
             self._begin()
 
+    def __reduce__(self) -> Any:
+        """A result of a file is that file: another process opens it again."""
+        return ReadStore, (self.path.resolve(), self._status)
+
     def _begin(self) -> None:
         if self._file.attrs.get("format") != FORMAT:
             raise ModelError(str(self.path), "is not a results file of ancf")

@@ -50,6 +50,16 @@ class Result(SpringFields, ContactFields, Momenta, Filmed, Readable):
         slides = (item.name for item in self.model.connections if isinstance(item, Slide))
         self._arcs = {name: int(self._joints[name][-1]) for name in slides}
 
+    def __getstate__(self) -> dict[str, Any]:
+        """All but what is made again when it is asked for; of a file its place, not its content."""
+        return {**self.__dict__, "_recorded": None, "_system": None}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        del state["_system"]
+        self.__dict__.update(state)
+        if self._made_by is not None:
+            remembered.restore(self._made_by, self._last)
+
     @cached_property
     def _system(self) -> System:
         """The system that made the result, or the one of the model that was loaded.

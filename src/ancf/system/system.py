@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -95,6 +96,11 @@ class System:
         self.core = make_core(self.parts, self.places, self._weight(), supports, joints, self._loads(value))
         set_scales(self)
         self.measuring = with_role(self.core.batches, Role.MEASURES)
+
+    def __reduce__(self) -> Any:
+        """Addresses of compiled operations hold in one process alone: another one makes the system again."""
+        memory = {name: array.copy() for name, array in self.memory.items()}
+        return _again, (self.model, self.sensors, self.measured, memory, bool(self.core.accounted))
 
     @property
     def memory(self) -> dict[str, FloatArray]:
@@ -287,6 +293,19 @@ class System:
             name = self.numbering.describe(worst)
             text = f"{name}: set_motion asks for {wanted[worst]:.6g}, the support holds it at {v[worst]:.6g}"
             warnings.warn(text + "; the support wins", UserWarning, stacklevel=2)
+
+
+def _again(
+    model: Model, sensors: Listing, measured: FloatArray, memory: dict[str, FloatArray], accounted: bool
+) -> System:
+    """A system that was pickled."""
+    made = System(model)
+    made.model, made.sensors, made.measured[...] = model, sensors, measured
+    for name, array in made.memory.items():
+        array[...] = memory[name]
+    if not accounted:
+        made.skip_energies()
+    return made
 
 
 def _spin(body: Beam | PointMass | RigidBody) -> FloatArray:

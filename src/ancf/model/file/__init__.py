@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 import tomllib
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +17,11 @@ from ..checks import nearest
 from ..inputs import first_values, named
 from ..model import Model
 from ..settings import EquilibriumSettings, SimulationSettings
+from . import parameters
 from .build import Builder
 from .entries import FileEntry
 from .messages import combined, of_validation
+from .paths import changed
 
 __all__ = ["Study", "parse_study", "read_study", "read_toml", "schema"]
 
@@ -35,6 +38,8 @@ class Study:
     title : str
     source_text : str
         The text of the file; empty for a study from a dict.
+    values : mapping
+        What was given in place of values of the file, by path.
 
     """
 
@@ -43,19 +48,29 @@ class Study:
     equilibrium: EquilibriumSettings | None
     title: str = ""
     source_text: str = ""
+    values: Mapping[str, Any] = field(default_factory=dict)
 
 
-def read_study(path: str | Path) -> Study:
+def read_study(path: str | Path, values: Mapping[str, Any] | None = None) -> Study:
     """Read a model file.
+
+    Parameters
+    ----------
+    path : path
+    values : mapping, optional
+        Other values than those of the file, by path: ``{"sections.rope.EA": 2e4}``, see
+        :func:`ancf.model.file.paths.changed`.
 
     Raises
     ------
     ModelError
-        The file cannot be read, is no TOML, or describes no valid model; all problems in one error.
+        The file cannot be read, is no TOML, has no such path, or describes no valid model; all problems in
+        one error.
 
     """
-    text = _read_text(Path(path), "model file")
-    return replace(parse_study(_toml(text, str(path)), str(path)), source_text=text)
+    text, given = _read_text(Path(path), "model file"), dict(values or {})
+    study = parse_study(changed(_toml(text, str(path)), given), str(path))
+    return replace(study, source_text=text, values=given)
 
 
 def read_toml(path: Path, kind: str) -> dict[str, Any]:
@@ -87,7 +102,8 @@ def parse_study(data: dict[str, Any], source: str = "model") -> Study:
 
     """
     try:
-        with named(first_values(data.get("inputs") if isinstance(data, dict) else None)):
+        inputs = first_values(data.get("inputs") if isinstance(data, dict) else None)
+        with named(inputs), parameters.given(data, inputs):
             entry = FileEntry.model_validate(data)
     except ValidationError as error:
         raise combined(of_validation(error), source) from None
@@ -102,8 +118,24 @@ def parse_study(data: dict[str, Any], source: str = "model") -> Study:
 
 
 def schema() -> dict[str, Any]:
-    """JSON Schema of the model file; every field has a description with its unit."""
-    return FileEntry.model_json_schema()
+    """JSON Schema of the model file; every field has a description with its unit.
+
+    Where a number may stand, a formula of parameters may as well.
+    """
+    plain: dict[str, Any] = _with_formulas(FileEntry.model_json_schema())
+    return plain
+
+
+def _with_formulas(part: Any) -> Any:
+    if isinstance(part, list):
+        return [_with_formulas(item) for item in part]
+    if not isinstance(part, dict):
+        return part
+    if part.get("type") not in ("number", "integer"):
+        return {key: _with_formulas(item) for key, item in part.items()}
+    outside = {key: part[key] for key in ("description", "title", "default") if key in part}
+    number = {key: item for key, item in part.items() if key not in outside}
+    return {"anyOf": [number, {"type": "string"}], **outside}
 
 
 def _read_text(path: Path, kind: str) -> str:

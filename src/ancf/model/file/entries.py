@@ -16,6 +16,7 @@ from .fields import (
     Integrator,
     Matrix,
     NonNegative,
+    Parameters,
     Positive,
     StrainName,
     Vector,
@@ -288,6 +289,7 @@ class FileEntry(Entry):
     """A model file of ancf; SI units."""
 
     title: str = Field("", description="Title of the study.")
+    parameters: Parameters = Field(default_factory=dict)
     gravity: Vector = Field([0.0, 0.0, 0.0], description="Gravity [m/s^2].")
     sections: dict[str, AnySection] = Field({}, description="Cross-sections by name.")
     bodies: list[AnyBody] = Field(min_length=1, description="Beams, cables, point masses, rigid bodies.")

@@ -3,9 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationInfo,
+    WithJsonSchema,
+    field_validator,
+)
 from pydantic_core import PydanticCustomError
 
 from ...errors import ModelError
@@ -15,6 +24,7 @@ from ..elements import KINDS
 from ..functions import TimeFunction
 from ..integrators import INTEGRATORS, integrator_of, table_schema
 from ..state_function import check_force
+from .parameters import Naming, kind_of, resolved
 
 if TYPE_CHECKING:  # the names are known at run time alone
     ElementName: TypeAlias = str
@@ -25,14 +35,35 @@ else:
 
 
 class Entry(BaseModel):
-    """A table: strict types, no unknown keys, finite numbers."""
+    """A table: strict types, no unknown keys, finite numbers or formulas of parameters."""
 
     model_config = ConfigDict(strict=True, extra="forbid", allow_inf_nan=False, frozen=True)
+
+    @field_validator("*", mode="before")
+    @classmethod
+    def _without_parameters(cls, value: Any, info: ValidationInfo) -> Any:
+        """Numbers in place of the parameters of the file."""
+        try:
+            return resolved(value, _kind(cls, info.field_name or ""))
+        except ModelError as error:
+            raise refused(error, error.where) from None
 
     def given(self, *without: str) -> dict[str, Any]:
         """Fields that the file gives, but `type` and those named."""
         keys = self.model_fields_set - {"type", *without}
         return {key: getattr(self, key) for key in type(self).model_fields if key in keys}
+
+
+@cache
+def _kind(entry: type[Entry], name: str) -> str:
+    field = entry.model_fields[name]
+    return kind_of(field.annotation, field.metadata)
+
+
+def refused(error: ModelError, place: str) -> PydanticCustomError:
+    """A ModelError as pydantic hands it on; `place` is inside the field."""
+    context = {"place": place, "what": error.what, "hint": error.hint}
+    return PydanticCustomError("model", "{what}", context)
 
 
 def checked(check: Callable[[Any], Any]) -> AfterValidator:
@@ -42,9 +73,7 @@ def checked(check: Callable[[Any], Any]) -> AfterValidator:
         try:
             check(value)
         except ModelError as error:
-            place = error.where.removeprefix("integrator")
-            context = {"place": place, "what": error.what, "hint": error.hint}
-            raise PydanticCustomError("model", "{what}", context) from None
+            raise refused(error, error.where.removeprefix("integrator")) from None
         return value
 
     return AfterValidator(validate)
@@ -105,6 +134,7 @@ ForceFunction = Annotated[
 ]
 PointOrPosition = Annotated[
     Any,
+    Naming(),
     checked(lambda v: None if isinstance(v, str) else checks.vector(v, "")),
     WithJsonSchema({"anyOf": [{"type": "string"}, vector_schema(_NUMBER)]}),
 ]
@@ -115,8 +145,16 @@ Inertia = Annotated[
 ]
 Integrator = Annotated[
     Any,
+    Naming(),
     checked(integrator_of),
     WithJsonSchema({"anyOf": [{"enum": list(INTEGRATORS)}, table_schema()]}),
+]
+Parameters = Annotated[
+    dict[str, float | str],
+    Field(
+        description="Numbers, or formulas of those above, by names that may stand for numbers in the file "
+        "[of what they stand for]."
+    ),
 ]
 PointLabel = Annotated[
     str,

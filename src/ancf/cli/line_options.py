@@ -1,0 +1,48 @@
+"""Options of the commands of overhead lines."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+LineName = Annotated[
+    str, typer.Argument(metavar="LINE", help="Line of the catalogue, or a line file.", show_default=False)
+]
+Forces = Annotated[list[float] | None, typer.Option("--force", help="Upward force, N; may be repeated.")]
+Case = Annotated[
+    str,
+    typer.Argument(
+        metavar="CASE", help="Reference case, such as en50318-2002, or mooring.", show_default=False
+    ),
+]
+Speed = Annotated[float, typer.Option("--speed", metavar="KMH", help="Speed, km/h.", show_default=False)]
+CaseSpeed = Annotated[
+    float | None, typer.Option("--speed", metavar="KMH", help="Speed of a line, km/h.", show_default=False)
+]
+Pantographs = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--pantograph",
+        metavar="NAME",
+        help="Of the catalogue; once for all, or once for each, the first ahead.",
+        show_default="benchmark-2015",
+    ),
+]
+Spacing = Annotated[
+    list[float] | None,
+    typer.Option(metavar="M", help="Distance to another pantograph behind, m; may be repeated."),
+]
+Start = Annotated[
+    float | None,
+    typer.Option(metavar="M", help="Track position of the last pantograph at the start, m."),
+]
+Window = Annotated[
+    tuple[float, float] | None, typer.Option(metavar="FROM TO", help="Track interval that is evaluated, m.")
+]
+ContactKind = Annotated[str, typer.Option("--contact", metavar="KIND", help='"penalty" or "joint".')]
+Step = Annotated[float | None, typer.Option(metavar="S", help="Time step, s.", show_default="0.001")]
+OutputStep = Annotated[
+    float | None,
+    typer.Option(metavar="S", help="Time between stored states of the line, s.", show_default="0.02"),
+]

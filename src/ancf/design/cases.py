@@ -1,0 +1,178 @@
+"""One case of a study file: a model or a line with other values, computed, and its outputs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..analysis import equilibrium, modes, simulate
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model.file.paths import PathError, changed
+from ..viz.pictures.questions import QUANTITIES, ask
+from .formulas import Formula, Vocabulary
+
+if TYPE_CHECKING:
+    from ..model.file import Study
+
+#: Quantities that need whole states and cannot be recorded at every step.
+OF_STATES = ("twist",)
+#: How the error of a key says that there is none.
+UNKNOWN = "unknown key"
+OF_MODEL = Vocabulary(("t", "frequency"), tuple(QUANTITIES))
+
+
+@dataclass(frozen=True)
+class ModelCase:
+    """Calls a model file with other values; what it is called with are paths.
+
+    Parameters
+    ----------
+    tables : dict
+        The model file.
+    outputs : tuple of (str, str)
+        Names and formulas.
+    paths : mapping
+        Path by name of a parameter, where they differ.
+    """
+
+    tables: dict[str, Any]
+    outputs: tuple[tuple[str, str], ...]
+    paths: Mapping[str, str] = field(default_factory=dict)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without the compiled formulas, which each process compiles for itself."""
+        return {key: value for key, value in self.__dict__.items() if key != "formulas"}
+
+    @cached_property
+    def formulas(self) -> list[tuple[str, Formula]]:
+        """The outputs, compiled.
+
+        Raises
+        ------
+        ModelError
+            One is no formula.
+        """
+        return [(n, Formula(text, f"outputs.{n}", OF_MODEL)) for n, text in self.outputs]
+
+    def read(self, values: Mapping[str, Any]) -> Study:
+        """The study of the model file with these values, by name."""
+        from ..model.file import parse_study
+
+        given = {self.paths.get(name, name): value for name, value in values.items()}
+        return parse_study(changed(self.tables, given), "model")
+
+    def check(self, values: Mapping[str, Any]) -> None:
+        """Find what is wrong with all cases, without computing; a wrong value is the matter of its case.
+
+        Raises
+        ------
+        ModelError
+            The model file, a path, a formula or what it asks for.
+        """
+        study = self.read({})
+        check_paths(self.read, values)
+        if study.simulation is None and study.equilibrium is None:
+            hint = "add a table [simulation] with t_end and step, or [equilibrium]"
+            raise ModelError("model", "nothing to compute", hint)
+        check_asked(study.model, (formula for _, formula in self.formulas))
+
+    def __call__(self, **values: Any) -> dict[str, float]:
+        """Outputs of the case with these values."""
+        study = self.read(values)
+        answers = _ModelAnswers(study, self.formulas)
+        return {name: formula(answers) for name, formula in self.formulas}
+
+
+def histories(study: Study, formulas: Mapping[str, Formula], times: FloatArray) -> dict[str, FloatArray]:
+    """Values (n,) of formulas at times (n,), s, of the simulation of a study, linear between its steps.
+
+    Raises
+    ------
+    ModelError
+        A formula asks for what there is not, or gives no history.
+    """
+    check_asked(study.model, formulas.values())
+    answers = _ModelAnswers(study, list(formulas.items()))
+    t = np.asarray(answers.value("t"))
+    return {name: np.interp(times, t, formula.history(answers)) for name, formula in formulas.items()}
+
+
+def check_asked(model: Any, formulas: Iterable[Formula]) -> None:
+    """Raise ModelError if a formula asks for what a model does not have."""
+    for formula in formulas:
+        for quantity, item in formula.asked:
+            _sensor(model, quantity, item, formula.where)
+
+
+def check_paths(read: Callable[[Mapping[str, Any]], Any], values: Mapping[str, Any]) -> None:
+    """Raise ModelError if a value has no place in a file."""
+    try:
+        read(values)
+    except ModelError as error:
+        if isinstance(error, PathError) or UNKNOWN in str(error):
+            raise
+
+
+def _sensor(model: Any, quantity: str, item: str, where: str) -> Any:
+    """What records an item; ModelError if it is not there or is not asked that."""
+    from ..viz.pictures.questions import noun_of
+
+    try:
+        found = model.sensor(item)
+    except ModelError as error:
+        raise ModelError(where, f"{quantity}({item}): {error.what}", error.hint) from None
+    nouns = QUANTITIES[quantity].nouns
+    noun = noun_of(model, found)
+    if noun not in nouns:
+        raise ModelError(where, f"{quantity}() is asked of a {' or '.join(nouns)}, {item} is a {noun}")
+    return found
+
+
+class _ModelAnswers:
+    """A computed model."""
+
+    def __init__(self, study: Study, formulas: list[tuple[str, Formula]]) -> None:
+        self.study, settings = study, study.simulation
+        asked = list(dict.fromkeys(pair for _, formula in formulas for pair in formula.asked))
+        self._count = 1 + max((f.highest for _, f in formulas if "frequency" in f.named), default=-1)
+        self._start = self._state()
+        self._sampled: Any = None
+        if settings is None:
+            return
+        whole = any(quantity in OF_STATES for quantity, _ in asked)
+        items = [] if whole else list(dict.fromkeys(item for _, item in asked))
+        steps = max(1, round(settings.t_end / settings.step))
+        result = simulate(
+            study.model,
+            t_end=settings.t_end,
+            step=settings.step,
+            start=self._start if settings.start == "equilibrium" else None,
+            integrator=settings.integrator,
+            output_step=settings.output_step if whole else steps * settings.step,
+            sensors=items or None,
+        )
+        self._sampled = result.sensors if items else result
+
+    def _state(self) -> Any:
+        settings, given = self.study.simulation, self.study.equilibrium
+        if settings is not None and settings.start != "equilibrium":
+            return None
+        of = None if settings is None else settings.equilibrium_of
+        return equilibrium(self.study.model, of=of, load_steps=given.load_steps if given else 1)
+
+    def value(self, name: str) -> Any:
+        """Times of the run, or frequencies in Hz about its start."""
+        if name == "frequency":
+            return modes(self.study.model, about=self._start, count=max(self._count, 1)).frequencies_hz
+        return np.zeros(1) if self._sampled is None else self._sampled.t
+
+    def ask(self, quantity: str, item: str) -> Any:
+        """History at every step, or the one state of an equilibrium."""
+        if self._sampled is None:
+            return ask(self._start, quantity, item)[None]
+        return ask(self._sampled, quantity, item)

@@ -1,0 +1,161 @@
+"""Fit: parameters that least squares found, how well the data tell them, and what is left."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model import checks
+
+#: Standard deviation of a number of which nothing is known but its bounds, in units of their distance.
+UNKNOWN = 1.0 / math.sqrt(12.0)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What :func:`ancf.calibrate` found.
+
+    Parameters
+    ----------
+    values : dict of str to float
+        The parameters.
+    bounds : dict of str to (float, float)
+        Between which they were looked for.
+    covariance : ndarray, shape (p, p)
+        Of the parameters in this order, from the derivatives at the solution and the size of the residuals;
+        infinite where the data tell nothing.
+    t : dict of str to ndarray
+        Times by column of the data, s.
+    measured, predicted : dict of str to ndarray
+        The data and the model, by column.
+    scales : dict of str to float
+        By which the residuals of each column were divided.
+    evaluations : int
+        How often the model was computed, for derivatives as well.
+    converged : bool
+    message : str
+        How the search ended.
+    """
+
+    values: dict[str, float]
+    bounds: dict[str, tuple[float, float]]
+    covariance: FloatArray
+    t: dict[str, FloatArray] = field(repr=False)
+    measured: dict[str, FloatArray] = field(repr=False)
+    predicted: dict[str, FloatArray] = field(repr=False)
+    scales: dict[str, float] = field(repr=False)
+    evaluations: int = 0
+    converged: bool = True
+    message: str = ""
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the parameters, in the order of the covariance."""
+        return [*self.values]
+
+    @property
+    def count(self) -> int:
+        """Numbers in the data."""
+        return sum(len(x) for x in self.measured.values())
+
+    @property
+    def freedom(self) -> int:
+        """Numbers in the data less parameters."""
+        return self.count - len(self.values)
+
+    @property
+    def deviations(self) -> dict[str, float]:
+        """Standard errors of the parameters."""
+        return dict(zip(self.values, np.sqrt(np.diag(self.covariance)).tolist(), strict=True))
+
+    @property
+    def correlation(self) -> FloatArray:
+        """Correlation (p, p) of the parameters; NaN with one of which the data tell nothing."""
+        size = np.sqrt(np.diag(self.covariance))
+        with np.errstate(invalid="ignore"):
+            found: FloatArray = self.covariance / np.outer(size, size)
+        return found
+
+    @property
+    def residuals(self) -> dict[str, FloatArray]:
+        """Model less data by column, in its unit."""
+        return {name: self.predicted[name] - self.measured[name] for name in self.measured}
+
+    @property
+    def rms(self) -> dict[str, float]:
+        """Root mean square of the residuals by column."""
+        return {name: float(np.sqrt(np.mean(r**2))) for name, r in self.residuals.items()}
+
+    def confidence(self, level: float = 0.95) -> dict[str, tuple[float, float]]:
+        """Intervals of the parameters, from the linearised model and Student's distribution.
+
+        Raises
+        ------
+        ModelError
+            The level is not between 0 and 1.
+        """
+        from scipy.special import stdtrit
+
+        if not 0.0 < checks.number(level, "Fit.confidence.level") < 1.0:
+            raise ModelError("Fit.confidence.level", f"must be between 0 and 1, is {level:g}")
+        factor = float(stdtrit(max(self.freedom, 1), 0.5 * (1.0 + level)))
+        half = self.deviations
+        return {name: (x - factor * half[name], x + factor * half[name]) for name, x in self.values.items()}
+
+    @property
+    def untold(self) -> list[str]:
+        """Parameters of which the data tell less than their bounds did."""
+        wide = {name: UNKNOWN * (high - low) for name, (low, high) in self.bounds.items()}
+        return [name for name, size in self.deviations.items() if not size < wide[name]]
+
+    @property
+    def at_bounds(self) -> list[str]:
+        """Parameters that ended at one of their bounds: the errors say nothing of what is beyond."""
+        found = []
+        for name, (low, high) in self.bounds.items():
+            margin = 1e-4 * (high - low)
+            if not low + margin < self.values[name] < high - margin:
+                found.append(name)
+        return found
+
+    def notes(self) -> list[str]:
+        """What to know before the values are believed, one line each."""
+        made = [] if self.converged else [f"the search stopped before it was done: {self.message}"]
+        made += [f"{name} ended at a bound" for name in self.at_bounds]
+        made += [f"the data tell less of {name} than its bounds do" for name in self.untold]
+        matrix = self.correlation
+        for i, one in enumerate(self.names):
+            for j, other in enumerate(self.names[:i]):
+                if abs(matrix[i, j]) > 0.95:
+                    made.append(f"{other} and {one} are told together only: correlation {matrix[i, j]:.3f}")
+        return made
+
+    def as_dict(self) -> dict[str, Any]:
+        """All but the histories, ready for JSON."""
+        intervals = self.confidence()
+        rows = {
+            name: {
+                "value": x,
+                "deviation": self.deviations[name],
+                "confidence_95": list(intervals[name]),
+                "bounds": list(self.bounds[name]),
+            }
+            for name, x in self.values.items()
+        }
+        return {
+            "parameters": rows,
+            "correlation": self.correlation.tolist(),
+            "covariance": self.covariance.tolist(),
+            "rms": self.rms,
+            "scales": self.scales,
+            "numbers": self.count,
+            "evaluations": self.evaluations,
+            "converged": self.converged,
+            "message": self.message,
+            "notes": self.notes(),
+        }

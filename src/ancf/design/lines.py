@@ -1,0 +1,186 @@
+"""One case of a study of an overhead line: its form or a run of pantographs, and its outputs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import ModelError
+from ..model import checks
+from ..model.file.paths import changed
+from .cases import check_paths
+from .formulas import Formula, Vocabulary
+
+if TYPE_CHECKING:
+    from ..catenary import Form, Line, Statistics
+    from ..catenary.run_data import Run
+
+#: Arrays of a line at rest: their names in formulas, and the fields of the form.
+OF_FORM = {
+    "dropper_length": "dropper_length",
+    "dropper_unstretched": "dropper_natural",
+    "dropper_load": "dropper_load",
+    "contact_height": "contact_height",
+    "support_load": "support_load",
+}
+#: Arrays of a run beside its statistics.
+OF_RUN = ("uplift", "dropper_force")
+#: Quantities of the statistics of a run by their keys; sigma is short for the first deviation.
+STATISTICS = (
+    "mean_force",
+    "deviation",
+    "mean_plus_3_sigma",
+    "mean_minus_3_sigma",
+    "maximum",
+    "minimum",
+    "raw_maximum",
+    "raw_minimum",
+    "relative_deviation",
+    "deviation_0_2",
+    "deviation_0_5",
+    "deviation_5_20",
+    "loss",
+    "loss_number",
+    "loss_longest",
+    "dropper_maximum",
+    "slack_droppers",
+    "slack_number",
+    "slack_longest",
+    "height_range",
+    "raw_height_range",
+)
+SIGMA, HIGHEST = "sigma", "uplift_maximum"
+RUN = "run."
+#: Settings of the table [run]: those of ``ancf catenary run``, and the pantograph that is evaluated.
+SETTINGS = ("speed", "pantograph", "spacing", "start", "window", "contact", "step", "evaluated")
+
+
+@dataclass(frozen=True)
+class LineCase:
+    """Calls a line file with other values; what it is called with are paths, ``run.speed`` of the run.
+
+    Parameters
+    ----------
+    tables : dict
+        The line file.
+    outputs : tuple of (str, str)
+        Names and formulas.
+    run : mapping or None
+        Settings of the run, speed in km/h; without it the line is at rest.
+    paths : mapping
+        Path by name of a parameter, where they differ.
+    """
+
+    tables: dict[str, Any]
+    outputs: tuple[tuple[str, str], ...]
+    run: Mapping[str, Any] | None = None
+    paths: Mapping[str, str] = field(default_factory=dict)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without the compiled formulas, which each process compiles for itself."""
+        return {key: value for key, value in self.__dict__.items() if key != "formulas"}
+
+    @cached_property
+    def formulas(self) -> list[tuple[str, Formula]]:
+        """The outputs, compiled.
+
+        Raises
+        ------
+        ModelError
+            One is no formula.
+        """
+        names = (*OF_FORM, *((SIGMA, HIGHEST, *STATISTICS, *OF_RUN) if self.run is not None else ()))
+        words = Vocabulary(names)
+        return [(name, Formula(text, f"outputs.{name}", words)) for name, text in self.outputs]
+
+    def read(self, values: Mapping[str, Any]) -> tuple[Line, dict[str, Any]]:
+        """The line with these values, by name, and the settings of its run."""
+        from ..catenary.file import parse_line
+
+        given = {self.paths.get(name, name): value for name, value in values.items()}
+        settings = dict(self.run or {})
+        for path in [path for path in given if path.startswith(RUN)]:
+            settings[path.removeprefix(RUN)] = given.pop(path)
+        for key in settings:
+            if key not in SETTINGS:
+                what = f"unknown key, allowed: {checks.listed(SETTINGS)}"
+                raise ModelError(RUN + key, what, checks.nearest(key, SETTINGS))
+        return parse_line(changed(self.tables, given), "line"), settings
+
+    def check(self, values: Mapping[str, Any]) -> None:
+        """Find what is wrong with all cases, without computing; a wrong value is the matter of its case.
+
+        Raises
+        ------
+        ModelError
+            The line file, a path or a formula.
+        """
+        from ..catenary.form import check
+
+        line, settings = self.read({})
+        check_paths(self.read, values)
+        settings |= {path: 0 for path in self.paths.values() if path.startswith(RUN)}
+        if self.run is None and settings:
+            raise ModelError("run", "is missing: a parameter is one of a run")
+        if self.run is not None:
+            checks.positive(settings.get("speed"), "run.speed")
+        check(line)
+        _ = self.formulas
+
+    def __call__(self, **values: Any) -> dict[str, float]:
+        """Outputs of the case with these values."""
+        line, settings = self.read(values)
+        answers = _AtRest(line) if self.run is None else _Passing(line, settings)
+        return {name: formula(answers) for name, formula in self.formulas}
+
+
+class _AtRest:
+    """The form of a line."""
+
+    def __init__(self, line: Line) -> None:
+        from .. import catenary
+
+        self.form: Form = catenary.form(line)
+
+    def value(self, name: str) -> Any:
+        """An array of the form, SI units."""
+        return getattr(self.form, OF_FORM[name])
+
+    def ask(self, quantity: str, item: str) -> Any:
+        """Nothing is asked of items."""
+        raise AssertionError(quantity)
+
+
+class _Passing(_AtRest):
+    """A run along a line."""
+
+    def __init__(self, line: Line, settings: dict[str, Any]) -> None:
+        from .. import catenary
+
+        given = dict(settings)
+        speed = checks.positive(given.pop("speed", None), "run.speed") / 3.6
+        evaluated = given.pop("evaluated", 0)
+        self.done: Run = catenary.run(line, speed=speed, **given)
+        count = len(self.done.recordings)
+        self.found: Statistics = catenary.statistics(
+            self.done, checks.integer(evaluated, "run.evaluated", 0, count - 1)
+        )
+        self.form = self.done.form
+
+    def value(self, name: str) -> Any:
+        """A number of the statistics in its unit, mm for uplifts, or an array."""
+        if name == "uplift":
+            return 1e3 * np.max(self.done.uplift, axis=0)
+        if name == "dropper_force":
+            return np.max(self.done.dropper_force, axis=0)
+        if name in OF_FORM:
+            return super().value(name)
+        key = {SIGMA: "deviation", HIGHEST: "uplift"}.get(name, name)
+        try:
+            return self.found[key].value
+        except KeyError:
+            raise ModelError(f"outputs: {name}", "is not to be had of this run") from None

@@ -1,0 +1,233 @@
+"""What the table of a study says: distributions, main effects, Sobol' and Morris indices, with confidence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from .extras import extra
+from .sampling import DESIGN, DRAWN, LEVELS, unit_samples
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+#: Percentiles that are listed, and the level of all confidence intervals.
+PERCENTILES = (1.0, 5.0, 25.0, 50.0, 75.0, 95.0, 99.0)
+LEVEL = 0.95
+#: Bins of a parameter for its main effect, and the fewest cases in one.
+BINS, FEWEST = 10, 5
+RESAMPLES = 1000
+
+
+def summary(table: DataFrame, design: dict[str, Any] | None) -> dict[str, Any]:
+    """All of it, ready for JSON.
+
+    Parameters
+    ----------
+    table : DataFrame
+        As :func:`ancf.study` returns it.
+    design : dict or None
+        How the samples were made.
+    """
+    method = design["method"] if design else "list"
+    failed = int((table["status"] == "failed").sum())
+    made: dict[str, Any] = {"cases": len(table), "failed": failed, "note": _note(table, method, failed)}
+    random = drawn_rows(table)
+    made["outputs"] = {name: _described(column(table, name)[random], method) for name in outputs_of(table)}
+    made["effects"] = {
+        name: {key: effect(table, key, name) for key in parameters_of(table)} for name in outputs_of(table)
+    }
+    if method in ("saltelli", "morris") and design is not None:
+        indices = _sobol if method == "saltelli" else _morris
+        whole = len(table) == len(_unit(design))
+        made[method] = {name: indices(table, name, design) for name in outputs_of(table)} if whole else {}
+    return made
+
+
+def parameters_of(table: DataFrame) -> list[str]:
+    """Names of the parameters."""
+    names: list[str] = table.attrs["parameters"]
+    return names
+
+
+def outputs_of(table: DataFrame) -> list[str]:
+    """Names of the outputs."""
+    names: list[str] = table.attrs["outputs"]
+    return names
+
+
+def column(table: DataFrame, name: str) -> FloatArray:
+    """Numbers (n,) of an output, NaN where a case failed."""
+    return np.asarray(table[name].to_numpy(), dtype=np.float64)
+
+
+def is_drawn(method: str) -> bool:
+    """Whether the cases, or some of them, are a random sample of the parameters."""
+    return method in DRAWN or method == "saltelli"
+
+
+def drawn_rows(table: DataFrame) -> Any:
+    """Which rows describe the distribution: of "saltelli" the two independent ones of each base point."""
+    design = table.attrs.get(DESIGN)
+    if design is None or design["method"] != "saltelli":
+        return np.ones(len(table), dtype=bool)
+    group = len(design["parameters"]) + 2
+    place = np.arange(len(table)) % group
+    return (place == 0) | (place == group - 1)
+
+
+def _note(table: DataFrame, method: str, failed: int) -> str:
+    if not failed:
+        return f"All {len(table)} cases succeeded."
+    told = f"{failed} of {len(table)} cases failed; statistics are those of the others"
+    if method == "saltelli":
+        return f"{told}, Sobol' indices those of the base points all of whose cases succeeded."
+    if method == "morris":
+        return f"{told}, Morris' indices those of the trajectories all of whose cases succeeded."
+    return f"{told}, which may differ from the failed ones."
+
+
+def _described(values: FloatArray, method: str) -> dict[str, Any]:
+    good = np.sort(values[np.isfinite(values)])
+    count = len(good)
+    if not count:
+        return {"count": 0}
+    made: dict[str, Any] = {
+        "count": count,
+        "mean": float(np.mean(good)),
+        "deviation": float(np.std(good, ddof=1)) if count > 1 else None,
+        "minimum": float(good[0]),
+        "maximum": float(good[-1]),
+    }
+    if is_drawn(method):
+        if count > 1:
+            from scipy.special import stdtrit
+
+            half = stdtrit(count - 1, 0.5 * (1.0 + LEVEL)) * made["deviation"] / np.sqrt(count)
+            made["mean_confidence"] = [made["mean"] - float(half), made["mean"] + float(half)]
+        made["percentiles"] = [percentile(good, p) for p in PERCENTILES]
+    return made
+
+
+def percentile(ordered: FloatArray, p: float) -> dict[str, float | None]:
+    """A percentile and its confidence interval from the order of the values; None where it has no end."""
+    from scipy.stats import binom
+
+    count = len(ordered)
+    low = int(binom.ppf(0.5 * (1.0 - LEVEL), count, p / 100.0)) - 1
+    high = int(binom.ppf(0.5 * (1.0 + LEVEL), count, p / 100.0))
+    return {
+        "percent": p,
+        "value": float(np.percentile(ordered, p)),
+        "low": float(ordered[low]) if low >= 0 else None,
+        "high": float(ordered[high]) if high < count else None,
+    }
+
+
+def exceedance(values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Values in order, the share of cases above each, and its confidence interval (Clopper and Pearson)."""
+    from scipy.stats import beta
+
+    ordered = np.sort(values[np.isfinite(values)])
+    count = len(ordered)
+    above = count - 1.0 - np.arange(count)
+    tail = 0.5 * (1.0 - LEVEL)
+    low = np.where(above > 0, beta.ppf(tail, above, count - above + 1.0), 0.0)
+    high = np.where(above < count, beta.ppf(1.0 - tail, above + 1.0, count - above), 1.0)
+    return ordered, above / count, np.asarray(low), np.asarray(high)
+
+
+def effect(table: DataFrame, parameter: str, output: str) -> dict[str, Any]:
+    """Mean of an output over one parameter, in bins, and the share of its variance that these means have."""
+    x, y = table[parameter].to_numpy(), column(table, output)
+    good = np.isfinite(y)
+    x, y = x[good], y[good]
+    bins = [*_bins(x)]
+    if not bins or np.ptp(y) == 0.0:
+        return {"bins": [], "share": 0.0}
+    rows = []
+    for at, inside in bins:
+        part = y[inside]
+        error = float(np.std(part, ddof=1) / np.sqrt(len(part))) if len(part) > 1 else None
+        rows.append({"at": at, "mean": float(np.mean(part)), "error": error, "count": len(part)})
+    means = np.array([row["mean"] for row in rows])
+    weights = np.array([row["count"] for row in rows]) / len(y)
+    within = (len(rows) - 1) / max(len(y) - len(rows), 1)  # what means of random parts differ by
+    between = float(np.sum(weights * (means - np.mean(y)) ** 2) / np.var(y))
+    return {"bins": rows, "share": max(0.0, between - within * (1.0 - between))}
+
+
+def _bins(x: Any) -> Iterator[tuple[Any, Any]]:
+    """Places and members of the bins: the values themselves where they are few."""
+    levels = list(dict.fromkeys(x.tolist()))
+    if len(levels) <= BINS:
+        if len(levels) > 1:
+            for level in sorted(levels, key=lambda v: (isinstance(v, str), v)):
+                yield level, x == level
+        return
+    count = max(2, min(BINS, len(x) // FEWEST))
+    order = np.argsort(x, kind="stable")
+    for part in np.array_split(order, count):
+        yield float(np.mean(x[part])), part
+
+
+def _unit(design: dict[str, Any]) -> FloatArray:
+    return unit_samples(design["method"], design["count"], len(design["parameters"]), design["seed"])
+
+
+def _kept(table: DataFrame, output: str, group: int) -> tuple[FloatArray, Any, int]:
+    """Outputs of the groups without a failed case, which rows these are, and how many groups have one."""
+    y = column(table, output)
+    whole = np.all(np.isfinite(y.reshape(-1, group)), axis=1)
+    rows = np.repeat(whole, group)
+    return y[rows], rows, int(np.sum(~whole))
+
+
+def _sobol(table: DataFrame, output: str, design: dict[str, Any]) -> dict[str, Any]:
+    """First and total Sobol' indices with half widths of their confidence intervals."""
+    names = [*design["parameters"]]
+    y, _, dropped = _kept(table, output, len(names) + 2)
+    made: dict[str, Any] = {"groups": len(y) // (len(names) + 2), "dropped": dropped, "indices": {}}
+    if made["groups"] < 2 or np.ptp(y) == 0.0:
+        return made
+    problem = {"num_vars": len(names), "names": names, "bounds": [[0.0, 1.0]] * len(names)}
+    analyze = extra("SALib.analyze.sobol").analyze
+    found = analyze(
+        problem,
+        y,
+        calc_second_order=False,
+        num_resamples=RESAMPLES,
+        conf_level=LEVEL,
+        seed=design["seed"] % 2**32,
+    )
+    for k, name in enumerate(names):
+        made["indices"][name] = {key: float(found[key][k]) for key in ("S1", "S1_conf", "ST", "ST_conf")}
+    return made
+
+
+def _morris(table: DataFrame, output: str, design: dict[str, Any]) -> dict[str, Any]:
+    """Elementary effects over the range of each parameter: mean, mean size with confidence, deviation."""
+    names = [*design["parameters"]]
+    y, rows, dropped = _kept(table, output, len(names) + 1)
+    made: dict[str, Any] = {"groups": len(y) // (len(names) + 1), "dropped": dropped, "indices": {}}
+    if made["groups"] < 2 or np.ptp(y) == 0.0:
+        return made
+    problem = {"num_vars": len(names), "names": names, "bounds": [[0.0, 1.0]] * len(names)}
+    analyze = extra("SALib.analyze.morris").analyze
+    found = analyze(
+        problem,
+        _unit(design)[rows],
+        y,
+        num_resamples=RESAMPLES,
+        conf_level=LEVEL,
+        num_levels=LEVELS,
+        seed=design["seed"] % 2**32,
+    )
+    for k, name in enumerate(names):
+        made["indices"][name] = {
+            key: float(found[key][k]) for key in ("mu", "mu_star", "mu_star_conf", "sigma")
+        }
+    return made

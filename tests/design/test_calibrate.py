@@ -1,0 +1,294 @@
+"""Calibration: linear problems against NumPy, known truths behind noise, and what the data cannot tell."""
+
+import json
+import shutil
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import ancf
+from ancf.design.calibration_file import read_calibration
+from example_scripts import script
+from places import EXAMPLES
+
+T = np.linspace(0.0, 2.0, 41)
+
+
+def line(a, b):
+    return {"y": a + b * T}
+
+
+def wave(size, rate):
+    return {"y": size * np.exp(-rate * T), "z": size * np.cos(3.0 * T)}
+
+
+def noisy(exact, noise, seed):
+    draw = np.random.default_rng(seed)
+    return {"t": T} | {
+        name: x + noise * np.std(x) * draw.standard_normal(len(x)) for name, x in exact.items()
+    }
+
+
+def beam(EI, damping):
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e4, EI=EI, rhoA=0.05, damping=damping)
+    made = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=3, section=section)
+    model.clamp(made.start)
+    return model
+
+
+@pytest.fixture(scope="module")
+def swinging():
+    result = ancf.simulate(beam(0.3, 0.05), t_end=0.6, step=4e-3)
+    return result.t, result.position("beam.end")[:, 2]
+
+
+class TestLinear:
+    @pytest.mark.parametrize("seed", [1, 2, 3])
+    def test_is_linear_regression(self, seed):
+        data = noisy(line(1.0, -2.0), 0.05, seed)
+        fit = ancf.calibrate(line, data, {"a": (-5.0, 5.0), "b": (-5.0, 5.0)})
+        slopes = np.stack([np.ones_like(T), T], axis=1)
+        solution, left, *_ = np.linalg.lstsq(slopes, data["y"], rcond=None)
+        covariance = left[0] / (len(T) - 2) * np.linalg.inv(slopes.T @ slopes)
+        assert [*fit.values.values()] == pytest.approx(solution, rel=1e-7)
+        assert fit.covariance == pytest.approx(covariance, rel=1e-6)
+        assert fit.correlation[0, 1] == pytest.approx(
+            covariance[0, 1] / np.sqrt(np.prod(np.diag(covariance)))
+        )
+        assert fit.rms["y"] == pytest.approx(np.sqrt(left[0] / len(T)))
+        low, high = fit.confidence(0.9)["b"]
+        assert (high - low) / 2 == pytest.approx(1.6849 * fit.deviations["b"], rel=1e-4)  # Student's, 39
+        assert fit.notes() == []
+        assert fit.converged
+
+    def test_missing_entries_are_left_out(self):
+        data = noisy(line(1.0, -2.0), 0.05, 1)
+        holes = data["y"].copy()
+        holes[::3] = np.nan
+        fit = ancf.calibrate(line, data | {"y": holes}, {"a": (-5.0, 5.0), "b": (-5.0, 5.0)})
+        there = np.isfinite(holes)
+        assert [*fit.values.values()] == pytest.approx(np.polyfit(T[there], holes[there], 1)[::-1], rel=1e-7)
+        assert fit.count == there.sum() == len(fit.residuals["y"])
+
+    @pytest.mark.parametrize("deviations", [None, {"y": 0.1, "z": 0.2}, 3.0])
+    @pytest.mark.parametrize("workers", [0, 2])
+    def test_workers_find_the_same(self, deviations, workers):
+        data = noisy(wave(2.0, 0.7), 0.02, 5)
+        bounds = {"size": (0.01, 100.0), "rate": (0.0, 5.0)}
+        fit = ancf.calibrate(wave, data, bounds, deviations=deviations, workers=workers)
+        alone = ancf.calibrate(wave, data, bounds, deviations=deviations)
+        assert fit.values == alone.values
+        for name, value in (("size", 2.0), ("rate", 0.7)):
+            assert abs(fit.values[name] - value) < 4 * fit.deviations[name]
+
+    def test_derivatives_are_of_the_parameters_themselves(self):
+        """Also where their logarithms were looked for: near and far bounds give the same errors."""
+        data = noisy(wave(2.0, 0.7), 0.02, 5)
+        near, far = (
+            ancf.calibrate(wave, data, {"size": b, "rate": (0.1, 5.0)}) for b in ((1.0, 3.0), (1e-3, 1e3))
+        )
+        assert near.covariance == pytest.approx(far.covariance, rel=1e-4)
+
+
+class TestCoverage:
+    def test_of_intervals(self):
+        """With 5 % noise the truth is within two standard errors about as often as it should be."""
+        inside = []
+        for seed in range(200):
+            fit = ancf.calibrate(
+                wave, noisy(wave(2.0, 0.7), 0.05, seed), {"size": (1.0, 3.0), "rate": (0.0, 2.0)}
+            )
+            errors = fit.deviations
+            inside += [abs(fit.values[k] - v) < 2 * errors[k] for k, v in (("size", 2.0), ("rate", 0.7))]
+        assert 0.92 <= np.mean(inside) <= 0.985
+
+    @pytest.mark.parametrize("repeats", [12, pytest.param(100, marks=pytest.mark.slow)])
+    def test_of_a_beam_with_noise(self, swinging, repeats):
+        """Behind 1 % noise, EI and damping within two standard errors in 93 of 100."""
+        t, z = swinging
+        inside = []
+        for seed in range(repeats):
+            measured = z + 0.01 * np.std(z) * np.random.default_rng(seed).standard_normal(len(z))
+            data = {"t": t[::2], "position(beam.end)[2]": measured[::2]}
+            bounds = {"EI": (0.1, 10.0), "damping": (0.0, 0.5)}
+            fit = ancf.calibrate(beam, data, bounds, start={"EI": 0.35, "damping": 0.08}, step=4e-3)
+            inside.append(
+                [abs(fit.values[k] - v) < 2 * fit.deviations[k] for k, v in (("EI", 0.3), ("damping", 0.05))]
+            )
+        least = 0.93 if repeats >= 100 else 0.75
+        assert np.all(np.mean(inside, axis=0) >= least)
+
+    def test_without_noise_the_truth(self, swinging):
+        t, z = swinging
+        data = pd.DataFrame({"t": t, "position(beam.end)[2]": z})
+        fit = ancf.calibrate(beam, data, {"EI": (0.1, 10.0), "damping": (0.0, 0.5)}, step=4e-3)
+        assert fit.values == pytest.approx({"EI": 0.3, "damping": 0.05}, rel=1e-7)
+
+
+class TestWhatDataCannotTell:
+    def test_a_parameter_without_effect(self):
+        fit = ancf.calibrate(
+            lambda a, b: {"y": a * T + 0.0 * b}, noisy({"y": 2.0 * T}, 0.01, 1), {"a": (0, 5), "b": (0, 1)}
+        )
+        assert fit.untold == ["b"]
+        assert np.isinf(fit.deviations["b"])
+        assert fit.values["a"] == pytest.approx(2.0, abs=0.02)
+        assert np.isfinite(fit.deviations["a"])
+        assert fit.notes() == ["the data tell less of b than its bounds do"]
+
+    def test_two_that_act_as_one(self):
+        """Their sum is told, neither of them is."""
+        data = noisy({"y": 3.0 * T}, 0.01, 1)
+        fit = ancf.calibrate(lambda a, b: {"y": (a + b) * T}, data, {"a": (0, 5), "b": (0, 5)})
+        assert fit.untold == ["a", "b"]
+        assert sum(fit.values.values()) == pytest.approx(3.0, abs=0.02)
+
+    def test_nearly_one(self):
+        data = noisy({"y": T + 0.01 * T**2}, 0.01, 1)
+        fit = ancf.calibrate(
+            lambda a, b: {"y": a * T + b * np.sin(T)}, data, {"a": (-50.0, 50.0), "b": (-50.0, 50.0)}
+        )
+        assert abs(fit.correlation[0, 1]) > 0.95
+        assert "are told together only" in fit.notes()[-1]
+
+    def test_bounds(self):
+        fit = ancf.calibrate(line, noisy(line(1.0, -2.0), 0.01, 1), {"a": (-5.0, 0.5), "b": (-5.0, 5.0)})
+        assert fit.at_bounds == ["a"]
+        assert "a ended at a bound" in fit.notes()
+
+
+class TestBad:
+    @pytest.mark.parametrize(
+        ("given", "phrase"),
+        [
+            ({"parameters": {}}, "must be bounds (low, high) by name"),
+            (
+                {"parameters": {"a": (2.0, 1.0), "b": (0, 1)}},
+                "has the bounds 2 and 1, the first must be below",
+            ),
+            ({"parameters": {"a": 3.0, "b": (0, 1)}}, "calibrate.parameters: a"),
+            ({"data": {"t": T}}, 'wanted "t" and at least one'),
+            ({"data": {"y": T}}, 'wanted "t" and at least one'),
+            ({"data": {"t": T, "y": T[1:]}}, "has 40 entries for 41 times"),
+            ({"data": {"t": T[::-1], "y": T}}, "must be increasing times"),
+            ({"data": {"t": T, "y": ["x"] * 41}}, "must hold numbers, holds 'x'"),
+            ({"data": {"t": T, "x": T}}, 'numbers for "x"; returned "y"'),
+            ({"data": {"t": T, "y": 0 * T}}, "is constant (give its deviation)"),
+            ({"data": {"t": [0.0, 1.0], "y": [0.0, 1.0]}}, "has 2 numbers for 2 parameters"),
+            ({"data": 3.0}, "must be a file, a table or columns by name"),
+            ({"data": "nowhere.csv"}, "no such file"),
+            ({"start": {"c": 1.0}}, "calibrate.start: c: is no parameter"),
+            ({"start": {"a": 9.0}}, "must be between -5 and 5"),
+            ({"deviations": {"x": 1.0}}, "is the deviation of no column"),
+            ({"deviations": -1.0}, "must be > 0"),
+            ({"build": lambda a, b: beam(1.0, 0.0)}, "calibrate.step: is missing"),
+            ({"build": lambda a, b: {"y": T[1:]}}, "must be 41 finite numbers, has the shape (40,)"),
+            ({"build": lambda a, b: {"y": T * np.nan}}, "is not finite"),
+            ({"build": lambda a, b: 3.0}, "must return a Model, or numbers"),
+        ],
+    )
+    def test_one_message(self, given, phrase):
+        wanted = {
+            "build": line,
+            "data": noisy(line(1, 2), 0.1, 1),
+            "parameters": {"a": (-5, 5), "b": (-5, 5)},
+        }
+        wanted |= given
+        with pytest.raises(ancf.ModelError) as caught:
+            ancf.calibrate(wanted.pop("build"), wanted.pop("data"), wanted.pop("parameters"), **wanted)
+        assert phrase in str(caught.value)
+
+    @pytest.mark.parametrize(
+        ("column", "phrase"),
+        [
+            ("position(baem.end)[2]", 'did you mean "beam"'),
+            ("positoin(beam.end)[2]", 'unknown name "positoin"'),
+            ("max(position(beam.end)[2])", "must give one at each"),
+            ("position(beam.end)", "must give one at each"),
+        ],
+    )
+    def test_columns_that_the_model_does_not_have(self, column, phrase):
+        data = {"t": T, column: T}
+        with pytest.raises(ancf.ModelError) as caught:
+            ancf.calibrate(beam, data, {"EI": (0.1, 1.0), "damping": (0.0, 1.0)}, step=0.02)
+        assert phrase in str(caught.value)
+
+    def test_a_step_that_fails_is_not_taken(self):
+        def fragile(a, b):
+            if a > 3.0:
+                raise ancf.SolveError("t = 1 s", "diverged")
+            return line(a, b)
+
+        fit = ancf.calibrate(fragile, noisy(line(2.5, -1.0), 0.01, 1), {"a": (-5.0, 5.0), "b": (-5.0, 5.0)})
+        assert fit.values["a"] == pytest.approx(2.5, abs=0.05)
+
+    def test_a_start_that_fails(self):
+        def broken(a, b):
+            raise ancf.SolveError("t = 1 s", "diverged")
+
+        with pytest.raises(ancf.SolveError, match="diverged"):
+            ancf.calibrate(broken, noisy(line(2.5, -1.0), 0.01, 1), {"a": (-5.0, 5.0), "b": (-5.0, 5.0)})
+
+
+class TestCommand:
+    @pytest.fixture
+    def here(self, tmp_path):
+        for name in ("calibrate.toml", "calibrate_model.toml", "calibrate.csv"):
+            shutil.copy(EXAMPLES / name, tmp_path)
+        return tmp_path
+
+    def test_example(self, here, call):
+        """It finds what its data were made with."""
+        ran = call("calibrate", here / "calibrate.toml", "-o", "out", "-j", "0")
+        assert ran.code == 0, ran.err
+        found = json.loads((here / "out" / "fit.json").read_text(encoding="utf-8"))
+        for name, value in script("calibrate").TRUE.items():
+            row = found["parameters"][name]
+            assert abs(row["value"] - value) < 3.5 * row["deviation"]
+            assert row["deviation"] < 0.01 * value
+        assert found["notes"] == []
+        page = (here / "out" / "report.html").read_text(encoding="utf-8")
+        assert "A cable from its motion" in page
+        table = pd.read_csv(here / "out" / "fit.csv")
+        assert len(table) == 101
+        assert len(table.columns) == 13
+
+    def test_data_of_the_example_are_what_its_script_makes(self):
+        made = script("calibrate")
+        t, columns = made.measured()
+        stored = pd.read_csv(EXAMPLES / "calibrate.csv")
+        assert [*stored.columns] == ["t", *made.COLUMNS]
+        assert stored["t"].to_numpy() == pytest.approx(t)
+        for name, values in columns.items():
+            assert stored[name].to_numpy() == pytest.approx(values, rel=1e-6, abs=1e-8)
+
+    @pytest.mark.parametrize(
+        ("old", "new", "phrase"),
+        [
+            ("parameters.EI", "parameters.EJ", "parameters.EJ"),
+            ("high = 1.0", "high = 1e-4", "has the bounds 0.001 and 0.0001"),
+            ("high = 1.0", "hihg = 1.0", "parameters[0].hihg: unknown key"),
+            ('name = "damping"', 'name = "EI"', 'parameters[1].name: "EI" is the name of another one'),
+            ("calibrate.csv", "calibrat.csv", "no such file"),
+            ("calibrate_model.toml", "m.toml", "no such file"),
+            ('title = "A', 'titel = "A', "titel: unknown key"),
+        ],
+    )
+    def test_bad(self, here, call, old, new, phrase):
+        path = here / "calibrate.toml"
+        text = path.read_text(encoding="utf-8")
+        assert old in text
+        path.write_text(text.replace(old, new, 1), encoding="utf-8")
+        ran = call("calibrate", path, "-j", "0", "--no-report")
+        assert ran.code == 2
+        assert phrase in ran.said
+
+    def test_data_longer_than_the_run(self, here):
+        model = here / "calibrate_model.toml"
+        model.write_text(
+            model.read_text(encoding="utf-8").replace("t_end = 2.0", "t_end = 1.0"), encoding="utf-8"
+        )
+        with pytest.raises(ancf.ModelError, match=r"go on to t = 2 s, simulation\.t_end of the model is 1 s"):
+            read_calibration(here / "calibrate.toml")
