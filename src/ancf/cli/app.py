@@ -60,11 +60,6 @@ Case = Annotated[
         metavar="CASE", help="Reference case, such as en50318-2002, or mooring.", show_default=False
     ),
 ]
-UnitFile = Annotated[
-    Path | None,
-    typer.Option("--output", "-o", metavar="FILE", help="FMU to write.", show_default="beside the model"),
-]
-FmiVersion = Annotated[str, typer.Option("--fmi", metavar="VERSION", help='"2.0" or "3.0".')]
 Speed = Annotated[float, typer.Option("--speed", metavar="KMH", help="Speed, km/h.", show_default=False)]
 CaseSpeed = Annotated[
     float | None, typer.Option("--speed", metavar="KMH", help="Speed of a line, km/h.", show_default=False)
@@ -359,7 +354,7 @@ def import_moordyn(lines: MoorDynInput, output: Model = None) -> None:
 
 
 @app.command("export-fmu")
-def export_fmu(model: ModelFile, output: UnitFile = None, fmi: FmiVersion = "3.0") -> None:
+def export_fmu(model: ModelFile, output: exporting.Unit = None, fmi: exporting.Fmi = "3.0") -> None:
     """Write a model file as a unit of co-simulation (FMU), which Python and this package run.
 
     Its inputs are the model's, its outputs what the sensors of [simulation] record.

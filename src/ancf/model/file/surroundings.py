@@ -68,7 +68,7 @@ _GUSTS = {
             "description": "From where to where along the line [m].",
         },
         "direction": {**_NUMBER, "description": "Of the wind, from x towards y, default 0 [rad]."},
-        "line": vector_schema(_NUMBER),
+        "line": {**vector_schema(_NUMBER), "description": "Direction of the line, default y [-]."},
         "spacing": {**_NUMBER, "exclusiveMinimum": 0, "description": "Of stations, default 5 [m]."},
         "decay": {**_NUMBER, "minimum": 0, "description": "Of the coherence, default 10 [-]."},
         "duration": {**_NUMBER, "exclusiveMinimum": 0, "description": "Until they repeat, default 600 [s]."},
