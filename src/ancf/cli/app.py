@@ -74,11 +74,6 @@ Jobs = Annotated[
 OptionalFolder = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="OUT", help="Folder for a CSV file.")
 ]
-UnitFile = Annotated[
-    Path | None,
-    typer.Option("--output", "-o", metavar="FILE", help="FMU to write.", show_default="beside the model"),
-]
-FmiVersion = Annotated[str, typer.Option("--fmi", metavar="VERSION", help='"2.0" or "3.0".')]
 States = Annotated[
     bool, typer.Option(help="Write OUT/results.h5 as well, some 10 to 100 MB for ancf view and ancf export.")
 ]
@@ -377,7 +372,7 @@ def import_moordyn(lines: MoorDynInput, output: Model = None) -> None:
 
 
 @app.command("export-fmu")
-def export_fmu(model: ModelFile, output: UnitFile = None, fmi: FmiVersion = "3.0") -> None:
+def export_fmu(model: ModelFile, output: exporting.Unit = None, fmi: exporting.Fmi = "3.0") -> None:
     """Write a model file as a unit of co-simulation (FMU), which Python and this package run.
 
     Its inputs are the model's, its outputs what the sensors of [simulation] record.

@@ -1,4 +1,4 @@
-"""Options of ``ancf export``."""
+"""Options of ``ancf export`` and ``ancf export-fmu``."""
 
 from __future__ import annotations
 
@@ -49,3 +49,8 @@ View = Annotated[
     str | None,
     typer.Option(metavar="PLANE", help='For movies: seen in the plane "xz", or "xyz".', show_default=False),
 ]
+Unit = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", metavar="FILE", help="FMU to write.", show_default="beside the model"),
+]
+Fmi = Annotated[str, typer.Option("--fmi", metavar="VERSION", help='"2.0" or "3.0".')]

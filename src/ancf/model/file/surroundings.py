@@ -68,7 +68,7 @@ _GUSTS = {
             "description": "From where to where along the line [m].",
         },
         "direction": {**_NUMBER, "description": "Of the wind, from x towards y, default 0 [rad]."},
-        "line": vector_schema(_NUMBER),
+        "line": {**vector_schema(_NUMBER), "description": "Direction of the line, default y [-]."},
         "spacing": {**_NUMBER, "exclusiveMinimum": 0, "description": "Of stations, default 5 [m]."},
         "decay": {**_NUMBER, "minimum": 0, "description": "Of the coherence, default 10 [-]."},
         "duration": {**_NUMBER, "exclusiveMinimum": 0, "description": "Until they repeat, default 600 [s]."},
@@ -94,8 +94,8 @@ class FluidEntry(Entry):
     above: float | None = Field(None, description="Lowest height z, default none [m].")
     below: float | None = Field(None, description="Highest height z, default none [m].")
     on: list[str] | None = Field(None, description="Bodies on which it acts, default all.")
-    gusts: Squalls | None = Field(None, description="Turbulence that is added to its velocity.")
-    waves: Sea | None = Field(None, description="Waves on its surface at `below`.")
+    gusts: Squalls | None = Field(None, description="Turbulence that is added to its velocity [m, m/s, s, rad].")
+    waves: Sea | None = Field(None, description="Waves on its surface at `below` [m, s, rad].")
 
 
 _LINE = {"type": "array", "items": _NUMBER, "minItems": 2, "description": "Increasing places [m]."}
