@@ -17,6 +17,8 @@ from places import EXAMPLES
 WITH_MAIN = ("cantilever", "pendulum", "spin_up", "coupled_wires", "sliding_beam")
 #: Scripts of tests/control/test_control_examples.py.
 CONTROLLED = ("active_pantograph", "crane", "crane_env")
+#: The script of tests/design/test_calibrate.py.
+CALIBRATED = ("calibrate",)
 #: Model files; line.toml describes an overhead line, study.toml a study, calibrate.toml a calibration.
 OTHERS = {"line.toml", "study.toml", "calibrate.toml"}
 FILES = sorted({path.name for path in EXAMPLES.glob("*.toml")} - OTHERS)
@@ -103,7 +105,7 @@ class TestScripts:
         assert ancf.modes(model, about=state, count=10).frequencies.shape == (10,)
 
     def test_all_scripts_are_tested(self):
-        tested = [*WITH_MAIN, "model_face", *CONTROLLED]
+        tested = [*WITH_MAIN, "model_face", *CONTROLLED, *CALIBRATED]
         assert sorted(path.stem for path in EXAMPLES.glob("*.py")) == sorted(tested)
 
 

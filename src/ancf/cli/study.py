@@ -56,7 +56,7 @@ def show_status(folder: Path) -> None:
     from ..design.journal import progress_of
 
     now = progress_of(folder)
-    mean = f", {duration(now.seconds / now.done)} each" if now.done else ""
+    mean = f", {now.seconds / now.done:.3g} s each" if now.done else ""
     text = f"{folder}: {now.done} of {now.wanted} cases done, {now.failed} failed{mean}"
     console().print(text, soft_wrap=True)
 
