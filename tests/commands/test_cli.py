@@ -8,7 +8,7 @@ import pytest
 
 import ancf
 from ancf.cli.app import app
-from ancf.cli.screen import _duration, _Lines
+from ancf.cli.screen import _Lines, duration
 from ancf.cli.summary import coordinate
 from ancf.model.file import parse_study
 from commands import EQUILIBRIUM, FORCE, LONG, MODEL, SIMULATION, write
@@ -471,6 +471,6 @@ def test_an_internal_error_is_one_block(call, monkeypatch):
 
 
 def test_small_words():
-    assert [_duration(s) for s in (1.26, 75.0, 3700.0)] == ["1.3 s", "1:15 min", "1:01:40 h"]
+    assert [duration(s) for s in (1.26, 75.0, 3700.0)] == ["1.3 s", "1:15 min", "1:01:40 h"]
     assert coordinate(1e-17, [1.0, 1e-17]) == "0.000000"
     assert coordinate(-0.5, [1.0]) == "-0.500000"

@@ -94,7 +94,9 @@ class FluidEntry(Entry):
     above: float | None = Field(None, description="Lowest height z, default none [m].")
     below: float | None = Field(None, description="Highest height z, default none [m].")
     on: list[str] | None = Field(None, description="Bodies on which it acts, default all.")
-    gusts: Squalls | None = Field(None, description="Turbulence that is added to its velocity [m, m/s, s, rad].")
+    gusts: Squalls | None = Field(
+        None, description="Turbulence that is added to its velocity [m, m/s, s, rad]."
+    )
     waves: Sea | None = Field(None, description="Waves on its surface at `below` [m, s, rad].")
 
 
