@@ -24,7 +24,7 @@ class TestDistributions:
             (ancf.Triangular(1.0, 1.0, 4.0), stats.triang(0.0, 1.0, 3.0)),
             (ancf.Triangular(1.0, 4.0, 4.0), stats.triang(1.0, 1.0, 3.0)),
         ],
-        ids=str,
+        ids=["uniform", "normal", "triangular", "falling", "rising"],
     )
     def test_quantiles(self, ours, theirs):
         assert ours.quantile(U) == pytest.approx(theirs.ppf(U), rel=1e-12)

@@ -62,13 +62,14 @@ function firstSpeed() {
 }
 
 function choices() {
-  const { quantities } = unpackedScene, aim = targets(), strips = unpackedScene.strips;
+  const { quantities, strips } = unpackedScene, aim = targets();
+  const first = aim.length && strips?.names.includes(aim[0][0]) ? aim[0] : ["", null];
   fill($("color"), [...quantities.map((q) => [q.name, q.name]), ["plain", "plain"]], picture.color);
   fill($("camera"), Object.keys(VIEWS).map((name) => [name, name]), picture.view);
   fill($("aspect"), [["equal", "to scale"], ["stretched", "stretched"]], picture.stretched ? "stretched" : "equal");
-  fill($("follow"), [["", "nothing"], ...aim.map(([name]) => [name, name])], strips ? aim[0][0] : "");
+  fill($("follow"), [["", "nothing"], ...aim.map(([name]) => [name, name])], first[0]);
   $("follow").parentElement.hidden = aim.length === 0;
-  picture.followed = strips ? aim[0][1] : null;
+  picture.followed = first[1];
 
   $("color").addEventListener("change", (event) => picture.recolor(event.target.value, player.frame));
   $("camera").addEventListener("change", (event) => { picture.view = event.target.value; relayout(true); });
@@ -83,16 +84,20 @@ function relayout(camera = false) {
   return picture.relayout(player.frame, camera);
 }
 
-// What a window can follow: strips, masses and rigid bodies that move.
+// What a window can follow: strips, masses and rigid bodies that move far.
 function targets() {
   const found = [], { strips, markers } = unpackedScene;
   const middle = (row, i) => [0, 1, 2].map((d) => (row[6 * i + d] + row[6 * i + 3 + d]) / 2);
-  strips?.names.forEach((name, i) => found.push([name, (k) => middle(strips.ends.row(k), i)]));
+  const far = (at) => Math.abs(at(LAST)[picture.long] - at(0)[picture.long]) > 0.1 * picture.size;
+  strips?.names.forEach((name, i) => {
+    const at = (k) => middle(strips.ends.row(k), i);
+    if (LAST === 0 || far(at)) found.push([name, at]);
+  });
   for (const { kind, names, position } of markers) {
     if (!["point mass", "rigid body"].includes(kind) || position.count === 1) continue;
     names.forEach((name, i) => {
-      const at = (k) => position.row(k).subarray(3 * i, 3 * i + 3), axis = picture.long;
-      if (Math.abs(at(LAST)[axis] - at(0)[axis]) > 0.1 * picture.size) found.push([name, at]);
+      const at = (k) => position.row(k).subarray(3 * i, 3 * i + 3);
+      if (far(at)) found.push([name, at]);
     });
   }
   return found;
