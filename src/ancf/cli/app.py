@@ -292,16 +292,16 @@ def validate(
     report: Report = True,
     quiet: Quiet = False,
 ) -> None:
-    """Run a reference case of a standard, or mooring lines, and compare them with the published ranges.
+    """Run a reference case of a standard, mooring lines or ropes on drums, beside what is published.
 
     Writes OUT/validate.json, CSV files and OUT/report.html. Quantities outside their ranges are reported and
     are no error: the exit code is 0 when all was computed.
     """
     with reported():
-        from .validate import validate_case, validate_mooring
+        from .validate import WITHOUT_SPEED, validate_case, validate_groups
 
-        if case == "mooring":
-            validate_mooring(speed, output, report, quiet)
+        if case in WITHOUT_SPEED:
+            validate_groups(case, speed, output, report, quiet)
         else:
             validate_case(case, speed, output, report, quiet)
 

@@ -13,7 +13,7 @@ Forces = Annotated[list[float] | None, typer.Option("--force", help="Upward forc
 Case = Annotated[
     str,
     typer.Argument(
-        metavar="CASE", help="Reference case, such as en50318-2002, or mooring.", show_default=False
+        metavar="CASE", help="Reference case, such as en50318-2002, mooring, or contact.", show_default=False
     ),
 ]
 Speed = Annotated[float, typer.Option("--speed", metavar="KMH", help="Speed, km/h.", show_default=False)]

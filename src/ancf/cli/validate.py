@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -48,8 +49,14 @@ def validate_case(
         console().print("written: " + ", ".join(str(file) for file in files), soft_wrap=True)
 
 
-def validate_mooring(speed_kmh: float | None, folder: Path, report: bool = True, quiet: bool = False) -> None:
-    """Compute mooring lines, compare, write and print.
+#: Cases that have no speed, with the modules that compute them.
+WITHOUT_SPEED = {"mooring": "mooring", "contact": "reeving"}
+
+
+def validate_groups(
+    case: str, speed_kmh: float | None, folder: Path, report: bool = True, quiet: bool = False
+) -> None:
+    """Compute mooring lines or ropes on surfaces, compare, write and print.
 
     Raises
     ------
@@ -58,10 +65,10 @@ def validate_mooring(speed_kmh: float | None, folder: Path, report: bool = True,
 
     """
     from ..catenary.table import table
-    from ..mooring import validate
 
+    validate = import_module(f"..{WITHOUT_SPEED[case]}.validate", __package__)
     if speed_kmh is not None:
-        raise ModelError("--speed", "mooring lines have none", "leave it out")
+        raise ModelError("--speed", f'the case "{case}" has none', "leave it out")
     output, screen = OutputFolder(folder), Screen(quiet)
     with output.locked():
         screen.announce_compilation()

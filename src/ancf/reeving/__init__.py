@@ -1,0 +1,1 @@
+"""Ropes on drums and sheaves beside closed forms."""

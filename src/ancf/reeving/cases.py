@@ -1,0 +1,146 @@
+"""The ropes on surfaces that are validated: models, what is read off them, and the closed forms."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..analysis import equilibrium, simulate
+from ..arrays import FloatArray
+from ..model.beam import Beam
+from ..model.model import Model
+from ..model.section import Section
+from ..model.surface_shapes import Cylinder
+
+GRAVITY = 9.81
+#: Radius of the drums and of the rope's axis on them, diameter of the rope, m.
+RADIUS, DIAMETER = 0.2, 0.02
+AXIS = RADIUS + 0.5 * DIAMETER
+TAIL, TAIL_ELEMENTS, PER_TURN = 0.1, 2, 64
+
+
+def wound(angle: float, pitch: float, EA: float) -> tuple[Model, Beam, FloatArray, float]:
+    """A rope wound about the y axis by an angle, with straight tails.
+
+    Returns
+    -------
+    tuple
+        Model, rope, the unit tangent of its end, and the angle by which its tangent turns, rad: that of
+        a helix is less than `angle`.
+    """
+    p = pitch / (2.0 * math.pi)
+    ds, n = math.hypot(AXIS, p), max(8, round(PER_TURN * angle / (2.0 * math.pi)))
+
+    def point(a: Any) -> FloatArray:
+        return np.stack([AXIS * np.cos(a), p * np.asarray(a), AXIS * np.sin(a)], axis=-1)
+
+    def tangent(a: float) -> FloatArray:
+        return np.array([-AXIS * math.sin(a), p, AXIS * math.cos(a)]) / ds
+
+    way = np.linspace(0.0, TAIL, 12)[1:, None]
+    path = [
+        point(0.0) - way[::-1] * tangent(0.0),
+        point(np.linspace(0.0, angle, 20 * n)),
+        point(angle) + way * tangent(angle),
+    ]
+    tail = np.linspace(0.0, TAIL, TAIL_ELEMENTS + 1)
+    on = TAIL + np.linspace(0.0, angle * ds, n + 1)
+    nodes = np.unique(np.concatenate([tail, on, TAIL + angle * ds + tail]).round(12))
+    model = Model()
+    section = Section(EA=EA, EI=1e-3, rhoA=0.3, diameter=DIAMETER)
+    rope = model.add_beam("rope", path=np.concatenate(path), nodes=nodes, length=nodes[-1], section=section)
+    return model, rope, tangent(angle), AXIS * angle / ds
+
+
+def capstan(friction: float, turns: float, load: float = 1000.0) -> tuple[float, float]:
+    """Ratio of the forces at the ends of a rope that is about to slip, and exp(mu phi)."""
+    pitch = 0.05 if turns > 1.0 else 0.0
+    model, rope, way, phi = wound(2.0 * math.pi * turns, pitch, 1e5 if turns > 1.0 else 1e6)
+    drum = model.add_surface("drum", Cylinder(radius=RADIUS, axis=(0, 1, 0)))
+    model.add_contact(rope, drum, stiffness=1e8, friction=friction)
+    held = model.pin(rope.start)
+    model.add_force(rope.end, load * way)
+    ratio = load / float(np.linalg.norm(equilibrium(model).reaction(held)))
+    return ratio, math.exp(friction * phi)
+
+
+def line_load(load: float) -> tuple[float, float]:
+    """Mean force per length of a rope on half a drum without friction, away from its ends, and T/R, N/m.
+
+    Per length without load, at the radius of the axis where it presses.
+    """
+    EA, k = 1e6, 1e8
+    model, rope, way, _ = wound(math.pi, 0.0, EA)
+    drum = model.add_surface("drum", Cylinder(radius=RADIUS, axis=(0, 1, 0)))
+    contact = model.add_contact(rope, drum, stiffness=k)
+    model.pin(rope.start)
+    model.add_force(rope.end, load * way)
+    line = equilibrium(model).contact_line(contact.name)
+    middle = np.abs(line.x - 0.5 * rope.length) < 0.25 * math.pi * AXIS
+    weight = 0.5 * np.polynomial.legendre.leggauss(5)[1]
+    force = (line.normal[middle].reshape(-1, 5) @ weight).mean()
+    return float(force), load * (1.0 + load / EA) / (AXIS - load / (AXIS * k))
+
+
+def hung_over(low: float, drop: float = 0.5, mass: float = 2.0) -> tuple[float, float]:
+    """Difference of the forces at the ends of a heavy rope over a smooth drum, and w (z_b - z_a), N."""
+    arc = np.linspace(0.0, math.pi, 60)
+    over = np.stack([AXIS * np.cos(arc), 0.0 * arc, AXIS * np.sin(arc)], axis=1)
+    left, right = (
+        np.stack([np.full(20, side * AXIS), np.zeros(20), np.linspace(0.0, -depth, 21)[1:]], axis=1)
+        for side, depth in ((1.0, drop), (-1.0, low))
+    )
+    model = Model(gravity=(0, 0, -GRAVITY))
+    section = Section(EA=1e6, EI=1e-3, rhoA=mass, diameter=DIAMETER)
+    path = np.concatenate([left[::-1], over, right])
+    rope = model.add_beam("rope", path=path, elements=60, section=section)
+    drum = model.add_surface("drum", Cylinder(radius=RADIUS, axis=(0, 1, 0)))
+    model.add_contact(rope, drum, stiffness=1e7)
+    pulled = 2e-4
+    ends = model.pin(rope.start, displacement=(0, 0, -pulled)), model.pin(rope.end)
+    state = equilibrium(model)
+    forces = [float(np.linalg.norm(state.reaction(end))) for end in ends]
+    return forces[1] - forces[0], mass * GRAVITY * (drop + pulled - low)
+
+
+def pulley(inertia: float, step: float = 5e-4) -> dict[str, float]:
+    """Two equal masses on a rope over a pulley that friction turns, pushed for a while.
+
+    Returns
+    -------
+    dict
+        ``speed`` at the end over that of a rope that neither stretches nor slips, and ``drift`` of the
+        energy over the work of the push.
+    """
+    mass, drop, rope_mass, push, time = 2.5, 0.5, 0.05, 4.0, 0.4
+    arc = np.linspace(0.0, math.pi, 60)
+    over = np.stack([AXIS * np.cos(arc), 0.0 * arc, AXIS * np.sin(arc)], axis=1)
+    sides = [
+        np.stack([np.full(20, side * AXIS), np.zeros(20), np.linspace(0.0, -drop, 21)[1:]], axis=1)
+        for side in (1.0, -1.0)
+    ]
+    length = math.pi * AXIS
+    down, on = np.linspace(0.0, drop, 15), drop + np.linspace(0.0, length, 13)
+    nodes = np.unique(np.concatenate([down, on, drop + length + down]).round(12)) * (1.0 - 1e-6)
+    model = Model(gravity=(0, 0, -GRAVITY))
+    section = Section(EA=1e5, EI=1e-5, rhoA=rope_mass, diameter=DIAMETER, axial_damping=20.0)
+    path = np.concatenate([sides[0][::-1], over, sides[1]])
+    rope = model.add_beam("rope", path=path, nodes=nodes, length=nodes[-1], section=section)
+    for name, end, x in (("A", rope.start, AXIS), ("B", rope.end, -AXIS)):
+        model.connect(model.add_point_mass(name, at=(x, 0, -drop), mass=mass), end)
+    hub = model.add_rigid_body("hub", at=(0, 0, 0), mass=2.0, inertia=(0.6 * inertia, inertia, 0.6 * inertia))
+    model.hinge(hub, (0, 0, 0), axis=(0, 1, 0))
+    drum = model.add_surface("drum", Cylinder(radius=RADIUS, axis=(0, 1, 0)), on=hub)
+    model.add_contact(rope, drum, stiffness=1e6, damping=300.0, friction=0.5)
+    model.add_force("A", (0, 0, f"-{push}*sin(pi*t/{time})**2"))
+    start = equilibrium(model, of=["rope", "A", "B"])
+    run = simulate(model, t_end=time, step=step, output_step=0.1, start=start)
+    carried = 2.0 * mass + inertia / AXIS**2 + rope_mass * rope.length
+    speed = 0.5 * (run.velocity("B") - run.velocity("A"))[-1, 2]
+    work = float(np.ptp(run.energy.supplied))
+    return {
+        "speed": float(speed) / (0.5 * push * time / carried),
+        "drift": float(np.abs(run.energy.drift).max()) / work,
+    }

@@ -1,0 +1,96 @@
+"""Ropes on drums and pulleys computed and compared with closed forms."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from .. import validation
+from ..catenary.quantity import Quantity
+from ..validation import Group, Progress
+from . import cases
+
+CASE = "contact"
+TITLE = "Ropes on drums and pulleys against closed forms"
+#: Coefficients of friction and turns of the capstan.
+FRICTIONS, TURNS = (0.05, 0.2, 0.5), (0.25, 1.0, 2.0)
+LOADS, LOWER_ENDS, INERTIAS = (100.0, 3000.0), (0.1, 0.3), (0.01, 0.2)
+#: Shares of the reference within which a quantity counts as reproduced; of the work in 1e-6.
+OF_CAPSTAN, OF_LINE, OF_SPEED, OF_WORK = 1e-2, 1e-3, 5e-3, 1.0
+
+
+def compare(progress: Progress | None = None) -> list[Group]:
+    """Compute all cases beside their closed forms; ``progress(done, of)`` is called after each."""
+    count = len(FRICTIONS) * len(TURNS) + len(LOADS) + len(LOWER_ENDS) + len(INERTIAS)
+    done = 0
+
+    def told(rows: list[Quantity]) -> list[Quantity]:
+        nonlocal done
+        done += 1
+        if progress is not None:
+            progress(done, count)
+        return rows
+
+    def group(title: str, source: str, makers: list[Callable[[], list[Quantity]]]) -> Group:
+        return Group(title, source, [row for make in makers for row in told(make())])
+
+    return [
+        group(
+            "Capstan",
+            "Euler and Eytelwein: the force that holds is T exp(-mu phi); two turns as a helix",
+            [lambda mu=mu, n=n: _capstan(mu, n) for mu in FRICTIONS for n in TURNS],  # type: ignore[misc]
+        ),
+        group(
+            "Half a turn without friction",
+            "balance of a piece of rope on a circle: T/R per length",
+            [lambda load=load: _line_load(load) for load in LOADS],  # type: ignore[misc]
+        ),
+        group(
+            "A heavy rope over a drum without friction",
+            "T - w z is the same all along",
+            [lambda low=low: _hung_over(low) for low in LOWER_ENDS],  # type: ignore[misc]
+        ),
+        group(
+            "Two masses over a pulley that friction turns, 0.5 ms",
+            "Atwood's machine with the moment of inertia of the pulley; energy: what is supplied is there",
+            [lambda inertia=inertia: _pulley(inertia) for inertia in INERTIAS],  # type: ignore[misc]
+        ),
+    ]
+
+
+def _capstan(friction: float, turns: float) -> list[Quantity]:
+    ratio, wanted = cases.capstan(friction, turns)
+    name = f"T2/T1, mu = {friction:g}, {turns:g} turn{'s' if turns > 1.0 else ''}"
+    return [_row("ratio", name, "-", ratio, wanted, OF_CAPSTAN)]
+
+
+def _line_load(load: float) -> list[Quantity]:
+    found, wanted = cases.line_load(load)
+    return [_row("line load", f"line load, T = {load:g} N", "N/m", found, wanted, OF_LINE)]
+
+
+def _hung_over(low: float) -> list[Quantity]:
+    found, wanted = cases.hung_over(low)
+    name = f"difference of the ends over w h, h = {0.5 - low:g} m"
+    return [_row("difference", name, "-", found / wanted, 1.0, OF_LINE)]
+
+
+def _pulley(inertia: float) -> list[Quantity]:
+    found = cases.pulley(inertia)
+    name = f"moment of inertia {inertia:g} kg m^2"
+    return [
+        _row("speed", f"speed over that without stretch, {name}", "-", found["speed"], 1.0, OF_SPEED),
+        Quantity(
+            "drift", f"drift over work, {name}", "1e-6", 1e6 * found["drift"], None, OF_WORK, "invariant"
+        ),
+    ]
+
+
+def _row(key: str, name: str, unit: str, value: float, wanted: float, share: float) -> Quantity:
+    within = share * wanted
+    return Quantity(key, name, unit, value, wanted - within, wanted + within, "closed form")
+
+
+def write(groups: list[Group], folder: Path, report: bool = True) -> list[Path]:
+    """Write ``validate.json`` and, if wanted, ``report.html``; returns the files."""
+    return validation.write(CASE, TITLE, groups, folder, report)
