@@ -13,7 +13,7 @@ KERNELS, REGISTRY = "loads/attraction.py", "model/kinds.py"
 IMPORT = "from .laws import Parameter, law\n"
 LIST = "LOADS: list[Kind] = [\n"
 RECORD = PAGE.split(LIST)[1].split("    ...\n]")[0]
-BEHIND = "from .kind import CONTACT, JOINT, SLIDE, SPRING, Kind, Look, Push\n"
+BEHIND = "from .kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT, Kind, Look, Push\n"
 
 #: Attraction S/d^2 of a unit mass that starts at the apsis A, from the centre, with the speed W.
 S, A, W = 4.0, (1.0, 0.0, 0.0), (0.0, 1.8, 0.6)

@@ -80,6 +80,8 @@ UNITS = {
     "spring_length": "m",
     "contact_force": "N",
     "contact_gap": "m",
+    "friction_force": "N",
+    "slipping": "",
     "frequency": "Hz",
 }
 #: Symbols that stand in labels instead of the name.
