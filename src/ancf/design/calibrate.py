@@ -17,11 +17,12 @@ from ..model import checks
 from ..model.file import Study
 from ..model.model import Model
 from ..model.settings import SimulationSettings
+from ..worker import one_thread
 from .calibration_data import TIME, bounds_of, columns_of, is_logarithmic, numbers_of, start_of
 from .cases import OF_MODEL, histories
 from .fit import Fit
 from .formulas import Formula
-from .processes import one_thread, without_script
+from .processes import without_script
 from .work import packed, unpacked
 
 #: Step of the central differences, in units of the distance of the bounds (or of its logarithm).

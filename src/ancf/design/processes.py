@@ -12,41 +12,20 @@ import types
 from collections import deque
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ..worker import PATIENCE, Worker, crew, start
 from .journal import FAILED, Outcome
 from .work import outcome, unpacked
 
-if TYPE_CHECKING:
-    from multiprocessing.process import BaseProcess
-
 Case = tuple[str, dict[str, Any]]
-#: One thread each: the processes share the cores.
-THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-PATIENCE = 2.0  # s that a process gets to end
 #: Work that is handed over at once, s, and the most cases.
 AT_ONCE, MOST_AT_ONCE = 0.5, 200
 #: Processes that may die over one case before it counts as failed.
 MOST_DEATHS = 3
 #: s without compiling in the first case after which the others begin.
 QUIET = 3.0
-
-
-@dataclass
-class Worker:
-    """A process, this end of its pipe, and what it has still to do."""
-
-    process: BaseProcess
-    pipe: Connection
-    left: deque[Case] = field(default_factory=deque)
-
-    def give(self, cases: Sequence[Case]) -> None:
-        """Hand over cases; none ends the process."""
-        self.left = deque(cases)
-        with suppress(OSError):  # it died: the other end of the pipe tells
-            self.pipe.send(list(cases))
 
 
 class Processes:
@@ -71,7 +50,7 @@ class Processes:
         The first case runs alone until the kernels are compiled: the others find them in the cache.
         """
         waiting, alone = deque(cases), True
-        with self._workers(min(self._count, len(waiting))) as workers:
+        with crew(min(self._count, len(waiting)), self._start) as workers:
             self._changed = time.monotonic()
             workers[0].give([waiting.popleft()])
             while any(worker.left for worker in workers) or waiting:
@@ -93,7 +72,7 @@ class Processes:
         return [waiting.popleft() for _ in range(max(1, most))]
 
     def _heard(
-        self, worker: Worker, workers: list[Worker], waiting: deque[Case]
+        self, worker: Worker[Case], workers: list[Worker[Case]], waiting: deque[Case]
     ) -> Iterator[tuple[str, Outcome]]:
         """Take one message of a worker, or replace it if it has died."""
         try:
@@ -109,7 +88,7 @@ class Processes:
         yield key, made
 
     def _died(
-        self, worker: Worker, workers: list[Worker], waiting: deque[Case]
+        self, worker: Worker[Case], workers: list[Worker[Case]], waiting: deque[Case]
     ) -> Iterator[tuple[str, Outcome]]:
         worker.process.join(PATIENCE)
         self._compiling = 0
@@ -123,57 +102,16 @@ class Processes:
         worker.pipe.close()
         workers[workers.index(worker)] = self._start()
 
-    @contextmanager
-    def _workers(self, count: int) -> Iterator[list[Worker]]:
-        workers: list[Worker] = []
-        try:
-            for _ in range(count):
-                workers.append(self._start())
-            yield workers
-            for worker in workers:
-                worker.give(())
-            for worker in workers:
-                worker.process.join(PATIENCE)
-        finally:
-            for worker in workers:
-                worker.pipe.close()
-                _end(worker.process)
-
-    def _start(self) -> Worker:
-        context = multiprocessing.get_context("spawn")
-        ours, theirs = context.Pipe()
-        process = context.Process(target=serve, args=(theirs, self._function), daemon=True)
-        with one_thread(), without_script():
-            process.start()
-        theirs.close()
-        return Worker(process, ours)
+    def _start(self) -> Worker[Case]:
+        with without_script():
+            return start(serve, self._function)
 
 
-def _end_of(worker: Worker) -> str:
+def _end_of(worker: Worker[Case]) -> str:
     code = worker.process.exitcode
     if code is not None and code < 0:
         return f"signal {-code}"
     return f"exit code {code}"
-
-
-def _end(process: BaseProcess) -> None:
-    process.terminate()
-    process.join(PATIENCE)
-    if process.is_alive():
-        process.kill()
-        process.join(PATIENCE)
-
-
-@contextmanager
-def one_thread() -> Iterator[None]:
-    """Variables that a new process inherits, unless the user has set them."""
-    added = [name for name in THREADS if name not in os.environ]
-    os.environ.update(dict.fromkeys(added, "1"))
-    try:
-        yield
-    finally:
-        for name in added:
-            del os.environ[name]
 
 
 @contextmanager
