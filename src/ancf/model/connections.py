@@ -9,6 +9,8 @@ from typing import Any
 from ..arrays import FloatArray
 from ..errors import ModelError
 from . import checks
+from .body_contact import BodyContact
+from .cable_contact import CableContact
 from .contact import Contact
 from .joints import Fixation, Revolute, Slide, Spherical
 from .points import Point, initial_position
@@ -43,7 +45,9 @@ class Spring:
     slack: bool
 
 
-Connection = Spherical | Revolute | Fixation | Slide | Spring | Contact | SurfaceContact
+Connection = (
+    Spherical | Revolute | Fixation | Slide | Spring | Contact | SurfaceContact | CableContact | BodyContact
+)
 
 
 def make_spring(

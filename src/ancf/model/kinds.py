@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from importlib import import_module
 from typing import Any
 
-from . import sheets, surfaces
+from . import body_contact, cable_contact, sheets, surfaces
 from .connections import Spring
 from .contact import Contact
 from .fluids import Fluid
@@ -154,6 +154,28 @@ CONNECTIONS: list[Kind] = [
         surfaces.data,
         ends=("body", "surface"),
         between=surfaces.between,
+        asked=SURFACE_CONTACT,
+    ),
+    Kind(
+        cable_contact.CableContact,
+        "cable_contact",
+        "contact of cables",
+        "add_cable_contact",
+        _entry("CableContactEntry"),
+        cable_contact.data,
+        ends=("body", "other"),
+        between=cable_contact.between,
+        asked=SURFACE_CONTACT,
+    ),
+    Kind(
+        body_contact.BodyContact,
+        "body_contact",
+        "contact of bodies",
+        "add_body_contact",
+        _entry("BodyContactEntry"),
+        body_contact.data,
+        ends=("surface", "other"),
+        between=body_contact.between,
         asked=SURFACE_CONTACT,
     ),
 ]

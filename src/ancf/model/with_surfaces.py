@@ -8,6 +8,8 @@ from ..errors import ModelError
 from . import checks
 from .beam import Beam
 from .bodies import RigidBody, kind
+from .body_contact import BodyContact, make_body_contact
+from .cable_contact import CableContact, make_cable_contact
 from .connecting import Connecting, PointLike
 from .contact import make_contact
 from .names import unknown
@@ -76,10 +78,12 @@ class WithSurfaces(Connecting):
         s: float | None = None,
         name: str | None = None,
     ) -> Any:
-        """Let a beam or cable touch a surface, or a wire rest on a straight strip through a point.
+        """Let a beam or cable touch a surface, another cable or itself, or rest on a strip through a point.
 
         With a surface, ``add_contact(rope, drum, ...)``, it is :meth:`add_surface_contact`: stiffness and
-        damping are per length, in Pa and Pa s. With a strip, as of a pantograph, they are in N/m and N s/m.
+        damping are per length, in Pa and Pa s. With two cables, or the same one twice, it is
+        :meth:`add_cable_contact`, in the same units. With two surfaces it is :meth:`add_body_contact`; there
+        and with a strip, as of a pantograph, they are in N/m and N s/m.
         The force of a strip is a penalty on the overlap, it pushes only, and there is no friction: the wire
         is free to sweep along the strip and the strip to run along the wire. Beyond the wire's ends nothing
         touches.
@@ -87,15 +91,15 @@ class WithSurfaces(Connecting):
         Parameters
         ----------
         point : Beam, or Point, PointMass or RigidBody
-            What touches a surface, or the strip's point.
+            What touches a surface or a cable, or the strip's point.
         along : Surface, or Beam
-            The surface, or the wire.
+            The surface, the cable or the wire.
         stiffness : float, Pa or N/m
             Force per depth and length, or per overlap.
         damping : float, Pa s or N s/m
             Force per rate of depth and length, or of overlap.
         friction, stick, radius
-            With a surface, see :meth:`add_surface_contact`.
+            With a surface or a cable, see :meth:`add_surface_contact`.
         strip : (3,)
             Direction of the strip, default y.
         normal : (3,)
@@ -108,15 +112,38 @@ class WithSurfaces(Connecting):
 
         Returns
         -------
-        SurfaceContact or Contact
+        SurfaceContact, CableContact or Contact
 
         """
         where = self._where("add_contact", name, point)
         of_surface = {"friction": friction, "stick": stick, "radius": radius}
         of_strip = {"strip": strip, "normal": normal, "s": s}
-        if isinstance(along, Surface) or any(along == item.name for item in self.surfaces):
+        if self._is_surface(along):
             _refuse(where, of_strip, "a contact with a surface")
+            if self._is_surface(point):
+                _refuse(where, {"radius": radius}, "a contact of bodies")
+                return self.add_body_contact(
+                    point,
+                    along,
+                    stiffness=stiffness,
+                    damping=damping,
+                    friction=0.0 if friction is None else friction,
+                    stick=stick,
+                    name=name,
+                )
             return self.add_surface_contact(
+                point,
+                along,
+                stiffness=stiffness,
+                damping=damping,
+                friction=0.0 if friction is None else friction,
+                stick=stick,
+                radius=radius,
+                name=name,
+            )
+        if self._is_beam(point) and self._is_beam(along):
+            _refuse(where, of_strip, "a contact of cables")
+            return self.add_cable_contact(
                 point,
                 along,
                 stiffness=stiffness,
@@ -193,6 +220,117 @@ class WithSurfaces(Connecting):
             radius=radius,
         )
         return self.add_connection(where, item)
+
+    def add_cable_contact(
+        self,
+        body: Any,
+        other: Any,
+        *,
+        stiffness: float,
+        damping: float = 0.0,
+        friction: float = 0.0,
+        stick: float | None = None,
+        radius: float | None = None,
+        name: str | None = None,
+    ) -> CableContact:
+        """Let two cables or beams touch, or one touch itself, all along, with friction that sticks.
+
+        A cable touches itself where it is more than two diameters of its length away.
+
+        Parameters
+        ----------
+        body, other : Beam or name
+            The same one: it touches itself.
+        stiffness : float, Pa
+            Normal force per length and depth where they lie side by side.
+        damping : float, Pa s
+            Normal force per length and rate of depth; it never pulls.
+        friction : float
+            Coulomb's coefficient.
+        stick : float, Pa
+            Force per length and way against sliding, before it slips; default `stiffness`.
+        radius : float, m
+            Of both, default half the diameters of their sections.
+        name : str
+            Default "contact of rope and line", or "contact of rope and itself".
+
+        """
+        where = self._where("add_cable_contact", name)
+        first, second = self._body(body, f"{where}.body"), self._body(other, f"{where}.other")
+        what = "itself" if second is first else second.name
+        label = self._names.of_item(name, f"contact of {first.name} and {what}", where)
+        for old in self.connections:
+            if isinstance(old, CableContact) and {old.body, old.other} == {first, second}:
+                what = f'"{old.name}" is between "{first.name}" and "{second.name}" already'
+                raise ModelError(f"{where}.other", what)
+        item = make_cable_contact(
+            where,
+            label,
+            first,
+            second,
+            stiffness=stiffness,
+            damping=damping,
+            friction=friction,
+            stick=stick,
+            radius=radius,
+        )
+        return self.add_connection(where, item)
+
+    def add_body_contact(
+        self,
+        surface: Any,
+        other: Any,
+        *,
+        stiffness: float,
+        damping: float = 0.0,
+        friction: float = 0.0,
+        stick: float | None = None,
+        name: str | None = None,
+    ) -> BodyContact:
+        """Let two rigid bodies, or one and the ground, touch with surfaces that they carry.
+
+        A sphere touches every shape, a capsule touches spheres, capsules and planes.
+
+        Parameters
+        ----------
+        surface, other : Surface or name
+            On two different bodies, or one of them on the ground.
+        stiffness : float, N/m
+            Normal force per depth.
+        damping : float, N s/m
+            Normal force per rate of depth; it never pulls.
+        friction : float
+            Coulomb's coefficient.
+        stick : float, N/m
+            Force per way against sliding, before it slips; default `stiffness`.
+        name : str
+            Default "contact of ball and floor".
+
+        """
+        where = self._where("add_body_contact", name)
+        first, second = self.surface(surface, f"{where}.surface"), self.surface(other, f"{where}.other")
+        label = self._names.of_item(name, f"contact of {first.name} and {second.name}", where)
+        for old in self.connections:
+            if isinstance(old, BodyContact) and {old.surface, old.other} == {first, second}:
+                what = f'"{old.name}" is between "{first.name}" and "{second.name}" already'
+                raise ModelError(f"{where}.other", what)
+        item = make_body_contact(
+            where,
+            label,
+            first,
+            second,
+            stiffness=stiffness,
+            damping=damping,
+            friction=friction,
+            stick=stick,
+        )
+        return self.add_connection(where, item)
+
+    def _is_surface(self, given: Any) -> bool:
+        return isinstance(given, Surface) or any(given == item.name for item in self.surfaces)
+
+    def _is_beam(self, given: Any) -> bool:
+        return isinstance(given, Beam) or (isinstance(given, str) and given in self.beams)
 
 
 def _refuse(where: str, given: dict[str, Any], kind_of_it: str) -> None:

@@ -14,6 +14,8 @@ def balance(core, s, h):
     power = powers(core, s.q, s.v, s.a, s.f, push, s.r)
     s.work[0] += 0.5 * h * (s.memo[POWER] + power)
     s.memo[POWER] = power
+    if not core.loaded:
+        return
     for i in range(push.shape[0]):
         if h > 0.0:
             s.work[1] += 0.5 * (s.push[i] + push[i]) * (s.q[i] - s.q0[i])

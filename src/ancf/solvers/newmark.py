@@ -36,14 +36,14 @@ from ..system.core import (
     follow,
     inverted_section,
     restrict,
-    solve_matrix,
     solve_sparse,
     to_local,
 )
 from .balance import balance
 from .carry import carry, unbalanced
-from .corotation import remember, turn, turn_back, turn_forth, turn_rows
-from .low_rank import correct, forget, move_on
+from .corotation import remember, turn, turn_forth, turn_rows
+from .entwined import solve_apart, solve_entwined
+from .low_rank import forget, move_on
 from .memory import ETA, H_FACTOR, NOISE, NORM, WORST
 from .renewal import count, renewed
 from .sampling import sample
@@ -128,16 +128,6 @@ def still(joints, v, a):
     for k in range(joints.multipliers.shape[0]):
         v[joints.multipliers[k]] = 0.0
         a[joints.multipliers[k]] = 0.0
-
-
-@formula
-def solve_turned(core, s, rule):
-    """Replace the residual s.r by the correction, with a factorisation that turns with the nodes."""
-    if rule.corotate:
-        turn_back(s.frames, s.r)
-    solve_matrix(core.factor, s.r)
-    if rule.corotate:
-        turn_forth(s.frames, s.r)
 
 
 @inline_kernel
@@ -245,9 +235,8 @@ def newton(core, s, h, rule, modified, B, G):
                 return SINGULAR
             renew, fresh, older, old, eta, since = False, True, -1.0, -1.0, 1.0, 0
         unbalanced(core, s, h)
-        solve_turned(core, s, rule)
-        if not rule.corotate:
-            correct(s.patches, core, s.q, s.v, G / B, s.r)
+        solve_apart(core, s, rule, G / B)
+        solve_entwined(core.entwined, core, s, rule, G / B)
         norm = update(s, core.weight, G / B, 1.0 / B)
         size = norm
         if has_joints:

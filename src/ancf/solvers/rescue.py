@@ -60,7 +60,7 @@ class Groups(NamedTuple):
 
 def groups_of(system: System) -> Groups | None:
     """Groups of a system; None where contacts, of which the pattern does not know, or too many prevent it."""
-    if "contacts" in system.parts:
+    if "contacts" in system.parts or system.core.entwined:
         return None
     n = system.numbering.blocks
     pairs = np.concatenate([system.pairs, system.pairs[:, ::-1], np.repeat(np.arange(n), 2).reshape(-1, 2)])

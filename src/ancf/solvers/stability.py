@@ -16,6 +16,7 @@ from scipy.sparse import csc_array
 from ..arrays import FloatArray
 from ..errors import SolveError
 from ..linalg.sparse import to_sparse
+from ..model.cable_contact import CableContact
 from ..model.surfaces import SurfaceContact
 from ..system.core import assemble, restrict, solve_matrix
 from ..system.system import System
@@ -59,10 +60,12 @@ def _of_grounds(system: System) -> tuple[float, float]:
                     share * ground.damping * np.sqrt(max(1.0, (ground.stick or 0.0) / ground.stiffness))
                 )
     for item in system.model.connections:
-        if isinstance(item, SurfaceContact):
+        if isinstance(item, SurfaceContact | CableContact):
             k, stick = item.stiffness, item.stick or item.stiffness
-            stiff.append(max(k, stick if item.friction else 0.0) / item.body.section.rhoA)
-            drag.append(item.damping * float(np.sqrt(max(1.0, stick / k))) / item.body.section.rhoA)
+            both = [item.body] if isinstance(item, SurfaceContact) else [item.body, item.other]
+            mass = 1.0 / sum(1.0 / body.section.rhoA for body in both)
+            stiff.append(max(k, stick if item.friction else 0.0) / mass)
+            drag.append(item.damping * float(np.sqrt(max(1.0, stick / k))) / mass)
     return max(stiff), float(max(drag))
 
 

@@ -21,11 +21,18 @@ from ..connections.contact_build import contacts
 from ..connections.sliding_build import sliding
 from ..connections.spring_build import springs
 from ..contact.build import batches as surface_contacts
+from ..contact.bump_build import bumps
+from ..contact.bump_build import share as share_bumps
+from ..contact.grip import GripBatch
+from ..contact.strand import StrandBatch
+from ..contact.strand_build import share, strands
 from ..elements.registry import ELEMENTS
 from ..elements.workspace import workspace
 from ..linalg.block_ldl import allocate
 from ..linalg.ordering import MINIMUM_DEGREE, behind, from_both_ends, order
 from ..model.beam import Beam
+from ..model.body_contact import BodyContact
+from ..model.cable_contact import CableContact
 from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
@@ -70,7 +77,17 @@ def build_parts(
         parts["contacts"] = contacts(touching, find, slots, measured[: len(touching)])
     pressed = [c for c in model.connections if isinstance(c, SurfaceContact)]
     if pressed:
-        parts |= surface_contacts(pressed, find, slots, measured[len(touching) :])
+        rows = slice(len(touching), len(touching) + len(pressed))
+        parts |= surface_contacts(pressed, find, slots, measured[rows])
+    entwined = [c for c in model.connections if isinstance(c, CableContact)]
+    if entwined:
+        first = len(touching) + len(pressed)
+        left = measured[first : first + len(entwined)]
+        room = 6 * numbering.blocks + 12 * len(model.supports) + 12
+        parts |= strands(entwined, find, left, room)
+    bumping = [c for c in model.connections if isinstance(c, BodyContact)]
+    if bumping:
+        parts |= bumps(bumping, slots, measured[len(measured) - len(bumping) :])
     return parts | _joints(model, numbering, level, find)
 
 
@@ -135,6 +152,8 @@ def bind_parts(parts: Parts, rank: IntArray, constraints: Constraints, places: P
         seen = _mapped(batch, to_seen) if constraints.rotations else plain
         own = traits(batch).bind
         bound[name] = own(plain, seen, places) if own else seen._replace(dest=places.dest(plain.base))
+    share(bound)
+    share_bumps(bound)
     return bound
 
 
@@ -162,7 +181,9 @@ def make_core(
         batches=Batches(batches),
         external=Batches(external),
         rubbing=Batches(rubbing),
+        losing=Batches(b for b in batches if _damped(b) or Role.RUBS in traits(b).role),
         remembering=Batches(b for b in batches if traits(b).memory),
+        entwined=tuple(b for b in batches if isinstance(b, StrandBatch) and not isinstance(b, GripBatch)),
         ws=workspace(),
         A=np.zeros(places.size),
         factor=allocate(places.row_start, places.column),

@@ -8,13 +8,24 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..connections.contact import ARC, ASIDE, FORCE, OVERLAP, contact_values
+from ..contact.bump_fields import bump_pressures, roll_frictions
+from ..contact.cross_fields import cross_pressures, grip_frictions
 from ..contact.fields import RUBBED, SLIPPED, frictions, pressures
 from ..errors import ModelError, named
+from ..model.body_contact import BodyContact
+from ..model.cable_contact import CableContact
 from ..model.contact import Contact
 from ..model.model import Model
 from ..model.surfaces import SurfaceContact
 from .joint_fields import JointFields
 from .system import System
+
+#: By kind of contact with many places: its batches, and what tells their sums.
+TOUCHING: dict[type, tuple[str, str, Any, Any]] = {
+    SurfaceContact: ("pressing", "rubbing", pressures, frictions),
+    CableContact: ("crossing", "gripping", cross_pressures, grip_frictions),
+    BodyContact: ("bumping", "rolling", bump_pressures, roll_frictions),
+}
 
 
 class ContactFields(JointFields):
@@ -26,7 +37,8 @@ class ContactFields(JointFields):
         """Size of the force that the wire receives across the strip, N, never negative.
 
         It is the part along the contact's ``normal``, to which that along the track adds where the wire
-        climbs. Of a contact with a surface it is the sum of the normal forces along the beam, by size.
+        climbs. Of a contact with a surface, and of cables, it is the sum of the normal forces along the
+        beam, by size.
 
         Raises
         ------
@@ -39,7 +51,7 @@ class ContactFields(JointFields):
         """Gap between strip and wire along the normal, m; negative while they touch.
 
         Infinite where the wire does not cross the strip at all. Of a contact with a surface it is the least
-        gap along the beam.
+        gap along the beam; of cables the least one between them, infinite where none is near.
         """
         return -self._contact(contact)[..., OVERLAP]
 
@@ -48,7 +60,7 @@ class ContactFields(JointFields):
         return self._strip(contact)[..., ASIDE]
 
     def friction_force(self, contact: Any) -> FloatArray:
-        """Sum of the friction forces along a beam on a surface, by size, N.
+        """Sum of the friction forces along a beam on a surface or a cable, by size, N.
 
         Raises
         ------
@@ -59,7 +71,7 @@ class ContactFields(JointFields):
         return self._rubbed(contact, RUBBED)
 
     def slipping(self, contact: Any) -> FloatArray:
-        """Share of the friction of a beam on a surface that slips, 0 to 1; errors as of `friction_force`."""
+        """Share of the friction of a contact that slips, 0 to 1; errors as of `friction_force`."""
         return self._rubbed(contact, SLIPPED)
 
     def arc_length(self, joint: Any) -> FloatArray:
@@ -76,18 +88,19 @@ class ContactFields(JointFields):
 
     def _contacts(self) -> list[str]:
         """Names of the contacts that can be asked for."""
-        return [*_named(self.model, Contact), *_named(self.model, SurfaceContact)]
+        return [name for kind in (Contact, *TOUCHING) for name in _named(self.model, kind)]
 
     def rubs(self, contact: Any) -> bool:
-        """Whether a contact is one with a surface, which may have friction."""
-        return getattr(contact, "name", contact) in _named(self.model, SurfaceContact)
+        """Whether a contact is one with a surface or of cables, which may have friction."""
+        name = getattr(contact, "name", contact)
+        return any(name in _named(self.model, kind) for kind in TOUCHING)
 
     def _strip(self, contact: Any) -> FloatArray:
         """The same of a contact with a strip."""
         name = getattr(contact, "name", contact)
         if self.rubs(contact):
-            what = "is a contact with a surface, which has many places along its beam"
-            raise ModelError(named(name), what, "ask state.contact_line(...) for them")
+            what = "is a contact all along a beam, which has many places"
+            raise ModelError(named(name), what, "of a surface, ask state.contact_line(...) for them")
         return self._contact(contact)
 
     def _rubbed(self, contact: Any, column: int) -> FloatArray:
@@ -119,16 +132,17 @@ class ContactFields(JointFields):
         return values
 
     def _pressed(self, name: str) -> FloatArray:
-        """What ``found`` of a contact with a surface says, friction as far as it is known."""
+        """What ``found`` of a contact all along a beam says, friction as far as it is known."""
         q, v = np.atleast_2d(self.q[...]), np.atleast_2d(self.v[...])  # type: ignore[attr-defined]
-        k = _named(self.model, SurfaceContact).index(name)
-        parts = self._contact_system().parts
-        out = pressures(parts["pressing"], np.ascontiguousarray(q), np.ascontiguousarray(v))[:, k]
-        rough = self._memory_of("rubbing")
-        if "rubbing" not in parts:
+        kind = next(kind for kind in TOUCHING if name in _named(self.model, kind))
+        smooth, rough, forces, rubbed = TOUCHING[kind]
+        k, parts = _named(self.model, kind).index(name), self._contact_system().parts
+        out = forces(parts[smooth], np.ascontiguousarray(q), np.ascontiguousarray(v))[:, k]
+        known = self._memory_of(rough)
+        if rough not in parts:
             out[:, RUBBED:] = 0.0
-        elif rough is not None:
-            out[-1, RUBBED:] = frictions(parts["rubbing"]._replace(**rough), q[-1], v[-1])[k]
+        elif known is not None:
+            out[-1, RUBBED:] = rubbed(parts[rough]._replace(**known), q[-1], v[-1])[k]
         values: FloatArray = out if len(self.q.shape) > 1 else out[0]  # type: ignore[attr-defined]
         return values
 

@@ -37,6 +37,11 @@ def touching(core: Core, q: FloatArray, n: int) -> Touching:
     rows, stiffness = [], []
     still = np.zeros_like(q)
     for batch in core.batches:
+        if (rows_of := traits(batch).rows) is not None:
+            for row, k in zip(*rows_of(batch, q), strict=True):
+                apply_supports(core.supports, row)
+                rows.append(row[:n])
+                stiffness.append(k)
         row_of = traits(batch).row
         if row_of is None:
             continue

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -77,7 +77,9 @@ class Core(NamedTuple):
     batches: Batches  # everything that has forces
     external: Batches  # of them the loads that depend on the state
     rubbing: Batches  # of them those with friction
+    losing: Batches  # of them those that may dissipate, with friction or not
     remembering: Batches  # of them those with a memory
+    entwined: tuple[Any, ...]  # contacts between cables, which are not in the matrix: one batch or none
     ws: FloatArray  # workspace of the element kernels
     A: FloatArray  # values of the iteration matrix in 6x6 blocks
     factor: Factor

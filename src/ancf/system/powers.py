@@ -23,21 +23,20 @@ def powers(core, q, v, a, f, push, r):
     for i in range(n):
         push[i] = 0.0
     if core.damped:  # without velocities first: what batches measure is left from the state as it is
-        residual(core.batches, core.ws, q, push, a, f, r)
+        for i in range(n):
+            r[i] = 0.0
+        add_forces(core.losing, q, push, a, r, core.ws)
         for i in range(n):
             r[i] = -r[i]
-        add_forces(core.external, q, push, a, r, core.ws)
         add_forces(core.rubbing, q, push, a, r, core.ws)
+        add_forces(core.losing, q, v, a, r, core.ws)
         for i in range(n):
             dissipated += v[i] * r[i]
-    if core.damped or core.supports.driven.shape[0] > 0:
+    if not core.loaded:  # what pushes is gravity alone
+        return dissipated
+    if core.supports.driven.shape[0] > 0:
         residual(core.batches, core.ws, q, v, a, f, r)
     add_forces(core.external, q, v, a, push, core.ws)
-    if core.damped:
-        for i in range(n):
-            dissipated += v[i] * r[i]
-        for i in range(n):
-            dissipated -= v[i] * push[i]
     for i in range(n):
         push[i] = f[i] - core.loads.gravity[i] - push[i]
     for k in range(core.supports.driven.shape[0]):

@@ -14,6 +14,8 @@ from ..errors import ModelError
 from ..linalg.ordering import fill_pattern
 from ..model.beam import Beam
 from ..model.bodies import PointMass, RigidBody
+from ..model.body_contact import BodyContact
+from ..model.cable_contact import CableContact
 from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
@@ -47,7 +49,8 @@ class System:
     parts : dict of str to batch
         The batches of the core by name: elements by their kind, "springs", "moments", "section moments",
         other loads that depend on the state by the word of their kind, "bodies", "contacts", "pressing" and
-        "rubbing" (on surfaces), "joints" (their rows) and "slides".
+        "rubbing" (on surfaces), "crossing" and "gripping" (cables on cables), "bumping"
+        and "rolling" (bodies on bodies), "joints" (their rows) and "slides".
     inputs : Inputs
         Functions of time.
     n : int
@@ -73,7 +76,7 @@ class System:
         self.numbering = Numbering(model)
         self.level = np.array([1.0, 0.0, 0.0])
         self.sensors = Listing()
-        kinds = Contact, SurfaceContact
+        kinds = Contact, SurfaceContact, CableContact, BodyContact
         contacts = [c.name for kind in kinds for c in model.connections if isinstance(c, kind)]
         self.measured = np.zeros(4 * len(contacts))
         self.measures = {name: 4 * k + np.arange(4) for k, name in enumerate(contacts)}

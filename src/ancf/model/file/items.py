@@ -203,3 +203,36 @@ class SurfaceContactEntry(Entry):
         None, description="Radius of the beam, default half the diameter of its section [m]."
     )
     name: ItemName = None
+
+
+class CableContactEntry(Entry):
+    """Two cables or beams may touch, or one may touch itself."""
+
+    type: Literal["cable_contact"] = Field(description="Kind of connection.")
+    body: str = Field(description="Name of a beam or cable.")
+    other: str = Field(description="Name of another one, or of the same: it touches itself.")
+    stiffness: Positive = Field(description="Normal force per length and depth, side by side [Pa].")
+    damping: NonNegative = Field(0.0, description="Normal force per length and rate of depth [Pa s].")
+    friction: NonNegative = Field(0.0, description="Coulomb's coefficient of friction [-].")
+    stick: Positive | None = Field(
+        None, description="Force per length and way before it slips, default stiffness [Pa]."
+    )
+    radius: Positive | None = Field(
+        None, description="Radius of both, default half the diameters of their sections [m]."
+    )
+    name: ItemName = None
+
+
+class BodyContactEntry(Entry):
+    """Two rigid bodies, or one and the ground, may touch with their surfaces."""
+
+    type: Literal["body_contact"] = Field(description="Kind of connection.")
+    surface: str = Field(description="Name of a surface.")
+    other: str = Field(description="Name of another surface, on another body or on the ground.")
+    stiffness: Positive = Field(description="Normal force per depth [N/m].")
+    damping: NonNegative = Field(0.0, description="Normal force per rate of depth [N s/m].")
+    friction: NonNegative = Field(0.0, description="Coulomb's coefficient of friction [-].")
+    stick: Positive | None = Field(
+        None, description="Force per way before it slips, default stiffness [N/m]."
+    )
+    name: ItemName = None

@@ -8,11 +8,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...arrays import FloatArray, IntArray
+from ...contact.bump_fields import bump_ends
+from ...contact.cross_fields import cross_places
 from ...contact.fields import nearest_places
 from ...errors import ModelError
 from ...model import checks
 from ...model.beam import Beam
 from ...model.bodies import PointMass, RigidBody
+from ...model.body_contact import BodyContact
+from ...model.cable_contact import CableContact
 from ...model.contact import Contact
 from ...model.joints import Spherical
 from ...model.kind import body_of
@@ -247,16 +251,20 @@ def _strips(shown: Frames, source: Any, threads: list[Thread], extent: float) ->
 
 
 def _ways_to_surfaces(shown: Frames, source: Any) -> list[Strip]:
-    """Of each contact with a surface the way from the axis to the surface where it is shortest."""
-    items = [item for item in shown.model.connections if isinstance(item, SurfaceContact)]
-    if not items:
-        return []
+    """Of each contact all along a beam the way from its axis to what it touches where it is shortest."""
+    found: list[Strip] = []
     known = source.about if isinstance(source, Modes) else source
-    pressing = known._contact_system().parts["pressing"]
-    return [
-        Strip(item.name, nearest_places(pressing, k, shown.q), _contact_force(shown, source, item.name))
-        for k, item in enumerate(items)
-    ]
+    ways = (
+        (SurfaceContact, "pressing", nearest_places),
+        (CableContact, "crossing", cross_places),
+        (BodyContact, "bumping", bump_ends),
+    )
+    for kind, part, places in ways:
+        items = [item for item in shown.model.connections if isinstance(item, kind)]
+        for k, item in enumerate(items):
+            ends = places(known._contact_system().parts[part], k, shown.q)
+            found.append(Strip(item.name, ends, _contact_force(shown, source, item.name)))
+    return found
 
 
 def _contact_force(shown: Frames, source: Any, name: str) -> FloatArray | None:

@@ -1,0 +1,242 @@
+"""Which elements of cables are near each other: a list that is made anew when something has moved far.
+
+The list has all pairs whose balls, with a margin, meet.  It holds until an unknown has moved by so much
+that a pair which is not in it could touch.  That is looked at once in a step, and with every evaluation of
+the forces where steps are long.  Elements are sorted into a grid of cubes, each as wide as the largest
+ball, by a hash of its place; so the list costs time in proportion to the elements (Teschner et al. 2003).
+
+Elements of one cable that is nearly straight between them are left out: where all tangents are within 60
+degrees of one direction, places are farther apart than half of the cable between them.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..compiled import inline_kernel
+from ..vectors import dot
+from .strand import cubic, less, on_cubic
+
+#: Places of ``room``: how far anything may go until the list is made again; the widest margin; whether every
+#: evaluation of the forces looks; whether the list has just been made; the share of the way that the step
+#: just judged has used up, -1: not known; the length of the longest element.
+LEFT, WIDEST, LIVE, MADE, SEEN, LONGEST = range(6)
+#: Share of the way that is left after which a step makes the list again.
+USED = 0.5
+#: Change of a tangent with which the list is made again, and the cosine of the angle from a common direction
+#: up to which tangents count as nearly parallel: together 60 degrees.  Elements that are looked at.
+TURNED, STRAIGHT, BETWEEN = 0.4, 0.83, 12
+#: Factors of the hash.
+FACTORS = (73856093, 19349663, 83492791)
+
+
+@inline_kernel
+def node_moved(batch, e, k, q, near, turned):
+    """Share of what the list allows for that a node has used up; near and turned: what 1 m and 1 rad do."""
+    i, j, seen = batch.base[e, k], batch.base[e, k + 1], batch.seen[e]
+    x = abs(q[i] - seen[3 * k]) + abs(q[i + 1] - seen[3 * k + 1]) + abs(q[i + 2] - seen[3 * k + 2])
+    y = abs(q[j] - seen[3 * k + 3]) + abs(q[j + 1] - seen[3 * k + 4]) + abs(q[j + 2] - seen[3 * k + 5])
+    return x * near + y * turned
+
+
+@inline_kernel
+def used_up(batch, q):
+    """Share of what the list allows for that is used up; more than all without a list."""
+    if batch.room[LEFT] < 0.0:
+        return np.inf
+    near, most = 1.0 / batch.room[LEFT], 0.0
+    turned = max(0.4 * batch.room[LONGEST] * near, 1.0 / TURNED)
+    for e in range(batch.base.shape[0]):
+        most = max(most, node_moved(batch, e, 0, q, near, turned))
+        if batch.beside[e, 1] < 0:
+            most = max(most, node_moved(batch, e, 2, q, near, turned))
+    return most
+
+
+@inline_kernel
+def anything(batch):
+    """Whether anything is near."""
+    return batch.first[batch.base.shape[0]] > 0
+
+
+@inline_kernel
+def keep(batch, q, into):
+    """Copy the unknowns of all elements."""
+    for e in range(batch.base.shape[0]):
+        for k in range(4):
+            for c in range(3):
+                into[e, 3 * k + c] = q[batch.base[e, k] + c]
+
+
+@inline_kernel
+def ball(batch, e, q):
+    """Middle of an element, and the radius of a ball about it that holds its cable."""
+    c = cubic(batch, e, q)
+    m = on_cubic(c, 0.5)
+    a, b = less(c[0], m), less(on_cubic(c, 1.0), m)
+    h = math.sqrt(max(dot(a, a), dot(b, b)))
+    t, u = c[1], less(on_cubic(c, 1.0), c[0])
+    bent = math.sqrt(dot(less(t, u), less(t, u))) + math.sqrt(dot(c[3], c[3]))
+    return m, h + 0.3 * bent + batch.radius[e]
+
+
+@inline_kernel
+def bucket(batch, x, y, z):
+    """Where the elements of a cube of the grid are listed."""
+    mixed = (x * FACTORS[0]) ^ (y * FACTORS[1]) ^ (z * FACTORS[2])
+    return mixed & (batch.head.shape[0] - 1)
+
+
+@inline_kernel
+def cube(m, wide):
+    """Cube of the grid with a place in it."""
+    return math.floor(m[0] / wide), math.floor(m[1] / wide), math.floor(m[2] / wide)
+
+
+@inline_kernel
+def leads(batch, e, q, u):
+    """Whether all tangents of element e are nearly along u."""
+    c = cubic(batch, e, q)
+    last = (
+        c[1][0] + 2.0 * c[2][0] + 3.0 * c[3][0],
+        c[1][1] + 2.0 * c[2][1] + 3.0 * c[3][1],
+        c[1][2] + 2.0 * c[2][2] + 3.0 * c[3][2],
+    )
+    middle = (c[1][0] + c[2][0], c[1][1] + c[2][1], c[1][2] + c[2][2])  # the derivative is between these
+    least = STRAIGHT * math.sqrt(dot(u, u))
+    along = dot(c[1], u) > least * math.sqrt(dot(c[1], c[1]))
+    along = along and dot(middle, u) > least * math.sqrt(dot(middle, middle))
+    return along and dot(last, u) > least * math.sqrt(dot(last, last))
+
+
+@inline_kernel
+def is_straight(batch, a, b, q):
+    """Whether a cable is nearly straight from its element a to its element b."""
+    if a > b:
+        a, b = b, a
+    if b - a > BETWEEN:
+        return False
+    u = less(on_cubic(cubic(batch, b, q), 1.0), cubic(batch, a, q)[0])
+    along = True
+    for e in range(a, b + 1):
+        along = along and leads(batch, e, q, u)
+    return along
+
+
+@inline_kernel
+def may_touch(batch, a, b, q, margin):
+    """Whether two elements belong into the list."""
+    if a == b or batch.law[batch.cable[a], batch.cable[b]] < 0:
+        return False
+    m, h = ball(batch, a, q)
+    o, k = ball(batch, b, q)
+    way = less(m, o)
+    reach = h + k + 2.0 * margin
+    if not dot(way, way) < reach * reach:
+        return False
+    return batch.cable[a] != batch.cable[b] or not is_straight(batch, a, b, q)
+
+
+@inline_kernel
+def sort_in(batch, start, count, b):
+    """Put element b into the ascending entries of one element; their number."""
+    k = count
+    while k > start and batch.near[k - 1] > b:
+        batch.near[k] = batch.near[k - 1]
+        k -= 1
+    if k > start and batch.near[k - 1] == b:  # two cubes of one bucket
+        while k < count:
+            batch.near[k] = batch.near[k + 1]
+            k += 1
+        return count
+    batch.near[k] = b
+    return count + 1
+
+
+@inline_kernel
+def fill(batch, q, margin, wide):
+    """Make the list with a margin; whether there is room for it."""
+    n, count = batch.base.shape[0], 0
+    for k in range(batch.head.shape[0]):
+        batch.head[k] = -1
+    for e in range(n):
+        m, _ = ball(batch, e, q)
+        x, y, z = cube(m, wide)
+        k = bucket(batch, x, y, z)
+        batch.link[e] = batch.head[k]
+        batch.head[k] = e
+    for e in range(n):
+        batch.first[e] = count
+        m, _ = ball(batch, e, q)
+        x, y, z = cube(m, wide)
+        for around in range(27):
+            b = batch.head[bucket(batch, x + around % 3 - 1, y + around // 3 % 3 - 1, z + around // 9 - 1)]
+            while b >= 0:
+                if may_touch(batch, e, b, q, margin):
+                    if count + 1 >= batch.near.shape[0]:
+                        return False
+                    count = sort_in(batch, batch.first[e], count, b)
+                b = batch.link[b]
+    batch.first[n] = count
+    return True
+
+
+@inline_kernel
+def look(batch, q):
+    """Make the list if it may be out of date."""
+    if not used_up(batch, q) < 1.0:
+        make(batch, q)
+
+
+@inline_kernel
+def look_if_live(batch, q):
+    """The same where steps are long."""
+    if batch.room[LIVE] > 0.0:
+        look(batch, q)
+
+
+@inline_kernel
+def look_ahead(batch, q):
+    """Make the list in time for the next step; steps that need it one after the other are long."""
+    used = batch.room[SEEN] if batch.room[SEEN] >= 0.0 else used_up(batch, q)
+    batch.room[SEEN] = -1.0
+    made = not used < USED
+    if made:
+        make(batch, q)
+    batch.room[LIVE] = 1.0 if made and batch.room[MADE] > 0.0 else 0.0
+    batch.room[MADE] = 1.0 if made else 0.0
+
+
+@inline_kernel
+def look_back(batch, q):
+    """Whether a step may have missed what is near: it went too far; the next attempt looks all the time."""
+    batch.room[SEEN] = used_up(batch, q)
+    if batch.room[LIVE] > 0.0 or batch.room[SEEN] < 1.0:
+        return False
+    make(batch, q)
+    batch.room[LIVE], batch.room[SEEN] = 1.0, -1.0
+    return anything(batch)
+
+
+@inline_kernel
+def make(batch, q):
+    """Make the list with the widest margin for which there is room."""
+    largest, sound = 0.0, True
+    for e in range(batch.base.shape[0]):
+        _, h = ball(batch, e, q)
+        sound = sound and h < 1e100
+        largest = max(largest, h)
+    batch.room[LEFT] = -1.0
+    margin = batch.room[WIDEST]
+    for e in range(batch.base.shape[0] + 1):
+        batch.first[e] = 0
+    if not sound or largest > 1e6 * margin:
+        return  # an iteration that goes astray
+    while not fill(batch, q, margin, 2.0 * (largest + margin)):
+        margin *= 0.5
+        if margin < 1e-9 * batch.room[WIDEST]:
+            break
+    keep(batch, q, batch.seen)
+    batch.room[LEFT] = margin

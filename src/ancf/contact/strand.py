@@ -1,0 +1,272 @@
+"""Cables as curves: elements as cubics, places that are nearest, zones of contact between two cables.
+
+A row of a batch is one element of a cable that may touch cables.  Its ``base`` has the slots of r and r_x of
+its nodes, so that with xi from 0 to 1 and the reference length h
+
+    r(xi) = c0 + c1 xi + c2 xi^2 + c3 xi^3.
+
+Each element is cut into cells of one length.  On a cell the square of the distance from another cable is
+nearly quadratic in xi, for straight cables it is exactly so; its zone is where that is less than the sum of
+the radii.  Points of quadrature cover the zone and move with it, so that no force depends on where they lie.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import FloatArray
+from ..compiled import inline_kernel
+from ..vectors import dot
+
+#: Columns of ``data``: as those of surfaces, see :mod:`ancf.contact.touch`; the radius is the smaller one.
+RADIUS, STIFFNESS, DAMPING, FRICTION, STICK, DRAG = range(6)
+#: Columns of ``zone``: element, cell, xi from and to, element where the search begins, sum of radii, contact,
+#: arc length on the other cable.
+ELEMENT, CELL, FROM, TO, START, REACH, CONTACT, MET = range(8)
+#: Gauss points of a zone: the energy of two straight cables that cross is exact.
+GAUSS_X = (0.5 - math.sqrt(0.15), 0.5, 0.5 + math.sqrt(0.15))
+GAUSS_W = (5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0)
+POINTS = 3
+#: Elements that a search walks along a cable, its iterations in each, and the change of xi that is none.
+WALK, ITERATIONS, STILL = 12, 25, 1e-13
+#: Factor of the reference length by which an element may be longer; diameters of arc that never touch itself.
+STRETCHED, APART = 1.3, 2.0
+
+
+class StrandBatch(NamedTuple):
+    """All elements of cables that may touch cables, and which of them are near each other."""
+
+    base: NDArray[np.int64]  # (n, 4) slots of r, r_x, r, r_x
+    length: FloatArray  # (n,) reference lengths, m
+    place: FloatArray  # (n,) reference arc length of the first node on its cable, m
+    radius: FloatArray  # (n,) m
+    cable: NDArray[np.int64]  # (n,) which cable
+    beside: NDArray[np.int64]  # (n, 2) elements before and behind, -1: an end
+    law: NDArray[np.int64]  # (cables, cables) which contact, -1: none
+    data: FloatArray  # (contacts, 6) columns RADIUS ... DRAG
+    found: FloatArray  # (contacts, 4) what was measured last
+    cells: NDArray[np.int64]  # (1,) of an element
+    seen: FloatArray  # (n, 12) the unknowns of base when the list was made
+    room: FloatArray  # (6,) when it is to be made again, see :mod:`ancf.contact.near`
+    first: NDArray[np.int64]  # (n + 1,) first entry of ``near`` of each element
+    near: NDArray[np.int64]  # (room,) elements that are near, ascending for each element
+    head: NDArray[np.int64]  # (buckets,) workspace of the list
+    link: NDArray[np.int64]  # (n,) the same
+    last: FloatArray  # (n, 12) memory: the unknowns of base after the last step
+    grip: FloatArray  # (room, 9) memory: rows of friction, see :mod:`ancf.contact.grip`
+    older: FloatArray  # (room, 9) workspace, these rows before a step
+    zone: FloatArray  # (room, 8) workspace
+    at: NDArray[np.int64]  # (room, 2) elements of rows of the matrix
+    row: FloatArray  # (room, 25) these rows, and their stiffness
+    basis: FloatArray  # (room, size) workspace of the solver
+    small: FloatArray  # (room, room) the same
+
+
+@inline_kernel
+def cubic(batch, e, q):
+    """Coefficients c0 ... c3 of element e."""
+    i, j, k, m = batch.base[e, 0], batch.base[e, 1], batch.base[e, 2], batch.base[e, 3]
+    h = batch.length[e]
+    ax, ay, az = q[i], q[i + 1], q[i + 2]
+    bx, by, bz = h * q[j], h * q[j + 1], h * q[j + 2]
+    cx, cy, cz = q[k] - ax, q[k + 1] - ay, q[k + 2] - az
+    dx, dy, dz = h * q[m], h * q[m + 1], h * q[m + 2]
+    return (
+        (ax, ay, az),
+        (bx, by, bz),
+        (3.0 * cx - 2.0 * bx - dx, 3.0 * cy - 2.0 * by - dy, 3.0 * cz - 2.0 * bz - dz),
+        (bx + dx - 2.0 * cx, by + dy - 2.0 * cy, bz + dz - 2.0 * cz),
+    )
+
+
+@inline_kernel
+def on_cubic(c, x):
+    """Place at xi = x."""
+    a, b, d, e = c
+    return (
+        a[0] + x * (b[0] + x * (d[0] + x * e[0])),
+        a[1] + x * (b[1] + x * (d[1] + x * e[1])),
+        a[2] + x * (b[2] + x * (d[2] + x * e[2])),
+    )
+
+
+@inline_kernel
+def along_cubic(c, x):
+    """Derivative by xi."""
+    _, b, d, e = c
+    return (
+        b[0] + x * (2.0 * d[0] + 3.0 * x * e[0]),
+        b[1] + x * (2.0 * d[1] + 3.0 * x * e[1]),
+        b[2] + x * (2.0 * d[2] + 3.0 * x * e[2]),
+    )
+
+
+@inline_kernel
+def less(a, b):
+    """a - b."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@inline_kernel
+def on_element(c, r, x):
+    """The xi in 0 ... 1 near x where an element is nearest to r; -1 or 1: it goes on before or behind it."""
+    for _ in range(ITERATIONS):
+        way, t = less(on_cubic(c, x), r), along_cubic(c, x)
+        slope, size = dot(way, t), dot(t, t)
+        curved = size + 2.0 * dot(way, c[2]) + 6.0 * x * dot(way, c[3])
+        step = slope / (curved if curved > 0.1 * size else size)
+        new = min(max(x - min(max(step, -0.5), 0.5), 0.0), 1.0)
+        if new == x:
+            return x, -1 if slope > 0.0 and x == 0.0 else (1 if slope < 0.0 and x == 1.0 else 0)
+        done = abs(new - x) < STILL
+        x = new
+        if done:
+            return x, 0
+    return x, 0
+
+
+@inline_kernel
+def nearest(batch, q, r, b):
+    """Element and xi of a place on the cable through element b that is nearest to r, next to b."""
+    c = cubic(batch, b, q)
+    chord = less(on_cubic(c, 1.0), c[0])
+    x = min(max(dot(less(r, c[0]), chord) / max(dot(chord, chord), 1e-300), 0.0), 1.0)
+    came = 0
+    for _ in range(WALK):
+        x, side = on_element(c, r, x)
+        if side == 0 or side == -came:
+            return b, x
+        other = batch.beside[b, 0 if side < 0 else 1]
+        if other < 0:
+            return b, x
+        b, came = other, side
+        x = 1.0 if side < 0 else 0.0
+        c = cubic(batch, b, q)
+    return b, x
+
+
+@inline_kernel
+def apart(batch, a, x, b, y):
+    """Whether two places may touch: they are of two cables, or far from each other along one."""
+    if batch.cable[a] != batch.cable[b]:
+        return True
+    way = batch.place[a] + x * batch.length[a] - batch.place[b] - y * batch.length[b]
+    return abs(way) > APART * 2.0 * batch.radius[a]
+
+
+@inline_kernel
+def clearance(batch, q, e, ca, x, b, reach):
+    """Square of the distance at xi = x from the cable through b, less that of ``reach``, and the place there.
+
+    Places that may not touch are far.
+    """
+    r = on_cubic(ca, x)
+    o, y = nearest(batch, q, r, b)
+    if not apart(batch, e, x, o, y):
+        return reach * reach, o, y
+    way = less(r, on_cubic(cubic(batch, o, q), y))
+    return dot(way, way) - reach * reach, o, y
+
+
+@inline_kernel
+def root(batch, q, e, ca, b, reach, middle, half, s, linear, square):
+    """A root of the clearance near that of its parabola, in the cell's own coordinate from -1 to 1."""
+    for _ in range(3):
+        f, _, _ = clearance(batch, q, e, ca, middle + half * s, b, reach)
+        slope = linear + 2.0 * square * s
+        if slope == 0.0:
+            return s
+        s = min(max(s - f / slope, -1.0), 1.0)
+    return s
+
+
+@inline_kernel
+def bounds(low, mean, high):
+    """Where a parabola through values at -1, 0 and 1 is negative: whether, from, to, its two coefficients."""
+    linear, square = 0.5 * (high - low), 0.5 * (high + low) - mean
+    if low <= 0.0 and high <= 0.0:
+        return True, -1.0, 1.0, linear, square
+    if low > 0.0 and high > 0.0:
+        if square <= 0.0:
+            return False, 0.0, 0.0, linear, square
+        rest = linear * linear - 4.0 * square * mean
+        if rest <= 0.0 or abs(linear) >= 2.0 * square:
+            return False, 0.0, 0.0, linear, square
+        wide = math.sqrt(rest)
+        return True, (-linear - wide) / (2.0 * square), (-linear + wide) / (2.0 * square), linear, square
+    rest = math.sqrt(max(linear * linear - 4.0 * square * mean, 0.0))
+    # the root between the ends, in the form that does not cancel
+    s = -2.0 * mean / (linear + (rest if linear > 0.0 else -rest))
+    if low <= 0.0:
+        return True, -1.0, min(max(s, -1.0), 1.0), linear, square
+    return True, min(max(s, -1.0), 1.0), 1.0, linear, square
+
+
+@inline_kernel
+def may_reach(batch, q, r, half, b, reach):
+    """Whether a piece of half that length about r may come within reach of element b."""
+    i, j, k, m = batch.base[b, 0], batch.base[b, 1], batch.base[b, 2], batch.base[b, 3]
+    h = 0.125 * batch.length[b]
+    room = STRETCHED * (half + 4.0 * h) + reach
+    away = 0.0
+    for c in range(3):
+        x = 0.5 * (q[i + c] + q[k + c]) + h * (q[j + c] - q[m + c]) - r[c]
+        away += x * x
+    return away < room * room
+
+
+@inline_kernel
+def is_taken(batch, count, e, cell, b, met, reach):
+    """Whether a place has been found for the cell already, from another element of its cable."""
+    z = count - 1
+    while z >= 0 and batch.zone[z, ELEMENT] == e and batch.zone[z, CELL] == cell:
+        same = batch.cable[int(batch.zone[z, START])] == batch.cable[b]
+        if same and abs(batch.zone[z, MET] - met) < reach:
+            return True
+        z -= 1
+    return False
+
+
+@inline_kernel
+def find_zones(batch, q):
+    """Fill ``zone`` with the pieces of cables that touch others; their number."""
+    count, cells = 0, batch.cells[0]
+    if batch.first[batch.base.shape[0]] == 0:
+        return 0
+    for e in range(batch.base.shape[0]):
+        if batch.first[e] == batch.first[e + 1]:
+            continue
+        ca, half = cubic(batch, e, q), 0.5 / cells
+        for cell in range(cells):
+            middle = (2 * cell + 1) * half
+            r = on_cubic(ca, middle)
+            for k in range(batch.first[e], batch.first[e + 1]):
+                b = batch.near[k]
+                reach = batch.radius[e] + batch.radius[b]
+                if not may_reach(batch, q, r, half * batch.length[e], b, reach):
+                    continue
+                mean, o, y = clearance(batch, q, e, ca, middle, b, reach)
+                met = batch.place[o] + y * batch.length[o]
+                if not apart(batch, e, middle, o, y) or is_taken(batch, count, e, cell, o, met, reach):
+                    continue
+                low, _, _ = clearance(batch, q, e, ca, middle - half, o, reach)
+                high, _, _ = clearance(batch, q, e, ca, middle + half, o, reach)
+                there, s0, s1, linear, square = bounds(low, mean, high)
+                if not there or count == batch.zone.shape[0]:
+                    continue
+                if s0 > -1.0:
+                    s0 = root(batch, q, e, ca, o, reach, middle, half, s0, linear, square)
+                if s1 < 1.0:
+                    s1 = root(batch, q, e, ca, o, reach, middle, half, s1, linear, square)
+                if s1 <= s0:
+                    continue
+                z = batch.zone[count]
+                z[ELEMENT], z[CELL], z[START], z[REACH] = e, cell, o, reach
+                z[FROM], z[TO] = middle + half * s0, middle + half * s1
+                z[CONTACT], z[MET] = batch.law[batch.cable[e], batch.cable[b]], met
+                count += 1
+    return count

@@ -1,0 +1,173 @@
+"""Corrections with what cables do to each other, which is not in the factorised matrix.
+
+Which unknowns contacts between cables couple changes while they move.  So the matrix K that is factorised is
+that of all else, and the correction x of (K + sum k_i b_i b_i^T) x = r is found with it by GMRES (Saad &
+Schultz 1986, here with K^-1 from the left): each round costs one solve with the factors and products with the
+rows b_i, which have 24 entries.  There are never more rounds than rows, and fewer where rows are alike.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..compiled import formula, inline_kernel, optional
+from ..contact.rows import find_rows
+from ..system.core import solve_matrix, to_local
+from .corotation import turn_back, turn_forth
+from .low_rank import correct
+
+#: Share of the correction that may be wrong.
+LEFT = 1e-4
+#: Sizes of corrections from which on an iteration has gone astray.
+UNLIMITED = 1e300
+
+
+@inline_kernel
+def dot_of(x, y, n):
+    """Product of the first n numbers."""
+    total = 0.0
+    for i in range(n):
+        total += x[i] * y[i]
+    return total
+
+
+@inline_kernel
+def fill_shadows(supports, x):
+    """Shadows of a direction."""
+    for k in range(supports.rot_slot.shape[0]):
+        i, j = supports.rot_slot[k], supports.rot_shadow[k]
+        for c in range(3):
+            total = 0.0
+            for m in range(3):
+                total += supports.rot_R[k, 0, c, m] * x[i + m]
+            x[j + c] = total
+
+
+@inline_kernel
+def times_rows(batch, rows, x, out):
+    """out = sum k_i b_i (b_i . x)."""
+    for i in range(out.shape[0]):
+        out[i] = 0.0
+    for m in range(rows):
+        row = batch.row[m]
+        total = 0.0
+        for side in range(2):
+            e = batch.at[m, side]
+            for k in range(4):
+                i, o = batch.base[e, k], 12 * side + 3 * k
+                total += row[o] * x[i] + row[o + 1] * x[i + 1] + row[o + 2] * x[i + 2]
+        total *= row[24]
+        for side in range(2):
+            e = batch.at[m, side]
+            for k in range(4):
+                i, o = batch.base[e, k], 12 * side + 3 * k
+                out[i] += total * row[o]
+                out[i + 1] += total * row[o + 1]
+                out[i + 2] += total * row[o + 2]
+
+
+@inline_kernel
+def rotate(H, k):
+    """Apply the rotations of earlier columns to column k of H, and one more that clears what is below it."""
+    c, s = H.shape[1] - 3, H.shape[1] - 2
+    for j in range(k):
+        x, y = H[j, k], H[j + 1, k]
+        H[j, k], H[j + 1, k] = H[j, c] * x + H[j, s] * y, H[j, c] * y - H[j, s] * x
+    x, y = H[k, k], H[k + 1, k]
+    size = math.sqrt(x * x + y * y)
+    H[k, c], H[k, s] = (x / size, y / size) if size > 0.0 else (1.0, 0.0)
+    H[k, k], H[k + 1, k] = size, 0.0
+    g = H.shape[1] - 1
+    H[k + 1, g] = -H[k, s] * H[k, g]
+    H[k, g] *= H[k, c]
+
+
+@inline_kernel
+def combine(H, V, k, n, x):
+    """x = the combination of the first k vectors that leaves least."""
+    g = H.shape[1] - 1
+    for i in range(k - 1, -1, -1):
+        for j in range(i + 1, k):
+            H[i, g] -= H[i, j] * H[j, g]
+        H[i, g] = H[i, g] / H[i, i] if H[i, i] != 0.0 else 0.0
+    for i in range(n):
+        x[i] = 0.0
+    for j in range(k):
+        for i in range(n):
+            x[i] += H[j, g] * V[j, i]
+
+
+@inline_kernel
+def clear(batch, vectors, rows):
+    """Leave the workspace as it was: what is zero is not kept in files."""
+    for j in range(vectors):
+        for i in range(batch.basis.shape[1]):
+            batch.basis[j, i] = 0.0
+    for m in range(rows):
+        for i in range(25):
+            batch.row[m, i] = 0.0
+
+
+@formula
+def solve_turned(core, s, rule):
+    """Replace the residual s.r by the correction, with a factorisation that turns with the nodes."""
+    if rule.corotate:
+        turn_back(s.frames, s.r)
+    solve_matrix(core.factor, s.r)
+    if rule.corotate:
+        turn_forth(s.frames, s.r)
+
+
+@inline_kernel
+def solve_apart(core, s, rule, gb):
+    """The same with what :mod:`ancf.solvers.low_rank` corrects."""
+    solve_turned(core, s, rule)
+    if not rule.corotate:
+        correct(s.patches, core, s.q, s.v, gb, s.r)
+
+
+@inline_kernel
+def next_vector(batch, rows, core, s, rule, gb, k):
+    """Vector k + 1 of the basis, normal to those before it, and column k of the small matrix."""
+    n, V, H = core.weight.shape[0], batch.basis, batch.small
+    fill_shadows(core.supports, V[k])
+    times_rows(batch, rows, V[k], s.r)
+    to_local(core.supports, s.r)
+    solve_apart(core, s, rule, gb)
+    for i in range(n):
+        s.r[i] += V[k, i]
+    for j in range(k + 1):
+        H[j, k] = dot_of(V[j], s.r, n)
+        for i in range(n):
+            s.r[i] -= H[j, k] * V[j, i]
+    size = math.sqrt(dot_of(s.r, s.r, n))
+    H[k + 1, k] = size
+    for i in range(n):
+        V[k + 1, i] = s.r[i] / size if size > 0.0 else 0.0
+
+
+def _solve_entwined(entwined, core, s, rule, gb):
+    batch = entwined[0]
+    rows = find_rows(batch, s.q, s.v, gb, 1.0)
+    if rows == 0:
+        return
+    n, V, H = core.weight.shape[0], batch.basis, batch.small
+    g, size = H.shape[1] - 1, math.sqrt(dot_of(s.r, s.r, n))
+    if not 0.0 < size < UNLIMITED:
+        return
+    H[0, g] = size
+    for i in range(n):
+        V[0, i] = s.r[i] / size
+    k = 0
+    while k < V.shape[0] - 1:
+        next_vector(batch, rows, core, s, rule, gb, k)
+        rotate(H, k)
+        k += 1
+        if not abs(H[k, g]) > LEFT * size:
+            break
+    combine(H, V, k, n, s.r)
+    clear(batch, k + 1, rows)
+
+
+#: ``solve_entwined(entwined, core, s, rule, gb)``: the correction s.r of the factorised matrix, corrected.
+solve_entwined = optional(_solve_entwined)
