@@ -26,7 +26,7 @@ from .line_options import (
     Window,
 )
 from .study_options import CalibrationFile, Retry, Scheduler, Status, StudyFile, Workers
-from .view_options import Color, Frames, Open, Page, Traced
+from .view_options import Color, Frames, Live, Open, Page, Several, Traced
 
 app = typer.Typer(
     name="ancf",
@@ -205,21 +205,23 @@ def reproduce(
 
 @app.command()
 def view(
-    results: ResultsFile,
+    results: Several,
     output: Page = None,
     frames: Frames = 240,
-    color: Color = "tension",
+    color: Color = None,
     trace: Traced = None,
     show: Open = False,
+    live: Live = False,
 ) -> None:
-    """Make a moving picture of a results file: one HTML page that works without a network.
+    """Make a moving picture of results files: one HTML page that works without a network.
 
-    Prints the path of the page.
+    Prints the path of the page. Several runs are compared: drawn together, their curves in the same plots.
+    With --live the page follows a run that goes on, or waits for it.
     """
     with reported():
         from .view import view_file
 
-        view_file(results, output, {"frames": frames, "color": color, "trace": trace}, show)
+        view_file(results, output, {"frames": frames, "color": color, "trace": trace}, show, live)
 
 
 @catenary.command("form")
