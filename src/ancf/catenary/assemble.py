@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -10,12 +11,18 @@ import ancf
 
 from ..arrays import FloatArray
 from ..errors import ModelError
+from ..model import checks
 from ..model.bodies import PointMass
 from ..model.connections import Spring
 from ..model.points import Point
 from .form import Form, form
 from .mesh import Mesh
 from .shape import Strung
+
+if TYPE_CHECKING:
+    from .collectors import Collector
+    from .pantograph import Pantograph
+    from .run_data import Run
 
 #: Length of a spring to a fixed point, m: long enough that its force keeps its direction, and unstretched.
 LONG = 20.0
@@ -33,8 +40,8 @@ class Overhead:
         The wires; a messenger with hinges has one beam for each span.
     stitches : list of Strung
         At the supports but the first and the last, if the line has them.
-    droppers : list of Spring
-        In the order of ``line.dropper_x``.
+    droppers : list of Spring or None
+        In the order of ``line.dropper_x``; None for one that was broken.
     supports : list of Point
         The contact wire at the supports.
     arms, hangers : list of Spring or None
@@ -47,7 +54,7 @@ class Overhead:
     contact: Strung
     messenger: Strung
     stitches: list[Strung] = field(default_factory=list)
-    droppers: list[Spring] = field(default_factory=list)
+    droppers: list[Spring | None] = field(default_factory=list)
     supports: list[Point] = field(default_factory=list)
     arms: list[Spring | None] = field(default_factory=list)
     hangers: list[Spring | None] = field(default_factory=list)
@@ -61,9 +68,66 @@ class Overhead:
         """Point of the contact wire that is at a track position at rest, m."""
         return self.contact_wire.at(self.contact.arc_at(track))
 
+    def messenger_at(self, track: float) -> Point:
+        """Point of the messenger that is at a track position at rest, m."""
+        return self.messenger.at(self.messenger.arc_at(track))
+
     def track_x(self, point: Point) -> float:
         """Track position of a point at rest, m."""
         return float(point.initial_position[0])
+
+    def dropper(self, span: int, number: int) -> Spring | None:
+        """A dropper, both counted from 1 as in the dropper schedule; None if it is broken."""
+        return self.droppers[self._dropper_index(span, number)]
+
+    def break_dropper(self, span: int, number: int) -> None:
+        """Take a dropper away, both counted from 1; its halves stay at the clamps as masses.
+
+        Raises
+        ------
+        ModelError
+            There is no such dropper, or it is broken already.
+
+        """
+        j = self._dropper_index(span, number)
+        spring = self.droppers[j]
+        if spring is None:
+            raise ModelError(f"dropper {span}-{number}", "is broken already")
+        self.model.connections.remove(spring)
+        self.droppers[j] = None
+
+    def _dropper_index(self, span: int, number: int) -> int:
+        line = self.form.line
+        found = np.flatnonzero((line.dropper_span == span - 1) & (line.dropper_number == number - 1))
+        if not found.size:
+            size = f"{len(line.spans)} spans"
+            if 1 <= span <= len(line.spans):
+                size = f"span {span} has {len(line.spans[span - 1].droppers)} droppers"
+            raise ModelError("overhead.dropper", f"there is no dropper {number} in span {span}", f"{size}")
+        return int(found[0])
+
+    def add_mass(self, name: str, point: Point, mass: float) -> PointMass:
+        """A mass in kg that moves with a point of a wire: a clamp, a section insulator."""
+        body = self.model.add_point_mass(
+            name, at=point.initial_position, mass=checks.positive(mass, f"{name}.mass")
+        )
+        self.model.connect(body, point)
+        return body
+
+    def add_pantograph(self, pantograph: Pantograph | str, speed: Any, **options: Any) -> Collector:
+        """Add a pantograph to the model, see :func:`add_pantograph`."""
+        from .travelling import add_pantograph
+
+        return add_pantograph(self, pantograph, speed, **options)
+
+    def run(self, **options: Any) -> Run:
+        """Run pantographs along the line as it is now, see :func:`ancf.catenary.run`.
+
+        The model itself stays as it is: each run computes with a copy.
+        """
+        from .run import run
+
+        return run(self, **options)
 
 
 def assemble(found: Form, mesh: Mesh | None = None) -> Overhead:

@@ -39,13 +39,12 @@ class Verified:
 
 
 def verify(overhead: Overhead) -> Verified:
-    """Bring a line to rest and compare."""
+    """Bring a line to rest and compare; no dropper may be broken."""
     found, wires = overhead.form, (overhead.contact, overhead.messenger, *overhead.stitches)
     state = ancf.equilibrium(overhead.model)
     low = overhead.contact.positions(state)[found.contact.nodes.dropper]
-    ends = np.array(
-        [[state.position(p) for p in (d.a, d.b) if isinstance(p, Point)] for d in overhead.droppers]
-    )
+    droppers = [d for d in overhead.droppers if d is not None]
+    ends = np.array([[state.position(p) for p in (d.a, d.b) if isinstance(p, Point)] for d in droppers])
     stretch = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) - found.dropper_natural
     clamps = low[:, 2] - found.contact.position[found.contact.nodes.dropper, 2] + found.contact_height
     force = found.spring_stiffness * stretch
