@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from .assemble import Overhead, assemble
 from .catalogue import line_file, line_names, read_line
 from .elasticity import Elasticity, elasticity
 from .fittings import Droppers, SteadyArm
 from .form import Form, form
 from .line import Line
 from .mesh import Mesh
+from .opened import Overhead, assemble
 from .pantograph import Pantograph, find_pantograph, pantographs, read_pantograph
 from .quantity import Quantity
 from .references import Reference, reference_case, reference_names, rows

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,17 +18,12 @@ from .form import Form, form
 from .mesh import Mesh
 from .shape import Strung
 
-if TYPE_CHECKING:
-    from .collectors import Collector
-    from .pantograph import Pantograph
-    from .run_data import Run
-
 #: Length of a spring to a fixed point, m: long enough that its force keeps its direction, and unstretched.
 LONG = 20.0
 
 
 @dataclass(slots=True)
-class Overhead:
+class Assembled:
     """The model of a line.
 
     Attributes
@@ -114,23 +108,8 @@ class Overhead:
         self.model.connect(body, point)
         return body
 
-    def add_pantograph(self, pantograph: Pantograph | str, speed: Any, **options: Any) -> Collector:
-        """Add a pantograph to the model, see :func:`add_pantograph`."""
-        from .travelling import add_pantograph
 
-        return add_pantograph(self, pantograph, speed, **options)
-
-    def run(self, **options: Any) -> Run:
-        """Run pantographs along the line as it is now, see :func:`ancf.catenary.run`.
-
-        The model itself stays as it is: each run computes with a copy.
-        """
-        from .run import run
-
-        return run(self, **options)
-
-
-def assemble(found: Form, mesh: Mesh | None = None) -> Overhead:
+def assemble(found: Form, mesh: Mesh | None = None) -> Assembled:
     """Make the model of a line.
 
     Parameters
@@ -147,7 +126,7 @@ def assemble(found: Form, mesh: Mesh | None = None) -> Overhead:
     model = ancf.Model(gravity=(0.0, 0.0, -line.gravity), title=line.title)
     contact = found.contact.add_to(model, "contact", line.damping)
     messenger = found.messenger.add_to(model, "messenger", line.damping)
-    overhead = Overhead(found, model, contact, messenger)
+    overhead = Assembled(found, model, contact, messenger)
     for wire in (contact, messenger):
         _anchor(overhead, wire)
     _add_stitches(overhead)
@@ -157,7 +136,7 @@ def assemble(found: Form, mesh: Mesh | None = None) -> Overhead:
     return overhead
 
 
-def _anchor(overhead: Overhead, wire: Strung) -> None:
+def _anchor(overhead: Assembled, wire: Strung) -> None:
     """Fix both ends; or pull them, and hold the wire along the track at its middle support."""
     model, line = overhead.model, overhead.form.line
     if line.anchors == "fixed":
@@ -180,7 +159,7 @@ def middle_support(found: Form) -> int:
     return 1 + int(np.argmin(np.abs(supports[1:-1] - 0.5 * supports[-1])))
 
 
-def _add_stitches(overhead: Overhead) -> None:
+def _add_stitches(overhead: Assembled) -> None:
     found, nodes = overhead.form, overhead.messenger.shape.nodes.stitch
     for k, shape in enumerate(found.stitches):
         wire = shape.add_to(overhead.model, f"stitch wire {k + 2}", found.line.damping)
@@ -189,7 +168,7 @@ def _add_stitches(overhead: Overhead) -> None:
         overhead.stitches.append(wire)
 
 
-def _uppers(overhead: Overhead) -> list[Point]:
+def _uppers(overhead: Assembled) -> list[Point]:
     """Upper ends of all droppers."""
     line = overhead.form.line
     points = [overhead.messenger.point(node) for node in overhead.form.messenger.nodes.dropper]
@@ -200,7 +179,7 @@ def _uppers(overhead: Overhead) -> list[Point]:
     return points
 
 
-def _add_droppers(overhead: Overhead) -> None:
+def _add_droppers(overhead: Assembled) -> None:
     found, line, model = overhead.form, overhead.form.line, overhead.model
     lower, upper = found.contact.nodes.dropper, _uppers(overhead)
     half = 0.5 * line.droppers.mass * found.dropper_length
@@ -232,7 +211,7 @@ def _add_mass(model: ancf.Model, name: str, point: Point, mass: float) -> PointM
     return body
 
 
-def _add_messenger_supports(overhead: Overhead) -> None:
+def _add_messenger_supports(overhead: Assembled) -> None:
     found, line, model = overhead.form, overhead.form.line, overhead.model
     overhead.hangers = [None] * line.supports.size
     for k in range(1, line.supports.size - 1):
@@ -246,7 +225,7 @@ def _add_messenger_supports(overhead: Overhead) -> None:
         )
 
 
-def _add_arms(overhead: Overhead) -> None:
+def _add_arms(overhead: Assembled) -> None:
     found, line, model = overhead.form, overhead.form.line, overhead.model
     nodes = found.contact.nodes.support
     overhead.supports = [overhead.contact.point(node) for node in nodes]
@@ -286,7 +265,7 @@ def _add_long_spring(
     return model.add_spring(point, fixed, stiffness=stiffness, length=distance - load / stiffness, name=name)
 
 
-def _add_hinged_arm(overhead: Overhead, k: int, force: FloatArray, name: str) -> Spring:
+def _add_hinged_arm(overhead: Assembled, k: int, force: FloatArray, name: str) -> Spring:
     """A bar to a pivot on the mast, in the direction in which it has to pull at rest, N."""
     line, size = overhead.form.line, float(np.linalg.norm(force))
     arm = line.steady_arm

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import ModelError
 from ..model import checks
-from .assemble import Overhead, assemble
+from .assemble import Assembled, assemble
 from .catalogue import read_line
 from .collectors import Touch
 from .form import Form, form
@@ -35,22 +35,22 @@ class Door:
 
     Parameters
     ----------
-    given : Overhead, optional
+    given : Assembled, optional
         A line that was assembled, and perhaps changed.
     modify : callable, optional
         Changes each model before pantographs are added to it.
 
     """
 
-    given: Overhead | None = None
-    modify: Callable[[Overhead], Any] | None = None
+    given: Assembled | None = None
+    modify: Callable[[Assembled], Any] | None = None
 
     @property
     def changed(self) -> bool:
         """Whether the line may rest in another way than its form says."""
         return self.given is not None or self.modify is not None
 
-    def overhead(self, found: Form) -> Overhead:
+    def overhead(self, found: Form) -> Assembled:
         """A model that nobody else has."""
         made = assemble(found) if self.given is None else copy.deepcopy(self.given)
         if self.modify is not None:
@@ -141,9 +141,9 @@ def make_plan(
     )
 
 
-def formed(line: Line | Form | Overhead | str | Path, mesh: Mesh | None) -> Form:
+def formed(line: Line | Form | Assembled | str | Path, mesh: Mesh | None) -> Form:
     """Form of a line, of a name or a path, of its model, or as given."""
-    if isinstance(line, Overhead):
+    if isinstance(line, Assembled):
         line = line.form
     if isinstance(line, Form):
         if mesh is not None:

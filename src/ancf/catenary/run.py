@@ -14,7 +14,7 @@ import ancf
 
 from ..arrays import FloatArray
 from . import cautions
-from .assemble import Overhead
+from .assemble import Assembled
 from .collectors import Collector, Touch, put_pantograph
 from .form import Form, form
 from .line import Line
@@ -35,7 +35,7 @@ Speed = float | Sequence[Sequence[float]]
 
 
 def run(
-    line: Line | Form | Overhead | str | Path,
+    line: Line | Form | Assembled | str | Path,
     *,
     speed: Speed,
     pantograph: Pantograph | str | Sequence[Pantograph | str] = "benchmark-2015",
@@ -54,7 +54,7 @@ def run(
     progress: Callable[[Any], None] | None = None,
     controller: Callable[[Any], Any] | None = None,
     control_step: float | None = None,
-    modify: Callable[[Overhead], Any] | None = None,
+    modify: Callable[[Assembled], Any] | None = None,
 ) -> Run:
     """Run pantographs along a line from its equilibrium.
 
@@ -131,7 +131,7 @@ def run(
         until,
         Touch(contact, contact_stiffness, contact_damping),
         step,
-        Door(line if isinstance(line, Overhead) else None, modify),
+        Door(line if isinstance(line, Assembled) else None, modify),
     )
     _warn(cautions.before(plan))
     if any(unit.relaxed_at == "mean" for unit in plan.pantographs):
@@ -204,7 +204,7 @@ def _integrator(plan: Plan) -> ancf.GeneralizedAlpha:
     return ancf.GeneralizedAlpha(0.9, newton=newton)
 
 
-def _collectors(overhead: Overhead, plan: Plan, active: bool) -> list[Collector]:
+def _collectors(overhead: Assembled, plan: Plan, active: bool) -> list[Collector]:
     """Add the pantographs where they come to rest."""
     heights, count = _lifted(plan), len(plan.places)
     collectors = []
@@ -255,7 +255,7 @@ def _rest(plan: Plan) -> _Rest:
     return _Rest(np.array(height), np.array(force))
 
 
-def _dropper_forces(sensors: Any, overhead: Overhead) -> FloatArray:
+def _dropper_forces(sensors: Any, overhead: Assembled) -> FloatArray:
     """Histories (steps, n) in N; a broken dropper carries nothing."""
     nothing = np.zeros(sensors.t.size)
     forces = [nothing if d is None else sensors.spring_force(d) for d in overhead.droppers]
@@ -263,7 +263,7 @@ def _dropper_forces(sensors: Any, overhead: Overhead) -> FloatArray:
 
 
 def _recorded(
-    result: ancf.Result, overhead: Overhead, collectors: list[Collector], plan: Plan, rest: _Rest
+    result: ancf.Result, overhead: Assembled, collectors: list[Collector], plan: Plan, rest: _Rest
 ) -> Run:
     sensors, line = result.sensors, overhead.form.line
     t: FloatArray = sensors.t

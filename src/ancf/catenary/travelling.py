@@ -8,14 +8,14 @@ from typing import Any
 import ancf
 
 from ..model import checks
-from .assemble import Overhead
+from .assemble import Assembled
 from .collectors import Collector, Touch, put_pantograph
 from .pantograph import Pantograph, find_pantograph
 from .travel import make_travel
 
 
 def add_pantograph(
-    overhead: Overhead,
+    overhead: Assembled,
     pantograph: Pantograph | str | Path,
     speed: Any,
     *,
@@ -34,7 +34,7 @@ def add_pantograph(
 
     Parameters
     ----------
-    overhead : Overhead
+    overhead : Assembled
     pantograph : Pantograph, str or path
     speed : float, m/s, or (n, 2)
         Or a profile of times in s and speeds in m/s.
@@ -82,7 +82,7 @@ def add_pantograph(
     )
 
 
-def lifted_heights(overhead: Overhead, places: list[float], lifts: list[float]) -> list[float]:
+def lifted_heights(overhead: Assembled, places: list[float], lifts: list[float]) -> list[float]:
     """Heights in m of the contact wire at track positions when forces in N lift it there.
 
     The model is as before afterwards.

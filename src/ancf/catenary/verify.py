@@ -10,7 +10,7 @@ import ancf
 
 from ..arrays import FloatArray
 from ..model.points import Point
-from .assemble import Overhead
+from .assemble import Assembled
 from .shape import Strung
 
 
@@ -38,7 +38,7 @@ class Verified:
     load: float
 
 
-def verify(overhead: Overhead) -> Verified:
+def verify(overhead: Assembled) -> Verified:
     """Bring a line to rest and compare; no dropper may be broken."""
     found, wires = overhead.form, (overhead.contact, overhead.messenger, *overhead.stitches)
     state = ancf.equilibrium(overhead.model)
