@@ -179,6 +179,7 @@ class Model(Surroundings, Readable):
         displacement: Any = None,
         name: str | None = None,
         to: RigidBody | str | None = None,
+        rotation_vector: Any = None,
     ) -> Clamp | Fixation:
         """Hold position and slope of a node, on a beam all three slopes, or a rigid body, or move them.
 
@@ -201,11 +202,15 @@ class Model(Surroundings, Readable):
             Default "clamp at beam.start".
         to : RigidBody
             Clamp the node to this body where it is, instead of holding or moving it.
+        rotation_vector : function of time, (3,) rad
+            Instead of `rotation`: the axis times the angle from the initial slopes, for what turns about
+            axes that change, as a gripper does.
 
         """
         if to is not None:
             moving = {
                 "rotation": rotation,
+                "rotation_vector": rotation_vector,
                 "rotation_rate": rotation_rate,
                 "rotation_acceleration": rotation_acceleration,
                 "displacement": displacement,
@@ -226,6 +231,7 @@ class Model(Surroundings, Readable):
             rotation_rate=rotation_rate,
             rotation_acceleration=rotation_acceleration,
             displacement=displacement,
+            rotation_vector=rotation_vector,
         )
         return self._add_support(where, item)
 
