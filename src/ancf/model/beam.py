@@ -33,7 +33,9 @@ class Beam:
     ----------
     name : str
     section : Section
-    element, strain, poisson, natural_shape : str
+    element, strain, poisson : str
+    natural_shape : str
+        "path", "straight" or "curve"; of the last `natural_beam` has the nodes.
     gauss : (int, int)
         Gauss points of a cable's axial and bending integrals, or of a beam along its axis and in each
         direction of the section.
@@ -79,6 +81,7 @@ class Beam:
     lay: Shape | None = None
     along: FloatArray = field(default_factory=lambda: np.zeros(0))
     velocities: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+    natural_beam: Beam | None = None
 
     def __repr__(self) -> str:
         return f"Beam({self.name!r}, elements={self.elements}, length={self.length:g})"
@@ -118,6 +121,11 @@ class Beam:
         one node as to that from the other. They fix the slopes inside the nonlocking element.
         """
         return self._middle_axes(0, self.elements)
+
+    @property
+    def natural(self) -> Beam | None:
+        """The beam as it lies without forces, but for its stretch; None for a straight one."""
+        return {"path": self, "straight": None}.get(self.natural_shape, self.natural_beam)
 
     @property
     def start(self) -> Point:

@@ -227,8 +227,10 @@ class BeamEntry(Entry):
     length: Positive | None = Field(
         None, description="Natural length, default that of the initial shape [m]."
     )
-    natural_shape: Literal["path", "straight"] = Field(
-        "path", description="The initial shape is free of bending, or a straight beam was bent into it."
+    natural_shape: Literal["path", "straight"] | list[Vector] = Field(
+        "path",
+        description="The initial shape is free of bending, or a straight beam was bent into it, or one with "
+        "the bends of a spline through points [m].",
     )
     gauss: Annotated[list[int], Field(min_length=2, max_length=2)] = Field(
         [5, 3],
