@@ -77,7 +77,7 @@ class TestClosedForms:
 
     @pytest.mark.parametrize("radius", [0.5, 1.0, 3.0])
     def test_energy_of_a_cable_that_is_held_straight(self, radius):
-        """EI l/(2 R^2); where the cable is straight its curvature is rounded off by 1e-4 of the natural one."""
+        """EI l/(2 R^2); a straight cable rounds its curvature off by 1e-4 of the natural one."""
         for elements in (4, 16):
             model = ancf.Model()
             wire = model.add_beam(
