@@ -173,8 +173,8 @@ def placed_beam(
     ``take`` gives what must be there. Positions, tangents and local y axes of the nodes are there where
     they do not follow from the two ends and ``y_axis``.
     """
-    given_words = (take(key) for key in ("element", "strain", "poisson", "natural_shape"))
-    words = _words(where, *given_words, (*NATURAL_SHAPES, CURVE))
+    element, strain, poisson, natural = map(take, ("element", "strain", "poisson", "natural_shape"))
+    words = _words(where, element, strain, poisson, natural, (*NATURAL_SHAPES, CURVE))
     _check_section(section, words["element"], f"{where}.section")
     length = checks.positive(take("length"), f"{where}.length")
     nodes = given.get("nodes")
@@ -213,7 +213,7 @@ def _placed_natural(beam: Beam, given: Any, where: str) -> Beam:
         return given[key]
 
     stretch = checks.between(take("stretch"), f"{where}.stretch", 1.0 / MOST_STRETCH, MOST_STRETCH)
-    placed = dict(zip(PLACED, _rows(where, beam.node_x.size, take), strict=True))
+    placed: dict[str, Any] = dict(zip(PLACED, _rows(where, beam.node_x.size, take), strict=True))
     return replace(beam, natural_shape="path", natural_beam=None, lay=None, stretch=stretch, **placed)
 
 
@@ -244,7 +244,7 @@ def is_straight(beam: Beam) -> bool:
 
 def _words(
     where: str, element: Any, strain: Any, poisson: Any, natural_shape: Any, shapes: tuple[str, ...]
-) -> dict[str, str]:
+) -> dict[str, Any]:
     """Kind of element, strain measure, Poisson effect and natural shape."""
     kind = checks.choice(element, f"{where}.element", tuple(KINDS))
     return {
