@@ -20,7 +20,6 @@ from .common_options import (
     Quick,
     Quiet,
     Report,
-    ResultsFile,
     Resume,
     SchemaFile,
     Set,
