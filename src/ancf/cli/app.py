@@ -128,7 +128,8 @@ def export(
 ) -> None:
     """Write a results file for other programs.
 
-    vtk: one file with all times for ParaView. csv: tables of sensors, points, springs, joints and energies.
+    vtk: one file with all times for ParaView. csv: tables of sensors, points, springs, joints and energies;
+    parquet, xlsx: the same.
     mp4, gif: a movie. The run may have failed, been stopped or still go on.
     """
     with reported():
