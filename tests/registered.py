@@ -25,10 +25,13 @@ STAGE = {
         {"type": "rigid_body", "name": "arm", "at": [1, 0, 0.5], "mass": 1.0, "inertia": [0.1, 0.2, 0.2]},
         {"type": "point_mass", "name": "bob", "at": [1.0, 0, 0], "mass": 0.2},
     ],
-    "surfaces": [{"name": "floor", "shape": "plane", "at": [0, 0, -2]}],
+    "surfaces": [
+        {"name": "floor", "shape": "plane", "at": [0, 0, -2]},
+        {"name": "ball", "shape": "sphere", "radius": 0.1, "on": "arm"},
+    ],
 }
 POINTS = ["hub.at(0, 0, 0.3)", "arm.at(0, 0, -0.5)", "rod.start", "wire.at(1)", "bob", "rod.end"]
-BODIES = ["wire", "hub", "rod", "floor"]
+BODIES = ["wire", "hub", "rod", "floor", "ball"]
 #: By the type of a field of a table; directions of one item are normal to each other.
 VALUES = {
     fields.Positive: 1.5,

@@ -273,7 +273,11 @@ def bump_remember(batch, q, v):
 
 @inline_kernel
 def bump_passed(batch, q, ws):
-    """Slot of a body that has gone through another one since the last step, else -1."""
+    """Slot of a body that has gone through another one since the last step, else -1.
+
+    Of two segments the axes are nearer than half of the radii; the middle of a ball is below a surface; or
+    the two have changed sides, on a way that leads through.
+    """
     for e in range(batch.base.shape[0]):
         one, two = both(batch, e, q)
         g, _, _, way = meet(batch, e, one, two)
@@ -285,8 +289,9 @@ def bump_passed(batch, q, ws):
         step = less(way, old)
         s = share(-dot(old, step), dot(step, step))
         nearest = between(old, s, way)
-        limit = (1.0 - PASSED) * size
-        if g > PASSED * size * 2.0 or (dot(way, old) < 0.0 and dot(nearest, nearest) < limit * limit):
+        deepest = PASSED * size if batch.kind[e] == SEGMENTS else size
+        left = size - deepest if batch.kind[e] == SEGMENTS else PASSED * size
+        if g > deepest or (dot(way, old) < 0.0 and dot(nearest, nearest) < left * left):
             return batch.base[e, 0] if batch.base[e, 0] >= 0 else batch.base[e, 4]
     return -1
 

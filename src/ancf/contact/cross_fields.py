@@ -80,5 +80,5 @@ def grip_frictions(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
 
 def _own(batch: Any) -> Any:
     """A batch whose list and sums are its own: a question must not move what a run has."""
-    names = "found", "seen", "room", "first", "near", "head", "link", "zone", "grip", "older"
+    names = "found", "seen", "room", "first", "near", "middle", "head", "link", "zone", "grip", "older"
     return batch._replace(**{name: getattr(batch, name).copy() for name in names})

@@ -26,8 +26,8 @@ LEFT, WIDEST, LIVE, MADE, SEEN, LONGEST = range(6)
 #: Share of the way that is left after which a step makes the list again.
 USED = 0.5
 #: Change of a tangent with which the list is made again, and the cosine of the angle from a common direction
-#: up to which tangents count as nearly parallel: together 60 degrees.  Elements that are looked at.
-TURNED, STRAIGHT, BETWEEN = 0.4, 0.83, 12
+#: up to which tangents count as nearly parallel: together 60 degrees.
+TURNED, STRAIGHT = 0.4, 0.83
 #: Factors of the hash.
 FACTORS = (73856093, 19349663, 83492791)
 
@@ -112,31 +112,33 @@ def leads(batch, e, q, u):
 
 
 @inline_kernel
-def is_straight(batch, a, b, q):
-    """Whether a cable is nearly straight from its element a to its element b."""
-    if a > b:
-        a, b = b, a
-    if b - a > BETWEEN:
-        return False
-    u = less(on_cubic(cubic(batch, b, q), 1.0), cubic(batch, a, q)[0])
-    along = True
-    for e in range(a, b + 1):
-        along = along and leads(batch, e, q, u)
-    return along
+def straight_to(batch, e, step, q, most):
+    """The last element from e on, before (-1) or behind it (1), up to which its cable is nearly straight.
+
+    No more than ``most`` are looked at.
+    """
+    c, last = cubic(batch, e, q), e
+    u = less(on_cubic(c, 1.0), c[0])
+    for _ in range(most):
+        if not leads(batch, last, q, u):
+            return e
+        other = batch.beside[last, 0 if step < 0 else 1]
+        if other < 0 or not leads(batch, other, q, u):
+            return last
+        last = other
+    return last
 
 
 @inline_kernel
-def may_touch(batch, a, b, q, margin):
-    """Whether two elements belong into the list."""
+def may_touch(batch, a, b, before, behind, margin):
+    """Whether two elements belong into the list; a's cable is straight from ``before`` to ``behind``."""
     if a == b or batch.law[batch.cable[a], batch.cable[b]] < 0:
         return False
-    m, h = ball(batch, a, q)
-    o, k = ball(batch, b, q)
-    way = less(m, o)
-    reach = h + k + 2.0 * margin
-    if not dot(way, way) < reach * reach:
+    if batch.cable[a] == batch.cable[b] and before <= b <= behind:
         return False
-    return batch.cable[a] != batch.cable[b] or not is_straight(batch, a, b, q)
+    m, o = batch.middle[a], batch.middle[b]
+    x, y, z, reach = m[0] - o[0], m[1] - o[1], m[2] - o[2], m[3] + o[3] + 2.0 * margin
+    return x * x + y * y + z * z < reach * reach
 
 
 @inline_kernel
@@ -156,25 +158,34 @@ def sort_in(batch, start, count, b):
 
 
 @inline_kernel
-def fill(batch, q, margin, wide):
-    """Make the list with a margin; whether there is room for it."""
-    n, count = batch.base.shape[0], 0
+def sort_into_cubes(batch, wide):
+    """Lists of the elements in each bucket."""
     for k in range(batch.head.shape[0]):
         batch.head[k] = -1
-    for e in range(n):
-        m, _ = ball(batch, e, q)
-        x, y, z = cube(m, wide)
+    for e in range(batch.base.shape[0]):
+        x, y, z = cube(batch.middle[e], wide)
         k = bucket(batch, x, y, z)
         batch.link[e] = batch.head[k]
         batch.head[k] = e
+
+
+@inline_kernel
+def fill(batch, q, margin, wide):
+    """Make the list with a margin; whether there is room for it."""
+    n, count = batch.base.shape[0], 0
+    sort_into_cubes(batch, wide)
     for e in range(n):
         batch.first[e] = count
-        m, _ = ball(batch, e, q)
-        x, y, z = cube(m, wide)
+        own = batch.law[batch.cable[e], batch.cable[e]] >= 0
+        most = 1 + int(wide / batch.length[e])
+        before, behind = e, e
+        if own:
+            before, behind = straight_to(batch, e, -1, q, most), straight_to(batch, e, 1, q, most)
+        x, y, z = cube(batch.middle[e], wide)
         for around in range(27):
             b = batch.head[bucket(batch, x + around % 3 - 1, y + around // 3 % 3 - 1, z + around // 9 - 1)]
             while b >= 0:
-                if may_touch(batch, e, b, q, margin):
+                if may_touch(batch, e, b, before, behind, margin):
                     if count + 1 >= batch.near.shape[0]:
                         return False
                     count = sort_in(batch, batch.first[e], count, b)
@@ -225,7 +236,8 @@ def make(batch, q):
     """Make the list with the widest margin for which there is room."""
     largest, sound = 0.0, True
     for e in range(batch.base.shape[0]):
-        _, h = ball(batch, e, q)
+        m, h = ball(batch, e, q)
+        batch.middle[e, 0], batch.middle[e, 1], batch.middle[e, 2], batch.middle[e, 3] = m[0], m[1], m[2], h
         sound = sound and h < 1e100
         largest = max(largest, h)
     batch.room[LEFT] = -1.0

@@ -54,6 +54,7 @@ class StrandBatch(NamedTuple):
     room: FloatArray  # (6,) when it is to be made again, see :mod:`ancf.contact.near`
     first: NDArray[np.int64]  # (n + 1,) first entry of ``near`` of each element
     near: NDArray[np.int64]  # (room,) elements that are near, ascending for each element
+    middle: FloatArray  # (n, 4) workspace of the list: balls about the elements
     head: NDArray[np.int64]  # (buckets,) workspace of the list
     link: NDArray[np.int64]  # (n,) the same
     last: FloatArray  # (n, 12) memory: the unknowns of base after the last step

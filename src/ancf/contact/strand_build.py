@@ -76,6 +76,7 @@ def strands(
         room=np.array([-1.0, margin, 1.0, 0.0, -1.0, float(length.max())]),
         first=np.zeros(n + 1, dtype=np.int64),
         near=np.zeros(n * min(n, NEAR + int(MORE_NEAR * reach)) + 2, dtype=np.int64),
+        middle=np.zeros((n, 4)),
         head=np.full(2 ** math.ceil(math.log2(2 * n + 2)), -1, dtype=np.int64),
         link=np.zeros(n, dtype=np.int64),
         last=np.full((n, 12), np.inf),

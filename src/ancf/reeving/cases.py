@@ -10,6 +10,7 @@ import numpy as np
 from ..analysis import equilibrium, simulate
 from ..arrays import FloatArray
 from ..model.beam import Beam
+from ..model.integrators import Explicit
 from ..model.model import Model
 from ..model.section import Section
 from ..model.surface_shapes import Cylinder
@@ -103,6 +104,34 @@ def hung_over(low: float, drop: float = 0.5, mass: float = 2.0) -> tuple[float, 
     state = equilibrium(model)
     forces = [float(np.linalg.norm(state.reaction(end))) for end in ends]
     return forces[1] - forces[0], mass * GRAVITY * (drop + pulled - low)
+
+
+def thrown(friction: float, step: float = 2e-6, time: float = 0.06) -> dict[str, float]:
+    """One cable thrown over another one, which nothing holds, by central differences.
+
+    Returns
+    -------
+    dict
+        Largest changes of ``momentum`` and ``angular`` momentum over their sizes, largest ``drift`` of the
+        energy over the kinetic energy at the start, and ``lost``, the share of that which friction took.
+    """
+    section = Section(EA=1e4, EI=0.05, rhoA=0.3, diameter=DIAMETER)
+    model, way = Model(), 0.5 * np.array([math.cos(1.2), math.sin(1.2), 0.0])
+    start = np.array([-0.47, 0.02, DIAMETER + 0.002])
+    one = model.add_beam(
+        "one", start=start, end=start + np.array([1.0, 0.0, 0.0]), elements=3, section=section
+    )
+    two = model.add_beam("two", start=-way, end=way, elements=4, section=section)
+    one.set_motion(velocity=(0.3, 0.1, -0.5))
+    model.add_contact(one, two, stiffness=1e5, damping=20.0 if friction else 0.0, friction=friction)
+    run = simulate(model, t_end=time, step=step, output_step=1e-3, integrator=Explicit())
+    p, L, kinetic = run.momentum, run.angular_momentum(), float(run.energy.kinetic[0])
+    return {
+        "momentum": float(np.abs(p - p[0]).max() / np.abs(p[0]).max()),
+        "angular": float(np.abs(L - L[0]).max() / np.abs(L).max()),
+        "drift": float(np.abs(run.energy.drift).max()) / kinetic,
+        "lost": float(run.energy.dissipated[-1]) / kinetic,
+    }
 
 
 def pulley(inertia: float, step: float = 5e-4) -> dict[str, float]:

@@ -15,13 +15,15 @@ TITLE = "Ropes on drums and pulleys against closed forms"
 #: Coefficients of friction and turns of the capstan.
 FRICTIONS, TURNS = (0.05, 0.2, 0.5), (0.25, 1.0, 2.0)
 LOADS, LOWER_ENDS, INERTIAS = (100.0, 3000.0), (0.1, 0.3), (0.01, 0.2)
+#: And of cables that touch.
+THROWN = (0.0, 0.3)
 #: Shares of the reference within which a quantity counts as reproduced; of the work in 1e-6.
 OF_CAPSTAN, OF_LINE, OF_SPEED, OF_WORK = 1e-2, 1e-3, 5e-3, 1.0
 
 
 def compare(progress: Progress | None = None) -> list[Group]:
     """Compute all cases beside their closed forms; ``progress(done, of)`` is called after each."""
-    count = len(FRICTIONS) * len(TURNS) + len(LOADS) + len(LOWER_ENDS) + len(INERTIAS)
+    count = len(FRICTIONS) * len(TURNS) + len(LOADS) + len(LOWER_ENDS) + len(INERTIAS) + len(THROWN)
     done = 0
 
     def told(rows: list[Quantity]) -> list[Quantity]:
@@ -55,6 +57,11 @@ def compare(progress: Progress | None = None) -> list[Group]:
             "Atwood's machine with the moment of inertia of the pulley; energy: what is supplied is there",
             [lambda inertia=inertia: _pulley(inertia) for inertia in INERTIAS],  # type: ignore[misc]
         ),
+        group(
+            "One cable thrown over another one, 2 µs",
+            "nothing from outside: momentum, angular momentum, and energy with what friction took",
+            [lambda mu=mu: _thrown(mu) for mu in THROWN],  # type: ignore[misc]
+        ),
     ]
 
 
@@ -83,6 +90,20 @@ def _pulley(inertia: float) -> list[Quantity]:
         Quantity(
             "drift", f"drift over work, {name}", "1e-6", 1e6 * found["drift"], None, OF_WORK, "invariant"
         ),
+    ]
+
+
+def _thrown(friction: float) -> list[Quantity]:
+    found, name = cases.thrown(friction), f"mu = {friction:g}"
+    rows = ("momentum", "1e-9", 1e9), ("angular", "1e-9", 1e9), ("drift", "1e-6", 1e6)
+    words = {
+        "momentum": "change of momentum",
+        "angular": "change of angular momentum",
+        "drift": "drift of energy",
+    }
+    return [
+        Quantity(key, f"{words[key]}, {name}", unit, many * found[key], None, OF_WORK, "invariant")
+        for key, unit, many in rows
     ]
 
 
