@@ -1,4 +1,4 @@
-"""Make the pictures in docs/_static: overview.png of the README, figures of the paper for the theory pages.
+"""Make the pictures in docs/_static: overview.png of the README, the knot, figures for the theory pages.
 
 Run from the repository root: python docs/pictures.py
 """
@@ -13,6 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 import ancf
+from ancf.model.file import read_study
 from ancf.paper import reproduce
 from ancf.viz import style
 
@@ -97,6 +98,36 @@ def overview() -> None:
         (STATIC / "overview.png").write_bytes(style.png(figure, dpi=160))
 
 
+def rope(axes: Axes, shape: np.ndarray, diameter: float) -> None:
+    """A rope as thick as it is, seen from above: what is higher hides what is below."""
+    axes.set(aspect="equal", xlim=(-0.16, 0.30), ylim=(-0.085, 0.27), xlabel="x [m]", ylabel="y [m]")
+    axes.figure.canvas.draw()
+    wide = 72.0 / axes.figure.dpi * diameter * np.diff(axes.transData.transform([(0, 0), (1, 0)])[:, 0])[0]
+    for k in np.argsort(shape[1:-2, 2]) + 1:
+        piece = shape[k - 1 : k + 3]
+        axes.plot(piece[1:-1, 0], piece[1:-1, 1], color="black", lw=wide, solid_capstyle="butt")
+        axes.plot(piece[:, 0], piece[:, 1], color=style.BLUE, lw=0.8 * wide, solid_capstyle="butt")
+
+
+def knot() -> None:
+    """The knot of examples/knot.toml while it is pulled tight."""
+    study = read_study(STATIC.parents[1] / "examples" / "knot.toml")
+    given = study.simulation
+    run = ancf.simulate(
+        study.model, t_end=0.6, step=given.step, integrator=given.integrator, output_step=0.05
+    )
+    beam = study.model.beams["rope"]
+    shapes = nodes(run, "rope", beam.length, 1200)
+    with style.new_figure(244.0, 62.0) as figure:
+        for axes, t in zip(figure.subplots(1, 4), (0.0, 0.25, 0.35, 0.6), strict=True):
+            k = round(t / 0.05)
+            rope(axes, shapes[:, k], beam.section.diameter)
+            force = 20.0 * min(t / 0.3, 1.0)
+            axes.set_title(f"{t:g} s, {force:.0f} N")
+        (STATIC / "knot.png").write_bytes(style.png(figure, dpi=160))
+
+
 if __name__ == "__main__":
     overview()
+    knot()
     figures()

@@ -210,13 +210,17 @@ def look_if_live(batch, q):
 
 @inline_kernel
 def look_ahead(batch, q):
-    """Make the list in time for the next step; steps that need it one after the other are long."""
-    used = batch.room[SEEN] if batch.room[SEEN] >= 0.0 else used_up(batch, q)
+    """Make the list in time for the next step.
+
+    Where steps are not judged (:func:`look_back`), or need it one after the other, forces look all the time.
+    """
+    judged = batch.room[SEEN] >= 0.0
+    used = batch.room[SEEN] if judged else used_up(batch, q)
     batch.room[SEEN] = -1.0
     made = not used < USED
     if made:
         make(batch, q)
-    batch.room[LIVE] = 1.0 if made and batch.room[MADE] > 0.0 else 0.0
+    batch.room[LIVE] = 1.0 if not judged or (made and batch.room[MADE] > 0.0) else 0.0
     batch.room[MADE] = 1.0 if made else 0.0
 
 

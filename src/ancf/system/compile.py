@@ -177,11 +177,12 @@ def make_core(
     """What the kernels work on."""
     batches = tuple(parts.values())
     external, rubbing = with_role(batches, Role.EXTERNAL), with_role(batches, Role.RUBS)
+    losing = [b for b in batches if _damped(b) and Role.RUBS not in traits(b).role]
     return Core(
         batches=Batches(batches),
         external=Batches(external),
         rubbing=Batches(rubbing),
-        losing=Batches(b for b in batches if _damped(b) or Role.RUBS in traits(b).role),
+        losing=Batches(losing),
         remembering=Batches(b for b in batches if traits(b).memory),
         entwined=tuple(b for b in batches if isinstance(b, StrandBatch) and not isinstance(b, GripBatch)),
         ws=workspace(),
@@ -191,7 +192,8 @@ def make_core(
         supports=supports,
         joints=joints,
         loads=dead,
-        damped=bool(rubbing) or any(_damped(b) for b in with_role(batches, Role.DISSIPATES)),
+        damped=bool(rubbing) or bool(losing),
+        loses=bool(losing),
         loaded=bool(len(dead.value) or any(len(b.base) for b in external) or len(supports.driven)),
         accounted=True,
     )

@@ -77,7 +77,7 @@ class Core(NamedTuple):
     batches: Batches  # everything that has forces
     external: Batches  # of them the loads that depend on the state
     rubbing: Batches  # of them those with friction
-    losing: Batches  # of them those that may dissipate, with friction or not
+    losing: Batches  # of them those without friction that dissipate
     remembering: Batches  # of them those with a memory
     entwined: tuple[Any, ...]  # contacts between cables, which are not in the matrix: one batch or none
     ws: FloatArray  # workspace of the element kernels
@@ -88,6 +88,7 @@ class Core(NamedTuple):
     joints: Joints
     loads: Loads
     damped: bool  # something dissipates
+    loses: bool  # something without friction does
     loaded: bool  # something but gravity does work
     accounted: bool  # a run is to integrate what is dissipated and supplied
 

@@ -21,15 +21,14 @@ def powers(core, q, v, a, f, push, r):
     """
     n, dissipated = f.shape[0], 0.0
     for i in range(n):
-        push[i] = 0.0
+        push[i], r[i] = 0.0, 0.0
     if core.damped:  # without velocities first: what batches measure is left from the state as it is
-        for i in range(n):
-            r[i] = 0.0
-        add_forces(core.losing, q, push, a, r, core.ws)
-        for i in range(n):
-            r[i] = -r[i]
-        add_forces(core.rubbing, q, push, a, r, core.ws)
-        add_forces(core.losing, q, v, a, r, core.ws)
+        if core.loses:
+            add_forces(core.losing, q, push, a, r, core.ws)
+            for i in range(n):
+                r[i] = -r[i]
+            add_forces(core.losing, q, v, a, r, core.ws)
+        add_forces(core.rubbing, q, v, a, r, core.ws)
         for i in range(n):
             dissipated += v[i] * r[i]
     if not core.loaded:  # what pushes is gravity alone
