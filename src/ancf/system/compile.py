@@ -32,7 +32,7 @@ from ..model.joints import Slide
 from ..model.model import Model
 from ..model.points import Point
 from ..model.surfaces import SurfaceContact
-from ..model.winch import by_body
+from ..model.winches import by_body
 from . import loads
 from .core import Core, Joints, Loads, Supports
 from .matrix import Places, block_pairs

@@ -20,7 +20,7 @@ from ..model.kind import Kind
 from ..model.kinds import LOADS, SURROUNDINGS, kind_of
 from ..model.loads import DistributedLoad, Force, Moment
 from ..model.model import Model
-from ..model.winch import by_body
+from ..model.winches import by_body
 from .probe import R_X, R_Y, R_Z, Probe, R
 
 Pattern = tuple[IntArray, FloatArray]  # slots and factors

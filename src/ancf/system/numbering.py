@@ -12,7 +12,7 @@ from ..model.connections import Spherical
 from ..model.joints import Slide
 from ..model.model import Model
 from ..model.points import Point
-from ..model.winch import by_body
+from ..model.winches import by_body
 from .nodes import layout, names_of, node_of
 from .probe import Probe, locate
 

@@ -13,7 +13,7 @@ from ..model.bodies import Body
 from ..model.elements import KINDS
 from ..model.model import Model
 from ..model.points import Point
-from ..model.winch import by_body
+from ..model.winches import by_body
 
 #: Rows of a probe's factors; a cable has the first three.
 R, R_X, R_XX, R_Y, R_Z, R_YX, R_ZX = range(7)

@@ -20,7 +20,7 @@ from ..model.model import Model
 from ..model.points import Point
 from ..model.surfaces import SurfaceContact
 from ..model.touching import bodies_of
-from ..model.winch import check_winches
+from ..model.winches import check_winches
 from . import loads
 from .compile import bind_parts, build_parts, held_arrays, joined, make_core, order_blocks, rotation_arrays
 from .core import Core, Loads, Supports, place_supports
