@@ -26,6 +26,7 @@ from ..contact.bump_build import share as share_bumps
 from ..contact.grip import GripBatch
 from ..contact.strand import StrandBatch
 from ..contact.strand_build import share, strands
+from ..elements import winched_build
 from ..elements.registry import ELEMENTS
 from ..elements.workspace import workspace
 from ..linalg.block_ldl import allocate
@@ -38,6 +39,7 @@ from ..model.joints import Slide
 from ..model.model import Model
 from ..model.points import Point
 from ..model.surfaces import SurfaceContact
+from ..model.winches import by_body
 from . import loads
 from .core import Core, Joints, Loads, Supports
 from .matrix import Places, block_pairs
@@ -62,11 +64,21 @@ def build_parts(
         return locate(point, slots[point.body.name])
 
     kinds: dict[str, list[Beam]] = {}
-    for beam in model.beams.values():
-        kinds.setdefault(beam.element, []).append(beam)
+    winches = by_body(model)
+    for name, beam in model.beams.items():
+        if name not in winches:
+            kinds.setdefault(beam.element, []).append(beam)
     parts: Parts = {
         kind: ELEMENTS[kind].build(beams, [slots[b.name] for b in beams]) for kind, beams in kinds.items()
     }
+    if winches:
+        parts["winched"] = winched_build.build(
+            [w.beam for w in winches.values()],
+            [slots[name] for name in winches],
+            [w.at_start for w in winches.values()],
+            [numbering.lengths[w.name] for w in winches.values()],
+            model.gravity,
+        )
     parts["springs"] = springs(model, find)
     parts |= loads.batches(model, find, value)
     undeformed = [b for b in model.bodies.values() if not isinstance(b, Beam)]
@@ -183,6 +195,7 @@ def make_core(
         external=Batches(external),
         rubbing=Batches(rubbing),
         losing=Batches(losing),
+        inertial=Batches(alone(b) for b in losing if (alone := traits(b).inertial)),
         remembering=Batches(b for b in batches if traits(b).memory),
         entwined=tuple(b for b in batches if isinstance(b, StrandBatch) and not isinstance(b, GripBatch)),
         ws=workspace(),

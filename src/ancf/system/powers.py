@@ -3,7 +3,8 @@
 The work of loads is supplied: of those that depend on time alone, of batches with the role EXTERNAL whatever
 they depend on, and of the reactions of moving supports.  Gravity has a potential instead.  What all other
 forces do because of velocities is dissipated: what they lose when the velocities are set to zero.  All that
-batches with the role RUBS do is dissipated: friction needs no velocity to hold.
+batches with the role RUBS do is dissipated: friction needs no velocity to hold.  What forces of inertia lose
+that depend on velocities, as those of a cable that a winch pays out, is not dissipated.
 """
 
 from __future__ import annotations
@@ -25,6 +26,13 @@ def powers(core, q, v, a, f, push, r):
     if core.damped:  # without velocities first: what batches measure is left from the state as it is
         if core.loses:
             add_forces(core.losing, q, push, a, r, core.ws)
+            for i in range(n):
+                r[i] = -r[i]
+            add_forces(core.inertial, q, push, a, r, core.ws)
+            for i in range(n):
+                dissipated += v[i] * r[i]
+                r[i] = 0.0
+            add_forces(core.inertial, q, v, a, r, core.ws)
             for i in range(n):
                 r[i] = -r[i]
             add_forces(core.losing, q, v, a, r, core.ws)
