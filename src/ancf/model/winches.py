@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import ModelError
+from .cable_contact import CableContact
 from .contact import Contact
 from .fluids import Fluid
 from .functions import TimeFunction
@@ -61,9 +62,10 @@ def _check_along(winch: Winch, load: DistributedLoad) -> None:
 def _check_connection(winches: dict[str, Winch], item: Any) -> None:
     """Only ends may be joined, and nothing runs along the cable."""
     carrier = item.carrier if isinstance(item, Slide | Contact) else getattr(item, "body", None)
-    winch = winches.get(getattr(carrier, "name", ""))
-    if winch and isinstance(item, Slide | Contact | SurfaceContact):
-        raise _refused(item.name, winch, "runs along the cable", "join it to an end of the cable")
+    for along in (carrier, getattr(item, "other", None)):
+        winch = winches.get(getattr(along, "name", ""))
+        if winch and isinstance(item, Slide | Contact | SurfaceContact | CableContact):
+            raise _refused(item.name, winch, "runs along the cable", "join it to an end of the cable")
     for end in (getattr(item, key, None) for key in ("a", "b", "point")):
         if isinstance(end, Point) and (winch := winches.get(end.body.name)):
             _check_end(winch, item.name, end)
