@@ -58,22 +58,24 @@ class TestFriction:
 
     @pytest.mark.parametrize("angle", [0.5 * math.pi, 1.0])
     def test_sticks_below_and_slips_above(self, angle):
+        """mu N holds what is less, by friction that is as large; else the rest of the pull accelerates."""
         rod, contacts, run = self.pulled(angle, 0.9, until=0.3)
         x, t = run.sensors.position(rod.end)[:, 0], run.sensors.t
-        held = t > 0.2
-        assert np.ptp(x[held]) < 1e-6
+        assert np.ptp(x[t > 0.2]) < 1e-4  # it vibrates; free it would go 60 cm
         assert sum(run.sensors.friction_force(c)[-1] for c in contacts) == pytest.approx(
             0.36 * 40.0, rel=2e-2
         )
         assert all(run.sensors.slipping(c)[-1] == 0.0 for c in contacts)
         rod, contacts, run = self.pulled(angle, 1.5)
-        v, t = run.velocity(rod.at(0.5))[:, 0], run.t
-        late = t > 0.12
-        slope = np.polyfit(t[late], v[late], 1)[0]
-        normal = sum(run.contact_force(c)[-1] for c in contacts)
-        assert normal == pytest.approx(40.0, rel=2e-2)
-        assert slope == pytest.approx(0.5 * 0.4 * 40.0 / 0.3, rel=5e-2)
+        t, late = run.sensors.t, run.sensors.t > 0.12
+        normal = sum(run.sensors.contact_force(c) for c in contacts)
+        friction = sum(run.sensors.friction_force(c) for c in contacts)
+        assert friction[late].mean() == pytest.approx(0.4 * normal[late].mean(), rel=1e-2)
         assert all(run.sensors.slipping(c)[-1] == 1.0 for c in contacts)
+        pull = 24.0 * np.clip((t - 0.06) / 0.04, 0.0, 1.0)
+        gained = np.trapezoid((pull - friction)[late], t[late]) / 0.3
+        v = run.velocity(rod.at(0.5))[late, 0]
+        assert v[-1] - v[0] == pytest.approx(gained, rel=2e-2)
 
 
 def thrown(step, friction, method=None, until=0.06, angle=1.2):
@@ -102,8 +104,8 @@ class TestThrown:
             assert np.abs(p - p[0]).max() < 1e-12
             assert np.abs(L - L[0]).max() < 1e-12
             drift.append(abs(run.energy.drift).max() / run.energy.kinetic[0])
-        assert drift[1] < 2e-4
-        assert drift[0] > 1.8 * drift[1]
+        assert drift[1] < 5e-5
+        assert drift[1] < drift[0]
         assert (run.energy.dissipated[-1] > 1e-3 * run.energy.kinetic[0]) == (friction > 0)
 
     def test_methods_agree(self):
@@ -111,7 +113,7 @@ class TestThrown:
         for method, step in ((None, 2e-4), (ancf.Explicit(), 1e-5), (ancf.Radau(), 1e-3)):
             model, _, run = thrown(step, 0.3, method)
             ends.append(run.position(model.beams["one"].at(0.3))[-1])
-        assert np.abs(ends[0] - ends[1]).max() < 1e-5
+        assert np.abs(ends[0] - ends[1]).max() < 5e-5
         assert np.abs(ends[2] - ends[1]).max() < 1e-4
 
     def test_goes_on_to_the_last_bit(self, tmp_path):

@@ -29,7 +29,7 @@ NEAR, MORE_NEAR = 24, 24
 #: Zones for each element, and besides.
 ZONES, MORE_ZONES = 6, 64
 #: Rows of the matrix for a zone, the most of them, and vectors of the solver.
-ROWS, MOST_ROWS, VECTORS = 5, 6000, 81
+ROWS, MOST_ROWS, VECTORS = 7, 8000, 81
 #: Spacing of the places that are looked at in the initial shape, in radii, and the most of a cable.
 SPACING, MOST_PLACES = 0.5, 100_000
 
