@@ -52,11 +52,12 @@ def _check_model(path: Path, data: dict[str, Any]) -> None:
 
 def _check_line(path: Path, data: dict[str, Any]) -> None:
     """Read a line, divide its wires and hang them as strings; more is found with its form."""
-    from ..catenary.file import parse_line
+    from ..catenary.file import parse_track
     from ..catenary.form import check
 
-    line = parse_line(data, str(path))
-    check(line)
+    line = parse_track(data, str(path))
+    for part in line.parts:
+        check(part)
     _print_right(path, size_of(line))
 
 
