@@ -11,6 +11,7 @@ from ancf import ModelError
 from ancf.catenary import Conditions, Route, Span, assemble, elasticity, form, read_line, run, statistics
 from ancf.cli.app import app
 from overhead_lines import COARSE, STEP, TOML, collector, droppers, short_line
+from places import EXAMPLES
 
 LENGTH, SPANS, SHARED = 40.0, 7, 4
 #: Where the second tension length begins, m, and where both wires are level, m.
@@ -204,3 +205,22 @@ class TestFile:
         page = (out / "report.html").read_text()
         assert "section 2: contact wire" in page
         assert "0 to 128, 64 to 192" in page
+
+
+class TestExample:
+    """examples/tension_length.toml: overlap, curve, gradient."""
+
+    def test_rests_and_runs(self):
+        line = read_line(EXAMPLES / "tension_length.toml")
+        made = form(line, COARSE)
+        assert made.dropper_load.min() > 20.0
+        curve = made.forms[0].arm_force[3:5, 1] / (0.5 * (60.0 + 60.0) / 4000.0)
+        assert curve[1] == pytest.approx(-20e3, rel=2e-3)  # its staggers there are alike
+        assert made.contact_height == pytest.approx(
+            np.concatenate([one.dropper_height for one in line.lines]), abs=5e-4
+        )
+        unit, place = "benchmark-2015", {"start": 470.0, "window": (530.0, 660.0)}
+        done = run(made, speed=250 / 3.6, pantograph=unit, step=2e-3, **place)
+        number = statistics(done)
+        assert number["mean_force"].value == pytest.approx(number["mean_force_law_ac"].value, rel=0.02)
+        assert number["deviation"].value < 0.3 * number["mean_force"].value

@@ -238,6 +238,13 @@ class TestAsBuilt:
             -error, abs=2e-3 * abs(error) + 2e-4
         )
 
+    @pytest.mark.parametrize("anchors", ["tension", "fixed"])
+    def test_is_mounted_under_the_tensions_of_the_design(self, anchors):
+        """Ends are fixed only then: droppers that are too short do not pull them tighter."""
+        plain = found(anchors=anchors)
+        built = form(replace(plain.line, dropper_lengths=plain.dropper_natural - 0.02), COARSE)
+        assert built.pull == pytest.approx(np.outer([20e3, 16e3], [1.0, 1.0]), rel=2e-4)
+
     @pytest.mark.parametrize("j", [7, 12])
     def test_one_too_long(self, j):
         """What the others take is linear in the error, as under a pair of forces."""
