@@ -21,6 +21,7 @@ from ancf.catenary import (
     assemble,
     elasticity,
     form,
+    read_line,
     run,
     verify,
 )
@@ -311,6 +312,17 @@ class TestForms:
         done = run(cold, speed=40.0, pantograph=collector(), step=STEP, mesh=COARSE)
         assert done.form.wave_speed > 1.1 * found().wave_speed
         assert isinstance(done.form, Form)
+
+
+class TestFile:
+    def test_conditions_by_path(self):
+        """A file that has none gets some; a wrong one is named."""
+        line = read_line("en50318-2002", {"conditions.temperature": -30.0, "conditions.ice": 0.5})
+        assert line.conditions == Conditions(temperature=-30.0, ice=0.5)
+        assert read_line("en50318-2002").conditions == Conditions()
+        with pytest.raises(ModelError, match=r"conditions\.temprature") as caught:
+            read_line("en50318-2002", {"conditions.temprature": -30.0})
+        assert "temperature" in str(caught.value)
 
 
 class TestWrong:

@@ -57,8 +57,14 @@ def read_file(path: str | Path, values: Mapping[str, Any] | None = None) -> Line
         The file cannot be read, is no TOML, or describes no valid line; all problems in one error.
 
     """
-    tables = changed(read_toml(Path(path), "line file"), values or {})
-    return parse_track(tables, str(path))
+    return parse_track(other_values(read_toml(Path(path), "line file"), values or {}), str(path))
+
+
+def other_values(tables: dict[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables of a line file with other values at some paths; its conditions need not stand there."""
+    if any(path.startswith("conditions.") for path in values):
+        tables = {"conditions": {}} | tables
+    return changed(tables, values)
 
 
 def parse_track(data: dict[str, Any], source: str = "line") -> Line | Route:

@@ -33,8 +33,12 @@ def check_file(path: Path, given: list[str] | None = None) -> None:
     from ..model.file import read_toml
     from ..model.file.paths import assignments, changed
 
-    data = changed(read_toml(path, "model file"), assignments(given))
-    return _check_line(path, data) if OF_A_LINE & data.keys() else _check_model(path, data)
+    data = read_toml(path, "model file")
+    if OF_A_LINE & data.keys():
+        from ..catenary.file import other_values
+
+        return _check_line(path, other_values(data, assignments(given)))
+    return _check_model(path, changed(data, assignments(given)))
 
 
 def _check_model(path: Path, data: dict[str, Any]) -> None:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..catenary import Line, Route
 
 #: Tables that only line files have.
-OF_A_LINE = {"contact_wire", "messenger_wire", "spans", "sections", "steady_arm"}
+OF_A_LINE = {"contact_wire", "messenger_wire", "spans", "steady_arm"}
 
 
 def show_line(path: Path, data: dict[str, Any]) -> None:
