@@ -26,6 +26,7 @@ FLOORS = (
     ("resumption", "a run that goes on where its file ends"),
     ("analysis", "equilibrium, simulate, modes"),
     ("control", "inputs, controllers, steps one by one"),
+    ("compilation", "what is said and done while kernels are compiled"),
     ("preparation", "a model compiled, started, carried out"),
     ("results", "states, histories, files"),
     ("solvers", "steps, statics, eigenvalues"),

@@ -4,6 +4,8 @@ Numba picks a name that its index does not have, enters it there, and then write
 do so at the same time may take one name for two kernels; one that is killed in between leaves an entry whose
 file is missing or old. Here one process writes at a time, the file first and its entry afterwards.
 
+A kernel that another process compiles just now is waited for and taken from the cache, not compiled twice.
+
 An index names the classes that kernels take. After an update one of them may have gone, and numba would fail
 while it reads; here what cannot be read is compiled anew.
 
@@ -14,6 +16,7 @@ wait for ever, elsewhere.
 
 from __future__ import annotations
 
+import hashlib
 import itertools
 import os
 import pickle
@@ -25,6 +28,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, cast
 
+from numba.core import event
 from numba.core.caching import Cache, IndexDataCacheFile
 
 if sys.platform != "win32":
@@ -44,7 +48,13 @@ UNREADABLE = (
 )
 #: How long to wait for another process that writes, s; writing takes milliseconds.
 PATIENCE = 60.0
+#: How long to wait for another process that compiles the same kernel, s; then it is compiled here as well.
+COMPILING = 300.0
 _said: set[str] = set()
+#: Files of claims by folder, open until this process ends, and the claims that it holds by dispatcher.
+_files: dict[str, int] = {}
+_held: dict[int, list[tuple[int, int]]] = {}
+_ended: list[int] = []
 
 
 def share() -> None:
@@ -55,6 +65,10 @@ def share() -> None:
     numbas.load = _or(numbas.load, lambda: None)
     cache = cast(Any, Cache)
     cache._save_overload = _if_possible(cache._save_overload)
+    if sys.platform != "win32":
+        cache.load_overload = _waiting(cache.load_overload)
+        cache.save_overload = _releasing(cache.save_overload)
+        cast(Any, event).register("numba:compile", _Ended())
 
 
 def use(dispatcher: Any, stamp: str) -> None:
@@ -86,6 +100,89 @@ def _if_possible(save: Callable[..., Any]) -> Callable[..., Any]:
             _say(f"compiled kernels cannot be kept in {self.cache_path}: {error.strerror or error}")
 
     return saved
+
+
+def _waiting(load: Callable[..., Any]) -> Callable[..., Any]:
+    """Load a kernel; one that is missing is claimed, and one that somebody else has claimed is waited for."""
+
+    def loaded(self: Any, signature: Any, context: Any) -> Any:
+        found = load(self, signature, context)
+        if found is not None or getattr(self, "_cache_file", None) is None:
+            return found
+        name = f"{os.path.basename(self._cache_file._index_path)} {signature}"
+        place = 1 + int.from_bytes(hashlib.sha256(name.encode()).digest()[:7], "big")
+        file, waited = claim(self.cache_path, place, COMPILING)
+        if waited and (found := load(self, signature, context)) is not None:
+            give_back(file, place)
+            return found
+        if file >= 0:
+            _held.setdefault(id(self), []).append((file, place))
+        return None
+
+    return loaded
+
+
+def _releasing(save: Callable[..., Any]) -> Callable[..., Any]:
+    """Save a kernel, and then give its claim back."""
+
+    def saved(self: Any, *arguments: Any) -> None:
+        try:
+            save(self, *arguments)
+        finally:
+            _release(id(self))
+
+    return saved
+
+
+class _Ended(event.Listener):
+    """Remembers what has been compiled: what is never saved, for it failed, does not keep its claim."""
+
+    def on_start(self, event: Any) -> None:
+        for cache in _ended:
+            _release(cache)
+        _ended.clear()
+
+    def on_end(self, event: Any) -> None:
+        if (cache := id(getattr(event.data["dispatcher"], "_cache", None))) in _held:
+            _ended.append(cache)
+
+
+def _release(cache: int) -> None:
+    for file, place in _held.pop(cache, []):
+        give_back(file, place)
+
+
+def claim(folder: str, place: int, patience: float) -> tuple[int, bool]:
+    """Lock a number in a folder of compiled kernels, and whether that had to be waited for.
+
+    The system frees it when this process ends. The file is -1 where there are no locks, or patience is over.
+    """
+    waited = False
+    try:
+        if folder not in _files:
+            path = os.path.join(folder, "ancf.claims")
+            flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+            _files[folder] = os.open(path, flags, 0o666)
+            if not stat.S_ISREG(os.fstat(_files[folder]).st_mode):
+                raise OSError(f"{path} is no plain file")
+        end = time.monotonic() + patience
+        while True:
+            try:
+                fcntl.lockf(_files[folder], fcntl.LOCK_EX | fcntl.LOCK_NB, 1, place)
+                return _files[folder], waited
+            except (BlockingIOError, PermissionError):
+                if time.monotonic() > end:
+                    return -1, waited
+            waited = True
+            time.sleep(0.02)
+    except OSError:  # a file system without locks, or no place to write
+        return -1, waited
+
+
+def give_back(file: int, place: int) -> None:
+    """Unlock what was claimed."""
+    if file >= 0:
+        fcntl.lockf(file, fcntl.LOCK_UN, 1, place)
 
 
 def _or(read: Callable[..., Any], nothing: Callable[[], Any]) -> Callable[..., Any]:

@@ -29,6 +29,7 @@ LAYERS = (
     {"system"},
     {"solvers"},
     {"results"},
+    {"compilation"},
     {"preparation"},
     {"control"},
     {"analysis"},
