@@ -16,7 +16,7 @@ SECTION = ancf.Section(EA=2e6, EI=20.0, rhoA=0.1)
 
 
 def ropeway(x, mass=80.0, elements=30, joint=True):
-    """The tutorial's ropeway; without a joint the trolley is tied to the place of the rope at ``joint`` = s."""
+    """The ropeway of the tutorial; without a joint the trolley is tied to the rope at s = ``joint``."""
     model = ancf.Model(gravity=(0, 0, -9.81))
     ends = {"start": (0, 0, 2.0), "end": (SPAN, 0, 0)}
     rope = model.add_beam("rope", **ends, length=LENGTH, elements=elements, section=SECTION)
