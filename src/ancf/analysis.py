@@ -17,7 +17,7 @@ from .model.beam import Beam
 from .model.bodies import PointMass, RigidBody
 from .model.integrators import Explicit, Integrator
 from .model.model import Model
-from .preparation import carried_out, given_state, method_of, prepared, system_of
+from .preparation import carried_out, given_state, method_of, prepared
 from .results import remembered
 from .results.modes import Modes
 from .results.result import Result, load
@@ -27,6 +27,7 @@ from .solvers import statics
 from .solvers.modal import natural_modes
 from .solvers.record import Progress
 from .solvers.stability import stable_limit
+from .system.redundancy import independent
 
 __all__ = ["equilibrium", "load", "modes", "simulate", "stable_step"]
 
@@ -65,7 +66,7 @@ def equilibrium(
     time = checks.number(time, "equilibrium.time")
     names = None if of is None else _names(model, of)
     with expected(model):
-        system = system_of(model)
+        system = independent(model)
         q, stats = statics.equilibrium(system, names, load_steps, time)
     known = remembered.Remembered(memory=remembered.memory_of(system))
     return State(system, float(time), q, system.motion(q, time), stats, known)
@@ -188,7 +189,7 @@ def modes(model: Model, *, about: State | None = None, count: int = 10) -> Modes
         The state is not a stable equilibrium.
     """
     with expected(model):
-        system = system_of(model)
+        system = independent(model)
         q, v = given_state(system, about, "modes.about")
         about = State(system, 0.0, q, np.zeros_like(v)) if about is None else State(system, about.t, q, v)
         omega, shapes = natural_modes(about.system, about.q, count)
@@ -211,7 +212,7 @@ def stable_step(model: Model, *, about: State | None = None, safety: float = 0.9
     SolveError
         The mass matrix is singular.
     """
-    method, system = Explicit(safety=safety), system_of(model)
+    method, system = Explicit(safety=safety), independent(model)
     q, v = given_state(system, about, "stable_step.about")
     return method.safety * stable_limit(system, q, v)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import atexit
 import json
+import multiprocessing
 import os
 import subprocess
 import sys
@@ -21,14 +22,11 @@ from typing import Any, cast
 import numba
 from numba.core import event
 
-from . import kernel_cache
 from .model.integrators import INTEGRATORS, Explicit, Integrator, NewmarkFamily, Trapezoidal
 from .model.model import Model
 
 BEFORE = "compiling the numerical core, once on this machine: {what} first, 10 to 40 s in all ..."
 AFTER = "compiled in {seconds:.0f} s: {what}"
-#: Place of the claim of a process that helps: one for each folder of compiled kernels.
-HELPING = 0
 #: What is said of files with kernels, by the beginning of their names.
 PARTS = {
     "solvers.static": "equilibria",
@@ -138,6 +136,8 @@ def _useful() -> bool:
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     # without locks both would compile the same
     wanted = cores > 1 and sys.platform != "win32" and not getattr(numba.config, "DISABLE_JIT", 0)
+    if multiprocessing.parent_process() is not None:  # one of many that share the cores
+        return False
     idle = _listener.helper is None or _listener.helper.poll() is not None
     return wanted and idle and "ANCF_HELPS" not in os.environ and bool(sys.executable)
 
@@ -246,15 +246,9 @@ def main() -> None:
         steps = stepping(method)
     jobs = [steps, *jobs] if method is not None else [*jobs, steps]
     for dispatcher, signature in jobs:
-        cache = getattr(dispatcher, "_cache", None)
-        folder = getattr(cache, "cache_path", "")
-        if not folder:
-            return  # nothing would be kept
-        file, waited = kernel_cache.claim(folder, HELPING, 0.0)
-        if file < 0 or waited:
-            return  # another one helps
-        with suppress(Exception):
-            dispatcher.compile(signature)
+        if getattr(getattr(dispatcher, "_cache", None), "cache_path", ""):  # else nothing would be kept
+            with suppress(Exception):
+                dispatcher.compile(signature)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,9 @@ Numba picks a name that its index does not have, enters it there, and then write
 do so at the same time may take one name for two kernels; one that is killed in between leaves an entry whose
 file is missing or old. Here one process writes at a time, the file first and its entry afterwards.
 
-A kernel that another process compiles just now is waited for and taken from the cache, not compiled twice.
+Processes that start together on an empty cache would all compile the same kernels. Here the first one that
+needs a kernel compiles it, and the others wait for it and read it. A kernel waits for those that it calls and
+for no other, so that two processes never wait for each other.
 
 An index names the classes that kernels take. After an update one of them may have gone, and numba would fail
 while it reads; here what cannot be read is compiled anew.
@@ -25,10 +27,9 @@ import sys
 import time
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any, cast
 
-from numba.core import event
 from numba.core.caching import Cache, IndexDataCacheFile
 
 if sys.platform != "win32":
@@ -48,13 +49,9 @@ UNREADABLE = (
 )
 #: How long to wait for another process that writes, s; writing takes milliseconds.
 PATIENCE = 60.0
-#: How long to wait for another process that compiles the same kernel, s; then it is compiled here as well.
-COMPILING = 300.0
+#: How long to wait for another process that compiles a kernel, s; then this one compiles it as well.
+LONGEST = 300.0
 _said: set[str] = set()
-#: Files of claims by folder, open until this process ends, and the claims that it holds by dispatcher.
-_files: dict[str, int] = {}
-_held: dict[int, list[tuple[int, int]]] = {}
-_ended: list[int] = []
 
 
 def share() -> None:
@@ -65,10 +62,6 @@ def share() -> None:
     numbas.load = _or(numbas.load, lambda: None)
     cache = cast(Any, Cache)
     cache._save_overload = _if_possible(cache._save_overload)
-    if sys.platform != "win32":
-        cache.load_overload = _waiting(cache.load_overload)
-        cache.save_overload = _releasing(cache.save_overload)
-        cast(Any, event).register("numba:compile", _Ended())
 
 
 def use(dispatcher: Any, stamp: str) -> None:
@@ -82,6 +75,58 @@ def use(dispatcher: Any, stamp: str) -> None:
     cache_file = getattr(dispatcher._cache, "_cache_file", None)
     if cache_file is not None and hasattr(cache_file, "_source_stamp"):
         cache_file._source_stamp = stamp
+    if sys.platform != "win32":
+        _compile_once(dispatcher)
+
+
+def _compile_once(dispatcher: Any) -> None:
+    """Let the dispatcher look into the cache again when no other process compiles the same kernel."""
+    cache = dispatcher._cache
+    compile_it, load = dispatcher.compile, cache.load_overload
+    held: dict[str, int] = {}
+
+    def loaded(signature: Any, context: Any) -> Any:
+        found = load(signature, context)
+        if found is not None:
+            return found
+        text = hashlib.sha256(str(signature).encode()).hexdigest()[:16]
+        path = os.path.join(cache.cache_path, f"{cache._impl.filename_base}.{text}.lock")
+        file = None if path in held else _wait_for(path)
+        if file is None:
+            return None
+        held[path] = file
+        return load(signature, context)
+
+    def compiled(signature: Any) -> Any:
+        before = set(held)
+        try:
+            return compile_it(signature)
+        finally:
+            for path in set(held) - before:
+                with suppress(OSError):
+                    os.unlink(path)
+                os.close(held.pop(path))
+
+    cache.load_overload, dispatcher.compile = loaded, compiled
+
+
+def _wait_for(path: str) -> int | None:
+    """The locked file of a kernel; None without a place for it, or if another process keeps it too long."""
+    if "impatient" in _said:
+        return None
+    try:
+        file = _opened(path)
+    except OSError:
+        return None
+    try:
+        _lock(file, LONGEST)
+    except BaseException as error:
+        os.close(file)
+        if not isinstance(error, OSError):
+            raise
+        _said.add("impatient")
+        return None
+    return file
 
 
 def _say(what: str) -> None:
@@ -100,89 +145,6 @@ def _if_possible(save: Callable[..., Any]) -> Callable[..., Any]:
             _say(f"compiled kernels cannot be kept in {self.cache_path}: {error.strerror or error}")
 
     return saved
-
-
-def _waiting(load: Callable[..., Any]) -> Callable[..., Any]:
-    """Load a kernel; one that is missing is claimed, and one that somebody else has claimed is waited for."""
-
-    def loaded(self: Any, signature: Any, context: Any) -> Any:
-        found = load(self, signature, context)
-        if found is not None or getattr(self, "_cache_file", None) is None:
-            return found
-        name = f"{os.path.basename(self._cache_file._index_path)} {signature}"
-        place = 1 + int.from_bytes(hashlib.sha256(name.encode()).digest()[:7], "big")
-        file, waited = claim(self.cache_path, place, COMPILING)
-        if waited and (found := load(self, signature, context)) is not None:
-            give_back(file, place)
-            return found
-        if file >= 0:
-            _held.setdefault(id(self), []).append((file, place))
-        return None
-
-    return loaded
-
-
-def _releasing(save: Callable[..., Any]) -> Callable[..., Any]:
-    """Save a kernel, and then give its claim back."""
-
-    def saved(self: Any, *arguments: Any) -> None:
-        try:
-            save(self, *arguments)
-        finally:
-            _release(id(self))
-
-    return saved
-
-
-class _Ended(event.Listener):
-    """Remembers what has been compiled: what is never saved, for it failed, does not keep its claim."""
-
-    def on_start(self, event: Any) -> None:
-        for cache in _ended:
-            _release(cache)
-        _ended.clear()
-
-    def on_end(self, event: Any) -> None:
-        if (cache := id(getattr(event.data["dispatcher"], "_cache", None))) in _held:
-            _ended.append(cache)
-
-
-def _release(cache: int) -> None:
-    for file, place in _held.pop(cache, []):
-        give_back(file, place)
-
-
-def claim(folder: str, place: int, patience: float) -> tuple[int, bool]:
-    """Lock a number in a folder of compiled kernels, and whether that had to be waited for.
-
-    The system frees it when this process ends. The file is -1 where there are no locks, or patience is over.
-    """
-    waited = False
-    try:
-        if folder not in _files:
-            path = os.path.join(folder, "ancf.claims")
-            flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
-            _files[folder] = os.open(path, flags, 0o666)
-            if not stat.S_ISREG(os.fstat(_files[folder]).st_mode):
-                raise OSError(f"{path} is no plain file")
-        end = time.monotonic() + patience
-        while True:
-            try:
-                fcntl.lockf(_files[folder], fcntl.LOCK_EX | fcntl.LOCK_NB, 1, place)
-                return _files[folder], waited
-            except (BlockingIOError, PermissionError):
-                if time.monotonic() > end:
-                    return -1, waited
-            waited = True
-            time.sleep(0.02)
-    except OSError:  # a file system without locks, or no place to write
-        return -1, waited
-
-
-def give_back(file: int, place: int) -> None:
-    """Unlock what was claimed."""
-    if file >= 0:
-        fcntl.lockf(file, fcntl.LOCK_UN, 1, place)
 
 
 def _or(read: Callable[..., Any], nothing: Callable[[], Any]) -> Callable[..., Any]:
@@ -211,25 +173,30 @@ def _alone(folder: str) -> Iterator[None]:
     if sys.platform == "win32":
         yield
         return
-    path = os.path.join(folder, "ancf.lock")
-    # no link is followed, no pipe waited for, and nothing is written
-    file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
+    file = _opened(os.path.join(folder, "ancf.lock"))
     try:
-        if not stat.S_ISREG(os.fstat(file).st_mode):
-            raise OSError(f"{path} is no plain file")
-        _lock(file)
+        _lock(file, PATIENCE)
         yield
     finally:
         os.close(file)
 
 
-def _lock(file: int) -> None:
+def _opened(path: str) -> int:
+    """A file to be locked: no link is followed, no pipe waited for, and nothing is written."""
+    file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
+    if stat.S_ISREG(os.fstat(file).st_mode):
+        return file
+    os.close(file)
+    raise OSError(f"{path} is no plain file")
+
+
+def _lock(file: int, patience: float) -> None:
     """Wait for the lock, but not for ever: another user may hold it."""
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + patience
     while True:
         try:
             return fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             if time.monotonic() > end:
-                raise TimeoutError(f"another process holds the lock for {PATIENCE:g} s") from None
+                raise TimeoutError(f"another process holds the lock for {patience:g} s") from None
         time.sleep(0.01)

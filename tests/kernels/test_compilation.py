@@ -2,17 +2,16 @@
 
 import re
 import subprocess
-import sys
 
 import numba
 import pytest
 
 import ancf
-from ancf import compilation, kernel_cache
+from ancf import compilation
 from ancf.cli import warmup
 from ancf.compiled import _DOES, add_force
 from ancf.solvers.newmark import advance
-from commands import PATIENCE, python
+from commands import python
 
 #: Kinds that are compiled when they are used first.
 RARE = {"ContactBatch", "StateForceBatch", "PressBatch", "RubBatch"}
@@ -100,48 +99,3 @@ def test_warmup_has_every_kind():
     for made in (warmup._cable, warmup._beams, warmup._joints, warmup._bead, warmup._surrounded):
         found |= {signature[0].batch.instance_class for _, signature in compilation.operations(made())}
     assert {kind.__name__ for kind, stub in _DOES if stub is add_force} - {c.__name__ for c in found} <= RARE
-
-
-WORK = """
-import runpy, sys, time
-share = runpy.run_path(sys.argv[2])["share"]
-share()
-import numba
-sys.path.insert(0, sys.argv[1])
-from slow import slow
-slow(1.0)
-print(sum(slow.stats.cache_misses.values()))
-"""
-SLOW = "import numba\n@numba.njit(cache=True)\ndef slow(x):\n" + "".join(
-    f"    for i{k} in range(3):\n        x += x**{k} / (i{k} + 1.5)\n" for k in range(60)
-)
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="no locks there")
-@pytest.mark.parametrize("count", [2, 3])
-def test_a_kernel_is_compiled_by_one_of_several(tmp_path, count):
-    """The others wait and take it from the cache."""
-    (tmp_path / "slow.py").write_text(SLOW, encoding="utf-8")
-    command = [sys.executable, "-c", WORK, str(tmp_path), kernel_cache.__file__]
-    running = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(count)]
-    misses = [int(process.communicate(timeout=PATIENCE)[0]) for process in running]
-    assert sum(misses) == 1
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="no locks there")
-def test_a_claim_ends_with_its_process(tmp_path):
-    """One that is killed while it compiles keeps nobody waiting."""
-    lines = (
-        "import sys, time",
-        "from ancf.kernel_cache import claim",
-        f"print(claim({str(tmp_path)!r}, 5, 0.0)[0] >= 0, flush=True)",
-        "time.sleep(600)",
-    )
-    other = subprocess.Popen([sys.executable, "-c", "\n".join(lines)], stdout=subprocess.PIPE, text=True)
-    assert other.stdout.readline() == "True\n"
-    assert kernel_cache.claim(str(tmp_path), 5, 0.0) == (-1, False)
-    other.kill()
-    other.communicate()
-    file, _ = kernel_cache.claim(str(tmp_path), 5, 60.0)
-    assert file >= 0
-    kernel_cache.give_back(file, 5)
