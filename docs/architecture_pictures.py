@@ -27,6 +27,7 @@ FLOORS = (
     ("analysis", "equilibrium, simulate, modes"),
     ("control", "inputs, controllers, steps one by one"),
     ("preparation", "a model compiled, started, carried out"),
+    ("compilation", "what is said and done while kernels are compiled"),
     ("results", "states, histories, files"),
     ("solvers", "steps, statics, eigenvalues"),
     ("system", "a model as flat arrays, numbered and ordered"),
@@ -39,7 +40,7 @@ FLOORS = (
     ("records", "batches at an address"),
     ("vectors", "arithmetic of three numbers in kernels"),
     ("compiled", "kernels, and operations by type of batch"),
-    ("files  worker", "files that are complete or absent, processes"),
+    ("files  worker  columns", "files that are complete or absent, processes"),
     ("errors  arrays  interrupts", "messages, types of arrays, signals kept until heeded"),
 )
 #: On the lowest floor too, but for the package alone.

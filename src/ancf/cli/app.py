@@ -20,7 +20,6 @@ from .common_options import (
     Quick,
     Quiet,
     Report,
-    ResultsFile,
     Resume,
     SchemaFile,
     Set,
@@ -29,7 +28,7 @@ from .common_options import (
 from .guard import reported
 from .line_options import Case, CaseSpeed
 from .study_options import CalibrationFile, Retry, Scheduler, Status, StudyFile, Workers
-from .view_options import Color, Frames, Open, Page, Traced
+from .view_options import Color, Frames, Live, Open, Page, Several, Traced
 
 app = typer.Typer(
     name="ancf",
@@ -129,7 +128,8 @@ def export(
 ) -> None:
     """Write a results file for other programs.
 
-    vtk: one file with all times for ParaView. csv: tables of sensors, points, springs, joints and energies.
+    vtk: one file with all times for ParaView. csv: tables of sensors, points, springs, joints and energies;
+    parquet, xlsx: the same.
     mp4, gif: a movie. The run may have failed, been stopped or still go on.
     """
     with reported():
@@ -161,21 +161,23 @@ def reproduce(
 
 @app.command()
 def view(
-    results: ResultsFile,
+    results: Several,
     output: Page = None,
     frames: Frames = 240,
-    color: Color = "tension",
+    color: Color = None,
     trace: Traced = None,
     show: Open = False,
+    live: Live = False,
 ) -> None:
-    """Make a moving picture of a results file: one HTML page that works without a network.
+    """Make a moving picture of results files: one HTML page that works without a network.
 
-    Prints the path of the page.
+    Prints the path of the page. Several runs are compared: drawn together, their curves in the same plots.
+    With --live the page follows a run that goes on, or waits for it.
     """
     with reported():
         from .view import view_file
 
-        view_file(results, output, {"frames": frames, "color": color, "trace": trace}, show)
+        view_file(results, output, {"frames": frames, "color": color, "trace": trace}, show, live)
 
 
 @app.command()
@@ -275,6 +277,15 @@ def export_fmu(model: ModelFile, output: exporting.Unit = None, fmi: exporting.F
         from .export_fmu import export_unit
 
         export_unit(model, model.with_suffix(".fmu") if output is None else output, fmi)
+
+
+@app.command()
+def warmup(quiet: Quiet = False) -> None:
+    """Compile what runs need, ahead of them; what is compiled already takes seconds."""
+    with reported():
+        from .warmup import warm_up
+
+        warm_up(quiet)
 
 
 def start() -> None:

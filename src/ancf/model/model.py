@@ -23,6 +23,7 @@ from .state_function import force_function
 from .supports import Clamp, Hold, Pin, Support, check_overlap, make_clamp, make_hold, optional, require_node
 from .surroundings import Surroundings
 from .tables import Readable, Sheet
+from .winch import Winch, make_winch
 
 SupportT = TypeVar("SupportT", bound=Support)
 LoadT = TypeVar("LoadT", bound=Load)
@@ -94,7 +95,7 @@ class Model(Surroundings, Readable):
         strain: str | None = None,
         poisson: str = "centreline",
         length: float | None = None,
-        natural_shape: str = "path",
+        natural_shape: Any = "path",
         gauss: tuple[int, int] = (5, 3),
         y_axis: Any = None,
     ) -> Beam:
@@ -124,8 +125,9 @@ class Model(Surroundings, Readable):
             the section's J and shear factors, or in the whole volume, the paper's. A cable ignores it.
         length : float, m
             Natural length; default the arc length of the initial shape.
-        natural_shape : "path" or "straight"
-            Whether the initial shape is free of bending, or a straight beam was bent into it.
+        natural_shape : "path", "straight", or as path
+            Whether the initial shape is free of bending, or a straight beam was bent into it, or one with
+            the bends of another curve: it is scaled to the natural length, and `y_axis` holds for it too.
         gauss : (int, int)
             Gauss points of a cable's axial and bending integrals, or of a beam along its axis and in
             each direction of the section, where 3 are exact.
@@ -179,6 +181,7 @@ class Model(Surroundings, Readable):
         displacement: Any = None,
         name: str | None = None,
         to: RigidBody | str | None = None,
+        rotation_vector: Any = None,
     ) -> Clamp | Fixation:
         """Hold position and slope of a node, on a beam all three slopes, or a rigid body, or move them.
 
@@ -201,11 +204,15 @@ class Model(Surroundings, Readable):
             Default "clamp at beam.start".
         to : RigidBody
             Clamp the node to this body where it is, instead of holding or moving it.
+        rotation_vector : function of time, (3,) rad
+            Instead of `rotation`: the axis times the angle from the initial slopes, for what turns about
+            axes that change, as a gripper does.
 
         """
         if to is not None:
             moving = {
                 "rotation": rotation,
+                "rotation_vector": rotation_vector,
                 "rotation_rate": rotation_rate,
                 "rotation_acceleration": rotation_acceleration,
                 "displacement": displacement,
@@ -226,6 +233,7 @@ class Model(Surroundings, Readable):
             rotation_rate=rotation_rate,
             rotation_acceleration=rotation_acceleration,
             displacement=displacement,
+            rotation_vector=rotation_vector,
         )
         return self._add_support(where, item)
 
@@ -264,6 +272,28 @@ class Model(Surroundings, Readable):
         label = self._names.of_item(name, f"hold at {clean}", where)
         letters = {"position": position, "slope": slope, "slope_y": slope_y, "slope_z": slope_z}
         item = make_hold(where, label, clean, **letters, twist=twist, displacement=displacement)
+        return self._add_support(where, item)
+
+    def winch(self, point: PointLike, length: Any, name: str | None = None) -> Winch:
+        """Pay out or haul in a cable at one of its ends.
+
+        All elements share the change of the length; the other end keeps its material. The node at the winch
+        is not held: pin it, or connect it to what carries the winch. `point.at(x)` of such a cable is the
+        place at the fraction x/length of its present length, and nothing may be fastened between its ends.
+
+        Parameters
+        ----------
+        point : Point
+            Start or end of a cable that is naturally straight.
+        length : function of time, m
+            Natural length of what is paid out; it should start and stop smoothly. A constant is a length
+            that differs from the one of ``add_beam``.
+        name : str
+            Default "winch at rope.start".
+
+        """
+        where, clean = self._at_node("winch", point, name)
+        item = make_winch(where, self._names.of_item(name, f"winch at {clean}", where), clean, length)
         return self._add_support(where, item)
 
     def add_force(self, point: PointLike, force: Any, name: str | None = None) -> Force:

@@ -18,6 +18,7 @@ from .state_function import StateFunction
 from .supports import Clamp, Hold, Pin
 from .tables import number, numbers, plural, with_units
 from .velocity_field import VelocityField
+from .winch import Winch
 
 
 def place(end: Any) -> str:
@@ -52,6 +53,8 @@ def clamp(item: Clamp) -> str:
         held = "position, slopes" if item.stretch == "fixed" else "position, directions of slopes"
     if item.rotation is not None:
         held += f"; turns by {value(item.rotation, 'rad')} about {numbers(item.axis)}"
+    if item.rotation_vector is not None:
+        held += f"; turns by {value(item.rotation_vector, 'rad')}"
     return held + _moves(item)
 
 
@@ -65,6 +68,11 @@ def hold(item: Hold) -> str:
     )
     parts = [f"{name} {', '.join(text)}" for name, text in letters if text]
     return "; ".join(parts + (["twist"] if item.twist else [])) + _moves(item)
+
+
+def winch(item: Winch) -> str:
+    """The length that it leaves."""
+    return f"nothing; length {value(item.length, 'm')}"
 
 
 def _moves(item: Pin | Clamp | Hold) -> str:

@@ -13,6 +13,7 @@ from .bodies import Body, PointMass, RigidBody, kind
 from .functions import TimeFunction
 from .joints import STRETCH
 from .points import Point
+from .winch import Winch
 
 AXES = "xyz"
 
@@ -49,6 +50,8 @@ class Clamp:
         Unit vector.
     displacement : TimeFunction or None
         (3,), m, relative to the initial position.
+    rotation_vector : TimeFunction or None
+        (3,), rad, in place of `rotation`: axis times angle from the initial slopes or axes of the body.
 
     """
 
@@ -60,6 +63,7 @@ class Clamp:
     rotation_acceleration: TimeFunction | None
     axis: FloatArray
     displacement: TimeFunction | None
+    rotation_vector: TimeFunction | None = None
 
     @property
     def held(self) -> frozenset[str]:
@@ -106,7 +110,7 @@ class Hold:
         return components(self.position, self.slope, self.slope_y, self.slope_z, twist=self.twist)
 
 
-Support = Pin | Clamp | Hold
+Support = Pin | Clamp | Hold | Winch
 
 
 def components(
@@ -134,6 +138,7 @@ def make_clamp(
     rotation_rate: Any,
     rotation_acceleration: Any,
     displacement: Any,
+    rotation_vector: Any = None,
 ) -> Clamp:
     """Check everything that ``Model.clamp`` was given without `to`."""
     if isinstance(point.body, PointMass):
@@ -142,6 +147,9 @@ def make_clamp(
     if isinstance(point.body, RigidBody) and stretch == "fixed":
         what = f'"{point.body.name}" is a rigid body and does not stretch'
         raise ModelError(f"{where}.stretch", what, "leave stretch out")
+    if rotation is not None and rotation_vector is not None:
+        what = "is given beside rotation: a clamp turns in one way"
+        raise ModelError(f"{where}.rotation_vector", what, "keep one of them")
     _check_derivatives(where, rotation, rotation_rate, rotation_acceleration)
     return Clamp(
         name,
@@ -152,6 +160,7 @@ def make_clamp(
         optional(rotation_acceleration, 1, f"{where}.rotation_acceleration"),
         checks.direction(axis, f"{where}.axis"),
         optional(displacement, 3, f"{where}.displacement"),
+        optional(rotation_vector, 3, f"{where}.rotation_vector"),
     )
 
 
@@ -206,6 +215,7 @@ def _letters(value: Any, where: str) -> str:
 def check_overlap(where: str, new: Support, others: list[Support]) -> None:
     """No component of a node may be held twice; a second clamp refines the first one."""
     for other in others:
+        _refuse_second_winch(where, new, other)
         if isinstance(other, Clamp) and isinstance(new, Clamp):
             continue
         same_node = other.point.body is new.point.body and node_of(other.point) == node_of(new.point)
@@ -213,6 +223,12 @@ def check_overlap(where: str, new: Support, others: list[Support]) -> None:
         if same_node and twice:
             what = f'"{new.name}" and "{other.name}" both hold {", ".join(twice)} of {new.point}'
             raise ModelError(f"{where}.point", what, "keep one of them")
+
+
+def _refuse_second_winch(where: str, new: Support, other: Support) -> None:
+    if isinstance(new, Winch) and isinstance(other, Winch) and new.beam is other.beam:
+        what = f'"{other.name}" changes the length of "{new.beam.name}" already'
+        raise ModelError(f"{where}.point", what, "keep one of them")
 
 
 def _held_twice(one: frozenset[str], two: frozenset[str]) -> list[str]:

@@ -45,6 +45,9 @@ class ClampEntry(Entry):
     rotation_acceleration: ScalarFunction = Field(
         None, description="Second derivative of rotation [rad/s^2]."
     )
+    rotation_vector: VectorFunction = Field(
+        None, description="Instead: axis times angle from the initial direction, function of t [rad]."
+    )
     displacement: VectorFunction = Field(None, description="Prescribed displacement, function of t [m].")
     name: ItemName = None
 
@@ -62,6 +65,15 @@ class HoldEntry(Entry):
     displacement: VectorFunction = Field(
         None, description="Prescribed displacement of the position's held components, function of t [m]."
     )
+    name: ItemName = None
+
+
+class WinchEntry(Entry):
+    """Pays out or hauls in a cable at one of its ends, whose place it does not hold."""
+
+    type: Literal["winch"] = Field(description="Kind of support.")
+    point: PointLabel
+    length: ScalarFunction = Field(description="Natural length of what is paid out, function of t [m].")
     name: ItemName = None
 
 
