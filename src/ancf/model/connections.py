@@ -12,6 +12,7 @@ from . import checks
 from .body_contact import BodyContact
 from .cable_contact import CableContact
 from .contact import Contact
+from .guides import Cylindrical, Planar
 from .joints import Fixation, Revolute, Slide, Spherical
 from .points import Point, initial_position
 from .surfaces import SurfaceContact
@@ -46,7 +47,17 @@ class Spring:
 
 
 Connection = (
-    Spherical | Revolute | Fixation | Slide | Spring | Contact | SurfaceContact | CableContact | BodyContact
+    Spherical
+    | Revolute
+    | Cylindrical
+    | Planar
+    | Fixation
+    | Slide
+    | Spring
+    | Contact
+    | SurfaceContact
+    | CableContact
+    | BodyContact
 )
 
 
