@@ -23,7 +23,7 @@ UNLIMITED = 1e300
 
 
 @inline_kernel
-def dot_of(x, y, n):
+def product_of(x, y, n):
     """Product of the first n numbers."""
     total = 0.0
     for i in range(n):
@@ -137,10 +137,10 @@ def next_vector(batch, rows, core, s, rule, gb, k):
     for i in range(n):
         s.r[i] += V[k, i]
     for j in range(k + 1):
-        H[j, k] = dot_of(V[j], s.r, n)
+        H[j, k] = product_of(V[j], s.r, n)
         for i in range(n):
             s.r[i] -= H[j, k] * V[j, i]
-    size = math.sqrt(dot_of(s.r, s.r, n))
+    size = math.sqrt(product_of(s.r, s.r, n))
     H[k + 1, k] = size
     for i in range(n):
         V[k + 1, i] = s.r[i] / size if size > 0.0 else 0.0
@@ -152,7 +152,7 @@ def _solve_entwined(entwined, core, s, rule, gb):
     if rows == 0:
         return
     n, V, H = core.weight.shape[0], batch.basis, batch.small
-    g, size = H.shape[1] - 1, math.sqrt(dot_of(s.r, s.r, n))
+    g, size = H.shape[1] - 1, math.sqrt(product_of(s.r, s.r, n))
     if not 0.0 < size < UNLIMITED:
         return
     H[0, g] = size
