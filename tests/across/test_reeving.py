@@ -25,7 +25,7 @@ def test_short_form(monkeypatch, tmp_path):
     said = []
     groups = validate.compare(lambda done, of: said.append((done, of)))
     assert said == [(k, 5) for k in range(1, 6)]
-    assert [len(group.rows) for group in groups] == [1, 1, 1, 2, 2]
+    assert [len(group.rows) for group in groups] == [1, 1, 1, 2, 3]
     assert all(q.inside for group in groups for q in group.rows)
     assert groups[0].rows[0].value == pytest.approx(np.exp(0.3 * np.pi), rel=1e-3)
     written = validate.write(groups, tmp_path)
@@ -40,7 +40,7 @@ def test_a_number_that_is_off_is_outside(monkeypatch):
     monkeypatch.setattr(cases, "capstan", lambda mu, turns: (1.011 * np.exp(mu), np.exp(mu)))
     monkeypatch.setattr(cases, "line_load", lambda load: (1.0011 * load, load))
     monkeypatch.setattr(cases, "hung_over", lambda low: (0.9988, 1.0))
-    off = {"momentum": 1.1e-9, "angular": 1.1e-9}
+    off = {"momentum": 1.1e-9, "angular": 1.1e-9, "drift": 1.1e-6, "lost": 0.1}
     monkeypatch.setattr(cases, "thrown", lambda mu: off)
     monkeypatch.setattr(cases, "pulley", lambda inertia: {"speed": 1.006, "drift": 1.1e-6})
     assert not any(q.inside for group in validate.compare() for q in group.rows)

@@ -112,7 +112,8 @@ def thrown(friction: float, step: float = 2e-6, time: float = 0.03) -> dict[str,
     Returns
     -------
     dict
-        Largest changes of ``momentum`` and ``angular`` momentum over their sizes.
+        Largest changes of ``momentum`` and ``angular`` momentum over their sizes, largest ``drift`` of the
+        energy over the kinetic energy at the start, and ``lost``, the share of that which friction took.
     """
     section = Section(EA=1e4, EI=0.05, rhoA=0.3, diameter=DIAMETER)
     model, way = Model(), 0.5 * np.array([math.cos(1.2), math.sin(1.2), 0.0])
@@ -124,10 +125,12 @@ def thrown(friction: float, step: float = 2e-6, time: float = 0.03) -> dict[str,
     one.set_motion(velocity=(0.3, 0.1, -0.5))
     model.add_contact(one, two, stiffness=1e5, damping=20.0 if friction else 0.0, friction=friction)
     run = simulate(model, t_end=time, step=step, output_step=1e-3, integrator=Trapezoidal())
-    p, L = run.momentum, run.angular_momentum()
+    p, L, kinetic = run.momentum, run.angular_momentum(), float(run.energy.kinetic[0])
     return {
         "momentum": float(np.abs(p - p[0]).max() / np.abs(p[0]).max()),
         "angular": float(np.abs(L - L[0]).max() / np.abs(L).max()),
+        "drift": float(np.abs(run.energy.drift).max()) / kinetic,
+        "lost": float(run.energy.dissipated[-1]) / kinetic,
     }
 
 

@@ -59,7 +59,7 @@ def compare(progress: Progress | None = None) -> list[Group]:
         ),
         group(
             "One cable thrown over another one, 2 µs",
-            "nothing from outside: momentum and angular momentum",
+            "nothing from outside: momentum, angular momentum, and energy with what friction took",
             [lambda mu=mu: _thrown(mu) for mu in THROWN],  # type: ignore[misc]
         ),
     ]
@@ -94,11 +94,16 @@ def _pulley(inertia: float) -> list[Quantity]:
 
 
 def _thrown(friction: float) -> list[Quantity]:
-    found = cases.thrown(friction)
-    words = {"momentum": "change of momentum", "angular": "change of angular momentum"}
+    found, name = cases.thrown(friction), f"mu = {friction:g}"
+    rows = ("momentum", "1e-9", 1e9), ("angular", "1e-9", 1e9), ("drift", "1e-6", 1e6)
+    words = {
+        "momentum": "change of momentum",
+        "angular": "change of angular momentum",
+        "drift": "drift of energy",
+    }
     return [
-        Quantity(key, f"{word}, mu = {friction:g}", "1e-9", 1e9 * found[key], None, OF_WORK, "invariant")
-        for key, word in words.items()
+        Quantity(key, f"{words[key]}, {name}", unit, many * found[key], None, OF_WORK, "invariant")
+        for key, unit, many in rows
     ]
 
 
