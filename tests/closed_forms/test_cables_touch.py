@@ -75,7 +75,9 @@ class TestFriction:
         pull = 24.0 * np.clip((t - 0.06) / 0.04, 0.0, 1.0)
         gained = np.trapezoid((pull - friction)[late], t[late]) / 0.3
         v = run.velocity(rod.at(0.5))[late, 0]
-        assert v[-1] - v[0] == pytest.approx(gained, rel=2e-2)
+        # the normals of a deep crossing lean along the rod: their damping takes up to 0.9 N at 3 m/s
+        assert v[-1] - v[0] == pytest.approx(gained, rel=5e-2)
+        assert v[-1] - v[0] < gained
 
 
 def thrown(step, friction, method=None, until=0.06, angle=1.2):
@@ -105,7 +107,7 @@ class TestThrown:
             assert np.abs(L - L[0]).max() < 1e-12
             drift.append(abs(run.energy.drift).max() / run.energy.kinetic[0])
         assert drift[1] < 5e-5
-        assert drift[1] < drift[0]
+        assert drift[1] < 1e-6 or drift[1] < 0.6 * drift[0]
         assert (run.energy.dissipated[-1] > 1e-3 * run.energy.kinetic[0]) == (friction > 0)
 
     def test_methods_agree(self):
