@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from .design.study import study
     from .model import Gusts, Model, Section, Waves
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
+    from .model.mesh import Mesh
+    from .model.reeving import Reeving
     from .model.surface_shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
     from .results import Modes, Result, State
     from .resumption import resume
@@ -29,6 +31,7 @@ _LATER = {
     "Section": "model",
     "Waves": "model",
     "Gusts": "model",
+    "Reeving": "model.reeving",
     "equilibrium": "analysis",
     "simulate": "analysis",
     "modes": "analysis",
@@ -42,6 +45,7 @@ _LATER = {
     "Modes": "results",
     "Capsule": "model.surface_shapes",
     "Cylinder": "model.surface_shapes",
+    "Mesh": "model.mesh",
     "Plane": "model.surface_shapes",
     "Sheave": "model.surface_shapes",
     "Sphere": "model.surface_shapes",
@@ -70,6 +74,7 @@ __all__ = [
     "Gusts",
     "Interrupted",
     "LogNormal",
+    "Mesh",
     "Model",
     "ModelError",
     "Modes",
@@ -77,6 +82,7 @@ __all__ = [
     "Normal",
     "Plane",
     "Radau",
+    "Reeving",
     "Result",
     "Section",
     "Sheave",

@@ -51,6 +51,8 @@ class Beam:
         too but no use for them.
     velocity, angular_velocity, about : (3,) arrays
         Initial rigid motion, m/s, rad/s, m.
+    closed : bool
+        Whether the end is the start: a loop, whose last row of the nodes repeats the first.
     lay : callable, optional
         Initial positions, tangents and local y axes (n, 3) at increasing fractions (n,) of the length,
         from 0 to 1; a beam of a results file has none.
@@ -73,6 +75,7 @@ class Beam:
     velocity: FloatArray
     angular_velocity: FloatArray
     about: FloatArray
+    closed: bool = False
     lay: Shape | None = None
 
     def __repr__(self) -> str:
@@ -121,11 +124,15 @@ class Beam:
 
     @property
     def end(self) -> Point:
-        """The point at the full reference length."""
+        """The point at the full reference length; of a closed beam its start."""
+        if self.closed:
+            return self.start
         return Point(self, self.length, f"{self.name}.end")
 
     def at(self, x: float, y: float = 0.0, z: float = 0.0) -> Point:
         """Point at the reference arc length x and at (y, z) in the cross-section, m.
+
+        A closed beam goes round: x + length is the same point.
 
         Raises
         ------
@@ -136,6 +143,8 @@ class Beam:
         where = f"{self.name}.at"
         clean = checks.number(x, where)
         slack = NODE_TOLERANCE * self.length
+        if self.closed:
+            clean %= self.length
         if not -slack <= clean <= self.length + slack:
             raise ModelError(where, f"x = {clean:g} m is outside the beam, 0 <= x <= {self.length:g} m")
         clean = min(max(clean, 0.0), self.length)

@@ -97,6 +97,7 @@ class Model(Surroundings, Readable):
         natural_shape: str = "path",
         gauss: tuple[int, int] = (5, 3),
         y_axis: Any = None,
+        closed: bool = False,
     ) -> Beam:
         """Add a beam or cable.
 
@@ -108,8 +109,9 @@ class Model(Surroundings, Readable):
             Stiffnesses, mass and damping per length; of a material for the two beams.
         start, end : (3,) m
             Ends of a straight beam.
-        path : (m, 3) m or callable
-            Instead of start and end: at least 3 points of a spline, or a function of u from 0 to 1.
+        path : (m, 3) m, callable or Reeving
+            Instead of start and end: at least 3 points of a spline, a function of u from 0 to 1, or a
+            Reeving over wheels.
         elements : int
             Number of elements of equal length.
         nodes : (n+1,) m
@@ -133,6 +135,9 @@ class Model(Surroundings, Readable):
             Direction near which the local y axis lies at the start; default horizontal, along
             e_z x tangent, or e_y for a vertical start. Along a path the axes do not turn about the
             tangent.
+        closed : bool
+            Join the end to the start with position and slopes, as in a belt. The path goes round; a
+            `length` below its own gives pre-tension.
 
         """
         where = self._where("add_beam", name if isinstance(name, str) else None)
@@ -152,6 +157,7 @@ class Model(Surroundings, Readable):
             natural_shape=natural_shape,
             gauss=gauss,
             y_axis=y_axis,
+            closed=closed,
         )
         return self._add_body(beam)
 
