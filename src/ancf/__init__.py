@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
     from .model.mesh import Mesh
     from .model.reeving import Reeving
+    from .model.series import Series
     from .model.surface_shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
     from .results import Modes, Result, State
     from .resumption import resume
@@ -32,6 +33,7 @@ _LATER = {
     "Waves": "model",
     "Gusts": "model",
     "Reeving": "model.reeving",
+    "Series": "model.series",
     "equilibrium": "analysis",
     "simulate": "analysis",
     "modes": "analysis",
@@ -85,6 +87,7 @@ __all__ = [
     "Reeving",
     "Result",
     "Section",
+    "Series",
     "Sheave",
     "SolveError",
     "Sphere",

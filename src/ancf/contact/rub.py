@@ -4,11 +4,12 @@ At the place x of the axis, which a surface that moves carries along, with the n
 
     T = -w,   w = P (k_t (r - anchor) + c_t v),   cut to |T| <= limit,   limit = mu N,
 
-with N continued from the ends of the last two steps, where v is the velocity past the surface and c_t = c sqrt(k_t/k).  The anchor is where the spring has no
+where v is the velocity past the surface and c_t = c sqrt(k_t/k).  The anchor is where the spring has no
 force; it stays in the axes of what carries the surface, so that a drum which turns takes it along.  A
 point that does not touch takes its anchor along, one that slips drags it at the distance limit/k_t.  Anchors
-and limits are memory: they change once for each accepted step, see ``rub_remember``.  A limit that is
-known before the step keeps the matrix symmetric and the iteration stable.
+and limits are memory: they change once for each accepted step, see ``rub_remember``.  A limit that is known
+before the step keeps the matrix symmetric and the iteration stable; N is continued from the ends of the last
+two steps, so that what passes by does not feel the pressure where it was.
 
 In an equilibrium the anchors are the places of the initial shape, so that friction opposes the way from
 there.  It holds what touches there while the loads come on, so that nothing falls off that friction alone
