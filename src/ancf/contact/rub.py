@@ -232,7 +232,7 @@ def renew_limits(batch, q, v):
         row, data = row_of(batch, e, q, v), batch.data[batch.contact[e]]
         for p in range(batch.weight.shape[1]):
             _, _, N, _, _, _, _, _, _ = pressed(batch, e, p, row)
-            wanted, limit = data[FRICTION] * N, batch.limit[e, p]
+            wanted, limit, batch.before[e, p] = data[FRICTION] * N, batch.limit[e, p], N  # at rest N stays
             if limit == GRIP:
                 r, _, u, n = rubbed(batch, e, p, row)
                 limit = max(wanted, drawn(batch, e, p, r, u, n, row[2])[1])

@@ -20,6 +20,7 @@ from ..model.model import Model
 from ..model.reeving import Reeving
 from ..model.section import Section
 from ..model.surface_shapes import Cylinder
+from ..results import Result
 
 #: Radius of the belt's axis on the pulleys, half of its thickness, distance of the centres, m.
 RADIUS, HALF, APART = 0.1, 5e-5, 0.1 * math.pi
@@ -143,6 +144,21 @@ def drive(elements: int = ELEMENTS, bending: float = EI) -> Model:
     return model
 
 
+def motion(elements: int = ELEMENTS, step: float = STEP, end: float = END, bending: float = EI) -> Result:
+    """The drive from its equilibrium at rest to a steady motion."""
+    model = drive(elements, bending)
+    start = equilibrium(model, of=["belt"])
+    return simulate(
+        model,
+        t_end=end,
+        step=step,
+        output_step=0.01,
+        start=start,
+        sensors=["on driving", "on driven"],
+        integrator=GeneralizedAlpha(rho_inf=0.6),
+    )
+
+
 def run(
     elements: int = ELEMENTS, step: float = STEP, end: float = END, bending: float = EI
 ) -> dict[str, float]:
@@ -154,18 +170,8 @@ def run(
         As :class:`Creep` has them, what :func:`on_pulley` finds of each pulley, with its name behind, and
         theory's numbers, with ``theory`` before.
     """
-    model = drive(elements, bending)
-    start = equilibrium(model, of=["belt"])
-    result = simulate(
-        model,
-        t_end=end,
-        step=step,
-        output_step=0.01,
-        start=start,
-        sensors=["on driving", "on driven"],
-        integrator=GeneralizedAlpha(rho_inf=0.6),
-    )
-    belt, last = model.beams["belt"], result.state(-1)
+    result = motion(elements, step, end, bending)
+    belt, last = result.model.beams["belt"], result.state(-1)
     driven = float(-result.angular_velocity("driven")[-20:, 1].mean())
     x = belt.length * (np.arange(elements) + 0.5) / elements
     place = np.array([last.position(belt.at(s)) for s in x])
