@@ -12,11 +12,13 @@ from .contact import Contact
 from .fluids import Fluid
 from .functions import TimeFunction
 from .grounds import Ground
+from .guides import Cylindrical, Planar, Prismatic
 from .joints import Fixation, Revolute, Slide, Spherical
 from .kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT, Kind, Look, Push
 from .loads import DistributedLoad, Force, Moment
 from .state_function import StateFunction
 from .supports import Clamp, Hold, Pin
+from .winch import Winch
 
 
 def _entry(name: str, module: str = "items") -> Callable[[], Any]:
@@ -35,6 +37,15 @@ SUPPORTS: list[Kind] = [
         look=Look("square", "light", 5.5),
     ),
     Kind(Hold, "hold", "hold", "hold", _entry("HoldEntry"), sheets.hold, look=Look("down", "white", 4.0)),
+    Kind(
+        Winch,
+        "winch",
+        "winch",
+        "winch",
+        _entry("WinchEntry"),
+        sheets.winch,
+        look=Look("circle", "orange", 6.0),
+    ),
 ]
 LOADS: list[Kind] = [
     Kind(
@@ -97,6 +108,42 @@ CONNECTIONS: list[Kind] = [
         asked=JOINT,
         rows="hinge",
         look=Look("circle", "light", 4.0),
+    ),
+    Kind(
+        Cylindrical,
+        "cylindrical",
+        "cylindrical joint",
+        "cylindrical",
+        _entry("CylindricalEntry"),
+        sheets.axis,
+        ends=("a", "b"),
+        asked=JOINT,
+        rows="cylindrical",
+        look=Look("circle", "light", 4.0),
+    ),
+    Kind(
+        Prismatic,
+        "prismatic",
+        "prismatic joint",
+        "prismatic",
+        _entry("PrismaticEntry"),
+        sheets.axis,
+        ends=("a", "b"),
+        asked=JOINT,
+        rows="prismatic",
+        look=Look("square", "light", 4.0),
+    ),
+    Kind(
+        Planar,
+        "planar",
+        "planar joint",
+        "planar",
+        _entry("PlanarEntry"),
+        sheets.axis,
+        ends=("a", "b"),
+        asked=JOINT,
+        rows="planar",
+        look=Look("square", "light", 4.0),
     ),
     Kind(
         Fixation,

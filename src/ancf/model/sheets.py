@@ -12,12 +12,14 @@ from .contact import Contact
 from .fluids import Fluid
 from .functions import TimeFunction
 from .grounds import Ground, Relief
+from .guides import Cylindrical, Planar
 from .joints import Revolute, Slide
 from .loads import DistributedLoad, Force, Moment
 from .state_function import StateFunction
 from .supports import Clamp, Hold, Pin
 from .tables import number, numbers, plural, with_units
 from .velocity_field import VelocityField
+from .winch import Winch
 
 
 def place(end: Any) -> str:
@@ -69,6 +71,11 @@ def hold(item: Hold) -> str:
     return "; ".join(parts + (["twist"] if item.twist else [])) + _moves(item)
 
 
+def winch(item: Winch) -> str:
+    """The length that it leaves."""
+    return f"nothing; length {value(item.length, 'm')}"
+
+
 def _moves(item: Pin | Clamp | Hold) -> str:
     return "" if item.displacement is None else f"; displacement {value(item.displacement, 'm')}"
 
@@ -100,8 +107,8 @@ def nothing(item: Any) -> str:
     return ""
 
 
-def axis(item: Revolute) -> str:
-    """The axis of a hinge."""
+def axis(item: Revolute | Cylindrical | Planar) -> str:
+    """The axis of a hinge or a guide."""
     return f"axis {numbers(item.axis)}"
 
 

@@ -68,6 +68,15 @@ class HoldEntry(Entry):
     name: ItemName = None
 
 
+class WinchEntry(Entry):
+    """Pays out or hauls in a cable at one of its ends, whose place it does not hold."""
+
+    type: Literal["winch"] = Field(description="Kind of support.")
+    point: PointLabel
+    length: ScalarFunction = Field(description="Natural length of what is paid out, function of t [m].")
+    name: ItemName = None
+
+
 class ForceEntry(Entry):
     """A force at a point."""
 
@@ -118,6 +127,36 @@ class HingeEntry(Entry):
     a: PointLabel
     b: PointOrPosition = Field(description="The other point, or a position in space: the ground [m].")
     axis: Vector = Field(description="Initial direction of the axis [-].")
+    name: ItemName = None
+
+
+class CylindricalEntry(Entry):
+    """Two bodies, one of which slides along an axis of the other and turns about it."""
+
+    type: Literal["cylindrical"] = Field(description="Kind of connection.")
+    a: PointLabel
+    b: PointOrPosition = Field(description="The other point, or a position in space: the ground [m].")
+    axis: Vector = Field(description="Initial direction of the axis through a [-].")
+    name: ItemName = None
+
+
+class PrismaticEntry(Entry):
+    """Two bodies, one of which slides along an axis of the other."""
+
+    type: Literal["prismatic"] = Field(description="Kind of connection.")
+    a: PointLabel
+    b: PointOrPosition = Field(description="The other point, or a position in space: the ground [m].")
+    axis: Vector = Field(description="Initial direction of the axis through a [-].")
+    name: ItemName = None
+
+
+class PlanarEntry(Entry):
+    """Two bodies, one of which slides in a plane of the other, whose normal is axis."""
+
+    type: Literal["planar"] = Field(description="Kind of connection.")
+    a: PointLabel
+    b: PointOrPosition = Field(description="The other point, or a position in space: the ground [m].")
+    axis: Vector = Field(description="Initial normal of the plane through a [-].")
     name: ItemName = None
 
 
