@@ -217,3 +217,8 @@ class TestBad:
         bead = model.add_point_mass("bead", at=(R, 0, 0), mass=1.0)
         with pytest.raises(ancf.ModelError, match="closed"):
             model.slide(bead, along=beam)
+
+    def test_no_winch(self):
+        model, beam = ring(8, natural_shape="straight")
+        with pytest.raises(ancf.ModelError, match="no end of the cable"):
+            model.winch(beam.start, length="3 + 0*t")
