@@ -58,6 +58,8 @@ def show_examples(copy: Path | None) -> None:
 def _said(file: Path) -> str:
     """The first line of a file without its signs of a comment."""
     if file.suffix == ".csv":
+        return "measured data for the file of this name"
+    if file.suffix == ".csv":
         return "Measured data for the file of this name."
     with file.open(encoding="utf-8") as lines:
         return next(lines, "").strip().strip('#"').strip()
