@@ -115,7 +115,7 @@ class Filmed(Plotted):
         height : int
             Of its frame in a notebook, pixels.
         options
-            ``frames``, ``color``, ``trace``, ``start``, ``end``, ``title``, see :func:`ancf.viz.view.shown_of`.
+            ``frames``, ``color``, ``trace``, ``start``, ``end``, ``title``: :func:`ancf.viz.view.shown_of`.
 
         Returns
         -------
