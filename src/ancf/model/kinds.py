@@ -10,6 +10,7 @@ from . import sheets, surfaces
 from .connections import Spring
 from .contact import Contact
 from .fluids import Fluid
+from .followers import FOLLOWER_FORCE, PRESSURE
 from .functions import TimeFunction
 from .grounds import Ground
 from .joints import Fixation, Revolute, Slide, Spherical
@@ -82,6 +83,8 @@ LOADS: list[Kind] = [
         on_state=lambda item: isinstance(item.load, StateFunction),
         inputs=lambda item: [TimeFunction(["t", 0.0, 0.0], 3, item.name)],
     ),
+    FOLLOWER_FORCE,
+    PRESSURE,
 ]
 CONNECTIONS: list[Kind] = [
     Kind(
