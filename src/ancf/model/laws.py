@@ -141,6 +141,9 @@ def law(
         ]
     )
     add.__name__, add.__doc__ = f"add_{word}", says
+    whole: Any = add
+    first = Argument("model", Argument.POSITIONAL_OR_KEYWORD)
+    whole.__signature__ = Signature([first, *signature.parameters.values()])
     return Kind(
         item,
         word,
