@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from .compilation import expected
 from .errors import Interrupted, ModelError, SolveError, StorageError
 from .interrupts import heed, kept
 from .model import checks
@@ -28,7 +29,8 @@ from .results.state import State
 from .results.store import MemoryStore
 from .solvers.record import Progress
 from .solvers.runs import AnyRun, run_of
-from .system.consistency import check_gaps, check_independent
+from .system.consistency import check_gaps
+from .system.redundancy import independent
 from .system.sensors import Listing, listing
 from .system.system import System
 
@@ -62,12 +64,13 @@ def prepared(
         Something given is wrong, or there are no accelerations at the start.
     """
     t0 = 0.0 if start is None else start.t
-    made = compiled(model, method, t0, t_end, step, output_step, sensors, energy, where)
-    system = made.system
-    q, v = system.initial_state(t0) if start is None else adopted(start, system, f"{where}.start")
-    remembered.begin(system, q, v, None if start is None else start.known)
-    check_gaps(system, q, f"{where}.start")
-    made.run.start(q, v)
+    with expected(model, method):
+        made = compiled(model, method, t0, t_end, step, output_step, sensors, energy, where)
+        system = made.system
+        q, v = system.initial_state(t0) if start is None else adopted(start, system, f"{where}.start")
+        remembered.begin(system, q, v, None if start is None else start.known)
+        check_gaps(system, q, f"{where}.start")
+        made.run.start(q, v)
     return made
 
 
@@ -84,7 +87,7 @@ def compiled(
 ) -> Prepared:
     """A simulation that has no state yet; it is given one by ``run.start`` or ``run.restore``."""
     every = steps_between(where, t_end, step, output_step, t_start)
-    system = system_of(model)  # anew: the model may have changed since the start was computed
+    system = independent(model)  # anew: the model may have changed since the start was computed
     system.sensors = _sensors(system, sensors)
     if not checks.flag(energy, f"{where}.energy"):
         system.skip_energies()
@@ -157,13 +160,6 @@ def method_of(given: Integrator | None, where: str = "simulate") -> Integrator:
         known = "one of " + ", ".join(f"ancf.{kind.__name__}()" for kind in INTEGRATORS.values())
         raise ModelError(f"{where}.integrator", f"must be {known}, is {checks.shown(given)}")
     return given
-
-
-def system_of(model: Model) -> System:
-    """A model compiled, its joints looked over."""
-    system = System(model)
-    check_independent(system)
-    return system
 
 
 def given_state(system: System, about: Any, where: str) -> tuple[Any, Any]:
