@@ -111,15 +111,13 @@ class Model(Surroundings, Readable):
         start, end : (3,) m
             Ends of a straight beam.
         path : (m, 3) m, callable or Reeving
-            Instead of start and end: at least 3 points of a spline, a function of u from 0 to 1, or a
-            Reeving over wheels.
+            Instead of start and end: 3 or more points of a spline, or a function of u from 0 to 1.
         elements : int
             Number of elements of equal length.
         nodes : (n+1,) m
             Instead of elements: increasing reference arc lengths from 0 to the length.
         element : "cable", "original" or "nonlocking"
-            Kind of element: the paper's cable (12 unknowns), or its beams with shear, torsion and a
-            deformable cross-section (24 and 30 unknowns).
+            The paper's cable (12 unknowns), or its beams with a cross-section (24 and 30 unknowns).
         strain : "material" or "paper"
             Strain measures of the cable, default "material". The beams have one, "green".
         poisson : "centreline" or "full"
@@ -138,8 +136,7 @@ class Model(Surroundings, Readable):
             e_z x tangent, or e_y for a vertical start. Along a path the axes do not turn about the
             tangent.
         closed : bool
-            Join the end to the start with position and slopes, as in a belt. The path goes round; a
-            `length` below its own gives pre-tension.
+            Join the end to the start, as of a belt; a `length` below the path's gives pre-tension.
 
         """
         where = self._where("add_beam", name if isinstance(name, str) else None)
@@ -169,12 +166,8 @@ class Model(Surroundings, Readable):
         The displacement is from the initial place; what is only pinned turns freely.
         """
         where, clean = self._at_node("pin", point, name)
-        item = Pin(
-            self._names.of_item(name, f"pin at {clean}", where),
-            clean,
-            optional(displacement, 3, f"{where}.displacement"),
-        )
-        return self._add_support(where, item)
+        label = self._names.of_item(name, f"pin at {clean}", where)
+        return self._add_support(where, Pin(label, clean, optional(displacement, 3, f"{where}.displacement")))
 
     def clamp(
         self,
