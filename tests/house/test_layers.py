@@ -31,6 +31,7 @@ LAYERS = (
     {"results"},
     {"preparation"},
     {"control"},
+    {"sensitivity"},
     {"analysis"},
     {"resumption"},
     {"viz"},
