@@ -25,6 +25,7 @@ FLOORS = (
     ("viz", "scene → viewer, pictures, exports"),
     ("resumption", "a run that goes on where its file ends"),
     ("analysis", "equilibrium, simulate, modes"),
+    ("sensitivity", "exact derivatives of equilibria, runs and modes"),
     ("control", "inputs, controllers, steps one by one"),
     ("preparation", "a model compiled, started, carried out"),
     ("results", "states, histories, files"),
@@ -39,7 +40,7 @@ FLOORS = (
     ("records", "batches at an address"),
     ("vectors", "arithmetic of three numbers in kernels"),
     ("compiled", "kernels, and operations by type of batch"),
-    ("files  worker", "files that are complete or absent, processes"),
+    ("files  worker  columns", "files that are complete or absent, processes"),
     ("errors  arrays  interrupts", "messages, types of arrays, signals kept until heeded"),
 )
 #: On the lowest floor too, but for the package alone.

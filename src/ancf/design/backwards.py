@@ -72,6 +72,10 @@ def gradient_of(formula: Formula, case: Answers) -> tuple[float, dict[Any, Float
     return value, {key: node.slope for key, node in asked.items() if key != "t"}
 
 
+def _times(factor: FloatArray) -> Callable[[Any], Any]:
+    return lambda g: g * factor
+
+
 def _ordered(root: Value) -> list[Value]:
     """All values, each behind those that it is made of."""
     made: list[Value] = []
@@ -167,7 +171,7 @@ class _Walk:
             return Value(made, [(parts[0], lambda g: g * rate)])
         if name in ("min", "max"):
             taken = [np.asarray(made == value) for value in values]
-            return Value(made, [(p, lambda g, m=m: g * m) for p, m in zip(parts, taken, strict=True)])
+            return Value(made, [(p, _times(m)) for p, m in zip(parts, taken, strict=True)])
         if name == "where":
             yes = np.asarray(values[0]) != 0.0
             return Value(made, [(parts[1], lambda g: g * yes), (parts[2], lambda g: g * ~yes)])
@@ -220,10 +224,10 @@ def _weights(name: str, x: FloatArray, more: list[Any], t: Any) -> FloatArray:
         return np.broadcast_to(row.reshape(-1, *[1] * (x.ndim - 1)), x.shape)
     if name == "deviation":
         away, size = x - np.mean(x, axis=0), np.std(x, axis=0)
-        return away / (n * np.where(size == 0.0, 1.0, size))
+        return np.asarray(away / (n * np.where(size == 0.0, 1.0, size)))
     if name == "rms":
         size = np.sqrt(np.mean(np.square(x), axis=0))
-        return x / (n * np.where(size == 0.0, 1.0, size))
+        return np.asarray(x / (n * np.where(size == 0.0, 1.0, size)))
     if name == "smoothmax":
         w = np.exp(more[0] * (x - np.max(x, axis=0)))
         found: FloatArray = w / np.sum(w, axis=0)

@@ -16,6 +16,7 @@ from .bodies import Body, PointMass
 from .describe import section as described
 from .describe import section_of
 from .functions import TimeFunction
+from .inputs import make_input
 from .joints import Slide
 from .kinds import GROUPS, SURROUNDINGS
 from .loads import DistributedLoad
@@ -76,7 +77,8 @@ def varied(model: Model, name: str, value: float) -> Model:
     ModelError
         The model has no such number, or it cannot have this value.
     """
-    return _resolve(model, name)[1](checks.number(value, name))
+    made: Model = _resolve(model, name)[1](checks.number(value, name))
+    return made
 
 
 def names_of(model: Model) -> list[str]:
@@ -103,7 +105,9 @@ def _resolve(model: Model, name: Any) -> tuple[float, Any]:
             return _of_vector(name, model.gravity, found["part"], lambda g: _with(model, gravity=g))
     if name in model.inputs:
         item = model.inputs[name]
-        return float(item.value), lambda x: _with(model, inputs=model.inputs | {name: replace(item, value=x)})
+        return float(item.value), lambda x: _with(
+            model, inputs=model.inputs | {name: make_input(name, name, x, {})}
+        )
     owner, dot, key = name.rpartition(".")
     found = KEY.fullmatch(key)
     if not dot or found is None:
@@ -217,20 +221,19 @@ def _of_section(section: Section, name: str, key: str, part: str | None) -> tupl
         if key == "diameter" and section.diameter is not None:
             return section.diameter, lambda x: section_of(plain | {key: x})
         raise ModelError(name, "the section has none", "EA, EI and rhoA are there in every section")
-    follows = key != "J" and "J" in plain and plain["shape"] != "moments"
+    return float(plain[key]), lambda x: section_of(_reshaped(section, plain, key, x))
 
-    def made(x: float) -> Section:
-        given = dict(plain) | {key: x}
-        if follows and key in ("width", "height", "diameter"):
-            shape = {k: given[k] for k in ("width", "height", "diameter") if k in given}
-            shape = {k: shape[k] for k in (("width", "height") if "width" in shape else ("diameter",))}
-            kind = Section.rectangle if "width" in shape else Section.circle
-            own = kind(**{k: plain[k] for k in shape}, E=section.E, rho=section.rho).J
-            if np.isclose(own, plain["J"], rtol=1e-12):  # Saint-Venant's constant follows the shape
-                given["J"] = kind(**shape, E=section.E, rho=section.rho).J
-        return section_of(given)
 
-    return float(plain[key]), made
+def _reshaped(section: Section, plain: dict[str, Any], key: str, x: float) -> dict[str, Any]:
+    """Description of a section with another number; Saint-Venant's torsion constant follows the shape."""
+    given = plain | {key: x}
+    sizes = [name for name in ("width", "height", "diameter") if name in OF_SHAPE[plain["shape"]]]
+    if key in sizes:
+        made = Section.rectangle if plain["shape"] == "rectangle" else Section.circle
+        own, new = (made(**{name: d[name] for name in sizes}, E=1.0, rho=1.0).J for d in (plain, given))
+        if own is not None and np.isclose(own, plain["J"], rtol=1e-12):
+            given["J"] = new
+    return given
 
 
 def _direct(section: Section, name: str, key: str, x: float) -> Section:
@@ -289,7 +292,7 @@ def _of_item(model: Model, item: Any, name: str, key: str, part: str | None) -> 
     value = getattr(item, key)
 
     def use(changed: Any) -> Model:
-        return _exchanged(model, item, replace(item, **{key: changed}))  # type: ignore[type-var]
+        return _exchanged(model, item, replace(item, **{key: changed}))
 
     if isinstance(value, float) and part is None:
         return value, use

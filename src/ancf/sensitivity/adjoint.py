@@ -156,7 +156,10 @@ class Adjoint:
             way = self._way(block)
             wanted = self._wanted(way.q, way.v, own)
             when = run.time(block.done), block.h, run.t_start, run.t_end
-            pushes = [family.at_steps(*(x.copy() for x in way), when, gaps=False) for family in self.families]
+            pushes = [
+                family.at_steps(way.q.copy(), way.v.copy(), way.a.copy(), when, gaps=False)
+                for family in self.families
+            ]
             lam = np.zeros_like(way.q)
             tables = system.inputs.tables(*when[:2], block.count, *when[2:])
             states = Way(*(x.copy() for x in way))
@@ -179,7 +182,8 @@ class Adjoint:
         begin, total = Start(system, self.m, *self.first, when), np.zeros(len(self.families))
         for k, (family, given) in enumerate(zip(self.families, self.given, strict=True)):
             s = begin.sensitivity(*given, *at_level(system, self.families, k, self.first, when))
-            held = family.at_steps(*(x[None].copy() for x in self.first), when, gaps=False).held
+            q1, v1, a1 = (x[None].copy() for x in self.first)
+            held = family.at_steps(q1, v1, a1, when, gaps=False).held
             total[k] = np.sum(mu * s) + np.sum(wanted * (s[:2] + held[:2, 0]))
         return total + self._explicit(q[None], v[None], slopes)
 

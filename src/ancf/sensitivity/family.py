@@ -66,13 +66,13 @@ class Family:
         h = STEP * abs(p) if p != 0.0 else STEP
         try:
             self.systems = self._compiled(h, BOTH[0])
-            places, weights = BOTH
+            chosen: tuple[tuple[float, ...], tuple[float, ...]] = BOTH
         except ModelError:
             if p != 0.0:
                 raise
             self.systems = self._compiled(h, ABOVE[0])  # it may not be negative
-            places, weights = ABOVE
-        self.offsets, self.weights = [h * x for x in places], [w / h for w in weights]
+            chosen = ABOVE
+        self.offsets, self.weights = [h * x for x in chosen[0]], [w / h for w in chosen[1]]
         self._shape = [s.initial_shape() - base.initial_shape() for s in self.systems]
         changed = set().union(*(self._changed(s) for s in self.systems))
         self._few = [Batches(b for name, b in s.parts.items() if name in changed) for s in self.systems]
@@ -87,11 +87,11 @@ class Family:
     def _ends(self) -> list[tuple[int, float]]:
         """The first and the last value with their weights, if the residual is linear in the parameter."""
         base, rng = self.base, np.random.default_rng(1)
-        n, used = base.n, base.numbering.used()
+        n, there = base.n, base.numbering.used()
         q = base.initial_shape()
         v = np.zeros_like(q)
         states = np.stack([q, v, np.zeros_like(q)])[:, None]
-        states[:, 0, :n] += SHAKEN * base.model.size * rng.uniform(-1, 1, (3, n)) * used
+        states[:, 0, :n] += SHAKEN * base.model.size * rng.uniform(-1, 1, (3, n)) * there
         before, when = base.level.copy(), (-1e-3, 1e-3, 0.0, np.inf)
         found: list[FloatArray] = []
         last = len(self.systems) - 1
@@ -101,7 +101,8 @@ class Family:
             self._used = used
             base.level[:] = 1.0, 0.0, 0.0
             self.know(base)
-            made = self.at_steps(*(x.copy() for x in states), when, gaps=False)
+            q, v, a = (x.copy() for x in states)
+            made = self.at_steps(q, v, a, when, gaps=False)
             if np.any(made.held):
                 base.level[:] = before
                 return []
@@ -244,7 +245,8 @@ def _gaps(system: System, tables: Any, states: Any) -> FloatArray:
     system.level[:] = 1.0, 0.0, 0.0
     core = system.core._replace(batches=system.core.joints.batches)
     r = np.empty_like(states[0])
-    stage_residuals(core, tables, *(x.copy() for x in states), np.empty(system.size), r)
+    q, v, a = (x.copy() for x in states)
+    stage_residuals(core, tables, q, v, a, np.empty(system.size), r)
     system.level[:] = level
     rows: FloatArray = r * system.core.joints.mask
     return rows

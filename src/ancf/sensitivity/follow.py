@@ -83,7 +83,8 @@ class Following:
     ) -> None:
         where = "simulate.sensitivities"
         check_method(made, where)
-        self.made, self.run, self.store, self.every = made, made.run, store, every
+        self.made, self.store, self.every = made, store, every
+        self.run: Any = made.run
         self.system = System(made.system.model)
         check_differentiable(self.system, where)
         self.families = [Family(parameter, self.system) for parameter in parameters]
@@ -138,7 +139,8 @@ class Following:
         for k, (family, given) in enumerate(zip(self.families, self.given, strict=True)):
             family.know(system)
             self.s[k] = begin.sensitivity(*given, *at_level(system, self.families, k, states, when))
-            held = family.at_steps(*(x[None] for x in states), when, gaps=False).held
+            q, v, a = (x[None].copy() for x in states)
+            held = family.at_steps(q, v, a, when, gaps=False).held
             first[k, 0] = self.s[k, :2] + held[:2, 0]
         self.rows.append(first)
         self.trail = Trail(run)

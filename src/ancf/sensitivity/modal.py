@@ -168,7 +168,7 @@ class _Problem:
             small = Y[:, group].T @ (dAY[:, group] - own * dMY[:, group])
             rates[group] = np.linalg.eigvalsh(0.5 * (small + small.T))
             repeated[group] = len(group) > 1
-        for k in np.flatnonzero(~repeated):
+        for k in np.flatnonzero(~repeated).tolist():
             rest = dAY[:, k] - rates[k] * (self.M @ Y[:, k]) - self.values[k] * dMY[:, k]
             derivative[k, self.free] = self._shape(k, rest, -0.5 * float(Y[:, k] @ dMY[:, k]), family.name)
         for k in range(count):
@@ -193,7 +193,8 @@ class _Problem:
     def _shape(self, k: int, rest: FloatArray, along: float, name: str) -> FloatArray:
         """The derivative y' of a simple mode: (A - lambda M) y' = -rest, y.M y' = along."""
         My = csc_array((self.M @ self.Y[:, k])[:, None])
-        whole = bmat([[self.A - self.values[k] * self.M, My], [My.T, None]], format="csc")
+        parts: Any = [[self.A - self.values[k] * self.M, My], [My.T, None]]
+        whole = csc_array(bmat(parts))
         try:
             y = splu(whole).solve(np.append(-rest, along))
         except RuntimeError:

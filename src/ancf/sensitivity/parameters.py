@@ -85,7 +85,7 @@ def parameters_of(model: Model, given: Any, where: str) -> list[Parameter]:
     if isinstance(given, str | bytes) or not isinstance(given, Sequence):
         what = f"must be a list of names of numbers, is {checks.shown(given)}"
         raise ModelError(where, what, 'such as ["beam.EI", "gravity"], or {name: (value, build)}')
-    made = []
+    made: list[Parameter] = []
     for k, item in enumerate(given):
         found = item if isinstance(item, Parameter) else _named(model, item, f"{where}[{k}]")
         if found.name in [one.name for one in made]:

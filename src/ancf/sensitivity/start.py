@@ -130,6 +130,7 @@ def at_level(system: System, families: list[Any], k: int, states: Any, when: Any
         return made
 
     def push(level: tuple[float, float, float]) -> FloatArray:
-        return push_at(level).push[0]
+        found: FloatArray = push_at(level).push[0]
+        return found
 
     return push, push  # the rows of the multipliers are in the residual
