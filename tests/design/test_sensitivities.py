@@ -181,11 +181,13 @@ def test_taylor_remainders_of_every_number(case):
     """|f(p + h) - f(p) - h f'| falls with the square of h over three decades, for all that a model has."""
     build, point = KINDS[case]
     model = build()
-    for name in ("bead", "hub", "rope", "arm", "beam"):
-        if name in model.bodies and name != "hub":
+    for name in ("bead", "wire", "rope", "arm", "beam"):
+        if name in model.bodies:
             model.bodies[name].set_motion(velocity=(0.0, 0.02, 0.1))
     others = (".s", ".friction_velocity", "hub.at", "hub.at[2]", "hinge.b", "hinge.b[2]", "[0]", "[1]")
     names = [name for name in names_of(model) if not name.endswith(others)]
+    if case == "bead":  # it is off the wire then
+        names = [name for name in names if not any(word in name for word in (".start", ".end", ".at"))]
 
     def place(other):
         return motion(other, 0.02, 2e-3, ancf.GeneralizedAlpha(rho_inf=0.8, newton=EXACT)).position(point)
@@ -197,7 +199,7 @@ def test_taylor_remainders_of_every_number(case):
         found = remainder_slopes(place, model, name, result.sensitivity(name).position(point), step)
         assert np.all(np.abs(found - 2.0) < 0.05), (name, found)
         checked += len(found) > 0
-    assert checked > 2
+    assert checked > 1
 
 
 def test_modes():
@@ -240,3 +242,50 @@ def test_equal_frequencies_part():
     assert off(own.frequencies, wanted) < 1e-4
     with pytest.raises(ancf.ModelError, match="has the frequency of another one"):
         own.position("bar.end")
+
+
+class TestBadInput:
+    """Each says what is wrong, where, and what to do."""
+
+    @pytest.mark.parametrize(
+        ("names", "told"),
+        [
+            (["beam.EE"], 'has no number "EE"'),
+            (["boom.EI"], 'the model has no "boom"'),
+            (["gravity", "gravity"], "twice"),
+            ("beam.EI", "list of names"),
+            ({"EI": 3.0}, "pair"),
+            ({"n": (2.0, lambda x: cantilever.build(round(x) + (x > 2)))}, "other unknowns"),
+        ],
+    )
+    def test_names(self, names, told):
+        with pytest.raises(ancf.ModelError, match=told):
+            ancf.simulate(cantilever.build(2), t_end=0.01, step=1e-3, sensitivities=names)
+
+    @pytest.mark.parametrize("method", [ancf.Radau(), ancf.Explicit()])
+    def test_methods_without(self, method):
+        with pytest.raises(ancf.ModelError, match="has none"):
+            motion(cantilever.build(2), 0.01, 1e-5, method, sensitivities=["gravity"])
+
+    def test_start_that_knows_nothing(self):
+        model = rope_and_drum()
+        state = ancf.equilibrium(model, sensitivities=["gravity"])
+        with pytest.raises(ancf.ModelError, match="does not know how it depends on rope"):
+            ancf.simulate(model, t_end=0.01, step=1e-3, start=state, sensitivities=["rope.EA"])
+        fixed = state.fixed(["rope.EA"])
+        result = ancf.simulate(model, t_end=0.01, step=1e-3, start=fixed, sensitivities=["rope.EA"])
+        assert np.all(result.sensitivity("rope.EA").position("rope.at(2)")[0] == 0.0)
+
+    def test_motion_that_does_not_fit_a_joint(self):
+        model = sliding_bead(4.0)
+        model.bodies["bead"].set_motion(velocity=(0.0, 0.0, 1.0))
+        with pytest.raises(ancf.ModelError, match="do not fit the joints"):
+            ancf.simulate(model, t_end=0.01, step=1e-3, sensitivities=["bead.mass"])
+
+    def test_what_was_not_asked_for(self):
+        model = cantilever.build(2)
+        result = ancf.simulate(model, t_end=0.01, step=1e-3, sensitivities=["gravity"])
+        with pytest.raises(ancf.ModelError, match="there is none by 'gravitation'"):
+            result.sensitivity("gravitation")
+        with pytest.raises(ancf.ModelError, match="no sensitivities were asked for"):
+            ancf.simulate(model, t_end=0.01, step=1e-3).sensitivity("gravity")

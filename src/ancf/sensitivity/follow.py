@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
 from ..model.integrators.base import NewmarkFamily
-from ..preparation import Prepared
+from ..preparation import Prepared, adopted
 from ..results.state import State
 from ..solvers.checkpoint import Snapshot
 from ..solvers.record import Stats
@@ -21,6 +21,8 @@ from .family import Family
 from .parameters import Parameter, check_known
 from .start import Start, at_level
 
+#: Change of the initial motion by joints, in sizes of the model, that does not count.
+SHIFTED = 1e-8
 #: Room for what parameters do to the steps of a block, bytes.
 ROOM = 32e6
 
@@ -87,6 +89,7 @@ class Following:
         self.run: Any = made.run
         self.system = System(made.system.model)
         check_differentiable(self.system, where)
+        check_shift(made, start, where)
         self.families = [Family(parameter, self.system) for parameter in parameters]
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
@@ -236,3 +239,19 @@ def when_cut(run: Any, done: int) -> None:
     if run.bridge.parts:
         what = "a step was cut into parts, which sensitivities do not follow"
         raise SolveError(f"sensitivities before t = {run.time(done):.6g} s", what, "take a smaller step")
+
+
+def check_shift(made: Prepared, start: State | None, where: str) -> None:
+    """Raise ModelError if joints have changed the initial motion: how that depends on masses is left out."""
+    run: Any = made.run
+    system = made.system
+    if not len(system.multipliers):
+        return
+    given = system.initial_state(run.t_start) if start is None else adopted(start, system, where)
+    free = np.setdiff1d(system.free, system.multipliers)
+    weight = system.core.weight[free]
+    for word, mine, theirs in zip(("places", "velocities"), given, (run.memory.q, run.memory.v), strict=True):
+        change, size = (float(np.max(np.abs(x[free]) * weight, initial=0.0)) for x in (mine - theirs, theirs))
+        if change > SHIFTED * max(size, 1.0):
+            what = f"the {word} at the start do not fit the joints, which change them by {change:.2g}"
+            raise ModelError(where, what, "set_motion(...) that fits, or start from an equilibrium")
