@@ -17,7 +17,7 @@ from .model.beam import Beam
 from .model.bodies import PointMass, RigidBody
 from .model.integrators import Explicit, Integrator
 from .model.model import Model
-from .preparation import carried_out, given_state, method_of, prepared, system_of
+from .preparation import carried_out, given_state, method_of, prepared
 from .results import remembered
 from .results.modes import Modes
 from .results.result import Result, load
@@ -30,6 +30,7 @@ from .solvers import statics
 from .solvers.modal import natural_modes
 from .solvers.record import Progress
 from .solvers.stability import stable_limit
+from .system.redundancy import independent
 
 __all__ = ["equilibrium", "load", "modes", "simulate", "stable_step"]
 
@@ -75,7 +76,7 @@ def equilibrium(
     checks.integer(load_steps, "equilibrium.load_steps", 1, 100_000)
     time = checks.number(time, "equilibrium.time")
     names = None if of is None else _names(model, of)
-    system = system_of(model)
+    system = independent(model)
     q, stats = statics.equilibrium(system, names, load_steps, time)
     known = remembered.Remembered(memory=remembered.memory_of(system))
     state = State(system, float(time), q, system.motion(q, time), stats, known)
@@ -215,7 +216,7 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
     SolveError
         The state is not a stable equilibrium.
     """
-    system = system_of(model)
+    system = independent(model)
     q, v = given_state(system, about, "modes.about")
     known = {} if about is None else about.derivatives
     parameters = parameters_of(model, sensitivities, SENSITIVITIES[2]) if sensitivities else []
@@ -244,7 +245,7 @@ def stable_step(model: Model, *, about: State | None = None, safety: float = 0.9
     SolveError
         The mass matrix is singular.
     """
-    method, system = Explicit(safety=safety), system_of(model)
+    method, system = Explicit(safety=safety), independent(model)
     q, v = given_state(system, about, "stable_step.about")
     return method.safety * stable_limit(system, q, v)
 

@@ -210,6 +210,9 @@ class Traits:
     exact : function, optional
         ``exact(batch, moving)``: whether its matrices are the derivatives of its forces, in motion or at
         rest, which sensitivities ask for; default they are not.
+    inertial : function, optional
+        ``inertial(batch)``: the batch with its mass alone, where the forces of that depend on velocities:
+        what they lose without velocities is not dissipated.
     """
 
     role: Role = Role.NONE
@@ -224,6 +227,7 @@ class Traits:
     early: Callable[[Any, Any, bool], bool] | None = None
     turning_mass: Callable[[Any], bool] | None = None
     exact: Callable[[Any, bool], bool] | None = None
+    inertial: Callable[[Any], Any] | None = None
 
 
 _TRAITS: dict[type, Traits] = {}

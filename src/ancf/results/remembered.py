@@ -13,7 +13,8 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..connections.contact import ARC
-from ..connections.sliding import SLIDES, SlidingBatch
+from ..connections.sliding import FREE, FROZEN, SLIDES, SlidingBatch
+from ..errors import ModelError
 from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
@@ -101,8 +102,16 @@ def write(file: Any, known: Remembered) -> None:
 
 
 def read(file: Any, model: Model) -> Remembered:
-    """What :func:`write` has left, by the names of the model."""
+    """What :func:`write` has left, by the names of the model.
+
+    Raises
+    ------
+    ModelError
+        A mode is none.
+    """
     modes, places = file["modes"][:].tolist(), file["places"][:].tolist()
+    if not {*modes} <= {SLIDES, FROZEN, FREE}:
+        raise ModelError("modes", f"must each be {SLIDES}, {FROZEN} or {FREE}")
     found = dict(zip(_slides(model), modes, strict=True)), dict(zip(_contacts(model), places, strict=True))
     memory = {name: x[...] for name, x in file["memory"].items()} if "memory" in file else {}
     return Remembered(*found, memory)

@@ -18,6 +18,8 @@ from ..model.tables import Readable, Sheet
 from ..solvers.record import Stats
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
+from ..system.probe import lengths_of
+from ..system.redundancy import independent
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 from . import accuracy, remembered, tension
@@ -49,6 +51,7 @@ class Result(SpringFields, ContactFields, Momenta, Filmed, Readable):
             self.model = store.model()
             self._slots, self._joints, self._last = store.layout(self.model)
         self._bodies, self._springs = self.model.bodies, springs_of(self.model.connections)
+        self._lengths = lengths_of(self.model, self._joints)
         slides = (item.name for item in self.model.connections if isinstance(item, Slide))
         self._arcs = {name: int(self._joints[name][-1]) for name in slides}
 
@@ -73,7 +76,10 @@ class Result(SpringFields, ContactFields, Momenta, Filmed, Readable):
         """
         if self._made_by is not None:
             return self._made_by
-        system = System(self.model)
+        try:
+            system = independent(self.model)
+        except ModelError:  # functions of time that a file does not keep
+            system = System(self.model)
         mine, theirs = {**system.slots, **system.joints}, {**self._slots, **self._joints}
         same = mine.keys() == theirs.keys() and all(np.array_equal(mine[k], theirs[k]) for k in mine)
         if not same or system.size != self.q.shape[1]:
@@ -172,11 +178,12 @@ class Result(SpringFields, ContactFields, Momenta, Filmed, Readable):
     @property
     def notes(self) -> list[str]:
         """What to know of the run that nobody asked for, one line each: cables that were pressed, and when,
-        and energy that came from nowhere.
+        energy that came from nowhere, joints of which others hold a part already.
 
         All stored states are looked at, when it is asked for.
         """
-        return [*tension.notes(tension.compressions(self)), *accuracy.of_energy(self)]
+        pressed = tension.notes(tension.compressions(self))
+        return [*pressed, *accuracy.of_energy(self), *accuracy.of_joints(self)]
 
     @property
     def stats(self) -> Stats:

@@ -91,7 +91,7 @@ class State(SpringFields, ContactFields, Momenta, StatePlotted, Readable):
         self.stats = Stats() if stats is None else stats
         self._q, self._v = q, v
         self._bodies, self._slots = self.model.bodies, system.slots
-        self._joints, self._arcs = system.joints, system.numbering.arcs
+        self._joints, self._arcs, self._lengths = system.joints, system.numbering.arcs, system.lengths
         self._springs = springs_of(system.model.connections)
 
     def __repr__(self) -> str:

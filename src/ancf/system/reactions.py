@@ -33,6 +33,7 @@ def reaction(system: System, q: FloatArray, v: FloatArray, time: float, support:
     if not isinstance(name, str) or name not in positions:
         raise unknown("State.reaction", "support", name, positions)
     moving = np.abs(v[: system.n]) * system.core.weight
+    moving[list(system.numbering.lengths.values())] = 0.0  # an equilibrium has them at a time
     worst = int(np.argmax(moving))
     if moving[worst] > AT_REST:
         what = f"{system.numbering.describe(worst)} moves: reactions are known of a state at rest only"

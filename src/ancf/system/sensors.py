@@ -60,6 +60,11 @@ class Probed(Protocol):
     joints: dict[str, IntArray]
     measures: dict[str, IntArray]
 
+    @property
+    def lengths(self) -> dict[str, tuple[int, float]]:
+        """Of cables with a winch, see :func:`ancf.system.probe.lengths_of`."""
+        ...
+
     def probe(self, point: Point) -> Probe:
         """Where the state of a point is found."""
         ...
@@ -72,6 +77,8 @@ def listing(system: Probed, items: Sequence[Point | Connection]) -> Listing:
     wanted, entries, columns = [_none()], [_none()], {}
     for point in points:
         wanted.append(_triples(system.probe(point).slots))
+        if point.body.name in system.lengths:
+            wanted.append(np.array(system.lengths[point.body.name][:1]))
     for name, item in joined.items():
         if isinstance(item, Spring):
             ends = [end for end in (item.a, item.b) if isinstance(end, Point)]
