@@ -167,6 +167,17 @@ def test_joints_dampers_and_moving_supports(method):
         assert off(result.sensitivity(name).position(point), wanted) < BAR, name
 
 
+def test_clamp_that_turns_without_dampers():
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section(EA=500.0, EI=0.5, rhoA=0.2)
+    arm = model.add_beam("arm", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
+    model.clamp(arm.start, rotation="0.3*sin(5*t)", axis=(0, 1, 0))
+    result = motion(model, 0.03, 1e-3, exact(), sensitivities=["arm.EI", "gravity"])
+    for name in ("arm.EI", "gravity"):
+        wanted = extrapolated(lambda m: motion(m, 0.03, 1e-3, exact()).position("arm.end"), model, name, 2e-2)
+        assert off(result.sensitivity(name).position("arm.end"), wanted) < BAR, name
+
+
 KINDS = {
     "rope": (rope_and_drum, "rope.at(2.4)"),
     "hub": (swinging_hub, "hub.at(0.3, 0, 0)"),

@@ -19,7 +19,8 @@ def matrices_of(core: Core, size: int, moving: bool) -> Matrices:
     """Room for the matrices of sensitivities, the masses of exact batches filled in."""
     batches = [batch for batch in core.batches if len(batch[0])]
     exact = [batch for batch in batches if _exact(batch, False)]
-    lossy = [batch for batch in exact if moving and not _exact(batch, True)]
+    turning = moving and bool(np.any(core.supports.rot_moving >= 0))  # axes that turn are not in the factors
+    lossy = [batch for batch in exact if turning or (moving and not _exact(batch, True))]
     rough = [batch for batch in batches if not _exact(batch, False)]
     K, C, M = (np.zeros_like(core.A) for _ in range(3))
     made = Matrices(
