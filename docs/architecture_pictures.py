@@ -28,6 +28,7 @@ FLOORS = (
     ("sensitivity", "exact derivatives of equilibria, runs and modes"),
     ("control", "inputs, controllers, steps one by one"),
     ("preparation", "a model compiled, started, carried out"),
+    ("compilation", "what is said and done while kernels are compiled"),
     ("results", "states, histories, files"),
     ("solvers", "steps, statics, eigenvalues"),
     ("system", "a model as flat arrays, numbered and ordered"),

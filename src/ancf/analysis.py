@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from .compilation import expected
 from .control.lead import check_controller, led
 from .control.live import Live
 from .errors import ModelError, SolveError, StorageError
@@ -76,8 +77,9 @@ def equilibrium(
     checks.integer(load_steps, "equilibrium.load_steps", 1, 100_000)
     time = checks.number(time, "equilibrium.time")
     names = None if of is None else _names(model, of)
-    system = independent(model)
-    q, stats = statics.equilibrium(system, names, load_steps, time)
+    with expected(model):
+        system = independent(model)
+        q, stats = statics.equilibrium(system, names, load_steps, time)
     known = remembered.Remembered(memory=remembered.memory_of(system))
     state = State(system, float(time), q, system.motion(q, time), stats, known)
     if sensitivities:
@@ -216,15 +218,16 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
     SolveError
         The state is not a stable equilibrium.
     """
-    system = independent(model)
-    q, v = given_state(system, about, "modes.about")
-    known = {} if about is None else about.derivatives
+    known = about.derivatives if isinstance(about, State) else {}
     parameters = parameters_of(model, sensitivities, SENSITIVITIES[2]) if sensitivities else []
-    if about is not None:
+    if isinstance(about, State):
         check_known(about, parameters, SENSITIVITIES[2])
-    about = State(system, 0.0, q, np.zeros_like(v)) if about is None else State(system, about.t, q, v)
-    about.derivatives = known
-    omega, shapes = natural_modes(about.system, about.q, count)
+    with expected(model):
+        system = independent(model)
+        q, v = given_state(system, about, "modes.about")
+        about = State(system, 0.0, q, np.zeros_like(v)) if about is None else State(system, about.t, q, v)
+        about.derivatives = known
+        omega, shapes = natural_modes(about.system, about.q, count)
     made = Modes(omega, shapes, about)
     return replace(made, derivatives=of_modes(made, parameters)) if parameters else made
 
