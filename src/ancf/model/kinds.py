@@ -10,8 +10,10 @@ from . import sheets, surfaces
 from .connections import Spring
 from .contact import Contact
 from .fluids import Fluid
+from .followers import FOLLOWER_FORCE, PRESSURE
 from .functions import TimeFunction
 from .grounds import Ground
+from .guides import Cylindrical, Planar, Prismatic
 from .joints import Fixation, Revolute, Slide, Spherical
 from .kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT, Kind, Look, Push
 from .loads import DistributedLoad, Force, Moment
@@ -43,7 +45,7 @@ SUPPORTS: list[Kind] = [
         "winch",
         _entry("WinchEntry"),
         sheets.winch,
-        look=Look("circle", "orange", 6.0),
+        look=Look("circle", "white", 8.0),
     ),
 ]
 LOADS: list[Kind] = [
@@ -82,6 +84,8 @@ LOADS: list[Kind] = [
         on_state=lambda item: isinstance(item.load, StateFunction),
         inputs=lambda item: [TimeFunction(["t", 0.0, 0.0], 3, item.name)],
     ),
+    FOLLOWER_FORCE,
+    PRESSURE,
 ]
 CONNECTIONS: list[Kind] = [
     Kind(
@@ -107,6 +111,42 @@ CONNECTIONS: list[Kind] = [
         asked=JOINT,
         rows="hinge",
         look=Look("circle", "light", 4.0),
+    ),
+    Kind(
+        Cylindrical,
+        "cylindrical",
+        "cylindrical joint",
+        "cylindrical",
+        _entry("CylindricalEntry"),
+        sheets.axis,
+        ends=("a", "b"),
+        asked=JOINT,
+        rows="cylindrical",
+        look=Look("circle", "light", 4.0),
+    ),
+    Kind(
+        Prismatic,
+        "prismatic",
+        "prismatic joint",
+        "prismatic",
+        _entry("PrismaticEntry"),
+        sheets.axis,
+        ends=("a", "b"),
+        asked=JOINT,
+        rows="prismatic",
+        look=Look("square", "light", 4.0),
+    ),
+    Kind(
+        Planar,
+        "planar",
+        "planar joint",
+        "planar",
+        _entry("PlanarEntry"),
+        sheets.axis,
+        ends=("a", "b"),
+        asked=JOINT,
+        rows="planar",
+        look=Look("square", "light", 4.0),
     ),
     Kind(
         Fixation,

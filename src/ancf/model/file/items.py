@@ -111,6 +111,18 @@ class DistributedEntry(Entry):
     name: ItemName = None
 
 
+class PressureEntry(Entry):
+    """A load normal to a beam and to an axis, which turns with the beam."""
+
+    type: Literal["pressure"] = Field(description="Kind of load.")
+    body: str = Field(description="Name of the body.")
+    pressure: ScalarFunction = Field(
+        description="Per present length, along tangent x axis, function of t [N/m]."
+    )
+    axis: Vector = Field(description="Normal of the plane in which it turns [-].")
+    name: ItemName = None
+
+
 class SphericalEntry(Entry):
     """Two coincident points keep the same position."""
 
@@ -127,6 +139,36 @@ class HingeEntry(Entry):
     a: PointLabel
     b: PointOrPosition = Field(description="The other point, or a position in space: the ground [m].")
     axis: Vector = Field(description="Initial direction of the axis [-].")
+    name: ItemName = None
+
+
+class CylindricalEntry(Entry):
+    """Two bodies, one of which slides along an axis of the other and turns about it."""
+
+    type: Literal["cylindrical"] = Field(description="Kind of connection.")
+    a: PointLabel
+    b: PointOrPosition = Field(description="The other point, or a position in space: the ground [m].")
+    axis: Vector = Field(description="Initial direction of the axis through a [-].")
+    name: ItemName = None
+
+
+class PrismaticEntry(Entry):
+    """Two bodies, one of which slides along an axis of the other."""
+
+    type: Literal["prismatic"] = Field(description="Kind of connection.")
+    a: PointLabel
+    b: PointOrPosition = Field(description="The other point, or a position in space: the ground [m].")
+    axis: Vector = Field(description="Initial direction of the axis through a [-].")
+    name: ItemName = None
+
+
+class PlanarEntry(Entry):
+    """Two bodies, one of which slides in a plane of the other, whose normal is axis."""
+
+    type: Literal["planar"] = Field(description="Kind of connection.")
+    a: PointLabel
+    b: PointOrPosition = Field(description="The other point, or a position in space: the ground [m].")
+    axis: Vector = Field(description="Initial normal of the plane through a [-].")
     name: ItemName = None
 
 
