@@ -15,30 +15,45 @@ from .core import residual
 
 
 @inline_kernel
-def powers(core, q, v, a, f, push, r):
-    """Fill ``push`` with the forces that supply energy; returns the power that is dissipated, W.
+def add_to(batches, ws, q, v, a, loss, r):
+    """Add the forces of batches to ``loss``; ``r`` is scratch memory."""
+    for i in range(r.shape[0]):
+        r[i] = 0.0
+    add_forces(batches, q, v, a, r, ws)
+    for i in range(r.shape[0]):
+        loss[i] += r[i]
 
-    ``f`` are gravity and dead loads; ``r`` is scratch memory.
+
+@inline_kernel
+def subtract_forces(batches, ws, q, v, a, loss, r):
+    """The same with the other sign."""
+    for i in range(r.shape[0]):
+        r[i] = 0.0
+    add_forces(batches, q, v, a, r, ws)
+    for i in range(r.shape[0]):
+        loss[i] -= r[i]
+
+
+@inline_kernel
+def powers(core, q, v, a, f, push, loss, r):
+    """Fill ``push`` with the forces that supply energy, ``loss`` with those that dissipate it, opposed.
+
+    Returns the power that is dissipated, W. ``f`` are gravity and dead loads; ``r`` is scratch memory.
     """
     n, dissipated = f.shape[0], 0.0
     for i in range(n):
-        push[i], r[i] = 0.0, 0.0
+        push[i], loss[i] = 0.0, 0.0
     if core.damped:  # without velocities first: what batches measure is left from the state as it is
         if core.loses:
-            add_forces(core.losing, q, push, a, r, core.ws)
-            for i in range(n):
-                r[i] = -r[i]
-            add_forces(core.inertial, q, push, a, r, core.ws)
-            for i in range(n):
-                dissipated += v[i] * r[i]
-                r[i] = 0.0
-            add_forces(core.inertial, q, v, a, r, core.ws)
-            for i in range(n):
-                r[i] = -r[i]
-            add_forces(core.losing, q, v, a, r, core.ws)
-        add_forces(core.rubbing, q, v, a, r, core.ws)
+            subtract_forces(core.losing, core.ws, q, push, a, loss, r)
+            add_to(core.inertial, core.ws, q, push, a, loss, r)
+            subtract_forces(core.inertial, core.ws, q, v, a, loss, r)
+            add_to(core.losing, core.ws, q, v, a, loss, r)
+        add_to(core.rubbing, core.ws, q, v, a, loss, r)
+        for k in range(core.joints.multipliers.shape[0]):  # they are no places
+            loss[core.joints.multipliers[k]] = 0.0
         for i in range(n):
-            dissipated += v[i] * r[i]
+            dissipated += v[i] * loss[i]
     if not core.loaded:  # what pushes is gravity alone
         return dissipated
     if core.supports.driven.shape[0] > 0:
