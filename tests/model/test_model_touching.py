@@ -88,6 +88,16 @@ class TestRefused:
             model.add_contact("rope", "rope", stiffness=1e5)
         assert model.add_contact("rope", "rope", stiffness=1e5, radius=0.01).radius == 0.01
 
+    def test_closed(self):
+        model = stage()
+        a = np.linspace(0, 2 * np.pi, 41)
+        path = np.stack([np.cos(a), np.sin(a), 0 * a + 5.0], axis=1)
+        path[-1] = path[0]
+        section = ancf.Section(**SECTION)
+        model.add_beam("belt", path=path, elements=12, section=section, closed=True)
+        with pytest.raises(ancf.ModelError, match='"belt" is closed'):
+            model.add_contact("rope", "belt", stiffness=1e5)
+
     def test_twice(self):
         model = stage()
         model.add_contact("rope", "line", stiffness=1e5)

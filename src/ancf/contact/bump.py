@@ -71,10 +71,10 @@ def body_of(batch, e, side, q, ground):
     if batch.base[e, i] < 0:
         return ground
     return (
-        at_slot(q, batch.base[e, i]),
-        at_slot(q, batch.base[e, i + 1]),
-        at_slot(q, batch.base[e, i + 2]),
-        at_slot(q, batch.base[e, i + 3]),
+        at_slot(q, np.uint64(batch.base[e, i])),
+        at_slot(q, np.uint64(batch.base[e, i + 1])),
+        at_slot(q, np.uint64(batch.base[e, i + 2])),
+        at_slot(q, np.uint64(batch.base[e, i + 3])),
     )
 
 

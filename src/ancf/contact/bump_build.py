@@ -12,7 +12,8 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
 from ..model.bodies import RigidBody
 from ..model.body_contact import BodyContact
-from ..model.surface_shapes import Capsule, Shape, Sphere
+from ..model.shape import Shape
+from ..model.surface_shapes import Capsule, Sphere
 from .build import MOST_NUMBERS
 from .bump import BESIDE, CROSSING, PROFILE, SEGMENTS, WHOLE, BumpBatch, bump_values
 from .profiles import NUMBER

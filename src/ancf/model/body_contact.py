@@ -7,6 +7,7 @@ from typing import Any
 
 from ..errors import ModelError
 from . import checks
+from .mesh import Mesh
 from .surface_shapes import Capsule, Plane, Sphere
 from .surfaces import Surface
 from .tables import with_units
@@ -59,7 +60,7 @@ def make_body_contact(
         )
     if not can_touch(surface, other):
         words = f"a {surface.shape.word} and a {other.shape.word}"
-        hint = "a sphere touches every shape, a capsule touches spheres, capsules and planes"
+        hint = "a sphere touches every shape but a mesh, a capsule touches spheres, capsules and planes"
         raise ModelError(f"{where}.other", f"{words} cannot touch", hint)
     return BodyContact(
         name,
@@ -75,6 +76,8 @@ def make_body_contact(
 def can_touch(one: Surface, two: Surface) -> bool:
     """Whether there is a law for two shapes."""
     shapes = one.shape, two.shape
+    if any(isinstance(shape, Mesh) for shape in shapes):
+        return False
     if any(isinstance(shape, Sphere) for shape in shapes):
         return True
     capsules = [isinstance(shape, Capsule) for shape in shapes]

@@ -63,6 +63,8 @@ def make_cable_contact(
     for end, key in ((body, "body"), (other, "other")):
         if not isinstance(end, Beam):
             raise ModelError(f"{where}.{key}", f'"{end.name}" is a {kind(end)}, must be a cable or a beam')
+        if end.closed:
+            raise ModelError(f"{where}.{key}", f'"{end.name}" is closed: cables that touch need two ends')
         if radius is None and end.section.diameter is None:
             what = f'the section of "{end.name}" has no diameter'
             raise ModelError(f"{where}.radius", what, "give radius=, or the section a diameter")

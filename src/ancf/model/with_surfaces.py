@@ -289,7 +289,7 @@ class WithSurfaces(Connecting):
     ) -> BodyContact:
         """Let two rigid bodies, or one and the ground, touch with surfaces that they carry.
 
-        A sphere touches every shape, a capsule touches spheres, capsules and planes.
+        A sphere touches every shape but a mesh, a capsule touches spheres, capsules and planes.
 
         Parameters
         ----------

@@ -38,9 +38,9 @@ def touching(core: Core, q: FloatArray, n: int) -> Touching:
     still = np.zeros_like(q)
     for batch in core.batches:
         if (rows_of := traits(batch).rows) is not None:
-            for row, k in zip(*rows_of(batch, q), strict=True):
-                apply_supports(core.supports, row)
-                rows.append(row[:n])
+            for found, k in zip(*rows_of(batch, q), strict=True):
+                apply_supports(core.supports, found)
+                rows.append(found[:n])
                 stiffness.append(k)
         row_of = traits(batch).row
         if row_of is None:
