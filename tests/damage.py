@@ -263,7 +263,10 @@ def _group(file, draw):
     if name == "/":
         return
     if how == "into itself":
-        file[f"{name}/{draw(st.sampled_from(['a', 'slots', '000009']))}"] = file[name]
+        inner = f"{name}/{draw(st.sampled_from(['a', 'slots', '000009']))}"
+        if inner in file:
+            del file[inner]
+        file[inner] = file[name]
     elif how == "twice":
         file.copy(name, f"{name}_2")
     elif how == "rename":
