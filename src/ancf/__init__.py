@@ -14,10 +14,14 @@ if TYPE_CHECKING:
     from .design.calibrate import calibrate
     from .design.distributions import Discrete, LogNormal, Normal, Triangular, Uniform
     from .design.fit import Fit
+    from .design.gradient import gradient
+    from .design.minimise import Optimum, minimise
     from .design.sampling import sample
     from .design.study import study
     from .model import Gusts, Model, Section, Waves
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
+    from .model.mesh import Mesh
+    from .model.reeving import Reeving
     from .model.series import Series
     from .model.surface_shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
     from .results import Modes, Result, State
@@ -30,6 +34,7 @@ _LATER = {
     "Section": "model",
     "Waves": "model",
     "Gusts": "model",
+    "Reeving": "model.reeving",
     "Series": "model.series",
     "equilibrium": "analysis",
     "simulate": "analysis",
@@ -44,6 +49,7 @@ _LATER = {
     "Modes": "results",
     "Capsule": "model.surface_shapes",
     "Cylinder": "model.surface_shapes",
+    "Mesh": "model.mesh",
     "Plane": "model.surface_shapes",
     "Sheave": "model.surface_shapes",
     "Sphere": "model.surface_shapes",
@@ -54,6 +60,9 @@ _LATER = {
     "Radau": "model.integrators",
     "Newton": "model.integrators",
     "calibrate": "design.calibrate",
+    "gradient": "design.gradient",
+    "minimise": "design.minimise",
+    "Optimum": "design.minimise",
     "Fit": "design.fit",
     "sample": "design.sampling",
     "study": "design.study",
@@ -72,13 +81,16 @@ __all__ = [
     "Gusts",
     "Interrupted",
     "LogNormal",
+    "Mesh",
     "Model",
     "ModelError",
     "Modes",
     "Newton",
     "Normal",
+    "Optimum",
     "Plane",
     "Radau",
+    "Reeving",
     "Result",
     "Section",
     "Series",
@@ -96,7 +108,9 @@ __all__ = [
     "__version__",
     "calibrate",
     "equilibrium",
+    "gradient",
     "load",
+    "minimise",
     "modes",
     "resume",
     "sample",
