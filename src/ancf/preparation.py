@@ -16,9 +16,10 @@ from .errors import Interrupted, ModelError, SolveError, StorageError
 from .interrupts import heed, kept
 from .model import checks
 from .model.beam import Beam
-from .model.integrators import INTEGRATORS, Integrator, Trapezoidal
+from .model.integrators import INTEGRATORS, Integrator, Radau, Trapezoidal
 from .model.model import Model
 from .model.settings import steps_between
+from .model.supports import Support
 from .results import remembered
 from .results.provenance import versions
 from .results.read_store import ReadStore
@@ -84,7 +85,7 @@ def compiled(
     """A simulation that has no state yet; it is given one by ``run.start`` or ``run.restore``."""
     every = steps_between(where, t_end, step, output_step, t_start)
     system = system_of(model)  # anew: the model may have changed since the start was computed
-    system.sensors = _sensors(system, sensors)
+    system.sensors = _sensors(system, sensors, not isinstance(method, Radau))
     if not checks.flag(energy, f"{where}.energy"):
         system.skip_energies()
     header = header_of(system, method, t_start, t_end, step, output_step)
@@ -172,15 +173,20 @@ def given_state(system: System, about: Any, where: str) -> tuple[Any, Any]:
     return adopted(about, system, where)
 
 
-def _sensors(system: System, given: Any) -> Listing:
+def _sensors(system: System, given: Any, accelerations: bool) -> Listing:
     """What ``sensors`` lists."""
     where = "simulate.sensors"
     if given is None:
         return Listing()
     if not isinstance(given, Sequence) or isinstance(given, str | bytes):
-        what = f"must be a list of points, springs and joints, is {checks.shown(given)}"
+        what = f"must be a list of points, springs, joints and supports, is {checks.shown(given)}"
         raise ModelError(where, what, 'such as sensors=["wire.at(3)", dropper]')
-    return listing(system, [system.model.sensor(item, f"{where}[{k}]") for k, item in enumerate(given)])
+    items = [system.model.sensor(item, f"{where}[{k}]") for k, item in enumerate(given)]
+    held = next((item for item in items if isinstance(item, Support)), None)
+    if held is not None and not accelerations:
+        what = f'"{held.name}" is a support, and with Radau the steps have no accelerations'
+        raise ModelError(where, what, "ask the result for its reaction at the stored times")
+    return listing(system, items, accelerations)
 
 
 def adopted(state: State, system: System, where: str) -> tuple[Any, Any]:

@@ -80,11 +80,19 @@ def check_listing(listing: Listing, width: int, widths: dict[str, int]) -> None:
     _unknowns(listing.index, "sensors/index", (None,), width)
     if np.any(np.diff(listing.index) <= 0):
         raise ModelError("sensors/index", "does not ascend")
-    wanted = {"q": len(listing.index), "v": len(listing.index), "measured": len(listing.entries)}
+    wanted = {"q": len(listing.index), "v": len(listing.index), "measured": listing.width}
     if widths != wanted:
         raise ModelError("sensors", f"has data of widths {widths}, wanted {wanted}")
     for name, places in listing.columns.items():
         _unknowns(places, f'sensors "{name}"', (4,), len(listing.entries))
+    for key in ("moved", "pushed"):
+        _unknowns(getattr(listing, key), f"sensors/{key}", (None,), width)
+    if np.any(np.diff(listing.moved) <= 0):
+        raise ModelError("sensors/moved", "does not ascend")
+    for name, places in listing.held.items():
+        if places.size:
+            _unknowns(places[:, 0], f'sensors "{name}"', (None,), len(listing.pushed))
+            _unknowns(places[:, 1], f'sensors "{name}"', (None,), 3)
 
 
 def check_times(t: FloatArray, where: str) -> None:
