@@ -65,7 +65,7 @@ def equilibrium(
     names = None if of is None else _names(model, of)
     system = system_of(model)
     q, stats = statics.equilibrium(system, names, load_steps, time)
-    known = remembered.Remembered(memory=remembered.memory_of(system))
+    known = remembered.Remembered(memory=remembered.memory_of(system), balanced=True)
     return State(system, float(time), q, system.motion(q, time), stats, known)
 
 

@@ -206,6 +206,13 @@ def _same_nodes(a: Any, b: Any) -> bool:
     return a.element == b.element and np.array_equal(a.node_x, b.node_x)
 
 
+def once_a_step(model: Model) -> list[str]:
+    """Names of loads and fluids of a compiled model whose Python functions numba could not compile."""
+    laws: list[tuple[Any, Any]] = [(load, getattr(load, "force", getattr(load, "load", None))) for load in model.loads]
+    laws += [(fluid, fluid.velocity) for fluid in model.fluids]
+    return [item.name for item, law in laws if getattr(law, "once", None)]
+
+
 def header_of(
     system: System, method: Integrator, t0: float, t_end: float, step: float, output_step: float | None
 ) -> dict[str, Any]:
@@ -225,6 +232,7 @@ def header_of(
             **method.settings(),
             "energy": system.core.accounted,
             "sensors": [*map(str, listed.points), *listed.connections],
+            "called once a step": once_a_step(model),
         },
         "versions": versions(),
     }

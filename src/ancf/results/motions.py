@@ -98,7 +98,7 @@ def at_rest(
     remembered.restore(spare, known)
     for key, value in known.inputs.items():
         spare.inputs.give(key, value)
-    return reaction(spare, q, v, t, name)
+    return reaction(spare, q, v, t, name, known.balanced)
 
 
 def _spare(system: System, known: Remembered) -> System:

@@ -38,6 +38,8 @@ class Remembered:
         The model's inputs in the state; nothing where they are not known.
     led : bool
         Inputs have changed during the run.
+    balanced : bool
+        It is the state of an equilibrium.
     """
 
     modes: dict[str, int] = field(default_factory=dict)
@@ -45,6 +47,7 @@ class Remembered:
     memory: dict[str, FloatArray] = field(default_factory=dict)
     inputs: dict[str, float] = field(default_factory=dict)
     led: bool = False
+    balanced: bool = False
 
     def until(self, index: int, q: Any, v: Any, arcs: dict[str, int]) -> Remembered:
         """The same at an earlier stored state, shapes of q and v (n_t, size).

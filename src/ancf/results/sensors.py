@@ -89,6 +89,12 @@ class Sensors(SpringFields, ContactFields, Plotted):
             a = a + weight * np.stack([measured[..., first + int(c)] for c in column], axis=-1)
         return a
 
+    def _sliding(self, joint: Any) -> tuple[FloatArray, FloatArray]:
+        hint = "ask the result, at its stored times"
+        raise ModelError(
+            named(getattr(joint, "name", joint)), "its carrier was not recorded by the sensors", hint
+        )
+
     def reaction(self, support: Any) -> FloatArray:
         """Force of the ground on the node of a support, N, shape (n, 3), global components.
 

@@ -48,8 +48,9 @@ def check_header(header: Any) -> None:
             checks.number(settings[key], f"header.settings.{key}")
     checks.flag(settings.get("energy", True), "header.settings.energy")
     checks.text(settings.get("integrator", ""), "header.settings.integrator")
-    for k, name in enumerate(_list(settings.get("sensors", []), "header.settings.sensors")):
-        checks.text(name, f"header.settings.sensors[{k}]")
+    for key in ("sensors", "called once a step"):
+        for k, name in enumerate(_list(settings.get(key, []), f"header.settings.{key}")):
+            checks.text(name, f"header.settings.{key}[{k}]")
     for key in ("title", "created"):
         checks.text(header.get(key, ""), f"header.{key}")
     for key, version in _table(header.get("versions", {}), "header.versions").items():

@@ -13,11 +13,11 @@ from ..errors import ModelError, named
 from ..model.contact import Contact
 from ..model.model import Model
 from ..model.surfaces import SurfaceContact
-from .joint_fields import JointFields
+from .slide_fields import SlideFields
 from .system import System
 
 
-class ContactFields(JointFields):
+class ContactFields(SlideFields):
     """Values of contacts, given as the model's object or by name; shapes are () or (n_t,)."""
 
     model: Model

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
+from ..errors import ModelError
 from ..model.connections import Spring
 from ..model.names import unknown
 from .core import apply_load, residual
@@ -17,17 +18,29 @@ BALANCED = 1e-3  # out-of-balance force of a body's nodes, of the largest force
 ROUND_OFF = 1e-8  # the same, of the largest stiffness, N
 
 
-def reaction(system: System, q: FloatArray, v: FloatArray, time: float, name: str) -> FloatArray | None:
+def reaction(
+    system: System, q: FloatArray, v: FloatArray, time: float, name: str, balanced: bool
+) -> FloatArray | None:
     """Force of a support on its node in an equilibrium, N, shape (3,), global components; None in motion.
 
     It is what the rows of the held unknowns, which the solver drops, are out of balance.  What is at rest
     but out of balance is in motion too: it has just been let go.
+
+    Raises
+    ------
+    ModelError
+        The state is one of ``ancf.equilibrium``, which ``balanced`` says, but not of the support's body.
     """
     moving = np.abs(v[: system.n]) * system.core.weight
     if np.max(moving) > AT_REST:
         return None
     r, load = _out_of_balance(system, q.copy(), time)
-    if not _balanced(system, name, r, load):
+    loose = _loose(system, name, r, load)
+    if loose > 0.0 and balanced:
+        body = next(s for s in system.model.supports if s.name == name).point.body.name
+        what = f'"{body}" is not in equilibrium: {loose:.3g} N are out of balance'
+        raise ModelError("State.reaction", what, "ask the state of ancf.equilibrium(model)")
+    if loose > 0.0:
         return None
     return held_part(system, name, r)
 
@@ -59,8 +72,8 @@ def _out_of_balance(system: System, q: FloatArray, time: float) -> tuple[FloatAr
     return r, f
 
 
-def _balanced(system: System, name: str, r: FloatArray, load: FloatArray) -> bool:
-    """Whether the free nodes of the support's body are in equilibrium.
+def _loose(system: System, name: str, r: FloatArray, load: FloatArray) -> float:
+    """What is out of balance on the free nodes of the support's body, N, zero in equilibrium.
 
     Nodes shared with other bodies do not count: those may have been left out of the equilibrium.
     """
@@ -72,7 +85,7 @@ def _balanced(system: System, name: str, r: FloatArray, load: FloatArray) -> boo
     held = [i for unknowns in system.constraints.positions.values() for i in unknowns]
     largest = max(float(np.max(np.abs(r[held]))), float(np.max(np.abs(load))))
     loose = float(np.max(np.abs(r[mine]), initial=0.0))
-    return loose <= BALANCED * largest + ROUND_OFF * _stiffness(system)
+    return loose if loose > BALANCED * largest + ROUND_OFF * _stiffness(system) else 0.0
 
 
 def _stiffness(system: System) -> float:
