@@ -208,8 +208,8 @@ def _same_nodes(a: Any, b: Any) -> bool:
 
 def once_a_step(model: Model) -> list[str]:
     """Names of loads and fluids of a compiled model whose Python functions numba could not compile."""
-    laws: list[tuple[Any, Any]] = [(load, getattr(load, "force", getattr(load, "load", None))) for load in model.loads]
-    laws += [(fluid, fluid.velocity) for fluid in model.fluids]
+    items: list[Any] = [*model.loads, *model.fluids]
+    laws = [(item, getattr(item, key, None)) for item in items for key in ("force", "load", "velocity")]
     return [item.name for item, law in laws if getattr(law, "once", None)]
 
 

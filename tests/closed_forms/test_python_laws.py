@@ -1,4 +1,4 @@
-"""Laws of the state that stay in Python, once a step, beside the same ones compiled: forces, loads, fluids."""
+"""Laws of the state that stay in Python, once a step, beside the same ones compiled."""
 
 import math
 
