@@ -39,7 +39,7 @@ FLOORS = (
     ("records", "batches at an address"),
     ("vectors", "arithmetic of three numbers in kernels"),
     ("compiled", "kernels, and operations by type of batch"),
-    ("files  worker", "files that are complete or absent, processes"),
+    ("files  worker  columns", "files that are complete or absent, processes"),
     ("errors  arrays  interrupts", "messages, types of arrays, signals kept until heeded"),
 )
 #: On the lowest floor too, but for the package alone.

@@ -1,5 +1,6 @@
 """A copy of the package in a scratch folder, to which a page of the documentation adds something."""
 
+import importlib
 import json
 import os
 import shutil
@@ -7,7 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+from numba.core.dispatcher import Dispatcher
+
 import ancf
+from ancf import compiled
 from commands import PATIENCE, Ran
 from places import HOWTO, ROOT, TESTS
 
@@ -45,13 +49,24 @@ class Addition:
         kept = {p for p in mine & theirs if (self.root / p).read_bytes() == (PACKAGE / p).read_bytes()}
         return sorted(path.as_posix() for path in (mine | theirs) - kept)
 
+    def _take_kernels(self):
+        """Copy what has been compiled of the package: those of the page are new."""
+        for path in compiled.stamped():
+            place = path.relative_to(PACKAGE)
+            module = importlib.import_module(".".join(("ancf", *place.with_suffix("").parts)))
+            kernels = [x for x in vars(module).values() if isinstance(x, Dispatcher)]
+            for cache in {k.stats.cache_path for k in kernels if k.__module__ == module.__name__} - {None}:
+                kept = (self.root / place).parent / "__pycache__"
+                kept.mkdir(exist_ok=True)
+                for file in Path(cache).glob("*.nb?"):
+                    shutil.copy(file, kept)
+
     def python(self, *arguments, interpreted=False):
-        """Run Python with the copy, whose compiled kernels stay with it, in its folder."""
+        """Run Python with the copy, whose compiled kernels are beside its sources, in its folder."""
         paths = map(str, (self.folder / "src", ROOT, TESTS))
         env = {**os.environ, "PYTHONPATH": os.pathsep.join(paths), "MPLBACKEND": "Agg"}
-        env["NUMBA_CACHE_DIR"] = str(self.folder / "cache")
-        if interpreted:
-            env["ANCF_MUTANTS"] = "interpreted"
+        env.pop("NUMBA_CACHE_DIR", None)
+        env["ANCF_MUTANTS"] = "interpreted" if interpreted else compiled._STAMP
         command = [sys.executable, *map(str, arguments)]
         ran = subprocess.run(
             command, env=env, cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE, check=False
@@ -60,9 +75,9 @@ class Addition:
 
     def found(self, script, interpreted=False):
         """What a script prints as JSON in its last line; it runs in the folder of the copy."""
-        ran = self.python(
-            "-c", "import tests.mutants.plugin\n" + script if interpreted else script, interpreted=interpreted
-        )
+        if not interpreted:
+            self._take_kernels()
+        ran = self.python("-c", "import tests.mutants.plugin\n" + script, interpreted=interpreted)
         assert ran.code == 0, ran.err
         return json.loads(ran.out.splitlines()[-1])
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .design.study import study
     from .model import Gusts, Model, Section, Waves
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
+    from .model.series import Series
     from .model.surface_shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
     from .results import Modes, Result, State
     from .resumption import resume
@@ -29,6 +30,7 @@ _LATER = {
     "Section": "model",
     "Waves": "model",
     "Gusts": "model",
+    "Series": "model.series",
     "equilibrium": "analysis",
     "simulate": "analysis",
     "modes": "analysis",
@@ -79,6 +81,7 @@ __all__ = [
     "Radau",
     "Result",
     "Section",
+    "Series",
     "Sheave",
     "SolveError",
     "Sphere",

@@ -4,6 +4,10 @@ Numba picks a name that its index does not have, enters it there, and then write
 do so at the same time may take one name for two kernels; one that is killed in between leaves an entry whose
 file is missing or old. Here one process writes at a time, the file first and its entry afterwards.
 
+Processes that start together on an empty cache would all compile the same kernels. Here the first one that
+needs a kernel compiles it, and the others wait for it and read it. A kernel waits for those that it calls and
+for no other, so that two processes never wait for each other.
+
 An index names the classes that kernels take. After an update one of them may have gone, and numba would fail
 while it reads; here what cannot be read is compiled anew.
 
@@ -14,6 +18,7 @@ wait for ever, elsewhere.
 
 from __future__ import annotations
 
+import hashlib
 import itertools
 import os
 import pickle
@@ -22,7 +27,7 @@ import sys
 import time
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any, cast
 
 from numba.core.caching import Cache, IndexDataCacheFile
@@ -44,6 +49,8 @@ UNREADABLE = (
 )
 #: How long to wait for another process that writes, s; writing takes milliseconds.
 PATIENCE = 60.0
+#: How long to wait for another process that compiles a kernel, s; then this one compiles it as well.
+LONGEST = 300.0
 _said: set[str] = set()
 
 
@@ -68,6 +75,58 @@ def use(dispatcher: Any, stamp: str) -> None:
     cache_file = getattr(dispatcher._cache, "_cache_file", None)
     if cache_file is not None and hasattr(cache_file, "_source_stamp"):
         cache_file._source_stamp = stamp
+    if sys.platform != "win32":
+        _compile_once(dispatcher)
+
+
+def _compile_once(dispatcher: Any) -> None:
+    """Let the dispatcher look into the cache again when no other process compiles the same kernel."""
+    cache = dispatcher._cache
+    compile_it, load = dispatcher.compile, cache.load_overload
+    held: dict[str, int] = {}
+
+    def loaded(signature: Any, context: Any) -> Any:
+        found = load(signature, context)
+        if found is not None:
+            return found
+        text = hashlib.sha256(str(signature).encode()).hexdigest()[:16]
+        path = os.path.join(cache.cache_path, f"{cache._impl.filename_base}.{text}.lock")
+        file = None if path in held else _wait_for(path)
+        if file is None:
+            return None
+        held[path] = file
+        return load(signature, context)
+
+    def compiled(signature: Any) -> Any:
+        before = set(held)
+        try:
+            return compile_it(signature)
+        finally:
+            for path in set(held) - before:
+                with suppress(OSError):
+                    os.unlink(path)
+                os.close(held.pop(path))
+
+    cache.load_overload, dispatcher.compile = loaded, compiled
+
+
+def _wait_for(path: str) -> int | None:
+    """The locked file of a kernel; None without a place for it, or if another process keeps it too long."""
+    if "impatient" in _said:
+        return None
+    try:
+        file = _opened(path)
+    except OSError:
+        return None
+    try:
+        _lock(file, LONGEST)
+    except BaseException as error:
+        os.close(file)
+        if not isinstance(error, OSError):
+            raise
+        _said.add("impatient")
+        return None
+    return file
 
 
 def _say(what: str) -> None:
@@ -114,25 +173,30 @@ def _alone(folder: str) -> Iterator[None]:
     if sys.platform == "win32":
         yield
         return
-    path = os.path.join(folder, "ancf.lock")
-    # no link is followed, no pipe waited for, and nothing is written
-    file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
+    file = _opened(os.path.join(folder, "ancf.lock"))
     try:
-        if not stat.S_ISREG(os.fstat(file).st_mode):
-            raise OSError(f"{path} is no plain file")
-        _lock(file)
+        _lock(file, PATIENCE)
         yield
     finally:
         os.close(file)
 
 
-def _lock(file: int) -> None:
+def _opened(path: str) -> int:
+    """A file to be locked: no link is followed, no pipe waited for, and nothing is written."""
+    file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
+    if stat.S_ISREG(os.fstat(file).st_mode):
+        return file
+    os.close(file)
+    raise OSError(f"{path} is no plain file")
+
+
+def _lock(file: int, patience: float) -> None:
     """Wait for the lock, but not for ever: another user may hold it."""
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + patience
     while True:
         try:
             return fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             if time.monotonic() > end:
-                raise TimeoutError(f"another process holds the lock for {PATIENCE:g} s") from None
+                raise TimeoutError(f"another process holds the lock for {patience:g} s") from None
         time.sleep(0.01)

@@ -18,6 +18,7 @@ from .model import checks
 from .model.beam import Beam
 from .model.integrators import INTEGRATORS, Integrator, Radau, Trapezoidal
 from .model.model import Model
+from .model.series import noises
 from .model.settings import steps_between
 from .model.supports import Support
 from .results import remembered
@@ -88,6 +89,8 @@ def compiled(
     system.sensors = _sensors(system, sensors, not isinstance(method, Radau))
     if not checks.flag(energy, f"{where}.energy"):
         system.skip_energies()
+    for text in noises(model):
+        warnings.warn(text, UserWarning, stacklevel=4)
     header = header_of(system, method, t_start, t_end, step, output_step)
     return Prepared(system, run_of(method, system, t_start, t_end, step, every), header, method)
 

@@ -11,7 +11,7 @@ from playwright.sync_api import sync_playwright
 
 import viewed
 from ancf.viz.scene import Link, Marker, Scene, Strip, Thread, Triad
-from ancf.viz.view import Curve, page, write_view
+from ancf.viz.view import Curve, Part, page, write_view
 from helpers import rotation
 
 CHROMIUM = next(
@@ -63,7 +63,7 @@ class Opened:
         self.tab.on("request", lambda request: self.asked.append(request.url))
         if script:
             self.tab.add_init_script(script)
-        self.tab.goto(path.as_uri())
+        self.tab.goto(path if isinstance(path, str) else path.as_uri())
         self.wait("window.__ancf && (window.__ancf.ready || window.__ancf.errors.length)")
 
     def wait(self, condition):
@@ -194,7 +194,9 @@ class TestInBrowser:
 
     def test_panels(self, opened):
         texts = opened.tab.locator(".panel select").first.locator("option").all_inner_texts()
-        assert texts == ["energy, potential from the start", "x, z of beam.end"]
+        along = [f"{name} along beam" for name in ("tension", "curvature", "speed")]
+        along += [f"{axis} displacement along beam" for axis in "xz"]
+        assert texts == ["energy, potential from the start", "x, z of beam.end", *along]
         opened.seek(59)
         assert re.fullmatch(r"\s*x 0\.\d+ m", opened.ask("panels[1].keys.children[0].textContent"))
 
@@ -216,7 +218,7 @@ class TestOtherPages:
     def test_one_state_has_no_player(self, browser, bead, tmp_path):
         opened = Opened(browser, write_view(bead.state(-1), tmp_path / "view.html"))
         assert not opened.tab.is_visible("#player")
-        assert not opened.tab.is_visible("#plots")
+        assert opened.ask("panels.map((panel) => panel.shown.name)")[0] == "tension along wire"
         assert coloured(opened.picture()).sum() > 300
         opened.quiet()
 
@@ -253,7 +255,7 @@ class TestOtherPages:
         )
         curve = Curve("contact", "N", t, 100 + 10 * t, "contact force")
         path = folder / "line.html"
-        path.write_text(page(scene, [curve], "Line"), encoding="utf-8")
+        path.write_text(page(Part(scene, curves=[curve]), "Line"), encoding="utf-8")
         return path
 
     def test_body_axes_are_columns(self, browser, tmp_path):
@@ -263,7 +265,7 @@ class TestOtherPages:
         triad = Triad("body", centre, np.stack([np.eye(3), turn, turn @ turn]), 0.5)
         scene = Scene("body", t, triads=[triad], markers=[Marker("body", "rigid body", centre)], stored=3)
         path = tmp_path / "body.html"
-        path.write_text(page(scene, [], "Body"), encoding="utf-8")
+        path.write_text(page(scene, "Body"), encoding="utf-8")
         opened = Opened(browser, path)
         for k, wanted in enumerate((np.eye(3), turn, turn @ turn)):
             opened.seek(k)

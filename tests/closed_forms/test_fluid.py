@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.batches import Batches
 from ancf.linalg.sparse import to_sparse
 from ancf.system.core import assemble, residual
 from ancf.system.system import System
@@ -62,7 +63,7 @@ def forces(model, v=(0, 0, 0), a=(0, 0, 0), time=0.0, q=None):
             rates[0][slots[:, 0] + c], rates[1][slots[:, 0] + c] = v[c], a[c]
     r = np.zeros(system.size)
     batch = system.parts["fluid"]
-    residual((batch,), system.core.ws, q, *rates, np.zeros(system.size), r)
+    residual(Batches((batch,)), system.core.ws, q, *rates, np.zeros(system.size), r)
     return -r, system
 
 
@@ -162,12 +163,12 @@ class TestMatrix:
 
         def force(q, v, a):
             r = np.zeros(system.size)
-            residual((batch,), system.core.ws, q, v, a, f, r)
+            residual(Batches((batch,)), system.core.ws, q, v, a, f, r)
             return r
 
         def whole(mass, damping, stiffness):
             A = np.zeros(system.places.size)
-            assemble((batch,), system.core.ws, q, v, A, mass, damping, stiffness)
+            assemble(Batches((batch,)), system.core.ws, q, v, A, mass, damping, stiffness)
             return to_sparse(A, system.places).toarray()
 
         def gradient(k, step=1e-6):

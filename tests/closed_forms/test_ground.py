@@ -6,6 +6,7 @@ from scipy.integrate import solve_ivp
 
 import ancf
 from ancf.analysis import prepared
+from ancf.batches import Batches
 from ancf.system.core import residual
 from ancf.system.system import System
 
@@ -81,7 +82,7 @@ class TestPressure:
             system = System(model)
             q, v = system.initial_state()
             r = np.zeros(system.size)
-            residual((system.parts["ground"],), system.core.ws, q, v, v, np.zeros(system.size), r)
+            residual(Batches((system.parts["ground"],)), system.core.ws, q, v, v, np.zeros(system.size), r)
             forces.append(r)
         assert np.abs(forces[0]).max() > 1.0
         assert forces[0] == pytest.approx(forces[1], rel=1e-9)
@@ -91,7 +92,7 @@ class TestPressure:
         system = System(model)
         q, v = system.initial_state()
         r = np.zeros(system.size)
-        residual((system.parts["ground"],), system.core.ws, q, v, v, np.zeros(system.size), r)
+        residual(Batches((system.parts["ground"],)), system.core.ws, q, v, v, np.zeros(system.size), r)
         places = system.slots["cable"][:, 0]
         assert -r[places + 2].sum() == pytest.approx(D * K * 0.05 * 2.0)
         assert r[places].sum() == pytest.approx(0.0, abs=1e-12)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.batches import Batches
 from ancf.compiled import kernel
 from ancf.loads.gusts import gust_at, tables
 from ancf.model.gusts import spectrum
@@ -118,7 +119,7 @@ class TestForces:
             q, v = system.initial_state(t)
             system.place(t, q, np.zeros_like(q), np.zeros_like(q))
             f = np.zeros(system.size)
-            residual((system.parts["fluid"],), system.core.ws, q, v, v, np.zeros(system.size), f)
+            residual(Batches((system.parts["fluid"],)), system.core.ws, q, v, v, np.zeros(system.size), f)
             slots = system.slots["rod"][:, 0]
             found = -np.array([f[slots + c].sum() for c in range(3)]) / 0.01
             value, rate = asked(gusts, t, (0, y + 0.005, 5))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.batches import Batches
 from ancf.loads.waves import RATE, RISE, SPEED, sea_at, tables
 from ancf.model.waves import wave_numbers
 from ancf.system.core import residual
@@ -175,7 +176,7 @@ class TestForces:
         q, v = system.initial_state(t)
         system.place(t, q, np.zeros_like(q), np.zeros_like(q))
         f = np.zeros(system.size)
-        residual((system.parts["fluid"],), system.core.ws, q, v, v, np.zeros(system.size), f)
+        residual(Batches((system.parts["fluid"],)), system.core.ws, q, v, v, np.zeros(system.size), f)
         slots = system.slots["rod"][:, 0]
         found = -np.array([f[slots + c].sum() for c in range(3)]) / 0.01
         u, du, _ = linear_theory(waves, t, r + 0.005 * axis)

@@ -51,11 +51,11 @@ def running_until_stored(folder):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no limit of file sizes")
-def test_a_full_disk(tmp_path):
+def test_a_full_disk(tmp_path, call):
     import resource
 
     (tmp_path / "model.toml").write_text(MODEL + SIMULATION, encoding="utf-8")
-    finished(tmp_path, "run", "model.toml")  # so that nothing is compiled under the limit
+    call("run", "model.toml")  # so that nothing is compiled under the limit
     (tmp_path / "model.toml").write_text(MODEL + LONG, encoding="utf-8")
     command = [sys.executable, "-m", "ancf.cli", "run", "model.toml", "-q"]
     limit = 1_000_000
@@ -70,12 +70,12 @@ def test_a_full_disk(tmp_path):
     assert ran.stderr.startswith("error: out/results.h5: cannot be written any more: File too large\n")
     assert len(ran.stderr.splitlines()) == 3
     assert "kept in out/results.h5" in ran.stderr
-    info = finished(tmp_path, "info", "out/results.h5")
+    info = call("info", "out/results.h5")
     assert info.code == 0
     assert "not finished" in info.out
 
 
-def test_ctrl_c_keeps_the_results(tmp_path):
+def test_ctrl_c_keeps_the_results(tmp_path, call):
     work = running_until_stored(tmp_path)
     work.send_signal(signal.SIGINT)
     out, err = work.communicate(timeout=PATIENCE)
@@ -88,28 +88,28 @@ def test_ctrl_c_keeps_the_results(tmp_path):
     summary = json.loads((tmp_path / "out/summary.json").read_text(encoding="utf-8"))
     assert summary["status"] == "interrupted"
     assert summary["t"] == result.t[-1]
-    info = finished(tmp_path, "info", "out/results.h5")
+    info = call("info", "out/results.h5")
     assert info.code == 0
     assert "stopped before its end; reached t = " in info.out
 
 
-def test_a_killed_run_can_be_read(tmp_path):
+def test_a_killed_run_can_be_read(tmp_path, call):
     work = running_until_stored(tmp_path)
-    second = finished(tmp_path, "run", "model.toml")
+    second = call("run", "model.toml")
     work.kill()
     work.communicate(timeout=PATIENCE)
     assert "output folder out: another run is writing to it" in second.err
     assert second.code == 2
-    info = finished(tmp_path, "info", "out/results.h5")
+    info = call("info", "out/results.h5")
     assert (info.code, info.err) == (0, "")
     assert "not finished: still running, or killed; reached t = " in info.out
     assert "of 100000 s" in info.out
     assert not (tmp_path / "out/summary.json").exists()
 
 
-def test_a_later_start_compiles_nothing(tmp_path):
+def test_a_later_start_compiles_nothing(tmp_path, call):
     (tmp_path / "model.toml").write_text(MODEL + SIMULATION, encoding="utf-8")
-    finished(tmp_path, "run", "model.toml")
+    call("run", "model.toml")
     ran = finished(tmp_path, "run", "model.toml")
     assert ran.code == 0
     assert "compiling" not in ran.err

@@ -1,5 +1,7 @@
 """The examples that control: each does what it says, against the same without its controller."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from scipy.linalg import expm
@@ -56,16 +58,21 @@ class TestCrane:
         assert np.array_equal(run.q, whole.q[45])
 
 
+SHORT = {"mesh": Mesh(contact=2.0, messenger=3.0), "step": 2e-3}
+
+
+@cache
+def alone(**given):
+    """The pantograph without its controller."""
+    return script("active_pantograph").passage(**given)
+
+
 class TestPantograph:
     def test_lowers_the_deviation(self, request):
         """On a coarse mesh in the short form; with --slow as the example does, without it."""
         active_pantograph = script("active_pantograph")
-        given = (
-            {}
-            if request.config.getoption("--slow")
-            else {"mesh": Mesh(contact=2.0, messenger=3.0), "step": 2e-3}
-        )
-        passive = statistics(active_pantograph.passage(**given))
+        given = {} if request.config.getoption("--slow") else SHORT
+        passive = statistics(alone(**given))
         controller = active_pantograph.PID(wanted=passive["mean_force"].value)
         active = statistics(active_pantograph.passage(controller, **given))
         assert active["deviation"].value < 0.93 * passive["deviation"].value
@@ -73,10 +80,9 @@ class TestPantograph:
 
     def test_without_gains_it_is_the_passive_one(self):
         active_pantograph = script("active_pantograph")
-        given = {"mesh": Mesh(contact=2.0, messenger=3.0), "step": 2e-3}
         passive, idle = (
-            active_pantograph.passage(**given),
-            active_pantograph.passage(active_pantograph.PID(120.0, (0.0, 0.0, 0.0)), **given),
+            alone(**SHORT),
+            active_pantograph.passage(active_pantograph.PID(120.0, (0.0, 0.0, 0.0)), **SHORT),
         )
         assert idle.recordings[0].force == pytest.approx(passive.recordings[0].force, abs=1e-3)
 

@@ -128,8 +128,14 @@ def by_the_stepper(folder, first=0.5):
     return {name: np.array(x) for name, x in seen.items()}
 
 
-@pytest.mark.parametrize("version", [2, 3])
-@pytest.mark.parametrize(("begin", "first"), [(0.0, 0.5), (7.0, -2.0)])
+@pytest.mark.parametrize(
+    ("version", "begin", "first"),
+    [
+        (2, 0.0, 0.5),
+        (3, 7.0, -2.0),
+        *(pytest.param(*case, marks=pytest.mark.slow) for case in ((3, 0.0, 0.5), (2, 7.0, -2.0))),
+    ],
+)
 def test_moves_as_the_stepper_does(units, version, begin, first):
     found = imported(units / f"unit{version}.fmu", begin, first)
     for name, wanted in by_the_stepper(units, first).items():

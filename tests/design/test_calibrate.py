@@ -72,8 +72,15 @@ class TestLinear:
         assert [*fit.values.values()] == pytest.approx(np.polyfit(T[there], holes[there], 1)[::-1], rel=1e-7)
         assert fit.count == there.sum() == len(fit.residuals["y"])
 
-    @pytest.mark.parametrize("deviations", [None, {"y": 0.1, "z": 0.2}, 3.0])
-    @pytest.mark.parametrize("workers", [0, 2])
+    @pytest.mark.parametrize(
+        ("deviations", "workers"),
+        [
+            (None, 0),
+            ({"y": 0.1, "z": 0.2}, 2),
+            (3.0, 0),
+            *(pytest.param(d, w, marks=pytest.mark.slow) for d, w in ((None, 2), (3.0, 2))),
+        ],
+    )
     def test_workers_find_the_same(self, deviations, workers):
         data = noisy(wave(2.0, 0.7), 0.02, 5)
         bounds = {"size": (0.01, 100.0), "rate": (0.0, 5.0)}

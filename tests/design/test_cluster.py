@@ -53,7 +53,7 @@ def on_cluster(tmp_path, way):
     return ran.out.splitlines()
 
 
-@pytest.mark.parametrize("way", ["whole", "killed"])
+@pytest.mark.parametrize("way", [pytest.param("whole", marks=pytest.mark.slow), "killed"])
 def test_all_rows_and_none_twice(tmp_path, way):
     assert on_cluster(tmp_path, way) == ["120 120 120", "[]", "True"]
 

@@ -1,16 +1,13 @@
-"""Every example runs, its file and its script describe one model, and every figure is written."""
+"""Every example runs, its file and its script describe one model."""
 
-import csv
-import json
 import runpy
 
 import numpy as np
 import pytest
 
 import ancf
-from ancf.errors import ModelError
 from ancf.model.file import read_study
-from ancf.paper import FIGURES, cantilever, pendulum, reproduce, sliding, spin_up
+from ancf.paper import cantilever, pendulum, sliding, spin_up
 from example_scripts import script
 from places import EXAMPLES
 
@@ -22,41 +19,6 @@ CALIBRATED = ("calibrate",)
 #: Model files; line.toml describes an overhead line, study.toml a study, calibrate.toml a calibration.
 OTHERS = {"line.toml", "study.toml", "calibrate.toml"}
 FILES = sorted({path.name for path in EXAMPLES.glob("*.toml")} - OTHERS)
-
-JACOBIANS = ["element", "f", "E", "jacobians", "newton_iterations", "steps", "status", "t_reached"]
-MESH = ["element", "carrier", "slider"]
-COUNTERS = ["steps", "newton_iterations", "jacobians"]
-NUMBER = ["name", "element", "value", "reference"]
-COLUMNS = {
-    "fig1": ["element", "mode", "vector", "component", "meaning", "change", *"xyzXYZ"],
-    "fig2": ["element", "elements", "tip_x", "tip_z"],
-    "fig3": JACOBIANS,
-    "fig4": ["element", "elements", "t", "tip_x", "tip_y", "tip_z", "mid_x", "mid_y", "mid_z"],
-    "fig5": ["element", "elements", "t", "tip_x", "tip_y", "tip_z", "mid_x", "mid_y", "mid_z"],
-    "fig6": JACOBIANS,
-    "fig7": ["element", "elements", "u_transverse", "u_axial"],
-    "fig8": ["element", "elements", "t", "u_transverse"],
-    "fig9": [*MESH, "t", "body", "arc_length", "x", "y", "z"],
-    "fig10": [*MESH, "t", "x", "y", "z", "s"],
-    "fig11": [*MESH, "t", "x", "y", "z", "s"],
-    "fig12": ["symbol", "meaning", "value", "unit", "tag"],
-    "fig13": ["part", "number", "x", "y", "z"],
-    "fig14": ["speed", "t", "position", "force_raw", "force_20hz", "penalty_20hz"],
-    "table2": [*MESH, "t", *COUNTERS, "cpu_seconds", "paper_seconds", "tip_x", "tip_y", "tip_z"],
-    "closed-forms": [*NUMBER, "deviation", "tolerance", "unit", "origin"],
-    "orders": ["study", "over", "element", "order", "size", "error", "rate"],
-    "en50318": ["case", "speed_kmh", "quantity", "unit", "value", "low", "high", "verdict", "tag"],
-}
-#: First columns of those figures that do not have all three kinds of elements.
-KINDS = {
-    "fig1": {"original", "nonlocking"},
-    "fig3": {"cable", "nonlocking"},
-    "fig9": {"cable"},
-    "fig12": {"m_1", "m_2", "k_1", "k_2", "c_1", "c_2", "F_H", "b", "y_max"},
-    "fig13": {"contact wire", "carrier", "dropper", "mast", "pantograph"},
-    "fig14": {32.0},
-    "en50318": {"en50318-2002"},
-}
 
 
 def described(model):
@@ -155,62 +117,3 @@ def approximately(value):
     if isinstance(value, list):
         return [approximately(part) for part in value]
     return pytest.approx(value, rel=1e-7) if isinstance(value, float) else value
-
-
-@pytest.fixture(scope="module")
-def reproduced(tmp_path_factory):
-    """Folder with all figures in their short form, and the calls of progress."""
-    folder, calls = tmp_path_factory.mktemp("figures") / "new" / "folder", []
-    reproduce(["all"], folder, short=True, progress=lambda *call: calls.append(call))
-    return folder, calls
-
-
-class TestReproduce:
-    @pytest.mark.parametrize("name", COLUMNS)
-    def test_writes_table_and_picture(self, reproduced, name):
-        folder, _ = reproduced
-        full = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))
-        assert list(full) == ["name", "columns", "rows", "notes", "checks"]
-        assert full["name"] == name
-        assert full["columns"] == COLUMNS[name]
-        assert full["rows"]
-        assert all(len(row) == len(full["columns"]) for row in full["rows"])
-        kinds = {"cable", "original", "nonlocking"}
-        if name not in ("closed-forms", "orders"):  # many names
-            assert {row[0] for row in full["rows"]} == KINDS.get(name, kinds)
-        assert len(full["notes"]) >= 4
-        assert all(isinstance(note, str) for note in full["notes"])
-        assert all(check["passed"] for check in full["checks"])
-        with (folder / f"{name}.csv").open(newline="", encoding="utf-8") as file:
-            head, *rows = csv.reader(file)
-        assert head == full["columns"]
-        texts = [["" if value is None else str(value) for value in row] for row in full["rows"]]
-        assert texts == rows
-        assert (folder / f"{name}.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
-
-    def test_reports_progress(self, reproduced):
-        _, calls = reproduced
-        count = len(FIGURES)
-        assert [call[1:] for call in calls] == [(i, count) for i in range(count + 1)]
-        assert [call[0] for call in calls[:-1]] == list(FIGURES)
-
-    def test_every_figure_is_tested(self):
-        assert set(COLUMNS) == set(FIGURES)
-
-    def test_unknown_figure(self, tmp_path):
-        with pytest.raises(ModelError, match=r'unknown figure "fig22".*did you mean "fig2"'):
-            reproduce(["fig22"], tmp_path)
-
-    def test_no_figure(self, tmp_path):
-        with pytest.raises(ModelError, match="no figure named"):
-            reproduce([], tmp_path)
-
-    def test_folder_that_cannot_be_written(self, tmp_path):
-        (tmp_path / "file").write_text("", encoding="utf-8")
-        with pytest.raises(ModelError, match="cannot be written"):
-            reproduce(["fig2"], tmp_path / "file" / "out", short=True)
-
-    def test_without_matplotlib(self, tmp_path, monkeypatch):
-        monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
-        with pytest.raises(ModelError, match=r"ancf\[plot\]"):
-            reproduce(["fig2"], tmp_path, short=True)

@@ -1,21 +1,16 @@
 """The cache of compiled kernels: filled by processes at once, left by another version, cut off."""
 
+import importlib
 import os
-import subprocess
 import sys
+import traceback
+import warnings
 
+import numba
 import pytest
 
-from ancf import kernel_cache
-from commands import PATIENCE
+from ancf import compiled
 
-RUN = """
-import runpy, sys
-runpy.run_path(sys.argv[3])["share"]()  # by its path: the package takes long to import
-sys.path.insert(0, sys.argv[1])
-from kernels import given, twice
-print(twice(given(sys.argv[2])), sum(twice.stats.cache_hits.values()))
-"""
 PLAIN = """
 import numba
 
@@ -38,8 +33,8 @@ def twice(part):
     return 2 * part.x
 """
 WITH_PART = """
-import runpy, sys
 import numba
+from ancf.kernel_cache import use
 from parts import part
 from stamp import STAMP
 
@@ -50,27 +45,60 @@ def given(kind):
 def twice(x):
     return part(x)
 
-runpy.run_path(sys.argv[3])["use"](twice, STAMP)
+use(twice, STAMP)
 """
 PART = "import numba\n@numba.njit\ndef part(x):\n    return {factor} * x\n"
+#: Waits until three processes are here.
+MEET = """
+import os, pathlib, time
+pathlib.Path({folder!r}, f"here{{os.getpid()}}").touch()
+while len([*pathlib.Path({folder!r}).glob("here*")]) < 3:
+    time.sleep(0.01)
+
+"""
 CLASS = "from typing import NamedTuple\nclass Part(NamedTuple):\n    x: float\n"
 
 
 def start(folder, kind):
-    return subprocess.Popen(
-        [sys.executable, "-c", RUN, str(folder), kind, kernel_cache.__file__],
-        env=os.environ | {"NUMBA_CACHE_DIR": str(folder / "cache")},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
+    """A forked process, which need not import numba anew, and the end of a pipe to read what it finds."""
+    reading, writing = os.pipe()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # of a process with threads
+        child = os.fork()
+    if child == 0:
+        try:
+            said = found(folder, kind)
+        except BaseException:
+            said = traceback.format_exc()
+        os.write(writing, said.encode())
+        os._exit(0)
+    os.close(writing)
+    return child, reading
+
+
+def found(folder, kind):
+    """Value and number of kernels that were in the cache."""
+    assert compiled.kernel_cache  # which :mod:`ancf.compiled` has put in numba's place
+    numba.config.CACHE_DIR = str(folder / "cache")
+    sys.dont_write_bytecode = True
+    sys.path.insert(0, str(folder))
+    kernels = importlib.import_module("kernels")
+    value = kernels.twice(kernels.given(kind))
+    return f"{value} {sum(kernels.twice.stats.cache_hits.values())}"
 
 
 def ended(process):
-    """Value and number of kernels that were in the cache, as printed."""
-    said, error = process.communicate(timeout=PATIENCE)
-    assert not error
-    return said.strip()
+    child, reading = process
+    with open(reading, encoding="utf-8") as pipe:
+        said = pipe.read()
+    os.waitpid(child, 0)
+    return said
+
+
+@pytest.fixture(scope="module", autouse=True)
+def numba_has_begun():
+    """What the first compilation of a process looks up serves the forked ones too."""
+    numba.njit(lambda x: 2 * x)(1.0)
 
 
 @pytest.fixture
@@ -83,6 +111,26 @@ def test_processes_at_once_keep_all_kernels(folder):
     for hits in (0, 1):
         running = [start(folder, kind) for kind in ("int", "float")]
         assert [ended(process) for process in running] == [f"6 {hits}", f"3.0 {hits}"]
+
+
+def test_processes_at_once_compile_a_kernel_once(tmp_path):
+    """Both have looked into the empty cache's folder before the first compiles."""
+    meet = MEET.format(folder=str(tmp_path))
+    (tmp_path / "kernels.py").write_text(WITH_PART.replace("def given", meet + "def given"), encoding="utf-8")
+    (tmp_path / "parts.py").write_text(PART.format(factor=2), encoding="utf-8")
+    (tmp_path / "stamp.py").write_text("STAMP = 'a'", encoding="utf-8")
+    running = [start(tmp_path, "int") for _ in range(3)]
+    assert sorted(ended(process) for process in running) == ["6 0", "6 1", "6 1"]
+    assert not [path.name for path in (tmp_path / "cache").rglob("*.lock") if path.name != "ancf.lock"]
+
+
+def test_a_process_that_fails_lets_the_others_go_on(tmp_path):
+    """What cannot be compiled cannot be compiled by any of them."""
+    (tmp_path / "kernels.py").write_text(WITH_PART, encoding="utf-8")
+    (tmp_path / "parts.py").write_text(PART.format(factor="'a' / 2"), encoding="utf-8")
+    (tmp_path / "stamp.py").write_text("STAMP = 'a'", encoding="utf-8")
+    running = [start(tmp_path, "int") for _ in range(2)]
+    assert all("TypingError" in ended(process) for process in running)
 
 
 @pytest.mark.parametrize("suffix", [".nbi", ".nbc"])

@@ -9,6 +9,7 @@ import pytest
 import ancf
 from ancf.batches import Batches, add_forces
 from ancf.compiled import kernel
+from ancf.elements.cable import CableBatch
 from ancf.solvers.balance import balance
 from ancf.solvers.newmark import advance
 from ancf.system.core import assemble, find_inverted, inertia, residual, total_strain_energy
@@ -43,10 +44,11 @@ def everything(system, batches):
 
 
 def test_same_numbers_as_a_tuple():
+    """Kernels of a tuple are compiled for its kinds: without the cable in seconds."""
     system = System(hung("mass", "spring", "moment"))
-    assert len(system.core.batches) > 3
-    plain = everything(system, tuple(system.core.batches))
-    for wanted, found in zip(plain, everything(system, system.core.batches), strict=True):
+    small = tuple(batch for batch in system.core.batches if not isinstance(batch, CableBatch))
+    assert len(small) > 2
+    for wanted, found in zip(everything(system, small), everything(system, Batches(small)), strict=True):
         np.testing.assert_allclose(found, wanted, rtol=1e-13, atol=1e-13 * np.max(np.abs(wanted)))
 
 

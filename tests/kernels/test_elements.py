@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.batches import Batches
 from ancf.elements.measures import axial_strain, curvature
 from ancf.elements.registry import ELEMENTS
 from ancf.elements.shapes import gauss, hermite
@@ -339,9 +340,10 @@ class TestLanes:
         q, v, a = shaken(system, size=0.2), random_rate(system), random_rate(system, 5)
         whole = forces(system, q, v, a)
         others = system.core.batches[1:]
-        parts = [forces(system, q, v, a, (batch, *others)) for batch in self.singles(system)]
+        parts = [forces(system, q, v, a, Batches((batch, *others))) for batch in self.singles(system)]
         assert_close(np.sum(parts, axis=0), whole, BY_ROUND_OFF)
-        total = sum(total_strain_energy((b, *others), system.core.ws, q) for b in self.singles(system))
+        singles = (Batches((b, *others)) for b in self.singles(system))
+        total = sum(total_strain_energy(b, system.core.ws, q) for b in singles)
         assert energy(system, q) == pytest.approx(total, rel=1e-13)
 
     @staticmethod

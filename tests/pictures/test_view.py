@@ -75,14 +75,14 @@ class TestPage:
         """A name that looks like the end of the script, or like a comment in it, is data."""
         name = "</script><!--<script>"
         scene = make_scene(cantilever, frames=2, points=4)
-        text = page(replace(scene, threads=[replace(scene.threads[0], name=name)]), [], "x")
+        text = page(replace(scene, threads=[replace(scene.threads[0], name=name)]), "x")
         assert Elements(text).seen.count("script") == 3
         assert data_of(text)["scene"]["threads"][0]["name"] == name
         assert name not in text
 
     def test_positions_and_colours_come_back(self, cantilever):
         scene = make_scene(cantilever, frames=50, points=60)
-        data = data_of(page(scene, [], "x"))
+        data = data_of(page(scene, "x"))
         [thread], [wanted] = data["scene"]["threads"], scene.threads
         assert wanted.position.shape[0] == 50
         close = array_of(data, thread["position"])
@@ -97,7 +97,7 @@ class TestPage:
         centre = rng.uniform(0, 100, (4, 5, 3))
         corners = centre[:, :, None] + 0.01 * rng.uniform(-1, 1, (4, 5, 4, 3))
         scene = Scene("", np.arange(4.0), [Thread("a", "original", np.arange(5.0), centre, {}, corners)])
-        data = data_of(page(scene, [], "x"))
+        data = data_of(page(scene, "x"))
         [thread] = data["scene"]["threads"]
         found = array_of(data, thread["outline"]) + centre[:, :, None]
         assert np.abs(found - corners).max() < 1e-6
@@ -114,7 +114,7 @@ class TestPage:
         still = np.zeros((3, 3))
         markers = [Marker("m", "point mass", way), Marker("h", "hold", way), Marker("p", "pin", still)]
         scene = Scene("", t, [Thread("a", "cable", np.arange(2.0), np.zeros((3, 2, 3)))], [], markers)
-        found = data_of(page(scene, [], "x"))["scene"]["markers"]
+        found = data_of(page(scene, "x"))["scene"]["markers"]
         assert [(group["kind"], group["names"]) for group in found] == [("point mass", ["m"]), ("pin", ["p"])]
 
     def test_size(self, cantilever):
@@ -166,7 +166,7 @@ class TestBodyAxes:
         """From the centre to where a point of each axis is."""
         state, turns = bodies_that_turned()
         scene = make_scene(state)
-        data = data_of(page(scene, [], "x"))
+        data = data_of(page(scene, "x"))
         triads = data["scene"]["triads"]
         centre, axes = (array_of(data, triads[key])[0] for key in ("centre", "axes"))
         for k, turn in enumerate(turns):

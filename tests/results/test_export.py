@@ -6,16 +6,18 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+import openpyxl
 import pytest
 import pyvista
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
 import ancf
 from ancf.cli.export import split_points
-from ancf.viz.export import write_csv, write_vtk
+from ancf.viz.export import write_csv, write_vtk, write_xlsx
 from ancf.viz.export.csv_files import default_points
 from ancf.viz.export.parts import part_kinds
 from ancf.viz.export.polydata import write_scene
+from ancf.viz.export.workbook import described
 from ancf.viz.scene import Scene, Strip, Triad
 
 ROPE = ancf.Section(EA=2e3, EI=0.05, rhoA=0.3)
@@ -413,6 +415,31 @@ class TestCommand:
         assert ran.code == 0
         assert "tables/sensors.csv" in ran.out
         assert "wire.at(0.7, 0, 0) tension [N]" in table("tables/points.csv")
+
+    def test_workbook(self, call, file):
+        """Read by a program for spreadsheets: the tables of CSV, number by number, and a sheet about them."""
+        assert call(file, "--to", "xlsx", "--points", "bob").out == "written: out/results.xlsx\n"
+        call(file, "--to", "csv", "--points", "bob", "-o", "tables")
+        book = openpyxl.load_workbook("out/results.xlsx")
+        assert book.sheetnames == ["about", "sensors", "points", "springs", "joints", "energies"]
+        said = {row[1]: row[2:] for row in book["about"].iter_rows(values_only=True) if row[0] == "points"}
+        assert said["t"] == ("s", "time")
+        assert said["bob position z"] == ("m", "global coordinate z of the point")
+        for name in book.sheetnames[1:]:
+            head, *rows = book[name].iter_rows(values_only=True)
+            wanted = table(f"tables/{name}.csv")
+            assert list(head) == list(wanted)
+            np.testing.assert_allclose(np.array(rows, dtype=float).T, list(wanted.values()), rtol=1e-15)
+            assert all(described(column)[2] for column in head)
+
+    def test_workbook_has_no_formulas(self, tmp_path):
+        """A title that a spreadsheet would take for one."""
+        model = ancf.Model(title="=1+2")
+        model.add_point_mass("m", at=(0, 0, 0), mass=1.0)
+        write_xlsx(ancf.simulate(model, t_end=0.01, step=5e-3), tmp_path / "a.xlsx")
+        book = openpyxl.load_workbook(tmp_path / "a.xlsx")
+        cells = [cell for sheet in book for row in sheet.iter_rows() for cell in row]
+        assert [cell for cell in cells if cell.data_type == "f"] == []
 
     def test_csv_without_sensors(self, call):
         result = ancf.simulate(yard(), t_end=0.01, step=2e-3)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from .assemble import Overhead, assemble
 from .catalogue import line_file, line_names, read_line
 from .elasticity import Elasticity, elasticity
 from .fittings import Droppers, SteadyArm
 from .form import Form, form
 from .line import Line
 from .mesh import Mesh
-from .pantograph import Pantograph, find_pantograph, pantographs
+from .opened import Overhead, assemble
+from .pantograph import Pantograph, find_pantograph, pantographs, read_pantograph
 from .quantity import Quantity
 from .references import Reference, reference_case, reference_names, rows
 from .run import run
@@ -18,9 +18,11 @@ from .signals import Butterworth
 from .span import Span
 from .statistics import Statistics, statistics
 from .stitch import StitchWire
+from .travelling import add_pantograph
 from .validate import reference_run, write_validation
 from .verify import Verified, verify
 from .wire import Rayleigh, Wire
+from .wires import WireType, wire, wires
 from .write import write_run
 
 __all__ = [
@@ -43,6 +45,8 @@ __all__ = [
     "StitchWire",
     "Verified",
     "Wire",
+    "WireType",
+    "add_pantograph",
     "assemble",
     "elasticity",
     "find_pantograph",
@@ -51,6 +55,7 @@ __all__ = [
     "line_names",
     "pantographs",
     "read_line",
+    "read_pantograph",
     "reference_case",
     "reference_names",
     "reference_run",
@@ -58,6 +63,8 @@ __all__ = [
     "run",
     "statistics",
     "verify",
+    "wire",
+    "wires",
     "write_run",
     "write_validation",
 ]

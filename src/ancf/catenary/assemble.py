@@ -10,6 +10,7 @@ import ancf
 
 from ..arrays import FloatArray
 from ..errors import ModelError
+from ..model import checks
 from ..model.bodies import PointMass
 from ..model.connections import Spring
 from ..model.points import Point
@@ -22,7 +23,7 @@ LONG = 20.0
 
 
 @dataclass(slots=True)
-class Overhead:
+class Assembled:
     """The model of a line.
 
     Attributes
@@ -33,8 +34,8 @@ class Overhead:
         The wires; a messenger with hinges has one beam for each span.
     stitches : list of Strung
         At the supports but the first and the last, if the line has them.
-    droppers : list of Spring
-        In the order of ``line.dropper_x``.
+    droppers : list of Spring or None
+        In the order of ``line.dropper_x``; None for one that was broken.
     supports : list of Point
         The contact wire at the supports.
     arms, hangers : list of Spring or None
@@ -47,7 +48,7 @@ class Overhead:
     contact: Strung
     messenger: Strung
     stitches: list[Strung] = field(default_factory=list)
-    droppers: list[Spring] = field(default_factory=list)
+    droppers: list[Spring | None] = field(default_factory=list)
     supports: list[Point] = field(default_factory=list)
     arms: list[Spring | None] = field(default_factory=list)
     hangers: list[Spring | None] = field(default_factory=list)
@@ -61,12 +62,54 @@ class Overhead:
         """Point of the contact wire that is at a track position at rest, m."""
         return self.contact_wire.at(self.contact.arc_at(track))
 
+    def messenger_at(self, track: float) -> Point:
+        """Point of the messenger that is at a track position at rest, m."""
+        return self.messenger.at(self.messenger.arc_at(track))
+
     def track_x(self, point: Point) -> float:
         """Track position of a point at rest, m."""
         return float(point.initial_position[0])
 
+    def dropper(self, span: int, number: int) -> Spring | None:
+        """A dropper, both counted from 1 as in the dropper schedule; None if it is broken."""
+        return self.droppers[self._dropper_index(span, number)]
 
-def assemble(found: Form, mesh: Mesh | None = None) -> Overhead:
+    def break_dropper(self, span: int, number: int) -> None:
+        """Take a dropper away, both counted from 1; its halves stay at the clamps as masses.
+
+        Raises
+        ------
+        ModelError
+            There is no such dropper, or it is broken already.
+
+        """
+        j = self._dropper_index(span, number)
+        spring = self.droppers[j]
+        if spring is None:
+            raise ModelError(f"dropper {span}-{number}", "is broken already")
+        self.model.connections.remove(spring)
+        self.droppers[j] = None
+
+    def _dropper_index(self, span: int, number: int) -> int:
+        line = self.form.line
+        found = np.flatnonzero((line.dropper_span == span - 1) & (line.dropper_number == number - 1))
+        if not found.size:
+            size = f"{len(line.spans)} spans"
+            if 1 <= span <= len(line.spans):
+                size = f"span {span} has {len(line.spans[span - 1].droppers)} droppers"
+            raise ModelError("overhead.dropper", f"there is no dropper {number} in span {span}", f"{size}")
+        return int(found[0])
+
+    def add_mass(self, name: str, point: Point, mass: float) -> PointMass:
+        """A mass in kg that moves with a point of a wire: a clamp, a section insulator."""
+        body = self.model.add_point_mass(
+            name, at=point.initial_position, mass=checks.positive(mass, f"{name}.mass")
+        )
+        self.model.connect(body, point)
+        return body
+
+
+def assemble(found: Form, mesh: Mesh | None = None) -> Assembled:
     """Make the model of a line.
 
     Parameters
@@ -83,7 +126,7 @@ def assemble(found: Form, mesh: Mesh | None = None) -> Overhead:
     model = ancf.Model(gravity=(0.0, 0.0, -line.gravity), title=line.title)
     contact = found.contact.add_to(model, "contact", line.damping)
     messenger = found.messenger.add_to(model, "messenger", line.damping)
-    overhead = Overhead(found, model, contact, messenger)
+    overhead = Assembled(found, model, contact, messenger)
     for wire in (contact, messenger):
         _anchor(overhead, wire)
     _add_stitches(overhead)
@@ -93,7 +136,7 @@ def assemble(found: Form, mesh: Mesh | None = None) -> Overhead:
     return overhead
 
 
-def _anchor(overhead: Overhead, wire: Strung) -> None:
+def _anchor(overhead: Assembled, wire: Strung) -> None:
     """Fix both ends; or pull them, and hold the wire along the track at its middle support."""
     model, line = overhead.model, overhead.form.line
     if line.anchors == "fixed":
@@ -116,7 +159,7 @@ def middle_support(found: Form) -> int:
     return 1 + int(np.argmin(np.abs(supports[1:-1] - 0.5 * supports[-1])))
 
 
-def _add_stitches(overhead: Overhead) -> None:
+def _add_stitches(overhead: Assembled) -> None:
     found, nodes = overhead.form, overhead.messenger.shape.nodes.stitch
     for k, shape in enumerate(found.stitches):
         wire = shape.add_to(overhead.model, f"stitch wire {k + 2}", found.line.damping)
@@ -125,7 +168,7 @@ def _add_stitches(overhead: Overhead) -> None:
         overhead.stitches.append(wire)
 
 
-def _uppers(overhead: Overhead) -> list[Point]:
+def _uppers(overhead: Assembled) -> list[Point]:
     """Upper ends of all droppers."""
     line = overhead.form.line
     points = [overhead.messenger.point(node) for node in overhead.form.messenger.nodes.dropper]
@@ -136,7 +179,7 @@ def _uppers(overhead: Overhead) -> list[Point]:
     return points
 
 
-def _add_droppers(overhead: Overhead) -> None:
+def _add_droppers(overhead: Assembled) -> None:
     found, line, model = overhead.form, overhead.form.line, overhead.model
     lower, upper = found.contact.nodes.dropper, _uppers(overhead)
     half = 0.5 * line.droppers.mass * found.dropper_length
@@ -168,7 +211,7 @@ def _add_mass(model: ancf.Model, name: str, point: Point, mass: float) -> PointM
     return body
 
 
-def _add_messenger_supports(overhead: Overhead) -> None:
+def _add_messenger_supports(overhead: Assembled) -> None:
     found, line, model = overhead.form, overhead.form.line, overhead.model
     overhead.hangers = [None] * line.supports.size
     for k in range(1, line.supports.size - 1):
@@ -182,7 +225,7 @@ def _add_messenger_supports(overhead: Overhead) -> None:
         )
 
 
-def _add_arms(overhead: Overhead) -> None:
+def _add_arms(overhead: Assembled) -> None:
     found, line, model = overhead.form, overhead.form.line, overhead.model
     nodes = found.contact.nodes.support
     overhead.supports = [overhead.contact.point(node) for node in nodes]
@@ -222,7 +265,7 @@ def _add_long_spring(
     return model.add_spring(point, fixed, stiffness=stiffness, length=distance - load / stiffness, name=name)
 
 
-def _add_hinged_arm(overhead: Overhead, k: int, force: FloatArray, name: str) -> Spring:
+def _add_hinged_arm(overhead: Assembled, k: int, force: FloatArray, name: str) -> Spring:
     """A bar to a pivot on the mast, in the direction in which it has to pull at rest, N."""
     line, size = overhead.form.line, float(np.linalg.norm(force))
     arm = line.steady_arm

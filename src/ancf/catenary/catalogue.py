@@ -13,11 +13,13 @@ from .file import read_file
 from .line import Line
 
 FOLDER = Path(__file__).parent / "data"
+#: Files there that are no lines.
+OTHER = ("pantographs", "wires")
 
 
 def line_names() -> list[str]:
     """Names of the lines of the catalogue."""
-    return sorted(path.stem for path in FOLDER.glob("*.toml") if path.stem != "pantographs")
+    return sorted(path.stem for path in FOLDER.glob("*.toml") if path.stem not in OTHER)
 
 
 def line_file(name: str) -> Path:

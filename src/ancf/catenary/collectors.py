@@ -96,7 +96,7 @@ class Collector:
         return [self.head, self.touch, self.meter] if self.slides else [self.head, self.touch]
 
 
-def add_pantograph(
+def put_pantograph(
     model: Model,
     wire: Beam,
     pantograph: Pantograph,
@@ -109,7 +109,7 @@ def add_pantograph(
     touch: Touch,
     active: bool = False,
 ) -> Collector:
-    """Add a pantograph at the track position ``start`` with its strip where it comes to rest.
+    """Add a pantograph at the track position ``start`` with its strip at ``height``, where it comes to rest.
 
     ``raised`` is by how much its lowest spring is relaxed above the place that it gives, m.  An ``active``
     one has an input for a force on its lowest mass, see :func:`force_input`.

@@ -16,7 +16,7 @@ from ..arrays import FloatArray
 from ..files import writing
 from ..model import checks
 from ..model.points import Point
-from .assemble import Overhead, assemble
+from .assemble import Assembled, assemble
 from .form import form
 from .line import Line
 from .mesh import Mesh
@@ -118,7 +118,7 @@ def elasticity_beside(line: Line) -> Elasticity:
     return elasticity(line, points=10, beside=3)
 
 
-def _lifts(overhead: Overhead, track: FloatArray, force: FloatArray) -> FloatArray:
+def _lifts(overhead: Assembled, track: FloatArray, force: FloatArray) -> FloatArray:
     """Displacements (k, n) at track positions (n,) under forces (k,), each alone: at times 1, 2, ..."""
     model, sample = overhead.model, [overhead.contact_at(float(x)) for x in track]
     for k, point in enumerate(sample):

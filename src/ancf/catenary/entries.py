@@ -7,16 +7,40 @@ from typing import Literal
 from pydantic import Field
 
 from ..model.file.fields import Entry, NonNegative, Parameters, Positive
+from .wire import EXPANSION
 
 
 class WireEntry(Entry):
-    """Contact wire or messenger."""
+    """Contact wire or messenger, of the catalogue or with its own numbers."""
 
-    EA: Positive = Field(description="Axial stiffness [N].")
-    EI: NonNegative = Field(description="Bending stiffness [N m^2].")
-    mass: Positive = Field(description="Mass per length of the wire as it hangs [kg/m].")
+    type: str | None = Field(None, description="Name of the catalogue, instead of EA, EI and mass.")
+    EA: Positive | None = Field(None, description="Axial stiffness [N].")
+    EI: NonNegative | None = Field(None, description="Bending stiffness [N m^2].")
+    mass: Positive | None = Field(None, description="Mass per length of the wire as it hangs [kg/m].")
     tension: Positive = Field(description="Force at the anchors along the track [N].")
     damping: NonNegative = Field(0.0, description="Viscous force per length and velocity [N s/m^2].")
+    diameter: Positive | None = Field(None, description="Outer diameter, which wind needs [m].")
+    drag: NonNegative = Field(1.0, description="Drag coefficient across the wire.")
+    expansion: NonNegative = Field(EXPANSION, description="Thermal expansion [1/K].")
+
+
+class PantographEntry(Entry):
+    """A pantograph file."""
+
+    name: str = Field("", description="Name in tables and figures, default that of the file.")
+    title: str = Field("", description="What it is.")
+    parameters: Parameters = Field(default_factory=dict)
+    masses: list[float] = Field(min_length=1, description="From the lowest to the head with the strip [kg].")
+    stiffness: list[float] = Field(description="Of the springs below each mass [N/m].")
+    damping: list[float] = Field(description="Of the dampers below each mass [N s/m].")
+    static_force: float = Field(description="Contact force at standstill [N].")
+    aerodynamic: float = Field(0.0, description="k of the force k v^2 [N s^2/m^2].")
+    strip_length: float = Field(1.45, description="Length of the strip across the track [m].")
+    relaxed_at: Literal["start", "nominal", "mean"] = Field(
+        "start", description="Height at which the lowest spring carries nothing."
+    )
+    source: str = Field("", description="Where the data come from.")
+    tags: dict[str, str] = Field(default_factory=dict, description="How sure a value is, by its key.")
 
 
 class RayleighEntry(Entry):

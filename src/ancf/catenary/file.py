@@ -14,12 +14,13 @@ from ..model.file import parameters, read_toml
 from ..model.file.fields import Entry
 from ..model.file.messages import combined, of_validation
 from ..model.file.paths import changed
-from .entries import TABLES, LineEntry, SpanEntry, StitchEntry
+from .entries import TABLES, LineEntry, SpanEntry, StitchEntry, WireEntry
 from .fittings import Droppers, SteadyArm
 from .line import Line, check_size
 from .span import Span
 from .stitch import StitchWire
 from .wire import Rayleigh, Wire
+from .wires import wire_data
 
 PLAIN = (
     "title",
@@ -76,8 +77,8 @@ def parse_line(data: dict[str, Any], source: str = "line") -> Line:
     with _in_file(entry):
         return Line(
             spans=tuple(spans),
-            contact_wire=Wire(**entry.contact_wire.given()),
-            messenger_wire=Wire(**entry.messenger_wire.given()),
+            contact_wire=_wire(entry.contact_wire, "contact_wire"),
+            messenger_wire=_wire(entry.messenger_wire, "messenger_wire"),
             droppers=Droppers(**entry.droppers.given()),
             steady_arm=SteadyArm(**entry.steady_arm.given()),
             damping=Rayleigh(**entry.damping.given()),
@@ -92,7 +93,19 @@ def _entry(parts: tuple[int | str, ...]) -> type[Entry]:
 
 
 def _stitch(given: StitchEntry | None) -> StitchWire | None:
-    return None if given is None else StitchWire(wire=Wire(**given.given("reach")), reach=given.reach)
+    return None if given is None else StitchWire(wire=_wire(given, "stitch"), reach=given.reach)
+
+
+def _wire(given: WireEntry, where: str) -> Wire:
+    """A wire of the catalogue with what else is given, or one of its own numbers."""
+    own = given.given("reach")
+    if given.type is not None:
+        return Wire(**(wire_data(given.type, f"{where}.type") | own))
+    for key in ("EA", "EI", "mass"):
+        if own.get(key) is None:
+            what = WireEntry.model_fields[key].description or ""
+            raise ModelError(f"{where}.{key}", "is missing", f'{what.rstrip(".")}; or a type, "CuAg AC-100"')
+    return Wire(**own)
 
 
 def _spans(given: SpanEntry, index: int) -> list[Span]:

@@ -5,10 +5,16 @@ from __future__ import annotations
 import tomllib
 from dataclasses import dataclass, field
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
+
+from pydantic import ValidationError
 
 from ..errors import ModelError
 from ..model import checks
+from ..model.checks import nearest
+from ..model.file import parameters, read_toml
+from ..model.file.messages import combined, of_validation
 
 RELAXED = ("start", "nominal", "mean")
 
@@ -94,18 +100,47 @@ def pantographs() -> dict[str, Pantograph]:
     return {name: Pantograph(name=name, **entry) for name, entry in entries.items()}
 
 
-def find_pantograph(given: Pantograph | str) -> Pantograph:
-    """A pantograph, or that of the catalogue with this name.
+def find_pantograph(given: Pantograph | str | Path) -> Pantograph:
+    """A pantograph, that of the catalogue with this name, or one from a file.
 
     Raises
     ------
     ModelError
-        There is none of this name.
+        There is none of this name, or the file is wrong.
 
     """
     if isinstance(given, Pantograph):
         return given
     known = pantographs()
-    if given not in known:
-        raise ModelError("pantograph", f'there is no "{given}", there are: {", ".join(known)}')
-    return known[given]
+    if isinstance(given, str) and given in known:
+        return known[given]
+    if Path(given).suffix == ".toml":
+        return read_pantograph(given)
+    what = f'there is no "{given}", there are: {", ".join(known)}'
+    raise ModelError("pantograph", what, nearest(str(given), known) or "or a file, NAME.toml")
+
+
+def read_pantograph(path: str | Path) -> Pantograph:
+    """A pantograph from a file: TOML with the keys of :class:`Pantograph`, named after the file.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read, or something in it is wrong.
+
+    """
+    from .entries import PantographEntry
+
+    data = read_toml(Path(path), "pantograph file")
+    try:
+        with parameters.given(data, {}):
+            entry = PantographEntry.model_validate(data)
+    except ValidationError as error:
+        raise combined(of_validation(error, lambda parts: PantographEntry), str(path)) from None
+    name = entry.name or Path(path).stem
+    try:
+        return Pantograph(**(entry.given("parameters") | {"name": name}))
+    except ModelError as error:
+        raise ModelError(
+            f"{path}: {error.where.removeprefix(f'pantograph.{name}.')}", error.what, error.hint
+        ) from None

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+import copy
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import numpy as np
 
 from ..errors import ModelError
 from ..model import checks
+from .assemble import Assembled, assemble
 from .catalogue import read_line
 from .collectors import Touch
 from .form import Form, form
@@ -25,6 +27,35 @@ START = 1.0 / 3.0
 RUN_IN = 50.0
 #: Track beyond the window that the last pantograph still runs, m: a filter needs to see it.
 BEYOND = 40.0
+
+
+@dataclass(frozen=True)
+class Door:
+    """How the model of a line is made: from its form, or as somebody has changed it.
+
+    Parameters
+    ----------
+    given : Assembled, optional
+        A line that was assembled, and perhaps changed.
+    modify : callable, optional
+        Changes each model before pantographs are added to it.
+
+    """
+
+    given: Assembled | None = None
+    modify: Callable[[Assembled], Any] | None = None
+
+    @property
+    def changed(self) -> bool:
+        """Whether the line may rest in another way than its form says."""
+        return self.given is not None or self.modify is not None
+
+    def overhead(self, found: Form) -> Assembled:
+        """A model that nobody else has."""
+        made = assemble(found) if self.given is None else copy.deepcopy(self.given)
+        if self.modify is not None:
+            self.modify(made)
+        return made
 
 
 @dataclass(frozen=True)
@@ -50,6 +81,8 @@ class Plan:
         s.
     spent : float
         CPU time of what was computed to make it, s.
+    door : Door
+        How the model of the line is made.
 
     """
 
@@ -63,6 +96,7 @@ class Plan:
     touch: Touch
     step: float
     spent: float = 0.0
+    door: Door = field(default_factory=lambda: Door())
 
     @property
     def duration(self) -> float:
@@ -85,6 +119,7 @@ def make_plan(
     until: float | None,
     touch: Touch,
     step: float,
+    door: Door,
 ) -> Plan:
     """Check what ``run`` was given."""
     line, units = shape.line, _units(pantograph, spacing)
@@ -102,11 +137,14 @@ def make_plan(
         until=interval[1] + BEYOND if until is None else until,
         touch=touch,
         step=checks.positive(step, "run.step"),
+        door=door,
     )
 
 
-def formed(line: Line | Form | str | Path, mesh: Mesh | None) -> Form:
-    """Form of a line, of a name or a path, or as given."""
+def formed(line: Line | Form | Assembled | str | Path, mesh: Mesh | None) -> Form:
+    """Form of a line, of a name or a path, of its model, or as given."""
+    if isinstance(line, Assembled):
+        line = line.form
     if isinstance(line, Form):
         if mesh is not None:
             raise ModelError("run.mesh", "has no effect: a form has its mesh", "give the line instead")

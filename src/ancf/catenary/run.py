@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,15 +14,16 @@ import ancf
 
 from ..arrays import FloatArray
 from . import cautions
-from .assemble import Overhead, assemble
-from .collectors import Collector, Touch, add_pantograph
+from .assemble import Assembled
+from .collectors import Collector, Touch, put_pantograph
 from .form import Form, form
 from .line import Line
 from .mesh import Mesh
 from .pantograph import Pantograph
-from .plan import Plan, formed, make_plan
+from .plan import Door, Plan, formed, make_plan
 from .run_data import Recording, Run
 from .travel import make_travel
+from .travelling import lifted_heights
 
 STEP = 1e-3
 #: Newton's tolerance at a step of 1 ms; it grows with the square of the step, up to the second number.
@@ -34,7 +35,7 @@ Speed = float | Sequence[Sequence[float]]
 
 
 def run(
-    line: Line | Form | str | Path,
+    line: Line | Form | Assembled | str | Path,
     *,
     speed: Speed,
     pantograph: Pantograph | str | Sequence[Pantograph | str] = "benchmark-2015",
@@ -53,13 +54,15 @@ def run(
     progress: Callable[[Any], None] | None = None,
     controller: Callable[[Any], Any] | None = None,
     control_step: float | None = None,
+    modify: Callable[[Assembled], Any] | None = None,
 ) -> Run:
     """Run pantographs along a line from its equilibrium.
 
     Parameters
     ----------
-    line : Line, Form, str or path
-        A line, its form, the name of one of the catalogue, or a line file.
+    line : Line, Form, Overhead, str or path
+        A line, its form, its model as :func:`assemble` makes it, perhaps changed, the name of one of the
+        catalogue, or a line file.
     speed : float, m/s, or (n, 2)
         Of the train; or a profile, rows of time in s and speed in m/s, linear between them.
     pantograph : Pantograph, str or a sequence of them
@@ -94,6 +97,10 @@ def run(
         ``run.inputs["pantograph_force"]``, of several ``"pantograph_1_force"`` and so on. The contact force
         is ``run.contact_force("pantograph contact")``, that of several ``"pantograph 1 contact"``.
 
+    modify : callable
+        Called with the :class:`Overhead` before pantographs are added: it changes the model, and nothing
+        that it returns counts. A trial run for a mean height has another mesh, to which it is applied too.
+
     Returns
     -------
     Run
@@ -124,6 +131,7 @@ def run(
         until,
         Touch(contact, contact_stiffness, contact_damping),
         step,
+        Door(line if isinstance(line, Assembled) else None, modify),
     )
     _warn(cautions.before(plan))
     if any(unit.relaxed_at == "mean" for unit in plan.pantographs):
@@ -146,7 +154,8 @@ def _relaxed(plan: Plan) -> Plan:
     They take nothing from the mean of the contact force: what is missing there in the trial run, to the
     mean over the window of what lifts the pantograph at its speeds, is how much higher they have to be.
     """
-    trial = replace(plan, form=form(plan.form.line, TRIAL), step=TRIAL_STEP)
+    mesh = plan.form if plan.door.given is not None else form(plan.form.line, TRIAL)
+    trial = replace(plan, form=mesh, step=TRIAL_STEP)
     done = _simulated(trial, None, None)
     raised = []
     for k, (unit, recording) in enumerate(zip(plan.pantographs, done.recordings, strict=True)):
@@ -165,9 +174,11 @@ def _simulated(
     file: str | Path | None = None,
     **led: Any,
 ) -> Run:
-    overhead = assemble(plan.form)
+    overhead = plan.door.overhead(plan.form)
+    rest = _rest(plan)
     collectors = _collectors(overhead, plan, bool(led))
     model, duration = overhead.model, plan.duration
+    droppers = [dropper for dropper in overhead.droppers if dropper is not None]
     result = ancf.simulate(
         model,
         t_end=duration,
@@ -175,13 +186,13 @@ def _simulated(
         start=ancf.equilibrium(model),
         integrator=_integrator(plan) if integrator is None else integrator,
         output_step=duration if output_step is None else output_step,
-        sensors=[*overhead.droppers, *overhead.supports, *(s for c in collectors for s in c.sensors())],
+        sensors=[*droppers, *overhead.supports, *(s for c in collectors for s in c.sensors())],
         energy=False,
         file=file,
         progress=progress,
         **led,
     )
-    return _recorded(result, overhead, collectors, plan)
+    return _recorded(result, overhead, collectors, plan, rest)
 
 
 def _integrator(plan: Plan) -> ancf.GeneralizedAlpha:
@@ -193,13 +204,13 @@ def _integrator(plan: Plan) -> ancf.GeneralizedAlpha:
     return ancf.GeneralizedAlpha(0.9, newton=newton)
 
 
-def _collectors(overhead: Overhead, plan: Plan, active: bool) -> list[Collector]:
+def _collectors(overhead: Assembled, plan: Plan, active: bool) -> list[Collector]:
     """Add the pantographs where they come to rest."""
     heights, count = _lifted(plan), len(plan.places)
     collectors = []
     for k, place in enumerate(plan.places):
         collectors.append(
-            add_pantograph(
+            put_pantograph(
                 overhead.model,
                 overhead.contact_wire,
                 plan.pantographs[k],
@@ -217,30 +228,56 @@ def _collectors(overhead: Overhead, plan: Plan, active: bool) -> list[Collector]
 
 def _lifted(plan: Plan) -> list[float]:
     """Heights of the wire at the pantographs' places when it is lifted by their forces."""
-    overhead = assemble(plan.form)
-    points = [overhead.contact_at(place) for place in plan.places]
-    for k, point in enumerate(points):
-        overhead.model.add_force(point, (0.0, 0.0, plan.lift(k)))
+    overhead = plan.door.overhead(plan.form)
+    return lifted_heights(overhead, plan.places, [plan.lift(k) for k in range(len(plan.places))])
+
+
+@dataclass(frozen=True)
+class _Rest:
+    """A line without pantographs: heights of its supports in m, forces of its droppers in N."""
+
+    height: FloatArray
+    load: FloatArray
+
+
+def _rest(plan: Plan) -> _Rest:
+    """The line at rest: as its form says, or of a changed model from its equilibrium."""
+    found = plan.form
+    if not plan.door.changed:
+        return _Rest(found.contact.position[found.contact.nodes.support, 2], found.dropper_load)
+    overhead = plan.door.overhead(found)
     state = ancf.equilibrium(overhead.model)
-    return [float(state.position(point)[2]) for point in points]
+    half = found.dropper_force - found.dropper_load
+    force = [
+        0.0 if d is None else float(state.spring_force(d)) - half[j] for j, d in enumerate(overhead.droppers)
+    ]
+    height = [float(state.position(point)[2]) for point in overhead.supports]
+    return _Rest(np.array(height), np.array(force))
 
 
-def _recorded(result: ancf.Result, overhead: Overhead, collectors: list[Collector], plan: Plan) -> Run:
+def _dropper_forces(sensors: Any, overhead: Assembled) -> FloatArray:
+    """Histories (steps, n) in N; a broken dropper carries nothing."""
+    nothing = np.zeros(sensors.t.size)
+    forces = [nothing if d is None else sensors.spring_force(d) for d in overhead.droppers]
+    return np.stack(forces, axis=1)
+
+
+def _recorded(
+    result: ancf.Result, overhead: Assembled, collectors: list[Collector], plan: Plan, rest: _Rest
+) -> Run:
     sensors, line = result.sensors, overhead.form.line
     t: FloatArray = sensors.t
-    nodes = overhead.form.contact.nodes.support
-    rest = overhead.form.contact.position[nodes, 2]
-    uplift = np.stack([sensors.position(p)[:, 2] for p in overhead.supports], axis=1) - rest
+    uplift = np.stack([sensors.position(p)[:, 2] for p in overhead.supports], axis=1) - rest.height
     simulated = float(t[-1] - t[0])
     cpu = plan.spent + result.stats.cpu_seconds
     return Run(
-        form=overhead.form,
+        form=replace(overhead.form, dropper_load=rest.load) if plan.door.changed else overhead.form,
         pantographs=[c.pantograph for c in collectors],
         speed=(float(plan.travel.distance(t[-1])) / simulated),
         t=t,
         recordings=[_recording(sensors, c) for c in collectors],
         uplift=uplift,
-        dropper_force=np.stack([sensors.spring_force(d) for d in overhead.droppers], axis=1),
+        dropper_force=_dropper_forces(sensors, overhead),
         window=plan.window,
         cpu_seconds=cpu,
         simulated_seconds=simulated,
@@ -248,6 +285,7 @@ def _recorded(result: ancf.Result, overhead: Overhead, collectors: list[Collecto
         real_time_factor=simulated / max(cpu, 1e-9),
         settings={
             "line": line.title,
+            **({"model": "changed after it was assembled"} if plan.door.changed else {}),
             "step [s]": plan.step,
             "steps": result.stats.steps,
             **({"CPU time of the trial run for the mean height [s]": plan.spent} if plan.spent else {}),

@@ -10,7 +10,7 @@ import ancf
 
 from ..arrays import FloatArray
 from ..model.points import Point
-from .assemble import Overhead
+from .assemble import Assembled
 from .shape import Strung
 
 
@@ -38,14 +38,13 @@ class Verified:
     load: float
 
 
-def verify(overhead: Overhead) -> Verified:
-    """Bring a line to rest and compare."""
+def verify(overhead: Assembled) -> Verified:
+    """Bring a line to rest and compare; no dropper may be broken."""
     found, wires = overhead.form, (overhead.contact, overhead.messenger, *overhead.stitches)
     state = ancf.equilibrium(overhead.model)
     low = overhead.contact.positions(state)[found.contact.nodes.dropper]
-    ends = np.array(
-        [[state.position(p) for p in (d.a, d.b) if isinstance(p, Point)] for d in overhead.droppers]
-    )
+    droppers = [d for d in overhead.droppers if d is not None]
+    ends = np.array([[state.position(p) for p in (d.a, d.b) if isinstance(p, Point)] for d in droppers])
     stretch = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) - found.dropper_natural
     clamps = low[:, 2] - found.contact.position[found.contact.nodes.dropper, 2] + found.contact_height
     force = found.spring_stiffness * stretch

@@ -10,6 +10,11 @@ import ancf
 
 from ..model import checks
 
+#: Thermal expansion of copper and its alloys, 1/K.
+EXPANSION = 17e-6
+#: Of a wire of an overhead line, N; less is a slip of units.
+LEAST_TENSION = 100.0
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rayleigh:
@@ -49,6 +54,12 @@ class Wire:
         Component along the track of the force at the anchors; it is the same all along the line at rest.
     damping : float, N s/m^2
         Viscous force per length and velocity, besides Rayleigh's.
+    diameter : float, m
+        Outer, what wind takes hold of; wind needs it.
+    drag : float
+        Drag coefficient across the wire.
+    expansion : float, 1/K
+        Thermal, by default that of copper and its alloys, 17e-6.
 
     """
 
@@ -57,6 +68,9 @@ class Wire:
     mass: float
     tension: float
     damping: float = 0.0
+    diameter: float | None = None
+    drag: float = 1.0
+    expansion: float = EXPANSION
 
     @property
     def wave_speed(self) -> float:
@@ -67,8 +81,13 @@ class Wire:
         """Raise ModelError if a value is out of range, or the wire would stretch by more than 5 %."""
         for key in ("EA", "mass", "tension"):
             checks.positive(getattr(self, key), f"{where}.{key}")
-        for key in ("EI", "damping"):
+        for key in ("EI", "damping", "drag", "expansion"):
             checks.non_negative(getattr(self, key), f"{where}.{key}")
+        if self.diameter is not None and not 1e-3 <= checks.number(self.diameter, f"{where}.diameter") <= 0.1:
+            raise ancf.ModelError(f"{where}.diameter", f"is {self.diameter:g} m", "units are m: 0.012")
+        if self.tension < LEAST_TENSION:
+            what = f"is {self.tension:g} N, which carries no wire"
+            raise ancf.ModelError(f"{where}.tension", what, "units are N: 12e3 for 12 kN")
         if self.tension > 0.05 * self.EA:
             what = f"is {self.tension:g} N, it stretches a wire of EA = {self.EA:g} N by more than 5 %"
             raise ancf.ModelError(f"{where}.tension", what, "units are N")
@@ -82,6 +101,8 @@ class Wire:
         """
         stretch = 1.0 + self.tension / self.EA
         given: dict[str, Any] = {"EA": self.EA, "EI": self.EI, "rhoA": stretch * self.mass}
+        if self.diameter is not None:
+            given |= {"diameter": self.diameter, "drag": (self.drag, 0.0)}
         if rayleigh is None:
             return ancf.Section(**given)
         given["damping"] = stretch * (self.damping + rayleigh.alpha * self.mass)

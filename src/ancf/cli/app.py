@@ -10,23 +10,25 @@ from typing import Annotated
 import typer
 
 from . import export_options as exporting
-from .guard import reported
-from .line_options import (
-    Case,
-    CaseSpeed,
-    ContactKind,
-    Forces,
-    LineName,
-    OutputStep,
-    Pantographs,
-    Spacing,
-    Speed,
-    Start,
-    Step,
-    Window,
+from .catenary_app import catenary
+from .common_options import (
+    AnyInput,
+    Folder,
+    Jobs,
+    ModelFile,
+    Names,
+    Quick,
+    Quiet,
+    Report,
+    Resume,
+    SchemaFile,
+    Set,
+    Verify,
 )
+from .guard import reported
+from .line_options import Case, CaseSpeed
 from .study_options import CalibrationFile, Retry, Scheduler, Status, StudyFile, Workers
-from .view_options import Color, Frames, Open, Page, Traced
+from .view_options import Color, Frames, Live, Open, Page, Several, Traced
 
 app = typer.Typer(
     name="ancf",
@@ -39,53 +41,6 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 
-ModelFile = Annotated[Path, typer.Argument(metavar="MODEL.toml", help="Model file.", show_default=False)]
-AnyFile = Annotated[
-    Path, typer.Argument(metavar="FILE", help="Model file or results file.", show_default=False)
-]
-AnyInput = Annotated[
-    Path,
-    typer.Argument(metavar="FILE", help="Model file, line file or results file.", show_default=False),
-]
-Folder = Annotated[Path, typer.Option("--output", "-o", metavar="OUT", help="Folder for what is written.")]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
-Verify = Annotated[
-    bool,
-    typer.Option("--verify", help="Compute again with half the step, with twice the elements, and compare."),
-]
-Resume = Annotated[bool, typer.Option("--resume", help="Go on where OUT/results.h5 ends.")]
-Set = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--set",
-        metavar="PATH=VALUE",
-        help="Other value in the file: sections.rope.EA=2e4; may be repeated.",
-    ),
-]
-Names = Annotated[
-    list[str] | None,
-    typer.Argument(metavar="NAMES", help="Figures and tables, such as fig2, or all.", show_default="all"),
-]
-Quick = Annotated[bool, typer.Option("--quick", help="Fewer and shorter runs, in a few minutes.")]
-Jobs = Annotated[
-    int | None,
-    typer.Option("--jobs", "-j", metavar="N", help="Processes at once.", show_default="one for each core"),
-]
-OptionalFolder = Annotated[
-    Path | None, typer.Option("--output", "-o", metavar="OUT", help="Folder for a CSV file.")
-]
-States = Annotated[
-    bool, typer.Option(help="Write OUT/results.h5 as well, some 10 to 100 MB for ancf view and ancf export.")
-]
-Report = Annotated[bool, typer.Option(help="Write OUT/report.html as well, which needs matplotlib.")]
-ResultsFile = Annotated[
-    Path, typer.Argument(metavar="RESULTS.h5", help="Results file, or its folder.", show_default=False)
-]
-SchemaFile = Annotated[
-    Path | None, typer.Option("--output", "-o", metavar="FILE", help="File to write, instead of printing it.")
-]
-
-catenary = typer.Typer(help="Overhead lines.", no_args_is_help=True, rich_markup_mode=None)
 app.add_typer(catenary, name="catenary")
 
 
@@ -146,8 +101,8 @@ def schema(output: SchemaFile = None) -> None:
 
 
 @app.command()
-def info(file: AnyFile) -> None:
-    """Say what is in a results or model file.
+def info(file: AnyInput) -> None:
+    """Say what is in a results, model or line file.
 
     A results file may belong to a run that is not finished, or was killed.
     """
@@ -173,7 +128,8 @@ def export(
 ) -> None:
     """Write a results file for other programs.
 
-    vtk: one file with all times for ParaView. csv: tables of sensors, points, springs, joints and energies.
+    vtk: one file with all times for ParaView. csv: tables of sensors, points, springs, joints and energies;
+    parquet, xlsx: the same.
     mp4, gif: a movie. The run may have failed, been stopped or still go on.
     """
     with reported():
@@ -205,83 +161,23 @@ def reproduce(
 
 @app.command()
 def view(
-    results: ResultsFile,
+    results: Several,
     output: Page = None,
     frames: Frames = 240,
-    color: Color = "tension",
+    color: Color = None,
     trace: Traced = None,
     show: Open = False,
+    live: Live = False,
 ) -> None:
-    """Make a moving picture of a results file: one HTML page that works without a network.
+    """Make a moving picture of results files: one HTML page that works without a network.
 
-    Prints the path of the page.
+    Prints the path of the page. Several runs are compared: drawn together, their curves in the same plots.
+    With --live the page follows a run that goes on, or waits for it.
     """
     with reported():
         from .view import view_file
 
-        view_file(results, output, {"frames": frames, "color": color, "trace": trace}, show)
-
-
-@catenary.command("form")
-def catenary_form(
-    line: LineName, output: OptionalFolder = None, quiet: Quiet = False, given: Set = None
-) -> None:
-    """Find the form of an overhead line and print its dropper schedule.
-
-    With -o writes OUT/schedule.csv, lengths in mm.
-    """
-    with reported():
-        from .catenary import show_form
-
-        show_form(line, output, quiet, given)
-
-
-@catenary.command("run")
-def catenary_run(
-    line: LineName,
-    speed: Speed,
-    output: Folder = Path("out"),
-    pantograph: Pantographs = None,
-    spacing: Spacing = None,
-    start: Start = None,
-    window: Window = None,
-    contact: ContactKind = "penalty",
-    step: Step = None,
-    output_step: OutputStep = None,
-    states: States = True,
-    report: Report = True,
-    quiet: Quiet = False,
-    given: Set = None,
-) -> None:
-    """Run pantographs along an overhead line.
-
-    Writes OUT/results.h5 for ancf view and ancf export, OUT/run.json, CSV files and OUT/report.html, and
-    prints the statistics of the contact force.
-    """
-    with reported():
-        from .catenary_run import run_line
-
-        options = {"spacing": spacing, "start": start, "window": window, "contact": contact, "step": step}
-        options["output_step"] = output_step
-        run_line(line, speed, pantograph, options, output, report, states, quiet, given)
-
-
-@catenary.command("elasticity")
-def catenary_elasticity(
-    line: LineName,
-    output: OptionalFolder = None,
-    force: Forces = None,
-    quiet: Quiet = False,
-    given: Set = None,
-) -> None:
-    """Lift the contact wire along the middle span of an overhead line and print how far it gives.
-
-    Forces of 100 and 200 N by default. With -o writes OUT/elasticity.csv.
-    """
-    with reported():
-        from .catenary import show_elasticity
-
-        show_elasticity(line, output, force or [100.0, 200.0], quiet, given)
+        view_file(results, output, {"frames": frames, "color": color, "trace": trace}, show, live)
 
 
 @app.command()

@@ -39,6 +39,7 @@ def run_line(
 
     """
     from ..catenary.catalogue import read_line
+    from ..catenary.mesh import Mesh
     from ..catenary.run import STEP, run
     from ..model.checks import positive
     from ..model.file.paths import assignments
@@ -49,7 +50,9 @@ def run_line(
     line = read_line(name, assignments(changes))
     if report:
         require_matplotlib()
-    given = {key: value for key, value in options.items() if value}
+    given = {key: value for key, value in options.items() if value is not None and value != []}
+    if "mesh" in given:
+        given["mesh"] = Mesh(contact=given["mesh"][0], messenger=given["mesh"][1])
     if states:
         step = positive(given.get("step", STEP), "--step")
         given.setdefault("output_step", max(1, round(min(OUTPUT_STEP / step, MOST_STEPS))) * step)

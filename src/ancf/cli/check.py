@@ -7,11 +7,10 @@ from typing import Any
 
 from ..errors import ModelError
 from .info import is_hdf5
+from .info_line import OF_A_LINE, size_of
 from .screen import console
 from .summary import plural
 
-#: Tables that only line files have.
-OF_A_LINE = {"contact_wire", "messenger_wire", "spans", "steady_arm"}
 #: Numbers of a results file that are looked at together.
 AT_ONCE = 4_000_000
 
@@ -58,8 +57,7 @@ def _check_line(path: Path, data: dict[str, Any]) -> None:
 
     line = parse_line(data, str(path))
     check(line)
-    size = f"{plural(len(line.spans), 'span')}, {plural(line.dropper_x.size, 'dropper')}"
-    _print_right(path, f"{size}, {line.length:g} m, wave speed {3.6 * line.wave_speed:.0f} km/h")
+    _print_right(path, size_of(line))
 
 
 def _check_results(path: Path) -> None:

@@ -16,13 +16,14 @@ if TYPE_CHECKING:
     from .. import Result
 
 #: Suffix of what is written, by the word after --to; tables go to a folder.
-SUFFIXES = {"vtk": ".vtkhdf", "csv": "", "parquet": "", "mp4": ".mp4", "gif": ".gif"}
+SUFFIXES = {"vtk": ".vtkhdf", "csv": "", "parquet": "", "xlsx": ".xlsx", "mp4": ".mp4", "gif": ".gif"}
 TIMES, PICTURES = ("frames", "start", "end"), ("color", "fps", "view")
 #: Options that mean something, by the word after --to.
 OPTIONS = {
     "vtk": TIMES,
     "csv": ("points",),
     "parquet": ("points",),
+    "xlsx": ("points",),
     "mp4": TIMES + PICTURES,
     "gif": TIMES + PICTURES,
 }
@@ -37,7 +38,7 @@ def export_file(
     ----------
     file : Path
         Results file, also of a run that was stopped, failed or goes on.
-    to : "vtk", "csv", "parquet", "mp4" or "gif"
+    to : "vtk", "csv", "parquet", "xlsx", "mp4" or "gif"
     output : Path, optional
         File to write, or folder; default beside the results file.
     options : dict
@@ -58,7 +59,7 @@ def export_file(
     if result.status != "complete":
         screen.say(f"the run is not complete ({result.status}): exporting up to t = {result.t[-1]:.6g} s")
     target = _target(file, to, output)
-    if SUFFIXES[to]:
+    if to != "xlsx" and SUFFIXES[to]:
         written = [_moving(result, to, target, given)]
     else:
         written = _tables(result, to, target, given, screen)
@@ -116,12 +117,15 @@ def _moving(result: Result, to: str, target: Path, given: dict[str, Any]) -> Pat
 
 
 def _tables(result: Result, to: str, target: Path, given: dict[str, Any], screen: Screen) -> list[Path]:
-    from ..viz.export import write_csv, write_parquet
+    from ..viz.export import write_csv, write_parquet, write_xlsx
     from ..viz.export.csv_files import has_sensors
 
     points = split_points(given["points"]) if "points" in given else None
     if points == []:
         raise ModelError("--points", "names no point", 'such as --points "beam.end,beam.at(0.5)"')
     if points is None and not has_sensors(result):
-        screen.say(f"no sensors were recorded: points.{to} has ends and middles; --points chooses others")
+        table = "the sheet points" if to == "xlsx" else f"points.{to}"
+        screen.say(f"no sensors were recorded: {table} has ends and middles; --points chooses others")
+    if to == "xlsx":
+        return [write_xlsx(result, target, points)]
     return (write_csv if to == "csv" else write_parquet)(result, target, points)

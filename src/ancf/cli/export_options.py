@@ -9,7 +9,7 @@ import typer
 
 ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.h5", help="Results file.", show_default=False)]
 Kind = Annotated[
-    str, typer.Option("--to", metavar="KIND", help="vtk, csv, parquet, mp4 or gif.", show_default=False)
+    str, typer.Option("--to", metavar="KIND", help="vtk, csv, parquet, xlsx, mp4 or gif.", show_default=False)
 ]
 Target = Annotated[
     Path | None,

@@ -11,7 +11,7 @@ SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
 def show_info(path: Path) -> None:
-    """Tell a results file from a model file by its first bytes, and describe it."""
+    """Tell a results file by its first bytes, a line file by its tables, and describe it."""
     if is_hdf5(path):
         from .info_result import show_result
 
@@ -19,8 +19,19 @@ def show_info(path: Path) -> None:
     elif path.suffix.lower() in (".h5", ".hdf5"):
         raise ModelError(str(path), "is not a results file: no HDF5")
     else:
-        from .info_model import show_model
+        _show_description(path)
 
+
+def _show_description(path: Path) -> None:
+    """A line file or a model file, by the tables that it has."""
+    from ..model.file import read_toml
+    from .info_line import OF_A_LINE, show_line
+    from .info_model import show_model
+
+    data = read_toml(path, "model file")
+    if OF_A_LINE & data.keys():
+        show_line(path, data)
+    else:
         show_model(path)
 
 

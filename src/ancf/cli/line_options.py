@@ -25,7 +25,7 @@ Pantographs = Annotated[
     typer.Option(
         "--pantograph",
         metavar="NAME",
-        help="Of the catalogue; once for all, or once for each, the first ahead.",
+        help="Of the catalogue, or a file; once for all, or once for each, the first ahead.",
         show_default="benchmark-2015",
     ),
 ]
@@ -45,4 +45,25 @@ Step = Annotated[float | None, typer.Option(metavar="S", help="Time step, s.", s
 OutputStep = Annotated[
     float | None,
     typer.Option(metavar="S", help="Time between stored states of the line, s.", show_default="0.02"),
+]
+Until = Annotated[
+    float | None,
+    typer.Option(
+        metavar="M",
+        help="Track position at which the last pantograph stops, m.",
+        show_default="40 beyond the window",
+    ),
+]
+ContactStiffness = Annotated[
+    float | None,
+    typer.Option("--contact-stiffness", metavar="N/M", help="Of the contact, N/m.", show_default="50000"),
+]
+Elements = Annotated[
+    tuple[float, float] | None,
+    typer.Option(
+        "--mesh",
+        metavar="CONTACT MESSENGER",
+        help="Longest elements of contact wire and messenger, m.",
+        show_default="0.8 2",
+    ),
 ]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from ..errors import ModelError
 from ..model.file import Study
 from ..model.model import Model
+from ..model.series import noises
 from .summary import node_count
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ def check_equilibrium(study: Study, system: System) -> None:
 
 def notes(study: Study, system: System) -> list[str]:
     """All remarks on a study, one line each."""
-    return [*_floating(system), *_stretched(study.model), *_size(study)]
+    return [*_floating(system), *_stretched(study.model), *noises(study.model), *_size(study)]
 
 
 def _floating(system: System) -> Iterator[str]:

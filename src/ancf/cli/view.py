@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import time
 import webbrowser
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -12,39 +14,85 @@ from .results_file import open_result
 from .screen import console
 
 SUFFIXES = (".html", ".htm")
+#: How often a file that is not there yet is looked for, and how long one may be unreadable, s.
+WAIT, PATIENCE = 0.5, 10.0
 
 
-def view_file(path: Path, output: Path | None, options: dict[str, Any], show: bool = False) -> None:
-    """Write the page and print its path.
+def view_file(
+    paths: list[Path], output: Path | None, options: dict[str, Any], show: bool = False, live: bool = False
+) -> None:
+    """Write the page and print its path, or serve one that follows a run.
 
     Parameters
     ----------
-    path : Path
-        Results file, or the folder with ``results.h5``.
+    paths : list of Path
+        Results files, or the folders with ``results.h5``; several are compared.
     output : Path, optional
-        Default ``view.html`` beside the results.
+        Default ``view.html`` beside the first one.
     options : dict
-        As for :func:`ancf.viz.view.write_view`.
+        As for :func:`ancf.viz.view.shown_of`.
     show : bool
         Open it in a browser.
+    live : bool
+        Serve the page until Ctrl-C.
 
     Raises
     ------
     ModelError
-        The file is no results file or is empty, an option is wrong, plotly is missing, or the page cannot
+        A file is no results file or is empty, an option is wrong, plotly is missing, or the page cannot
         be written.
 
     """
-    from ..viz.view import write_view
+    from ..viz.view import labels_of, write_view
     from ..viz.view.page import plotly_script
 
     plotly_script()
-    source = path / "results.h5" if exists(path, "is_dir") else path
-    target = _target(source, output)
-    written = write_view(open_result(source), target, file=source.name, **options)
+    sources = [path / "results.h5" if exists(path, "is_dir") else path for path in paths]
+    if live:
+        _follow(sources, output, options, show)
+        return
+    target = _target(sources[0], output)
+    if len(sources) == 1:
+        written = write_view(open_result(sources[0]), target, file=sources[0].name, **options)
+    else:
+        named = dict(zip(labels_of(sources), map(open_result, sources), strict=True))
+        written = write_view(named, target, **options)
     console().print(str(written), soft_wrap=True)
     if show:
         webbrowser.open(written.resolve().as_uri())
+
+
+def _follow(sources: list[Path], output: Path | None, options: dict[str, Any], show: bool) -> None:
+    """Wait for the first states of a run, and show it until Ctrl-C."""
+    from ..viz.view.live import LiveView
+
+    if len(sources) > 1 or output is not None:
+        raise ModelError("--live", "follows one results file and writes none", "leave -o and other files out")
+    [path] = sources
+    if not exists(path):
+        console().print(f"waiting for {path}", soft_wrap=True)
+    while not _begun(path):
+        time.sleep(WAIT)
+    view = LiveView(path, options)
+    console().print(f"{view.url} follows {path}; Ctrl-C ends it", soft_wrap=True)
+    if show:
+        webbrowser.open(view.url)
+    with suppress(KeyboardInterrupt):
+        view.serve()
+
+
+def _begun(path: Path) -> bool:
+    """Whether the file has a state; a file that is being made cannot be read yet."""
+    import ancf
+
+    if not exists(path):
+        return False
+    try:
+        return len(ancf.load(path).t) > 0
+    except ModelError:
+        if time.time() - path.stat().st_mtime < PATIENCE:
+            return False
+        raise
 
 
 def _target(source: Path, output: Path | None) -> Path:

@@ -12,9 +12,19 @@ Page = Annotated[
     typer.Option("--output", "-o", metavar="FILE", help="HTML file.", show_default="view.html beside it"),
 ]
 Frames = Annotated[int, typer.Option(metavar="N", help="States that are shown, at most.")]
-Color = Annotated[
-    str, typer.Option(metavar="WHAT", help='"tension", "curvature", "speed" or "plain" when it opens.')
+Several = Annotated[
+    list[Path],
+    typer.Argument(metavar="RESULTS.h5...", help="Results files, or their folders.", show_default=False),
 ]
+Color = Annotated[
+    str | None,
+    typer.Option(
+        metavar="WHAT",
+        help='"tension", "curvature", "speed" or "plain" when it opens.',
+        show_default="tension, of several runs a colour for each",
+    ),
+]
+Live = Annotated[bool, typer.Option("--live", help="Follow a run that goes on, on a page of this machine.")]
 Traced = Annotated[
     list[str] | None,
     typer.Option(

@@ -13,9 +13,11 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+import tomli_w
+
 from ..errors import ModelError
 from ..files import writing
-from ..model.file import read_study
+from ..model.file import read_study, read_toml
 from .motion import MODEL, OUTPUTS, begun, settings_of
 from .outputs import Output, outputs_of
 
@@ -154,7 +156,7 @@ def export_fmu(path: Path, output: Path, version: str = "3.0") -> Unit:
     title = re.sub(r'["\\\n]', " ", study.title or name)
     with tempfile.TemporaryDirectory(prefix="ancf_fmu_") as folder:
         files = Path(folder, MODEL), Path(folder, OUTPUTS)
-        files[0].write_text(study.source_text, "utf-8")
+        files[0].write_text(tomli_w.dumps(read_toml(path, "model file")), "utf-8")
         files[1].write_text(json.dumps([asdict(o) for o in outputs], indent=1), "utf-8")
         script = Path(folder, f"{name.lower()}_slave.py")
         words = {"title": title, "version": version, "library": LIBRARIES[version], "name": name}

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
+from ..columns import read_columns
 from ..errors import ModelError
 from ..model import checks
-from .columns import read_columns
 
 TIME = "t"
 #: Ratio of positive bounds above which the logarithm of a parameter is looked for.

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, ValidationError
 
+from ..columns import read_columns
 from ..errors import ModelError
 from ..model import checks
 from ..model.file import read_toml
 from ..model.file.fields import Entry, checked
 from ..model.file.messages import combined, of_validation
 from .cases import ModelCase
-from .columns import read_columns
 from .distributions import distribution_of
 from .extras import pandas
 from .lines import LineCase

@@ -75,10 +75,10 @@ def initial_vectors(beam: Beam) -> FloatArray:
 
 
 def reference_strains(beam: Beam) -> tuple[FloatArray, FloatArray]:
-    """Strains of the interpolated initial shape that the natural shape has too.
+    """Strains of the interpolated natural shape.
 
     The natural axial strain is what interpolation alone causes (the true initial stretch stays); the
-    natural curvature is that of the initial shape, or zero for ``natural_shape="straight"``.
+    natural curvature is that of the natural shape, zero of a straight one.
 
     Returns
     -------
@@ -89,20 +89,21 @@ def reference_strains(beam: Beam) -> tuple[FloatArray, FloatArray]:
     """
     n = beam.elements
     eps0, kappa0 = np.zeros((n, 10)), np.zeros((n, 10))
-    if beam.natural_shape == "straight" or _is_straight(beam):
+    natural = beam.natural
+    if natural is None or _is_straight(natural):
         return eps0, kappa0
     for e in range(n):
         h = beam.node_x[e + 1] - beam.node_x[e]
         values = np.stack(
             [
-                beam.node_position[e],
-                beam.stretch * beam.node_tangent[e],
-                beam.node_position[e + 1],
-                beam.stretch * beam.node_tangent[e + 1],
+                natural.node_position[e],
+                natural.stretch * natural.node_tangent[e],
+                natural.node_position[e + 1],
+                natural.stretch * natural.node_tangent[e + 1],
             ]
         )
         xa, xb = gauss(beam.gauss[0])[0], gauss(beam.gauss[1])[0]
-        r_s = hermite(xa, h, 1) @ values / beam.stretch
+        r_s = hermite(xa, h, 1) @ values / natural.stretch
         eps0[e, : len(xa)] = axial_strain(r_s, beam.strain)
         kappa0[e, : len(xb)] = curvature(hermite(xb, h, 1) @ values, hermite(xb, h, 2) @ values, beam.strain)
     return eps0, kappa0

@@ -93,14 +93,15 @@ def _scales(h: FloatArray, mass: FloatArray) -> FloatArray:
 def natural_scalars(beam: Beam, xi: FloatArray) -> FloatArray:
     """Scalars of the natural shape at xi of every element, shape (elements, points, 15).
 
-    The natural shape is the interpolated initial one without its stretch, or zero strain for
-    ``natural_shape="straight"``.  B and C are L r_yx and L r_zx as in the kernels.
+    The natural shape is interpolated, without its stretch; a straight one has no strain.  B and C are
+    L r_yx and L r_zx as in the kernels.
     """
     out = np.zeros((beam.elements, len(xi), 15))
-    if beam.natural_shape == "straight" or _is_straight(beam):
+    natural = beam.natural
+    if natural is None or _is_straight(natural):
         return out
-    values = initial_vectors(beam)
-    values[:, :2] /= beam.stretch
+    values = initial_vectors(natural)
+    values[:, :2] /= natural.stretch
     for e in range(beam.elements):
         h = float(beam.node_x[e + 1] - beam.node_x[e])
         nodal = np.concatenate([values[e, :4], values[e + 1, :4], values[e, 4:]])

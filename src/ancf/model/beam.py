@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from . import axes, checks
 from .elements import KINDS
+from .initial_velocity import initial_velocities
 from .points import Point
 from .section import Section
 
@@ -32,7 +33,9 @@ class Beam:
     ----------
     name : str
     section : Section
-    element, strain, poisson, natural_shape : str
+    element, strain, poisson : str
+    natural_shape : str
+        "path", "straight" or "curve"; of the last `natural_beam` has the nodes.
     gauss : (int, int)
         Gauss points of a cable's axial and bending integrals, or of a beam along its axis and in each
         direction of the section.
@@ -51,6 +54,8 @@ class Beam:
         too but no use for them.
     velocity, angular_velocity, about : (3,) arrays
         Initial rigid motion, m/s, rad/s, m.
+    along, velocities : (m,) and (m, 3) arrays
+        Initial velocities beside the rigid motion, m/s, at arc lengths, m; without any, m is 0.
     lay : callable, optional
         Initial positions, tangents and local y axes (n, 3) at increasing fractions (n,) of the length,
         from 0 to 1; a beam of a results file has none.
@@ -74,6 +79,9 @@ class Beam:
     angular_velocity: FloatArray
     about: FloatArray
     lay: Shape | None = None
+    along: FloatArray = field(default_factory=lambda: np.zeros(0))
+    velocities: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+    natural_beam: Beam | None = None
 
     def __repr__(self) -> str:
         return f"Beam({self.name!r}, elements={self.elements}, length={self.length:g})"
@@ -113,6 +121,11 @@ class Beam:
         one node as to that from the other. They fix the slopes inside the nonlocking element.
         """
         return self._middle_axes(0, self.elements)
+
+    @property
+    def natural(self) -> Beam | None:
+        """The beam as it lies without forces, but for its stretch; None for a straight one."""
+        return {"path": self, "straight": None}.get(self.natural_shape, self.natural_beam)
 
     @property
     def start(self) -> Point:
@@ -157,9 +170,14 @@ class Beam:
             raise ModelError(where, f"y = {y:g} m, z = {z:g} m is outside the cross-section, a {shape}")
 
     def set_motion(
-        self, velocity: Any = (0, 0, 0), angular_velocity: Any = (0, 0, 0), about: Any = None
+        self,
+        velocity: Any = (0, 0, 0),
+        angular_velocity: Any = (0, 0, 0),
+        about: Any = None,
+        along: Any = None,
+        velocities: Any = None,
     ) -> None:
-        """Initial rigid motion: v = velocity + angular_velocity x (r - about).
+        """Initial motion: v = velocity + angular_velocity x (r - about), and velocities along the beam.
 
         Parameters
         ----------
@@ -169,11 +187,16 @@ class Beam:
             Rate of rotation.
         about : (3,) m, optional
             Default the start of the beam.
+        along : (m,) m, optional
+            Increasing arc lengths at which `velocities` are given, at least 2.
+        velocities : (m, 3) m/s, optional
+            Added to the rigid motion: a cubic spline through them, extended to the ends of the beam.
+            Sections turn with the tangent and do not twist.
 
         Raises
         ------
         ModelError
-            Not three finite numbers.
+            Not three finite numbers, or velocities that do not fit their places.
 
         """
         where = f'set_motion("{self.name}")'
@@ -182,6 +205,7 @@ class Beam:
         clean = {key: checks.vector(value, f"{where}.{key}") for key, value in motion.items()}
         self.velocity, self.angular_velocity = clean["velocity"], clean["angular_velocity"]
         self.about = clean["about"].copy()
+        self.along, self.velocities = initial_velocities(where, self.length, along, velocities)
 
     def node_at(self, x: float) -> int | None:
         """Index of the node within 1e-9 of the length of x, or None."""

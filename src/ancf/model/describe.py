@@ -24,6 +24,8 @@ from .velocity_field import VelocityField
 from .waves import Waves
 
 MOTION = ("velocity", "angular_velocity", "about")
+#: Of beams only, and only where there are any.
+VELOCITIES = ("along", "velocities")
 
 
 def section(item: Section) -> dict[str, Any]:
@@ -97,7 +99,11 @@ def beam(item: Beam) -> dict[str, Any]:
     plain["y_axis"] = item.node_y[0].tolist()
     if not is_straight(item):
         plain |= {key: getattr(item, key).tolist() for key in PLACED}
-    plain["motion"] = {key: getattr(item, key).tolist() for key in MOTION}
+    if item.natural_beam is not None:
+        natural = {key: getattr(item.natural_beam, key).tolist() for key in PLACED}
+        plain["natural"] = {"stretch": item.natural_beam.stretch, **natural}
+    keys = (*MOTION, *VELOCITIES) if item.along.size else MOTION
+    plain["motion"] = {key: getattr(item, key).tolist() for key in keys}
     return plain
 
 

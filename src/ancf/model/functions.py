@@ -15,6 +15,7 @@ from ..errors import ModelError
 from . import checks
 from .expression import Expression
 from .inputs import Signal, known, named
+from .series import Series
 
 Evaluate = Callable[[FloatArray], FloatArray]
 
@@ -43,7 +44,8 @@ class TimeFunction:
     given : number, sequence, str, callable, mapping, Input, Missing or TimeFunction
         A constant; a formula of t (``"sin(2*pi*t)"``) or, for size 3, a list of numbers and formulas; an
         input, or a formula of inputs, in place of a number; a Python function of t in s that returns a
-        number or a (3,) array; ``{"t": ..., "value": ...}``; a function that is missing, whose values
+        number or a (3,) array; a :class:`Series` or a table ``{"t": ..., "value": ...}``, also for one
+        component; a function that is missing, whose values
         cannot be had.
     size : int
         1 or 3.
@@ -56,6 +58,8 @@ class TimeFunction:
         It does not depend on time, nor on inputs.
     inputs : dict of str to float
         Inputs on which it depends, with their first values.
+    series : tuple of Series
+        Those that it follows.
 
     Raises
     ------
@@ -64,7 +68,7 @@ class TimeFunction:
 
     """
 
-    __slots__ = ("_evaluate", "constant", "given", "inputs", "parts", "size", "where")
+    __slots__ = ("_evaluate", "constant", "given", "inputs", "parts", "series", "size", "where")
 
     def __init__(self, given: Any, size: int, where: str) -> None:
         if size not in (1, 3):
@@ -72,7 +76,8 @@ class TimeFunction:
         self.size, self.where = size, where
         self.given: Any = given.given if isinstance(given, TimeFunction) else given
         self.inputs: dict[str, float] = {}
-        self.parts: list[Expression | float] = []
+        self.parts: list[Expression | Series | float] = []
+        self.series: tuple[Series, ...] = ()
         self._evaluate, self.constant = self._interpret(self.given)
         if not self.missing:
             self.table(np.zeros(1))
@@ -149,22 +154,24 @@ class TimeFunction:
     def _interpret(self, given: Any) -> tuple[Evaluate, bool]:
         if isinstance(given, Missing):
             return self._refuse, False
-        if isinstance(given, Mapping):
-            return self._from_mapping(given)
+        if isinstance(given, Mapping | Series):
+            return self._from_series(given)
         if callable(given):
             return self._from_callable(given), False
         parts = [self._component(given, self.where)] if self.size == 1 else self._components(given)
         self.parts = parts
         used = [name for p in parts if isinstance(p, Expression) for name in p.used if name != "t"]
         self.inputs = {name: self.inputs[name] for name in dict.fromkeys(used)}
+        self.series = tuple(p for p in parts if isinstance(p, Series))
         timely = any(isinstance(p, Expression) and p.uses_t for p in parts)
+        timely = timely or any(not series.constant for series in self.series)
         return lambda times: self._columns(times, self.inputs), not (timely or self.inputs)
 
     def _refuse(self, times: FloatArray) -> FloatArray:
         what = f'is the Python function "{self.missing}", of which a description keeps the name only'
         raise ModelError(self.where, what, "build the model with the script that has it")
 
-    def _components(self, given: Any) -> list[Expression | float]:
+    def _components(self, given: Any) -> list[Expression | Series | float]:
         if isinstance(given, str) or not isinstance(given, Sequence | np.ndarray):
             wanted = "a list of 3 numbers or formulas, a function of t or a table"
             raise ModelError(self.where, f"must be {wanted}, is {checks.shown(given)}")
@@ -173,7 +180,13 @@ class TimeFunction:
             raise ModelError(self.where, f"has {count} components, wanted 3")
         return [self._component(part, f"{self.where}[{i}]") for i, part in enumerate(given)]
 
-    def _component(self, part: Any, where: str) -> Expression | float:
+    def _component(self, part: Any, where: str) -> Expression | Series | float:
+        if isinstance(part, Mapping):
+            return Series.of(part, where, 1)
+        if isinstance(part, Series):
+            if part.size != 1:
+                raise ModelError(where, f"has {part.size} values at each time, wanted 1")
+            return part
         if not isinstance(part, str | Signal):
             return checks.number(part, where)
         there = part.inputs if isinstance(part, Signal) else known()
@@ -184,7 +197,9 @@ class TimeFunction:
     def _columns(self, times: FloatArray, inputs: Mapping[str, float]) -> FloatArray:
         columns = []
         for part in self.parts:
-            if not isinstance(part, Expression):
+            if isinstance(part, Series):
+                columns.append(part(times)[:, 0])
+            elif not isinstance(part, Expression):
                 columns.append(np.full(times.shape, part))
             elif part.names == ("t",):
                 columns.append(part(times))
@@ -205,23 +220,14 @@ class TimeFunction:
 
         return evaluate
 
-    def _from_mapping(self, given: Mapping[str, Any]) -> tuple[Evaluate, bool]:
-        if set(given) != {"t", "value"}:
-            raise ModelError(
-                self.where, f'a table has the keys "t" and "value", not {sorted(map(str, given))}'
-            )
-        t = checks.array(given["t"], f"{self.where}.t", (None,))
-        wanted = (None,) if self.size == 1 else (None, 3)
-        value = checks.array(given["value"], f"{self.where}.value", wanted).reshape(-1, self.size)
-        if t.size < 2 or not np.all(np.diff(t) > 0):
-            raise ModelError(f"{self.where}.t", "must be at least 2 increasing times")
-        if len(value) != t.size:
-            raise ModelError(f"{self.where}.value", f"has {len(value)} values for {t.size} times")
-
-        def evaluate(times: FloatArray) -> FloatArray:
-            return np.column_stack([np.interp(times, t, column) for column in value.T])
-
-        return evaluate, bool(np.all(value == value[0]))
+    def _from_series(self, given: Mapping[str, Any] | Series) -> tuple[Evaluate, bool]:
+        if isinstance(given, Mapping):
+            given = Series.of(given, self.where, self.size)
+        if given.size != self.size:
+            what = f"has {given.size} values at each time, wanted {self.size}"
+            raise ModelError(self.where, what, "a series may stand for one component of three")
+        self.series = (given,)
+        return given, given.constant
 
 
 def call(
@@ -257,6 +263,8 @@ def plain(given: Any) -> Any:
         return f"<function {given.name}>"
     if isinstance(given, Signal):
         return given.text
+    if isinstance(given, Series):
+        return given.describe()
     if isinstance(given, np.ndarray | np.generic):
         return given.tolist()
     if isinstance(given, Mapping):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -20,6 +20,7 @@ from .shapes import Rectangle
 
 #: What the nodes of a beam have in the initial shape.
 PLACED = ("node_position", "node_tangent", "node_y")
+CURVE = "curve"  # a natural shape that has its own nodes
 NOT_UNIT = 1e-6  # deviation of a square from 1 of what a description says to be a unit vector
 MOST_STRETCH = 1e9  # initial stretch in a description
 MOST_TURN = 2 * math.pi / 3  # rad, of the tangent within an element of a beam
@@ -44,7 +45,9 @@ def make_beam(
     y_axis: Any,
 ) -> Beam:
     """Check everything that ``Model.add_beam`` was given and lay out the nodes."""
-    words = _words(where, element, strain, poisson, natural_shape)
+    curve = natural_shape if not isinstance(natural_shape, str) else None
+    word = CURVE if curve is not None else natural_shape
+    words = _words(where, element, strain, poisson, word, NATURAL_SHAPES if curve is None else (CURVE,))
     kind = words["element"]
     _check_section(section, kind, f"{where}.section")
     arc_length, shape = _initial_shape(where, start, end, path)
@@ -56,7 +59,9 @@ def make_beam(
     position, tangent, y = lay(node_x / natural)
     if KINDS[kind].has_section:
         _check_turns(position, arc_length / natural * tangent, np.diff(node_x), where)
+    given = {"section": section, "element": element, "strain": strain, "poisson": poisson, "gauss": gauss}
     return Beam(
+        natural_beam=None if curve is None else _natural_beam(where, name, curve, node_x, y_axis, given),
         name=name,
         section=section,
         gauss=_gauss(gauss, kind, section, f"{where}.gauss"),
@@ -72,6 +77,30 @@ def make_beam(
         lay=lay,
         **words,
     )
+
+
+def _natural_beam(
+    where: str, name: str, curve: Any, node_x: FloatArray, y_axis: Any, given: dict[str, Any]
+) -> Beam:
+    """The beam along the curve that it follows without forces."""
+    nodes = node_x.tolist()
+    try:
+        return make_beam(
+            where,
+            name,
+            start=None,
+            end=None,
+            path=curve,
+            elements=None,
+            nodes=nodes,
+            length=nodes[-1],
+            natural_shape="path",
+            y_axis=y_axis,
+            **given,
+        )
+    except ModelError as error:
+        place = error.where.replace(".path", ".natural_shape").replace(".length", ".natural_shape")
+        raise ModelError(place, error.what, error.hint) from None
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,14 +173,15 @@ def placed_beam(
     ``take`` gives what must be there. Positions, tangents and local y axes of the nodes are there where
     they do not follow from the two ends and ``y_axis``.
     """
-    words = _words(where, *(take(key) for key in ("element", "strain", "poisson", "natural_shape")))
+    element, strain, poisson, natural = map(take, ("element", "strain", "poisson", "natural_shape"))
+    words = _words(where, element, strain, poisson, natural, (*NATURAL_SHAPES, CURVE))
     _check_section(section, words["element"], f"{where}.section")
     length = checks.positive(take("length"), f"{where}.length")
     nodes = given.get("nodes")
     node_x = _node_x(where, take("elements") if nodes is None else None, nodes, length)
     lay = None if "node_position" in given else _lay_between(where, take)
     position, tangent, y = _rows(where, node_x.size, take) if lay is None else lay(node_x / length)
-    return Beam(
+    made = Beam(
         name=name,
         section=section,
         gauss=_gauss(take("gauss"), words["element"], section, f"{where}.gauss"),
@@ -167,6 +197,24 @@ def placed_beam(
         lay=lay,
         **words,
     )
+    if made.natural_shape == CURVE:
+        made.natural_beam = _placed_natural(made, take("natural"), f"{where}.natural")
+    return made
+
+
+def _placed_natural(beam: Beam, given: Any, where: str) -> Beam:
+    """The natural shape of a description."""
+    if not isinstance(given, Mapping):
+        raise ModelError(where, f"must be a table, is {checks.shown(given)}")
+
+    def take(key: str) -> Any:
+        if key not in given:
+            raise ModelError(f"{where}.{key}", "is missing in the description")
+        return given[key]
+
+    stretch = checks.between(take("stretch"), f"{where}.stretch", 1.0 / MOST_STRETCH, MOST_STRETCH)
+    placed: dict[str, Any] = dict(zip(PLACED, _rows(where, beam.node_x.size, take), strict=True))
+    return replace(beam, natural_shape="path", natural_beam=None, lay=None, stretch=stretch, **placed)
 
 
 def _rows(where: str, count: int, take: Callable[[str], Any]) -> Iterator[FloatArray]:
@@ -194,14 +242,16 @@ def is_straight(beam: Beam) -> bool:
     return all(np.array_equal(getattr(beam, key), mine) for key, mine in zip(PLACED, rows, strict=True))
 
 
-def _words(where: str, element: Any, strain: Any, poisson: Any, natural_shape: Any) -> dict[str, str]:
+def _words(
+    where: str, element: Any, strain: Any, poisson: Any, natural_shape: Any, shapes: tuple[str, ...]
+) -> dict[str, Any]:
     """Kind of element, strain measure, Poisson effect and natural shape."""
     kind = checks.choice(element, f"{where}.element", tuple(KINDS))
     return {
         "element": kind,
         "strain": _strain(strain, kind, f"{where}.strain"),
         "poisson": checks.choice(poisson, f"{where}.poisson", POISSON),
-        "natural_shape": checks.choice(natural_shape, f"{where}.natural_shape", NATURAL_SHAPES),
+        "natural_shape": checks.choice(natural_shape, f"{where}.natural_shape", shapes),
     }
 
 

@@ -94,7 +94,7 @@ class Model(Surroundings, Readable):
         strain: str | None = None,
         poisson: str = "centreline",
         length: float | None = None,
-        natural_shape: str = "path",
+        natural_shape: Any = "path",
         gauss: tuple[int, int] = (5, 3),
         y_axis: Any = None,
     ) -> Beam:
@@ -124,8 +124,9 @@ class Model(Surroundings, Readable):
             the section's J and shear factors, or in the whole volume, the paper's. A cable ignores it.
         length : float, m
             Natural length; default the arc length of the initial shape.
-        natural_shape : "path" or "straight"
-            Whether the initial shape is free of bending, or a straight beam was bent into it.
+        natural_shape : "path", "straight", or as path
+            Whether the initial shape is free of bending, or a straight beam was bent into it, or one with
+            the bends of another curve: it is scaled to the natural length, and `y_axis` holds for it too.
         gauss : (int, int)
             Gauss points of a cable's axial and bending integrals, or of a beam along its axis and in
             each direction of the section, where 3 are exact.
@@ -179,6 +180,7 @@ class Model(Surroundings, Readable):
         displacement: Any = None,
         name: str | None = None,
         to: RigidBody | str | None = None,
+        rotation_vector: Any = None,
     ) -> Clamp | Fixation:
         """Hold position and slope of a node, on a beam all three slopes, or a rigid body, or move them.
 
@@ -201,11 +203,15 @@ class Model(Surroundings, Readable):
             Default "clamp at beam.start".
         to : RigidBody
             Clamp the node to this body where it is, instead of holding or moving it.
+        rotation_vector : function of time, (3,) rad
+            Instead of `rotation`: the axis times the angle from the initial slopes, for what turns about
+            axes that change, as a gripper does.
 
         """
         if to is not None:
             moving = {
                 "rotation": rotation,
+                "rotation_vector": rotation_vector,
                 "rotation_rate": rotation_rate,
                 "rotation_acceleration": rotation_acceleration,
                 "displacement": displacement,
@@ -226,6 +232,7 @@ class Model(Surroundings, Readable):
             rotation_rate=rotation_rate,
             rotation_acceleration=rotation_acceleration,
             displacement=displacement,
+            rotation_vector=rotation_vector,
         )
         return self._add_support(where, item)
 

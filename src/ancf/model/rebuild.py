@@ -11,7 +11,7 @@ from ..errors import ModelError
 from . import checks
 from .beam import Beam
 from .bodies import IN_FLUID, Body, make_point_mass, make_rigid_body
-from .describe import section_of
+from .describe import VELOCITIES, section_of
 from .functions import Missing, TimeFunction
 from .inputs import Input, named
 from .kinds import GROUPS, SURROUNDINGS, by_word
@@ -75,7 +75,8 @@ def _body(table: Table) -> Body:
         given = (table.take(key) for key in ("at", "mass", "inertia", "axes"))
         body = make_rigid_body(where, name, *given, *in_fluid)
     keys = ("velocity",) if kind == "point_mass" else ("velocity", "angular_velocity", "about")
-    body.set_motion(**{key: motion.take(key) for key in keys})
+    more = [key for key in VELOCITIES if key in motion.given]
+    body.set_motion(**{key: motion.take(key) for key in (*keys, *more)})
     return body
 
 

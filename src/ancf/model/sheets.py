@@ -57,6 +57,8 @@ def clamp(item: Clamp) -> str:
         held = "position, slopes" if item.stretch == "fixed" else "position, directions of slopes"
     if item.rotation is not None:
         held += f"; turns by {value(item.rotation, 'rad')} about {numbers(item.axis)}"
+    if item.rotation_vector is not None:
+        held += f"; turns by {value(item.rotation_vector, 'rad')}"
     return held + _moves(item)
 
 

@@ -49,6 +49,8 @@ class Clamp:
         Unit vector.
     displacement : TimeFunction or None
         (3,), m, relative to the initial position.
+    rotation_vector : TimeFunction or None
+        (3,), rad, in place of `rotation`: axis times angle from the initial slopes or axes of the body.
 
     """
 
@@ -60,6 +62,7 @@ class Clamp:
     rotation_acceleration: TimeFunction | None
     axis: FloatArray
     displacement: TimeFunction | None
+    rotation_vector: TimeFunction | None = None
 
     @property
     def held(self) -> frozenset[str]:
@@ -134,6 +137,7 @@ def make_clamp(
     rotation_rate: Any,
     rotation_acceleration: Any,
     displacement: Any,
+    rotation_vector: Any = None,
 ) -> Clamp:
     """Check everything that ``Model.clamp`` was given without `to`."""
     if isinstance(point.body, PointMass):
@@ -142,6 +146,9 @@ def make_clamp(
     if isinstance(point.body, RigidBody) and stretch == "fixed":
         what = f'"{point.body.name}" is a rigid body and does not stretch'
         raise ModelError(f"{where}.stretch", what, "leave stretch out")
+    if rotation is not None and rotation_vector is not None:
+        what = "is given beside rotation: a clamp turns in one way"
+        raise ModelError(f"{where}.rotation_vector", what, "keep one of them")
     _check_derivatives(where, rotation, rotation_rate, rotation_acceleration)
     return Clamp(
         name,
@@ -152,6 +159,7 @@ def make_clamp(
         optional(rotation_acceleration, 1, f"{where}.rotation_acceleration"),
         checks.direction(axis, f"{where}.axis"),
         optional(displacement, 3, f"{where}.displacement"),
+        optional(rotation_vector, 3, f"{where}.rotation_vector"),
     )
 
 

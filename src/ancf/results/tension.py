@@ -202,9 +202,10 @@ def _mean_strain(beam: Beam, vectors: list[Vectors]) -> FloatArray:
 
 def _natural(beam: Beam) -> FloatArray:
     """Mean axial strains of the natural shape, shape (n,)."""
-    if beam.natural_shape == "straight":
+    natural = beam.natural
+    if natural is None:
         return np.zeros(beam.elements)
-    row = np.stack([beam.node_position / beam.stretch, beam.node_tangent], axis=1).reshape(1, -1)
+    row = np.stack([natural.node_position / natural.stretch, natural.node_tangent], axis=1).reshape(1, -1)
     slots = 3 * np.arange(2 * (beam.elements + 1)).reshape(-1, 2)
     strain: FloatArray = _mean_strain(beam, _vectors(beam, slots, row))[0]
     return strain

@@ -204,7 +204,7 @@ def rotation_arrays(constraints: Constraints, places: Places, n: int) -> dict[st
     rows, rows_of, cols, cols_of = [], [], [], []
     for i, r in enumerate(constraints.rotations):
         R[i, 0] = r.R0
-        if r.angle is not None:
+        if r.moves:
             moving[i] = int(np.max(moving[:i], initial=-1)) + 1
         row, col = places.pieces(r.slot)
         rows.append(row)

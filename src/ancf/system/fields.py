@@ -201,8 +201,8 @@ def _along(probe: BeamProbe, q: FloatArray, force: FloatArray) -> FloatArray:
 
 def natural_strains(probe: BeamProbe) -> tuple[float, float]:
     """Axial strain and curvature of the natural shape of a cable at a point."""
-    beam, e = probe.beam, probe.element
-    if beam.natural_shape == "straight":
+    beam, e = probe.beam.natural, probe.element
+    if beam is None:
         return 0.0, 0.0
     h = probe.element_length
     values = np.stack(

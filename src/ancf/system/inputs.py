@@ -46,7 +46,7 @@ class Inputs:
         self.changes = 0
         self.led = [k for k, function in enumerate(loads) if function.inputs]
         self.motions = constraints.motions
-        self.rotations = [r for r in constraints.rotations if r.angle is not None]
+        self.rotations = [r for r in constraints.rotations if r.moves]
         self.prescribed = np.array([i for m in self.motions for i in m.unknowns], dtype=np.int64)
 
     def give(self, name: str, value: float) -> None:
@@ -79,6 +79,9 @@ class Inputs:
         return np.stack(differences(motion.values, times, step, first, last), axis=-1)
 
     def _rotation(self, r: Rotation, times: FloatArray, step: float, first: float, last: float) -> FloatArray:
+        if r.vector is not None:
+            found = differences(r.turned, times, step, first, last)
+            return np.stack(found, axis=1).reshape(-1, 3, 3, 3)
         assert r.angle is not None
         angle = r.angle.table
         if r.rate is not None and r.acceleration is not None:

@@ -23,12 +23,13 @@ def section(probe: BeamProbe, states: FloatArray) -> Vectors:
 
 
 def natural_section(probe: BeamProbe) -> Vectors:
-    """Section of the natural shape at a point: the initial one without its stretch, or a straight one."""
-    if probe.beam.natural_shape == "straight":
+    """Section of the natural shape at a point, without its stretch."""
+    natural = probe.beam.natural
+    if natural is None:
         x, y, z = np.eye(3)
         return Vectors(x, y, z, np.zeros(3), np.zeros(3))
-    values = initial_vectors(probe.beam)[probe.element : probe.element + 2]
-    values[:, :2] /= probe.beam.stretch
+    values = initial_vectors(natural)[probe.element : probe.element + 2]
+    values[:, :2] /= natural.stretch
     nodal = np.concatenate([values[0, :4], values[1, :4], values[0, 4:]])
     return Vectors(*(probe.S[row] @ nodal for row in (R_X, R_Y, R_Z, R_YX, R_ZX)))
 

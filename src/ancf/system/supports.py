@@ -21,7 +21,7 @@ from .numbering import Numbering
 
 @dataclass(frozen=True)
 class Rotation:
-    """Local axes of a slot: R(t) = exp(theta(t) axis) R0, constant without an angle."""
+    """Local axes of a slot: R(t) = exp(theta(t) axis) R0, or exp(vector(t)) R0; constant without either."""
 
     slot: int
     R0: FloatArray  # (3, 3), first column along the initial vector
@@ -29,6 +29,20 @@ class Rotation:
     angle: TimeFunction | None = None
     rate: TimeFunction | None = None
     acceleration: TimeFunction | None = None
+    vector: TimeFunction | None = None
+
+    @property
+    def moves(self) -> bool:
+        """Whether it depends on time."""
+        return self.angle is not None or self.vector is not None
+
+    def turned(self, times: FloatArray) -> FloatArray:
+        """R at times (n,) of a rotation vector, shape (n, 9), row by row."""
+        from scipy.spatial.transform import Rotation as Turn
+
+        assert self.vector is not None
+        R: FloatArray = Turn.from_rotvec(self.vector.table(times)).as_matrix() @ self.R0
+        return R.reshape(-1, 9)
 
     def matrices(self, theta: FloatArray, rate: FloatArray, acceleration: FloatArray) -> FloatArray:
         """R, dR/dt and d2R/dt2, shape (n, 3, 3, 3), from angles of shape (n,)."""
@@ -138,13 +152,14 @@ def _hold_components(constraints: Constraints, numbering: Numbering, hold: Hold,
 def _refined(earlier: Clamp | None, later: Clamp) -> Clamp:
     if earlier is None:
         return later
-    if later.rotation is None:
+    if later.rotation is None and later.rotation_vector is None:
         later = replace(
             later,
             rotation=earlier.rotation,
             rotation_rate=earlier.rotation_rate,
             rotation_acceleration=earlier.rotation_acceleration,
             axis=earlier.axis,
+            rotation_vector=earlier.rotation_vector,
         )
     return later if later.displacement is not None else replace(later, displacement=earlier.displacement)
 
@@ -170,18 +185,21 @@ def _move(
 def _hold_slope(constraints: Constraints, slot: int, clamp: Clamp, vector: FloatArray) -> None:
     """Hold the direction of one of the slopes, or all of it; ``vector`` is its initial value."""
     given = clamp.rotation, clamp.rotation_rate, clamp.rotation_acceleration
-    rotation = Rotation(slot, axes(vector), clamp.axis, *given)
-    if clamp.rotation is not None:
+    rotation = Rotation(slot, axes(vector), clamp.axis, *given, clamp.rotation_vector)
+    if rotation.moves:
         constraints.driven.add(slot)
     if clamp.stretch == "free":
         constraints.held |= {slot + 1, slot + 2}
         constraints.rotations.append(rotation)
         return
     constraints.held |= {slot, slot + 1, slot + 2}
+    length = float(np.linalg.norm(vector))
+    unknowns = [slot, slot + 1, slot + 2]
+    if clamp.rotation_vector is not None:
+        constraints.motions.append(Motion(unknowns, lambda t: length * rotation.turned(t)[:, ::3]))
     if clamp.rotation is None:
         return
     angle, rate, acceleration = clamp.rotation, clamp.rotation_rate, clamp.rotation_acceleration
-    length = float(np.linalg.norm(vector))
 
     def slope(order: int, t: FloatArray) -> FloatArray:
         zero = np.zeros_like(t)
@@ -190,7 +208,7 @@ def _hold_slope(constraints: Constraints, slot: int, clamp: Clamp, vector: Float
         return length * rotation.matrices(angle.table(t)[:, 0], first, second)[:, order, :, 0]
 
     exact = None if rate is None else (lambda t: (slope(1, t), slope(2, t)))
-    constraints.motions.append(Motion([slot, slot + 1, slot + 2], lambda t: slope(0, t), exact))
+    constraints.motions.append(Motion(unknowns, lambda t: slope(0, t), exact))
 
 
 def axes(tangent: FloatArray) -> FloatArray:

@@ -23,6 +23,7 @@ from ..model.touching import bodies_of
 from . import loads
 from .compile import bind_parts, build_parts, held_arrays, joined, make_core, order_blocks, rotation_arrays
 from .core import Core, Loads, Supports, place_supports
+from .initial_motion import shape_rates
 from .inputs import Inputs
 from .joints import core_joints, set_scales
 from .matrix import Places
@@ -268,14 +269,17 @@ class System:
     def _set_motion(self, q: FloatArray, v: FloatArray, a: FloatArray, time: float) -> None:
         """Initial rigid motions of the bodies; what a support holds follows the support."""
         wanted = v.copy()
-        moving = [b for b in self.model.bodies.values() if np.any(b.velocity) or np.any(_spin(b))]
+        moving = [b for b in self.model.bodies.values() if _moves(b)]
         for body in moving:
             slots = self.slots[body.name]
+            shaped = shape_rates(body) if isinstance(body, Beam) and body.along.size else None
             for k in range(slots.shape[1]):
                 arm = np.stack([q[slots[:, k] + c] for c in range(3)], axis=1)
                 if k == 0 and not isinstance(body, PointMass):
                     arm -= body.about
                 rate = np.cross(_spin(body), arm) + (body.velocity if k == 0 else 0.0)
+                if shaped is not None:
+                    rate += shaped[:, k]
                 for c in range(3):
                     wanted[slots[:, k] + c] = rate[:, c]
         if not moving:
@@ -311,6 +315,11 @@ def _again(
     if not accounted:
         made.skip_energies()
     return made
+
+
+def _moves(body: Beam | PointMass | RigidBody) -> bool:
+    shaped = isinstance(body, Beam) and body.along.size > 0
+    return shaped or bool(np.any(body.velocity)) or bool(np.any(_spin(body)))
 
 
 def _spin(body: Beam | PointMass | RigidBody) -> FloatArray:

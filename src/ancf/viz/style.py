@@ -41,6 +41,30 @@ SEQUENTIAL = (
     "#fdae32",
 )
 
+#: Named colours of pages for a browser, on white and on a dark screen.
+PAGE = {
+    "paper": "#ffffff", "ink": "#1a1a1a", "grey": "#5c5c5c", "light": LIGHT, "grid": GRID, "shade": "#f4f6f8",
+    "blue": BLUE, "orange": ORANGE, "green": GREEN, "bad": "#a33c00", "fine": "#00603f",
+}  # fmt: skip
+DARK = {
+    "paper": "#15181c", "ink": "#e8eaed", "grey": "#a7adb4", "light": "#646b73", "grid": "#343a41",
+    "shade": "#20252b", "blue": "#5aa9ea", "orange": "#ff9248", "green": "#3fcf9f", "bad": "#ffab80",
+    "fine": "#6fdcb4",
+}  # fmt: skip
+#: LOOKS and SEQUENTIAL for a dark screen.
+DARK_CURVES: tuple[str, ...] = (DARK["blue"], DARK["orange"], DARK["green"], "#9bd7ff", "#e58ac0", "#e8eaed")
+DARK_SEQUENTIAL = (
+    "#5b78e0",
+    "#7f73e2",
+    "#a06bd8",
+    "#c065c4",
+    "#da63a6",
+    "#ee6a84",
+    "#fa7f60",
+    "#fd9f45",
+    "#fcc63c",
+)
+
 
 class Look(NamedTuple):
     """How one of several curves is drawn."""

@@ -20,6 +20,7 @@ from ..settings import EquilibriumSettings, SimulationSettings
 from . import parameters
 from .build import Builder
 from .entries import FileEntry
+from .histories import with_files
 from .messages import combined, of_validation
 from .paths import changed
 
@@ -69,7 +70,7 @@ def read_study(path: str | Path, values: Mapping[str, Any] | None = None) -> Stu
 
     """
     text, given = _read_text(Path(path), "model file"), dict(values or {})
-    study = parse_study(changed(_toml(text, str(path)), given), str(path))
+    study = parse_study(changed(with_files(_toml(text, str(path)), Path(path).parent), given), str(path))
     return replace(study, source_text=text, values=given)
 
 
@@ -79,10 +80,11 @@ def read_toml(path: Path, kind: str) -> dict[str, Any]:
     Raises
     ------
     ModelError
-        The file cannot be read or is no TOML.
+        The file cannot be read or is no TOML, nor can a CSV file that it names.
 
     """
-    return _toml(_read_text(path, kind), str(path))
+    tables: dict[str, Any] = with_files(_toml(_read_text(path, kind), str(path)), path.parent)
+    return tables
 
 
 def parse_study(data: dict[str, Any], source: str = "model") -> Study:

@@ -107,6 +107,16 @@ class MotionEntry(Entry):
     )
 
 
+class BeamMotionEntry(MotionEntry):
+    """Initial motion of a beam."""
+
+    along: list[float] | None = Field(None, description="Arc lengths of velocities, increasing [m].")
+    velocities: list[Vector] | None = Field(
+        None,
+        description="Added to the rigid motion: velocities at these places, a spline between them [m/s].",
+    )
+
+
 class MassMotionEntry(Entry):
     """Initial motion of a point mass."""
 
@@ -217,8 +227,10 @@ class BeamEntry(Entry):
     length: Positive | None = Field(
         None, description="Natural length, default that of the initial shape [m]."
     )
-    natural_shape: Literal["path", "straight"] = Field(
-        "path", description="The initial shape is free of bending, or a straight beam was bent into it."
+    natural_shape: Literal["path", "straight"] | list[Vector] = Field(
+        "path",
+        description="The initial shape is free of bending, or a straight beam was bent into it, or one with "
+        "the bends of a spline through points [m].",
     )
     gauss: Annotated[list[int], Field(min_length=2, max_length=2)] = Field(
         [5, 3],
@@ -228,7 +240,7 @@ class BeamEntry(Entry):
     y_axis: Vector | None = Field(
         None, description="Direction near the local y axis at the start, default horizontal [-]."
     )
-    motion: MotionEntry | None = Field(None, description="Initial rigid motion.")
+    motion: BeamMotionEntry | None = Field(None, description="Initial motion.")
 
 
 class PointMassEntry(Entry):
@@ -308,7 +320,7 @@ NESTED: dict[str, type[Entry]] = {
     "inputs": InputEntry,
     "fluids": FluidEntry,
     "grounds": GroundEntry,
-    "motion": MotionEntry,
+    "motion": BeamMotionEntry,
     "simulation": SimulationEntry,
     "equilibrium": EquilibriumEntry,
 }

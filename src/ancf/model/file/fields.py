@@ -95,11 +95,54 @@ def of_schemas(plain: dict[str, Any], row: dict[str, Any]) -> dict[str, Any]:
     }
     table = {
         "type": "object",
-        "properties": {"t": times, "value": values},
+        "properties": {"t": times, "value": values, **_HOW},
         "required": ["t", "value"],
         "additionalProperties": False,
     }
-    return {"anyOf": [plain, table]}
+    single = row.get("type") == "number"
+    file = _of_file(single)
+    if single:
+        return {"anyOf": [plain, table, file]}
+    lone = {**table, "properties": {**table["properties"], "value": {**values, "items": _NUMBER}}}  # type: ignore[dict-item]
+    parts = vector_schema({"anyOf": [*plain["items"]["anyOf"], lone, _of_file(True)]})
+    return {"anyOf": [parts, table, file]}
+
+
+#: How a series is followed.
+_HOW: dict[str, Any] = {
+    "interpolation": {
+        "enum": ["linear", "spline"],
+        "description": "Straight lines or a cubic spline [-]; default of a table linear, of a file spline.",
+    },
+    "cutoff": {
+        "type": "number",
+        "exclusiveMinimum": 0,
+        "description": "Frequency of which a smoothing spline keeps the 0.71th part [Hz].",
+    },
+    "relative": {"type": "boolean", "description": "Count from the value at the first time [-]."},
+}
+
+
+def _of_file(single: bool) -> dict[str, Any]:
+    """JSON Schema of a column of a CSV file, or of three."""
+    name = {"type": "string"}
+    column = name if single else {"type": "array", "items": name, "minItems": 3, "maxItems": 3}
+    return {
+        "type": "object",
+        "properties": {
+            "csv": {"type": "string", "description": "CSV file with a head, beside the model file."},
+            "column": {**column, "description": "Name of the column, or three of them."},
+            "unit": {
+                "type": "string",
+                "description": "Its unit, such as mm or kN; default the head's.",
+            },
+            "time": {"type": "string", "description": "Column of the times; default t, time or the first."},
+            "time_unit": {"type": "string", "description": "Unit of the times, such as ms; default s."},
+            **_HOW,
+        },
+        "required": ["csv", "column"],
+        "additionalProperties": False,
+    }
 
 
 def _function_schema(plain: dict[str, Any], row: dict[str, Any]) -> WithJsonSchema:

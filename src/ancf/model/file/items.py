@@ -45,6 +45,9 @@ class ClampEntry(Entry):
     rotation_acceleration: ScalarFunction = Field(
         None, description="Second derivative of rotation [rad/s^2]."
     )
+    rotation_vector: VectorFunction = Field(
+        None, description="Instead: axis times angle from the initial direction, function of t [rad]."
+    )
     displacement: VectorFunction = Field(None, description="Prescribed displacement, function of t [m].")
     name: ItemName = None
 

@@ -3,5 +3,6 @@
 from .csv_files import write_csv
 from .parquet_files import write_parquet
 from .polydata import write_vtk
+from .workbook import write_xlsx
 
-__all__ = ["write_csv", "write_parquet", "write_vtk"]
+__all__ = ["write_csv", "write_parquet", "write_vtk", "write_xlsx"]

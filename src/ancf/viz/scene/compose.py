@@ -73,6 +73,7 @@ def make_scene(
     start: float | None = None,
     end: float | None = None,
     mode: int = 0,
+    times: FloatArray | None = None,
 ) -> Scene:
     """What there is to draw of a result, a state or a mode.
 
@@ -88,6 +89,8 @@ def make_scene(
         Times between which states are taken; default all.
     mode : int
         Which one, from 0; it is drawn with a displacement of a tenth of the model's size.
+    times : (n,) s, optional
+        Of a result: draw it at these times instead, straight between stored states and at rest beyond them.
 
     Raises
     ------
@@ -99,7 +102,7 @@ def make_scene(
     if isinstance(source, Modes):
         picked, moving = _of_mode(source, frames, mode), False
     else:
-        picked, moving = _of_states(source, frames, start, end), True
+        picked, moving = _of_states(source, frames, start, end, times), True
     shown, stored = picked
     threads = sampling.threads(shown, points, moving)
     triads, markers = _triads(shown), _masses(shown)
@@ -121,15 +124,32 @@ def make_scene(
     )
 
 
-def _of_states(source: Any, frames: int, start: float | None, end: float | None) -> Picked:
+def _of_states(
+    source: Any, frames: int, start: float | None, end: float | None, times: FloatArray | None
+) -> Picked:
     if isinstance(source, State):
         return Picked(Frames(source, np.array([source.t]), source.q[None], source.v[None]), 1)
     if not isinstance(source, Result):
         what = f"must be a Result, a State or Modes, is {checks.shown(source)}"
         raise ModelError("make_scene.source", what)
+    if times is not None:
+        q, v = (_at(source.t, data, times) for data in (source.q, source.v))
+        return Picked(Frames(source, times, q, v), len(source.t))
     chosen = chosen_times(source.t, frames, start, end)
     q, v = (np.stack([data[k] for k in chosen.tolist()]) for data in (source.q, source.v))
     return Picked(Frames(source, source.t[chosen], q, v), len(source.t))
+
+
+def _at(t: FloatArray, rows: Any, times: FloatArray) -> FloatArray:
+    """Rows (n, size) at other times, straight between those that are known and constant beyond."""
+    after = np.clip(np.searchsorted(t, times), 1, max(len(t) - 1, 1))
+    found = np.empty((len(times), rows.shape[1]))
+    for k, (time, place) in enumerate(zip(times.tolist(), after.tolist(), strict=True)):
+        last = min(place, len(t) - 1)
+        before, length = place - 1, float(t[last] - t[place - 1])
+        share = min(max((time - float(t[before])) / length, 0.0), 1.0) if length > 0.0 else 0.0
+        found[k] = (1.0 - share) * rows[before] + share * rows[last]
+    return found
 
 
 def chosen_times(t: FloatArray, frames: int, start: float | None, end: float | None) -> IntArray:

@@ -2,7 +2,19 @@
 
 from .curve import Curve
 from .page import COLORS, Options, page
+from .together import Part, labels_of
 from .traces import Trace
-from .write import view_page, write_view
+from .write import shown_of, view_page, write_view
 
-__all__ = ["COLORS", "Curve", "Options", "Trace", "page", "view_page", "write_view"]
+__all__ = [
+    "COLORS",
+    "Curve",
+    "Options",
+    "Part",
+    "Trace",
+    "labels_of",
+    "page",
+    "shown_of",
+    "view_page",
+    "write_view",
+]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -53,3 +54,11 @@ def about(source: Any, file: str = "") -> About:
     integrator = plain.get("settings", {}).get("integrator")
     made += [str(integrator).replace("_", "-")] if integrator else []
     return About(status, good, ", ".join(made), file)
+
+
+def about_all(sources: Mapping[str, Result], file: str = "") -> About:
+    """Words about several results: what is not as it should be, and what made the first one."""
+    each = {label: about(source) for label, source in sources.items()}
+    wrong = [f"{label} {told.status}" for label, told in each.items() if not told.good]
+    status = ", ".join(wrong) or f"{len(each)} runs, complete"
+    return About(status, not wrong, next(iter(each.values())).made, file)

@@ -25,6 +25,8 @@ class Curve:
     values : (k,)
     panel : str
         Curves with the same panel are drawn together, in the same unit.
+    run : int
+        Which of several compared runs it is of.
     """
 
     name: str
@@ -32,6 +34,7 @@ class Curve:
     t: FloatArray
     values: FloatArray
     panel: str
+    run: int = 0
 
 
 def decimated(t: FloatArray, values: FloatArray, most: int = POINTS) -> tuple[FloatArray, FloatArray]:

@@ -1,22 +1,29 @@
-"""The curves beside the moving picture: energies, traced points, joints, springs, sensors."""
+"""The curves beside the moving picture: energies, traced points, joints, springs, sensors.
+
+What matters comes first: contact forces, then what moves little beside what only travels, and of
+displacements those along gravity.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...arrays import FloatArray
 from ...errors import ModelError
+from ...model.beam import Beam
 from ..scene import Scene
-from .curve import Curve, decimated, within
+from .curve import POINTS, Curve, decimated, within
 from .histories import Histories
 from .traces import Trace, short_label
 
-#: Curves of a panel at most.
-MOST = 6
+#: Curves of a panel at most; panels of one quantity at most.
+MOST, PANELS = 6, 20
+#: Points of all curves together, about, and of one of many.
+ALL_POINTS, FEW = 400_000, 300
 #: A component that changes by less than this part of the largest one is not drawn.
 STILL = 1e-6
 #: A component that changes by less than this part of the largest one would look constant beside it.
@@ -27,23 +34,25 @@ FAR = 0.3
 
 def curves(result: Any, states: Histories, traced: Sequence[Trace], scene: Scene) -> list[Curve]:
     """All curves of a result over a scene's time, panel by panel; what tells most comes first."""
-    contacts, springs, points = _sensors(result, {trace.name for trace in traced})
+    recorded = _sensors(result, {trace.name for trace in traced})
     paths = [_position(trace, scene.size) for trace in traced]
-    found = contacts + _energies(result)
+    found = recorded.contacts + _energies(result)
     for first, _ in paths:
         found += first
-    found += points + _joints(states)
-    found += springs or _springs(states.t, states, states.springs, "spring force")
+    found += recorded.moved + _joints(states)
+    found += recorded.springs or _springs(states.t, states, states.springs, "spring force")
+    found += recorded.joints + recorded.fields
     for _, last in paths:
         found += last
     span = float(scene.t[0]), float(scene.t[-1])
-    shortened = [_shortened(curve, span) for curve in found]
+    most = int(np.clip(ALL_POINTS // max(len(found), 1), FEW, POINTS))
+    shortened = [_shortened(curve, span, most) for curve in found]
     return [curve for curve in shortened if len(curve.t)]
 
 
-def _shortened(curve: Curve, span: tuple[float, float]) -> Curve:
+def _shortened(curve: Curve, span: tuple[float, float], most: int) -> Curve:
     inside = within(curve.t, span)
-    t, values = decimated(curve.t[inside], curve.values[inside])
+    t, values = decimated(curve.t[inside], curve.values[inside], most)
     return replace(curve, t=t, values=values)
 
 
@@ -83,33 +92,52 @@ def _components(trace: Trace, mask: Any) -> list[Curve]:
     return [_curve("xyz"[k], "m", trace.t, trace.position[:, k], panel) for k in axes]
 
 
-def _joints(states: Histories) -> list[Curve]:
+def _joints(states: Any, said: str = "") -> list[Curve]:
     """Arc lengths of sliding joints and forces of all joints; rigid bodies' own multipliers are none."""
-    found = [_curve(name, "m", states.t, states.arc_length(name), "arc length") for name in states.arcs]
+    arcs = {name: states.arc_length(name) for name in states.arcs}
     forces = {}
     for name in states.joints:
         if name not in states.bodies:
             forces[name] = np.linalg.norm(states.multiplier(name)[..., :3], axis=-1)
-    return found[:MOST] + _most_varied(states.t, forces, "N", "joint force")
+    found = _most_varied(states.t, arcs, "m", f"arc length{said}")
+    return found + _most_varied(states.t, forces, "N", f"joint force{said}")
 
 
 def _springs(t: FloatArray, source: Any, names: Iterable[str], panel: str) -> list[Curve]:
     return _most_varied(t, {name: source.spring_force(name) for name in names}, "N", panel)
 
 
-def _sensors(result: Any, traced: set[str]) -> tuple[list[Curve], list[Curve], list[Curve]]:
-    """Contact forces, spring forces and displacements of points that were recorded at every step."""
+class _Recorded(NamedTuple):
+    """Curves of what sensors recorded at every step."""
+
+    contacts: list[Curve]
+    springs: list[Curve]
+    moved: list[Curve]
+    joints: list[Curve]
+    fields: list[Curve]
+
+
+def _sensors(result: Any, traced: set[str]) -> _Recorded:
+    """Forces, displacements, tensions and curvatures of all that was recorded at every step."""
     try:
         sensors = result.sensors
     except ModelError:
-        return [], [], []
+        return _Recorded([], [], [], [], [])
     t, columns = sensors.t, sensors.listing.columns
     contacts = {
         name: sensors.contact_force(name) for name in columns if _answers(sensors.contact_force, name)
     }
     springs = _springs(t, sensors, sensors.springs, "spring force")
-    moved = {short_label(p): sensors.position(p) for p in sensors.listing.points if str(p) not in traced}
-    return _most_varied(t, contacts, "N", "contact force"), springs, _displacements(t, moved)
+    places = {short_label(point): point for point in sensors.listing.points}
+    moved = {name: sensors.position(p) for name, p in places.items() if str(p) not in traced}
+    along = {name: point for name, point in places.items() if isinstance(point.body, Beam)}
+    fields = _most_varied(t, {n: sensors.tension(p) for n, p in along.items()}, "N", "tension of sensors")
+    bent = {name: sensors.curvature(point) for name, point in along.items()}
+    fields += _most_varied(t, bent, "1/m", "curvature of sensors")
+    down = np.abs(np.asarray(result.model.gravity, dtype=np.float64))
+    forces = _most_varied(t, contacts, "N", "contact force")
+    joints = _joints(sensors, " of sensors")
+    return _Recorded(forces, springs, _displacements(t, moved, down), joints, fields)
 
 
 def _answers(question: Callable[[str], Any], name: str) -> bool:
@@ -120,22 +148,30 @@ def _answers(question: Callable[[str], Any], name: str) -> bool:
     return True
 
 
-def _displacements(t: FloatArray, moved: dict[str, FloatArray]) -> list[Curve]:
-    """Displacements of recorded points since the start, a panel for each axis along which they move."""
+def _displacements(t: FloatArray, moved: dict[str, FloatArray], down: FloatArray) -> list[Curve]:
+    """Displacements of recorded points since the start, a panel for each axis along which they move.
+
+    The axis of gravity `down` (3,) comes first, then the one along which they move most.
+    """
     found = []
     reach = [max((float(np.ptp(path[:, k])) for path in moved.values()), default=0.0) for k in range(3)]
-    for k, axis in enumerate("xyz"):
+    for k in sorted(range(3), key=lambda k: (-down[k], -reach[k])):
         if reach[k] > SMALL * max(reach):
             values = {name: path[:, k] - path[0, k] for name, path in moved.items()}
-            found += _most_varied(t, values, "m", f"{axis} displacement of sensors")
+            found += _most_varied(t, values, "m", f"{'xyz'[k]} displacement of sensors")
     return found
 
 
 def _most_varied(t: FloatArray, values: dict[str, FloatArray], unit: str, panel: str) -> list[Curve]:
-    """Those that change most, in their order; the panel says how many there are."""
+    """Those that change, in their order; of many six a panel, and those that change most first."""
     ranges = {name: float(np.ptp(v)) for name, v in values.items()}
     moving = [name for name in values if ranges[name] > 0.0]
-    kept = set(sorted(moving, key=lambda name: -ranges[name])[:MOST])
-    if len(moving) > MOST:
-        panel = f"{panel} ({MOST} of {len(moving)})"
-    return [_curve(name, unit, t, values[name], panel) for name in moving if name in kept]
+    if len(moving) <= MOST:
+        return [_curve(name, unit, t, values[name], panel) for name in moving]
+    moving.sort(key=lambda name: -ranges[name])
+    found = []
+    for first in range(0, min(len(moving), MOST * PANELS), MOST):
+        some = moving[first : first + MOST]
+        said = f"{panel} ({first + 1} to {first + len(some)} of {len(moving)})"
+        found += [_curve(name, unit, t, values[name], said) for name in values if name in some]
+    return found

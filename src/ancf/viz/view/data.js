@@ -1,10 +1,18 @@
 "use strict";
 // The data of the page: names as JSON, all numbers in one text of base64.
 
-const DATA = JSON.parse(document.getElementById("data").textContent);
-const SCENE = DATA.scene;
-const LOOKS = DATA.looks;
-const BYTES = Uint8Array.from(atob(DATA.numbers), (c) => c.charCodeAt(0)).buffer;
+let DATA, SCENE, BYTES, TIMES, LAST;
+
+// What the page shows from now on.
+function take(plain) {
+  DATA = plain;
+  BYTES = Uint8Array.from(atob(plain.numbers), (c) => c.charCodeAt(0)).buffer;
+  SCENE = unpacked(plain.scene);
+  SCENE.threads.forEach((thread, i) => { [thread.run, thread.body] = plain.owners[i]; });
+  TIMES = SCENE.t.values;
+  LAST = TIMES.length - 1;
+  dress();
+}
 
 // An array with time first. What is at rest has a single row.
 class Rows {

@@ -13,6 +13,7 @@ from ...arrays import FloatArray
 from ...model.kinds import by_word, pushing
 from ..scene import QUANTITIES, Net, Scene, Thread, looks
 from .curve import Curve
+from .ranges import Range
 from .traces import Trace
 
 #: Colours run over these quantiles when the extremes are this many times farther apart.
@@ -162,7 +163,13 @@ def plain_trace(trace: Trace, numbers: Numbers) -> Plain:
 def plain_curve(curve: Curve, numbers: Numbers) -> Plain:
     """A curve."""
     pair = {"t": numbers.floats(curve.t), "values": numbers.floats(curve.values)}
-    return {"name": curve.name, "unit": curve.unit, "panel": curve.panel, **pair}
+    return {"name": curve.name, "unit": curve.unit, "panel": curve.panel, "run": curve.run, **pair}
+
+
+def plain_range(found: Range, numbers: Numbers) -> Plain:
+    """Extremes along a body."""
+    values = {name: numbers.floats(both) for name, both in found.values.items()}
+    return {"x": numbers.floats(found.x), "values": values, "states": found.states}
 
 
 def _known(force: FloatArray | None, t: FloatArray) -> FloatArray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from typing import Any
 
 import numpy as np
@@ -32,6 +33,13 @@ class Histories(SpringFields, JointFields):
         self.t: FloatArray = source.t[::stride]
         self._q: FloatArray = np.asarray(source.q[::stride])
         self._v: FloatArray = np.asarray(source.v[::stride])
+
+    def every(self, inside: slice, stride: int) -> Histories:
+        """Every so-manieth of a part of the states, the last one included."""
+        kept = np.union1d(np.arange(inside.start, inside.stop, stride), [inside.stop - 1])
+        some = copy(self)
+        some.t, some._q, some._v = self.t[kept], self._q[kept], self._v[kept]
+        return some
 
     def ends(self) -> list[Any]:
         """Starts and ends of the beams and the other bodies: points that are worth a trace."""

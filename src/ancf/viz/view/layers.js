@@ -29,8 +29,11 @@ function layersOf(scene, traces) {
   ];
 }
 
-// A few bodies have a line of the legend each, many share one.
+// A few bodies have a line of the legend each, many share one; each of several runs has one.
 function threadGroups(threads) {
+  if (DATA.runs.length > 1) {
+    return DATA.runs.map((name, run) => [name, threads.filter((t) => t.run === run)]).filter(([, members]) => members.length);
+  }
   if (threads.length <= 6) return threads.map((thread) => [thread.name, [thread]]);
   const groups = [["cables", threads.filter((t) => t.element === "cable")],
                   ["beams", threads.filter((t) => t.element !== "cable")]];
@@ -39,7 +42,7 @@ function threadGroups(threads) {
 
 function threadLayer(name, threads, first) {
   const text = threads.flatMap((t) => [...Array.from(t.x.values, (x) => `${t.name}, s = ${written(x)} m`), ""]);
-  const more = { text, kind: "thread", first };
+  const more = { text, kind: "thread", first, run: threads[0].run };
   const trace = line(name, { width: 8, color: LOOKS.blue }, more);
   return {
     trace,
@@ -52,6 +55,13 @@ function threadLayer(name, threads, first) {
         if (color) values.push(...thread.values[color].row(k), null);
       }
       return { ...path, ...color ? { "line.color": lastKnown(values), customdata: values } : {} };
+    },
+    pick(i) {
+      for (const { x, body } of threads) {
+        if (i < x.values.length) return placeOf(body, x.values[i]);
+        i -= x.values.length + 1;
+      }
+      return null;
     },
   };
 }
@@ -116,6 +126,10 @@ function linkLayer(links, slack) {
       });
       return { ...path, text };
     },
+    pick: (i, k) => {
+      const drawn = links.names.filter((_, n) => (links.slack.row(k)[n] > 0.5) === slack);
+      return forceOf("links", drawn[Math.floor(i / 3)]);
+    },
   };
 }
 
@@ -132,6 +146,7 @@ function stripLayer(strips) {
       });
       return { ...path, text };
     },
+    pick: (i) => forceOf("strips", strips.names[Math.floor(i / 3)]),
   };
 }
 
@@ -165,7 +180,7 @@ const SHAPES3D = { circle: "circle", square: "square", diamond: "cross", up: "di
 function markerLayer(group) {
   const slider = group.shape === "slider", open = group.fill === "white" || slider;
   const symbol = SHAPES3D[group.shape] + (open ? "-open" : ""), size = slider ? 10 : open ? 7 : 6;
-  const color = slider ? LOOKS.orange : group.joint ? LOOKS.green : group.fill === "grey" ? LOOKS.grey : "#1a1a1a";
+  const color = slider ? LOOKS.orange : group.joint ? LOOKS.green : group.fill === "grey" ? LOOKS.grey : LOOKS.ink;
   const small = group.names.length > 30 ? 0.5 : 1;
   return {
     still: group.position.count === 1,
@@ -178,6 +193,7 @@ function markerLayer(group) {
       for (let i = 0; i < row.length; i += 3) path.add(row, i);
       return { ...path };
     },
+    pick: (i) => wayOf(group.names[i]),
   };
 }
 
@@ -265,7 +281,8 @@ function netLayer(net, triads) {
 
 // The whole path is faint, what was passed is bold.
 function traceLayers(trace, i) {
-  const color = [LOOKS.orange, LOOKS.green, LOOKS.blue][i % 3], times = trace.t.values;
+  const run = DATA.runs.findIndex((name) => trace.name.startsWith(`${name}: `)), times = trace.t.values;
+  const color = run < 0 ? [LOOKS.orange, LOOKS.green, LOOKS.blue][i % 3] : LOOKS.curves[run];
   const upTo = (last) => {
     const path = new Path();
     for (let k = 0; k <= last; k++) path.add(trace.position.row(k));

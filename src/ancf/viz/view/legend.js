@@ -20,21 +20,22 @@ class Legend {
   constructor(div, picture) {
     this.picture = picture;
     this.bodies = [];
+    div.replaceChildren();
     for (const [name, places] of groupsOf(picture.layers)) div.append(this.entry(name, places));
   }
 
   entry(name, places) {
     const label = document.createElement("label"), box = document.createElement("input");
-    Object.assign(box, { type: "checkbox", checked: true });
-    box.addEventListener("change", () => this.picture.toggle(places, box.checked));
+    Object.assign(box, { type: "checkbox", checked: !this.picture.hidden.has(name) });
+    box.addEventListener("change", () => this.picture.toggle(name, places, box.checked));
     label.append(box, this.swatch(this.picture.layers[places[places.length - 1]].trace), name);
     return label;
   }
 
-  swatch({ kind, mode, line, marker }) {
+  swatch({ kind, mode, line, marker, run }) {
     const span = document.createElement("span");
     span.className = "swatch";
-    if (kind) this.bodies.push(span);
+    if (kind) this.bodies.push([span, run ?? 0]);
     else if (mode === "markers") span.innerHTML = symbol(marker);
     else span.style.background = band([].concat(line.color).slice(0, 9).filter((_, i) => i % 3 === 0), line.dash);
     return span;
@@ -43,8 +44,8 @@ class Legend {
   // Bodies have the colours that they are drawn with.
   recolor(color) {
     const scale = LOOKS.scale.map(([, shade]) => shade);
-    for (const span of this.bodies) {
-      span.style.background = color === "plain" ? LOOKS.blue : `linear-gradient(90deg, ${scale.join()})`;
+    for (const [span, run] of this.bodies) {
+      span.style.background = color === "plain" ? LOOKS.curves[run] : `linear-gradient(90deg, ${scale.join()})`;
     }
   }
 }

@@ -1,6 +1,5 @@
 // The three-dimensional picture: axes, camera, colours, and drawing of one state.
 
-const FONT = { family: 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif', size: 12, color: "#1a1a1a" };
 const AXES = ["x", "y", "z"];
 // Height of what the camera sees, in units of the axes' lengths, less room for their labels.
 const SEEN = { perspective: 1.55, orthographic: 1.65 };
@@ -8,6 +7,12 @@ const SEEN = { perspective: 1.55, orthographic: 1.65 };
 const BESIDE = 150;
 // Length of a window that follows a point, m, and from which slenderness on the axes are stretched.
 const WINDOW = 120, SLENDER = 8;
+
+// Buttons of the picture: none of them sends anything anywhere.
+const CONFIG = {
+  displaylogo: false, scrollZoom: true, showSendToCloud: false, plotlyServerURL: "",
+  modeBarButtons: [["zoom3d", "pan3d", "orbitRotation"], ["resetCameraDefault3d"]],
+};
 
 const VIEWS = {
   "3-D": { eye: { x: 1.0, y: -2.15, z: 0.8 }, up: { x: 0, y: 0, z: 1 }, type: "perspective" },
@@ -30,8 +35,19 @@ function webgl() {
 }
 
 class Picture {
-  constructor(div, scene, traces) {
+  constructor(div) {
     this.div = div;
+    this.followed = null;
+    this.busy = false;
+    this.held = false;
+    this.shown = 0;
+    this.aimed = null;  // what the mouse points at
+    this.hidden = new Set();
+  }
+
+  // What is drawn from now on; the looks that were chosen stay.
+  load(scene, traces) {
+    const first = !this.scene;
     this.scene = scene;
     this.layers = layersOf(scene, traces);
     const [low, high] = scene.box;
@@ -40,14 +56,11 @@ class Picture {
     this.order = [0, 1, 2].sort((a, b) => this.extent[b] - this.extent[a]);
     this.long = this.order[0];
     this.size = this.extent[this.long] || 1;
+    if (!first) return;
     this.color = scene.quantities.some((q) => q.name === DATA.color) ? DATA.color : "plain";
     const across = this.extent[this.order[1]];
     this.stretched = across > 0 && this.size > SLENDER * across;
-    this.followed = null;
     this.view = this.flatView() ?? "3-D";
-    this.busy = false;
-    this.held = false;
-    this.shown = 0;
   }
 
   // The view along the axis in which nothing extends.
@@ -122,28 +135,65 @@ class Picture {
     return { eye, up, center: { x: 0, y: 0, z: 0 }, projection: { type } };
   }
 
-  async start() {
+  layout() {
     const layout = {
-      margin: { l: 0, r: 0, t: 0, b: 0 }, font: FONT, paper_bgcolor: "#fff", uirevision: "kept",
-      scene: { aspectmode: "manual", domain: { x: [0, 0.93], y: [0, 1] }, camera: this.camera(), uirevision: "kept" },
-      hoverlabel: { bgcolor: "#fff", font: FONT }, showlegend: false,
+      margin: { l: 0, r: 0, t: 0, b: 0 }, font: FONT, paper_bgcolor: LOOKS.paper, uirevision: "kept",
+      scene: { aspectmode: "manual", domain: { x: [0, 0.93], y: [0, 1] }, camera: this.camera(), uirevision: "kept",
+               bgcolor: LOOKS.paper },
+      hoverlabel: { bgcolor: LOOKS.paper, bordercolor: LOOKS.light, font: FONT }, showlegend: false,
     };
+    for (const [path, value] of Object.entries(this.axes(this.shown))) put(layout, path, value);
+    return layout;
+  }
+
+  traces() {
+    const changes = this.changes(this.shown, true);
+    return this.layers.map(({ trace: { kind, first, ...trace } }, i) => {
+      for (const [path, value] of Object.entries(changes[i])) put(trace, path, value);
+      return { ...trace, visible: !this.hidden.has(trace.name) };
+    });
+  }
+
+  async start(pick) {
+    this.listLayers();
+    this.tell();
+    this.measure();
+    await Plotly.newPlot(this.div, this.traces(), this.layout(), CONFIG);
+    new ResizeObserver(() => this.resize()).observe(this.div);
+    this.div.on("plotly_hover", ({ points: [point] }) => { this.aimed = point; });
+    this.div.on("plotly_unhover", () => { this.aimed = null; });
+    this.div.addEventListener("pointerdown", (event) => { this.held = true; this.from = event; });
+    for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, (event) => this.release(event, pick));
+  }
+
+  // A click, and no turn of the camera, picks what the mouse points at.
+  release(event, pick) {
+    const { held, from, aimed } = this;
+    this.held = false;
+    if (!held || !aimed || event.type !== "pointerup") return;
+    if (Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > 4) return;
+    const make = this.layers[aimed.curveNumber]?.pick?.(aimed.pointNumber, this.shown);
+    if (make) pick(make);
+  }
+
+  listLayers() {
     this.legend = new Legend(document.getElementById("legend"), this);
     this.legend.recolor(this.color);
-    this.tell();
-    for (const [path, value] of Object.entries(this.axes(0))) put(layout, path, value);
-    const config = { displaylogo: false, scrollZoom: true,
-                     modeBarButtonsToRemove: ["resetCameraLastSave3d", "hoverClosest3d", "tableRotation"] };
-    const changes = this.changes(0, true);
-    const traces = this.layers.map(({ trace: { kind, first, ...trace } }, i) => {
-      for (const [path, value] of Object.entries(changes[i])) put(trace, path, value);
-      return trace;
-    });
-    this.measure();
-    await Plotly.newPlot(this.div, traces, layout, config);
-    new ResizeObserver(() => this.resize()).observe(this.div);
-    this.div.addEventListener("pointerdown", () => { this.held = true; });
-    for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => { this.held = false; });
+  }
+
+  // Other data or other colours of the screen.
+  async renew(scene, traces) {
+    while (this.busy) await new Promise((later) => setTimeout(later, 10));
+    this.busy = true;
+    try {
+      this.load(scene, traces);
+      this.shown = Math.min(this.shown, LAST);
+      this.listLayers();
+      this.tell();
+      await Plotly.react(this.div, this.traces(), this.layout(), CONFIG);
+    } finally {
+      this.busy = false;
+    }
   }
 
   // What is new in each layer at state k: coordinates, and looks where they are to change.
@@ -162,16 +212,17 @@ class Picture {
     while (!await this.draw(k, true)) await new Promise((later) => setTimeout(later, 30));
   }
 
-  async toggle(places, on) {
+  async toggle(name, places, on) {
+    if (on) this.hidden.delete(name); else this.hidden.add(name);
     await Plotly.restyle(this.div, { visible: on }, places);
   }
 
   // Colours of a body's line or solid.
-  look({ kind, first }, quantity) {
+  look({ kind, first, run }, quantity) {
     if (!kind) return {};
     if (!quantity) {
       if (kind === "solid") return { intensity: null, color: LOOKS.light };
-      return { "line.color": LOOKS.blue, "line.showscale": false, hovertemplate: NAMED };
+      return { "line.color": LOOKS.curves[run], "line.showscale": false, hovertemplate: NAMED };
     }
     const { low, high, unit, name, clipped } = quantity;
     if (kind === "solid") return { colorscale: LOOKS.scale, cmin: low, cmax: high };

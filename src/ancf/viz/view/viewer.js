@@ -1,10 +1,10 @@
-// The player: time, buttons, keys, choices; it starts everything.
+// The player: time, buttons, keys, choices, and what begins everything.
 
 const $ = (name) => document.getElementById(name);
-const TIMES = new Rows(SCENE.t).values;
-const LAST = TIMES.length - 1;
 const FACTORS = [-4, -3, -2, -1, 0, 1, 2, 3].flatMap((e) => [1, 2, 5].map((m) => m * 10 ** e));
 const LENGTH = 10;  // s that a run takes at the first speed, about
+
+take(JSON.parse(document.getElementById("data").textContent));
 
 const player = { frame: 0, time: TIMES[0], playing: false, drawn: 0, drawing: false };
 const hook = window.__ancf = {
@@ -13,20 +13,19 @@ const hook = window.__ancf = {
 window.addEventListener("error", (event) => hook.errors.push(String(event.message)));
 window.addEventListener("unhandledrejection", (event) => hook.errors.push(String(event.reason)));
 
-const unpackedScene = unpacked(SCENE);
+const sources = new Sources();
 let picture = null;
 let panels = [];
 
 async function begin() {
-  $("player").hidden = LAST === 0;
-  $("keys").hidden = LAST === 0;
-  $("time").max = LAST;
-  fill($("speed"), speeds().map((f) => [String(f), `${f} ×`]), String(firstSpeed()));
+  setPlayer();
+  sources.load();
   beginPlots();
   if (webgl()) {
-    picture = new Picture($("stage"), unpackedScene, unpacked(DATA.traces));
+    picture = new Picture($("stage"));
+    picture.load(SCENE, unpacked(DATA.traces));
     choices();
-    await picture.start();
+    await picture.start(pick);
   } else {
     const said = "This browser has no WebGL, which the picture in three dimensions needs. Switch on hardware "
       + "acceleration or take another browser.";
@@ -39,10 +38,55 @@ async function begin() {
   hook.ready = true;
 }
 
+function setPlayer() {
+  $("player").hidden = LAST === 0;
+  $("keys").hidden = LAST === 0;
+  $("time").max = LAST;
+  const before = $("speed").value;
+  $("speed").replaceChildren();
+  fill($("speed"), speeds().map((f) => [String(f), `${f} ×`]), String(firstSpeed()));
+  if (speeds().map(String).includes(before)) $("speed").value = before;
+}
+
+// Curves over time, and where there is room what goes along the first body.
 function beginPlots() {
   const count = Math.min(SLOTS, Math.max(2, Math.floor(window.innerHeight / HEIGHT)));
-  const all = panelsOf(unpacked(DATA.curves)), names = [...all.keys()].slice(0, count);
-  panels = names.map((name) => new Panel($("plots"), all, name, seekTime));
+  const times = sources.names(OVER_TIME), along = sources.names(ALONG);
+  const rest = Math.max(count > 2 ? 1 : 0, count - times.length);
+  const names = [...times.slice(0, count - Math.min(rest, along.length)), ...along.slice(0, LAST ? Math.min(rest, 1) : 2)];
+  panels = names.map((name) => new Panel($("plots"), sources, name, seekTime, pick));
+}
+
+// Plots what was clicked, in the last panel but the one that was clicked in.
+async function pick(make, from, quantity) {
+  const name = sources.pick(make);
+  if (!name) return;
+  const same = quantity && [...sources.groups.get(sources.get(name).group).values()].find((s) => s.quantity === quantity);
+  const others = panels.filter((panel) => panel !== from);
+  for (const panel of panels) panel.list();
+  await (others[others.length - 1] ?? panels[0])?.choose(same?.name ?? name);
+}
+
+// New data: the same page goes on with it. At the last state it follows the run.
+async function renew(plain) {
+  const last = player.frame === LAST && !player.playing, time = player.time, before = panels.length;
+  take(plain);
+  setPlayer();
+  sources.load();
+  if (before) for (const panel of panels) panel.list();
+  else beginPlots();
+  await picture?.renew(SCENE, unpacked(DATA.traces));
+  for (const panel of panels) await panel.show();
+  player.drawn = -1;
+  if (last) seek(LAST);
+  else seekTime(time);
+}
+
+function tellStatus({ text, good } = DATA.status) {
+  const badge = document.querySelector(".badge");
+  badge.textContent = text;
+  badge.className = `badge ${good ? "good" : "bad"}`;
+  $("foot").textContent = DATA.foot;
 }
 
 function fill(select, pairs, chosen) {
@@ -62,9 +106,9 @@ function firstSpeed() {
 }
 
 function choices() {
-  const { quantities, strips } = unpackedScene, aim = targets();
+  const { quantities, strips } = SCENE, aim = targets();
   const first = aim.length && strips?.names.includes(aim[0][0]) ? aim[0] : ["", null];
-  fill($("color"), [...quantities.map((q) => [q.name, q.name]), ["plain", "plain"]], picture.color);
+  fill($("color"), [...quantities.map((q) => [q.name, q.name]), ["plain", DATA.runs.length > 1 ? "runs" : "plain"]], picture.color);
   fill($("camera"), Object.keys(VIEWS).map((name) => [name, name]), picture.view);
   fill($("aspect"), [["equal", "to scale"], ["stretched", "stretched"]], picture.stretched ? "stretched" : "equal");
   fill($("follow"), [["", "nothing"], ...aim.map(([name]) => [name, name])], first[0]);
@@ -86,7 +130,7 @@ function relayout(camera = false) {
 
 // What a window can follow: strips, masses and rigid bodies that move far.
 function targets() {
-  const found = [], { strips, markers } = unpackedScene;
+  const found = [], { strips, markers } = SCENE;
   const middle = (row, i) => [0, 1, 2].map((d) => (row[6 * i + d] + row[6 * i + 3 + d]) / 2);
   const far = (at) => Math.abs(at(LAST)[picture.long] - at(0)[picture.long]) > 0.1 * picture.size;
   strips?.names.forEach((name, i) => {
@@ -109,11 +153,17 @@ function listen() {
   $("ahead").addEventListener("click", () => step(1));
   $("time").addEventListener("input", (event) => seek(Number(event.target.value)));
   document.addEventListener("keydown", onKey);
+  $("save").addEventListener("click", () => savePicture(picture.div, `${document.title}, t = ${written(TIMES[player.frame])} s`, `t ${written(TIMES[player.frame])} s`));
+  NIGHT.addEventListener("change", async () => {
+    dress();
+    await picture?.renew(SCENE, unpacked(DATA.traces));
+    for (const panel of panels) await panel.show();
+  });
   play(false);
 }
 
 function onKey(event) {
-  if (LAST === 0 || event.target.tagName === "SELECT" || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (LAST === 0 || ["SELECT", "BUTTON"].includes(event.target.tagName) && event.key === " " || event.target.tagName === "SELECT" || event.ctrlKey || event.metaKey || event.altKey) return;
   const stride = event.shiftKey ? 10 : 1;
   const action = {
     " ": () => play(!player.playing), ArrowLeft: () => step(-stride), ArrowRight: () => step(stride),
@@ -186,9 +236,7 @@ function digits() {
 }
 
 function forces(k) {
-  const { strips } = unpackedScene;
+  const { strips } = SCENE;
   if (!strips || !Number.isFinite(strips.force.row(k)[0])) return "";
   return ", contact " + Array.from(strips.force.row(k), (f) => `${Math.round(f)} N`).join(", ");
 }
-
-begin().catch((error) => { hook.errors.push(String(error)); throw error; });

@@ -1,0 +1,48 @@
+"""Overhead: the model of a line with what one does with it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from .assemble import Assembled
+from .assemble import assemble as assembled
+from .collectors import Collector
+from .form import Form
+from .mesh import Mesh
+from .pantograph import Pantograph
+from .run import run
+from .run_data import Run
+from .travelling import add_pantograph
+
+
+@dataclass(slots=True)
+class Overhead(Assembled):
+    """The model of a line, which can be changed and run."""
+
+    def add_pantograph(self, pantograph: Pantograph | str | Path, speed: Any, **options: Any) -> Collector:
+        """Add a pantograph to the model, see :func:`ancf.catenary.add_pantograph`."""
+        return add_pantograph(self, pantograph, speed, **options)
+
+    def run(self, **options: Any) -> Run:
+        """Run pantographs along the line as it is now, see :func:`ancf.catenary.run`.
+
+        The model itself stays as it is: each run computes with a copy.
+        """
+        return run(self, **options)
+
+
+def assemble(found: Form, mesh: Mesh | None = None) -> Overhead:
+    """Make the model of a line.
+
+    Parameters
+    ----------
+    found : Form
+    mesh : Mesh
+        Default that of the form; on another one the form is found again, for each mesh has its own
+        lengths of droppers that bring the wires to their heights exactly.
+
+    """
+    made = assembled(found, mesh)
+    return Overhead(**{item.name: getattr(made, item.name) for item in fields(Assembled)})

@@ -1,0 +1,95 @@
+"""A pantograph under a line that somebody computes with :func:`ancf.simulate` himself."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import ancf
+
+from ..model import checks
+from .assemble import Assembled
+from .collectors import Collector, Touch, put_pantograph
+from .pantograph import Pantograph, find_pantograph
+from .travel import make_travel
+
+
+def add_pantograph(
+    overhead: Assembled,
+    pantograph: Pantograph | str | Path,
+    speed: Any,
+    *,
+    start: float,
+    height: float | None = None,
+    raised: float = 0.0,
+    contact: str = "penalty",
+    contact_stiffness: float | None = None,
+    contact_damping: float = 0.0,
+    active: bool = False,
+    label: str = "pantograph",
+) -> Collector:
+    """Add a pantograph to the model of a line, where it stands at the start.
+
+    :func:`run` does all of this and evaluates too; this is for models of which it knows nothing.
+
+    Parameters
+    ----------
+    overhead : Assembled
+    pantograph : Pantograph, str or path
+    speed : float, m/s, or (n, 2)
+        Or a profile of times in s and speeds in m/s.
+    start : float, m
+        Track position at t = 0.
+    height : float, m
+        Of the strip there; default where the wire comes to rest on it, for which an equilibrium is found.
+    raised : float, m
+        By how much the lowest spring is relaxed above the place that the pantograph gives.
+    contact, contact_stiffness, contact_damping
+        As in :func:`run`.
+    active : bool
+        It has an input for a force on its lowest mass, ``"pantograph_force"``.
+    label : str
+        Beginning of the names in the model; a second pantograph needs another one.
+
+    Returns
+    -------
+    Collector
+        Its ``head`` is the strip, ``touch`` the contact, ``sensors()`` what :func:`ancf.simulate` records.
+
+    Raises
+    ------
+    ModelError
+        The pantograph is unknown, or a number is wrong.
+
+    """
+    unit, travel = find_pantograph(pantograph), make_travel(speed, "add_pantograph.speed")
+    place = checks.between(start, "add_pantograph.start", 0.0, overhead.form.line.length)
+    touch = Touch(contact, contact_stiffness, contact_damping)
+    lift = float(unit.force(travel.speed(0.0)))
+    if height is None:
+        height = lifted_heights(overhead, [place], [lift])[0] + touch.overlap(lift)
+    return put_pantograph(
+        overhead.model,
+        overhead.contact_wire,
+        unit,
+        travel,
+        label=label,
+        start=place,
+        height=height,
+        raised=raised,
+        touch=touch,
+        active=active,
+    )
+
+
+def lifted_heights(overhead: Assembled, places: list[float], lifts: list[float]) -> list[float]:
+    """Heights in m of the contact wire at track positions when forces in N lift it there.
+
+    The model is as before afterwards.
+    """
+    model, points = overhead.model, [overhead.contact_at(place) for place in places]
+    forces = [model.add_force(point, (0.0, 0.0, lift)) for point, lift in zip(points, lifts, strict=True)]
+    state = ancf.equilibrium(model)
+    for force in forces:
+        model.loads.remove(force)
+    return [float(state.position(point)[2]) for point in points]

@@ -1,0 +1,102 @@
+"""The commands of overhead lines, ``ancf catenary ...``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import typer
+
+from .common_options import Folder, OptionalFolder, Quiet, Report, Set, States
+from .guard import reported
+from .line_options import (
+    ContactKind,
+    ContactStiffness,
+    Elements,
+    Forces,
+    LineName,
+    OutputStep,
+    Pantographs,
+    Spacing,
+    Speed,
+    Start,
+    Step,
+    Until,
+    Window,
+)
+
+catenary = typer.Typer(help="Overhead lines.", no_args_is_help=True, rich_markup_mode=None)
+
+
+@catenary.command("form")
+def catenary_form(
+    line: LineName, output: OptionalFolder = None, quiet: Quiet = False, given: Set = None
+) -> None:
+    """Find the form of an overhead line and print its dropper schedule.
+
+    With -o writes OUT/schedule.csv, lengths in mm.
+    """
+    with reported():
+        from .catenary import show_form
+
+        show_form(line, output, quiet, given)
+
+
+@catenary.command("run")
+def catenary_run(
+    line: LineName,
+    speed: Speed,
+    output: Folder = Path("out"),
+    pantograph: Pantographs = None,
+    spacing: Spacing = None,
+    start: Start = None,
+    window: Window = None,
+    until: Until = None,
+    contact: ContactKind = "penalty",
+    contact_stiffness: ContactStiffness = None,
+    step: Step = None,
+    mesh: Elements = None,
+    output_step: OutputStep = None,
+    states: States = True,
+    report: Report = True,
+    quiet: Quiet = False,
+    given: Set = None,
+) -> None:
+    """Run pantographs along an overhead line.
+
+    Writes OUT/results.h5 for ancf view and ancf export, OUT/run.json, CSV files and OUT/report.html, and
+    prints the statistics of the contact force.
+    """
+    with reported():
+        from .catenary_run import run_line
+
+        options = {"spacing": spacing, "start": start, "window": window, "contact": contact, "step": step}
+        options |= {"output_step": output_step, "until": until, "contact_stiffness": contact_stiffness}
+        options["mesh"] = mesh
+        run_line(line, speed, pantograph, options, output, report, states, quiet, given)
+
+
+@catenary.command("elasticity")
+def catenary_elasticity(
+    line: LineName,
+    output: OptionalFolder = None,
+    force: Forces = None,
+    quiet: Quiet = False,
+    given: Set = None,
+) -> None:
+    """Lift the contact wire along the middle span of an overhead line and print how far it gives.
+
+    Forces of 100 and 200 N by default. With -o writes OUT/elasticity.csv.
+    """
+    with reported():
+        from .catenary import show_elasticity
+
+        show_elasticity(line, output, force or [100.0, 200.0], quiet, given)
+
+
+@catenary.command("list")
+def catenary_list() -> None:
+    """List the lines, pantographs and wires that come with the package."""
+    with reported():
+        from .catenary_list import show_catalogue
+
+        show_catalogue()

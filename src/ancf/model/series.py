@@ -1,0 +1,335 @@
+"""Series: a measured or computed history in place of a function of time, smoothed where it is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..columns import read_columns, split_unit
+from ..errors import ModelError
+from . import checks
+
+#: Units of a column in those of the package: m, s, N, kg, rad and what they make.
+UNITS = {
+    "": 1.0, "-": 1.0, "1": 1.0, "%": 0.01,
+    "m": 1.0, "mm": 1e-3, "cm": 1e-2, "um": 1e-6, "µm": 1e-6, "km": 1e3, "in": 0.0254, "ft": 0.3048,
+    "s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "min": 60.0, "h": 3600.0,
+    "m/s": 1.0, "mm/s": 1e-3, "km/h": 1 / 3.6, "kn": 1852 / 3600, "m/s^2": 1.0, "m/s²": 1.0, "g": 9.80665,
+    "N": 1.0, "kN": 1e3, "MN": 1e6, "lbf": 4.4482216152605, "N/m": 1.0, "kN/m": 1e3,
+    "N m": 1.0, "Nm": 1.0, "kN m": 1e3, "kNm": 1e3,
+    "rad": 1.0, "deg": np.pi / 180, "°": np.pi / 180, "rad/s": 1.0, "deg/s": np.pi / 180, "rpm": np.pi / 30,
+    "kg": 1.0, "kg/s": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6,
+}  # fmt: skip
+INTERPOLATIONS = ("linear", "spline")
+#: Keys of a series in a description, and in a file that names a CSV file.
+KEYS = ("t", "value", "interpolation", "cutoff", "relative")
+FILE_KEYS = ("csv", "column", "unit", "time", "time_unit", "interpolation", "cutoff", "relative")
+#: A motion is noisy if its acceleration above this share of half the sampling rate exceeds the rest and this.
+HIGH, LEAST = 0.25, 1.0
+
+
+class Series:
+    """Values at increasing times, between which they are joined by straight lines or by a smooth curve.
+
+    It stands where a function of time may: for all components, or for one of three. Before the first and
+    after the last time it is constant.
+
+    Parameters
+    ----------
+    t : (n,) s
+        Increasing; in `time_unit`.
+    value : (n,) or (n, 3)
+        In `unit`.
+    size : 1 or 3, optional
+        Which of both it has to be.
+    unit, time_unit : str
+        One of ``ancf.model.series.UNITS``, such as "mm", "kN", "deg"; default those of the package.
+    interpolation : "spline" or "linear"
+        A cubic spline through the values, twice differentiable, or straight lines.
+    cutoff : float, Hz, optional
+        A smoothing spline instead: of a vibration of this frequency it keeps the 0.71th part (-3 dB), of one
+        of twice the frequency the 0.13th, of one of half of it 0.975, without a lag.
+    relative : bool
+        Count from the value at the first time, as displacements do.
+
+    Raises
+    ------
+    ModelError
+        Times do not increase, a value is no finite number, there are too few, or a unit is unknown.
+    """
+
+    __slots__ = ("_curve", "cutoff", "interpolation", "relative", "t", "value")
+
+    def __init__(
+        self,
+        t: Any,
+        value: Any,
+        *,
+        size: int | None = None,
+        unit: str = "",
+        time_unit: str = "s",
+        interpolation: str = "spline",
+        cutoff: float | None = None,
+        relative: bool = False,
+        where: str = "Series",
+    ) -> None:
+        self.t = checks.array(t, f"{where}.t", (None,)) * factor(time_unit, f"{where}.time_unit")
+        self.value = _values(value, f"{where}.value", size) * factor(unit, f"{where}.unit")
+        self.interpolation = checks.choice(interpolation, f"{where}.interpolation", INTERPOLATIONS)
+        self.cutoff = None if cutoff is None else checks.positive(cutoff, f"{where}.cutoff")
+        self.relative = checks.flag(relative, f"{where}.relative")
+        if self.t.size < 2 or not np.all(np.diff(self.t) > 0):
+            raise ModelError(f"{where}.t", "must be at least 2 increasing times")
+        if len(self.value) != self.t.size:
+            raise ModelError(f"{where}.value", f"has {len(self.value)} values for {self.t.size} times")
+        self._check_cutoff(where)
+        self._curve = self._fitted()
+
+    def _check_cutoff(self, where: str) -> None:
+        if self.cutoff is None:
+            return
+        if self.interpolation == "linear":
+            raise ModelError(f"{where}.cutoff", "smooths by a spline", 'leave interpolation = "linear" out')
+        if self.t.size < 5:
+            raise ModelError(f"{where}.cutoff", f"needs at least 5 times, there are {self.t.size}")
+        length = float(self.t[-1] - self.t[0])
+        if self.cutoff * length < 1.0:
+            what = f"is {self.cutoff:g} Hz, of which the {length:g} s of the series hold not one period"
+            raise ModelError(f"{where}.cutoff", what, f"take more than {1 / length:.3g} Hz")
+
+    @classmethod
+    def read(cls, csv: str | Path, column: str | list[str], *, time: str = "", **more: Any) -> Series:
+        """Read it from a CSV file with a head.
+
+        Parameters
+        ----------
+        csv : path
+        column : str or three of them
+            Names of columns, with or without the unit that stands behind them in brackets: "x" or "x [mm]".
+        time : str
+            Column of the times; default "t", "time" or the first one.
+        more
+            As for :class:`Series`; a unit that is not given is that of the head.
+
+        Raises
+        ------
+        ModelError
+            The file cannot be read, or has no such column.
+        """
+        where = more.pop("where", "Series")
+        units = {key: more.pop(key) for key in ("unit", "time_unit") if key in more}
+        found = read_table(Path(csv), column, where, time=time, **units)
+        return cls(found["t"], found["value"], **more, where=where)
+
+    @property
+    def size(self) -> int:
+        """1 or 3."""
+        return 1 if self.value.ndim == 1 else 3
+
+    def __call__(self, times: FloatArray, derivative: int = 0) -> FloatArray:
+        """Values (n, size) at times (n,), or their first or second derivative."""
+        held = np.clip(times, self.t[0], self.t[-1])
+        if callable(self._curve):
+            found: FloatArray = np.asarray(self._curve(held, derivative)).reshape(len(held), -1)
+            inside = (times >= self.t[0]) & (times <= self.t[-1])
+            return found if derivative == 0 else np.where(inside[:, None], found, 0.0)
+        columns = self._curve.reshape(len(self.t), -1).T
+        return np.column_stack([np.interp(held, self.t, column) for column in columns])
+
+    @property
+    def constant(self) -> bool:
+        """All values are the same."""
+        return bool(np.all(self.value == self.value[0]))
+
+    def describe(self) -> dict[str, Any]:
+        """Plain form, in the units of the package; what :meth:`of` reads."""
+        plain: dict[str, Any] = {"t": self.t.tolist(), "value": self.value.tolist()}
+        plain["interpolation"] = self.interpolation
+        if self.cutoff is not None:
+            plain["cutoff"] = self.cutoff
+        return plain | ({"relative": True} if self.relative else {})
+
+    @classmethod
+    def of(cls, plain: Mapping[str, Any], where: str, size: int | None = None) -> Series:
+        """From a table in a description or a file: straight lines, if it does not say otherwise."""
+        if set(plain) - set(KEYS) or not {"t", "value"} <= set(plain):
+            what = f'a table has the keys "t" and "value", not {sorted(map(str, plain))}'
+            hint = 'also "interpolation", "cutoff", "relative"; { csv = "file.csv", column = "x" } in a file'
+            raise ModelError(where, what, hint)
+        smooth = "spline" if "cutoff" in plain else "linear"
+        return cls(**{"interpolation": smooth, **plain}, where=where, size=size)
+
+    def __reduce__(self) -> Any:
+        return Series.of, (self.describe(), "Series", self.size)
+
+    def __repr__(self) -> str:
+        more = f", cutoff={self.cutoff:g} Hz" if self.cutoff else ""
+        return (
+            f"Series({self.t.size} values from {self.t[0]:g} to {self.t[-1]:g} s, {self.interpolation}{more})"
+        )
+
+    def noise(self) -> tuple[float, float, float] | None:
+        """Acceleration of a motion that comes from noise: its size, the rest, and what the noise may be.
+
+        Root mean squares in value/s^2 of what is above :data:`HIGH` of half the sampling rate and below, and
+        the noise of the values; None if that is less than the rest or than :data:`LEAST`. White noise has
+        nearly all of its acceleration there, a motion that its samples resolve next to nothing.
+        """
+        if self.t.size < 16:
+            return None
+        step = float(np.median(np.diff(self.t)))
+        cut = HIGH * 0.5 / step
+        if self.cutoff is not None and self.cutoff < cut:
+            return None
+        smooth = Series(self.t, self.value, cutoff=cut)
+        at = self.t[2:-2]
+        rest = float(np.sqrt(np.mean(smooth(at, 2) ** 2)))
+        even = np.linspace(self.t[0], self.t[-1], self.t.size)
+        raw = np.diff(self(even), 2, axis=0) / (even[1] - even[0]) ** 2
+        high = float(np.sqrt(max(np.mean(raw**2) - rest**2, 0.0)))
+        if high < max(rest, LEAST):
+            return None
+        return high, rest, high * step**2 / np.sqrt(6.0)
+
+    def _fitted(self) -> Any:
+        """The curve that is followed, or for straight lines its values."""
+        from scipy.interpolate import CubicSpline  # a model without series does without
+
+        values = self.value
+        if self.interpolation == "linear":
+            return values - values[0] if self.relative else values
+        if self.cutoff is not None:
+            curve: Any = _smoothed(self.t, values, self.cutoff)
+        else:
+            curve = CubicSpline(self.t, values, bc_type="not-a-knot" if self.t.size > 3 else "natural")
+        if not self.relative:
+            return curve
+        first = curve(self.t[0])
+        return lambda times, derivative=0: curve(times, derivative) - (first if derivative == 0 else 0.0)
+
+
+def _smoothed(t: FloatArray, values: FloatArray, cutoff: float) -> Any:
+    """Smoothing spline that keeps 1/sqrt(2) of a vibration with the cut-off frequency.
+
+    The curve f minimises the sum of w (y - f)^2 and lam times the integral of f''^2. With weights that are
+    the spacings of the times this is a filter 1/(1 + lam omega^4); see Unser, Splines, IEEE Signal
+    Processing Magazine 16 (1999). Times are counted in mean spacings,
+    which keeps the equations well conditioned.
+    """
+    from scipy.interpolate import make_smoothing_spline
+
+    spacing = float(t[-1] - t[0]) / (len(t) - 1)
+    x = (t - t[0]) / spacing
+    weights = np.gradient(x)
+    strength = (np.sqrt(2.0) - 1.0) / (2.0 * np.pi * cutoff * spacing) ** 4
+    columns = [
+        make_smoothing_spline(x, column, w=weights, lam=strength) for column in values.reshape(len(t), -1).T
+    ]
+
+    def curve(times: Any, derivative: int = 0) -> FloatArray:
+        places = (np.asarray(times) - t[0]) / spacing
+        parts = [column(places, derivative) / spacing**derivative for column in columns]
+        stacked: FloatArray = np.stack(parts, axis=-1)
+        return stacked[..., 0] if values.ndim == 1 else stacked
+
+    return curve
+
+
+def factor(unit: Any, where: str) -> float:
+    """What a unit is in those of the package; ModelError if it is unknown."""
+    if isinstance(unit, str) and unit.strip() in UNITS:
+        return UNITS[unit.strip()]
+    raise ModelError(where, f"is {checks.shown(unit)}, known are {checks.listed(list(UNITS)[1:], 60)}")
+
+
+def _values(value: Any, where: str, size: int | None) -> FloatArray:
+    first = value[0] if isinstance(value, list | tuple) and len(value) else value
+    rows = np.ndim(first) > (0 if first is not value else 1)
+    shape: tuple[int | None, ...] = (None, 3) if size == 3 or (size is None and rows) else (None,)
+    return checks.array(value, where, shape)
+
+
+def read_table(
+    path: Path, column: Any, where: str, *, time: Any = "", unit: Any = None, time_unit: Any = None
+) -> dict[str, Any]:
+    """Times ``t`` and values ``value`` of a CSV file in units of the package; see :meth:`Series.read`.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read, has no such column, or a unit is unknown.
+    """
+    found = read_columns(path, f"{where}.csv")
+    names = [column] if isinstance(column, str) else column
+    if not isinstance(names, list | tuple) or (names is column and len(names) != 3):
+        raise ModelError(f"{where}.column", f"must be a name or three of them, is {checks.shown(column)}")
+    clock = _clock(found, time, where)
+    heads = [_head(found, name, f"{where}.column") for name in names]
+    said = {split_unit(head)[1] for head in heads} - {""}
+    if unit is None and len(said) > 1:
+        raise ModelError(f"{where}.column", f"has the units {checks.listed(sorted(said))}, wanted one")
+    scale = factor(next(iter(said), "") if unit is None else unit, f"{where}.unit")
+    ticks = factor((split_unit(clock)[1] or "s") if time_unit is None else time_unit, f"{where}.time_unit")
+    columns = [scale * _numbers(found[head], f'{where}.csv: column "{head}"') for head in heads]
+    values = columns[0] if isinstance(column, str) else np.column_stack(columns)
+    return {"t": ticks * _numbers(found[clock], f'{where}.csv: column "{clock}"'), "value": values}
+
+
+def _clock(found: Mapping[str, Any], time: str, where: str) -> str:
+    """Head of the column with the times."""
+    if time:
+        return _head(found, time, f"{where}.time")
+    named = [head for head in found if split_unit(head)[0].lower() in ("t", "time")]
+    return named[0] if named else next(iter(found))
+
+
+def _head(found: Mapping[str, Any], name: Any, where: str) -> str:
+    if name in found:
+        return str(name)
+    plain = [head for head in found if split_unit(head)[0] == name]
+    if len(plain) == 1:
+        return plain[0]
+    hint = checks.nearest(name, found)
+    raise ModelError(where, f'is "{name}", the file has the columns {checks.listed(found)}', hint)
+
+
+def _numbers(column: Any, where: str) -> FloatArray:
+    if any(isinstance(entry, str) for entry in column):
+        row, wrong = next((k, entry) for k, entry in enumerate(column) if not _is_number(entry))
+        raise ModelError(where, f"must hold numbers, holds {checks.shown(wrong)} in row {row + 2}")
+    return np.asarray(column, dtype=np.float64)
+
+
+def _is_number(entry: Any) -> bool:
+    try:
+        return bool(np.isfinite(float(str(entry).replace(",", "."))))
+    except ValueError:
+        return False
+
+
+def noises(model: Any) -> list[str]:
+    """What is said of motions of a model whose accelerations are those of noise."""
+    found = []
+    for support in model.supports:
+        for name in ("displacement", "rotation"):
+            function: Any = getattr(support, name, None)
+            if function is None:
+                continue
+            for series in function.series:
+                if (noise := series.noise()) is not None:
+                    found.append(_said(function.where, name, series, *noise))
+    return found
+
+
+def _said(where: str, name: str, series: Series, high: float, rest: float, noise: float) -> str:
+    unit = "rad" if name == "rotation" else "m"
+    step = float(np.median(np.diff(series.t)))
+    cut = HIGH * 0.5 / step
+    return (
+        f"{where}: accelerations of {high:.3g} {unit}/s^2 (rms) lie above {cut:.3g} Hz and {rest:.3g} below: "
+        f"those of a noise of about {noise:.2g} {unit}, not of a motion; a cutoff below {cut:.3g} Hz smooths"
+    )

@@ -1,0 +1,39 @@
+"""Initial velocities of the nodes of a beam whose shape changes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..model.beam import Beam
+from ..model.initial_velocity import rates_at
+from .nodes import layout
+
+
+def shape_rates(beam: Beam) -> FloatArray:
+    """Rates of the vectors of the nodes that ``beam.velocities`` cause, (nodes, vectors + internal, 3).
+
+    Sections turn with the tangent: r_y and r_z with omega = r_x x dr_x/dt / |r_x|^2, which has no part along
+    the tangent.
+    """
+    nodes, shared, internal = layout(beam)
+    out = np.zeros((nodes, shared + internal, 3))
+    out[:, 0], out[:, 1] = rates_at(beam.along, beam.velocities, beam.node_x)
+    if shared == 2:
+        return out
+    axes = np.stack([beam.node_y, beam.node_z], axis=1)
+    out[:, 2:4] = _turned(beam.node_tangent, out[:, 1] / beam.stretch, axes)
+    if internal:  # the internal ones let r_y and r_z in mid-element be the axes there
+        h = np.diff(beam.node_x)[:, None, None]
+        middle = beam.middle_axes
+        tangent = np.cross(middle[:, 0], middle[:, 1])
+        slope = rates_at(beam.along, beam.velocities, 0.5 * (beam.node_x[1:] + beam.node_x[:-1]))[1]
+        between = _turned(tangent, slope / beam.stretch, middle)
+        out[:-1, 4:] = (4 * between - 3 * out[:-1, 2:4] - out[1:, 2:4]) / h
+    return out
+
+
+def _turned(tangent: FloatArray, rate: FloatArray, axes: FloatArray) -> FloatArray:
+    """Rates of axes (n, 2, 3) of sections that turn with unit tangents (n, 3)."""
+    omega = np.cross(tangent, rate)
+    return np.cross(omega[:, None], axes)
