@@ -27,13 +27,13 @@ STAGE = {
     ],
     "surfaces": [{"name": "floor", "shape": "plane", "at": [0, 0, -2]}],
 }
-POINTS = ["hub.at(0, 0, 0.3)", "arm.at(0, 0, -0.5)", "rod.start", "wire.at(1)", "bob", "rod.end"]
+POINTS = ["hub.at(0, 0, 0.3)", "arm.at(0, 0, -0.5)", "rod.start", "wire.at(1)", "bob", "rod.end", "wire.end"]
 BODIES = ["wire", "hub", "rod", "floor"]
 #: By the type of a field of a table; directions of one item are normal to each other.
 VALUES = {
     fields.Positive: 1.5,
     fields.NonNegative: 1.5,
-    fields.ScalarFunction: "sin(t)",
+    fields.ScalarFunction: "1.5 + sin(t)",
     fields.VectorFunction: [0.1, "0.1*sin(t)", 0.0],
     fields.ForceFunction: [0.1, "0.1*sin(t)", "-0.1*vz"],
     fields.Pair: [0.25, 0.75],

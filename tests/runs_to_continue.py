@@ -83,6 +83,18 @@ def law():
     return model
 
 
+def hauled():
+    """A load on a rope that a winch hauls in."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e4, EI=1e-3, rhoA=0.05, axial_damping=1.0)
+    rope = model.add_beam("rope", start=(0, 0, 0), end=(1, 0, -1.5), elements=4, section=section)
+    model.pin(rope.start)
+    model.winch(rope.start, length="1.8 - 0.3*sin(3*t)**2", name="drum")
+    load = model.add_point_mass("load", at=(1, 0, -1.5), mass=1.0)
+    model.connect(rope.end, load)
+    return model
+
+
 PATCHED = ancf.Trapezoidal(newton=ancf.Newton(corotate=False))
 ALPHA = ancf.GeneralizedAlpha(0.7)
 #: By name: model, method, step in s, number of steps, sensors.
@@ -96,6 +108,7 @@ RUNS = {
     "law": (law, ancf.Trapezoidal(), 1e-3, 80, ["beam.end"]),
     "led clamp": (lambda: driven_clamp("free")[0], ALPHA, 1e-3, 90, ["beam.end"]),
     "beam": (strut, ancf.Trapezoidal(), 1e-3, 60, ["beam.end"]),
+    "winch": (hauled, ancf.Trapezoidal(), 1e-3, 80, ["rope.start", "rope.at(0.7)"]),
     "hinge": (lambda: rod_on_a_hinge()[0], ancf.Trapezoidal(), 7e-4, 120, ["hinge"]),
     "hinge, radau": (lambda: rod_on_a_hinge()[0], ancf.Radau(), 2e-3, 60, ["hinge"]),
     "joints": (lambda: mechanism().model, ALPHA, 1e-3, 60, ["on wire", "hook"]),

@@ -75,6 +75,7 @@ class Live(State):
         self.inputs = InputValues(made.system.inputs)
         self._bodies, self._slots = self.model.bodies, self.system.slots
         self._joints, self._arcs = self.system.joints, self.system.numbering.arcs
+        self._lengths = self.system.lengths
         self._springs = springs_of(self.model.connections)
         self.look()
 

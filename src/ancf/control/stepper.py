@@ -134,6 +134,7 @@ class _Whole:
     def __init__(self, run: Stepper) -> None:
         self.model, self.bodies, self.slots = run.model, run.bodies, run.slots
         self.springs, self.joints, self.arcs = run._springs, run._joints, run._arcs
+        self.lengths = run.lengths
 
 
 def stepper(

@@ -106,18 +106,18 @@ def differences(x):
 
 
 @formula
-def elastic(batch, group, chunk, G):
-    """R = 2 dW/dG of the strain energy."""
+def elastic(batch, group, chunk, G, along, across):
+    """R = 2 dW/dG of the strain energy; factors of EA L and of EI L."""
     gp, first, axial = batch.gp, group[FIRST], group[AXIAL]
     paper, curved = group[PAPER] != 0, group[CURVED] != 0
     none = every(0.0)
     R = none, none, none, none, none, none
-    ea = load(batch.lane_data, chunk, EA_L)
+    ea = along * load(batch.lane_data, chunk, EA_L)
     for k in range(axial):
         at = gp[first + k]
         eps0 = reference(batch, chunk, k, curved)
         R = add_a(R, at, at[WEIGHT] * ea * axial_force(a_of(at, G), eps0, paper))
-    ei, inv_l = load(batch.lane_data, chunk, EI_L), load(batch.lane_data, chunk, INV_L)
+    ei, inv_l = across * load(batch.lane_data, chunk, EI_L), load(batch.lane_data, chunk, INV_L)
     inv_l2 = inv_l * inv_l
     for k in range(group[BENDING]):
         at = gp[first + axial + k]
@@ -131,10 +131,10 @@ def elastic(batch, group, chunk, G):
 
 
 @formula
-def axially_damped(batch, group, chunk, x, v, R):
+def axially_damped(batch, group, chunk, x, v, R, along):
     """Add to R what the axial damping does; v are the rates of d, t1 and t2."""
     G, dG = products(x), product_rates(x, differences(v))
-    da = load(batch.lane_data, chunk, DA_L)
+    da = along * load(batch.lane_data, chunk, DA_L)
     for g in range(group[FIRST], group[FIRST] + group[AXIAL]):
         at = batch.gp[g]
         R = add_a(R, at, at[WEIGHT] * da * axial_damping(a_of(at, G), a_of(at, dG), group[PAPER] != 0))
@@ -142,11 +142,11 @@ def axially_damped(batch, group, chunk, x, v, R):
 
 
 @formula
-def bending_damped(batch, group, chunk, x, v, force):
+def bending_damped(batch, group, chunk, x, v, force, across):
     """Add the damping of bending to the forces on d, t1 and t2; v are the rates of these."""
     (d, t1, t2), (vd, v1, v2), (fd, f1, f2) = x, v, force
     gp, first = batch.gp, group[FIRST] + group[AXIAL]
-    db, inv_l = load(batch.lane_data, chunk, DB_L), load(batch.lane_data, chunk, INV_L)
+    db, inv_l = across * load(batch.lane_data, chunk, DB_L), load(batch.lane_data, chunk, INV_L)
     for g in range(first, first + group[BENDING]):
         p, s = slope(gp, g, d, t1, t2), bend(gp, g, d, t1, t2, inv_l)
         dp, ds = slope(gp, g, vd, v1, v2), bend(gp, g, vd, v1, v2, inv_l)
@@ -159,18 +159,18 @@ def bending_damped(batch, group, chunk, x, v, force):
 
 
 @inline_kernel
-def damped_force(batch, group, chunk, x, v):
-    """Elastic and damping forces on d, t1 and t2 at the velocities v."""
-    u, rates, damped = differences(x), shape(batch, v, chunk), group[DAMPED]
-    R = elastic(batch, group, chunk, products(u))
+def damped_force(batch, group, chunk, x, rates, along, across):
+    """Elastic and damping forces on d, t1 and t2; factors of the constants along the axis and of bending."""
+    u, damped = differences(x), group[DAMPED]
+    R = elastic(batch, group, chunk, products(u), along, across)
     if damped & AXIALLY:
-        R = axially_damped(batch, group, chunk, u, rates, R)
+        R = axially_damped(batch, group, chunk, u, rates, R, along)
     force = forces(R, u)
     if damped & IN_BENDING:
-        force = bending_damped(batch, group, chunk, x, rates, force)
+        force = bending_damped(batch, group, chunk, x, rates, force, across)
     if damped & IN_SLOPE:
         (fd, f1, f2), (vd, v1, v2) = force, rates
-        nd, n1, n2 = slope_damping(load(batch.lane_slope, chunk, 0), vd, v1, v2)
+        nd, n1, n2 = slope_damping(along * load(batch.lane_slope, chunk, 0), vd, v1, v2)
         force = fd + nd, f1 + n1, f2 + n2
     return force
 
@@ -187,8 +187,8 @@ def accelerations(batch, v, a, chunk, viscous):
 
 
 @formula
-def store_force(batch, r, chunk, acceleration, force):
-    """Add the forces on d, t1, t2 and the consistent mass (eq. 23) times the accelerations to r."""
+def on_nodes(batch, chunk, acceleration, force):
+    """Forces on the four slots of those on d, t1, t2 and the consistent mass (eq. 23) times accelerations."""
     (a1, s1, a2, s2), (fd, f1, f2) = acceleration, force
     h, m = load(batch.lane_data, chunk, LENGTH), load(batch.lane_data, chunk, MASS)
     fd, s1, s2, mh = load(batch.lane_data, chunk, INV_L) * fd, h * s1, h * s2, m * h
@@ -196,6 +196,13 @@ def store_force(batch, r, chunk, acceleration, force):
     t1 = mh * (22.0 * a1 + 4.0 * s1 + 13.0 * a2 - 3.0 * s2) + f1
     r2 = m * (54.0 * a1 + 13.0 * s1 + 156.0 * a2 - 22.0 * s2) + fd
     t2 = mh * (4.0 * s2 - 13.0 * a1 - 3.0 * s1 - 22.0 * a2) + f2
+    return r1, t1, r2, t2
+
+
+@formula
+def add_to_nodes(batch, r, chunk, value):
+    """Add values of the four slots to r."""
+    r1, t1, r2, t2 = value
     if batch.nodal[chunk]:
         scatter_nodes(r1, t1, r, batch.lane_base, chunk, 0)
         scatter_nodes(r2, t2, r, batch.lane_base, chunk, 2)
@@ -215,11 +222,12 @@ def cable_force(batch, q, v, a, r, ws):
         for chunk in range(group[BEGIN], group[END]):
             x = shape(batch, q, chunk)
             if damped & ~VISCOUSLY:
-                force = damped_force(batch, group, chunk, x, v)
+                force = damped_force(batch, group, chunk, x, shape(batch, v, chunk), 1.0, 1.0)
             else:
                 u = differences(x)
-                force = forces(elastic(batch, group, chunk, products(u)), u)
-            store_force(batch, r, chunk, accelerations(batch, v, a, chunk, damped & VISCOUSLY != 0), force)
+                force = forces(elastic(batch, group, chunk, products(u), 1.0, 1.0), u)
+            acceleration = accelerations(batch, v, a, chunk, damped & VISCOUSLY != 0)
+            add_to_nodes(batch, r, chunk, on_nodes(batch, chunk, acceleration, force))
 
 
 @inline_kernel
@@ -227,7 +235,7 @@ def cable_inertia(batch, a, r, ws):
     """Add the mass matrix times a to r (eq. 23)."""
     for chunk in range(batch.first.shape[0] - 1):
         none = zero(), zero(), zero()
-        store_force(batch, r, chunk, accelerations(batch, a, a, chunk, False), none)
+        add_to_nodes(batch, r, chunk, on_nodes(batch, chunk, accelerations(batch, a, a, chunk, False), none))
 
 
 @inline_kernel
@@ -261,19 +269,23 @@ def store_tangent(batch, A, ws, chunk, c_mass, c_damping):
 
 
 @inline_kernel
-def stiffness(batch, group, chunk, x, ws, c_damping, c_stiffness):
-    """Add the tangents of strains and damping in the shape x to the blocks between d, t1 and t2."""
+def stiffness(batch, group, chunk, x, ws, c_damping, c_stiffness, along, across):
+    """Add the tangents of strains and damping in the shape x to the blocks between d, t1 and t2.
+
+    There are factors of the axial constants, and of those of bending.
+    """
     d, t1, t2 = x
     gp, first, axial = batch.gp, group[FIRST], group[AXIAL]
     paper, curved = group[PAPER] != 0, group[CURVED] != 0
     damped = group[DAMPED] if c_damping != 0.0 else 0
-    ea, da = c_stiffness * load(batch.lane_data, chunk, EA_L), c_damping * load(batch.lane_data, chunk, DA_L)
+    data = batch.lane_data
+    ea, da = along * (c_stiffness * load(data, chunk, EA_L)), along * (c_damping * load(data, chunk, DA_L))
     for k in range(axial):
         g = first + k
         w, p = gp[g, WEIGHT], slope(gp, g, d, t1, t2)
         spread_slope(ws, gp, g, axial_tangent(p, reference(batch, chunk, k, curved), w * ea, w * da, paper))
-    ei, db = c_stiffness * load(batch.lane_data, chunk, EI_L), c_damping * load(batch.lane_data, chunk, DB_L)
-    inv_l = load(batch.lane_data, chunk, INV_L)
+    ei, db = across * (c_stiffness * load(data, chunk, EI_L)), across * (c_damping * load(data, chunk, DB_L))
+    inv_l = load(data, chunk, INV_L)
     for k in range(group[BENDING]):
         g = first + axial + k
         w, p, s = gp[g, WEIGHT], slope(gp, g, d, t1, t2), bend(gp, g, d, t1, t2, inv_l)
@@ -282,7 +294,7 @@ def stiffness(batch, group, chunk, x, ws, c_damping, c_stiffness):
         if damped & IN_BENDING:
             spread(ws, gp, g, inv_l, bending_damping_tangent(p, s, w * db, paper, inv_l))
     if damped & IN_SLOPE:
-        spread_slope_damping(ws, c_damping * load(batch.lane_slope, chunk, 0))
+        spread_slope_damping(ws, along * (c_damping * load(batch.lane_slope, chunk, 0)))
 
 
 @inline_kernel
@@ -292,7 +304,7 @@ def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
         group = batch.groups[n]
         for chunk in range(group[BEGIN], group[END]):
             clear(ws, KDD, BLOCKS)
-            stiffness(batch, group, chunk, shape(batch, q, chunk), ws, c_damping, c_stiffness)
+            stiffness(batch, group, chunk, shape(batch, q, chunk), ws, c_damping, c_stiffness, 1.0, 1.0)
             store_tangent(batch, A, ws, chunk, c_mass, c_damping)
 
 

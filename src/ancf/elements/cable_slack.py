@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..arrays import FloatArray
@@ -14,17 +16,19 @@ class Slack:
 
     Parameters
     ----------
-    batch : CableBatch
+    batch : CableBatch or WinchedBatch
         Changed in place.
     q : ndarray
         State vector of the initial shape: where a chord is shorter than its element, it is pressed.
+    grown : ndarray, optional
+        Lengths of the elements as multiples of those of the batch.
     """
 
-    def __init__(self, batch: CableBatch, q: FloatArray) -> None:
+    def __init__(self, batch: Any, q: FloatArray, grown: Any = 1.0) -> None:
         self._batch = batch
         self._stiffness = batch.lane_data[:, EA_L]
         self._natural = self._stiffness.copy(), batch.lane_reference.copy(), batch.groups[:, CURVED].copy()
-        self._strain = compression(batch, q)
+        self._strain = compression(batch, q, grown)
 
     @property
     def stiffest(self) -> float:
@@ -44,11 +48,11 @@ def slack(batch: CableBatch, q: FloatArray) -> Slack:
     return Slack(batch, q)
 
 
-def compression(batch: CableBatch, q: FloatArray) -> FloatArray:
+def compression(batch: Any, q: FloatArray, grown: Any = 1.0) -> FloatArray:
     """Axial strain of the chords that are shorter than their element, in the form of lane_reference."""
     counts = np.diff(batch.first)
     lane = np.arange(len(batch.base)) - np.repeat(batch.first[:-1], counts)
-    h = batch.lane_data[np.repeat(np.arange(len(counts)), counts), LENGTH, lane]
+    h = grown * batch.lane_data[np.repeat(np.arange(len(counts)), counts), LENGTH, lane]
     first, second = (q[batch.base[:, k, None] + np.arange(3)] for k in (0, 2))
     stretch = np.minimum(np.linalg.norm(second - first, axis=1) / h, 1.0)
     strain = np.zeros((len(batch.base), 20))

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ..arrays import FloatArray
 from ..model.beam import Beam
 from ..model.elements import KINDS
+from . import winched_build
 
 
 class Element(Protocol):
@@ -66,7 +67,8 @@ ELEMENTS: dict[str, Element] = {
 
 def offered(batch: Any, name: str) -> Callable[..., Any] | None:
     """What the module of a batch offers under this name, see :class:`Optional`, or None."""
-    found = (m for m in ELEMENTS.values() if getattr(m, "BATCH", None) is type(batch))
+    modules = (*ELEMENTS.values(), winched_build)
+    found = (m for m in modules if getattr(m, "BATCH", None) is type(batch))
     return getattr(next(found, None), name, None)
 
 

@@ -17,6 +17,7 @@ from .kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT, Kind, Look, Pu
 from .loads import DistributedLoad, Force, Moment
 from .state_function import StateFunction
 from .supports import Clamp, Hold, Pin
+from .winch import Winch
 
 
 def _entry(name: str, module: str = "items") -> Callable[[], Any]:
@@ -35,6 +36,15 @@ SUPPORTS: list[Kind] = [
         look=Look("square", "light", 5.5),
     ),
     Kind(Hold, "hold", "hold", "hold", _entry("HoldEntry"), sheets.hold, look=Look("down", "white", 4.0)),
+    Kind(
+        Winch,
+        "winch",
+        "winch",
+        "winch",
+        _entry("WinchEntry"),
+        sheets.winch,
+        look=Look("circle", "orange", 6.0),
+    ),
 ]
 LOADS: list[Kind] = [
     Kind(

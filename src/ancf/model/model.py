@@ -23,6 +23,7 @@ from .state_function import force_function
 from .supports import Clamp, Hold, Pin, Support, check_overlap, make_clamp, make_hold, optional, require_node
 from .surroundings import Surroundings
 from .tables import Readable, Sheet
+from .winch import Winch, make_winch
 
 SupportT = TypeVar("SupportT", bound=Support)
 LoadT = TypeVar("LoadT", bound=Load)
@@ -271,6 +272,28 @@ class Model(Surroundings, Readable):
         label = self._names.of_item(name, f"hold at {clean}", where)
         letters = {"position": position, "slope": slope, "slope_y": slope_y, "slope_z": slope_z}
         item = make_hold(where, label, clean, **letters, twist=twist, displacement=displacement)
+        return self._add_support(where, item)
+
+    def winch(self, point: PointLike, length: Any, name: str | None = None) -> Winch:
+        """Pay out or haul in a cable at one of its ends.
+
+        All elements share the change of the length; the other end keeps its material. The node at the winch
+        is not held: pin it, or connect it to what carries the winch. `point.at(x)` of such a cable is the
+        place at the fraction x/length of its present length, and nothing may be fastened between its ends.
+
+        Parameters
+        ----------
+        point : Point
+            Start or end of a cable that is naturally straight.
+        length : function of time, m
+            Natural length of what is paid out; it should start and stop smoothly. A constant is a length
+            that differs from the one of ``add_beam``.
+        name : str
+            Default "winch at rope.start".
+
+        """
+        where, clean = self._at_node("winch", point, name)
+        item = make_winch(where, self._names.of_item(name, f"winch at {clean}", where), clean, length)
         return self._add_support(where, item)
 
     def add_force(self, point: PointLike, force: Any, name: str | None = None) -> Force:

@@ -18,6 +18,7 @@ from .state_function import StateFunction
 from .supports import Clamp, Hold, Pin
 from .tables import number, numbers, plural, with_units
 from .velocity_field import VelocityField
+from .winch import Winch
 
 
 def place(end: Any) -> str:
@@ -72,6 +73,11 @@ def hold(item: Hold) -> str:
     )
     parts = [f"{name} {', '.join(text)}" for name, text in letters if text]
     return "; ".join(parts + (["twist"] if item.twist else [])) + _moves(item)
+
+
+def winch(item: Winch) -> str:
+    """The length that it leaves."""
+    return f"nothing; length {value(item.length, 'm')}"
 
 
 def _moves(item: Pin | Clamp | Hold) -> str:

@@ -13,6 +13,7 @@ from .bodies import Body, PointMass, RigidBody, kind
 from .functions import TimeFunction
 from .joints import STRETCH
 from .points import Point
+from .winch import Winch
 
 AXES = "xyz"
 
@@ -109,7 +110,7 @@ class Hold:
         return components(self.position, self.slope, self.slope_y, self.slope_z, twist=self.twist)
 
 
-Support = Pin | Clamp | Hold
+Support = Pin | Clamp | Hold | Winch
 
 
 def components(
@@ -214,6 +215,7 @@ def _letters(value: Any, where: str) -> str:
 def check_overlap(where: str, new: Support, others: list[Support]) -> None:
     """No component of a node may be held twice; a second clamp refines the first one."""
     for other in others:
+        _refuse_second_winch(where, new, other)
         if isinstance(other, Clamp) and isinstance(new, Clamp):
             continue
         same_node = other.point.body is new.point.body and node_of(other.point) == node_of(new.point)
@@ -221,6 +223,12 @@ def check_overlap(where: str, new: Support, others: list[Support]) -> None:
         if same_node and twice:
             what = f'"{new.name}" and "{other.name}" both hold {", ".join(twice)} of {new.point}'
             raise ModelError(f"{where}.point", what, "keep one of them")
+
+
+def _refuse_second_winch(where: str, new: Support, other: Support) -> None:
+    if isinstance(new, Winch) and isinstance(other, Winch) and new.beam is other.beam:
+        what = f'"{other.name}" changes the length of "{new.beam.name}" already'
+        raise ModelError(f"{where}.point", what, "keep one of them")
 
 
 def _held_twice(one: frozenset[str], two: frozenset[str]) -> list[str]:

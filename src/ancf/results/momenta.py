@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
+from ..elements.winched_build import momenta
 from ..errors import ModelError, named
 from ..model import checks
 from ..model.bodies import RigidBody
@@ -24,7 +26,8 @@ class Momenta:
     def momentum(self: Any) -> FloatArray:
         """Momentum of all bodies, kg m/s; the mass of fluid that they carry along is not in it."""
         positions, _ = _slots(self.system)
-        return _shaped([_triples(Mv, positions).sum(0) for _, Mv in self._each()], self.q)
+        found = [_triples(Mv, positions).sum(0) for _, Mv in self._each()]
+        return _shaped([p + more for p, more in zip(found, self._winched(linear), strict=True)], self.q)
 
     def angular_momentum(self: Any, about: Any = (0.0, 0.0, 0.0)) -> FloatArray:
         """Angular momentum of all bodies about a fixed place (3,) in m, kg m^2/s.
@@ -43,7 +46,8 @@ class Momenta:
         for q, Mv in self._each():
             spin = np.cross(_triples(q, positions) - place, _triples(Mv, positions)).sum(0)
             found.append(spin + np.cross(_triples(q, others), _triples(Mv, others)).sum(0))
-        return _shaped(found, self.q)
+        more = self._winched(lambda r, p: angular(r, p, place))
+        return _shaped([spin + own for spin, own in zip(found, more, strict=True)], self.q)
 
     def angular_velocity(self: Any, body: RigidBody | str) -> FloatArray:
         """Angular velocity of a rigid body in global components, rad/s.
@@ -64,6 +68,16 @@ class Momenta:
         spin: FloatArray = 0.5 * np.cross(axes, rates).sum(axis=-2)
         return spin
 
+    def _winched(self: Any, of: Callable[[FloatArray, FloatArray], FloatArray]) -> Iterator[FloatArray]:
+        """Sums over the cables with a winch, whose material moves past their nodes."""
+        batch = self.system.parts.get("winched")
+        for q, v in zip(np.atleast_2d(self.q[:]), np.atleast_2d(self.v[:]), strict=True):
+            if batch is None:
+                yield np.zeros(3)
+            else:
+                r, _, p = momenta(batch, q, v)
+                yield of(r, p)
+
     def _each(self: Any) -> Any:
         """State vectors one after the other, with their mass matrix times the velocities."""
         system = self.system
@@ -71,6 +85,19 @@ class Momenta:
         for q, v in zip(np.atleast_2d(self.q[:]), np.atleast_2d(self.v[:]), strict=True):
             inertia(system.core.batches, system.core.ws, np.ascontiguousarray(v), Mv)
             yield q, Mv
+
+
+def linear(r: FloatArray, p: FloatArray) -> FloatArray:
+    """Momentum of elements with these shapes and momenta, (n, 4, 3)."""
+    total: FloatArray = p[:, ::2].sum((0, 1))
+    return total
+
+
+def angular(r: FloatArray, p: FloatArray, place: FloatArray) -> FloatArray:
+    """Angular momentum of elements about a place."""
+    arm = r - np.array([1.0, 0.0, 1.0, 0.0])[:, None] * place
+    total: FloatArray = np.cross(arm, p).sum((0, 1))
+    return total
 
 
 def _slots(system: System) -> tuple[IntArray, IntArray]:

@@ -18,6 +18,7 @@ from ..model.tables import Readable, Sheet
 from ..solvers.record import Stats
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
+from ..system.probe import lengths_of
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 from . import accuracy, motions, remembered, tension
@@ -50,6 +51,7 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
             self.model = store.model()
             self._slots, self._joints, self._last = store.layout(self.model)
         self._bodies, self._springs = self.model.bodies, springs_of(self.model.connections)
+        self._lengths = lengths_of(self.model, self._joints)
         slides = (item.name for item in self.model.connections if isinstance(item, Slide))
         self._arcs = {name: int(self._joints[name][-1]) for name in slides}
 

@@ -38,6 +38,10 @@ class Sensors(SpringFields, ContactFields, Plotted):
         self.model, self._bodies = whole.model, whole.bodies
         self._whole_slots = whole.slots
         self._slots = {name: listing.places(slots) for name, slots in whole.slots.items()}
+        self._lengths = {
+            name: (int(listing.places(np.array([unknown]))[0]), far)
+            for name, (unknown, far) in whole.lengths.items()
+        }
         mine = listing.connections
         self._springs = {name: item for name, item in whole.springs.items() if name in mine}
         self._joints = {name: listing.places(u) for name, u in whole.joints.items() if name in mine}

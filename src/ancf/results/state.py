@@ -88,7 +88,7 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
         self._q, self._v = q, v
         self._moving: tuple[FloatArray, FloatArray] | None = None
         self._bodies, self._slots = self.model.bodies, system.slots
-        self._joints, self._arcs = system.joints, system.numbering.arcs
+        self._joints, self._arcs, self._lengths = system.joints, system.numbering.arcs, system.lengths
         self._springs = springs_of(system.model.connections)
 
     def __repr__(self) -> str:

@@ -107,20 +107,26 @@ def extremes(known: Any, beams: list[Beam], parts: int = 1) -> dict[str, tuple[f
     return found
 
 
-def element_forces(beam: Beam, slots: IntArray, q: FloatArray, v: FloatArray | None) -> FloatArray:
+def element_forces(
+    beam: Beam, slots: IntArray, q: FloatArray, v: FloatArray | None, length: tuple[int, float] = (-1, 0.0)
+) -> FloatArray:
     """Forces of a cable in the middles of its elements, as ``tension`` gives them, N, shape (n_t, n).
 
-    ``q`` and, with axial damping, ``v`` are of shape (n_t, size).
+    ``q`` and, with axial damping, ``v`` are of shape (n_t, size); ``length`` is that of a cable with a
+    winch, see :func:`ancf.system.probe.lengths_of`.
     """
     section, strain = beam.section, beam.strain
     vectors = _vectors(beam, slots, q)
+    if length[0] >= 0:
+        vectors = _of_material(vectors, beam.length / q[:, length[0]][:, None])
     force: FloatArray = section.EA * (_mean_strain(beam, vectors) - _natural(beam))
     if strain == "material" and not section.axial_damping:
         return force
     r_x = [_slope(part) for part in vectors]
     stretch = np.sqrt(sum(x * x for x in r_x))
     if section.axial_damping and v is not None:
-        rate = sum(x * _slope(part) for x, part in zip(r_x, _vectors(beam, slots, v), strict=True))
+        rates = _vectors(beam, slots, v) if length[0] < 0 else _rates(beam, slots, q, v, *length)
+        rate = sum(x * _slope(part) for x, part in zip(r_x, rates, strict=True))
         force += section.axial_damping * (rate / stretch if strain == "material" else rate)
     return force if strain == "material" else force * stretch
 
@@ -158,7 +164,15 @@ def _pieces(
         rows = chosen[begin : begin + count]
         place = ... if single else slice(int(rows[0]), int(rows[-1]) + 1, every)
         q, v = np.atleast_2d(known.q[place]), np.atleast_2d(known.v[place]) if damped else None
-        yield rows, {beam.name: element_forces(beam, known.slots[beam.name], q, v) for beam in beams}
+        yield (
+            rows,
+            {
+                beam.name: element_forces(
+                    beam, known.slots[beam.name], q, v, known.lengths.get(beam.name, (-1, 0.0))
+                )
+                for beam in beams
+            },
+        )
 
 
 def middles(beam: Beam) -> list[float]:
@@ -174,6 +188,30 @@ def _vectors(beam: Beam, slots: IntArray, states: FloatArray) -> list[Vectors]:
         place, slope = (np.take(states, slots[:, vector] + k, axis=1) for vector in (0, 1))
         made.append((np.diff(place, axis=1) / h, slope[:, :-1], slope[:, 1:]))
     return made
+
+
+def _of_material(vectors: list[Vectors], factor: FloatArray) -> list[Vectors]:
+    return [(factor * chord, factor * first, factor * last) for chord, first, last in vectors]
+
+
+def _rates(
+    beam: Beam, slots: IntArray, q: FloatArray, v: FloatArray, unknown: int, far: float
+) -> list[Vectors]:
+    """Rates of r_x at the material of a cable with a winch, see :mod:`ancf.elements.winched`."""
+    h, x, made = np.diff(beam.node_x), beam.node_x - far, []
+    mu = (v[:, unknown] / q[:, unknown])[:, None]
+    places = zip(_vectors(beam, slots, q), _vectors(beam, slots, v), strict=True)
+    for k, ((chord, first, last), (v_chord, v_first, v_last)) in enumerate(places):
+        slope = np.take(q, slots[:, 1] + k, axis=1)
+        bend = (6 * chord - 4 * first - 2 * last) / h, (2 * first + 4 * last - 6 * chord) / h
+        made.append(
+            (
+                v_chord - mu * np.diff(x * slope, axis=1) / h,
+                v_first - mu * (first + x[:-1] * bend[0]),
+                v_last - mu * (last + x[1:] * bend[1]),
+            )
+        )
+    return _of_material(made, beam.length / q[:, unknown][:, None])
 
 
 def _factors(xi: float) -> tuple[float, float, float]:

@@ -28,7 +28,9 @@ class Slack:
     def __init__(self, system: System, q: FloatArray, force: FloatArray) -> None:
         load = float(np.sum(np.abs(force)))
         hang = [b for b in system.model.beams.values() if offers(b.element, "slack")]
-        self.found = load > 0.0 and any(b.stretch < 1.0 - TIGHT for b in hang)
+        sizes = {name: float(q[unknown]) for name, (unknown, _) in system.lengths.items()}
+        drawn = (b.stretch * b.length / sizes.get(b.name, b.length) for b in hang)
+        self.found = load > 0.0 and any(stretch < 1.0 - TIGHT for stretch in drawn)
         ways = [(batch, offered(batch, "slack")) for batch in system.core.batches] if self.found else []
         self._cables = [slack(batch, q) for batch, slack in ways if slack is not None]
         stiffest = max((cables.stiffest for cables in self._cables), default=1.0)

@@ -382,4 +382,5 @@ def _flies(system: System) -> bool:
     """
     model = system.model
     ends = [getattr(c, name, None) for c in model.connections for name in ("a", "b", "point")]
-    return not model.supports and not any(isinstance(end, np.ndarray) for end in ends)
+    held = any(support.held for support in model.supports)
+    return not held and not any(isinstance(end, np.ndarray) for end in ends)

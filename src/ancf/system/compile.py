@@ -21,6 +21,7 @@ from ..connections.contact_build import contacts
 from ..connections.sliding_build import sliding
 from ..connections.spring_build import springs
 from ..contact.build import batches as surface_contacts
+from ..elements import winched_build
 from ..elements.registry import ELEMENTS
 from ..elements.workspace import workspace
 from ..linalg.block_ldl import allocate
@@ -31,6 +32,7 @@ from ..model.joints import Slide
 from ..model.model import Model
 from ..model.points import Point
 from ..model.surfaces import SurfaceContact
+from ..model.winches import by_body
 from . import loads
 from .core import Core, Joints, Loads, Supports
 from .matrix import Places, block_pairs
@@ -55,11 +57,21 @@ def build_parts(
         return locate(point, slots[point.body.name])
 
     kinds: dict[str, list[Beam]] = {}
-    for beam in model.beams.values():
-        kinds.setdefault(beam.element, []).append(beam)
+    winches = by_body(model)
+    for name, beam in model.beams.items():
+        if name not in winches:
+            kinds.setdefault(beam.element, []).append(beam)
     parts: Parts = {
         kind: ELEMENTS[kind].build(beams, [slots[b.name] for b in beams]) for kind, beams in kinds.items()
     }
+    if winches:
+        parts["winched"] = winched_build.build(
+            [w.beam for w in winches.values()],
+            [slots[name] for name in winches],
+            [w.at_start for w in winches.values()],
+            [numbering.lengths[w.name] for w in winches.values()],
+            model.gravity,
+        )
     parts["springs"] = springs(model, find)
     parts |= loads.batches(model, find, value)
     undeformed = [b for b in model.bodies.values() if not isinstance(b, Beam)]
@@ -162,6 +174,7 @@ def make_core(
         batches=Batches(batches),
         external=Batches(external),
         rubbing=Batches(rubbing),
+        inertial=Batches(alone(b) for b in batches if (alone := traits(b).inertial)),
         remembering=Batches(b for b in batches if traits(b).memory),
         ws=workspace(),
         A=np.zeros(places.size),

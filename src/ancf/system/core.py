@@ -42,11 +42,17 @@ class Supports(NamedTuple):
 class Loads(NamedTuple):
     """Dead loads as patterns of nodal forces, and the moments now."""
 
-    gravity: FloatArray  # weight, on the whole state vector
+    gravity: FloatArray  # weight now, on the whole state vector
+    still: FloatArray  # of it what does not change
+    hung: FloatArray  # (m, 3) of it what bodies with a winch weigh per metre of their length
+    hung_slot: IntArray  # (m,)
+    hung_row: IntArray  # (m,) rows of `value` with these lengths
+    hung_from: IntArray  # (m,) their unknowns
     start: IntArray  # (k + 1,) pattern of load k: slots and factors
     slot: IntArray
     factor: FloatArray
-    value: FloatArray  # (m, 3) inputs now: those of the k patterns, then slices that batches share
+    grows: IntArray  # (k,) row of `value` with a length that the factors are multiplied with, -1: none
+    value: FloatArray  # (m, 3) inputs now: those of the k patterns, slices that batches share, lengths
 
 
 class Joints(NamedTuple):
@@ -77,6 +83,7 @@ class Core(NamedTuple):
     batches: Batches  # everything that has forces
     external: Batches  # of them the loads that depend on the state
     rubbing: Batches  # of them those with friction
+    inertial: Batches  # those with forces of inertia that depend on velocities, with their mass alone
     remembering: Batches  # of them those with a memory
     ws: FloatArray  # workspace of the element kernels
     A: FloatArray  # values of the iteration matrix in 6x6 blocks
@@ -98,14 +105,27 @@ class Tables(NamedTuple):
     rotation: FloatArray  # (steps, moving, 3, 3, 3) R, dR/dt, d2R/dt2
 
 
+@inline_kernel
+def weigh(loads, load):
+    """The weight now, with the lengths in ``load``."""
+    for i in range(loads.gravity.shape[0]):
+        loads.gravity[i] = loads.still[i]
+    for m in range(loads.hung_slot.shape[0]):
+        for c in range(3):
+            loads.gravity[loads.hung_slot[m] + c] += load[loads.hung_row[m], 0] * loads.hung[m, c]
+
+
 @formula
 def external_force(loads, load, f):
     """Load vector f from gravity and the inputs, shape (inputs, 3), of which the patterns have the first."""
+    if loads.hung_slot.shape[0] > 0:
+        weigh(loads, load)
     for i in range(f.shape[0]):
         f[i] = loads.gravity[i]
     for k in range(loads.start.shape[0] - 1):
+        size = load[loads.grows[k], 0] if loads.grows[k] >= 0 else 1.0
         for m in range(loads.start[k], loads.start[k + 1]):
-            i, w = loads.slot[m], loads.factor[m]
+            i, w = loads.slot[m], size * loads.factor[m]
             for c in range(3):
                 f[i + c] += w * load[k, c]
 

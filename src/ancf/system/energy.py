@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
+from ..elements.winched_build import momenta
 from .core import inertia, total_strain_energy
 from .system import System
 
@@ -29,5 +30,15 @@ def energies(system: System, q: FloatArray, v: FloatArray) -> FloatArray:
         inertia(core.batches, core.ws, v[k], momentum)
         strain = total_strain_energy(core.batches, core.ws, q[k])
         # no BLAS: its threads would go on spinning beside the next block of steps
-        out[k] = 0.5 * np.sum(momentum * v[k]), strain, -np.sum(core.loads.gravity * q[k])
+        out[k] = 0.5 * np.sum(momentum * v[k]), strain, -np.sum(core.loads.still * q[k])
+        if "winched" in system.parts:
+            out[k] += _of_winched(system, q[k], v[k])
     return out
+
+
+def _of_winched(system: System, q: FloatArray, v: FloatArray) -> tuple[float, float, float]:
+    """Kinetic and potential energy of cables with a winch, whose mass goes with their length."""
+    _, w, momentum = momenta(system.parts["winched"], q, v)
+    loads = system.core.loads
+    weight = q[loads.hung_from][:, None] * loads.hung
+    return 0.5 * np.sum(w * momentum), 0.0, -np.sum(weight * q[loads.hung_slot[:, None] + np.arange(3)])

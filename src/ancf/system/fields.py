@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -11,8 +12,10 @@ from ..arrays import FloatArray, IntArray
 from ..elements.measures import axial_strain, axial_strain_rate, curvature, normal_curvature
 from ..elements.shapes import gauss, hermite
 from ..errors import ModelError
+from ..model.beam import Beam
 from ..model.bodies import Body, PointMass, RigidBody, kind
 from ..model.lookup import own_point, parse_point
+from ..model.names import unknown
 from ..model.points import Point
 from . import sections
 from .probe import R_X, R_XX, R_Y, R_Z, BeamProbe, Probe, locate
@@ -36,6 +39,11 @@ class Fields:
         return self._slots
 
     @property
+    def lengths(self) -> Mapping[str, tuple[int, float]]:
+        """Unknown of the length and place of the far end, by cable with a winch."""
+        return self._lengths
+
+    @property
     def q(self) -> FloatArray:
         """State vectors, shape (..., size)."""
         return self._q
@@ -47,6 +55,8 @@ class Fields:
 
     _bodies: dict[str, Body]
     _slots: dict[str, IntArray]
+    #: Of cables with a winch, see :func:`ancf.system.probe.lengths_of`.
+    _lengths: Mapping[str, tuple[int, float]] = MappingProxyType({})
     _q: FloatArray
     _v: FloatArray
 
@@ -57,6 +67,23 @@ class Fields:
     def velocity(self, point: Point | PointMass | RigidBody | str) -> FloatArray:
         """Velocity, m/s."""
         return self._probe(point).field(self.v)
+
+    def natural_length(self, beam: Beam | str) -> FloatArray:
+        """Natural length of a beam, m: what a winch has paid out of a cable, or what it was made with.
+
+        Raises
+        ------
+        ModelError
+            There is no such beam.
+        """
+        name = getattr(beam, "name", beam)
+        body = self.bodies.get(name) if isinstance(name, str) else None
+        if not isinstance(body, Beam):
+            there = [name for name, body in self.bodies.items() if isinstance(body, Beam)]
+            raise unknown("natural_length", "beam", name, there)
+        place, _ = self._length_of(body.name)
+        length: FloatArray = self.q[..., place] if place >= 0 else np.full(self.q.shape[:-1], body.length)[()]
+        return length
 
     def slope(self, point: Point | str) -> FloatArray:
         """Slope r_x at the point, dimensionless; its length is the stretch."""
@@ -89,7 +116,7 @@ class Fields:
         r_x = probe.field(self.q, R_X)
         force = section.EA * self.strain(point)
         if section.axial_damping:
-            rate = axial_strain_rate(r_x, probe.field(self.v, R_X), strain)
+            rate = axial_strain_rate(r_x, probe.rate(self.q, self.v, R_X), strain)
             force = force + section.axial_damping * rate
         return force if strain == "material" else force * np.linalg.norm(r_x, axis=-1)
 
@@ -167,7 +194,10 @@ class Fields:
         if body is None:
             names = ", ".join(self.bodies)
             raise ModelError(str(place), f'there is no body "{place.body.name}" here, there are: {names}')
-        return locate(replace(place, body=body), self.slots[body.name])
+        return locate(replace(place, body=body), self.slots[body.name], self._length_of(body.name))
+
+    def _length_of(self, name: str) -> tuple[int, float]:
+        return self._lengths.get(name, (-1, 0.0))
 
     def _beam(self, point: Point | RigidBody | str) -> BeamProbe:
         probe = self._probe(point)
@@ -220,7 +250,7 @@ def natural_strains(probe: BeamProbe) -> tuple[float, float]:
 def _curvature_rate(probe: BeamProbe, q: FloatArray, v: FloatArray, strain: str) -> FloatArray:
     """d kappa/dt: the part along n of the rate of the curvature vector n, by a small difference."""
     r_x, r_xx = probe.field(q, R_X), probe.field(q, R_XX)
-    v_x, v_xx = probe.field(v, R_X), probe.field(v, R_XX)
+    v_x, v_xx = probe.rate(q, v, R_X), probe.rate(q, v, R_XX)
     size = np.abs(v_x).max() * probe.S[1].max() + np.abs(v_xx).max() + 1e-30
     d = 1e-6 * (np.abs(r_xx).max() + 1.0) / size
     ahead = normal_curvature(r_x + d * v_x, r_xx + d * v_xx, strain)

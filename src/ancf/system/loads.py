@@ -20,6 +20,7 @@ from ..model.kind import Kind
 from ..model.kinds import LOADS, SURROUNDINGS, kind_of
 from ..model.loads import DistributedLoad, Force, Moment
 from ..model.model import Model
+from ..model.winches import by_body
 from .probe import R_X, R_Y, R_Z, Probe, R
 
 Pattern = tuple[IntArray, FloatArray]  # slots and factors
@@ -27,11 +28,11 @@ Locate = Callable[..., Probe]
 
 
 def functions(model: Model) -> list[TimeFunction]:
-    """Inputs of all loads but gravity, in their order: dead loads, then those that depend on the state."""
+    """Inputs of all loads but gravity: dead loads, then those that depend on the state, then lengths."""
     dead = [amplitude for _, amplitude in _dead(model)]
     moments = [load.moment for part in _moments(model) for load in part]
     laws = [function for kind, items in _laws(model) for item in items for function in kind.inputs_of(item)]
-    return dead + moments + laws
+    return dead + moments + laws + [winch.length for winch in by_body(model).values()]
 
 
 def _dead(model: Model) -> list[tuple[Any, TimeFunction]]:
@@ -67,15 +68,25 @@ def _laws(model: Model) -> list[tuple[Kind, list[Any]]]:
 def patterns(model: Model, locate: Locate, slots: dict[str, IntArray], arcs: dict[str, int]) -> list[Pattern]:
     """Patterns of the dead loads; ``arcs``: s of the sliding joints."""
     found: list[Pattern] = []
+    winches = by_body(model)
     for load, _ in _dead(model):
         if isinstance(load, Force):
             probe = locate(load.point)
             found.append((probe.slots, probe.S[R]))
         elif isinstance(load, DistributedLoad):
-            found.append(distributed(load.body, slots[load.body.name], *load.between))
+            at, factor = distributed(load.body, slots[load.body.name], *load.between)
+            found.append((at, factor / load.body.length if load.body.name in winches else factor))
         else:  # a scalar on a slot of three: the two unknowns behind s are held
             found.append((np.array([arcs[load.name]]), np.ones(1)))
     return found
+
+
+def growing(model: Model, rows: int) -> IntArray:
+    """Rows of the inputs, of which there are so many, with lengths on which dead loads depend, or -1."""
+    winches = by_body(model)
+    last = {name: rows - len(winches) + k for k, name in enumerate(winches)}
+    bodies = (load.body.name if isinstance(load, DistributedLoad) else "" for load, _ in _dead(model))
+    return np.array([last.get(name, -1) for name in bodies], dtype=np.int64)
 
 
 def batches(model: Model, locate: Locate, value: FloatArray) -> dict[str, Any]:
@@ -154,9 +165,11 @@ def distributed(beam: Beam, slots: IntArray, x0: float, x1: float) -> Pattern:
 
 
 def gravity(model: Model, slots: dict[str, IntArray], size: int) -> FloatArray:
-    """Weight of all bodies on a state vector of this size, N."""
-    f = np.zeros(size)
-    for body in model.bodies.values():
+    """Weight of all bodies on a state vector of this size, N, but of cables with a winch."""
+    f, winches = np.zeros(size), by_body(model)
+    for name, body in model.bodies.items():
+        if name in winches:
+            continue
         if isinstance(body, Beam):
             at, factor = distributed(body, slots[body.name], 0.0, body.length)
             weight = factor * body.section.rhoA
@@ -165,3 +178,27 @@ def gravity(model: Model, slots: dict[str, IntArray], size: int) -> FloatArray:
         for c in range(3):
             np.add.at(f, at + c, weight * model.gravity[c])
     return f
+
+
+def hung(
+    model: Model, slots: dict[str, IntArray], lengths: dict[str, int], rows: int
+) -> tuple[FloatArray, IntArray, IntArray, IntArray]:
+    """What cables with a winch weigh per metre of their length, N/m.
+
+    Shape (m, 3), with the slots (m,), the rows of the inputs, of which there are so many, and the unknowns
+    ``lengths``, by winch, with these lengths.
+    """
+    weight = [np.zeros((0, 3))]
+    at: list[int] = []
+    row: list[int] = []
+    unknown: list[int] = []
+    winches = by_body(model)
+    for k, (name, winch) in enumerate(winches.items()):
+        places, factor = distributed(winch.beam, slots[name], 0.0, winch.beam.length)
+        share = factor * winch.beam.section.rhoA / winch.beam.length
+        weight.append(share[:, None] * model.gravity)
+        at += places.tolist()
+        row += [rows - len(winches) + k] * len(places)
+        unknown += [lengths[winch.name]] * len(places)
+    slot, rows_of, place = (np.array(x, dtype=np.int64) for x in (at, row, unknown))
+    return np.concatenate(weight), slot, rows_of, place

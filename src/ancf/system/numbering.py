@@ -12,6 +12,7 @@ from ..model.connections import Spherical
 from ..model.joints import Slide
 from ..model.model import Model
 from ..model.points import Point
+from ..model.winches import by_body
 from .nodes import layout, names_of, node_of
 from .probe import Probe, locate
 
@@ -30,6 +31,8 @@ class Numbering:
         Unknowns of the multipliers, by joint or rigid body.
     arcs : dict of str to int
         Unknown of the arc length s, by sliding joint.
+    lengths : dict of str to int
+        Unknown of the length of a cable, by winch.
     blocks : int
         Number of blocks of six unknowns.
     sliding : list of int
@@ -45,6 +48,7 @@ class Numbering:
         self.shared: dict[str, int] = {}
         self.multipliers: dict[str, IntArray] = {}
         self.arcs: dict[str, int] = {}
+        self.lengths: dict[str, int] = {}
         self.sliding: list[int] = []
         self.rows: dict[str, list[Row]] = {}
         self.blocks = 0
@@ -68,6 +72,9 @@ class Numbering:
                 self.arcs[joint.name] = int(self.multipliers[joint.name][0]) + 3
             elif joint.name not in tied and (rows := rows_of(joint, self._locate, self.slots)):
                 self._keep(joint.name, rows)
+        for winch in by_body(model).values():
+            self.lengths[winch.name] = 6 * self.blocks
+            self.blocks += 1
 
     def _locate(self, point: Point) -> Probe:
         return locate(point, self.slots[point.body.name])
@@ -95,6 +102,7 @@ class Numbering:
             for name, unknowns in table.items():
                 table[name] = 6 * rank[unknowns // 6] + unknowns % 6
         self.arcs = {name: int(6 * rank[i // 6] + i % 6) for name, i in self.arcs.items()}
+        self.lengths = {name: int(6 * rank[i // 6]) for name, i in self.lengths.items()}
         self.sliding = [int(rank[b]) for b in self.sliding]
 
     def all_multipliers(self) -> IntArray:
@@ -111,6 +119,7 @@ class Numbering:
                 mask[slots[:-1, shared:] + c] = True
         mask[self.all_multipliers()] = True
         mask[list(self.arcs.values())] = True
+        mask[list(self.lengths.values())] = True
         return mask
 
     def describe(self, unknown: int) -> str:
@@ -128,4 +137,7 @@ class Numbering:
         for name, arc in self.arcs.items():
             if unknown == arc:
                 return f"arc length of {name}"
+        for name, length in self.lengths.items():
+            if unknown == length:
+                return f"length of {name}"
         return f"unknown {unknown}"

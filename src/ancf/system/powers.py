@@ -3,7 +3,8 @@
 The work of loads is supplied: of those that depend on time alone, of batches with the role EXTERNAL whatever
 they depend on, and of the reactions of moving supports.  Gravity has a potential instead.  What all other
 forces do because of velocities is dissipated: what they lose when the velocities are set to zero.  All that
-batches with the role RUBS do is dissipated: friction needs no velocity to hold.
+batches with the role RUBS do is dissipated: friction needs no velocity to hold.  What forces of inertia lose
+that depend on velocities, as those of a cable that a winch pays out, is not dissipated.
 """
 
 from __future__ import annotations
@@ -28,8 +29,13 @@ def powers(core, q, v, a, f, push, r):
             r[i] = -r[i]
         add_forces(core.external, q, push, a, r, core.ws)
         add_forces(core.rubbing, q, push, a, r, core.ws)
+        add_forces(core.inertial, q, push, a, r, core.ws)
         for i in range(n):
             dissipated += v[i] * r[i]
+            r[i] = 0.0
+        add_forces(core.inertial, q, v, a, r, core.ws)
+        for i in range(n):
+            dissipated -= v[i] * r[i]
     if core.damped or core.supports.driven.shape[0] > 0:
         residual(core.batches, core.ws, q, v, a, f, r)
     add_forces(core.external, q, v, a, push, core.ws)

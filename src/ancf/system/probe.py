@@ -11,7 +11,9 @@ from ..elements.registry import ELEMENTS
 from ..model.beam import Beam
 from ..model.bodies import Body
 from ..model.elements import KINDS
+from ..model.model import Model
 from ..model.points import Point
+from ..model.winches import by_body
 
 #: Rows of a probe's factors; a cable has the first three.
 R, R_X, R_XX, R_Y, R_Z, R_YX, R_ZX = range(7)
@@ -63,10 +65,43 @@ class BeamProbe(Probe):
     beam : Beam
     element : int
         Element that holds the point (the later one at a node, but the last at the end).
+    unknown : int
+        The natural length, where a winch changes it; else -1.
+    far : float
+        Place of the other end of such a beam, m.
     """
 
     beam: Beam
     element: int
+    unknown: int = -1
+    far: float = 0.0
+
+    def field(self, states: FloatArray, row: int = R) -> FloatArray:
+        """See :meth:`Probe.field`; derivatives are those by the material where a winch changes the length."""
+        total = super().field(states, row)
+        if self.unknown >= 0 and row in (R_X, R_XX):
+            total /= self._drawn(states) ** (1 if row == R_X else 2)
+        return total
+
+    def _drawn(self, states: FloatArray) -> FloatArray:
+        """Length now as a multiple of that of the mesh, shape (..., 1)."""
+        return states[..., self.unknown : self.unknown + 1] / self.beam.length
+
+    def rate(self, q: FloatArray, v: FloatArray, row: int) -> FloatArray:
+        """Rate of r_x or r_xx at the material that is at the point, shape (..., 3)."""
+        rate = super().field(v, row)
+        if self.unknown < 0:
+            return rate
+        if row == R_XX:  # r_x has a rate that is quadratic in the element
+            x, h = self.xi, self.element_length * self._drawn(q)
+            parts = [self.moved(xi).rate(q, v, R_X) for xi in (0.0, 0.5, 1.0)]
+            weights = 4.0 * x - 3.0, 4.0 - 8.0 * x, 4.0 * x - 1.0
+            quick: FloatArray = sum(w * part for w, part in zip(weights, parts, strict=True)) / h
+            return quick
+        lam, mu = self._drawn(q), self._drawn(v) / self._drawn(q)
+        label = self.x - self.far
+        drawn: FloatArray = rate / lam - mu * (self.field(q, R_X) + label * lam * self.field(q, R_XX))
+        return drawn
 
     @property
     def solid(self) -> bool:
@@ -91,14 +126,29 @@ class BeamProbe(Probe):
 
     def slope(self, states: FloatArray) -> FloatArray:
         """Derivative of the point's r by x, shape (..., 3)."""
+        if self.unknown >= 0:
+            return self.field(states, R_X)
         S = self.S[R_X]
         if self.y != 0.0 or self.z != 0.0:
             S = S + self.y * self.S[R_YX] + self.z * self.S[R_ZX]
         return self.combined(states, S)
 
 
-def locate(point: Point, slots: IntArray) -> Probe:
-    """Probe at a point of a body whose nodes have these slots, shape (nodes, vectors + internal)."""
+def lengths_of(model: Model, unknowns: dict[str, IntArray]) -> dict[str, tuple[int, float]]:
+    """Of cables with a winch, the unknown of the length and the place of the far end on the mesh, m.
+
+    ``unknowns``: of joints and winches, by name.
+    """
+    found = by_body(model).items()
+    there = [(name, w) for name, w in found if w.name in unknowns]
+    return {name: (int(unknowns[w.name][0]), w.beam.length if w.at_start else 0.0) for name, w in there}
+
+
+def locate(point: Point, slots: IntArray, length: tuple[int, float] = (-1, 0.0)) -> Probe:
+    """Probe at a point of a body whose nodes have these slots, shape (nodes, vectors + internal).
+
+    ``length``: of a cable with a winch, see :func:`lengths_of`.
+    """
     body, x, y, z = point.body, point.x, point.y, point.z
     if not isinstance(body, Beam):
         return Probe(body, x, y, z, slots[0], _rigid_factors(point, slots.shape[1]))
@@ -107,7 +157,7 @@ def locate(point: Point, slots: IntArray) -> Probe:
     S = _factors(body, (x - body.node_x[e]) / h, h, y, z)
     vectors = KINDS[body.element].vectors
     parts = (slots[e, :vectors], slots[e + 1, :vectors], slots[e, vectors:])
-    return BeamProbe(body, x, y, z, np.concatenate(parts), S, body, e)
+    return BeamProbe(body, x, y, z, np.concatenate(parts), S, body, e, *length)
 
 
 def _rigid_factors(point: Point, vectors: int) -> FloatArray:

@@ -32,6 +32,7 @@ def reaction(
         The state is one of ``ancf.equilibrium``, which ``balanced`` says, but not of the support's body.
     """
     moving = np.abs(v[: system.n]) * system.core.weight
+    moving[list(system.numbering.lengths.values())] = 0.0  # an equilibrium has them at a time
     if np.max(moving) > AT_REST:
         return None
     r, load = _out_of_balance(system, q.copy(), time)

@@ -85,6 +85,11 @@ class Probed(Protocol):
     measures: dict[str, IntArray]
     constraints: Any
 
+    @property
+    def lengths(self) -> dict[str, tuple[int, float]]:
+        """Of cables with a winch, see :func:`ancf.system.probe.lengths_of`."""
+        ...
+
     def probe(self, point: Point) -> Probe:
         """Where the state of a point is found."""
         ...
@@ -103,6 +108,8 @@ def listing(system: Probed, items: Sequence[Point | Connection | Support], accel
         probe = system.probe(point)
         wanted.append(_triples(probe.slots))
         moved.append(_triples(_position_slots(probe)))
+        if point.body.name in system.lengths:
+            wanted.append(np.array(system.lengths[point.body.name][:1]))
     for name, item in joined.items():
         if isinstance(item, Spring):
             ends = [end for end in (item.a, item.b) if isinstance(end, Point)]

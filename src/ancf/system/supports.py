@@ -15,6 +15,7 @@ from ..model.functions import TimeFunction
 from ..model.joints import Slide
 from ..model.model import Model
 from ..model.supports import Clamp, Hold, Pin, Support
+from ..model.winch import Winch
 from .nodes import node_of, start_vectors
 from .numbering import Numbering
 
@@ -81,7 +82,12 @@ def collect(model: Model, numbering: Numbering) -> Constraints:
         body = support.point.body
         node = node_of(body, support.point.x)
         slots = numbering.slots[body.name][node].tolist()
-        if isinstance(support, Pin):
+        if isinstance(support, Winch):
+            unknown = numbering.lengths[support.name]
+            constraints.held.add(unknown)
+            constraints.motions.append(Motion([unknown], support.lengths))
+            constraints.driven.add(unknown)
+        elif isinstance(support, Pin):
             _hold_position(constraints, slots[0], start_vectors(body)[node, 0], support.displacement)
         elif isinstance(support, Hold):
             _hold_components(constraints, numbering, support, node)
@@ -116,7 +122,8 @@ def _held_positions(model: Model, numbering: Numbering) -> dict[str, list[int]]:
             if moved and other.point.body is not body:
                 what = f'"{other.name}" and "{support.name}" both hold {numbering.describe(i)}'
                 raise ModelError("supports", f"{what}, and one of them moves it", "keep one of them")
-    return {s.name: [i for i, first in owner.items() if first is s] for s in model.supports}
+    holding = (s for s in model.supports if not isinstance(s, Winch))
+    return {s.name: [i for i, first in owner.items() if first is s] for s in holding}
 
 
 def _clamp(constraints: Constraints, numbering: Numbering, clamp: Clamp) -> None:

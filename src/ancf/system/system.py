@@ -20,6 +20,7 @@ from ..model.model import Model
 from ..model.points import Point
 from ..model.surfaces import SurfaceContact
 from ..model.touching import bodies_of
+from ..model.winches import check_winches
 from . import loads
 from .compile import bind_parts, build_parts, held_arrays, joined, make_core, order_blocks, rotation_arrays
 from .core import Core, Loads, Supports, place_supports
@@ -29,7 +30,7 @@ from .joints import core_joints, set_scales
 from .matrix import Places
 from .nodes import start_vectors
 from .numbering import Numbering
-from .probe import Probe, locate
+from .probe import Probe, lengths_of, locate
 from .sensors import Listing
 from .supports import collect
 
@@ -70,6 +71,7 @@ class System:
     def __init__(self, model: Model) -> None:
         if not model.bodies:
             raise ModelError("bodies", "the model has no body", "add one with model.add_beam(...)")
+        check_winches(model)
         self.model = model.snapshot()
         self.numbering = Numbering(model)
         self.level = np.array([1.0, 0.0, 0.0])
@@ -118,7 +120,12 @@ class System:
 
     def probe(self, point: Point) -> Probe:
         """Where the state of a point of the model is found."""
-        return locate(point, self.slots[point.body.name])
+        return locate(point, self.slots[point.body.name], self.lengths.get(point.body.name, (-1, 0.0)))
+
+    @cached_property
+    def lengths(self) -> dict[str, tuple[int, float]]:
+        """Of cables with a winch, see :func:`ancf.system.probe.lengths_of`."""
+        return lengths_of(self.model, self.joints)
 
     def _shadowed(self, slots: IntArray) -> IntArray:
         """Slots as elements and results see them: the shadow where there are local axes."""
@@ -138,8 +145,16 @@ class System:
 
     def _loads(self, value: FloatArray) -> Loads:
         self.patterns = loads.patterns(self.model, self.probe, self.slots, self.numbering.arcs)
+        still, rows = loads.gravity(self.model, self.slots, self.size), len(value)
+        weight, slot, row, unknown = loads.hung(self.model, self.slots, self.numbering.lengths, rows)
         return Loads(
-            gravity=loads.gravity(self.model, self.slots, self.size),
+            gravity=still.copy(),
+            still=still,
+            hung=weight,
+            hung_slot=slot,
+            hung_row=row,
+            hung_from=unknown,
+            grows=loads.growing(self.model, rows),
             start=np.cumsum([0] + [len(p[0]) for p in self.patterns]).astype(np.int64),
             slot=joined([p[0] for p in self.patterns], np.int64),
             factor=joined([p[1] for p in self.patterns], np.float64),
@@ -161,6 +176,7 @@ class System:
                 weight[internal + c] = np.diff(beam.node_x)[:, None]
         weight[self.numbering.all_multipliers()] = 0.0
         weight[list(self.numbering.arcs.values())] = 1.0 / size
+        weight[list(self.numbering.lengths.values())] = 1.0 / size
         return weight
 
     def holding(self, bodies: list[str]) -> Core:
@@ -327,8 +343,8 @@ def _spin(body: Beam | PointMass | RigidBody) -> FloatArray:
 
 
 def _joint_unknowns(numbering: Numbering) -> dict[str, IntArray]:
-    """Multipliers by joint or rigid body, followed by s for a sliding joint."""
+    """Multipliers by joint or rigid body, followed by s for a sliding joint; the length by winch."""
     found = {name: unknowns.copy() for name, unknowns in numbering.multipliers.items()}
     for name, arc in numbering.arcs.items():
         found[name] = np.append(found[name], arc)
-    return found
+    return found | {name: np.array([unknown]) for name, unknown in numbering.lengths.items()}

@@ -68,6 +68,15 @@ class HoldEntry(Entry):
     name: ItemName = None
 
 
+class WinchEntry(Entry):
+    """Pays out or hauls in a cable at one of its ends, whose place it does not hold."""
+
+    type: Literal["winch"] = Field(description="Kind of support.")
+    point: PointLabel
+    length: ScalarFunction = Field(description="Natural length of what is paid out, function of t [m].")
+    name: ItemName = None
+
+
 class ForceEntry(Entry):
     """A force at a point."""
 

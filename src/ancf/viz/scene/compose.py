@@ -48,6 +48,7 @@ class Frames(SpringFields):
 
     def __init__(self, source: Any, t: FloatArray, q: FloatArray, v: FloatArray) -> None:
         self._bodies, self._slots, self._springs = source.bodies, source.slots, source.springs
+        self._lengths = source.lengths
         self.t, self._q, self._v, self.model = t, q, v, source.model
 
     def place(self, end: Any) -> FloatArray:

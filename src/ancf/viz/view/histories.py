@@ -25,7 +25,7 @@ class Histories(SpringFields, JointFields):
     """
 
     def __init__(self, source: Any) -> None:
-        self._bodies, self._slots = source.bodies, source.slots
+        self._bodies, self._slots, self._lengths = source.bodies, source.slots, source.lengths
         self._springs, self._joints, self._arcs = source.springs, source.joints, source.arcs
         count, size = source.q.shape
         most = int(np.clip(NUMBERS // max(size, 1), 2, STATES))
