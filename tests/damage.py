@@ -235,7 +235,8 @@ def _data(file, draw):
     elif how == "entry" and new.size and new.dtype.kind in "if":
         new = new.astype(float)
         new.flat[int(draw(SHARE) * new.size)] = draw(number)
-        new = new if draw(st.booleans()) or not np.all(np.isfinite(new)) else new.astype(old.dtype)
+        with np.errstate(all="ignore"):  # too large for a whole number
+            new = new if draw(st.booleans()) or not np.all(np.isfinite(new)) else new.astype(old.dtype)
     elif how == "shape":
         shapes = (
             [new.T, new[..., :0], new[:-1], new[..., None], new.ravel(), new[::-1]]

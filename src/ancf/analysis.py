@@ -16,7 +16,7 @@ from .model.beam import Beam
 from .model.bodies import PointMass, RigidBody
 from .model.integrators import Explicit, Integrator
 from .model.model import Model
-from .preparation import carried_out, given_state, method_of, prepared, system_of
+from .preparation import carried_out, given_state, method_of, prepared
 from .results import remembered
 from .results.modes import Modes
 from .results.result import Result, load
@@ -26,6 +26,7 @@ from .solvers import statics
 from .solvers.modal import natural_modes
 from .solvers.record import Progress
 from .solvers.stability import stable_limit
+from .system.redundancy import independent
 
 __all__ = ["equilibrium", "load", "modes", "simulate", "stable_step"]
 
@@ -63,7 +64,7 @@ def equilibrium(
     checks.integer(load_steps, "equilibrium.load_steps", 1, 100_000)
     time = checks.number(time, "equilibrium.time")
     names = None if of is None else _names(model, of)
-    system = system_of(model)
+    system = independent(model)
     q, stats = statics.equilibrium(system, names, load_steps, time)
     known = remembered.Remembered(memory=remembered.memory_of(system), balanced=True)
     return State(system, float(time), q, system.motion(q, time), stats, known)
@@ -185,7 +186,7 @@ def modes(model: Model, *, about: State | None = None, count: int = 10) -> Modes
     SolveError
         The state is not a stable equilibrium.
     """
-    system = system_of(model)
+    system = independent(model)
     q, v = given_state(system, about, "modes.about")
     about = State(system, 0.0, q, np.zeros_like(v)) if about is None else State(system, about.t, q, v)
     omega, shapes = natural_modes(about.system, about.q, count)
@@ -208,7 +209,7 @@ def stable_step(model: Model, *, about: State | None = None, safety: float = 0.9
     SolveError
         The mass matrix is singular.
     """
-    method, system = Explicit(safety=safety), system_of(model)
+    method, system = Explicit(safety=safety), independent(model)
     q, v = given_state(system, about, "stable_step.about")
     return method.safety * stable_limit(system, q, v)
 

@@ -29,7 +29,8 @@ from .results.state import State
 from .results.store import MemoryStore
 from .solvers.record import Progress
 from .solvers.runs import AnyRun, run_of
-from .system.consistency import check_gaps, check_independent
+from .system.consistency import check_gaps
+from .system.redundancy import independent
 from .system.sensors import Listing, listing
 from .system.system import System
 
@@ -85,7 +86,7 @@ def compiled(
 ) -> Prepared:
     """A simulation that has no state yet; it is given one by ``run.start`` or ``run.restore``."""
     every = steps_between(where, t_end, step, output_step, t_start)
-    system = system_of(model)  # anew: the model may have changed since the start was computed
+    system = independent(model)  # anew: the model may have changed since the start was computed
     system.sensors = _sensors(system, sensors, not isinstance(method, Radau))
     if not checks.flag(energy, f"{where}.energy"):
         system.skip_energies()
@@ -158,13 +159,6 @@ def method_of(given: Integrator | None, where: str = "simulate") -> Integrator:
         known = "one of " + ", ".join(f"ancf.{kind.__name__}()" for kind in INTEGRATORS.values())
         raise ModelError(f"{where}.integrator", f"must be {known}, is {checks.shown(given)}")
     return given
-
-
-def system_of(model: Model) -> System:
-    """A model compiled, its joints looked over."""
-    system = System(model)
-    check_independent(system)
-    return system
 
 
 def given_state(system: System, about: Any, where: str) -> tuple[Any, Any]:

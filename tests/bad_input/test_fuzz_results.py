@@ -167,6 +167,8 @@ FOUND = {
         r"connections\[3\].a: x = 9 m is outside",
     ),
     "modes of two joints": (data("modes", lambda x: np.append(x, x)), "damaged"),
+    "a mode that is none": (data("modes", lambda x: x + 3), "modes must each be 0, 1 or 2"),
+    "a mode that is no number": (data("modes", lambda x: np.nan * x), "modes must each be 0, 1 or 2"),
     "stored times": (data("time", lambda t: t[::-1]), "time does not ascend"),
     "counters": (data("stats", lambda x: np.nan * x), "damaged"),
     "label of a table": (listed(("points", 0, "label"), {"t": [0]}), "sensors: a point must be text"),

@@ -46,9 +46,9 @@ def task(study: Study) -> str:
 
 def compiled(model: Model) -> System:
     """System of a model."""
-    from ..system.system import System
+    from ..system.redundancy import independent
 
-    return System(model)
+    return independent(model)
 
 
 def _facts(study: Study, system: System) -> list[tuple[str, str]]:

@@ -8,6 +8,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.beam import Beam
 from ..solvers.locking import locked, stiffest
+from ..system import redundancy
 from ..system.consistency import nearly_dependent
 from .faces import History, Instant
 
@@ -23,9 +24,10 @@ KEEPING = ("trapezoidal", "explicit")
 
 def of_state(state: Instant) -> list[str]:
     """Notes on an equilibrium: which cable bends too little, and by how much."""
-    if np.any(state.v):
-        return []
     system = state.system
+    found = redundancy.notes(system)
+    if np.any(state.v):
+        return found
     moved = np.abs(locked(system, state.q))
     start, _ = system.initial_state(state.t)
     named = {}
@@ -37,14 +39,22 @@ def of_state(state: Instant) -> list[str]:
         if isinstance(body, Beam) and off > LOCKED * displaced and off > SMALL * system.model.size:
             named[name] = off, displaced
     if not named:
-        return []
+        return found
     name, (off, displaced) = max(named.items(), key=lambda item: item[1][0])
     share = f"{100 * off / displaced:.2g} % of its displacement" if displaced > 0.0 else "more than it moves"
     text = (
         f'"{name}" may bend too little, by about {off:.2g} m or {share}: its elements are very stiff against '
         f"stretch (EA L^2/EI = {stiffest(system):.1e}); take more of them, or a smaller EA"
     )
-    return [text]
+    return [text, *found]
+
+
+def of_joints(result: History) -> list[str]:
+    """Notes on joints of which others hold a part already."""
+    try:
+        return redundancy.notes(result.system)
+    except ModelError:  # a file of another version, whose unknowns are in another order
+        return []
 
 
 def of_energy(result: History) -> list[str]:

@@ -14,7 +14,8 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..connections.contact import ARC
-from ..connections.sliding import SLIDES, SlidingBatch
+from ..connections.sliding import FREE, FROZEN, SLIDES, SlidingBatch
+from ..errors import ModelError
 from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
@@ -116,8 +117,16 @@ def write(file: Any, known: Remembered) -> None:
 
 
 def read(file: Any, model: Model) -> Remembered:
-    """What :func:`write` has left, by the names of the model."""
+    """What :func:`write` has left, by the names of the model.
+
+    Raises
+    ------
+    ModelError
+        A mode is none.
+    """
     modes, places = file["modes"][:].tolist(), file["places"][:].tolist()
+    if not {*modes} <= {SLIDES, FROZEN, FREE}:
+        raise ModelError("modes", f"must each be {SLIDES}, {FROZEN} or {FREE}")
     found = dict(zip(_slides(model), modes, strict=True)), dict(zip(_contacts(model), places, strict=True))
     memory = {name: x[...] for name, x in file["memory"].items()} if "memory" in file else {}
     inputs: dict[str, Any] = {"values": {}, "led": False}

@@ -19,6 +19,7 @@ from ..solvers.record import Stats
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.probe import lengths_of
+from ..system.redundancy import independent
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 from . import accuracy, motions, remembered, tension
@@ -76,7 +77,10 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
         """
         if self._made_by is not None:
             return self._made_by
-        system = System(self.model)
+        try:
+            system = independent(self.model)
+        except ModelError:  # functions of time that a file does not keep
+            system = System(self.model)
         mine, theirs = {**system.slots, **system.joints}, {**self._slots, **self._joints}
         same = mine.keys() == theirs.keys() and all(np.array_equal(mine[k], theirs[k]) for k in mine)
         if not same or system.size != self.q.shape[1]:
@@ -185,11 +189,12 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
     @property
     def notes(self) -> list[str]:
         """What to know of the run that nobody asked for, one line each: cables that were pressed, and when,
-        and energy that came from nowhere.
+        energy that came from nowhere, joints of which others hold a part already.
 
         All stored states are looked at, when it is asked for.
         """
-        return [*tension.notes(tension.compressions(self)), *accuracy.of_energy(self)]
+        pressed = tension.notes(tension.compressions(self))
+        return [*pressed, *accuracy.of_energy(self), *accuracy.of_joints(self)]
 
     @property
     def stats(self) -> Stats:

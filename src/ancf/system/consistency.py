@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import null_space, qr, svd
+from scipy.linalg import null_space, svd
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
-from ..arrays import FloatArray
+from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
 from ..linalg.sparse import to_sparse
 from ..model.joints import Slide
 from .core import assemble, constraints, restrict
 from .system import System
 
-#: Rank of the rows of the joints, relative to the largest.
-INDEPENDENT = 1e-9
-#: Rows up to which their rank is found by dense algebra at once.
-FEW = 200
 #: Share of a row in a dependent combination from which on its joint is named.
 NAMED = 0.05
 #: Ratio of smallest singular values below which rows are nearly dependent, and most rows that are looked at.
@@ -27,32 +25,14 @@ SINGULAR, MANY = 0.1, 1200
 GAP = 1e-6
 
 
-def check_independent(system: System) -> None:
-    """Raise ModelError if some joints hold what others, or supports, hold already.
+class Rows(NamedTuple):
+    """Rows C_q of the joints on the unknowns that move, in some state."""
 
-    The rows C_q of all multipliers must be independent on the unknowns that move, in the initial shape.
-    """
-    if not len(np.setdiff1d(system.multipliers, system.core.supports.held)):
-        return
-    C, gap, owner = _held_rows(system, system.initial_shape())
-    size = np.linalg.norm(C, axis=1)
-    _refuse_immovable(owner, size > 1e-12 * size.max())
-    C, gap = C / size[:, None], gap / size
-    if len(C) > FEW and _surely_independent(C):
-        return
-    _, R, order = qr(C.T, mode="economic", pivoting=True)
-    diagonal = np.abs(np.diag(R))
-    rank = int(np.sum(diagonal > INDEPENDENT * max(float(diagonal.max()), 1e-300)))
-    if rank == len(C):
-        return
-    combinations = np.zeros((len(C) - rank, len(C)))  # each row times C is zero
-    combinations[:, order[:rank]] = np.linalg.solve(R[:rank, :rank], R[:rank, rank:]).T
-    combinations[np.arange(len(C) - rank), order[rank:]] = -1.0
-    combinations /= np.abs(combinations).max(axis=1)[:, None]
-    mismatch = np.abs(combinations @ gap)
-    worst = int(np.argmax(mismatch)) if mismatch.max() > GAP * system.model.size else 0
-    involved = owner[np.abs(combinations[worst]) > NAMED]
-    raise _redundant(list(dict.fromkeys(involved.tolist())), float(mismatch[worst]), system.model.size)
+    C: FloatArray  # (m, n)
+    gap: FloatArray  # (m,) C there
+    owner: NDArray[np.str_]  # (m,) joint, or rigid body
+    unknown: IntArray  # (m,) multiplier, -1 where a row is a combination
+    moving: IntArray  # (n,) unknowns
 
 
 def nearly_dependent(system: System, q: FloatArray) -> list[str]:
@@ -66,7 +46,7 @@ def nearly_dependent(system: System, q: FloatArray) -> list[str]:
     weight = system.core.weight[np.setdiff1d(system.free, system.multipliers)]
     least, names = [], []
     for state in (system.initial_shape(), q):
-        C, _, owner = _held_rows(system, state)
+        C, _, owner, *_ = held_rows(system, state)
         if len(C) > MANY or not np.all(np.isfinite(C)):
             return []
         C = C / weight
@@ -79,8 +59,8 @@ def nearly_dependent(system: System, q: FloatArray) -> list[str]:
     return [name for name in names if name in joints] if least[1] < SINGULAR * least[0] else []
 
 
-def _held_rows(system: System, q: FloatArray) -> tuple[FloatArray, FloatArray, NDArray[np.str_]]:
-    """Rows of C_q in the state q on the unknowns that move, C there, and the joint of each row.
+def held_rows(system: System, q: FloatArray) -> Rows:
+    """Rows of all multipliers in the state q.
 
     A sliding joint with a released direction has two rows, normal to it.
     """
@@ -93,21 +73,22 @@ def _held_rows(system: System, q: FloatArray) -> tuple[FloatArray, FloatArray, N
     lam, moving = np.setdiff1d(system.multipliers, held), np.setdiff1d(system.free, system.multipliers)
     C = to_sparse(core.A, system.places)[lam][:, moving].toarray()
     released = {c.name: c.release for c in system.model.connections if isinstance(c, Slide)}
-    rows, gaps, owner = [np.zeros((0, len(moving)))], [np.zeros(0)], []
+    rows, gaps, owner, numbers = [np.zeros((0, len(moving)))], [np.zeros(0)], [], [np.zeros(0, np.int64)]
     for name, unknowns in system.numbering.multipliers.items():
         mine = np.isin(lam, unknowns)
-        part, g = C[mine], gap[lam[mine]]
+        part, g, number = C[mine], gap[lam[mine]], lam[mine]
         direction = released.get(name)
         if direction is not None and len(part):
             across = null_space(direction[None]).T
-            part, g = across @ part, across @ g
+            part, g, number = across @ part, across @ g, np.full(len(across), -1)
         rows.append(part)
         gaps.append(g)
+        numbers.append(number)
         owner += [name] * len(part)
-    return np.concatenate(rows), np.concatenate(gaps), np.array(owner)
+    return Rows(np.concatenate(rows), np.concatenate(gaps), np.array(owner), np.concatenate(numbers), moving)
 
 
-def _surely_independent(C: FloatArray) -> bool:
+def surely_independent(C: FloatArray) -> bool:
     """A cheap look at many rows: pivots of the sparse matrix C C^T."""
     rows = csc_array(C)
     try:
@@ -115,27 +96,6 @@ def _surely_independent(C: FloatArray) -> bool:
     except RuntimeError:  # exactly singular
         return False
     return bool(pivots.min() > 1e-8 * pivots.max())
-
-
-def _refuse_immovable(owner: NDArray[np.str_], moves: NDArray[np.bool_]) -> None:
-    """Rows without an unknown that moves."""
-    if np.all(moves):
-        return
-    name = owner[~moves][0]
-    if np.any(moves[owner == name]):
-        what = f'"{name}" joins what supports hold already, in some direction'
-        raise ModelError("connections", what, "remove that from the support, or let the joint hold less")
-    what = f'"{name}" joins what supports hold already: it has nothing to do'
-    raise ModelError("connections", what, "remove the joint or the support")
-
-
-def _redundant(names: list[str], mismatch: float, size: float) -> ModelError:
-    listed = " and ".join(f'"{n}"' for n in names)
-    if mismatch > GAP * size:
-        what = f"{listed} contradict each other: they cannot all hold, by {mismatch:.3g} m"
-    else:
-        what = f"{listed} are redundant: they, or they and the supports, hold the same motion twice"
-    return ModelError("connections", what, "remove one of them, or let it hold less")
 
 
 def open_contacts(system: System, q: FloatArray) -> None:

@@ -41,6 +41,8 @@ class System:
     Parameters
     ----------
     model : Model
+    spare : ndarray, optional
+        Multipliers of rows that others hold already: they are zero.
 
     Attributes
     ----------
@@ -68,7 +70,7 @@ class System:
         Entries of ``measured`` by connection.
     """
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, spare: IntArray | None = None) -> None:
         if not model.bodies:
             raise ModelError("bodies", "the model has no body", "add one with model.add_beam(...)")
         check_winches(model)
@@ -85,6 +87,8 @@ class System:
         parts = build_parts(model, self.numbering, self.level, value, self.measured.reshape(-1, 4))
         rank, self.pairs, self.ordering, self.half_bandwidth = order_blocks(parts, self.numbering)
         self.constraints = collect(model, self.numbering)
+        self.spare = np.zeros(0, dtype=np.int64) if spare is None else spare
+        self.constraints.held |= set(self.spare.tolist())
         self.places = Places(*fill_pattern(self.pairs, self.numbering.blocks))
         self.n = 6 * self.numbering.blocks
         self.size = self.n + 3 * len(self.constraints.rotations)
@@ -103,7 +107,8 @@ class System:
     def __reduce__(self) -> Any:
         """Addresses of compiled operations hold in one process alone: another one makes the system again."""
         memory = {name: array.copy() for name, array in self.memory.items()}
-        return _again, (self.model, self.sensors, self.measured, memory, bool(self.core.accounted))
+        kept = self.model, self.spare, self.sensors, self.measured
+        return _again, (*kept, memory, bool(self.core.accounted))
 
     @property
     def memory(self) -> dict[str, FloatArray]:
@@ -321,10 +326,15 @@ class System:
 
 
 def _again(
-    model: Model, sensors: Listing, measured: FloatArray, memory: dict[str, FloatArray], accounted: bool
+    model: Model,
+    spare: IntArray,
+    sensors: Listing,
+    measured: FloatArray,
+    memory: dict[str, FloatArray],
+    accounted: bool,
 ) -> System:
     """A system that was pickled."""
-    made = System(model)
+    made = System(model, spare)
     made.model, made.sensors, made.measured[...] = model, sensors, measured
     for name, array in made.memory.items():
         array[...] = memory[name]
