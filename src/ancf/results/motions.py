@@ -75,8 +75,7 @@ def of_state(
     ModelError
         They depend on what is not known.
     """
-    spare = _spare(system, known)
-    return in_motion(spare, q, v, t)
+    return in_motion(_double(system, known), q, v, t)
 
 
 def of_history(
@@ -93,28 +92,28 @@ def at_rest(
     system: System, q: FloatArray, v: FloatArray, t: float, known: Remembered, name: str
 ) -> FloatArray | None:
     """Reaction of an equilibrium, None in motion."""
-    spare = system.spare
-    spare.measured[:] = system.measured  # where contacts are looked for first
-    remembered.restore(spare, known)
+    double = system.double
+    double.measured[:] = system.measured  # where contacts are looked for first
+    remembered.restore(double, known)
     for key, value in known.inputs.items():
-        spare.inputs.give(key, value)
-    return reaction(spare, q, v, t, name, known.balanced)
+        double.inputs.give(key, value)
+    return reaction(double, q, v, t, name, known.balanced)
 
 
-def _spare(system: System, known: Remembered) -> System:
+def _double(system: System, known: Remembered) -> System:
     """A system that nobody uses, which knows all that the state does."""
-    spare = system.spare
-    spare.measured[:] = system.measured
+    double = system.double
+    double.measured[:] = system.measured
     if rubs(system) and any(name not in known.memory for name in system.memory):
         what = "friction depends on the way until a state, and of this one it is not known"
         raise ModelError("acceleration, reaction", what, _FRICTION)
-    if spare.inputs.led and known.led and not known.inputs:
+    if double.inputs.led and known.led and not known.inputs:
         what = "inputs were given while the run went on, and what they were in this state is not kept"
         raise ModelError("acceleration, reaction", what, "give simulate(..., sensors=[...]), which record it")
     for name, value in known.inputs.items():
-        spare.inputs.give(name, value)
-    remembered.restore(spare, known)
-    return spare
+        double.inputs.give(name, value)
+    remembered.restore(double, known)
+    return double
 
 
 def rubs(system: System) -> bool:

@@ -194,9 +194,9 @@ class System:
         return self.core._replace(supports=supports)
 
     @cached_property
-    def spare(self) -> System:
+    def double(self) -> System:
         """Another one of the same model, to ask what would write into the arrays of a run."""
-        return System(self.model)
+        return System(self.model, self.spare)
 
     @cached_property
     def free(self) -> IntArray:
