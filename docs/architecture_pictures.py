@@ -27,6 +27,7 @@ FLOORS = (
     ("analysis", "equilibrium, simulate, modes"),
     ("control", "inputs, controllers, steps one by one"),
     ("preparation", "a model compiled, started, carried out"),
+    ("compilation", "what is said and done while kernels are compiled"),
     ("results", "states, histories, files"),
     ("solvers", "steps, statics, eigenvalues"),
     ("system", "a model as flat arrays, numbered and ordered"),

@@ -18,13 +18,19 @@ def wire(EA, EI, mass, tension):
 
 def line(spans=SPANS):
     supports = SPAN * np.arange(spans + 1)
-    return SimpleNamespace(
+    made = SimpleNamespace(
         title="EN 50318:2002 reference model",
         source="made up",
         tags={"system_height": "U", "contact_wire.EA": "U"},
         spans=[SimpleNamespace(length=SPAN, droppers=DROPPERS, pre_sag=(0.0,) * 9)] * spans,
         supports=supports,
         length=SPAN * spans,
+        reach=(
+            np.concatenate([[-np.inf], 0.5 * (supports[1:] + supports[:-1])]),
+            np.concatenate([0.5 * (supports[1:] + supports[:-1]), [np.inf]]),
+        ),
+        dropper_span=np.repeat(np.arange(spans), 9),
+        dropper_number=np.tile(np.arange(9), spans),
         dropper_x=np.concatenate([x0 + np.array(DROPPERS) for x0 in supports[:-1]]),
         wave_speed=np.sqrt(20e3 / 1.35),
         contact_wire=wire(15e6, 195.0, 1.35, 20e3),
@@ -43,6 +49,8 @@ def line(spans=SPANS):
         anchors="fixed",
         gravity=9.81,
     )
+    made.parts = (made,)
+    return made
 
 
 def form(spans=SPANS):
@@ -51,6 +59,7 @@ def form(spans=SPANS):
     loads = np.tile(LOADS, spans)
     return SimpleNamespace(
         line=line(spans),
+        wave_speed=np.sqrt(20e3 / 1.35),
         dropper_load=loads,
         dropper_length=lengths,
         dropper_natural=lengths - loads / 1e5,
@@ -68,6 +77,7 @@ def pantograph(name="en50318-2002"):
         damping=(90.0, 10.0),
         static_force=120.0,
         aerodynamic=0.0,
+        aerodynamics=(0.0, 0.0),
         strip_length=1.45,
         tags={"masses": "V", "static_force": "U"},
     )

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from .compilation import expected
 from .control.lead import check_controller, led
 from .control.live import Live
 from .errors import ModelError, SolveError, StorageError
@@ -64,8 +65,9 @@ def equilibrium(
     checks.integer(load_steps, "equilibrium.load_steps", 1, 100_000)
     time = checks.number(time, "equilibrium.time")
     names = None if of is None else _names(model, of)
-    system = independent(model)
-    q, stats = statics.equilibrium(system, names, load_steps, time)
+    with expected(model):
+        system = independent(model)
+        q, stats = statics.equilibrium(system, names, load_steps, time)
     known = remembered.Remembered(memory=remembered.memory_of(system), balanced=True)
     return State(system, float(time), q, system.motion(q, time), stats, known)
 
@@ -186,10 +188,11 @@ def modes(model: Model, *, about: State | None = None, count: int = 10) -> Modes
     SolveError
         The state is not a stable equilibrium.
     """
-    system = independent(model)
-    q, v = given_state(system, about, "modes.about")
-    about = State(system, 0.0, q, np.zeros_like(v)) if about is None else State(system, about.t, q, v)
-    omega, shapes = natural_modes(about.system, about.q, count)
+    with expected(model):
+        system = independent(model)
+        q, v = given_state(system, about, "modes.about")
+        about = State(system, 0.0, q, np.zeros_like(v)) if about is None else State(system, about.t, q, v)
+        omega, shapes = natural_modes(about.system, about.q, count)
     return Modes(omega, shapes, about)
 
 

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from .compilation import expected
 from .errors import Interrupted, ModelError, SolveError, StorageError
 from .interrupts import heed, kept
 from .model import checks
@@ -64,12 +65,13 @@ def prepared(
         Something given is wrong, or there are no accelerations at the start.
     """
     t0 = 0.0 if start is None else start.t
-    made = compiled(model, method, t0, t_end, step, output_step, sensors, energy, where)
-    system = made.system
-    q, v = system.initial_state(t0) if start is None else adopted(start, system, f"{where}.start")
-    remembered.begin(system, q, v, None if start is None else start.known)
-    check_gaps(system, q, f"{where}.start")
-    made.run.start(q, v)
+    with expected(model, method):
+        made = compiled(model, method, t0, t_end, step, output_step, sensors, energy, where)
+        system = made.system
+        q, v = system.initial_state(t0) if start is None else adopted(start, system, f"{where}.start")
+        remembered.begin(system, q, v, None if start is None else start.known)
+        check_gaps(system, q, f"{where}.start")
+        made.run.start(q, v)
     return made
 
 

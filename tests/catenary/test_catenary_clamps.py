@@ -19,7 +19,7 @@ NONE = np.zeros(0, dtype=np.int64)
 
 
 def nodes(x):
-    return Nodes(np.asarray(x, dtype=float), NONE, NONE, NONE)
+    return Nodes(np.asarray(x, dtype=float), NONE, NONE, NONE, NONE)
 
 
 def give(wire, x, at, **options):

@@ -30,6 +30,7 @@ LAYERS = (
     {"system"},
     {"solvers"},
     {"results"},
+    {"compilation"},
     {"preparation"},
     {"control"},
     {"analysis"},

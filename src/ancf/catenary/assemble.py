@@ -8,18 +8,23 @@ import numpy as np
 
 import ancf
 
-from ..arrays import FloatArray
+from ..arrays import BoolArray, FloatArray
 from ..errors import ModelError
 from ..model import checks
 from ..model.bodies import PointMass
 from ..model.connections import Spring
 from ..model.points import Point
-from .form import Form, form
-from .mesh import Mesh
+from ..model.supports import Hold, Pin
+from .along_track import add_sideways, add_wind, curve_pull
+from .form import Form
+from .line import Line
+from .route_form import AnyForm
 from .shape import Strung
 
 #: Length of a spring to a fixed point, m: long enough that its force keeps its direction, and unstretched.
 LONG = 20.0
+#: Stiffness of an uplift stop, N/m.
+STOP = 1e5
 
 
 @dataclass(slots=True)
@@ -31,7 +36,7 @@ class Assembled:
     form : Form
     model : Model
     contact, messenger : Strung
-        The wires; a messenger with hinges has one beam for each span.
+        The wires; a messenger with hinges has one beam for each span, a line without messenger None.
     stitches : list of Strung
         At the supports but the first and the last, if the line has them.
     droppers : list of Spring or None
@@ -40,31 +45,67 @@ class Assembled:
         The contact wire at the supports.
     arms, hangers : list of Spring or None
         Vertical spring or hinged arm of the contact wire, and spring of the messenger, at the supports.
+    arm_holds, hanger_holds : list of Hold or None
+        What holds contact wire and messenger sideways there.
+    ends : (2, 2) of Pin, Spring or None
+        What keeps the ends of contact wire and messenger, None for a force.
+    parts : list of Assembled
+        Of a route its tension lengths; `contact` and `messenger` are then those of the first one.
+    prefix : str
+        Before all names of a part.
 
     """
 
-    form: Form
+    form: AnyForm
     model: ancf.Model
     contact: Strung
-    messenger: Strung
+    messenger: Strung | None
     stitches: list[Strung] = field(default_factory=list)
     droppers: list[Spring | None] = field(default_factory=list)
     supports: list[Point] = field(default_factory=list)
     arms: list[Spring | None] = field(default_factory=list)
     hangers: list[Spring | None] = field(default_factory=list)
+    arm_holds: list[Hold | None] = field(default_factory=list)
+    hanger_holds: list[Hold | None] = field(default_factory=list)
+    ends: list[list[Pin | Spring | None]] = field(default_factory=lambda: [[None, None], [None, None]])
+    parts: list[Assembled] = field(default_factory=list)
+    prefix: str = ""
 
     @property
     def contact_wire(self) -> ancf.model.Beam:
-        """The contact wire, one beam."""
+        """The contact wire, one beam; of a route the first."""
         return self.contact.beams[0]
 
+    @property
+    def contact_wires(self) -> list[ancf.model.Beam]:
+        """The contact wires of all tension lengths."""
+        return [part.contact_wire for part in self.parts or [self]]
+
+    @property
+    def messengers(self) -> list[Strung]:
+        """The messengers of all tension lengths that have one."""
+        return [p.messenger for p in self.parts or [self] if p.messenger is not None]
+
+    def _part(self, track: float) -> Assembled:
+        """The tension length whose contact wire is the lowest at a track position, m."""
+
+        def height(part: Assembled) -> float:
+            x, _, z = part.contact.shape.position.T
+            return float(np.interp(track, x, z)) if x[0] <= track <= x[-1] else np.inf
+
+        return min(self.parts, key=height) if self.parts else self
+
     def contact_at(self, track: float) -> Point:
-        """Point of the contact wire that is at a track position at rest, m."""
-        return self.contact_wire.at(self.contact.arc_at(track))
+        """Point of the contact wire that is at a track position at rest, of several the lowest."""
+        part = self._part(track)
+        return part.contact_wire.at(part.contact.arc_at(track))
 
     def messenger_at(self, track: float) -> Point:
         """Point of the messenger that is at a track position at rest, m."""
-        return self.messenger.at(self.messenger.arc_at(track))
+        messenger = self._part(track).messenger
+        if messenger is None:
+            raise ModelError("overhead.messenger", "the line has no messenger")
+        return messenger.at(messenger.arc_at(track))
 
     def track_x(self, point: Point) -> float:
         """Track position of a point at rest, m."""
@@ -88,7 +129,8 @@ class Assembled:
         if spring is None:
             raise ModelError(f"dropper {span}-{number}", "is broken already")
         self.model.connections.remove(spring)
-        self.droppers[j] = None
+        for wires in (self, *self.parts):
+            wires.droppers = [None if dropper is spring else dropper for dropper in wires.droppers]
 
     def _dropper_index(self, span: int, number: int) -> int:
         line = self.form.line
@@ -109,69 +151,109 @@ class Assembled:
         return body
 
 
-def assemble(found: Form, mesh: Mesh | None = None) -> Assembled:
-    """Make the model of a line.
+def assembled(
+    found: Form,
+    held: BoolArray | None = None,
+    mounting: bool = False,
+    model: ancf.Model | None = None,
+    prefix: str = "",
+) -> Assembled:
+    """The model of a form, or its part of a `model` with names that begin with `prefix`.
 
-    Parameters
-    ----------
-    found : Form
-    mesh : Mesh
-        Default that of the form; on another one the form is found again, for each mesh has its own
-        lengths of droppers that bring the wires to their heights exactly.
-
+    Ends (2, 2) of contact wire and messenger that are `held` keep their places; default all of a line with
+    fixed ends, and no others. While it is mounted, one end is pulled, or both, by what `found` has there.
     """
-    if mesh is not None and mesh != found.mesh:
-        found = form(found.line, mesh)
     line = found.line
-    model = ancf.Model(gravity=(0.0, 0.0, -line.gravity), title=line.title)
-    contact = found.contact.add_to(model, "contact", line.damping)
-    messenger = found.messenger.add_to(model, "messenger", line.damping)
-    overhead = Assembled(found, model, contact, messenger)
-    for wire in (contact, messenger):
-        _anchor(overhead, wire)
-    _add_stitches(overhead)
-    _add_droppers(overhead)
-    _add_messenger_supports(overhead)
-    _add_arms(overhead)
+    if held is None:
+        held = np.full((2, 2), line.anchors == "fixed")
+        if mounting:
+            held[:, 1] = False
+    own = model is None
+    if model is None:
+        model = ancf.Model(gravity=(0.0, 0.0, -line.gravity), title=line.title)
+    contact = found.contact.add_to(model, f"{prefix}contact", line.damping)
+    messenger = None
+    if found.messenger is not None:
+        messenger = found.messenger.add_to(model, f"{prefix}messenger", line.damping)
+    overhead = Assembled(found, model, contact, messenger, prefix=prefix)
+    for k, wire in enumerate((contact, messenger)):
+        if wire is not None:
+            sprung = line.anchors == "spring" and not mounting
+            overhead.ends[k] = _anchor(overhead, line, wire, found.pull[k], held[k], sprung)
+            _load(overhead, line, wire, ("contact", "messenger")[k])
+    _add_stitches(overhead, found)
+    _add_droppers(overhead, found)
+    _add_messenger_supports(overhead, found)
+    _add_arms(overhead, found)
+    if own and found.settled and line.conditions.wind != 0.0:
+        add_wind(model, line.conditions, line.length)
     return overhead
 
 
-def _anchor(overhead: Assembled, wire: Strung) -> None:
-    """Fix both ends; or pull them, and hold the wire along the track at its middle support."""
-    model, line = overhead.model, overhead.form.line
-    if line.anchors == "fixed":
-        model.pin(wire.start)
-        model.pin(wire.end)
-        return
-    for point, sign in ((wire.start, -1.0), (wire.end, 1.0)):
+def _load(overhead: Assembled, line: Line, wire: Strung, name: str) -> None:
+    """The pull of curves, and masses that hang on the wire."""
+    shape = wire.shape
+    add_sideways(overhead.model, wire, curve_pull(line, shape, name))
+    for k, (load, node) in enumerate(zip(line.loads_on(name), shape.nodes.load.tolist(), strict=True)):
+        _add_mass(overhead.model, f"{overhead.prefix}load {k + 1} on {name}", wire.point(node), load.mass)
+
+
+def _anchor(
+    overhead: Assembled, line: Line, wire: Strung, pull: FloatArray, held: BoolArray, sprung: bool
+) -> list[Pin | Spring | None]:
+    """Fix the ends, or pull them and hold the wire along the track at its middle support; what does it."""
+    model = overhead.model
+    holders: list[Pin | Spring | None] = []
+    for point, sign, force, kept in zip(
+        (wire.start, wire.end), (-1.0, 1.0), pull.tolist(), held, strict=True
+    ):
+        if kept:
+            holders.append(model.pin(point))
+            continue
         model.hold(point, position="yz")
-        model.add_force(point, (sign * wire.shape.wire.tension, 0.0, 0.0))
-    node = wire.shape.nodes.support[middle_support(overhead.form)]
-    model.hold(wire.point(node), position="x", name=f"middle anchor of {wire.beams[0].name}")
+        if not sprung:
+            model.add_force(point, (sign * force, 0.0, 0.0))
+            holders.append(None)
+            continue
+        stiffness = line.tensioner.stiffness
+        assert stiffness is not None
+        fixed = point.initial_position + sign * (LONG + force / stiffness) * np.eye(3)[0]
+        name = f"tensioner at the {'start' if sign < 0 else 'end'} of {wire.beams[0].name}"
+        holders.append(model.add_spring(point, fixed, stiffness=stiffness, length=LONG, name=name))
+    if line.anchors != "fixed":
+        node = wire.shape.nodes.support[middle_support(line)]
+        model.hold(wire.point(node), position="x", name=f"middle anchor of {wire.beams[0].name}")
+    return holders
 
 
-def middle_support(found: Form) -> int:
+def middle_support(line: Line) -> int:
     """Index of the support nearest the middle of the line, not an end; ModelError if there is none."""
-    supports = found.line.supports
+    supports = line.supports
     if supports.size < 3:
         what = 'is "tension" on a line of one span, which nothing holds along the track'
         raise ModelError("line.anchors", what, 'give more spans or "fixed"')
     return 1 + int(np.argmin(np.abs(supports[1:-1] - 0.5 * supports[-1])))
 
 
-def _add_stitches(overhead: Assembled) -> None:
-    found, nodes = overhead.form, overhead.messenger.shape.nodes.stitch
+def _add_stitches(overhead: Assembled, found: Form) -> None:
+    messenger = overhead.messenger
+    if messenger is None:
+        return
+    nodes = messenger.shape.nodes.stitch
     for k, shape in enumerate(found.stitches):
-        wire = shape.add_to(overhead.model, f"stitch wire {k + 2}", found.line.damping)
-        overhead.model.connect(overhead.messenger.point(nodes[2 * k]), wire.start)
-        overhead.model.connect(overhead.messenger.point(nodes[2 * k + 1]), wire.end)
+        wire = shape.add_to(overhead.model, f"{overhead.prefix}stitch wire {k + 2}", found.line.damping)
+        overhead.model.connect(messenger.point(nodes[2 * k]), wire.start)
+        overhead.model.connect(messenger.point(nodes[2 * k + 1]), wire.end)
+        add_sideways(overhead.model, wire, curve_pull(found.line, shape, "stitch"))
         overhead.stitches.append(wire)
 
 
-def _uppers(overhead: Assembled) -> list[Point]:
+def _uppers(overhead: Assembled, found: Form) -> list[Point]:
     """Upper ends of all droppers."""
-    line = overhead.form.line
-    points = [overhead.messenger.point(node) for node in overhead.form.messenger.nodes.dropper]
+    if overhead.messenger is None:
+        return []
+    line = found.line
+    points = [overhead.messenger.point(node) for node in overhead.messenger.shape.nodes.dropper]
     for k, wire in enumerate(overhead.stitches):
         hung = np.flatnonzero(line.dropper_stitch == k + 1)
         for j, node in zip(hung.tolist(), wire.shape.nodes.dropper, strict=True):
@@ -179,13 +261,14 @@ def _uppers(overhead: Assembled) -> list[Point]:
     return points
 
 
-def _add_droppers(overhead: Assembled) -> None:
-    found, line, model = overhead.form, overhead.form.line, overhead.model
-    lower, upper = found.contact.nodes.dropper, _uppers(overhead)
+def _add_droppers(overhead: Assembled, found: Form) -> None:
+    line, model = found.line, overhead.model
+    lower, upper = found.contact.nodes.dropper, _uppers(overhead, found)
     half = 0.5 * line.droppers.mass * found.dropper_length
     stiffness, damping = found.spring_stiffness, found.spring_damping
     for j in range(line.dropper_x.size):
         label = f"{line.dropper_span[j] + 1}-{line.dropper_number[j] + 1}"
+        before = overhead.prefix
         below, above = overhead.contact.point(lower[j]), upper[j]
         overhead.droppers.append(
             model.add_spring(
@@ -195,11 +278,11 @@ def _add_droppers(overhead: Assembled) -> None:
                 damping=float(damping[j]),
                 length=float(found.dropper_natural[j]),
                 slack=line.droppers.slack,
-                name=f"dropper {label}",
+                name=f"{before}dropper {label}",
             )
         )
-        _add_mass(model, f"lower clamp {label}", below, line.droppers.clamp_contact + half[j])
-        _add_mass(model, f"upper clamp {label}", above, line.droppers.clamp_messenger + half[j])
+        _add_mass(model, f"{before}lower clamp {label}", below, line.droppers.clamp_contact + half[j])
+        _add_mass(model, f"{before}upper clamp {label}", above, line.droppers.clamp_messenger + half[j])
 
 
 def _add_mass(model: ancf.Model, name: str, point: Point, mass: float) -> PointMass | None:
@@ -211,38 +294,57 @@ def _add_mass(model: ancf.Model, name: str, point: Point, mass: float) -> PointM
     return body
 
 
-def _add_messenger_supports(overhead: Assembled) -> None:
-    found, line, model = overhead.form, overhead.form.line, overhead.model
+def _add_messenger_supports(overhead: Assembled, found: Form) -> None:
+    line, model = found.line, overhead.model
     overhead.hangers = [None] * line.supports.size
+    overhead.hanger_holds = [None] * line.supports.size
+    if overhead.messenger is None:
+        return
     for k in range(1, line.supports.size - 1):
-        point = overhead.messenger.point(found.messenger.nodes.support[k])
+        point = overhead.messenger.point(overhead.messenger.shape.nodes.support[k])
+        _add_mass(model, f"{overhead.prefix}cantilever {k + 1} mass", point, line.messenger_support_mass)
+        weight = line.messenger_support_mass * line.gravity
         if line.messenger_support is None:
-            model.hold(point, position="yz")
+            overhead.hanger_holds[k] = model.hold(point, position="yz")
             continue
-        model.hold(point, position="y")
+        overhead.hanger_holds[k] = model.hold(point, position="y")
         overhead.hangers[k] = _add_long_spring(
-            model, point, 2, line.messenger_support, found.support_load[k], f"messenger support {k + 1}"
+            model,
+            point,
+            2,
+            line.messenger_support,
+            found.support_load[k] + weight,
+            f"{overhead.prefix}messenger support {k + 1}",
         )
 
 
-def _add_arms(overhead: Assembled) -> None:
-    found, line, model = overhead.form, overhead.form.line, overhead.model
+def _add_arms(overhead: Assembled, found: Form) -> None:
+    line, model = found.line, overhead.model
     nodes = found.contact.nodes.support
     overhead.supports = [overhead.contact.point(node) for node in nodes]
     overhead.arms = [None] * nodes.size
+    overhead.arm_holds = [None] * nodes.size
     for k in range(1, nodes.size - 1):
-        point, arm = overhead.supports[k], line.steady_arm
+        point, arm = overhead.supports[k], line.arm(k)
         force = found.arm_force[k] + np.array([0.0, 0.0, 0.5 * arm.mass * line.gravity])
-        _add_mass(model, f"arm {k + 1} mass", point, 0.5 * arm.mass)
-        name = f"steady arm {k + 1}"
+        _add_mass(model, f"{overhead.prefix}arm {k + 1} mass", point, 0.5 * arm.mass)
+        name = f"{overhead.prefix}steady arm {k + 1}"
+        if arm.uplift_stop is not None:
+            _add_stop(model, point, arm.uplift_stop, f"{overhead.prefix}uplift stop {k + 1}")
         if arm.hinged:
-            overhead.arms[k] = _add_hinged_arm(overhead, k, force, name)
+            overhead.arms[k] = _add_hinged_arm(overhead, line, k, force, name)
             continue
         overhead.arms[k] = _add_vertical_arm(model, point, arm.vertical, force[2], name)
         if arm.lateral is None:
-            model.hold(point, position="y")
+            overhead.arm_holds[k] = model.hold(point, position="y")
         else:
             _add_long_spring(model, point, 1, arm.lateral, force[1], f"{name} sideways")
+
+
+def _add_stop(model: ancf.Model, point: Point, height: float, name: str) -> None:
+    """A stop that the wire meets when it is lifted above its rest: a rope that becomes taut."""
+    below = point.initial_position - [0.0, 0.0, LONG]
+    model.add_spring(point, below, stiffness=STOP, length=LONG + height, slack=True, name=name)
 
 
 def _add_vertical_arm(
@@ -265,10 +367,10 @@ def _add_long_spring(
     return model.add_spring(point, fixed, stiffness=stiffness, length=distance - load / stiffness, name=name)
 
 
-def _add_hinged_arm(overhead: Assembled, k: int, force: FloatArray, name: str) -> Spring:
+def _add_hinged_arm(overhead: Assembled, line: Line, k: int, force: FloatArray, name: str) -> Spring:
     """A bar to a pivot on the mast, in the direction in which it has to pull at rest, N."""
-    line, size = overhead.form.line, float(np.linalg.norm(force))
-    arm = line.steady_arm
+    size = float(np.linalg.norm(force))
+    arm = line.arm(k)
     assert arm.length is not None
     if abs(force[1]) < 1.0 or abs(force[2]) > abs(force[1]):
         what = f"the wire pulls sideways with {abs(force[1]):.0f} N at support {k + 1}, which has to carry "

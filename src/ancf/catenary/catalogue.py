@@ -11,6 +11,7 @@ from ..files import exists
 from ..model.checks import listed, nearest
 from .file import read_file
 from .line import Line
+from .route import Route
 
 FOLDER = Path(__file__).parent / "data"
 #: Files there that are no lines.
@@ -30,8 +31,8 @@ def line_file(name: str) -> Path:
     return FOLDER / f"{name}.toml"
 
 
-def read_line(name_or_path: str | Path, values: Mapping[str, Any] | None = None) -> Line:
-    """Line of the catalogue by its name, or from a line file by its path.
+def read_line(name_or_path: str | Path, values: Mapping[str, Any] | None = None) -> Line | Route:
+    """Line of the catalogue by its name, or from a line file by its path; a Route if it has sections.
 
     Parameters
     ----------

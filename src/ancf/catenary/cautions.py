@@ -43,8 +43,8 @@ def before(plan: Plan) -> Iterator[str]:
 
 
 def _speed(plan: Plan) -> Iterator[str]:
-    line, top = plan.form.line, plan.travel.top
-    wave, largest = line.wave_speed, plan.form.mesh.contact
+    top = plan.travel.top
+    wave, largest = plan.form.wave_speed, plan.form.mesh.contact
     if top >= NEAR * wave:
         text = f"run.speed: {3.6 * top:.0f} km/h is {top / wave:.4g} of the wave speed of the contact wire, "
         text += f"{3.6 * wave:.0f} km/h: "

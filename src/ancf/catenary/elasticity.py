@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +16,11 @@ from ..arrays import FloatArray
 from ..files import writing
 from ..model import checks
 from ..model.points import Point
-from .assemble import Assembled, assemble
-from .form import form
+from .assemble import Assembled
 from .line import Line
 from .mesh import Mesh
+from .rest import assemble, form
+from .route import Route
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +68,7 @@ class Elasticity:
 
 
 def elasticity(
-    line: Line,
+    line: Line | Route,
     forces: Sequence[float] = (100.0, 200.0),
     points: int = 20,
     span: int | None = None,
@@ -78,7 +79,8 @@ def elasticity(
 
     Parameters
     ----------
-    line : Line
+    line : Line or Route
+        Of a route its longest tension length.
     forces : sequence of float, N
         Upward, > 0.
     points : int
@@ -100,6 +102,11 @@ def elasticity(
     for k, value in enumerate(force):
         checks.positive(value, f"elasticity.forces[{k}]")
     checks.integer(points, "elasticity.points", 2, 10_000)
+    if isinstance(line, Route):
+        longest = int(np.argmax([len(part.spans) for part in line.parts]))
+        found = elasticity(line.parts[longest], forces, points, span, beside, mesh)
+        before = sum(len(part.spans) + 1 for part in line.parts[:longest])
+        return replace(found, span=found.span + before)  # its first support among those of all sections
     count = len(line.spans)
     middle = count // 2 if span is None else checks.integer(span, "elasticity.span", 0, count - 1)
     reach = count if beside is None else checks.integer(beside, "elasticity.beside", 0, 1000)
@@ -113,7 +120,7 @@ def elasticity(
     return Elasticity(middle, places, force, lift)
 
 
-def elasticity_beside(line: Line) -> Elasticity:
+def elasticity_beside(line: Line | Route) -> Elasticity:
     """Elasticity of the middle span at 100 and 200 N as reports show it, with three spans on either side."""
     return elasticity(line, points=10, beside=3)
 

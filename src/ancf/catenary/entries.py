@@ -13,6 +13,7 @@ from .wire import EXPANSION
 class WireEntry(Entry):
     """Contact wire or messenger, of the catalogue or with its own numbers."""
 
+    count: int = Field(1, ge=1, le=4, description="Wires side by side that act as one.")
     type: str | None = Field(None, description="Name of the catalogue, instead of EA, EI and mass.")
     EA: Positive | None = Field(None, description="Axial stiffness [N].")
     EI: NonNegative | None = Field(None, description="Bending stiffness [N m^2].")
@@ -34,7 +35,9 @@ class PantographEntry(Entry):
     stiffness: list[float] = Field(description="Of the springs below each mass [N/m].")
     damping: list[float] = Field(description="Of the dampers below each mass [N s/m].")
     static_force: float = Field(description="Contact force at standstill [N].")
-    aerodynamic: float = Field(0.0, description="k of the force k v^2 [N s^2/m^2].")
+    aerodynamic: float | list[float] = Field(
+        0.0, description="k of the force k v^2 on the lowest mass, or on each [N s^2/m^2]."
+    )
     strip_length: float = Field(1.45, description="Length of the strip across the track [m].")
     relaxed_at: Literal["start", "nominal", "mean"] = Field(
         "start", description="Height at which the lowest spring carries nothing."
@@ -76,6 +79,64 @@ class SteadyArmEntry(Entry):
     length: Positive | None = Field(None, description="Length of a hinged arm, instead of vertical [m].")
     mass: NonNegative = Field(0.0, description="Mass of the arm, half of it at the wire [kg].")
     stiffness: Positive = Field(1e6, description="Stiffness of a hinged arm along itself [N/m].")
+    angle: float | None = Field(None, description="Of a hinged arm at rest, up from the wire [rad].")
+    uplift_stop: Positive | None = Field(None, description="Uplift at which a stop meets the wire [m].")
+
+
+class RuleEntry(Entry):
+    """Droppers at equal distances."""
+
+    first: Positive = Field(description="Distance of first and last dropper from the supports [m].")
+    pitch_max: Positive = Field(description="Largest distance of two droppers [m].")
+
+
+class TensionerEntry(Entry):
+    """Springs that pull the ends of the wires, or friction of the weights."""
+
+    stiffness: Positive | None = Field(None, description="Of the spring at each end [N/m].")
+    friction: NonNegative = Field(0.0, description="Share of the tension that wheels keep.")
+
+
+class LoadEntry(Entry):
+    """A mass on a wire."""
+
+    position: float = Field(description="Along the track from the first support [m].")
+    mass: Positive = Field(description="Mass [kg].")
+    wire: Literal["contact", "messenger"] = Field("contact", description="On which wire.")
+
+
+class ConditionsEntry(Entry):
+    """State in which the line is looked at."""
+
+    temperature: float | None = Field(None, description="Temperature [degrees Celsius].")
+    contact_tension: Positive | None = Field(None, description="Other tension of the contact wire [N].")
+    messenger_tension: Positive | None = Field(None, description="Other tension of the messenger [N].")
+    ice: NonNegative = Field(0.0, description="On each of the wires [kg/m].")
+    wind: float = Field(0.0, description="Steady, across the track, to the left [m/s].")
+    air_density: Positive = Field(1.225, description="Density of the air [kg/m^3].")
+    turbulence: NonNegative = Field(0.0, description="Standard deviation of gusts over the wind.")
+    gust_length: Positive = Field(100.0, description="Length of the turbulence [m].")
+    seed: int = Field(1, ge=0, description="Of the gusts.")
+    wear: NonNegative = Field(0.0, description="Share of the contact wire that is worn off.")
+
+
+class SupportEntry(Entry):
+    """A support, and the span that begins there."""
+
+    position: float = Field(description="Along the track [m].")
+    height: float | None = Field(None, description="Height of the contact wire [m].")
+    system_height: Positive | None = Field(None, description="Messenger over contact wire [m].")
+    stagger: float | None = Field(None, description="Sideways place of the contact wire, left [m].")
+    messenger_stagger: float | None = Field(None, description="Sideways place of the messenger [m].")
+    radius: float | None = Field(None, description="Of the track in the span, positive to the left [m].")
+    droppers: list[float] | None = Field(None, description="Places in the span, default by the rule [m].")
+    pre_sag: NonNegative | None = Field(None, description="Depth of the parabola in the span [m].")
+    arm_vertical: NonNegative | None = Field(None, description="Vertical stiffness of its arm [N/m].")
+    arm_lateral: Positive | None = Field(None, description="Sideways stiffness of its arm [N/m].")
+    arm_length: Positive | None = Field(None, description="Length of its hinged arm [m].")
+    arm_angle: float | None = Field(None, description="Angle of its hinged arm [rad].")
+    arm_mass: NonNegative | None = Field(None, description="Mass of its arm [kg].")
+    uplift_stop: Positive | None = Field(None, description="Uplift at which a stop meets the wire [m].")
 
 
 class SpanEntry(Entry):
@@ -83,9 +144,14 @@ class SpanEntry(Entry):
 
     repeat: int = Field(1, ge=1, le=1000, description="How many spans alike follow each other.")
     length: Positive = Field(description="Distance of the two supports [m].")
-    droppers: list[float] = Field(description="Places from the start of the span, increasing [m].")
+    droppers: list[float] | RuleEntry | None = Field(
+        None, description="Places from the start of the span, increasing [m]; or first and pitch_max."
+    )
     pre_sag: NonNegative | list[float] = Field(
         0.0, description="Depth of a parabola between first and last dropper, or one sag per dropper [m]."
+    )
+    radius: float | None = Field(
+        None, description="Of the track, positive to the left, default straight [m]."
     )
 
 
@@ -96,13 +162,21 @@ class LineEntry(Entry):
     parameters: Parameters = Field(default_factory=dict)
     source: str = Field("", description="Where the data come from.")
     tags: dict[str, str] = Field(default_factory=dict, description="How sure a value is, by its key.")
-    spans: list[SpanEntry] = Field(min_length=1, description="The spans along the track.")
+    spans: list[SpanEntry] | None = Field(None, min_length=1, description="The spans along the track.")
+    supports: str | list[SupportEntry] | None = Field(
+        None, description="Instead of spans: a CSV file with a row for each support, or the rows."
+    )
+    dropper_rule: RuleEntry | None = Field(None, description="Where spans without a list have droppers.")
     contact_wire: WireEntry = Field(description="The contact wire.")
-    messenger_wire: WireEntry = Field(description="The messenger.")
-    droppers: DroppersEntry = Field(description="The droppers.")
+    messenger_wire: WireEntry | None = Field(None, description="The messenger, default none.")
+    droppers: DroppersEntry | None = Field(None, description="The droppers, needed with a messenger.")
     steady_arm: SteadyArmEntry = Field(description="The steady arms.")
-    system_height: Positive | list[float] = Field(
-        description="Height of the messenger over the contact wire at the supports, one or one each [m]."
+    system_height: Positive | list[float] | None = Field(
+        None,
+        description="Height of the messenger over the contact wire at the supports, one or one each [m].",
+    )
+    height: float | list[float] = Field(
+        0.0, description="Height of the contact wire at the supports, one or one each [m]."
     )
     damping: RayleighEntry = Field(
         default_factory=lambda: RayleighEntry(alpha=0.0, beta=0.0),
@@ -122,8 +196,19 @@ class LineEntry(Entry):
     contact_support: Literal["held", "free"] = Field(
         "held", description="Whether the contact wire is held at its height at the supports at rest."
     )
-    anchors: Literal["fixed", "tension"] = Field(
-        "fixed", description="Whether the wires' ends keep their places or their forces in motion."
+    anchors: Literal["fixed", "tension", "spring"] = Field(
+        "fixed",
+        description="Whether the wires' ends keep their places or their forces, or springs pull them.",
+    )
+    tensioner: TensionerEntry | None = Field(None, description="Springs or friction at the ends.")
+    messenger_support_mass: NonNegative = Field(
+        0.0, description="What moves with the messenger at a support [kg]."
+    )
+    loads: list[LoadEntry] = Field(default_factory=list, description="Masses on the wires.")
+    temperature: float = Field(10.0, description="At which heights and lengths hold [degrees Celsius].")
+    conditions: ConditionsEntry | None = Field(None, description="State in which the line is looked at.")
+    dropper_lengths: str | list[float] | None = Field(
+        None, description="Unstretched lengths as built, a CSV file like the schedule, or a list [m]."
     )
     gravity: Positive = Field(9.81, description="Gravity [m/s^2].")
 
@@ -137,4 +222,9 @@ TABLES: dict[str, type[Entry]] = {
     "droppers": DroppersEntry,
     "steady_arm": SteadyArmEntry,
     "spans": SpanEntry,
+    "supports": SupportEntry,
+    "dropper_rule": RuleEntry,
+    "tensioner": TensionerEntry,
+    "loads": LoadEntry,
+    "conditions": ConditionsEntry,
 }

@@ -7,21 +7,29 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pydantic import ValidationError
 
 from ..errors import ModelError
+from ..model import checks
 from ..model.file import parameters, read_toml
 from ..model.file.fields import Entry
 from ..model.file.messages import combined, of_validation
 from ..model.file.paths import changed
-from .entries import TABLES, LineEntry, SpanEntry, StitchEntry, WireEntry
-from .fittings import Droppers, SteadyArm
+from .conditions import Conditions
+from .csv_table import Row
+from .entries import TABLES, LineEntry, RuleEntry, SpanEntry, StitchEntry, WireEntry
+from .fittings import Droppers, Load, SteadyArm, Tensioner
+from .layout import OF_SUPPORTS, laid_out, lengths_of, supports_of
 from .line import Line, check_size
-from .span import Span
+from .route import Route
+from .span import DropperRule, Span
 from .stitch import StitchWire
 from .wire import Rayleigh, Wire
 from .wires import wire_data
 
+#: Keys that say where supports are: a section gives its own.
+LAYOUTS = {"spans", "supports"}
 PLAIN = (
     "title",
     "source",
@@ -34,10 +42,13 @@ PLAIN = (
     "contact_support",
     "anchors",
     "gravity",
+    "height",
+    "messenger_support_mass",
+    "temperature",
 )
 
 
-def read_file(path: str | Path, values: Mapping[str, Any] | None = None) -> Line:
+def read_file(path: str | Path, values: Mapping[str, Any] | None = None) -> Line | Route:
     """Read a line file; `values` replace those at some paths, see :func:`ancf.model.file.paths.changed`.
 
     Raises
@@ -46,8 +57,50 @@ def read_file(path: str | Path, values: Mapping[str, Any] | None = None) -> Line
         The file cannot be read, is no TOML, or describes no valid line; all problems in one error.
 
     """
-    tables = changed(read_toml(Path(path), "line file"), values or {})
-    return parse_line(tables, str(path))
+    return parse_track(other_values(read_toml(Path(path), "line file"), values or {}), str(path))
+
+
+def other_values(tables: dict[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables of a line file with other values at some paths; its conditions need not stand there."""
+    if any(path.startswith("conditions.") for path in values):
+        tables = {"conditions": {}} | tables
+    return changed(tables, values)
+
+
+def parse_track(data: dict[str, Any], source: str = "line") -> Line | Route:
+    """Make a Line, or a Route out of a file with ``[[sections]]``.
+
+    A section has ``start``, where its first support is on the track, and any key of a line file; what it
+    does not give is that of the whole file.
+
+    Raises
+    ------
+    ModelError
+        As :func:`parse_line`; ``where`` begins with ``sections[1]``.
+
+    """
+    if "sections" not in data:
+        return parse_line(data, source)
+    sections = data["sections"]
+    if not isinstance(sections, list) or not sections or not all(isinstance(one, dict) for one in sections):
+        raise ModelError("sections", "must be tables", "[[sections]] with start, and spans or supports each")
+    common = {key: value for key, value in data.items() if key != "sections"}
+    lines, starts = [], []
+    for k, own in enumerate(sections):
+        where = f"sections[{k}]"
+        given = {key: value for key, value in own.items() if key != "start"}
+        base = {k: v for k, v in common.items() if not (k in LAYOUTS and LAYOUTS & given.keys())}
+        try:
+            lines.append(parse_line(base | given, source))
+        except ModelError as error:
+            place = where if error.where == source else f"{where}.{error.where}"
+            place = error.where if ".csv" in error.where else place
+            raise ModelError(place, error.what, error.hint) from None
+        if "start" not in own:
+            raise ModelError(f"{where}.start", "is missing", "track position of its first support, m")
+        starts.append(checks.number(own["start"], f"{where}.start"))
+    plain = {key: common[key] for key in ("title", "source", "tags") if key in common}
+    return Route(lines=tuple(lines), starts=tuple(starts), **plain)
 
 
 def parse_line(data: dict[str, Any], source: str = "line") -> Line:
@@ -71,20 +124,53 @@ def parse_line(data: dict[str, Any], source: str = "line") -> Line:
             entry = LineEntry.model_validate(data)
     except ValidationError as error:
         raise combined(of_validation(error, _entry), source) from None
-    droppers = sum(given.repeat * len(given.droppers) for given in entry.spans)
-    check_size(sum(given.repeat for given in entry.spans), droppers, "spans")
-    spans = [span for i, given in enumerate(entry.spans) for span in _spans(given, i)]
-    with _in_file(entry):
-        return Line(
-            spans=tuple(spans),
-            contact_wire=_wire(entry.contact_wire, "contact_wire"),
-            messenger_wire=_wire(entry.messenger_wire, "messenger_wire"),
-            droppers=Droppers(**entry.droppers.given()),
-            steady_arm=SteadyArm(**entry.steady_arm.given()),
-            damping=Rayleigh(**entry.damping.given()),
-            stitch=_stitch(entry.stitch),
-            **{key: getattr(entry, key) for key in PLAIN},
+    folder = Path(source).parent
+    if (entry.spans is None) == (entry.supports is None):
+        what = "is missing" if entry.spans is None else "and supports are given both"
+        raise ModelError("spans", what, "give spans, or supports")
+    rows = [] if entry.supports is None else supports_of(entry, folder)
+    laid = _laid(entry, rows)
+    count = sum(len(span.droppers) for span in laid["spans"])
+    plain = {key: getattr(entry, key) for key in PLAIN}
+    plain["system_height"] = 0.0 if entry.system_height is None else entry.system_height
+    with _in_file(entry, rows):
+        line = _line(
+            entry, plain | laid | {"dropper_lengths": lengths_of(entry.dropper_lengths, folder, count)}
         )
+    return line
+
+
+def _line(entry: LineEntry, plain: dict[str, Any]) -> Line:
+    tensioner, conditions = entry.tensioner, entry.conditions
+    given: dict[str, Any] = {"steady_arm": SteadyArm(**entry.steady_arm.given())} | plain
+    if entry.messenger_wire is not None:
+        if entry.droppers is not None:
+            given["droppers"] = Droppers(**entry.droppers.given())
+        if not np.any(given["system_height"]):
+            what = LineEntry.model_fields["system_height"].description or ""
+            raise ModelError("line.system_height", "is missing", what.rstrip("."))
+    return Line(
+        contact_wire=_wire(entry.contact_wire, "contact_wire"),
+        messenger_wire=None
+        if entry.messenger_wire is None
+        else _wire(entry.messenger_wire, "messenger_wire"),
+        damping=Rayleigh(**entry.damping.given()),
+        stitch=_stitch(entry.stitch),
+        tensioner=Tensioner() if tensioner is None else Tensioner(**tensioner.given()),
+        conditions=Conditions() if conditions is None else Conditions(**conditions.given()),
+        loads=tuple(Load(**load.given()) for load in entry.loads),
+        **given,
+    )
+
+
+def _laid(entry: LineEntry, rows: list[tuple[str, Row]]) -> dict[str, Any]:
+    """Spans of the file, or what its table of supports says."""
+    if entry.spans is None:
+        return laid_out(entry, rows)
+    check_size(sum(given.repeat for given in entry.spans), 0, "spans")
+    spans = [span for i, given in enumerate(entry.spans) for span in _spans(entry, given, i)]
+    check_size(0, sum(len(span.droppers) for span in spans), "spans")
+    return {"spans": tuple(spans)}
 
 
 def _entry(parts: tuple[int | str, ...]) -> type[Entry]:
@@ -98,19 +184,29 @@ def _stitch(given: StitchEntry | None) -> StitchWire | None:
 
 def _wire(given: WireEntry, where: str) -> Wire:
     """A wire of the catalogue with what else is given, or one of its own numbers."""
-    own = given.given("reach")
+    own = given.given("reach", "count")
     if given.type is not None:
-        return Wire(**(wire_data(given.type, f"{where}.type") | own))
+        return Wire(**(wire_data(given.type, f"{where}.type") | own)).times(given.count)
     for key in ("EA", "EI", "mass"):
         if own.get(key) is None:
             what = WireEntry.model_fields[key].description or ""
             raise ModelError(f"{where}.{key}", "is missing", f'{what.rstrip(".")}; or a type, "CuAg AC-100"')
-    return Wire(**own)
+    return Wire(**own).times(given.count)
 
 
-def _spans(given: SpanEntry, index: int) -> list[Span]:
+def _spans(entry: LineEntry, given: SpanEntry, index: int) -> list[Span]:
+    droppers: Any = given.droppers if given.droppers is not None else entry.dropper_rule
+    if droppers is None:
+        if entry.messenger_wire is not None:
+            what = SpanEntry.model_fields["droppers"].description or ""
+            raise ModelError(f"spans[{index}].droppers", "is missing", what)
+        droppers = ()
+    if isinstance(droppers, list):
+        check_size(0, given.repeat * len(droppers), "spans")
     try:
-        span = Span(length=given.length, droppers=tuple(given.droppers), pre_sag=given.pre_sag)
+        if isinstance(droppers, RuleEntry):
+            droppers = DropperRule(**droppers.given())
+        span = Span(length=given.length, droppers=droppers, pre_sag=given.pre_sag, radius=given.radius)
     except ModelError as error:
         where = f"spans[{index}]" + error.where.removeprefix("span")
         raise ModelError(where, error.what, error.hint) from None
@@ -118,13 +214,16 @@ def _spans(given: SpanEntry, index: int) -> list[Span]:
 
 
 @contextmanager
-def _in_file(entry: LineEntry) -> Iterator[None]:
+def _in_file(entry: LineEntry, rows: list[tuple[str, Row]]) -> Iterator[None]:
     """Name the places of a line as they are named in the file: ``line.stagger`` is ``stagger``."""
     try:
         yield
     except ModelError as error:
         where = error.where.removeprefix("line.")
-        key = where.partition("[")[0]
-        if key in ("system_height", "stagger") and not isinstance(getattr(entry, key), list):
+        key, _, index = where.partition("[")
+        k = int(index.partition("]")[0]) if index else 0
+        if key in OF_SUPPORTS and index and k < len(rows) and key in rows[k][1]:
+            raise ModelError(f"{rows[k][0]}{key}", error.what, error.hint) from None
+        if key in ("system_height", "stagger", "height") and not isinstance(getattr(entry, key), list):
             where = key
         raise ModelError(where, error.what, error.hint) from None

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray
 from ..errors import ModelError
+from .along_track import curve_pull, lumped_pull
 from .clamps import missing_give
-from .hang import Hung
+from .hang import Hung, masses
 from .line import Line
-from .mesh import Mesh, stitch_ends
+from .mesh import Mesh, Nodes, stitch_ends
 from .shape import WireShape, started
 from .strings import lumped, string_loads, string_shape
+from .wire import Wire
 
 STEEPEST = 0.5  # slope of a contact wire
 
@@ -32,7 +34,7 @@ def first_guess(line: Line, mesh: Mesh) -> Hung:
         if isinstance(error, ModelError):
             raise
         raise _beyond() from None
-    shapes = (begun.contact, begun.messenger, *begun.stitches)
+    shapes = [s for s in (begun.contact, begun.messenger, *begun.stitches) if s is not None]
     if not all(np.all(np.isfinite(shape.position)) for shape in shapes) or not np.all(
         np.isfinite(begun.lift)
     ):
@@ -50,10 +52,11 @@ def _first_guess(line: Line, mesh: Mesh) -> Hung:
     load = load + line.droppers.clamp_contact * line.gravity
     down = load + line.droppers.clamp_messenger * line.gravity
     stitches, ends = _stitches(line, mesh, down)
-    messenger = _messenger(line, mesh, down, ends)
+    messenger = None if line.messenger_wire is None else _messenger(line, mesh, down, ends)
     count = line.supports.size
     placed = []
     for k, shape in enumerate(stitches):
+        assert messenger is not None
         height = np.interp(shape.nodes.x, messenger.nodes.x, messenger.position[:, 2])
         side = np.interp(shape.nodes.x, messenger.nodes.x, messenger.position[:, 1])
         z = shape.position[:, 2] + np.interp(shape.nodes.x, shape.nodes.x[[0, -1]], height[[0, -1]])
@@ -73,10 +76,14 @@ def _first_guess(line: Line, mesh: Mesh) -> Hung:
     )
 
 
-def _give(line: Line, contact: WireShape, messenger: WireShape, stitches: list[WireShape]) -> FloatArray:
+def _give(
+    line: Line, contact: WireShape, messenger: WireShape | None, stitches: list[WireShape]
+) -> FloatArray:
     """What the wires lack at both clamps of each dropper (2, n), m/N."""
     give = np.zeros((2, line.dropper_x.size))
     give[0] = missing_give(contact.wire, contact.nodes, contact.nodes.dropper)
+    if messenger is None:
+        return give
     give[1] = missing_give(messenger.wire, messenger.nodes, messenger.nodes.dropper, messenger.hinges)
     for k, shape in enumerate(stitches):
         own = line.dropper_stitch == k + 1
@@ -90,19 +97,21 @@ def _contact(line: Line, mesh: Mesh) -> tuple[WireShape, FloatArray]:
     held = np.full(nodes.x.size, np.nan)
     held[nodes.dropper] = line.dropper_height
     level = nodes.support if line.contact_support == "held" else nodes.support[[0, -1]]
-    held[level] = 0.0
+    held[level] = line.height_at(nodes.x[level])
     weight = wire.mass * line.gravity
-    z = string_shape(nodes.x, held, lumped(nodes.x, weight), wire.tension)
+    load = lumped(nodes.x, weight)
+    load[nodes.load] -= masses(line, "contact")
+    z = string_shape(nodes.x, held, load, wire.tension)
     marks = np.flatnonzero(~np.isnan(held))
     force = np.zeros(nodes.x.size)
-    force[marks] = string_loads(nodes.x[marks], z[marks], wire.tension, weight)
+    force[marks] = string_loads(nodes.x, z, wire.tension, 0.0)[marks] - load[marks]
     steepest = float(np.max(np.abs(np.diff(z) / np.diff(nodes.x))))
     if not np.isfinite(steepest):
         raise _beyond()
     if steepest > STEEPEST:
         what = f"is too low: the wire would hang at a slope of {steepest:.2g} between the droppers"
         raise ModelError("line.contact_wire.tension", what, f"at most {STEEPEST:g}; units are N")
-    y = _sideways(nodes.x, nodes.support, line.stagger, wire.tension)
+    y = _sideways(line, nodes, line.stagger, wire, "contact")
     return started(wire, nodes, y, z), force[nodes.dropper]
 
 
@@ -128,7 +137,9 @@ def _stitches(line: Line, mesh: Mesh, down: FloatArray) -> tuple[list[WireShape]
 def _messenger(line: Line, mesh: Mesh, down: FloatArray, ends: FloatArray) -> WireShape:
     """The messenger under its droppers and stitch wires, which take off part of its tension."""
     wire, nodes = line.messenger_wire, mesh.nodes(line, "messenger")
+    assert wire is not None
     load = lumped(nodes.x, wire.mass * line.gravity)
+    load[nodes.load] -= masses(line, "messenger")
     own = line.dropper_stitch < 0
     load[nodes.dropper[own]] -= down[own]
     np.subtract.at(load, nodes.stitch, ends[:, :, 2].ravel())
@@ -138,15 +149,17 @@ def _messenger(line: Line, mesh: Mesh, down: FloatArray, ends: FloatArray) -> Wi
         assert line.stitch is not None
         tension[(a < middle) & (middle < b)] -= line.stitch.wire.tension
     held = np.full(nodes.x.size, np.nan)
-    held[nodes.support] = line.system_height
+    held[nodes.support] = np.array(line.system_height) + line.height
     z = string_shape(nodes.x, held, load, tension)
-    y = _sideways(nodes.x, nodes.support, line.messenger_y, wire.tension)
+    y = _sideways(line, nodes, line.messenger_y, wire, "messenger")
     hinges = tuple(nodes.support[1:-1].tolist()) if line.messenger_clamp == "hinged" else ()
     return started(wire, nodes, y, z, hinges)
 
 
-def _sideways(x: FloatArray, support: IntArray, stagger: tuple[float, ...], tension: float) -> FloatArray:
-    """Straight from support to support."""
-    held = np.full(x.size, np.nan)
-    held[support] = stagger
-    return string_shape(x, held, np.zeros(x.size), tension)
+def _sideways(line: Line, nodes: Nodes, stagger: tuple[float, ...], wire: Wire, name: str) -> FloatArray:
+    """From support to support, straight but for the pull of curves."""
+    held = np.full(nodes.x.size, np.nan)
+    held[nodes.support] = stagger
+    level = np.zeros(nodes.x.size)
+    pull = curve_pull(line, started(wire, nodes, level, level), name)
+    return string_shape(nodes.x, held, lumped_pull(nodes.x, pull), wire.tension)

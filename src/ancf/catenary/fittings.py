@@ -7,6 +7,63 @@ from dataclasses import dataclass
 from ..errors import ModelError
 from ..model import checks
 
+STEEPEST = 0.7  # rad, of a steady arm
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tensioner:
+    """What pulls the ends of the wires, besides weights without friction.
+
+    Parameters
+    ----------
+    stiffness : float, N/m
+        Of the spring at each end, for ``anchors = "spring"``.
+    friction : float
+        Share of the tension that wheels and pulleys keep, with ``anchors = "tension"``: an end moves when the
+        tension is this share above or below that of the weights. It decides about states at rest; in motion
+        the force at an end is what it is at rest.
+
+    """
+
+    stiffness: float | None = None
+    friction: float = 0.0
+
+    def check(self, where: str, anchors: str) -> None:
+        """Raise ModelError if a value is out of range or does not belong to these anchors."""
+        if (self.stiffness is not None) != (anchors == "spring"):
+            what = "is missing" if self.stiffness is None else f'has no effect with anchors = "{anchors}"'
+            raise ModelError(f"{where}.stiffness", what, "of the spring at each end, N/m")
+        if self.stiffness is not None:
+            checks.positive(self.stiffness, f"{where}.stiffness")
+        if checks.between(self.friction, f"{where}.friction", 0.0, 0.5) and anchors != "tension":
+            raise ModelError(f"{where}.friction", f'has no effect with anchors = "{anchors}"', "leave it out")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Load:
+    """A mass on a wire: a section insulator, a clamp of a feeder.
+
+    Parameters
+    ----------
+    position : float, m
+        Along the track from the first support.
+    mass : float, kg
+    wire : "contact" or "messenger"
+
+    """
+
+    position: float
+    mass: float
+    wire: str = "contact"
+
+    def check(self, where: str, length: float) -> None:
+        """Raise ModelError if it is off the line."""
+        if not 0.0 < checks.number(self.position, f"{where}.position") < length:
+            what = f"is {self.position:g} m, the line reaches from 0 to {length:g} m"
+            raise ModelError(f"{where}.position", what)
+        checks.positive(self.mass, f"{where}.mass")
+        checks.choice(self.wire, f"{where}.wire", ("contact", "messenger"))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Droppers:
@@ -49,6 +106,10 @@ class Droppers:
         checks.flag(self.slack, f"{where}.slack")
 
 
+#: Of a line that has none: the number is never used.
+NO_DROPPERS = Droppers(stiffness=1.0)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SteadyArm:
     """What holds the contact wire sideways at a support: springs, or a hinged arm.
@@ -65,6 +126,11 @@ class SteadyArm:
         Of the arm or of the spring's moving part; half of it moves with the wire.
     stiffness : float, N/m
         Of a hinged arm along itself.
+    angle : float, rad
+        Of a hinged arm at rest: how far it rises from the wire to its hinge. It then carries the tangent of
+        this angle of its pull, where the wire hangs free otherwise. Default as its own weight makes it.
+    uplift_stop : float, m
+        Height above rest at which a stop meets the wire; default none.
 
     """
 
@@ -73,6 +139,8 @@ class SteadyArm:
     length: float | None = None
     mass: float = 0.0
     stiffness: float = 1e6
+    angle: float | None = None
+    uplift_stop: float | None = None
 
     @property
     def hinged(self) -> bool:
@@ -95,3 +163,10 @@ class SteadyArm:
                 raise ModelError(f"{where}.lateral", "has no effect on a hinged arm", "leave it out")
         checks.non_negative(self.mass, f"{where}.mass")
         checks.positive(self.stiffness, f"{where}.stiffness")
+        if self.uplift_stop is not None:
+            checks.positive(self.uplift_stop, f"{where}.uplift_stop")
+        if self.angle is not None:
+            if not self.hinged:
+                raise ModelError(f"{where}.angle", "has no effect without length", "leave it out")
+            if abs(checks.number(self.angle, f"{where}.angle")) > STEEPEST:
+                raise ModelError(f"{where}.angle", f"is {self.angle:g}", f"rad, at most {STEEPEST:g}")

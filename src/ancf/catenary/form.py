@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -32,7 +32,7 @@ class Form:
     mesh : Mesh
         With which it was found, and with which the wires keep their heights exactly.
     contact, messenger : WireShape
-        The wires with their natural lengths.
+        The wires with their natural lengths; a messenger only if the line has one.
     stitches : tuple of WireShape
         Stitch wires at the supports but the first and the last, if the line has them.
     dropper_load : (n,) N
@@ -44,6 +44,8 @@ class Form:
     dropper_stiffness : (n,) N/m
     clamp_give : (n,) m/N
         What both wires give too little at the clamps on this mesh, see :mod:`ancf.catenary.clamps`.
+    contact_give : (n,) m/N
+        The contact wire's part of it.
     contact_height, messenger_height : (n,) m
         Of the contact wire and of what the droppers hang from, at the droppers.
     support_load, support_side : (supports,) N
@@ -51,6 +53,10 @@ class Form:
     arm_force : (supports, 3) N
         Force on the contact wire at the supports; zero at the two anchors.
     iterations : int
+    pull : (2, 2) N
+        Component along the track of the forces at both ends of contact wire and messenger.
+    settled : bool
+        Whether it is the state of the line's conditions or of lengths that were given, not of the design.
     made_for : (Line, Mesh)
         What it was found for.
 
@@ -64,7 +70,7 @@ class Form:
     line: Line
     mesh: Mesh
     contact: WireShape
-    messenger: WireShape
+    messenger: WireShape | None
     stitches: tuple[WireShape, ...]
     dropper_load: FloatArray
     dropper_force: FloatArray
@@ -72,12 +78,15 @@ class Form:
     dropper_natural: FloatArray
     dropper_stiffness: FloatArray
     clamp_give: FloatArray
+    contact_give: FloatArray
     contact_height: FloatArray
     messenger_height: FloatArray
     support_load: FloatArray
     support_side: FloatArray
     arm_force: FloatArray
     iterations: int
+    pull: FloatArray
+    settled: bool = False
     made_for: tuple[Line, Mesh] | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -94,6 +103,11 @@ class Form:
                 raise ModelError(f"form.line.{item.name}", what, hint)
 
     @property
+    def wave_speed(self) -> float:
+        """Wave speed of the contact wire as it hangs, m/s."""
+        return self.contact.wire.wave_speed
+
+    @property
     def spring_stiffness(self) -> FloatArray:
         """Stiffnesses (n,) in N/m of the droppers between the nodes: with the give of their clamps."""
         stiffness: FloatArray = self.dropper_stiffness / (1.0 + self.clamp_give * self.dropper_stiffness)
@@ -107,6 +121,21 @@ class Form:
         )
         return damping
 
+    @property
+    def support_height(self) -> FloatArray:
+        """Heights of the contact wire at the supports, m."""
+        height: FloatArray = self.contact.position[self.contact.nodes.support, 2]
+        return height
+
+    @property
+    def contact_places(self) -> list[FloatArray]:
+        """Places (n, 3) of the contact wire on the track, m: one wire."""
+        return [self.contact.position]
+
+    def with_loads(self, load: FloatArray) -> Form:
+        """The same with other loads of the droppers at rest, N."""
+        return replace(self, dropper_load=load)
+
     def schedule(self) -> list[Row]:
         """The dropper schedule, one row for each dropper."""
         return rows(self)
@@ -116,8 +145,8 @@ class Form:
         return write(self.schedule(), Path(path))
 
 
-def form(line: Line, mesh: Mesh | None = None) -> Form:
-    """Find a line's form.
+def design(line: Line, mesh: Mesh | None = None) -> Form:
+    """Find the form that a line is designed to have, whatever its conditions and the droppers it got.
 
     The contact wire alone, held at its heights, tells the forces of the droppers; the messenger alone
     under these and all weights finds its shape; the distances are the lengths of the droppers. What each
@@ -145,7 +174,7 @@ def form(line: Line, mesh: Mesh | None = None) -> Form:
         now = hang_contact(now)
         contact_error = now.error
         now = hang_stitches(hang_messenger(now))
-        change = float(np.max(np.abs(now.dropper - before.dropper)))
+        change = float(np.max(np.abs(now.dropper - before.dropper), initial=0.0))
         left = max(change, contact_error, now.error)
         if left < TOLERANCE:
             return _finished(line, mesh, now, iteration)
@@ -168,6 +197,8 @@ def check(line: Line, mesh: Mesh | None = None) -> None:
 def _check_reach(line: Line, now: Hung) -> None:
     """Raise ModelError where the messenger is not above the contact wire."""
     gap = now.dropper[:, 2]
+    if not gap.size:
+        return
     worst = int(np.argmin(gap))
     if gap[worst] <= 0.0:
         what = (
@@ -180,9 +211,9 @@ def _finished(line: Line, mesh: Mesh, now: Hung, iterations: int) -> Form:
     length, force = now.length, now.force
     own = line.droppers.mass * length * line.gravity
     load = force - 0.5 * own
-    least = float(np.min(load))
-    worst = int(np.argmax(load <= least + 1e-3 * abs(least)))  # the first of those that are alike
-    if load[worst] <= 0.0:
+    least = float(np.min(load, initial=np.inf))
+    if least <= 0.0:
+        worst = int(np.argmax(load <= least + 1e-3 * abs(least)))  # the first of those that are alike
         what = f"would carry {load[worst]:.1f} N at rest: it has to push the contact wire down"
         raise ModelError(line.dropper_label(worst), what, "change its place or the pre_sag around it")
     natural, stiffness = _unstretched(line, length, force)
@@ -198,13 +229,20 @@ def _finished(line: Line, mesh: Mesh, now: Hung, iterations: int) -> Form:
         dropper_natural=natural,
         dropper_stiffness=stiffness,
         clamp_give=now.give.sum(axis=0),
+        contact_give=now.give[0],
         contact_height=now.contact.position[now.contact.nodes.dropper, 2] + now.give[0] * now.lift,
         messenger_height=now.upper[:, 2] - now.give[1] * now.lift,
         support_load=now.support,
         support_side=now.side,
         arm_force=now.arm,
         iterations=iterations,
+        pull=np.outer([line.contact_wire.tension, messenger_tension(line)], [1.0, 1.0]),
     )
+
+
+def messenger_tension(line: Line) -> float:
+    """Tension of the messenger, N; 0 without one."""
+    return 0.0 if line.messenger_wire is None else line.messenger_wire.tension
 
 
 def _unstretched(line: Line, length: FloatArray, force: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -215,8 +253,8 @@ def _unstretched(line: Line, length: FloatArray, force: FloatArray) -> tuple[Flo
         return natural, droppers.EA / natural
     assert droppers.stiffness is not None
     natural = length - force / droppers.stiffness
-    worst = int(np.argmin(natural))
-    if natural[worst] <= 0.0:
+    if np.any(natural <= 0.0):
+        worst = int(np.argmin(natural))
         stretch = f"{1e3 * (length - natural)[worst]:.1f} mm of its {1e3 * length[worst]:.1f} mm"
         raise ModelError(line.dropper_label(worst), f"is stretched by {stretch}", "give stiffer droppers")
     return natural, np.full(length.size, droppers.stiffness)

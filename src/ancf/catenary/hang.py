@@ -9,6 +9,7 @@ import numpy as np
 import ancf
 
 from ..arrays import FloatArray, IntArray
+from .along_track import add_sideways, curve_pull
 from .line import Line
 from .rods import add_leans, along
 from .shape import Strung, WireShape
@@ -41,7 +42,7 @@ class Hung:
 
     line: Line
     contact: WireShape
-    messenger: WireShape
+    messenger: WireShape | None
     stitches: tuple[WireShape, ...]
     lift: FloatArray
     arm: FloatArray
@@ -54,6 +55,8 @@ class Hung:
     @property
     def upper(self) -> FloatArray:
         """Nodes (n, 3) from which the droppers hang, m."""
+        if self.messenger is None:
+            return np.zeros((0, 3))
         position = self.messenger.position[self.messenger.nodes.dropper]
         for k, shape in enumerate(self.stitches):
             position[self.line.dropper_stitch == k + 1] = shape.position[shape.nodes.dropper]
@@ -104,7 +107,7 @@ class Hung:
 def hang_contact(now: Hung) -> Hung:
     """The contact wire with its clamps at their heights, under droppers that lean to the messenger."""
     line, shape, nodes, inner = now.line, now.contact, now.contact.nodes, slice(1, -1)
-    model, wire = _pulled(line, shape)
+    model, wire = _pulled(line, shape, "contact")
     model.hold(wire.start, position="yz")
     model.hold(wire.end, position="yz")
     weight = -np.outer(now.weight(line.droppers.clamp_contact), [0.0, 0.0, 1.0])
@@ -119,7 +122,9 @@ def hang_contact(now: Hung) -> Hung:
     held[:, 1] = line.stagger[inner]
     axes = [1, 2] if line.contact_support == "held" else [1]
     if 2 in axes:
-        held[:, 2] = 0.0
+        held[:, 2] = np.array(line.heights)[inner]
+    else:
+        _add_forces(model, wire, nodes.support[inner], carried(line, now.arm)[inner])
     arms = {axis: along(held, axis, now.arm[inner, axis]) for axis in axes}
     for rods in arms.values():
         rods.add_to(model, [wire.point(i) for i in nodes.support[inner]])
@@ -128,6 +133,8 @@ def hang_contact(now: Hung) -> Hung:
     arm = np.zeros_like(now.arm)
     for axis, rods in arms.items():
         arm[inner, axis] = rods.forces(state)
+    if 2 not in axes:
+        arm[:, 2] = carried(line, now.arm)[:, 2]
     lift = hangers.forces(state)
     height = position[nodes.dropper, 2] + now.give[0] * lift - line.dropper_height
     side = (position[nodes.support[inner]] - held)[:, axes]
@@ -137,8 +144,10 @@ def hang_contact(now: Hung) -> Hung:
 
 def hang_messenger(now: Hung) -> Hung:
     """The messenger under the forces of droppers and stitch wires and all weights, held at its supports."""
+    if now.messenger is None:
+        return now
     line, shape, nodes, inner = now.line, now.messenger, now.messenger.nodes, slice(1, -1)
-    model, wire = _pulled(line, shape)
+    model, wire = _pulled(line, shape, "messenger")
     model.hold(wire.start, position="yz")
     model.hold(wire.end, position="yz")
     own = line.dropper_stitch < 0
@@ -148,7 +157,7 @@ def hang_messenger(now: Hung) -> Hung:
     add_leans(model, points, shape.position[nodes.dropper[own]], below, now.lean[own])
     _add_forces(model, wire, nodes.stitch, -now.ends.reshape(-1, 3))
     held = shape.position[nodes.support[inner]].copy()
-    held[:, 1], held[:, 2] = line.messenger_y[inner], line.system_height[inner]
+    held[:, 1], held[:, 2] = line.messenger_y[inner], (np.array(line.system_height) + line.heights)[inner]
     rods = [along(held, 1, now.side[inner]), along(held, 2, now.support[inner])]
     for group in rods:
         group.add_to(model, [wire.point(i) for i in nodes.support[inner]])
@@ -164,6 +173,7 @@ def hang_stitches(now: Hung) -> Hung:
     error, ends = now.error, now.ends.copy()
     shapes = []
     for k, shape in enumerate(now.stitches):
+        assert now.messenger is not None
         held = now.messenger.position[now.messenger.nodes.stitch[2 * k : 2 * k + 2]]
         shape, ends[k], off = _hang_stitch(now, k, shape, held)
         shapes.append(shape)
@@ -175,7 +185,7 @@ def _hang_stitch(
     now: Hung, k: int, shape: WireShape, held: FloatArray
 ) -> tuple[WireShape, FloatArray, float]:
     """Shape of one stitch wire, forces (2, 3) of the messenger on its ends, error."""
-    model, wire = _pulled(now.line, shape)
+    model, wire = _pulled(now.line, shape, "stitch")
     own = now.line.dropper_stitch == k + 1
     _add_forces(model, wire, shape.nodes.dropper, now.down[own])
     points = [wire.point(i) for i in shape.nodes.dropper]
@@ -192,12 +202,29 @@ def _hang_stitch(
     return shape.moved(position), force, error
 
 
-def _pulled(line: Line, shape: WireShape) -> tuple[ancf.Model, Strung]:
-    """A model of a wire alone under its weight and its tension, held along the track at its start."""
+def masses(line: Line, name: str) -> FloatArray:
+    """Weights (n,) of the masses on a wire, N, in the order of the track."""
+    return np.array([load.mass * line.gravity for load in line.loads_on(name)])
+
+
+def carried(line: Line, arm: FloatArray) -> FloatArray:
+    """Forces (supports, 3) of steady arms that rise at given angles on a wire that hangs free there, N."""
+    force = np.zeros_like(arm)
+    for k in range(1, len(arm) - 1):
+        angle = line.arm(k).angle
+        if angle is not None:
+            force[k, 2] = abs(arm[k, 1]) * np.tan(angle) - 0.5 * line.arm(k).mass * line.gravity
+    return force
+
+
+def _pulled(line: Line, shape: WireShape, name: str) -> tuple[ancf.Model, Strung]:
+    """A model of a wire alone under its weight, its tension and curves, held along the track at its start."""
     model = ancf.Model(gravity=(0.0, 0.0, -line.gravity))
     wire = shape.add_to(model, "wire")
     model.hold(wire.start, position="x")
     model.add_force(wire.end, (shape.wire.tension, 0.0, 0.0))
+    add_sideways(model, wire, curve_pull(line, shape, name))
+    _add_forces(model, wire, shape.nodes.load, -np.outer(masses(line, name), [0.0, 0.0, 1.0]))
     return model, wire
 
 

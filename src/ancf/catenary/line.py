@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -11,14 +11,16 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
-from .fittings import Droppers, SteadyArm
+from .conditions import Conditions
+from .fittings import NO_DROPPERS, Droppers, Load, SteadyArm, Tensioner
 from .span import Span
 from .stitch import StitchWire
 from .wire import Rayleigh, Wire
 
 SUPPORTS = ("held", "free")
-ANCHORS = ("fixed", "tension")
+ANCHORS = ("fixed", "tension", "spring")
 CLAMPS = ("hinged", "continuous")
+HIGHEST = 100.0  # m, of wires; more is a slip of units
 #: A line of some 600 km; more is a slip that would take all memory.
 MOST_SPANS, MOST_DROPPERS = 10_000, 200_000
 
@@ -32,20 +34,25 @@ def check_size(spans: int, droppers: int, where: str) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
-    """An overhead line on a straight track.
+    """An overhead line.
 
-    x runs along the track from the first support, y sideways, z up from the nominal height of the contact
-    wire. Both wires are anchored at the first and the last support.
+    x runs along the track from the first support, y to its left, z up from the nominal height of the contact
+    wire. In a curve x follows the track. Both wires are anchored at the first and the last support.
 
     Parameters
     ----------
     spans : sequence of Span
-    contact_wire, messenger_wire : Wire
+    contact_wire : Wire
+    messenger_wire : Wire
+        None for a line without messenger and droppers, as trams have.
     droppers : Droppers
-    steady_arm : SteadyArm
+        Default none.
+    steady_arm : SteadyArm, or one for each support
         At every support but the first and the last, where the wires are anchored.
     system_height : float or (supports,) m
-        Height of the messenger over the nominal height of the contact wire at the supports.
+        Height of the messenger over the contact wire at the supports.
+    height : float or (supports,) m
+        Height of the contact wire at the supports; straight from one to the next, less the pre-sag.
     damping : Rayleigh
         Of both wires.
     messenger_support : float, N/m
@@ -62,9 +69,22 @@ class Line:
         beside it. In motion the steady arm acts about this place.
     stitch : StitchWire
         Default none.
-    anchors : "fixed" or "tension"
-        The wires' ends keep their places, or the forces at both ends keep their size; the wires are then
-        held along the track at the support nearest the middle.
+    anchors : "fixed", "tension" or "spring"
+        The wires' ends keep their places, or the forces at both ends keep their size, or springs pull there;
+        the wires are then held along the track at the support nearest the middle.
+    tensioner : Tensioner
+        Stiffness of the springs, friction of the weights.
+    messenger_support_mass : float, kg
+        What moves with the messenger at a support: of the cantilever.
+    loads : sequence of Load
+        Masses on the wires.
+    temperature : float, degrees Celsius
+        At which heights, tensions and lengths of droppers hold.
+    conditions : Conditions
+        State in which the line is looked at. It is designed without them, and then comes to rest in them.
+    dropper_lengths : (n,) m
+        Unstretched lengths of the droppers as they were built, from clamp to clamp; default those of the
+        design. With them the contact wire hangs at other heights than the design wants.
     gravity : float, m/s^2
     title, source : str
     tags : mapping of str to str
@@ -74,10 +94,11 @@ class Line:
 
     spans: tuple[Span, ...]
     contact_wire: Wire
-    messenger_wire: Wire
-    droppers: Droppers
-    steady_arm: SteadyArm
-    system_height: Any
+    steady_arm: Any
+    messenger_wire: Wire | None = None
+    droppers: Droppers = NO_DROPPERS
+    system_height: Any = 0.0
+    height: Any = 0.0
     damping: Rayleigh = field(default_factory=Rayleigh)
     messenger_support: float | None = None
     messenger_clamp: str = "hinged"
@@ -86,6 +107,12 @@ class Line:
     contact_support: str = "held"
     stitch: StitchWire | None = None
     anchors: str = "fixed"
+    tensioner: Tensioner = field(default_factory=Tensioner)
+    messenger_support_mass: float = 0.0
+    loads: tuple[Load, ...] = ()
+    temperature: float = 10.0
+    conditions: Conditions = field(default_factory=Conditions)
+    dropper_lengths: Any = None
     gravity: float = 9.81
     title: str = ""
     source: str = ""
@@ -97,25 +124,81 @@ class Line:
         if not self.spans:
             raise ModelError("line.spans", "has no span")
         check_size(len(self.spans), sum(len(span.droppers) for span in self.spans), "line.spans")
-        for key in ("contact_wire", "messenger_wire", "droppers", "steady_arm", "damping"):
-            getattr(self, key).check(f"line.{key}")
-        if self.messenger_support is not None:
-            checks.positive(self.messenger_support, "line.messenger_support")
-        checks.choice(self.contact_support, "line.contact_support", SUPPORTS)
-        checks.choice(self.anchors, "line.anchors", ANCHORS)
-        checks.choice(self.messenger_clamp, "line.messenger_clamp", CLAMPS)
-        checks.positive(self.gravity, "line.gravity")
-        heights = self._per_support("system_height", alternating=False)
-        for k, height in enumerate(heights):
-            checks.positive(height, f"line.system_height[{k}]")
+        self._check_parts()
+        for k, height in enumerate(self._per_support("system_height", alternating=False)):
+            if self.messenger_wire is not None:
+                checks.positive(height, f"line.system_height[{k}]")
+                checks.between(height, f"line.system_height[{k}]", 0.0, HIGHEST)
+        if isinstance(self.height, Sequence | np.ndarray):
+            self._per_support("height", alternating=False)
+        for k, height in enumerate(self.heights):
+            checks.between(height, f"line.height[{k}]", -HIGHEST, HIGHEST)
         self._per_support("stagger", alternating=True)
         if self.messenger_stagger is not None:
             self._per_support("messenger_stagger", alternating=True)
         if self.stitch is not None:
             self._check_stitch(self.stitch)
+        self._check_lengths()
+
+    def _check_parts(self) -> None:
+        arms = self.steady_arm
+        if isinstance(arms, Sequence):
+            if len(arms) != len(self.spans) + 1:
+                what = f"are {len(arms)} for {len(self.spans) + 1} supports"
+                raise ModelError("line.steady_arm", what, "give one, or one for each support")
+            object.__setattr__(self, "steady_arm", tuple(arms))
+            for k, arm in enumerate(arms):
+                arm.check(f"line.steady_arm[{k}]")
+        else:
+            arms.check("line.steady_arm")
+        for key in ("contact_wire", "droppers", "damping"):
+            getattr(self, key).check(f"line.{key}")
+        if self.messenger_wire is not None:
+            self.messenger_wire.check("line.messenger_wire")
+        for k, span in enumerate(self.spans):
+            if span.droppers and (self.messenger_wire is None or self.droppers == NO_DROPPERS):
+                missing = "messenger_wire" if self.messenger_wire is None else "droppers"
+                hint = "a line without messenger has spans without droppers"
+                raise ModelError(f"line.{missing}", f"is missing, span {k + 1} has droppers", hint)
+        if self.messenger_support is not None:
+            checks.positive(self.messenger_support, "line.messenger_support")
+        checks.non_negative(self.messenger_support_mass, "line.messenger_support_mass")
+        checks.choice(self.contact_support, "line.contact_support", SUPPORTS)
+        checks.choice(self.anchors, "line.anchors", ANCHORS)
+        checks.choice(self.messenger_clamp, "line.messenger_clamp", CLAMPS)
+        checks.positive(self.gravity, "line.gravity")
+        checks.number(self.temperature, "line.temperature")
+        self.tensioner.check("line.tensioner", self.anchors)
+        self.conditions.check("line.conditions")
+        self._check_wind()
+        object.__setattr__(self, "loads", tuple(self.loads))
+        for k, load in enumerate(self.loads):
+            load.check(f"line.loads[{k}]", self.length)
+            if load.wire == "messenger" and self.messenger_wire is None:
+                raise ModelError(f"line.loads[{k}].wire", "is the messenger, which the line has not")
+
+    def _check_wind(self) -> None:
+        wires = {"contact_wire": self.contact_wire, "messenger_wire": self.messenger_wire}
+        wires["stitch"] = None if self.stitch is None else self.stitch.wire
+        for key, wire in wires.items():
+            if self.conditions.wind and wire is not None and wire.diameter is None:
+                raise ModelError(f"line.{key}.diameter", "is missing, wind needs it", "m, or a type")
+
+    def _check_lengths(self) -> None:
+        if self.dropper_lengths is None:
+            return
+        count = self.dropper_x.size
+        lengths = checks.array(self.dropper_lengths, "line.dropper_lengths", (count,)).tolist()
+        for j, length in enumerate(lengths):
+            if not 0.0 < length < HIGHEST:
+                where = f"line.dropper_lengths[{j}]"
+                raise ModelError(where, f"is {length:g} m, of {self.dropper_label(j)}", "0 < length, in m")
+        object.__setattr__(self, "dropper_lengths", tuple(lengths))
 
     def _check_stitch(self, stitch: StitchWire) -> None:
         stitch.check("line.stitch")
+        if self.messenger_wire is None:
+            raise ModelError("line.stitch", "has no messenger to hang from", "leave it out")
         if stitch.wire.tension >= self.messenger_wire.tension:
             what = f"is {stitch.wire.tension:g} N, the messenger has {self.messenger_wire.tension:g} N only"
             raise ModelError("line.stitch.tension", what)
@@ -143,6 +226,22 @@ class Line:
         return np.concatenate([[0.0], np.cumsum([span.length for span in self.spans])])
 
     @property
+    def parts(self) -> tuple[Line, ...]:
+        """The line itself; a route has several."""
+        return (self,)
+
+    @property
+    def marks(self) -> FloatArray:
+        """Track positions of the supports, m."""
+        return self.supports
+
+    @property
+    def reach(self) -> tuple[FloatArray, FloatArray]:
+        """From where to where a support counts as passed: the middles of the spans beside it, m."""
+        middles = 0.5 * (self.supports[1:] + self.supports[:-1])
+        return np.concatenate([[-np.inf], middles]), np.concatenate([middles, [np.inf]])
+
+    @property
     def messenger_y(self) -> tuple[float, ...]:
         """Sideways places of the messenger at the supports (spans + 1,), m."""
         places: tuple[float, ...] = self.stagger if self.messenger_stagger is None else self.messenger_stagger
@@ -157,7 +256,8 @@ class Line:
     def dropper_x(self) -> FloatArray:
         """Track positions of all droppers (n,), m."""
         starts = self.supports[:-1]
-        return np.concatenate([x0 + np.array(s.droppers) for x0, s in zip(starts, self.spans, strict=True)])
+        places = [x0 + np.array(s.droppers) for x0, s in zip(starts, self.spans, strict=True)]
+        return np.concatenate(places).astype(np.float64)
 
     @property
     def dropper_span(self) -> np.ndarray[Any, np.dtype[np.int64]]:
@@ -167,7 +267,7 @@ class Line:
     @property
     def dropper_number(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Index of each dropper in its span (n,)."""
-        return np.concatenate([np.arange(len(s.droppers)) for s in self.spans])
+        return np.concatenate([np.arange(len(s.droppers)) for s in self.spans]).astype(np.int64)
 
     @property
     def dropper_stitch(self) -> np.ndarray[Any, np.dtype[np.int64]]:
@@ -180,8 +280,31 @@ class Line:
 
     @property
     def dropper_height(self) -> FloatArray:
-        """Prescribed heights of the contact wire at the droppers (n,), m: minus the pre-sag."""
-        return -np.concatenate([np.array(s.pre_sag) for s in self.spans])
+        """Prescribed heights of the contact wire at the droppers (n,), m, less the pre-sag."""
+        sag = np.concatenate([np.array(s.pre_sag, dtype=np.float64) for s in self.spans])
+        level: FloatArray = self.height_at(self.dropper_x) - sag
+        return level
+
+    def height_at(self, track: Any) -> Any:
+        """Nominal heights of the contact wire at track positions, m: straight between the supports."""
+        return np.interp(track, self.supports, self.heights)
+
+    @property
+    def heights(self) -> tuple[float, ...]:
+        """Heights of the contact wire at the supports (spans + 1,), m."""
+        several = isinstance(self.height, tuple)
+        return (
+            self.height if several else (checks.number(self.height, "line.height"),) * (len(self.spans) + 1)
+        )
+
+    def arm(self, k: int) -> SteadyArm:
+        """Steady arm of a support."""
+        arm: SteadyArm = self.steady_arm[k] if isinstance(self.steady_arm, tuple) else self.steady_arm
+        return arm
+
+    def loads_on(self, wire: str) -> list[Load]:
+        """Masses on "contact" or "messenger", in the order of the track."""
+        return sorted((load for load in self.loads if load.wire == wire), key=lambda load: load.position)
 
     @property
     def wave_speed(self) -> float:
@@ -195,8 +318,15 @@ class Line:
     def excerpt(self, first: int, count: int) -> Line:
         """The line of `count` spans from span `first` on, anchored at its own ends."""
         supports = slice(first, first + count + 1)
-        keys = ["system_height", "stagger"] + (
-            [] if self.messenger_stagger is None else ["messenger_stagger"]
-        )
-        cut = {key: getattr(self, key)[supports] for key in keys}
+        keys = ["system_height", "stagger"]
+        keys += ["height"] if isinstance(self.height, tuple) else []
+        keys += ["messenger_stagger"] if self.messenger_stagger is not None else []
+        keys += ["steady_arm"] if isinstance(self.steady_arm, tuple) else []
+        cut: dict[str, Any] = {key: getattr(self, key)[supports] for key in keys}
+        if self.dropper_lengths is not None:
+            own = (self.dropper_span >= first) & (self.dropper_span < first + count)
+            cut["dropper_lengths"] = tuple(np.array(self.dropper_lengths)[own].tolist())
+        start, end = self.supports[first], self.supports[first + count]
+        inside = [load for load in self.loads if start < load.position < end]
+        cut["loads"] = tuple(replace(load, position=load.position - float(start)) for load in inside)
         return replace(self, spans=self.spans[first : first + count], **cut)

@@ -56,14 +56,16 @@ class Mesh:
         near: float = getattr(self, f"{wire}_support") or largest
         at_dropper = self.dropper or largest
         ends = stitch_ends(line) if wire == "messenger" else np.zeros((0, 2))
-        return _nodes((line.supports, line.dropper_x, ends.ravel()), (near, at_dropper, at_dropper), largest)
+        loads = np.array([load.position for load in line.loads_on(wire)])
+        groups = (line.supports, line.dropper_x, ends.ravel(), loads)
+        return _nodes(groups, (near, at_dropper, at_dropper, largest), largest)
 
     def stitch_nodes(self, line: Line, support: int) -> Nodes:
         """The same of the stitch wire at a support; its two ends are its supports."""
         ends = stitch_ends(line)[support - 1]
         near = self.dropper or self.messenger
         droppers = line.dropper_x[line.dropper_stitch == support]
-        return _nodes((ends, droppers, np.zeros(0)), (near, near, near), self.messenger)
+        return _nodes((ends, droppers, np.zeros(0), np.zeros(0)), (near,) * 4, self.messenger)
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,8 +76,8 @@ class Nodes:
     ----------
     x : (n,) m
         Track positions at rest.
-    support, dropper, stitch : arrays of int
-        Which of them are at the supports, at the droppers and at the ends of stitch wires.
+    support, dropper, stitch, load : arrays of int
+        Which of them are at the supports, the droppers, the ends of stitch wires and at masses.
 
     """
 
@@ -83,11 +85,12 @@ class Nodes:
     support: IntArray
     dropper: IntArray
     stitch: IntArray
+    load: IntArray
 
     @property
     def marks(self) -> IntArray:
         """Nodes whose track positions are prescribed, ascending."""
-        return np.unique(np.concatenate([self.support, self.dropper, self.stitch]))
+        return np.unique(np.concatenate([self.support, self.dropper, self.stitch, self.load]))
 
 
 def stitch_ends(line: Line) -> FloatArray:
@@ -99,7 +102,7 @@ def stitch_ends(line: Line) -> FloatArray:
 
 
 def _nodes(groups: tuple[FloatArray, ...], sizes: tuple[float, ...], largest: float) -> Nodes:
-    """Nodes at all places of three groups of marks and between them; sizes beside the marks, m."""
+    """Nodes at all places of four groups of marks and between them; sizes beside the marks, m."""
     places, back = np.unique(np.round(np.concatenate(groups), 9), return_inverse=True)
     near = np.full(places.size, largest)
     np.minimum.at(near, back, np.repeat(sizes, [group.size for group in groups]))
@@ -109,8 +112,7 @@ def _nodes(groups: tuple[FloatArray, ...], sizes: tuple[float, ...], largest: fl
         room -= cells[-1].size
     x = np.concatenate([*(cell[:-1] for cell in cells), places[-1:]])
     first = np.concatenate([[0], np.cumsum([cell.size - 1 for cell in cells])])
-    support, dropper, stitch = np.split(first[back], np.cumsum([group.size for group in groups])[:-1])
-    return Nodes(x, support, dropper, stitch)
+    return Nodes(x, *np.split(first[back], np.cumsum([group.size for group in groups])[:-1]))
 
 
 def divided(

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from .assemble import Assembled
-from .assemble import assemble as assembled
 from .collectors import Collector
-from .form import Form
 from .mesh import Mesh
 from .pantograph import Pantograph
+from .rest import assemble as assembled
+from .route_form import AnyForm
 from .run import run
 from .run_data import Run
 from .travelling import add_pantograph
@@ -33,12 +33,12 @@ class Overhead(Assembled):
         return run(self, **options)
 
 
-def assemble(found: Form, mesh: Mesh | None = None) -> Overhead:
+def assemble(found: AnyForm, mesh: Mesh | None = None) -> Overhead:
     """Make the model of a line.
 
     Parameters
     ----------
-    found : Form
+    found : Form or RouteForm
     mesh : Mesh
         Default that of the form; on another one the form is found again, for each mesh has its own
         lengths of droppers that bring the wires to their heights exactly.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
@@ -34,8 +35,8 @@ class Pantograph:
         Of the springs and dampers below each mass; the first stands on the roof.
     static_force : float, N
         Contact force at standstill.
-    aerodynamic : float, N s^2/m^2
-        k of the force k v^2.
+    aerodynamic : float or one for each mass, N s^2/m^2
+        k of the force k v^2, on the lowest mass or on each.
     strip_length : float, m
         Length of the collector strip across the track.
     relaxed_at : "start", "nominal" or "mean"
@@ -58,7 +59,7 @@ class Pantograph:
     stiffness: tuple[float, ...]
     damping: tuple[float, ...]
     static_force: float
-    aerodynamic: float = 0.0
+    aerodynamic: Any = 0.0
     strip_length: float = 1.45
     relaxed_at: str = "start"
     name: str = "pantograph"
@@ -83,14 +84,34 @@ class Pantograph:
             if c == 0.0 and (k > 0 or d == 0.0):
                 raise ModelError(f"{where}.stiffness[{k}]", "is 0: nothing carries the masses above")
         checks.positive(self.static_force, f"{where}.static_force")
-        checks.non_negative(self.aerodynamic, f"{where}.aerodynamic")
+        self._check_aerodynamic(f"{where}.aerodynamic")
         checks.positive(self.strip_length, f"{where}.strip_length")
         checks.choice(self.relaxed_at, f"{where}.relaxed_at", RELAXED)
         object.__setattr__(self, "tags", dict(self.tags or {}))
 
+    def _check_aerodynamic(self, where: str) -> None:
+        """One number >= 0, or one for each mass of which the sum is: wind may press a mass down."""
+        if not isinstance(self.aerodynamic, Sequence):
+            checks.non_negative(self.aerodynamic, where)
+            return
+        clean = checks.array(self.aerodynamic, where, (len(self.masses),))
+        checks.non_negative(float(clean.sum()), where)
+        object.__setattr__(self, "aerodynamic", tuple(clean.tolist()))
+
+    @property
+    def aerodynamics(self) -> tuple[float, ...]:
+        """k of the force k v^2 on each mass, N s^2/m^2."""
+        if isinstance(self.aerodynamic, tuple):
+            return self.aerodynamic
+        return (self.aerodynamic, *(0.0 for _ in self.masses[1:]))
+
     def force(self, speed: Any) -> Any:
         """Static and aerodynamic force at a speed in m/s, or at several, N."""
-        return self.static_force + self.aerodynamic * speed**2
+        return self.static_force + sum(self.aerodynamics) * speed**2
+
+    def carried(self, k: int, speed: float) -> float:
+        """Force in the spring below mass k > 0 at rest: what lifts the masses below it, N."""
+        return self.static_force + sum(self.aerodynamics[:k]) * speed**2
 
 
 def pantographs() -> dict[str, Pantograph]:

@@ -96,12 +96,12 @@ def uplift_at_supports(run: Run, pantograph: int = 0) -> list[SupportUplift]:
     A pantograph passes a support from the middle of the span before to the middle of the span after, as long
     as no other pantograph is nearer to the support.
     """
-    supports = np.asarray(run.form.line.supports)
-    middles = np.concatenate(([-np.inf], 0.5 * (supports[1:] + supports[:-1]), [np.inf]))
+    line = run.form.line
+    supports, (before, behind) = np.asarray(line.supports), line.reach
     position = run.recordings[pantograph].position
     found = []
     for j, x in enumerate(supports):
-        passing = (position >= middles[j]) & (position <= middles[j + 1]) & _nearest(run, pantograph, x)
+        passing = (position >= before[j]) & (position <= behind[j]) & _nearest(run, pantograph, x)
         if np.min(position) - SAME_PLACE <= x <= np.max(position) + SAME_PLACE and np.any(passing):
             found.append(SupportUplift(j + 1, float(x), float(np.max(run.uplift[passing, j]))))
     return found
@@ -134,12 +134,8 @@ def dropper_forces(run: Run, over: slice | None = None) -> list[DropperForces]:
 def dropper_places(run: Run) -> list[tuple[int, int, float]]:
     """Span, number in the span (both from 1) and track position of each dropper."""
     line = run.form.line
-    spans = np.searchsorted(np.asarray(line.supports), np.asarray(line.dropper_x), side="right")
-    first = {int(span): i for i, span in reversed(list(enumerate(spans)))}
-    return [
-        (int(span), i - first[int(span)] + 1, float(x))
-        for i, (span, x) in enumerate(zip(spans, line.dropper_x, strict=True))
-    ]
+    places = zip(line.dropper_span, line.dropper_number, line.dropper_x, strict=True)
+    return [(int(span) + 1, int(number) + 1, float(x)) for span, number, x in places]
 
 
 def droppers_in_window(run: Run, pantograph: int = 0) -> list[DropperForces]:

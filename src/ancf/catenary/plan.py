@@ -12,19 +12,24 @@ import numpy as np
 
 from ..errors import ModelError
 from ..model import checks
-from .assemble import Assembled, assemble
+from .assemble import Assembled
 from .catalogue import read_line
 from .collectors import Touch
-from .form import Form, form
+from .form import Form
 from .line import Line
 from .mesh import Mesh
 from .pantograph import Pantograph, find_pantograph
+from .rest import assemble, form
+from .route import Route
+from .route_form import AnyForm, RouteForm
 from .travel import Travel
 
 #: Where the last pantograph starts, as a share of the first span.
 START = 1.0 / 3.0
 #: Track that the first pantograph runs before the window, m: its start dies away.
 RUN_IN = 50.0
+#: Height over the lowest wire from which on a wire is out of a strip's reach, m.
+RAISED = 0.15
 #: Track beyond the window that the last pantograph still runs, m: a filter needs to see it.
 BEYOND = 40.0
 
@@ -50,7 +55,7 @@ class Door:
         """Whether the line may rest in another way than its form says."""
         return self.given is not None or self.modify is not None
 
-    def overhead(self, found: Form) -> Assembled:
+    def overhead(self, found: AnyForm) -> Assembled:
         """A model that nobody else has."""
         made = assemble(found) if self.given is None else copy.deepcopy(self.given)
         if self.modify is not None:
@@ -86,7 +91,7 @@ class Plan:
 
     """
 
-    form: Form
+    form: AnyForm
     travel: Travel
     pantographs: list[Pantograph]
     places: list[float]
@@ -110,7 +115,7 @@ class Plan:
 
 
 def make_plan(
-    shape: Form,
+    shape: AnyForm,
     travel: Travel,
     pantograph: Any,
     spacing: Any,
@@ -127,6 +132,8 @@ def make_plan(
     kinds = [unit for unit, _ in units]
     _check_strips(line, kinds)
     interval = _window(line, window, behind + train, train, until)
+    last = interval[1] + BEYOND if until is None else until
+    _check_sweep(shape, kinds, behind, last + train)
     return Plan(
         form=shape,
         travel=travel,
@@ -134,22 +141,22 @@ def make_plan(
         places=[behind + train - distance for _, distance in units],
         raised=[0.0] * len(units),
         window=interval,
-        until=interval[1] + BEYOND if until is None else until,
+        until=last,
         touch=touch,
         step=checks.positive(step, "run.step"),
         door=door,
     )
 
 
-def formed(line: Line | Form | Assembled | str | Path, mesh: Mesh | None) -> Form:
+def formed(line: Line | Route | AnyForm | Assembled | str | Path, mesh: Mesh | None) -> AnyForm:
     """Form of a line, of a name or a path, of its model, or as given."""
     if isinstance(line, Assembled):
         line = line.form
-    if isinstance(line, Form):
+    if isinstance(line, Form | RouteForm):
         if mesh is not None:
             raise ModelError("run.mesh", "has no effect: a form has its mesh", "give the line instead")
         return line
-    return form(line if isinstance(line, Line) else read_line(line), mesh)
+    return form(line if isinstance(line, Line | Route) else read_line(line), mesh)
 
 
 def _units(pantograph: Any, spacing: Any) -> list[tuple[Pantograph, float]]:
@@ -168,7 +175,7 @@ def _units(pantograph: Any, spacing: Any) -> list[tuple[Pantograph, float]]:
     return list(zip(kinds, behind, strict=True))
 
 
-def _start(line: Line, given: float | None) -> float:
+def _start(line: Line | Route, given: float | None) -> float:
     """Track position of the last pantograph at t = 0."""
     place = START * line.spans[0].length if given is None else checks.number(given, "run.start")
     if not 0.0 < place < line.length:
@@ -178,7 +185,7 @@ def _start(line: Line, given: float | None) -> float:
 
 
 def _window(
-    line: Line, given: tuple[float, float] | None, first: float, train: float, until: float | None
+    line: Line | Route, given: tuple[float, float] | None, first: float, train: float, until: float | None
 ) -> tuple[float, float]:
     """Interval that is evaluated; all pantographs must come to it from outside and pass it on the line.
 
@@ -209,9 +216,9 @@ def _window(
     return low, high
 
 
-def _middle(line: Line, first: float, room: float) -> tuple[float, float]:
+def _middle(line: Line | Route, first: float, room: float) -> tuple[float, float]:
     """A third of the spans, fewer if need be, as near the middle as the train allows; never the end spans."""
-    supports, spans = line.supports, len(line.spans)
+    supports, spans = line.marks, line.marks.size - 1
     for count in range(max(1, spans // 3), 0, -1):
         starts = [
             k
@@ -225,10 +232,25 @@ def _middle(line: Line, first: float, room: float) -> tuple[float, float]:
     raise ModelError("run.window", what, f"use a line longer than {line.length:g} m, or less spacing")
 
 
-def _check_strips(line: Line, pantographs: list[Pantograph]) -> None:
+def _check_strips(line: Line | Route, pantographs: list[Pantograph]) -> None:
+    """Staggers of the supports at which the wire is low enough to be touched."""
+    low = np.array(line.heights) < line.height_at(line.supports) + RAISED
     for pantograph in pantographs:
         for k, side in enumerate(line.stagger):
-            if abs(side) > 0.5 * pantograph.strip_length:
+            if low[k] and abs(side) > 0.5 * pantograph.strip_length:
                 reach = 0.5 * pantograph.strip_length
                 what = f"is {side:g} m, the strip of {pantograph.name} reaches to {reach:g} m"
                 raise ModelError(f"line.stagger[{k}]", what, "give less stagger or a longer strip")
+
+
+def _check_sweep(shape: AnyForm, pantographs: list[Pantograph], start: float, end: float) -> None:
+    """Between the supports, in curves and wind, the wire at rest has to lie on the strips too."""
+    reach = 0.5 * min(unit.strip_length for unit in pantographs)
+    place = np.concatenate(shape.contact_places)
+    low = place[:, 2] < shape.line.height_at(place[:, 0]) + RAISED
+    passed = place[low & (place[:, 0] >= start) & (place[:, 0] <= end)]
+    worst = int(np.argmax(np.abs(passed[:, 1]))) if len(passed) else 0
+    if len(passed) and abs(passed[worst, 1]) > reach:
+        x, y, _ = passed[worst]
+        what = f"lies {y:.3f} m beside the track at {x:.1f} m, the strips reach to {reach:g} m"
+        raise ModelError("line.contact_wire", what, "other staggers, shorter spans, or less wind")

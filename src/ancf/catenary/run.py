@@ -16,14 +16,16 @@ from ..arrays import FloatArray
 from . import cautions
 from .assemble import Assembled
 from .collectors import Collector, Touch, put_pantograph
-from .form import Form, form
 from .line import Line
 from .mesh import Mesh
 from .pantograph import Pantograph
 from .plan import Door, Plan, formed, make_plan
+from .rest import form
+from .route import Route
+from .route_form import AnyForm
 from .run_data import Recording, Run
 from .travel import make_travel
-from .travelling import lifted_heights
+from .travelling import level_of, lifted_heights
 
 STEP = 1e-3
 #: Newton's tolerance at a step of 1 ms; it grows with the square of the step, up to the second number.
@@ -35,7 +37,7 @@ Speed = float | Sequence[Sequence[float]]
 
 
 def run(
-    line: Line | Form | Assembled | str | Path,
+    line: Line | Route | AnyForm | Assembled | str | Path,
     *,
     speed: Speed,
     pantograph: Pantograph | str | Sequence[Pantograph | str] = "benchmark-2015",
@@ -60,9 +62,9 @@ def run(
 
     Parameters
     ----------
-    line : Line, Form, Overhead, str or path
-        A line, its form, its model as :func:`assemble` makes it, perhaps changed, the name of one of the
-        catalogue, or a line file.
+    line : Line, Route, Form, RouteForm, Overhead, str or path
+        A line or several tension lengths, the form, the model as :func:`assemble` makes it, perhaps
+        changed, the name of a line of the catalogue, or a line file.
     speed : float, m/s, or (n, 2)
         Of the train; or a profile, rows of time in s and speed in m/s, linear between them.
     pantograph : Pantograph, str or a sequence of them
@@ -212,7 +214,7 @@ def _collectors(overhead: Assembled, plan: Plan, active: bool) -> list[Collector
         collectors.append(
             put_pantograph(
                 overhead.model,
-                overhead.contact_wire,
+                overhead.contact_wires,
                 plan.pantographs[k],
                 plan.travel,
                 label="pantograph" if count == 1 else f"pantograph {k + 1}",
@@ -221,6 +223,7 @@ def _collectors(overhead: Assembled, plan: Plan, active: bool) -> list[Collector
                 raised=plan.raised[k],
                 touch=plan.touch,
                 active=active,
+                level=level_of(plan.form.line),
             )
         )
     return collectors
@@ -244,7 +247,7 @@ def _rest(plan: Plan) -> _Rest:
     """The line at rest: as its form says, or of a changed model from its equilibrium."""
     found = plan.form
     if not plan.door.changed:
-        return _Rest(found.contact.position[found.contact.nodes.support, 2], found.dropper_load)
+        return _Rest(found.support_height, found.dropper_load)
     overhead = plan.door.overhead(found)
     state = ancf.equilibrium(overhead.model)
     half = found.dropper_force - found.dropper_load
@@ -257,9 +260,11 @@ def _rest(plan: Plan) -> _Rest:
 
 def _dropper_forces(sensors: Any, overhead: Assembled) -> FloatArray:
     """Histories (steps, n) in N; a broken dropper carries nothing."""
-    nothing = np.zeros(sensors.t.size)
-    forces = [nothing if d is None else sensors.spring_force(d) for d in overhead.droppers]
-    return np.stack(forces, axis=1)
+    forces = np.zeros((sensors.t.size, len(overhead.droppers)))
+    for j, dropper in enumerate(overhead.droppers):
+        if dropper is not None:
+            forces[:, j] = sensors.spring_force(dropper)
+    return forces
 
 
 def _recorded(
@@ -271,7 +276,7 @@ def _recorded(
     simulated = float(t[-1] - t[0])
     cpu = plan.spent + result.stats.cpu_seconds
     return Run(
-        form=replace(overhead.form, dropper_load=rest.load) if plan.door.changed else overhead.form,
+        form=overhead.form.with_loads(rest.load) if plan.door.changed else overhead.form,
         pantographs=[c.pantograph for c in collectors],
         speed=(float(plan.travel.distance(t[-1])) / simulated),
         t=t,
@@ -291,8 +296,10 @@ def _recorded(
             **({"CPU time of the trial run for the mean height [s]": plan.spent} if plan.spent else {}),
             "Newton iterations": result.stats.newton_iterations,
             "factorisations": result.stats.factorizations,
-            "elements of the contact wire": overhead.contact_wire.elements,
-            "elements of the messenger wire": sum(b.elements for b in overhead.messenger.beams),
+            "elements of the contact wire": sum(b.elements for b in overhead.contact_wires),
+            "elements of the messenger wire": sum(
+                b.elements for wire in overhead.messengers for b in wire.beams
+            ),
             "contact": plan.touch.kind,
             "contact stiffness [N/m]": plan.touch.stiffness,
             "integrator": result.provenance["settings"]["integrator"],
@@ -301,17 +308,22 @@ def _recorded(
 
 
 def _recording(sensors: Any, collector: Collector) -> Recording:
-    head, meter = sensors.position(collector.head), collector.meter
+    """Forces of all contacts together; height and stagger are of the wire that presses most."""
+    head = sensors.position(collector.head)
     if collector.slides:
-        force = np.maximum(sensors.multiplier(collector.touch)[:, 2], 0.0)
+        forces = [np.maximum(sensors.multiplier(touch)[:, 2], 0.0) for touch in collector.touches]
     else:
-        force = sensors.contact_force(meter)
-    gap = sensors.contact_gap(meter)
+        forces = [sensors.contact_force(meter) for meter in collector.meters]
+    gaps = np.stack([sensors.contact_gap(meter) for meter in collector.meters])
+    asides = np.stack([sensors.contact_offset(meter) for meter in collector.meters])
+    known = np.where(np.isfinite(gaps), gaps, np.inf)
+    nearest, every = np.argmin(known, axis=0), np.arange(head.shape[0])
+    gap = known[nearest, every]
     return Recording(
         name=collector.name,
         position=head[:, 0],
-        force=force,
+        force=np.sum(forces, axis=0),
         height=head[:, 2] + np.where(np.isfinite(gap), gap, 0.0),
-        stagger=head[:, 1] + sensors.contact_offset(meter),
+        stagger=head[:, 1] + asides[nearest, every],
         strip=head[:, 2],
     )

@@ -13,8 +13,8 @@ from ..errors import ModelError
 
 if TYPE_CHECKING:
     from .. import Result
-    from .form import Form
     from .pantograph import Pantograph
+    from .route_form import AnyForm
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ class Run:
 
     """
 
-    form: Form
+    form: AnyForm
     pantographs: list[Pantograph]
     speed: float
     t: FloatArray

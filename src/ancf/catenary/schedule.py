@@ -10,6 +10,7 @@ from typing import Protocol
 from ..arrays import FloatArray
 from ..files import writing
 from .line import Line
+from .route import Route
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +66,7 @@ class Formed(Protocol):
     """What a form has; arrays in the order of the droppers along the track."""
 
     @property
-    def line(self) -> Line:
+    def line(self) -> Line | Route:
         """The line."""
         ...
 

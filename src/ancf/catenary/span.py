@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -12,7 +13,42 @@ from ..errors import ModelError
 from ..model import checks
 
 CLOSEST = 0.05  # m, of droppers to each other and to the supports
+MOST = 1000  # droppers in a span
+SHARPEST = 10.0  # m, of a curve
 LONGEST = 1000.0  # m; spans of overhead lines have up to 80 m
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DropperRule:
+    """Where droppers are when nobody lists them: at equal distances between the first and the last.
+
+    Parameters
+    ----------
+    first : float, m
+        Distance of the first from the support before, and of the last from the support behind.
+    pitch_max : float, m
+        Largest distance of two droppers.
+
+    """
+
+    first: float
+    pitch_max: float
+
+    def __post_init__(self) -> None:
+        checks.positive(self.first, "span.droppers.first")
+        checks.positive(self.pitch_max, "span.droppers.pitch_max")
+
+    def places(self, length: float) -> tuple[float, ...]:
+        """Places in a span of this length, m."""
+        room = length - 2.0 * self.first
+        if room <= 0.0:
+            what = f"is {self.first:g} m, more than half of a span of {length:g} m"
+            raise ModelError("span.droppers.first", what)
+        count = max(1, math.ceil(room / self.pitch_max - 1e-9))
+        if count > MOST:
+            what = f"is {self.pitch_max:g} m, which makes {count} droppers in a span"
+            raise ModelError("span.droppers.pitch_max", what, "units are m")
+        return tuple(np.linspace(self.first, length - self.first, count + 1).round(6).tolist())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,11 +59,13 @@ class Span:
     ----------
     length : float, m
         Distance of its two supports.
-    droppers : (n,) m
-        Places of the droppers from the start of the span, increasing.
+    droppers : (n,) m, or DropperRule
+        Places of the droppers from the start of the span, increasing; none in a line without messenger.
     pre_sag : float or (n,), m
         How far the contact wire at rest is below its nominal height, at each dropper; one number is the
         depth of a parabola between the first and the last dropper.
+    radius : float, m
+        Of the track's curve; positive to the left, where y points. Default straight.
 
     Attributes
     ----------
@@ -37,16 +75,27 @@ class Span:
     """
 
     length: float
-    droppers: tuple[float, ...]
+    droppers: Any
     pre_sag: Any = 0.0
+    radius: float | None = None
+
+    @property
+    def curvature(self) -> float:
+        """1/radius, 1/m; 0 on straight track."""
+        return 0.0 if self.radius is None else 1.0 / self.radius
 
     def __post_init__(self) -> None:
         """Check the values alone; places in a line are named by the line."""
         if checks.positive(self.length, "span.length") > LONGEST:
-            raise ModelError("span.length", f"must be at most {LONGEST:g} m, is {self.length:g} m")
-        droppers = checks.array(self.droppers, "span.droppers", (None,))
-        if droppers.size == 0:
-            raise ModelError("span.droppers", "has no dropper", "give at least one")
+            what = f"must be at most {LONGEST:g} m, is {self.length:g} m"
+            raise ModelError("span.length", what, "units are m")
+        given: Any = self.droppers
+        if isinstance(given, DropperRule):
+            given = given.places(self.length)
+        droppers = checks.array(given, "span.droppers", (None,)) if len(given) else np.zeros(0)
+        if self.radius is not None and abs(checks.number(self.radius, "span.radius")) < SHARPEST:
+            what = f"is {self.radius:g} m, at least {SHARPEST:g} m either way"
+            raise ModelError("span.radius", what, "leave it out on straight track")
         _check_places(droppers.tolist(), self.length)
         object.__setattr__(self, "droppers", tuple(droppers.tolist()))
         object.__setattr__(self, "pre_sag", _pre_sag(self.pre_sag, droppers))
@@ -71,6 +120,10 @@ def _pre_sag(given: Any, x: np.ndarray[Any, np.dtype[np.float64]]) -> tuple[floa
     if isinstance(given, Sequence | np.ndarray) and not isinstance(given, str):
         return tuple(checks.array(given, "span.pre_sag", (x.size,)).tolist())
     depth = checks.non_negative(given, "span.pre_sag")
+    if x.size == 0:
+        if depth:
+            raise ModelError("span.pre_sag", "has no effect on a span without droppers", "leave it out")
+        return ()
     width = float(x[-1] - x[0])
     if width == 0.0:
         return (depth,)

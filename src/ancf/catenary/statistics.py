@@ -159,7 +159,7 @@ def _height(height: FloatArray, rate: float, window: slice, chosen: Butterworth)
 
 def _speed(run: Run, speeds: FloatArray) -> Iterator[Quantity]:
     """The law is the mean over the window of what it asks for at each speed (n,), m/s."""
-    wave, mean = float(run.form.line.wave_speed), float(np.mean(speeds))
+    wave, mean = float(run.form.wave_speed), float(np.mean(speeds))
     yield Quantity("speed", "speed", "km/h", KMH * mean)
     square = KMH * float(np.sqrt(np.mean(speeds**2)))
     for supply, (_, tag) in MEAN_FORCE_LAW.items():

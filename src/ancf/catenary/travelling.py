@@ -9,8 +9,10 @@ import ancf
 
 from ..model import checks
 from .assemble import Assembled
-from .collectors import Collector, Touch, put_pantograph
+from .collectors import Collector, Level, Touch, put_pantograph
+from .line import Line
 from .pantograph import Pantograph, find_pantograph
+from .route import Route
 from .travel import make_travel
 
 
@@ -70,7 +72,7 @@ def add_pantograph(
         height = lifted_heights(overhead, [place], [lift])[0] + touch.overlap(lift)
     return put_pantograph(
         overhead.model,
-        overhead.contact_wire,
+        overhead.contact_wires,
         unit,
         travel,
         label=label,
@@ -79,7 +81,13 @@ def add_pantograph(
         raised=raised,
         touch=touch,
         active=active,
+        level=level_of(overhead.form.line),
     )
+
+
+def level_of(line: Line | Route) -> Level | None:
+    """Nominal height of the contact wire over the track, or None where it is 0 everywhere."""
+    return line.height_at if any(line.heights) else None
 
 
 def lifted_heights(overhead: Assembled, places: list[float], lifts: list[float]) -> list[float]:

@@ -58,9 +58,11 @@ def reference_run(case: str, speed_kmh: float, progress: Callable[[Any], None] |
     chosen = reference_case(case)
     speed = positive(speed_kmh, "speed") / 3.6
     from .catalogue import read_line
+    from .line import Line
     from .run import run
 
     line = read_line(chosen.line)
+    assert isinstance(line, Line)
     window = middle_spans(line, chosen.spans)
     return run(line, speed=speed, pantograph=chosen.pantograph, window=window, progress=progress)
 

@@ -9,8 +9,10 @@ import numpy as np
 import ancf
 
 from ..arrays import FloatArray
+from ..errors import ModelError
 from ..model.points import Point
 from .assemble import Assembled
+from .route_form import RouteForm
 from .shape import Strung
 
 
@@ -40,7 +42,10 @@ class Verified:
 
 def verify(overhead: Assembled) -> Verified:
     """Bring a line to rest and compare; no dropper may be broken."""
-    found, wires = overhead.form, (overhead.contact, overhead.messenger, *overhead.stitches)
+    found = overhead.form
+    if isinstance(found, RouteForm):
+        raise ModelError("verify", "is for one tension length", "verify the form of each")
+    wires = [w for w in (overhead.contact, overhead.messenger, *overhead.stitches) if w is not None]
     state = ancf.equilibrium(overhead.model)
     low = overhead.contact.positions(state)[found.contact.nodes.dropper]
     droppers = [d for d in overhead.droppers if d is not None]
@@ -48,8 +53,13 @@ def verify(overhead: Assembled) -> Verified:
     stretch = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) - found.dropper_natural
     clamps = low[:, 2] - found.contact.position[found.contact.nodes.dropper, 2] + found.contact_height
     force = found.spring_stiffness * stretch
+    if found.line.droppers.slack:
+        force = np.maximum(force, 0.0)
     tensions = [
-        end_force(state, wire, last) - wire.shape.wire.tension for wire in wires[:2] for last in (False, True)
+        end_force(state, wire, last) - wire.shape.wire.tension
+        for wire in wires
+        if wire not in overhead.stitches
+        for last in (False, True)
     ]
     return Verified(
         state=state,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import ancf
@@ -76,6 +76,15 @@ class Wire:
     def wave_speed(self) -> float:
         """Speed of transverse waves, m/s: sqrt(T/rhoA)."""
         return math.sqrt(self.tension / self.mass)
+
+    def times(self, count: int) -> Wire:
+        """Several such wires side by side that act as one, each under the tension of this one."""
+        if count == 1:
+            return self
+        added = {
+            key: count * getattr(self, key) for key in ("EA", "EI", "mass", "tension", "damping", "drag")
+        }
+        return replace(self, **added)
 
     def check(self, where: str) -> None:
         """Raise ModelError if a value is out of range, or the wire would stretch by more than 5 %."""

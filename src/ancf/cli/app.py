@@ -279,6 +279,15 @@ def export_fmu(model: ModelFile, output: exporting.Unit = None, fmi: exporting.F
         export_unit(model, model.with_suffix(".fmu") if output is None else output, fmi)
 
 
+@app.command()
+def warmup(quiet: Quiet = False) -> None:
+    """Compile what runs need, ahead of them; what is compiled already takes seconds."""
+    with reported():
+        from .warmup import warm_up
+
+        warm_up(quiet)
+
+
 def start() -> None:
     """Parse the arguments and do what they say."""
     _fill_streams()

@@ -5,12 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ..model.file.paths import assignments
 from .output import OutputFolder
 from .screen import Screen, console, table
 
 if TYPE_CHECKING:
-    from ..catenary import Elasticity, Form, Line
+    from ..catenary import Elasticity, Line, Route
+    from ..catenary.route_form import AnyForm
 
 
 def show_form(name: str, output: Path | None, quiet: bool = False, given: list[str] | None = None) -> None:
@@ -47,7 +50,7 @@ def show_elasticity(
         _written(found.save(folder.path / "elasticity.csv"), quiet)
 
 
-def _print_schedule(line: Line, found: Form) -> None:
+def _print_schedule(line: Line | Route, found: AnyForm) -> None:
     from ..catenary.schedule import texts
 
     heads = ("span", "dropper", "at [m]", "track [m]", "length [mm]", "unstretched [mm]", "load [N]")
@@ -58,15 +61,15 @@ def _print_schedule(line: Line, found: Form) -> None:
     where.print(_title(line), soft_wrap=True)
     where.print(shown)
     total = float(found.dropper_natural.sum())
-    shortest = float(found.dropper_length.min())
+    shortest = float(found.dropper_length.min(initial=np.inf))
     where.print(
         f"{found.dropper_length.size} droppers, {total:.3f} m unstretched in all, "
-        f"the shortest {1e3 * shortest:.1f} mm, contact wire {line.contact_support} at the supports",
+        f"the shortest {1e3 * shortest:.1f} mm, contact wire {line.parts[0].contact_support} at the supports",
         soft_wrap=True,
     )
 
 
-def _print_elasticity(line: Line, found: Elasticity) -> None:
+def _print_elasticity(line: Line | Route, found: Elasticity) -> None:
     shown = table("at [m]", *(f"{force:g} N [mm/N]" for force in found.force))
     for x, values in zip(found.x, found.value.T, strict=True):
         shown.add_row(f"{x:.2f}", *(f"{value:.4f}" for value in values))
@@ -78,7 +81,7 @@ def _print_elasticity(line: Line, found: Elasticity) -> None:
         where.print(f"non-uniformity at {force:g} N: {100 * ratio:.1f} %", soft_wrap=True)
 
 
-def _title(line: Line) -> str:
+def _title(line: Line | Route) -> str:
     size = f"{len(line.spans)} spans, {line.length:g} m, wave speed {3.6 * line.wave_speed:.0f} km/h"
     return f"{line.title}: {size}" if line.title else size
 

@@ -33,8 +33,12 @@ def check_file(path: Path, given: list[str] | None = None) -> None:
     from ..model.file import read_toml
     from ..model.file.paths import assignments, changed
 
-    data = changed(read_toml(path, "model file"), assignments(given))
-    return _check_line(path, data) if OF_A_LINE & data.keys() else _check_model(path, data)
+    data = read_toml(path, "model file")
+    if OF_A_LINE & data.keys():
+        from ..catenary.file import other_values
+
+        return _check_line(path, other_values(data, assignments(given)))
+    return _check_model(path, changed(data, assignments(given)))
 
 
 def _check_model(path: Path, data: dict[str, Any]) -> None:
@@ -52,11 +56,12 @@ def _check_model(path: Path, data: dict[str, Any]) -> None:
 
 def _check_line(path: Path, data: dict[str, Any]) -> None:
     """Read a line, divide its wires and hang them as strings; more is found with its form."""
-    from ..catenary.file import parse_line
+    from ..catenary.file import parse_track
     from ..catenary.form import check
 
-    line = parse_line(data, str(path))
-    check(line)
+    line = parse_track(data, str(path))
+    for part in line.parts:
+        check(part)
     _print_right(path, size_of(line))
 
 

@@ -10,7 +10,7 @@ from .screen import console, table
 from .summary import plural
 
 if TYPE_CHECKING:
-    from ..catenary import Line
+    from ..catenary import Line, Route
 
 #: Tables that only line files have.
 OF_A_LINE = {"contact_wire", "messenger_wire", "spans", "steady_arm"}
@@ -18,11 +18,12 @@ OF_A_LINE = {"contact_wire", "messenger_wire", "spans", "steady_arm"}
 
 def show_line(path: Path, data: dict[str, Any]) -> None:
     """Print what a line consists of; it must fit together as strings."""
-    from ..catenary.file import parse_line
+    from ..catenary.file import parse_track
     from ..catenary.form import check
 
-    line = parse_line(data, str(path))
-    check(line)
+    line = parse_track(data, str(path))
+    for part in line.parts:
+        check(part)
     out = console()
     out.print(line.title or str(path), style="bold", soft_wrap=True)
     for key, value in _facts(line):
@@ -31,17 +32,20 @@ def show_line(path: Path, data: dict[str, Any]) -> None:
     out.print(_wires(line))
 
 
-def size_of(line: Line) -> str:
+def size_of(line: Line | Route) -> str:
     """Spans, droppers, length and wave speed."""
     size = f"{plural(len(line.spans), 'span')}, {plural(line.dropper_x.size, 'dropper')}"
     return f"{size}, {line.length:g} m, wave speed {3.6 * line.wave_speed:.0f} km/h"
 
 
-def _facts(line: Line) -> Iterator[tuple[str, str]]:
+def _facts(line: Line | Route) -> Iterator[tuple[str, str]]:
     lengths = [span.length for span in line.spans]
     yield "line", size_of(line)
     yield "spans", f"{min(lengths):g} to {max(lengths):g} m"
-    yield "supports", f"contact wire {line.contact_support}, anchors: {line.anchors}"
+    first = line.parts[0]
+    if len(line.parts) > 1:
+        yield "sections", f"{len(line.parts)}, which overlap"
+    yield "supports", f"contact wire {first.contact_support}, anchors: {first.anchors}"
     yield "stagger", f"{min(line.stagger):g} to {max(line.stagger):g} m"
     if line.tags:
         unsure = sum(tag.startswith("U") for tag in line.tags.values())
@@ -50,9 +54,12 @@ def _facts(line: Line) -> Iterator[tuple[str, str]]:
         yield "source", line.source
 
 
-def _wires(line: Line) -> Any:
+def _wires(line: Line | Route) -> Any:
     made = table("wire", "tension [kN]", "mass [kg/m]", "EA [MN]", "EI [N m^2]", "wave speed [km/h]")
-    wires = {"contact wire": line.contact_wire, "messenger": line.messenger_wire}
+    line = line.parts[0]
+    wires = {"contact wire": line.contact_wire}
+    if line.messenger_wire is not None:
+        wires["messenger"] = line.messenger_wire
     if line.stitch is not None:
         wires["stitch wire"] = line.stitch.wire
     for name, wire in wires.items():

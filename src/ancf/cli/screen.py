@@ -97,9 +97,11 @@ class Screen:
 
     def announce_compilation(self) -> None:
         """Say it once when kernels must be compiled."""
+        from ..compilation import announce
         from ..compiled import announce_compilation
 
         announce_compilation(lambda: self.say(COMPILING))
+        announce(self.say)
 
     @contextmanager
     def progress(self, steps: int) -> Iterator[Report | None]:

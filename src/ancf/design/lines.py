@@ -16,7 +16,8 @@ from .cases import check_paths
 from .formulas import Formula, Vocabulary
 
 if TYPE_CHECKING:
-    from ..catenary import Form, Line, Statistics
+    from ..catenary import Line, Statistics
+    from ..catenary.route_form import AnyForm
     from ..catenary.run_data import Run
 
 #: Arrays of a line at rest: their names in formulas, and the fields of the form.
@@ -144,7 +145,7 @@ class _AtRest:
     def __init__(self, line: Line) -> None:
         from .. import catenary
 
-        self.form: Form = catenary.form(line)
+        self.form: AnyForm = catenary.form(line)
 
     def value(self, name: str) -> Any:
         """An array of the form, SI units."""

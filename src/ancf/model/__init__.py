@@ -5,6 +5,7 @@ from .bodies import PointMass, RigidBody
 from .connections import Spring
 from .contact import Contact
 from .functions import TimeFunction
+from .guides import Cylindrical, Planar, Prismatic
 from .gusts import Gusts
 from .joints import Fixation, Revolute, Slide, Spherical
 from .loads import DistributedLoad, Force, Moment
@@ -19,6 +20,7 @@ __all__ = [
     "Circle",
     "Clamp",
     "Contact",
+    "Cylindrical",
     "DistributedLoad",
     "Fixation",
     "Force",
@@ -27,8 +29,10 @@ __all__ = [
     "Model",
     "Moment",
     "Pin",
+    "Planar",
     "Point",
     "PointMass",
+    "Prismatic",
     "Rectangle",
     "Revolute",
     "RigidBody",

@@ -12,6 +12,7 @@ from .beam import Beam
 from .bodies import PointMass, RigidBody
 from .connections import Connection, Spring, make_spring
 from .functions import check_inputs, refuse_inputs
+from .guides import Cylindrical, GuideT, Planar, Prismatic, make_guide
 from .joints import Fixation, Revolute, Slide, Spherical
 from .kinds import kind_of
 from .make_joints import make_fixation, make_revolute, make_spherical
@@ -60,6 +61,41 @@ class Connecting(Undeformed):
         """
         where, label, first, second = self.named_pair("hinge", "hinge", a, b, name)
         return self.add_connection(where, make_revolute(where, label, first, second, axis, self.size))
+
+    def cylindrical(self, a: PointLike, b: Any, axis: Any, name: str | None = None) -> Cylindrical:
+        """Let one body slide along an axis of the other and turn about it.
+
+        Parameters
+        ----------
+        a : Point or RigidBody
+            Of a rigid body, or a node of a beam with a cross-section; the axis goes through it.
+        b : Point, RigidBody or (3,) m
+            The same of another body, anywhere on the axis, or a position in space: the ground.
+        axis : (3,)
+            Initial global direction of the axis; any length but zero.
+        name : str
+            Default "cylindrical joint of hub.centre and ground".
+
+        """
+        return self._guide(Cylindrical, "cylindrical", a, b, axis, name)
+
+    def prismatic(self, a: PointLike, b: Any, axis: Any, name: str | None = None) -> Prismatic:
+        """Let one body slide along an axis of the other without turning; arguments of ``cylindrical``."""
+        return self._guide(Prismatic, "prismatic", a, b, axis, name)
+
+    def planar(self, a: PointLike, b: Any, axis: Any, name: str | None = None) -> Planar:
+        """Let one body slide in a plane of the other and turn about its normal.
+
+        The same arguments as of ``cylindrical``; `axis` is the normal of the plane through `a`, in which
+        `b` lies.
+        """
+        return self._guide(Planar, "planar", a, b, axis, name)
+
+    def _guide(
+        self, kind: type[GuideT], method: str, a: PointLike, b: Any, axis: Any, name: str | None
+    ) -> GuideT:
+        where, label, first, second = self.named_pair(method, f"{method} joint", a, b, name)
+        return self.add_connection(where, make_guide(kind, where, label, first, second, axis, self.size))
 
     def slide(
         self,

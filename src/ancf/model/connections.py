@@ -10,6 +10,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from . import checks
 from .contact import Contact
+from .guides import Cylindrical, Planar
 from .joints import Fixation, Revolute, Slide, Spherical
 from .points import Point, initial_position
 from .surfaces import SurfaceContact
@@ -43,7 +44,9 @@ class Spring:
     slack: bool
 
 
-Connection = Spherical | Revolute | Fixation | Slide | Spring | Contact | SurfaceContact
+Connection = (
+    Spherical | Revolute | Cylindrical | Planar | Fixation | Slide | Spring | Contact | SurfaceContact
+)
 
 
 def make_spring(

@@ -12,6 +12,7 @@ from .contact import Contact
 from .fluids import Fluid
 from .functions import TimeFunction
 from .grounds import Ground
+from .guides import Cylindrical, Planar, Prismatic
 from .joints import Fixation, Revolute, Slide, Spherical
 from .kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT, Kind, Look, Push
 from .loads import DistributedLoad, Force, Moment
@@ -107,6 +108,42 @@ CONNECTIONS: list[Kind] = [
         asked=JOINT,
         rows="hinge",
         look=Look("circle", "light", 4.0),
+    ),
+    Kind(
+        Cylindrical,
+        "cylindrical",
+        "cylindrical joint",
+        "cylindrical",
+        _entry("CylindricalEntry"),
+        sheets.axis,
+        ends=("a", "b"),
+        asked=JOINT,
+        rows="cylindrical",
+        look=Look("circle", "light", 4.0),
+    ),
+    Kind(
+        Prismatic,
+        "prismatic",
+        "prismatic joint",
+        "prismatic",
+        _entry("PrismaticEntry"),
+        sheets.axis,
+        ends=("a", "b"),
+        asked=JOINT,
+        rows="prismatic",
+        look=Look("square", "light", 4.0),
+    ),
+    Kind(
+        Planar,
+        "planar",
+        "planar joint",
+        "planar",
+        _entry("PlanarEntry"),
+        sheets.axis,
+        ends=("a", "b"),
+        asked=JOINT,
+        rows="planar",
+        look=Look("square", "light", 4.0),
     ),
     Kind(
         Fixation,

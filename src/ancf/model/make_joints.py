@@ -54,8 +54,8 @@ def make_fixation(where: str, name: str, point: Point, to: Body, stretch: Any) -
 
 def check_pair(where: str, a: Point, b: End, size: float) -> None:
     """Two places that coincide and are not the same place of one body."""
-    if isinstance(b, Point) and a.body is b.body:
-        _check_same_body(where, a, b)
+    if isinstance(b, Point):
+        check_apart(where, a, b)
     first, second = initial_position(a), initial_position(b)
     gap = math.dist(first, second)
     if not gap <= COINCIDENT * max(size, *(float(np.max(np.abs(r))) for r in (first, second))):
@@ -63,7 +63,10 @@ def check_pair(where: str, a: Point, b: End, size: float) -> None:
         raise ModelError(f"{where}.b", f"{a} and {other} are {gap:.6g} m apart, must coincide")
 
 
-def _check_same_body(where: str, a: Point, b: Point) -> None:
+def check_apart(where: str, a: Point, b: Point) -> None:
+    """Two points that are not of one rigid body, nor the same one of a beam."""
+    if a.body is not b.body:
+        return
     body = a.body
     if isinstance(body, RigidBody):
         raise ModelError(f"{where}.b", f'{a} and {b} are points of one rigid body, "{body.name}"')

@@ -12,6 +12,7 @@ from .contact import Contact
 from .fluids import Fluid
 from .functions import TimeFunction
 from .grounds import Ground, Relief
+from .guides import Cylindrical, Planar
 from .joints import Revolute, Slide
 from .loads import DistributedLoad, Force, Moment
 from .state_function import StateFunction
@@ -111,8 +112,8 @@ def nothing(item: Any) -> str:
     return ""
 
 
-def axis(item: Revolute) -> str:
-    """The axis of a hinge."""
+def axis(item: Revolute | Cylindrical | Planar) -> str:
+    """The axis of a hinge or a guide."""
     return f"axis {numbers(item.axis)}"
 
 

@@ -122,6 +122,7 @@ def _notes(form: Form) -> list[str]:
 def _parts(form: Form) -> list[tuple[str, Any]]:
     """Each part with its places: (n, 3), or for each number several points."""
     contact, carrier = form.contact, form.messenger
+    assert carrier is not None
     places = contact.position[contact.nodes.dropper], carrier.position[carrier.nodes.dropper]
     heights = form.contact_height, form.messenger_height  # of the clamps, not of the nodes
     clamps = [np.column_stack([p[:, :2], z]) for p, z in zip(places, heights, strict=True)]

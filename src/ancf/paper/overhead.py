@@ -74,6 +74,7 @@ def plane_origin() -> str:
 def line(short: bool = False) -> Line:
     """The line; the short form has two of its sections."""
     whole = catenary.read_line(NAME)
+    assert isinstance(whole, catenary.Line)
     return whole.excerpt(0, SHORT_SPANS) if short else whole
 
 

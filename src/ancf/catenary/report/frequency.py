@@ -65,8 +65,8 @@ def draw_spectrum(content: Content, figure: Figure) -> None:
 
 def _passing(axes: Axes, content: Content) -> None:
     line, (low, high) = content.run.form.line, content.run.window
-    spans = np.diff([x for x in line.supports if low - 1e-6 <= x <= high + 1e-6])
-    pitch = np.diff([x for x in line.dropper_x if low <= x <= high])
+    spans = np.diff([x for x in np.unique(np.round(line.supports, 6)) if low - 1e-6 <= x <= high + 1e-6])
+    pitch = np.diff([x for x in np.unique(np.round(line.dropper_x, 6)) if low <= x <= high])
     for lengths, name in ((spans, "spans"), (pitch, "droppers")):
         frequency = content.speed_kmh / 3.6 / float(np.median(lengths)) if len(lengths) else HIGHEST
         if frequency >= HIGHEST:

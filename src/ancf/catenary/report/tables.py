@@ -10,11 +10,13 @@ import numpy as np
 from ...viz.html import element, pairs, table
 from ..passing import DropperForces, dropper_places
 from ..quantity import TAGS, shown
+from ..route import Route
 from ..table import texts
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
+    from ..line import Line
     from ..quantity import Quantity
     from .content import Content
 
@@ -115,6 +117,22 @@ def _tagged(key: str, known: Mapping[str, str]) -> str:
 
 def _line(content: Content) -> Iterator[tuple[str, str, str]]:
     line = content.run.form.line
+    yield from _sections(line) if isinstance(line, Route) else _tension_length(line)
+
+
+def _sections(line: Route) -> Iterator[tuple[str, str, str]]:
+    parts = line.parts
+    yield "line", "title", line.title
+    ends = [f"{start:g} to {start + part.length:g}" for start, part in zip(line.starts, parts, strict=True)]
+    yield "sections [m]", "sections", ", ".join(ends)
+    for k, part in enumerate(parts):
+        for name, key, value in _tension_length(part):
+            if name not in ("line", "source"):
+                yield f"section {k + 1}: {name}", key, value
+    yield "source", "source", line.source or "not given"
+
+
+def _tension_length(line: Line) -> Iterator[tuple[str, str, str]]:
     spans = [f"{span.length:g}" for span in line.spans]
     yield "line", "title", line.title
     yield (
@@ -125,6 +143,8 @@ def _line(content: Content) -> Iterator[tuple[str, str, str]]:
     yield "number of droppers", "", f"{len(line.dropper_x)}"
     for key, name in (("contact_wire", "contact wire"), ("messenger_wire", "messenger")):
         wire = getattr(line, key)
+        if wire is None:
+            continue
         values = f"{wire.mass:g} kg/m, tension {wire.tension:g} N, EA {wire.EA:g} N, EI {wire.EI:g} N m²"
         yield name, key, values + (f", damping {wire.damping:g} N s/m²" if wire.damping else "")
     yield "damping of the wires", "damping", f"alpha {line.damping.alpha:g} 1/s, beta {line.damping.beta:g} s"
@@ -133,7 +153,9 @@ def _line(content: Content) -> Iterator[tuple[str, str, str]]:
     yield "stagger [m]", "stagger", _few(line.stagger)
     stiffness = line.messenger_support
     yield "messenger support", "messenger_support", "rigid" if stiffness is None else f"{stiffness:g} N/m"
-    yield "steady arm", "steady_arm", _given(line.steady_arm, ("vertical", "lateral", "length", "mass"))
+    arms = line.steady_arm if isinstance(line.steady_arm, tuple) else (line.steady_arm,)
+    shown = [_given(arm, ("vertical", "lateral", "length", "mass")) for arm in arms]
+    yield "steady arm", "steady_arm", shown[0] if len(set(shown)) == 1 else "; ".join(shown)
     yield "contact wire at the supports, at rest", "contact_support", line.contact_support
     yield "anchors", "anchors", line.anchors
     yield "source", "source", line.source or "not given"
@@ -156,7 +178,7 @@ def pantograph_data(content: Content, k: int) -> Element:
         ("stiffness [N/m]", "stiffness", _few(p.stiffness)),
         ("damping [N s/m]", "damping", _few(p.damping)),
         ("static force [N]", "static_force", f"{p.static_force:g}"),
-        ("aerodynamic force over v² [N s²/m²]", "aerodynamic", f"{p.aerodynamic:g}"),
+        ("aerodynamic force over v² [N s²/m²]", "aerodynamic", _few(p.aerodynamics)),
         ("length of the strip [m]", "strip_length", f"{p.strip_length:g}"),
     ]
     known: Mapping[str, str] = getattr(p, "tags", None) or {}

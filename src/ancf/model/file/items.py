@@ -130,6 +130,36 @@ class HingeEntry(Entry):
     name: ItemName = None
 
 
+class CylindricalEntry(Entry):
+    """Two bodies, one of which slides along an axis of the other and turns about it."""
+
+    type: Literal["cylindrical"] = Field(description="Kind of connection.")
+    a: PointLabel
+    b: PointOrPosition = Field(description="The other point, or a position in space: the ground [m].")
+    axis: Vector = Field(description="Initial direction of the axis through a [-].")
+    name: ItemName = None
+
+
+class PrismaticEntry(Entry):
+    """Two bodies, one of which slides along an axis of the other."""
+
+    type: Literal["prismatic"] = Field(description="Kind of connection.")
+    a: PointLabel
+    b: PointOrPosition = Field(description="The other point, or a position in space: the ground [m].")
+    axis: Vector = Field(description="Initial direction of the axis through a [-].")
+    name: ItemName = None
+
+
+class PlanarEntry(Entry):
+    """Two bodies, one of which slides in a plane of the other, whose normal is axis."""
+
+    type: Literal["planar"] = Field(description="Kind of connection.")
+    a: PointLabel
+    b: PointOrPosition = Field(description="The other point, or a position in space: the ground [m].")
+    axis: Vector = Field(description="Initial normal of the plane through a [-].")
+    name: ItemName = None
+
+
 class FixationEntry(Entry):
     """A node of a beam or cable clamped to a rigid body."""
 

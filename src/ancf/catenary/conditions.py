@@ -1,0 +1,66 @@
+"""Conditions: in which state a line is, away from the one it was designed for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..errors import ModelError
+from ..model import checks
+
+COLDEST, HOTTEST = -80.0, 200.0  # degrees Celsius
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Conditions:
+    """Temperature, wind, ice, wear and tensions; what is not given is as designed.
+
+    Parameters
+    ----------
+    temperature : float, degrees Celsius
+        Default that for which the heights of the line hold, ``Line.temperature``.
+    contact_tension, messenger_tension : float, N
+        Of weights or springs that pull with another force than in the design.
+    ice : float, kg/m
+        On each of the wires.
+    wind : float, m/s
+        Steady, across the track, positive to the left, where y points. The wires need a ``diameter``.
+    air_density : float, kg/m^3
+    turbulence : float
+        Standard deviation of the wind over its speed: in a run gusts blow along the line, after von Karman,
+        which grow from 0 in the first second. At rest the wind is steady.
+    gust_length : float, m
+        Of the turbulence.
+    seed : int
+        Of the gusts.
+    wear : float
+        Share of the contact wire's section that is worn off.
+
+    """
+
+    temperature: float | None = None
+    contact_tension: float | None = None
+    messenger_tension: float | None = None
+    ice: float = 0.0
+    wind: float = 0.0
+    air_density: float = 1.225
+    turbulence: float = 0.0
+    gust_length: float = 100.0
+    seed: int = 1
+    wear: float = 0.0
+
+    def check(self, where: str) -> None:
+        """Raise ModelError if a value is out of range."""
+        if self.temperature is not None:
+            checks.between(self.temperature, f"{where}.temperature", COLDEST, HOTTEST)
+        for key in ("contact_tension", "messenger_tension"):
+            if getattr(self, key) is not None:
+                checks.positive(getattr(self, key), f"{where}.{key}")
+        if checks.non_negative(self.ice, f"{where}.ice") > 20.0:
+            raise ModelError(f"{where}.ice", f"is {self.ice:g} kg/m", "units are kg/m, not N/m")
+        checks.between(self.wind, f"{where}.wind", -80.0, 80.0)
+        checks.positive(self.air_density, f"{where}.air_density")
+        if checks.between(self.turbulence, f"{where}.turbulence", 0.0, 1.0) and self.wind == 0.0:
+            raise ModelError(f"{where}.turbulence", "has no effect without wind", "leave it out")
+        checks.positive(self.gust_length, f"{where}.gust_length")
+        checks.integer(self.seed, f"{where}.seed", 0, 2**32)
+        checks.between(self.wear, f"{where}.wear", 0.0, 0.6)

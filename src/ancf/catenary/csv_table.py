@@ -1,0 +1,102 @@
+"""Tables that a line file names: CSV with a head, read cell by cell, errors with row and column."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..errors import ModelError
+from ..model.checks import listed, nearest
+
+MOST_ROWS = 200_000
+#: A cell with several numbers, such as places of droppers.
+BETWEEN = ";"
+Row = dict[str, float | list[float]]
+
+
+def read_table(
+    path: Path, needed: Sequence[str], known: Sequence[str], lists: Sequence[str] = (), others: bool = False
+) -> list[Row]:
+    """Rows of a CSV file as numbers; empty cells are left out.
+
+    Parameters
+    ----------
+    path : Path
+    needed, known : sequences of str
+        Columns that must be there, and all that may be.
+    lists : sequence of str
+        Columns whose cells hold numbers with ";" between them.
+    others : bool
+        Columns that nobody asks for are let pass.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read, a column is missing or unknown, a cell is no number; row 1 is the first below
+        the head.
+
+    """
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            lines = [line for line in csv.reader(file) if any(cell.strip() for cell in line)]
+    except FileNotFoundError:
+        raise ModelError(str(path), "no such file") from None
+    except (OSError, ValueError, csv.Error) as error:
+        raise ModelError(str(path), f"cannot be read: {error}", "CSV in UTF-8, commas, one head") from None
+    if len(lines) < 2 or len(lines) > MOST_ROWS:
+        raise ModelError(str(path), f"has {max(len(lines) - 1, 0)} rows", "a head and a row for each item")
+    head = [cell.strip() for cell in lines[0]]
+    _check_head(path, head, needed, known, others)
+    rows = []
+    for number, line in enumerate(lines[1:], start=1):
+        if len(line) != len(head):
+            what = f"has {len(line)} cells, the head has {len(head)}"
+            raise ModelError(f"{path}, row {number}", what)
+        cells = {key: cell.strip() for key, cell in zip(head, line, strict=True) if cell.strip()}
+        for key in needed:
+            if key not in cells:
+                raise ModelError(f"{path}, row {number}, column {key}", "is empty")
+        rows.append(
+            {
+                key: _value(cell, key in lists, f"{path}, row {number}, column {key}")
+                for key, cell in cells.items()
+                if key in known
+            }
+        )
+    return rows
+
+
+def _check_head(
+    path: Path, head: list[str], needed: Sequence[str], known: Sequence[str], others: bool
+) -> None:
+    for key in head:
+        if key not in known and not others:
+            what = f"unknown column, known: {listed(list(known), 30)}"
+            raise ModelError(f"{path}, column {key}", what, nearest(key, known))
+    for key in needed:
+        if key not in head:
+            near = nearest(key, [name for name in head if name not in known])
+            raise ModelError(
+                f"{path}, column {key}", "is missing", near or f"the head has: {listed(head, 30)}"
+            )
+    if len(set(head)) < len(head):
+        twice = next(key for key in head if head.count(key) > 1)
+        raise ModelError(f"{path}, column {twice}", "stands there twice")
+
+
+def _value(cell: str, several: bool, where: str) -> float | list[float]:
+    if several:
+        return [_number(part, where) for part in cell.split(BETWEEN)]
+    return _number(cell, where)
+
+
+def _number(text: str, where: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        raise ModelError(where, f'is "{text.strip()}", must be a number', "a point for decimals") from None
+    if not math.isfinite(value):
+        raise ModelError(where, f"is {value}, must be a finite number")
+    return value

@@ -1,0 +1,99 @@
+"""Irregular lines: droppers that are cut or measured inexactly, and heights with a spectrum."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model import checks
+from .form import Form
+from .line import Line
+
+#: Waves of which random heights consist.
+WAVES = 400
+MOST_SEED = 2**32
+
+
+def dropper_errors(found: Form, deviation: float, seed: int) -> Line:
+    """The line of a form with droppers whose lengths are off by normally distributed errors.
+
+    Parameters
+    ----------
+    found : Form
+        Of the design; its natural lengths are what was ordered.
+    deviation : float, m
+        Standard deviation of each length.
+    seed : int
+        The same gives the same line.
+
+    Returns
+    -------
+    Line
+        With ``dropper_lengths``; its form is the line as built.
+
+    Raises
+    ------
+    ModelError
+        A number is wrong, or an error is as long as its dropper.
+
+    """
+    size = checks.non_negative(deviation, "dropper_errors.deviation")
+    random = np.random.default_rng(checks.integer(seed, "dropper_errors.seed", 0, MOST_SEED))
+    lengths = found.dropper_natural + size * random.standard_normal(found.dropper_natural.size)
+    if np.any(lengths <= 0.0):
+        worst = int(np.argmin(lengths))
+        what = f"is {size:g} m, which leaves nothing of {found.line.dropper_label(worst)}"
+        raise ModelError("dropper_errors.deviation", what, "units are m")
+    return replace(found.line, dropper_lengths=tuple(lengths.tolist()))
+
+
+def height_errors(
+    line: Line,
+    spectrum: Callable[[FloatArray], FloatArray],
+    wavelengths: tuple[float, float],
+    seed: int,
+) -> Line:
+    """The line with random heights of its contact wire at the droppers, beside the pre-sag.
+
+    Parameters
+    ----------
+    line : Line
+    spectrum : callable
+        One-sided power spectral density of the height in m^2/(1/m), of spatial frequencies (n,) in 1/m; its
+        integral over the band is the mean square.
+    wavelengths : (float, float), m
+        Shortest and longest waves; droppers resolve none shorter than twice their distance.
+    seed : int
+        The same gives the same line.
+
+    Raises
+    ------
+    ModelError
+        A number is wrong, or the spectrum has values that are no finite numbers >= 0.
+
+    """
+    shortest, longest = checks.array(wavelengths, "height_errors.wavelengths", (2,)).tolist()
+    if not 0.0 < shortest < longest:
+        what = f"are {shortest:g} to {longest:g} m, must be 0 < shortest < longest"
+        raise ModelError("height_errors.wavelengths", what)
+    random = np.random.default_rng(checks.integer(seed, "height_errors.seed", 0, MOST_SEED))
+    edges = np.linspace(1.0 / longest, 1.0 / shortest, WAVES + 1)
+    frequency = 0.5 * (edges[1:] + edges[:-1])
+    density = np.asarray(spectrum(frequency), dtype=np.float64)
+    if density.shape != frequency.shape or not np.all(np.isfinite(density)) or np.any(density < 0.0):
+        raise ModelError("height_errors.spectrum", "must give a finite number >= 0 for each frequency")
+    amplitude = np.sqrt(2.0 * density * np.diff(edges))
+    phase = random.uniform(0.0, 2.0 * math.pi, WAVES)
+    error = np.cos(2.0 * math.pi * np.outer(line.dropper_x, frequency) + phase) @ amplitude
+    first = 0
+    spans = []
+    for span in line.spans:
+        own = error[first : first + len(span.droppers)]
+        spans.append(replace(span, pre_sag=tuple((np.array(span.pre_sag) - own).tolist())))
+        first += len(span.droppers)
+    return replace(line, spans=tuple(spans))

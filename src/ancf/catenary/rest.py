@@ -1,0 +1,81 @@
+"""Where a line comes to rest: its design, or with the droppers it has got and in its conditions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import overload
+
+from ..errors import ModelError
+from .assemble import Assembled, assembled
+from .conditions import Conditions
+from .form import Form, design
+from .line import Line
+from .mesh import Mesh
+from .route import Route
+from .route_form import AnyForm, RouteForm
+from .route_model import assembled_route
+from .settle import as_built, in_conditions
+
+
+@overload
+def form(line: Line, mesh: Mesh | None = None) -> Form: ...
+@overload
+def form(line: Route, mesh: Mesh | None = None) -> RouteForm: ...
+def form(line: Line | Route, mesh: Mesh | None = None) -> AnyForm:
+    """Find a line's form.
+
+    The design first: the contact wire alone, held at its heights, tells the forces of the droppers; the
+    messenger alone under these and all weights finds its shape; the distances are the lengths of the
+    droppers. What each wire needs from the others, such as where the droppers point to, is iterated.
+
+    Then, of a line with ``dropper_lengths``, the equilibrium with these, pulled as in the design; and with
+    ``conditions`` the equilibrium in them, from there: wires of other lengths, masses and stiffnesses, ends
+    that are held, pulled by weights or by springs, wind. Steady arms and supports act about their places in
+    the design, and follow the wires along the track.
+
+    Parameters
+    ----------
+    line : Line or Route
+        Of a route each tension length by itself.
+    mesh : Mesh
+        Of all wires, default ``Mesh()``.
+
+    Raises
+    ------
+    ModelError
+        A dropper would have to push, or the messenger hangs too low; span and dropper are named. A wire is
+        slack in the conditions.
+    SolveError
+        The iteration did not converge.
+
+    """
+    return _of_route(line, mesh) if isinstance(line, Route) else _of_line(line, mesh)
+
+
+def _of_line(line: Line, mesh: Mesh | None) -> Form:
+    plain = replace(line, conditions=Conditions(), dropper_lengths=None)
+    found = replace(design(plain, mesh), line=line, made_for=None)
+    if line.dropper_lengths is not None:
+        found = as_built(found, line.dropper_lengths)
+    if line.conditions != Conditions():
+        found = in_conditions(found)
+    return found
+
+
+def _of_route(route: Route, mesh: Mesh | None) -> RouteForm:
+    """Forms of all tension lengths of a route; an error names the section."""
+    forms = []
+    for k, line in enumerate(route.lines):
+        try:
+            forms.append(_of_line(line, mesh))
+        except ModelError as error:
+            where = f"sections[{k}].{error.where.removeprefix('line.')}"
+            raise ModelError(where, error.what, error.hint) from None
+    return RouteForm(route, Mesh() if mesh is None else mesh, tuple(forms))
+
+
+def assemble(found: AnyForm, mesh: Mesh | None = None) -> Assembled:
+    """Make the model of a line, see :func:`ancf.catenary.assemble`."""
+    if mesh is not None and mesh != found.mesh:
+        found = form(found.line, mesh)
+    return assembled_route(found) if isinstance(found, RouteForm) else assembled(found)

@@ -1,0 +1,175 @@
+"""Route: several tension lengths along one track, which share strips where they overlap."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import reduce
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray, IntArray
+from ..errors import ModelError
+from ..model import checks
+from .fittings import Droppers
+from .line import Line
+from .span import Span
+from .wire import Wire
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Route:
+    """Tension lengths along one track, each a line with its own anchors.
+
+    Where two overlap, a pantograph touches the wire that is lower, or both: give their wires heights and
+    staggers there that hand it over.
+
+    Parameters
+    ----------
+    lines : sequence of Line
+        In the order of the track.
+    starts : sequence of float, m
+        Track positions of their first supports.
+    title, source : str
+    tags : mapping of str to str
+
+    Raises
+    ------
+    ModelError
+        Two that follow each other do not overlap, or differ in gravity or conditions.
+
+    """
+
+    lines: tuple[Line, ...]
+    starts: tuple[float, ...]
+    title: str = ""
+    source: str = ""
+    tags: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "lines", tuple(self.lines))
+        starts = checks.array(list(self.starts), "route.starts", (len(self.lines),)).tolist()
+        object.__setattr__(self, "starts", tuple(starts))
+        if not self.lines:
+            raise ModelError("route.lines", "has no line")
+        for k in range(1, len(self.lines)):
+            before = starts[k - 1] + self.lines[k - 1].length
+            if not starts[k - 1] < starts[k] < before:
+                what = (
+                    f"is {starts[k]:g} m, the section before reaches from {starts[k - 1]:g} to {before:g} m"
+                )
+                hint = "sections have to overlap, else nothing carries the pantograph between them"
+                raise ModelError(f"sections[{k}].start", what, hint)
+            for key in ("gravity", "conditions", "temperature"):
+                if getattr(self.lines[k], key) != getattr(self.lines[0], key):
+                    raise ModelError(f"sections[{k}].{key}", "differs from that of the first section")
+
+    def joined(self, values: Callable[[Line], Any]) -> Any:
+        """Values of all lines one after the other."""
+        return np.concatenate([values(line) for line in self.lines])
+
+    @property
+    def parts(self) -> tuple[Line, ...]:
+        """The lines."""
+        return self.lines
+
+    @property
+    def spans(self) -> tuple[Span, ...]:
+        """Spans of all sections."""
+        return tuple(span for line in self.lines for span in line.spans)
+
+    @property
+    def supports(self) -> FloatArray:
+        """Track positions of the supports of all sections, one section after the other, m."""
+        places: FloatArray = np.concatenate(
+            [x + one.supports for x, one in zip(self.starts, self.lines, strict=True)]
+        )
+        return places
+
+    @property
+    def marks(self) -> FloatArray:
+        """Track positions of all supports, ascending, each once, m."""
+        return np.unique(np.round(self.supports, 6))
+
+    @property
+    def reach(self) -> tuple[FloatArray, FloatArray]:
+        """From where to where on the track a support counts as passed, m."""
+        pairs = [line.reach for line in self.lines]
+        low, high = (
+            np.concatenate([x + pair[side] for x, pair in zip(self.starts, pairs, strict=True)])
+            for side in (0, 1)
+        )
+        return low, high
+
+    @property
+    def stagger(self) -> tuple[float, ...]:
+        """Staggers of all supports, m."""
+        return tuple(self.joined(lambda line: line.stagger).tolist())
+
+    @property
+    def heights(self) -> tuple[float, ...]:
+        """Heights of the contact wires at all supports, m."""
+        return tuple(self.joined(lambda line: line.heights).tolist())
+
+    def height_at(self, track: Any) -> Any:
+        """Nominal height of the lowest contact wire at track positions, m."""
+        x = np.asarray(track, dtype=np.float64)
+        levels = [
+            np.where(
+                (x >= start - 1e-9) & (x <= start + line.length + 1e-9), line.height_at(x - start), np.inf
+            )
+            for start, line in zip(self.starts, self.lines, strict=True)
+        ]
+        ends = np.where(x < self.starts[0], levels_at(self, 0), levels_at(self, -1))
+        lowest = reduce(np.minimum, levels)
+        return np.where(np.isfinite(lowest), lowest, ends)
+
+    @property
+    def length(self) -> float:
+        """Track position of the end of the last section, m."""
+        return float(self.starts[-1] + self.lines[-1].length)
+
+    @property
+    def dropper_x(self) -> FloatArray:
+        """Track positions of all droppers, section after section, m."""
+        pairs = zip(self.starts, self.lines, strict=True)
+        return np.concatenate([start + line.dropper_x for start, line in pairs])
+
+    @property
+    def dropper_span(self) -> IntArray:
+        """Index of the span of each dropper, counted over all sections."""
+        first = np.cumsum([0, *(len(line.spans) for line in self.lines)])
+        pairs = zip(first, self.lines, strict=False)
+        return np.concatenate([k + line.dropper_span for k, line in pairs])
+
+    @property
+    def dropper_number(self) -> IntArray:
+        """Index of each dropper in its span."""
+        numbers: IntArray = self.joined(lambda line: line.dropper_number)
+        return numbers
+
+    @property
+    def droppers(self) -> Droppers:
+        """Droppers of the first section."""
+        return self.lines[0].droppers
+
+    @property
+    def contact_wire(self) -> Wire:
+        """Contact wire of the first section."""
+        return self.lines[0].contact_wire
+
+    @property
+    def anchors(self) -> str:
+        """Anchors of the first section."""
+        return self.lines[0].anchors
+
+    @property
+    def wave_speed(self) -> float:
+        """Lowest wave speed of all contact wires, m/s."""
+        return min(line.wave_speed for line in self.lines)
+
+
+def levels_at(route: Route, k: int) -> float:
+    """Height at the outer end of the first or the last section, m."""
+    return route.lines[k].heights[0 if k == 0 else -1]

@@ -1,0 +1,288 @@
+"""A line that comes to rest away from its design: other lengths of droppers, other conditions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import ancf
+
+from ..arrays import BoolArray, FloatArray
+from ..errors import ModelError, SolveError
+from .assemble import Assembled, assembled
+from .conditions import Conditions
+from .form import Form
+from .line import Line
+from .shape import Strung, WireShape
+
+#: Largest motion of a node from one equilibrium to the next at which the line has come to rest, m.
+TOLERANCE = 1e-6
+MOST_ITERATIONS = 30
+#: Share of its tension below which a wire is slack.
+SLACK = 0.1
+ENDS = np.array([-1.0, 1.0])
+NAMES = ("contact wire", "messenger")
+
+
+@dataclass(frozen=True, slots=True)
+class _Wires:
+    """What the temperature, wear and ice make of one wire, whatever its tension."""
+
+    rhoA: float
+    EA: float
+    EI: float
+
+    def under(self, shape: WireShape, tension: float) -> WireShape:
+        """The wire with its mass per length as it hangs under a tension in N."""
+        mass = self.rhoA / (1.0 + tension / self.EA)
+        wire = replace(shape.wire, EA=self.EA, EI=self.EI, mass=mass, tension=tension)
+        return replace(shape, wire=wire)
+
+
+def as_built(designed: Form, lengths: tuple[float, ...]) -> Form:
+    """The line with droppers of given natural lengths (n,) in m, its ends pulled as in the design."""
+    droppers, natural = designed.line.droppers, np.array(lengths)
+    stiffness = designed.dropper_stiffness
+    if droppers.EA is not None:
+        stiffness = droppers.EA / natural
+    begun = replace(designed, dropper_natural=natural, dropper_stiffness=stiffness)
+    return _at_rest(designed, begun, None, mounting=True)
+
+
+def in_conditions(built: Form) -> Form:
+    """The line in the conditions that it states, from the form in which it was built.
+
+    Raises
+    ------
+    ModelError
+        A wire becomes slack.
+    SolveError
+        It does not come to rest.
+
+    """
+    line = built.line
+    begun = _changed(built)
+    if line.anchors == "tension" and line.tensioner.friction > 0.0:
+        found = _with_friction(built, begun)
+    else:
+        found = _at_rest(built, begun, None)
+    _check_taut(built, found)
+    return found
+
+
+def _changed(built: Form) -> Form:
+    """The form with the wires and natural lengths of the conditions, which does not rest yet."""
+    line = built.line
+    air = line.conditions
+    warmer = (line.temperature if air.temperature is None else air.temperature) - line.temperature
+    contact = _stretched(built.contact, warmer)
+    messenger = None if built.messenger is None else _stretched(built.messenger, warmer)
+    pull = built.pull.copy()
+    given = air.contact_tension, air.messenger_tension
+    pull *= np.array(
+        [[1.0 if t is None else t / w] for t, w in zip(given, built.pull.mean(axis=1), strict=True)]
+    )
+    kinds = _wires(line, air, warmer)
+    return replace(
+        built,
+        contact=kinds[0].under(contact, float(pull[0].mean())),
+        messenger=None if messenger is None else kinds[1].under(messenger, float(pull[1].mean())),
+        stitches=tuple(_stitch(line, shape, air, warmer) for shape in built.stitches),
+        dropper_natural=built.dropper_natural * (1.0 + _expansion(line) * warmer),
+        pull=pull,
+        settled=True,
+    )
+
+
+def _expansion(line: Line) -> float:
+    """Of the droppers: that of the messenger, which is a rope like them."""
+    wire = line.messenger_wire or line.contact_wire
+    return wire.expansion
+
+
+def _stretched(shape: WireShape, warmer: float) -> WireShape:
+    return replace(shape, arc=shape.arc * (1.0 + shape.wire.expansion * warmer))
+
+
+def _wires(line: Line, air: Conditions, warmer: float) -> list[_Wires]:
+    """Contact wire and messenger."""
+    made = []
+    for k, wire in enumerate((line.contact_wire, line.messenger_wire)):
+        if wire is None:
+            continue
+        left = 1.0 - air.wear if k == 0 else 1.0
+        longer = 1.0 + wire.expansion * warmer
+        mass = wire.mass * (1.0 + wire.tension / wire.EA) / longer
+        ice = air.ice * (1.0 + wire.tension / wire.EA)
+        made.append(_Wires(left * mass + ice, left * wire.EA, left**2 * wire.EI))
+    return made
+
+
+def _stitch(line: Line, shape: WireShape, air: Conditions, warmer: float) -> WireShape:
+    wire = shape.wire
+    mass = wire.mass * (1.0 + wire.tension / wire.EA) / (1.0 + wire.expansion * warmer) + air.ice
+    return _Wires(mass, wire.EA, wire.EI).under(_stretched(shape, warmer), wire.tension)
+
+
+def _with_friction(built: Form, begun: Form) -> Form:
+    """Ends stay where the tension is between the weights' less and plus friction, and slide elsewhere."""
+    share, weights = built.line.tensioner.friction, begun.pull
+    held = np.ones((2, 2), dtype=bool)
+    for _ in range(MOST_ITERATIONS):
+        found = _at_rest(built, begun, held)
+        low, high = weights * (1.0 - share), weights * (1.0 + share)
+        slides = held & ((found.pull < low - 1e-6) | (found.pull > high + 1e-6))
+        if built.messenger is None:
+            slides[1] = False
+        if not np.any(slides):
+            return found
+        begun = replace(begun, pull=np.where(slides, np.clip(found.pull, low, high), begun.pull))
+        held &= ~slides
+    raise SolveError("catenary.form", "the ends of the wires neither stay nor slide", "other friction")
+
+
+def _at_rest(built: Form, begun: Form, held: BoolArray | None, mounting: bool = False) -> Form:
+    """Equilibria of the whole line, whose supports follow it along the track, until nothing moves."""
+    now, moved = begun, np.inf
+    for _ in range(MOST_ITERATIONS):
+        overhead = assembled(now, held, mounting)
+        found = _rested(built, now, overhead, ancf.equilibrium(overhead.model))
+        before = moved
+        moved = max(
+            float(np.max(np.abs(a.position - b.position)))
+            for a, b in zip(_all(found), _all(now), strict=True)
+        )
+        now = found
+        if moved < TOLERANCE:
+            return now
+    what = f"the line does not come to rest: its last motions are {before:.2e} and {moved:.2e} m"
+    raise SolveError("catenary.form", what, "conditions nearer to the design")
+
+
+def _all(form: Form) -> list[WireShape]:
+    return [shape for shape in (form.contact, form.messenger, *form.stitches) if shape is not None]
+
+
+def _rested(built: Form, now: Form, overhead: Assembled, state: ancf.State) -> Form:
+    """Places and forces of an equilibrium as a form."""
+    line, wires = now.line, (overhead.contact, overhead.messenger)
+    pull = np.array([_pull(now, k, wire, overhead, state) for k, wire in enumerate(wires)])
+    shapes = [
+        None if wire is None else _moved(wire, state, float(pull[k].mean())) for k, wire in enumerate(wires)
+    ]
+    contact, messenger = shapes
+    assert contact is not None
+    stitches = tuple(replace(wire.shape, position=wire.positions(state)) for wire in overhead.stitches)
+    force = np.array([float(state.spring_force(d)) for d in overhead.droppers if d is not None])
+    length = now.dropper_natural + force / now.dropper_stiffness
+    upper = _uppers(messenger, stitches, line)
+    lower = contact.position[contact.nodes.dropper]
+    distance = np.linalg.norm(upper - lower, axis=1)
+    lift = force * (upper - lower)[:, 2] / np.where(distance > 0.0, distance, 1.0)
+    give = now.clamp_give
+    load, side = _hangers(built, messenger, overhead, state)
+    return replace(
+        now,
+        contact=contact,
+        messenger=messenger,
+        stitches=stitches,
+        dropper_force=force,
+        dropper_length=length,
+        dropper_load=force - 0.5 * line.droppers.mass * length * line.gravity,
+        contact_height=lower[:, 2] + now.contact_give * lift,
+        messenger_height=upper[:, 2] - (give - now.contact_give) * lift,
+        arm_force=_arms(built, contact, overhead, state),
+        support_load=load,
+        support_side=side,
+        pull=pull,
+        settled=True,
+    )
+
+
+def _moved(wire: Strung, state: ancf.State, tension: float) -> WireShape:
+    """The shape where it came to rest, with its material as before under the tension at its ends."""
+    shape = wire.shape
+    old = shape.wire
+    rhoA = old.mass * (1.0 + old.tension / old.EA)
+    return _Wires(rhoA, old.EA, old.EI).under(replace(shape, position=wire.positions(state)), tension)
+
+
+def _uppers(messenger: WireShape | None, stitches: tuple[WireShape, ...], line: Line) -> FloatArray:
+    if messenger is None:
+        return np.zeros((0, 3))
+    position = messenger.position[messenger.nodes.dropper]
+    for k, shape in enumerate(stitches):
+        position[line.dropper_stitch == k + 1] = shape.position[shape.nodes.dropper]
+    return position
+
+
+def _pull(now: Form, k: int, wire: Strung | None, overhead: Assembled, state: ancf.State) -> FloatArray:
+    """Forces (2,) along the track at the ends of a wire, N: as given, or what held ends give."""
+    force: FloatArray = now.pull[k].copy()
+    if wire is None:
+        return force
+    for i, holder in enumerate(overhead.ends[k]):
+        if isinstance(holder, ancf.model.Pin):
+            force[i] = ENDS[i] * float(state.reaction(holder)[0])
+        elif holder is not None:
+            force[i] = float(state.spring_force(holder))
+    return force
+
+
+def _arms(built: Form, contact: WireShape, overhead: Assembled, state: ancf.State) -> FloatArray:
+    """Forces (supports, 3) of the steady arms on the contact wire, N, by their laws about the design."""
+    line, force = built.line, np.zeros_like(built.arm_force)
+    for k in range(1, len(force) - 1):
+        arm, node = line.arm(k), contact.nodes.support[k]
+        rest, here = built.contact.position[node], contact.position[node]
+        weight = np.array([0.0, 0.0, 0.5 * arm.mass * line.gravity])
+        first = built.arm_force[k] + weight
+        if arm.length is not None:
+            size = float(np.linalg.norm(first))
+            rod = rest + arm.length * first / size - here
+            rod[0] = 0.0  # the cantilever follows the wire along the track
+            natural, reach = arm.length - size / arm.stiffness, float(np.linalg.norm(rod))
+            force[k] = arm.stiffness * (reach - natural) * rod / reach - weight
+            continue
+        force[k, 2] = first[2] - (arm.vertical or 0.0) * (here - rest)[2] - weight[2]
+        hold = overhead.arm_holds[k]
+        if hold is not None:
+            force[k, 1] = float(state.reaction(hold)[1])
+        else:
+            assert arm.lateral is not None
+            force[k, 1] = first[1] - arm.lateral * (here - rest)[1]
+    return force
+
+
+def _hangers(
+    built: Form, messenger: WireShape | None, overhead: Assembled, state: ancf.State
+) -> tuple[FloatArray, FloatArray]:
+    """Forces of the supports on the messenger (supports,), upwards and sideways, N."""
+    line, count = built.line, built.support_load.size
+    load, side = np.zeros(count), np.zeros(count)
+    for k in range(1, count - 1):
+        hold = overhead.hanger_holds[k]
+        if messenger is None or built.messenger is None or hold is None:
+            continue
+        reaction = state.reaction(hold)
+        side[k] = float(reaction[1])
+        if line.messenger_support is None:
+            load[k] = float(reaction[2]) - line.messenger_support_mass * line.gravity
+            continue
+        node = messenger.nodes.support[k]
+        risen = messenger.position[node, 2] - built.messenger.position[node, 2]
+        load[k] = built.support_load[k] - line.messenger_support * risen
+    return load, side
+
+
+def _check_taut(built: Form, found: Form) -> None:
+    air, line = built.line.conditions, built.line
+    for k, name in enumerate(NAMES):
+        if k == 1 and built.messenger is None:
+            continue
+        left, was = float(found.pull[k].min()), float(built.pull[k].mean())
+        if left < SLACK * was:
+            degrees = line.temperature if air.temperature is None else air.temperature
+            what = f"is {degrees:g} degrees Celsius, the {name} is slack: {left:.0f} of {was:.0f} N are left"
+            raise ModelError("line.conditions.temperature", what, 'anchors = "tension", or a smaller change')

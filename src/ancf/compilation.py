@@ -1,0 +1,255 @@
+"""What is said and done when kernels have to be compiled: a line before and after, and a process that helps.
+
+Most of a first run is the compilation of two independent halves: the time stepping, which is the same for all
+models, and the operations of the kinds that a model has.  A second process begins at the other end of the
+list; what one works on the other waits for (:mod:`ancf.kernel_cache`), and both leave it in the cache.
+"""
+
+from __future__ import annotations
+
+import atexit
+import json
+import multiprocessing
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any, cast
+
+import numba
+from numba.core import event
+
+from .model.integrators import INTEGRATORS, Explicit, Integrator, NewmarkFamily, Trapezoidal
+from .model.model import Model
+
+BEFORE = "compiling the numerical core, once on this machine: {what} first, 10 to 40 s in all ..."
+AFTER = "compiled in {seconds:.0f} s: {what}"
+#: What is said of files with kernels, by the beginning of their names.
+PARTS = {
+    "solvers.static": "equilibria",
+    "solvers.radau": "Radau's method",
+    "solvers.explicit": "explicit stepping",
+    "solvers": "time stepping",
+    "system": "matrix and supports",
+    "linalg": "factorisation",
+    "records": "records",
+}
+
+
+def _to_stderr(text: str) -> None:
+    """In a script or a notebook: nothing waits for long without a word."""
+    with suppress(OSError, ValueError):
+        print(f"ancf: {text}", file=sys.stderr, flush=True)
+
+
+class _Listener(event.Listener):
+    """Counts what is compiled, says that it begins, and has a process help."""
+
+    def __init__(self) -> None:
+        self.say: Callable[[str], None] = _to_stderr
+        self.depth = 0
+        self.began = 0.0
+        self.names: list[str] = []
+        self.work: tuple[Model, Integrator | None] | None = None
+        self.helper: subprocess.Popen[bytes] | None = None
+
+    def on_start(self, event: Any) -> None:
+        self.depth += 1
+        if self.depth > 1 or self.work is None:
+            return
+        name = _named(event.data)
+        if not self.names:
+            self.began = time.perf_counter()
+            if self.say is _to_stderr:
+                self.say(BEFORE.format(what=name))
+            self.help()
+        if name not in self.names:
+            self.names.append(name)
+
+    def on_end(self, event: Any) -> None:
+        self.depth -= 1
+
+    def help(self) -> None:
+        """Start a process that compiles from the other end, if there is a core and a cache for it."""
+        if self.work is None or not _useful():
+            return
+        model, method = self.work
+        folder = str(Path(__file__).parent.parent)
+        path = os.pathsep.join([folder, *filter(None, [os.environ.get("PYTHONPATH")])])
+        env = {**os.environ, "PYTHONPATH": path, "ANCF_HELPS": "1"}
+        if folder := getattr(numba.config, "CACHE_DIR", ""):
+            env["NUMBA_CACHE_DIR"] = folder
+        with suppress(OSError, ValueError, TypeError):
+            given = json.dumps({"model": model.to_dict(), "method": method.name if method else None})
+            silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+            command = [sys.executable, "-m", "ancf.compilation"]
+            self.helper = subprocess.Popen(command, stdin=subprocess.PIPE, env=env, **silent)  # type: ignore[call-overload]
+            assert self.helper is not None
+            assert self.helper.stdin is not None
+            self.helper.stdin.write(given.encode())
+            self.helper.stdin.close()
+
+    def finish(self) -> None:
+        """Say what was compiled."""
+        if self.names:
+            self.say(AFTER.format(seconds=time.perf_counter() - self.began, what=", ".join(self.names)))
+        self.names = []
+
+    def end(self) -> None:
+        """End the process that helps."""
+        if self.helper is not None:
+            self.helper.kill()
+            self.helper.wait()
+            self.helper = None
+
+
+_listener = _Listener()
+cast(Any, event).register("numba:compile", _listener)
+atexit.register(_listener.end)
+
+
+def announce(say: Callable[[str], None]) -> None:
+    """Say by `say` what was compiled: a command has a console of its own, and says itself that it begins."""
+    _listener.say = say
+
+
+@contextmanager
+def expected(model: Model, method: Integrator | None = None) -> Iterator[None]:
+    """Here kernels may have to be compiled for a model, and for a method if it is simulated."""
+    if _listener.work is not None:
+        yield
+        return
+    _listener.work = model, method
+    try:
+        yield
+        _listener.finish()
+    finally:
+        _listener.work, _listener.names = None, []
+        if method is not None:  # all is compiled; after an equilibrium the stepping is what comes next
+            _listener.end()
+
+
+def _useful() -> bool:
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    # without locks both would compile the same
+    wanted = cores > 1 and sys.platform != "win32" and not getattr(numba.config, "DISABLE_JIT", 0)
+    if multiprocessing.parent_process() is not None:  # one of many that share the cores
+        return False
+    idle = _listener.helper is None or _listener.helper.poll() is not None
+    return wanted and idle and "ANCF_HELPS" not in os.environ and bool(sys.executable)
+
+
+def _named(data: Any) -> str:
+    """What a kernel is for, in words."""
+    module = data["dispatcher"].py_func.__module__.removeprefix("ancf.")
+    for argument in data["args"]:
+        kind = getattr(argument, "batch", argument)
+        batch = getattr(kind, "instance_class", None)
+        if batch is not None and batch.__name__ != "Batches" and module in ("batches", "records"):
+            return _words(batch.__name__)
+    return next((said for start, said in PARTS.items() if module.startswith(start)), module)
+
+
+def _words(name: str) -> str:
+    """``CableBatch`` as "cable"."""
+    short = name.removesuffix("Batch")
+    return "".join(f" {c.lower()}" if c.isupper() and k else c.lower() for k, c in enumerate(short))
+
+
+def stepping(method: Integrator | None, model: Model | None = None) -> tuple[Any, tuple[Any, ...]]:
+    """The kernel that takes the steps of a method, and the types of what it takes.
+
+    They are the same for all models, but for contacts and slack springs, which a step corrects.
+
+    Parameters
+    ----------
+    method : Integrator or None
+        One that takes no steps of its own kernel is read as the default.
+    model : Model, optional
+        Default a point mass.
+    """
+    import numpy as np
+
+    from .solvers.explicit import advance_explicit
+    from .solvers.newmark import advance
+    from .solvers.runs import run_of
+    from .system.system import System
+
+    if model is None:
+        model = Model()
+        model.add_point_mass("m", at=(0, 0, 0), mass=1.0)
+    with _in_place_of_compiling(lambda *_: 0):
+        system = System(model)
+    explicit = isinstance(method, Explicit)
+    used = method if isinstance(method, NewmarkFamily | Explicit) else Trapezoidal()
+    run: Any = run_of(used, system, 0.0, 1.0, 0.5, 1)
+    tables = system.inputs.tables(0.0, 0.5, 1, 0.0, 1.0)
+    kept, room = np.zeros(0, dtype=np.int64), run.room(0, 0)
+    if explicit:
+        given: tuple[Any, ...] = (run.turning,)
+    else:
+        given = (run.scheme, run.rule(run.h))
+    values = (system.core, run.memory, tables, run.h, *given, kept, run.sampling, room)
+    return (advance_explicit if explicit else advance), tuple(map(_type_of, values))
+
+
+def _type_of(value: Any) -> Any:
+    return numba.typeof(value)  # type: ignore[no-untyped-call]
+
+
+def operations(model: Model) -> list[tuple[Any, tuple[Any, ...]]]:
+    """Kernels of the operations of a model's kinds with the types of what they take; none is compiled."""
+    from . import batches
+    from .compiled import does_something
+    from .records import RecordType
+    from .system.system import System
+
+    found: list[tuple[Any, tuple[Any, ...]]] = []
+
+    def note(batch_type: type, kind: Any, stub: Any) -> int:
+        if does_something(batch_type, stub):
+            dispatcher, given, _ = batches.OPERATIONS[stub]
+            found.append((dispatcher, (RecordType(kind), *given)))
+        return 0
+
+    with _in_place_of_compiling(note):
+        System(model)
+    return found
+
+
+@contextmanager
+def _in_place_of_compiling(note: Callable[[type, Any, Any], int]) -> Iterator[None]:
+    """Here operations of batches are not compiled: what gives their addresses is `note`."""
+    from . import batches
+
+    given: Any = batches
+    address, given._address = given._address, note
+    known, given._compiled = given._compiled, {}
+    try:
+        yield
+    finally:
+        given._address, given._compiled = address, known
+
+
+def main() -> None:
+    """Compile what the process that started this one will need, beginning with what it needs last."""
+    given = json.load(sys.stdin)
+    method = INTEGRATORS[given["method"]]() if given["method"] else None
+    jobs: list[tuple[Any, tuple[Any, ...]]] = []
+    try:
+        model = Model.from_dict(given["model"])
+        steps, jobs = stepping(method, model), operations(model)[::-1]
+    except Exception:  # a model with Python functions, of which a description keeps the names only
+        steps = stepping(method)
+    jobs = [steps, *jobs] if method is not None else [*jobs, steps]
+    for dispatcher, signature in jobs:
+        if getattr(getattr(dispatcher, "_cache", None), "cache_path", ""):  # else nothing would be kept
+            with suppress(Exception):
+                dispatcher.compile(signature)
+
+
+if __name__ == "__main__":
+    main()

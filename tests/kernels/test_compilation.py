@@ -1,0 +1,101 @@
+"""What is said and done when kernels are compiled: the process that helps, and claims between processes."""
+
+import re
+import subprocess
+
+import numba
+import pytest
+
+import ancf
+from ancf import compilation
+from ancf.cli import warmup
+from ancf.compiled import _DOES, add_force
+from ancf.solvers.newmark import advance
+from commands import python
+
+#: Kinds that are compiled when they are used first.
+RARE = {"ContactBatch", "StateForceBatch", "PressBatch", "RubBatch"}
+
+
+def rope(**more):
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e4, EI=0.01, rhoA=0.1, **more)
+    beam = model.add_beam("rope", start=(0, 0, 0), end=(1, 0, 0), elements=3, section=section)
+    model.pin(beam.start)
+    return model, beam
+
+
+def hung():
+    model, beam = rope(bending_damping=1e-4)
+    mass = model.add_point_mass("mass", at=(1, 0, 0), mass=1.0)
+    model.connect(beam.end, mass)
+    model.add_spring(mass, (1, 0, 1), stiffness=10.0, slack=True)
+    return model
+
+
+class TestHelp:
+    @pytest.mark.parametrize("made", [lambda: rope()[0], hung], ids=["rope", "hung"])
+    def test_the_stepping_is_the_one_that_runs_take(self, made):
+        """The types are found without compiling; they are those that a run calls it with."""
+        model = ancf.Model.from_dict(made().to_dict())
+        dispatcher, signature = compilation.stepping(ancf.GeneralizedAlpha(), model)
+        assert dispatcher is advance
+        before = set(advance.overloads)
+        ancf.simulate(made(), t_end=0.002, step=1e-3)
+        assert set(advance.overloads) - before <= {signature}
+        assert signature in advance.overloads
+
+    def test_models_share_the_stepping(self):
+        """Without slack springs and contacts: what one model has compiled another does not."""
+        _, wanted = compilation.stepping(ancf.Trapezoidal())
+        assert compilation.stepping(ancf.Trapezoidal(), rope()[0])[1] == wanted
+
+    @pytest.mark.parametrize("made", [lambda: rope()[0], hung], ids=["rope", "hung"])
+    def test_the_operations_are_those_of_the_model(self, made):
+        """Found without compiling; then the model is compiled, and nothing else is missing."""
+        found = compilation.operations(ancf.Model.from_dict(made().to_dict()))
+        ancf.simulate(made(), t_end=0.002, step=1e-3)
+        assert len(found) >= 4
+        assert all(signature in dispatcher.overloads for dispatcher, signature in found)
+
+    def test_nothing_helps_where_all_is_there(self, monkeypatch):
+        model, _ = rope()
+        ancf.simulate(model, t_end=0.002, step=1e-3)
+        monkeypatch.setattr(subprocess, "Popen", lambda *_, **__: pytest.fail("a process was started"))
+        ancf.simulate(model, t_end=0.002, step=1e-3)
+
+    def test_a_process_helps(self, monkeypatch):
+        """A kernel is compiled while a model is expected: a process gets the model, and ends with the run."""
+        monkeypatch.delenv("ANCF_HELPS", raising=False)
+        monkeypatch.setattr(compilation, "_useful", lambda: True)
+        said = []
+        monkeypatch.setattr(compilation._listener, "say", said.append)
+        model, _ = rope()
+        with compilation.expected(model, ancf.Trapezoidal()):
+            numba.njit(lambda x: x + 1.0)(2.0)
+            helper = compilation._listener.helper
+            assert helper.poll() is None
+        assert helper.poll() is not None
+        assert re.match(r"compiled in \d+ s: ", said[-1])
+
+    def test_it_is_said_in_python_too(self):
+        """On stderr, before and after, with what it is; a quiet command says nothing."""
+        lines = (
+            "import ancf, numba",
+            "from ancf import compilation",
+            "compilation._useful = lambda: False",
+            "with compilation.expected(ancf.Model()): numba.njit(lambda x: x + 1)(1)",
+        )
+        ran = python("\n".join(lines))
+        assert ran.out == ""
+        first, last = ran.err.splitlines()
+        assert first.startswith("ancf: compiling the numerical core, once on this machine: __main__ first")
+        assert re.fullmatch(r"ancf: compiled in \d+ s: __main__", last)
+
+
+def test_warmup_has_every_kind():
+    """Kinds of batches that its models have, found without compiling, against all that have operations."""
+    found = set()
+    for made in (warmup._cable, warmup._beams, warmup._joints, warmup._bead, warmup._surrounded):
+        found |= {signature[0].batch.instance_class for _, signature in compilation.operations(made())}
+    assert {kind.__name__ for kind, stub in _DOES if stub is add_force} - {c.__name__ for c in found} <= RARE
