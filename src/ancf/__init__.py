@@ -114,3 +114,7 @@ def __getattr__(name: str) -> Any:
     value = getattr(import_module(f".{_LATER[name]}", __name__), name)
     globals()[name] = value
     return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

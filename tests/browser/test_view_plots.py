@@ -223,6 +223,22 @@ class TestLive:
             serving.join()
 
 
+def test_in_a_notebook(browser, runs, tmp_path):  # noqa: F811
+    """In a frame without rights in the notebook's page."""
+    framed = runs["soft"].view(frames=5, height=400)
+    assert re.fullmatch(r"<page of \d\.\d MB: .*>", repr(framed))
+    (tmp_path / "book.html").write_text(f"<!DOCTYPE html><p>cell</p>{framed._repr_html_()}", encoding="utf-8")
+    tab = browser.new_page()
+    tab.set_default_timeout(300_000)
+    tab.goto((tmp_path / "book.html").as_uri())
+    inner = tab.frames[1]
+    inner.wait_for_function("window.__ancf && (window.__ancf.ready || window.__ancf.errors.length)")
+    assert inner.evaluate("__ancf.errors") == []
+    assert inner.evaluate("LAST") == 4
+    assert framed.save(tmp_path / "alone.html").read_text(encoding="utf-8") == framed.text
+    tab.close()
+
+
 @pytest.mark.parametrize("size", [(1400, 900), (400, 800)], ids=["wide", "narrow"])
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_everybody_can_read_it(browser, runs, tmp_path, size, scheme):  # noqa: F811

@@ -35,7 +35,6 @@ app = typer.Typer(
     help="Thin beams and cables that move a lot: absolute nodal coordinate formulation.",
     epilog="Exit codes: 0 done, 1 the solve failed, 2 the input is wrong, "
     "130 stopped by Ctrl-C, 143 by SIGTERM.",
-    add_completion=False,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
@@ -277,6 +276,23 @@ def export_fmu(model: ModelFile, output: exporting.Unit = None, fmi: exporting.F
         from .export_fmu import export_unit
 
         export_unit(model, model.with_suffix(".fmu") if output is None else output, fmi)
+
+
+Copy = Annotated[
+    Path | None, typer.Option("--copy", metavar="FOLDER", help="Copy them there.", show_default=False)
+]
+
+
+@app.command()
+def examples(copy: Copy = None) -> None:
+    """List the examples that come with the package, or copy them: ancf examples --copy .
+
+    No file that was changed is overwritten.
+    """
+    with reported():
+        from .examples import show_examples
+
+        show_examples(copy)
 
 
 @app.command()

@@ -45,11 +45,15 @@ class Push:
     unit : str
     turns : bool
         It turns things about an axis, and the arrow is round.
+    frame : str
+        "": global components; "axes": in those of the body; "normal": one number, normal to the tangent and
+        the item's `axis`, per present length.
     """
 
     field: str
     unit: str
     turns: bool = False
+    frame: str = ""
 
 
 @dataclass(frozen=True)

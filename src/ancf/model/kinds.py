@@ -10,6 +10,7 @@ from . import sheets, surfaces
 from .connections import Spring
 from .contact import Contact
 from .fluids import Fluid
+from .followers import FOLLOWER_FORCE, PRESSURE
 from .functions import TimeFunction
 from .grounds import Ground
 from .guides import Cylindrical, Planar, Prismatic
@@ -44,7 +45,7 @@ SUPPORTS: list[Kind] = [
         "winch",
         _entry("WinchEntry"),
         sheets.winch,
-        look=Look("circle", "orange", 6.0),
+        look=Look("circle", "white", 8.0),
     ),
 ]
 LOADS: list[Kind] = [
@@ -83,6 +84,8 @@ LOADS: list[Kind] = [
         on_state=lambda item: isinstance(item.load, StateFunction),
         inputs=lambda item: [TimeFunction(["t", 0.0, 0.0], 3, item.name)],
     ),
+    FOLLOWER_FORCE,
+    PRESSURE,
 ]
 CONNECTIONS: list[Kind] = [
     Kind(

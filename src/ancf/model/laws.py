@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import ModelError
 from . import checks
 from .functions import TimeFunction
-from .kind import Kind, Look
+from .kind import Kind, Look, Push
 from .points import Point
 from .sheets import value
 from .tables import number, numbers
@@ -87,7 +87,15 @@ def _again(word: str, values: list[Any]) -> Any:
     return _items[word](*values)
 
 
-def law(word: str, noun: str, *parameters: Parameter, says: str, look: Look | None = None) -> Kind:
+def law(
+    word: str,
+    noun: str,
+    *parameters: Parameter,
+    says: str,
+    look: Look | None = None,
+    push: Push | None = None,
+    check: Callable[[str, Any], None] | None = None,
+) -> Kind:
     """Record of a load at a point whose force depends on position, velocity and time.
 
     Parameters
@@ -102,6 +110,10 @@ def law(word: str, noun: str, *parameters: Parameter, says: str, look: Look | No
         What it is, one sentence: the docstring of the method and of the table.
     look : Look, optional
         Marker in pictures.
+    push : Push, optional
+        Arrow in pictures.
+    check : function, optional
+        ``check(where, item)`` raises ModelError if the parameters do not fit the point.
     """
     title = "".join(part.capitalize() for part in word.split("_"))
     names = [("name", str), ("point", Point), *((p.name, Any) for p in parameters)]
@@ -115,7 +127,10 @@ def law(word: str, noun: str, *parameters: Parameter, says: str, look: Look | No
         where, label, clean = model.named_point(f"add_{word}", noun, point, name)
         bound.apply_defaults()
         values = [p.check(bound.arguments[p.name], where) for p in parameters]
-        return model.add_load(item(label, clean, *values))
+        made = item(label, clean, *values)
+        if check is not None:
+            check(where, made)
+        return model.add_load(made)
 
     arguments = [Argument(p.name, Argument.POSITIONAL_OR_KEYWORD, default=p.default) for p in parameters]
     signature = Signature(
@@ -126,6 +141,9 @@ def law(word: str, noun: str, *parameters: Parameter, says: str, look: Look | No
         ]
     )
     add.__name__, add.__doc__ = f"add_{word}", says
+    whole: Any = add
+    first = Argument("model", Argument.POSITIONAL_OR_KEYWORD)
+    whole.__signature__ = Signature([first, *signature.parameters.values()])
     return Kind(
         item,
         word,
@@ -134,6 +152,7 @@ def law(word: str, noun: str, *parameters: Parameter, says: str, look: Look | No
         lambda: _entry(title, word, parameters, says),
         lambda made: ", ".join(p.shown(getattr(made, p.name)) for p in parameters),
         look=look,
+        push=push,
         add=add,
         batch=word,
         inputs=lambda made: [getattr(made, p.name) for p in parameters if p.is_function],

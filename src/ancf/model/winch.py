@@ -79,8 +79,8 @@ def make_winch(where: str, name: str, point: Point, length: Any) -> Winch:
     if point.x not in (0.0, body.length):
         what = f"{point} is no end of the cable"
         raise ModelError(f"{where}.point", what, f"give {body.name}.start or .end")
-    curved = np.any(np.abs(body.node_tangent - body.node_tangent[0]) > STRAIGHT)
-    if body.natural_shape == "path" and curved:
+    natural = body.natural
+    if natural is not None and np.any(np.abs(natural.node_tangent - natural.node_tangent[0]) > STRAIGHT):
         what = f'"{body.name}" has a natural curvature, which cannot be wound up'
         raise ModelError(f"{where}.point", what, 'give add_beam(..., natural_shape="straight")')
     item = Winch(name, point, TimeFunction(length, 1, f"{where}.length"))

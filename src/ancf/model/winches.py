@@ -7,6 +7,7 @@ from typing import Any
 from ..errors import ModelError
 from .contact import Contact
 from .fluids import Fluid
+from .followers import Pressure
 from .functions import TimeFunction
 from .grounds import Ground
 from .joints import Fixation, Slide
@@ -35,10 +36,14 @@ def check_winches(model: Model) -> None:
             if getattr(support, "stretch", "") == "fixed" or getattr(support, "slope", ""):
                 hint = 'hold directions: clamp(..., stretch="free")'
                 raise _refused(support.name, winch, "holds a slope, whose length goes with the mesh", hint)
-    for load in model.loads:
+    loads: list[Any] = [*model.loads]  # there may be kinds of a user's own
+    for load in loads:
         if isinstance(load, DistributedLoad):
             if winch := winches.get(load.body.name):
                 _check_along(winch, load)
+        elif isinstance(load, Pressure):
+            if winch := winches.get(load.body.name):
+                raise _refused(load.name, winch, "acts along the cable", "give a distributed load")
         elif winch := winches.get(load.point.body.name):
             _check_end(winch, load.name, load.point)
     for item in model.connections:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:  # names for annotations; at run time only the methods import from above
     from ..viz.pictures.animation import Animation
     from ..viz.pictures.picture import Picture
+    from ..viz.view.frame import Framed
 
 
 class Plotted:
@@ -105,6 +106,30 @@ class Plotted:
 
 class Filmed(Plotted):
     """What moves: a Result."""
+
+    def view(self, *, height: int = 600, **options: Any) -> Framed:
+        """The page of ``ancf view``: the moving model with its plots.
+
+        Parameters
+        ----------
+        height : int
+            Of its frame in a notebook, pixels.
+        options
+            ``frames``, ``color``, ``trace``, ``start``, ``end``, ``title``: :func:`ancf.viz.view.shown_of`.
+
+        Returns
+        -------
+        Framed
+            Shows in a notebook; ``.save("view.html")``.
+
+        Raises
+        ------
+        ModelError
+            An option is wrong, nothing was stored, or plotly is missing.
+        """
+        from ..viz.view.frame import Framed
+
+        return Framed(self, height, **options)
 
     def plot_shape(
         self,

@@ -111,6 +111,18 @@ class DistributedEntry(Entry):
     name: ItemName = None
 
 
+class PressureEntry(Entry):
+    """A load normal to a beam and to an axis, which turns with the beam."""
+
+    type: Literal["pressure"] = Field(description="Kind of load.")
+    body: str = Field(description="Name of the body.")
+    pressure: ScalarFunction = Field(
+        description="Per present length, along tangent x axis, function of t [N/m]."
+    )
+    axis: Vector = Field(description="Normal of the plane in which it turns [-].")
+    name: ItemName = None
+
+
 class SphericalEntry(Entry):
     """Two coincident points keep the same position."""
 

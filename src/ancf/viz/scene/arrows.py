@@ -66,10 +66,28 @@ def acting(shown: Any, item: Any, push: Push) -> tuple[FloatArray, FloatArray, F
     try:
         function = getattr(item, push.field)
         depends = isinstance(function, StateFunction)
-        value = np.stack([_value(shown, function, p) for p in (points if depends else points[:1])], axis=1)
+        many = depends or bool(push.frame)
+        value = np.stack([_value(shown, function, p) for p in (points if many else points[:1])], axis=1)
+        if push.frame:
+            value = _turned(shown, item, push, points, value)
     except ModelError:  # a Python function that a file does not hold
         return places, np.zeros((0, 1, 3)), np.zeros(0)
     return places, value, np.linalg.norm(value, axis=2).max(axis=1)
+
+
+def _turned(shown: Any, item: Any, push: Push, points: list[Any], value: FloatArray) -> FloatArray:
+    """Global components (n, k, 3) of what is given in the axes of a body, or as a pressure."""
+    if push.frame == "normal":
+        slopes = np.stack([shown.slope(point) for point in points], axis=1)
+        normal: FloatArray = value[..., :1] * np.cross(slopes, item.axis)
+        return normal
+    body = points[0].body
+    if isinstance(body, Beam) and not body.has_section:
+        slope = shown.slope(points[0])
+        along: FloatArray = value[..., :1] * (slope / np.linalg.norm(slope, axis=-1, keepdims=True))[:, None]
+        return along
+    turned: FloatArray = np.einsum("nij,nkj->nki", shown.section_rotation(points[0]), value)
+    return turned
 
 
 def _along(beam: Beam, between: tuple[float, float]) -> Iterator[Point]:
@@ -81,7 +99,7 @@ def _value(shown: Any, function: Any, point: Point) -> FloatArray:
         states = zip(shown.t.tolist(), shown.place(point), shown.velocity(point), strict=True)
         return np.stack([function(*state) for state in states])
     if function.constant:
-        constant: FloatArray = np.broadcast_to(function(0.0), (len(shown.t), 3))
+        constant: FloatArray = np.broadcast_to(function(0.0), (len(shown.t), function.size))
         return constant
     values: FloatArray = function.table(shown.t)
     return values

@@ -1,0 +1,73 @@
+"""Pressure along beams and cables: f = p r_x x b per reference length, normal to the tangent and to b.
+
+So it is p per present length, and turns with the beam in the plane normal to the fixed unit vector b.  On a
+closed ring, or between ends that are held, it has a potential, the area; the matrix has the symmetric part of
+its derivative, which is then all of it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import FloatArray
+from ..compiled import Role, implements, inline_kernel
+from .along import add_along, add_slope_block_along, along, tangent_at
+
+#: Gauss points of an element: exact for a cubic.
+POINTS = 4
+
+
+class PressureBatch(NamedTuple):
+    """All pressures."""
+
+    base: NDArray[np.int64]  # (n, k)
+    dest: NDArray[np.int64]  # (n, k*k)
+    shape: FloatArray  # (n, points, k)
+    slope: FloatArray  # (n, points, k)
+    weight: FloatArray  # (n, points) m
+    shift: FloatArray  # (n, points) m
+    axis: FloatArray  # (n, 3) b
+    item: NDArray[np.int64]  # (n,) row of `value`
+    value: FloatArray  # (items, 1, 3) p now, N/m, at [k, 0, 0]
+
+
+def build(items, locate, value):
+    """Batch of these loads."""
+    fields, _owners = along([item.body for item in items], locate, POINTS)
+    counts = [item.body.elements for item in items]
+    rows = np.repeat(np.arange(len(items)), counts)
+    return PressureBatch(**fields, axis=np.array([items[k].axis for k in rows]), item=rows, value=value)
+
+
+@inline_kernel
+def pressure_force(batch, q, v, a, r, ws):
+    """Subtract the forces from r."""
+    for e in range(batch.base.shape[0]):
+        b, pressure = batch.axis[e], batch.value[batch.item[e], 0, 0]
+        for g in range(batch.weight.shape[1]):
+            t, size = tangent_at(batch, e, g, q)
+            p = pressure * size
+            fx, fy = p * (t[1] * b[2] - t[2] * b[1]), p * (t[2] * b[0] - t[0] * b[2])
+            add_along(batch, e, g, fx, fy, p * (t[0] * b[1] - t[1] * b[0]), r)
+
+
+@inline_kernel
+def pressure_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    """Add the symmetric part of minus the derivatives."""
+    for e in range(batch.base.shape[0]):
+        p = c_stiffness * batch.value[batch.item[e], 0, 0]
+        x, y, z = p * batch.axis[e, 0], p * batch.axis[e, 1], p * batch.axis[e, 2]
+        rows = ((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0))
+        for g in range(batch.weight.shape[1]):
+            add_slope_block_along(batch, e, g, rows, A)
+
+
+implements(
+    PressureBatch,
+    force=pressure_force,
+    tangent=pressure_tangent,
+    role=Role.EXTERNAL,
+)
