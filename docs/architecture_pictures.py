@@ -25,6 +25,7 @@ FLOORS = (
     ("viz", "scene → viewer, pictures, exports"),
     ("resumption", "a run that goes on where its file ends"),
     ("analysis", "equilibrium, simulate, modes"),
+    ("sensitivity", "exact derivatives of equilibria, runs and modes"),
     ("control", "inputs, controllers, steps one by one"),
     ("preparation", "a model compiled, started, carried out"),
     ("compilation", "what is said and done while kernels are compiled"),

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from .design.calibrate import calibrate
     from .design.distributions import Discrete, LogNormal, Normal, Triangular, Uniform
     from .design.fit import Fit
+    from .design.gradient import gradient
+    from .design.minimise import Optimum, minimise
     from .design.sampling import sample
     from .design.study import study
     from .model import Gusts, Model, Section, Waves
@@ -54,6 +56,9 @@ _LATER = {
     "Radau": "model.integrators",
     "Newton": "model.integrators",
     "calibrate": "design.calibrate",
+    "gradient": "design.gradient",
+    "minimise": "design.minimise",
+    "Optimum": "design.minimise",
     "Fit": "design.fit",
     "sample": "design.sampling",
     "study": "design.study",
@@ -77,6 +82,7 @@ __all__ = [
     "Modes",
     "Newton",
     "Normal",
+    "Optimum",
     "Plane",
     "Radau",
     "Result",
@@ -96,7 +102,9 @@ __all__ = [
     "__version__",
     "calibrate",
     "equilibrium",
+    "gradient",
     "load",
+    "minimise",
     "modes",
     "resume",
     "sample",

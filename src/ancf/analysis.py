@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,9 @@ from .results.modes import Modes
 from .results.result import Result, load
 from .results.state import State
 from .results.store import FileStore, MemoryStore
+from .sensitivity.compute import of_state, with_sensitivities
+from .sensitivity.modal import of_modes
+from .sensitivity.parameters import check_known, parameters_of
 from .solvers import statics
 from .solvers.modal import natural_modes
 from .solvers.record import Progress
@@ -33,10 +37,16 @@ __all__ = ["equilibrium", "load", "modes", "simulate", "stable_step"]
 
 #: Share of its natural length above which a cable at its start is not called pressed.
 PRESSED = 0.999
+#: Places of what is wrong with sensitivities.
+SENSITIVITIES = "equilibrium.sensitivities", "simulate.sensitivities", "modes.sensitivities"
 
 
 def equilibrium(
-    model: Model, of: Sequence[Beam | str] | None = None, load_steps: int = 1, time: float = 0.0
+    model: Model,
+    of: Sequence[Beam | str] | None = None,
+    load_steps: int = 1,
+    time: float = 0.0,
+    sensitivities: Any = (),
 ) -> State:
     """Stable static equilibrium of a model.
 
@@ -49,6 +59,8 @@ def equilibrium(
         Steps in which the loads grow; a step that fails is halved.
     time : float
         Time at which loads and supports are taken, s.
+    sensitivities : sequence of str or mapping
+        Numbers of the model by which derivatives are wanted, see :func:`simulate`.
 
     Returns
     -------
@@ -69,7 +81,10 @@ def equilibrium(
         system = independent(model)
         q, stats = statics.equilibrium(system, names, load_steps, time)
     known = remembered.Remembered(memory=remembered.memory_of(system), balanced=True)
-    return State(system, float(time), q, system.motion(q, time), stats, known)
+    state = State(system, float(time), q, system.motion(q, time), stats, known)
+    if sensitivities:
+        state.derivatives = of_state(state, names, parameters_of(model, sensitivities, SENSITIVITIES[0]))
+    return state
 
 
 def simulate(
@@ -86,6 +101,7 @@ def simulate(
     progress: Callable[[Progress], None] | None = None,
     controller: Callable[[Live], Any] | None = None,
     control_step: float | None = None,
+    sensitivities: Any = (),
 ) -> Result:
     """Simulate a model from its start to ``t_end``.
 
@@ -117,6 +133,12 @@ def simulate(
         :class:`State` and has ``inputs``: ``run.inputs["thrust"] = 5.0`` holds from the next step on.
     control_step : float, optional
         In s, a multiple of ``step``; default every step.
+    sensitivities : sequence of str or mapping
+        Numbers of the model by which derivatives are wanted, :meth:`Result.sensitivity` answers for them:
+        names such as ``"beam.EI"``, ``"beam.length"``, ``"dropper 3.length"``, ``"tip load.force[2]"``,
+        ``"gravity"`` (all of it, by a factor); or by a name of one's own a pair ``(value, build)`` where
+        ``build(value)`` is the model with another value. They are the derivatives of the numbers that the
+        run gives. Methods of the Newmark family; a start has to know its own.
 
     Returns
     -------
@@ -143,16 +165,21 @@ def simulate(
         t_end=t_end,
         step=step,
         start=start,
-        output_step=output_step,
+        output_step=None if sensitivities else output_step,
         sensors=sensors,
         energy=energy,
     )
+    parameters = parameters_of(model, sensitivities, SENSITIVITIES[1]) if sensitivities else []
+    if parameters and controller is not None:
+        raise ModelError(SENSITIVITIES[1], "a controller has no derivatives", "give one of both")
     if controller is not None:
         made = led(made, controller, check_controller(controller, control_step, step, "simulate"), "simulate")
     elif control_step is not None:
         raise ModelError("simulate.control_step", "has no effect without a controller")
     store = MemoryStore(made.system) if file is None else FileStore(file, made.system, made.header)
     try:
+        if parameters:
+            return with_sensitivities(made, parameters, start, store, output_step, progress)
         return carried_out(made, store, progress)
     except SolveError as error:
         if start is None and not isinstance(error, StorageError):
@@ -170,7 +197,7 @@ def _advise_rest(error: SolveError, model: Model) -> None:
     error.advise(f'{begins}: start=ancf.equilibrium(model, of=["{pressed.name}"]), or {files}')
 
 
-def modes(model: Model, *, about: State | None = None, count: int = 10) -> Modes:
+def modes(model: Model, *, about: State | None = None, count: int = 10, sensitivities: Any = ()) -> Modes:
     """Lowest natural modes of a model about a state, without damping.
 
     Parameters
@@ -180,6 +207,9 @@ def modes(model: Model, *, about: State | None = None, count: int = 10) -> Modes
         Equilibrium about which the model vibrates; default its initial shape.
     count : int
         Number of modes.
+    sensitivities : sequence of str or mapping
+        Numbers of the model by which derivatives are wanted, see :func:`simulate`; `about` has to know its
+        own.
 
     Raises
     ------
@@ -188,12 +218,18 @@ def modes(model: Model, *, about: State | None = None, count: int = 10) -> Modes
     SolveError
         The state is not a stable equilibrium.
     """
+    known = about.derivatives if isinstance(about, State) else {}
+    parameters = parameters_of(model, sensitivities, SENSITIVITIES[2]) if sensitivities else []
+    if isinstance(about, State):
+        check_known(about, parameters, SENSITIVITIES[2])
     with expected(model):
         system = independent(model)
         q, v = given_state(system, about, "modes.about")
         about = State(system, 0.0, q, np.zeros_like(v)) if about is None else State(system, about.t, q, v)
+        about.derivatives = known
         omega, shapes = natural_modes(about.system, about.q, count)
-    return Modes(omega, shapes, about)
+    made = Modes(omega, shapes, about)
+    return replace(made, derivatives=of_modes(made, parameters)) if parameters else made
 
 
 def stable_step(model: Model, *, about: State | None = None, safety: float = 0.9) -> float:

@@ -207,6 +207,9 @@ class Traits:
         while the loads come on, or takes it away; returns whether there is friction.
     turning_mass : function, optional
         ``turning_mass(batch)``: whether it has a mass that changes with the state; default it has none.
+    exact : function, optional
+        ``exact(batch, moving)``: whether its matrices are the derivatives of its forces, in motion or at
+        rest, which sensitivities ask for; default they are not.
     inertial : function, optional
         ``inertial(batch)``: the batch with its mass alone, where the forces of that depend on velocities:
         what they lose without velocities is not dissipated.
@@ -223,6 +226,7 @@ class Traits:
     late: Callable[[Any], Callable[[Any, Any], float] | None] | None = None
     early: Callable[[Any, Any, bool], bool] | None = None
     turning_mass: Callable[[Any], bool] | None = None
+    exact: Callable[[Any, bool], bool] | None = None
     inertial: Callable[[Any], Any] | None = None
 
 

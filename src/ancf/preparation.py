@@ -98,7 +98,9 @@ def compiled(
     return Prepared(system, run_of(method, system, t_start, t_end, step, every), header, method)
 
 
-def carried_out(made: Prepared, store: Any, progress: Callable[[Progress], None] | None) -> Result:
+def carried_out(
+    made: Prepared, store: Any, progress: Callable[[Progress], None] | None, recorder: Any = None
+) -> Result:
     """Take all steps and give the result, also with the errors; see :func:`simulate`.
 
     Parameters
@@ -106,6 +108,8 @@ def carried_out(made: Prepared, store: Any, progress: Callable[[Progress], None]
     made : Prepared
     store : MemoryStore, FileStore or another Recorder with ``path`` and ``close``
     progress : callable or None
+    recorder : Recorder, optional
+        Takes what is stored in the store's place, and hands it on.
 
     Raises
     ------
@@ -128,7 +132,7 @@ def carried_out(made: Prepared, store: Any, progress: Callable[[Progress], None]
 
     with _salvaged(system), kept(signal.SIGINT):
         try:
-            run.go(store, look)
+            run.go(store if recorder is None else recorder, look)
         except StorageError:
             raise
         except (SolveError, ModelError) as error:

@@ -33,6 +33,7 @@ LAYERS = (
     {"compilation"},
     {"preparation"},
     {"control"},
+    {"sensitivity"},
     {"analysis"},
     {"resumption"},
     {"viz"},

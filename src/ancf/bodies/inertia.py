@@ -56,4 +56,5 @@ implements(
     force=body_force,
     inertia=body_inertia,
     tangent=body_tangent,
+    exact=lambda batch, moving: True,
 )

@@ -124,4 +124,5 @@ implements(
     energy=spring_energy,
     role=Role.DISSIPATES,
     damped=lambda batch: bool(np.any(batch.data[:, 1])),
+    exact=lambda batch, moving: not (moving and np.any(batch.data[:, 1])),
 )

@@ -23,30 +23,32 @@ def is_logarithmic(low: float, high: float) -> bool:
     return low > 0.0 and high > WIDE * low
 
 
-def bounds_of(parameters: Any) -> dict[str, tuple[float, float]]:
+def bounds_of(parameters: Any, where: str = "calibrate") -> dict[str, tuple[float, float]]:
     """Bounds by name; ModelError if they are none."""
     if not isinstance(parameters, Mapping) or not parameters:
-        raise ModelError("calibrate.parameters", "must be bounds (low, high) by name")
+        raise ModelError(f"{where}.parameters", "must be bounds (low, high) by name")
     made = {}
     for name, given in parameters.items():
-        low, high = checks.array(given, f"calibrate.parameters: {name}", (2,)).tolist()
+        low, high = checks.array(given, f"{where}.parameters: {name}", (2,)).tolist()
         if not low < high:
             what = f"has the bounds {low:g} and {high:g}, the first must be below"
-            raise ModelError(f"calibrate.parameters: {name}", what)
+            raise ModelError(f"{where}.parameters: {name}", what)
         made[str(name)] = (low, high)
     return made
 
 
-def start_of(start: Mapping[str, float] | None, bounds: dict[str, tuple[float, float]]) -> dict[str, float]:
+def start_of(
+    start: Mapping[str, float] | None, bounds: dict[str, tuple[float, float]], where: str = "calibrate"
+) -> dict[str, float]:
     """Where to begin: what is given, else the middle of the bounds or of their logarithms."""
     given = dict(start or {})
     for name in given:
         if name not in bounds:
-            raise ModelError(f"calibrate.start: {name}", "is no parameter", checks.nearest(name, bounds))
+            raise ModelError(f"{where}.start: {name}", "is no parameter", checks.nearest(name, bounds))
     made = {}
     for name, (low, high) in bounds.items():
         middle = float(np.sqrt(low * high)) if is_logarithmic(low, high) else 0.5 * (low + high)
-        made[name] = checks.between(given.get(name, middle), f"calibrate.start: {name}", low, high)
+        made[name] = checks.between(given.get(name, middle), f"{where}.start: {name}", low, high)
     return made
 
 

@@ -55,6 +55,12 @@ def _at(t: Any, x: Any, when: Any) -> Any:
     return np.stack([np.interp(when, t, column) for column in columns]).reshape(rows.shape[1:])
 
 
+def _smooth_maximum(x: Any, sharpness: Any) -> Any:
+    """log(mean(exp(k x)))/k: below the maximum, by log(n)/k at most."""
+    most = np.max(x, axis=0)
+    return most + np.log(np.mean(np.exp(sharpness * (x - most)), axis=0)) / sharpness
+
+
 #: Of a history to a number: the name, what it does, further arguments, whether it wants the times.
 REDUCTIONS: dict[str, tuple[Callable[..., Any], int, bool]] = {
     "max": (lambda x: np.max(x, axis=0), 0, False),
@@ -66,6 +72,7 @@ REDUCTIONS: dict[str, tuple[Callable[..., Any], int, bool]] = {
     "first": (lambda x: x[0], 0, False),
     "last": (lambda x: x[-1], 0, False),
     "percentile": (lambda x, p: np.percentile(x, p, axis=0), 1, False),
+    "smoothmax": (_smooth_maximum, 1, False),
     "integral": (_trapezoid, 0, True),
     "at": (_at, 1, True),
 }

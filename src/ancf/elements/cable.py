@@ -347,4 +347,5 @@ implements(
     slots=("base", "lane_base"),
     bind=bind,
     damped=lambda batch: bool(np.any(batch.groups[:, DAMPED])),
+    exact=lambda batch, moving: not (moving and np.any(batch.groups[:, DAMPED] & (AXIALLY | IN_BENDING))),
 )

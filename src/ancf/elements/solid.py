@@ -252,4 +252,5 @@ implements(
     role=Role.DISSIPATES,
     slots=("base", "lane_base"),
     damped=lambda batch: bool(np.any(batch.groups[:, 4:6])),
+    exact=lambda batch, moving: not (moving and np.any(batch.groups[:, 4])),
 )

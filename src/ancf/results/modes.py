@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from ..model.tables import Readable, Sheet
 from ..system.fields import Fields
 from .overview import line_of_modes, of_modes
 from .pictures import ModesPlotted
+from .sensitivities import sensitivity_of
 from .state import State
 
 
@@ -40,6 +42,7 @@ class Modes(ModesPlotted, Readable):
     frequencies: FloatArray
     shapes: FloatArray
     about: State
+    derivatives: dict[str, Any] = field(default_factory=dict, repr=False)  # by the name of a parameter
 
     def __repr__(self) -> str:
         return line_of_modes(self)
@@ -51,6 +54,21 @@ class Modes(ModesPlotted, Readable):
     def frequencies_hz(self) -> FloatArray:
         """Frequencies, Hz."""
         return self.frequencies / (2 * np.pi)
+
+    def sensitivity(self, name: str) -> Any:
+        """Derivatives by a parameter: ``frequencies``, ``frequencies_hz``, ``shapes``, ``position(point)``.
+
+        Parameters
+        ----------
+        name : str
+            One of ``modes(..., sensitivities=[...])``.
+
+        Raises
+        ------
+        ModelError
+            It was not asked for.
+        """
+        return sensitivity_of(self.derivatives, name)
 
     def position(self, point: Point | PointMass | RigidBody | str) -> FloatArray:
         """Displacement of a point in each mode, shape (count, 3), m for a modal mass of 1 kg."""

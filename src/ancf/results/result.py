@@ -29,6 +29,7 @@ from .overview import line_of_result, of_result
 from .pictures import Filmed
 from .read_store import ReadStore
 from .remembered import Remembered
+from .sensitivities import sensitivity_of
 from .sensors import Sensors
 from .state import Energy, State
 from .store import FileStore, MemoryStore
@@ -44,6 +45,7 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
         self._store, self._header, self._made_by = store, header, system
         self._recorded: Sensors | None = None
         self._moving: tuple[FloatArray, FloatArray] | None = None
+        self.derivatives: dict[str, Any] = {}  # by the name of a parameter
         if system is not None:
             self.model, self._slots, self._joints = system.model, system.slots, system.joints
             self._last = remembered.of_system(system)
@@ -215,7 +217,29 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
         """State at a stored time, from which a simulation can go on."""
         q, v = np.array(self.q[index]), np.array(self.v[index])  # copies: a state outlives its history
         known = self._known(range(len(self.t))[index])
-        return State(self._system, float(self.t[index]), q, v, self.stats, known)
+        made = State(self._system, float(self.t[index]), q, v, self.stats, known)
+        made.derivatives = {name: item.state(index) for name, item in self.derivatives.items()}
+        return made
+
+    def sensitivity(self, name: str) -> Any:
+        """Derivatives by a parameter of everything that the result answers, per unit of it.
+
+        Parameters
+        ----------
+        name : str
+            One of ``simulate(..., sensitivities=[...])``.
+
+        Returns
+        -------
+        Sensitivity
+            ``result.sensitivity("beam.EI").position(beam.end)``, (n_t, 3) in m per N m^2, and so on.
+
+        Raises
+        ------
+        ModelError
+            It was not asked for.
+        """
+        return sensitivity_of(self.derivatives, name)
 
     def save(self, path: str | Path) -> None:
         """Write the result to an HDF5 file; :func:`ancf.load` reads it.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,6 +24,7 @@ from .motions import Motions
 from .overview import line_of_state, of_state
 from .pictures import StatePlotted
 from .remembered import Remembered
+from .sensitivities import sensitivity_of
 
 
 @dataclass(frozen=True)
@@ -84,6 +86,7 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
     ) -> None:
         self.system, self.model, self.t = system, system.model, t
         self.known = Remembered() if known is None else known
+        self.derivatives: dict[str, Any] = {}  # by the name of a parameter, None: it does not depend on it
         self.stats = Stats() if stats is None else stats
         self._q, self._v = q, v
         self._moving: tuple[FloatArray, FloatArray] | None = None
@@ -147,6 +150,32 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
         It takes about as long as an iteration of the equilibrium, when it is asked for.
         """
         return accuracy.of_state(self)
+
+    def sensitivity(self, name: str) -> Any:
+        """Derivatives by a parameter of everything that the state answers, per unit of it.
+
+        Parameters
+        ----------
+        name : str
+            One that was asked for by ``sensitivities=`` of :func:`ancf.equilibrium` or :func:`ancf.simulate`.
+
+        Returns
+        -------
+        Sensitivity
+            ``state.sensitivity("rope.EA").position(point)`` and so on.
+
+        Raises
+        ------
+        ModelError
+            It was not asked for.
+        """
+        return sensitivity_of(self.derivatives, name)
+
+    def fixed(self, names: Sequence[str]) -> State:
+        """The same state as a start that does not depend on these parameters."""
+        other = State(self.system, self.t, self._q, self._v, self.stats, self.known)
+        other.derivatives = self.derivatives | dict.fromkeys(names)
+        return other
 
     def _in_motion(self) -> tuple[FloatArray, FloatArray]:
         if self._moving is None:

@@ -1,0 +1,145 @@
+"""``ancf.gradient``: the derivatives of one number of a simulation by any number of parameters."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..analysis import simulate
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model import checks
+from ..model.model import Model
+from ..preparation import method_of, prepared
+from ..results.state import State
+from ..sensitivity.adjoint import Adjoint, reversible
+from ..sensitivity.answers import Face
+from ..sensitivity.parameters import Parameter, parameters_of
+from ..system.sensors import listing
+from ..viz.pictures.questions import QUANTITIES, ask
+from .backwards import gradient_of
+from .cases import check_asked
+from .formulas import Formula, Vocabulary
+
+#: What an objective may name.
+OF_RUN = Vocabulary(("t",), tuple(QUANTITIES))
+WHERE = "gradient.objective"
+Key = tuple[str, str]
+
+
+def gradient(
+    model: Model,
+    objective: str,
+    parameters: Any,
+    *,
+    t_end: float,
+    step: float,
+    start: State | None = None,
+    integrator: Any = None,
+) -> tuple[float, dict[str, float]]:
+    """A number of a simulation and its exact derivatives by parameters of the model.
+
+    Models of undamped elements, springs and masses, with loads and supports as functions of time, have an
+    adjoint: the derivatives by all parameters together take about as much as a few runs, and memory that
+    does not grow with their number, nor much with that of the steps. Others, with joints or contacts or
+    damping of strains, take the sensitivities of :func:`ancf.simulate`, whose cost grows with the number of
+    parameters. The numbers are the same.
+
+    Parameters
+    ----------
+    model : Model
+    objective : str
+        Formula of the histories of the run, as of a study's outputs, that gives one number:
+        ``"integral(norm(velocity(beam.end))**2)"``, ``"last(position(beam.end)[2])"``,
+        ``"smoothmax(tension(rope.start), 0.1)"``.
+    parameters : sequence of str or mapping
+        As ``sensitivities`` of :func:`ancf.simulate`.
+    t_end, step, start, integrator
+        As of :func:`ancf.simulate`; a start has to know its own derivatives.
+
+    Returns
+    -------
+    value : float
+    slope : dict of str to float
+        Derivatives per unit of each parameter.
+
+    Raises
+    ------
+    ModelError
+        The formula, a parameter or a number is wrong.
+    SolveError
+        The run fails, or its derivative jumps, as where a sliding joint reaches the end of its carrier.
+    """
+    formula = Formula(checks.text(objective, WHERE), WHERE, OF_RUN)
+    check_asked(model, [formula])
+    wanted = parameters_of(model, parameters, "gradient.parameters")
+    made = prepared(
+        model,
+        method=method_of(integrator, "gradient"),
+        t_end=t_end,
+        step=step,
+        start=start,
+        output_step=None,
+        sensors=None,
+        energy=True,
+        where="gradient",
+    )
+    if not reversible(made.system):
+        settings = {"t_end": t_end, "step": step, "start": start, "integrator": integrator}
+        return _forward(model, formula, wanted, settings)
+    return _backward(made, formula, wanted, start)
+
+
+class Histories:
+    """Histories that are there already, as formulas ask for them."""
+
+    def __init__(self, t: FloatArray, found: dict[Key, FloatArray]) -> None:
+        self.t, self.found = t, found
+
+    def value(self, name: str) -> Any:
+        """The times."""
+        return self.t
+
+    def ask(self, quantity: str, item: str) -> Any:
+        """A history."""
+        return self.found[quantity, item]
+
+
+def slopes_of(formula: Formula, t: FloatArray, source: Any) -> tuple[float, dict[Key, FloatArray]]:
+    """Value of a formula and its derivatives by the histories that it asks a source for."""
+    found = {pair: np.asarray(ask(source, *pair)) for pair in dict.fromkeys(formula.asked)}
+    return gradient_of(formula, Histories(t, found))
+
+
+def _forward(
+    model: Model, formula: Formula, parameters: list[Parameter], settings: dict[str, Any]
+) -> tuple[float, dict[str, float]]:
+    result = simulate(model, sensitivities=parameters, **settings)
+    value, slopes = slopes_of(formula, np.asarray(result.t), result)
+    made = {}
+    for parameter in parameters:
+        own, total = result.sensitivity(parameter.name), 0.0
+        for pair, slope in slopes.items():
+            total += float(np.sum(slope * own.of(lambda face, pair=pair: ask(face, *pair))))
+        made[parameter.name] = total
+    return value, made
+
+
+def _backward(
+    made: Any, formula: Formula, parameters: list[Parameter], start: State | None
+) -> tuple[float, dict[str, float]]:
+    pairs = list(dict.fromkeys(formula.asked))
+    items = [made.system.model.sensor(item) for _, item in pairs]
+    unknowns = listing(made.system, items).index
+
+    def asked(face: Face) -> dict[Any, FloatArray]:
+        return {pair: np.asarray(ask(face, *pair)) for pair in pairs}
+
+    run = Adjoint(made, parameters, start, asked, unknowns, "gradient")
+    t, found = run.forwards()
+    value, slopes = gradient_of(formula, Histories(t, found))
+    total = run.backwards({pair: slopes[pair] for pair in pairs})
+    if not np.all(np.isfinite(total)):
+        raise ModelError(WHERE, f'"{formula.text}" has no finite derivative')
+    return value, {one.name: float(x) for one, x in zip(parameters, total, strict=True)}

@@ -1,0 +1,209 @@
+"""``ancf.minimise``: parameters with which a number of a simulation is least, by exact gradients."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import ModelError, SolveError
+from ..model import checks
+from ..model.model import Model
+from ..model.vary import varied
+from ..results.state import State
+from .calibration_data import bounds_of, start_of
+from .gradient import gradient
+
+WHERE = "minimise"
+
+
+@dataclass(frozen=True)
+class Optimum:
+    """What :func:`ancf.minimise` found.
+
+    Parameters
+    ----------
+    values : dict of str to float
+        Parameters.
+    objective : float
+        The number there.
+    slope : dict of str to float
+        Its derivatives there; at a bound they need not vanish.
+    constraints : dict of str to float
+        Numbers of the constraints there, by formula.
+    gradients : int
+        Runs with gradients that it took, of the objective and of each constraint.
+    converged : bool
+    message : str
+        Of the search.
+    """
+
+    values: dict[str, float]
+    objective: float
+    slope: dict[str, float]
+    constraints: dict[str, float]
+    gradients: int
+    converged: bool
+    message: str
+
+
+def minimise(
+    model: Model | Callable[..., Model],
+    objective: str,
+    parameters: Mapping[str, tuple[float, float]],
+    *,
+    t_end: float,
+    step: float,
+    start: Mapping[str, float] | None = None,
+    constraints: Mapping[str, tuple[float | None, float | None]] | None = None,
+    begin: Callable[..., State] | None = None,
+    integrator: Any = None,
+    most: int = 100,
+) -> Optimum:
+    """Find parameters within bounds with which a number of a simulation is least.
+
+    SciPy's SLSQP with the exact gradients of :func:`ancf.gradient`.
+
+    Parameters
+    ----------
+    model : Model or callable
+        With the parameters as names of its numbers, see :func:`ancf.model.vary.varied`; or
+        ``build(**parameters)`` returns the model.
+    objective : str
+        As of :func:`ancf.gradient`. What shall be greatest takes a minus sign.
+    parameters : mapping
+        Bounds (low, high) by name.
+    t_end, step, integrator
+        As of :func:`ancf.simulate`.
+    start : mapping, optional
+        Where to begin, default the middle of the bounds.
+    constraints : mapping, optional
+        Bounds (low, high) of other numbers by their formulas, None for none.
+    begin : function, optional
+        ``begin(model, sensitivities=...)`` is the state from which the run starts, such as
+        ``ancf.equilibrium``; default the initial shape.
+    most : int
+        Steps of the search at most.
+
+    Returns
+    -------
+    Optimum
+
+    Raises
+    ------
+    ModelError
+        What is given is wrong.
+    SolveError
+        A run failed.
+    """
+    from scipy import optimize
+
+    bounds = bounds_of(parameters, WHERE)
+    problem = _Problem(model, bounds, {"t_end": t_end, "step": step, "integrator": integrator}, begin)
+    limits = [] if constraints is None else [_limit(problem, *item) for item in constraints.items()]
+    search: Any = optimize.minimize
+    found = search(
+        lambda u: problem.at(objective, u),
+        problem.units(start_of(start, bounds, WHERE)),
+        jac=True,
+        method="SLSQP",
+        bounds=[(0.0, 1.0)] * len(bounds),
+        constraints=[one for pair in limits for one in pair],
+        options={"maxiter": checks.integer(most, f"{WHERE}.most", 1, 100_000), "ftol": 1e-12},
+    )
+    value, slope = problem.at(objective, found.x)
+    scale = problem.widths
+    return Optimum(
+        values=problem.values(found.x),
+        objective=float(value),
+        slope=dict(zip(bounds, (slope / scale).tolist(), strict=True)),
+        constraints={text: float(problem.at(text, found.x)[0]) for text in constraints or ()},
+        gradients=problem.gradients,
+        converged=bool(found.success),
+        message=str(found.message),
+    )
+
+
+class _Problem:
+    """Numbers of a run as functions of numbers from 0 to 1."""
+
+    def __init__(
+        self, model: Any, bounds: dict[str, tuple[float, float]], settings: dict[str, Any], begin: Any
+    ) -> None:
+        self.model, self.bounds, self.settings, self.begin = model, bounds, settings, begin
+        self.widths = np.array([high - low for low, high in bounds.values()])
+        self.gradients = 0
+        self._known: dict[tuple[str, bytes], tuple[float, FloatArray]] = {}
+        if not isinstance(model, Model) and not callable(model):
+            what = f"must be a Model or a function that builds one, is {checks.shown(model)}"
+            raise ModelError(f"{WHERE}.model", what)
+
+    def values(self, u: FloatArray) -> dict[str, float]:
+        """Parameters."""
+        pairs = zip(self.bounds.items(), u.tolist(), strict=True)
+        return {name: low + (high - low) * x for (name, (low, high)), x in pairs}
+
+    def units(self, values: Mapping[str, float]) -> FloatArray:
+        """Numbers from 0 to 1 of parameters."""
+        return np.array([(values[name] - low) / (high - low) for name, (low, high) in self.bounds.items()])
+
+    def at(self, text: str, u: FloatArray) -> tuple[float, FloatArray]:
+        """A number and its derivatives by u; each is computed once."""
+        key = text, np.asarray(u).tobytes()
+        if key not in self._known:
+            values = self.values(np.clip(u, 0.0, 1.0))
+            model, parameters = self._model(values), self._parameters(values)
+            self.gradients += 1
+            first = None if self.begin is None else self.begin(model, sensitivities=parameters)
+            try:
+                value, slope = gradient(model, text, parameters, start=first, **self.settings)
+            except SolveError as error:
+                error.advise("with " + ", ".join(f"{name} = {x:.6g}" for name, x in values.items()))
+                raise
+            self._known[key] = value, np.array([slope[name] for name in self.bounds]) * self.widths
+        return self._known[key]
+
+    def _model(self, values: Mapping[str, float]) -> Model:
+        if isinstance(self.model, Model):
+            made = self.model
+            for name, x in values.items():
+                made = varied(made, name, x)
+            return made
+        return _built(self.model, values)
+
+    def _parameters(self, values: dict[str, float]) -> Any:
+        if isinstance(self.model, Model):
+            return list(values)
+        return {name: (x, self._along(name, values)) for name, x in values.items()}
+
+    def _along(self, name: str, values: dict[str, float]) -> Callable[[float], Model]:
+        return lambda x: _built(self.model, values | {name: x})
+
+
+def _built(build: Callable[..., Any], values: Mapping[str, float]) -> Model:
+    made = build(**values)
+    if not isinstance(made, Model):
+        raise ModelError(f"{WHERE}.model", f"must return a Model, returned {checks.shown(made)}")
+    return made
+
+
+def _limit(problem: _Problem, text: str, given: Any) -> Sequence[dict[str, Any]]:
+    """What SLSQP wants of a number between two bounds: functions that are not negative."""
+    where = f'{WHERE}.constraints["{text}"]'
+    if not isinstance(given, tuple | list) or len(given) != 2:
+        raise ModelError(where, f"must be a pair (low, high), is {checks.shown(given)}")
+    low, high = (None if x is None else checks.number(x, where) for x in given)
+    made = []
+    for bound, sign in ((low, 1.0), (high, -1.0)):
+        if bound is not None:
+            made.append(
+                {
+                    "type": "ineq",
+                    "fun": lambda u, b=bound, s=sign: s * (problem.at(text, u)[0] - b),
+                    "jac": lambda u, s=sign: s * problem.at(text, u)[1],
+                }
+            )
+    return made

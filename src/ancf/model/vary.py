@@ -1,0 +1,379 @@
+"""Numbers of a model by name, such as ``beam.EI``, and the model with other values."""
+
+from __future__ import annotations
+
+import re
+from copy import deepcopy
+from dataclasses import fields, is_dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import ModelError
+from . import checks
+from .beam import Beam
+from .bodies import Body, PointMass
+from .describe import section as described
+from .describe import section_of
+from .functions import TimeFunction
+from .inputs import make_input
+from .joints import Slide
+from .kinds import GROUPS, SURROUNDINGS
+from .loads import DistributedLoad
+from .points import Point
+from .section import DAMPINGS, Section
+
+if TYPE_CHECKING:
+    from .model import Model
+
+KEY = re.compile(r"(?P<key>[A-Za-z_]\w*)(?:\[(?P<part>\d)\])?")
+#: Stiffnesses and mass of a section, and what it has of a material and a shape.
+DIRECT = ("EA", "EI", "rhoA", *DAMPINGS)
+MATERIAL = ("E", "nu", "rho", "width", "height", "diameter", "J", "A", "I_y", "I_z")
+OF_SHAPE = {
+    "rectangle": ("E", "nu", "rho", "width", "height", "J"),
+    "circle": ("E", "nu", "rho", "diameter", "J"),
+    "moments": ("E", "nu", "rho", "A", "I_y", "I_z", "J"),
+}
+PAIRS = ("shear_factors", "drag", "added_mass")
+OF_BEAM = ("length", "start", "end", "velocity", "angular_velocity", "about")
+#: Directions, which are no numbers, and what chooses a way.
+NO_NUMBERS = ("axis", "release", "unilateral", "normal", "strip", "direction", "tolerance")
+#: Other names of fields of bodies.
+CALLED = {"at": "position"}
+
+
+def value_of(model: Model, name: str) -> float:
+    """Number of a model by its name; of a vector or a function as a whole, which varies by a factor, 1.
+
+    Raises
+    ------
+    ModelError
+        The model has no such number.
+    """
+    return _resolve(model, name)[0]
+
+
+def varied(model: Model, name: str, value: float) -> Model:
+    """A model in which one number is another one, all others as they are.
+
+    Parameters
+    ----------
+    model : Model
+        It is left as it is.
+    name : str
+        ``gravity``, ``gravity[2]``, the name of an input, or NAME.KEY, with [k] for a component, of
+
+        - a cable or beam: EA, EI, rhoA and dampings of its section, of one of a material E, nu, rho,
+          width, height, diameter, J, ...; ``length``, the natural one; ``start[k]``, ``end[k]`` if straight;
+        - another body: ``mass``, ``inertia``, ``at[k]``, ``volume``, ``drag_area``, ``added_mass``;
+        - any of them: ``velocity[k]``, ``angular_velocity[k]``;
+        - a support, load, connection or surrounding: its numbers, by the keys of its method.
+
+        Vectors, matrices and functions of time without [k] vary as a whole, by a factor that is 1.
+
+    Raises
+    ------
+    ModelError
+        The model has no such number, or it cannot have this value.
+    """
+    made: Model = _resolve(model, name)[1](checks.number(value, name))
+    return made
+
+
+def names_of(model: Model) -> list[str]:
+    """Names of all numbers that are there to be varied; of vectors the components."""
+    found = ["gravity", "gravity[0]", "gravity[1]", "gravity[2]"]
+    for item in (*model.bodies.values(), *_items(model)):
+        for key in _keys(item):
+            for part in ("", "[0]", "[1]", "[2]"):
+                name = f"{item.name}.{key}{part}"
+                try:
+                    value_of(model, name)
+                except ModelError:
+                    continue
+                found.append(name)
+    return found + list(model.inputs)
+
+
+def _resolve(model: Model, name: Any) -> tuple[float, Any]:
+    """The number now, and a function from another one to the model."""
+    name = checks.text(name, "a parameter's name")
+    if name.startswith("gravity"):
+        found = KEY.fullmatch(name)
+        if found is not None and found["key"] == "gravity":
+            return _of_vector(name, model.gravity, found["part"], lambda g: _with(model, gravity=g))
+    if name in model.inputs:
+        item = model.inputs[name]
+        return float(item.value), lambda x: _with(
+            model, inputs=model.inputs | {name: make_input(name, name, x, {})}
+        )
+    owner, dot, key = name.rpartition(".")
+    found = KEY.fullmatch(key)
+    if not dot or found is None:
+        hint = "such as beam.EI, gravity, end force.force[2]"
+        raise ModelError(name or '""', "is no number of the model", hint)
+    if owner in model.bodies:
+        return _of_body(model, model.bodies[owner], name, found["key"], found["part"])
+    for item in _items(model):
+        if item.name == owner:
+            return _of_item(model, item, name, found["key"], found["part"])
+    known = [*model.bodies, *(item.name for item in _items(model))]
+    raise ModelError(name, f'the model has no "{owner}"', checks.nearest(owner, known))
+
+
+def _items(model: Model) -> list[Any]:
+    return [item for key in (*GROUPS, *SURROUNDINGS) for item in getattr(model, key)]
+
+
+def _keys(item: Any) -> list[str]:
+    if isinstance(item, Beam):
+        return [*DIRECT, *MATERIAL, *PAIRS, *OF_BEAM]
+    if not is_dataclass(item):
+        return []
+    back = {field: key for key, field in CALLED.items()}
+    names = [back.get(field.name, field.name) for field in fields(item)]
+    return [name for name in names if name not in ("name", *NO_NUMBERS)]
+
+
+def _with(model: Model, **values: Any) -> Model:
+    other = model.snapshot()
+    for key, value in values.items():
+        setattr(other, key, value)
+    return other
+
+
+def _of_vector(name: str, given: Any, part: str | None, use: Any) -> tuple[float, Any]:
+    """A component, or all of an array by a factor."""
+    vector = np.asarray(given, dtype=np.float64)
+    if part is None:
+        return 1.0, lambda x: use(x * vector)
+    if vector.ndim != 1 or int(part) >= len(vector):
+        raise ModelError(name, f"there is no component [{part}]")
+
+    def changed(x: float) -> Any:
+        made = vector.copy()
+        made[int(part)] = x
+        return use(made)
+
+    return float(vector[int(part)]), changed
+
+
+def _of_body(model: Model, body: Body, name: str, key: str, part: str | None) -> tuple[float, Any]:
+    def use(**values: Any) -> Model:
+        return _exchanged(model, body, replace(body, **values))
+
+    if isinstance(body, Beam):
+        if body.has_section and key in ("EA", "EI", "rhoA"):
+            raise ModelError(name, "follows from material and shape here", "E, rho, width, height, ...")
+        if key in (*DIRECT, *MATERIAL, *PAIRS):
+            now, made = _of_section(body.section, name, key, part)
+            return now, lambda x: use(section=made(x))
+        if key == "length" and part is None:
+            return body.length, lambda x: _of_length(model, body, checks.positive(x, name))
+        if key in ("start", "end"):
+            return _of_end(model, body, name, key, part)
+        if key not in OF_BEAM:
+            raise _no_key(body, name, key)
+    field = CALLED.get(key, key)
+    value = getattr(body, field, None)
+    if isinstance(value, np.ndarray) and field in ("position", "inertia", "velocity", "angular_velocity"):
+        if field == "position":
+            return _of_vector(name, value, part, lambda r: _moved(model, body, r))
+        return _of_vector(name, value, part, lambda x: use(**{field: x}))
+    if isinstance(value, float) and part is None:
+        checked = checks.positive if field == "mass" else checks.non_negative
+        return value, lambda x: use(**{field: checked(x, name)})
+    raise _no_key(body, name, key)
+
+
+def _no_key(item: Any, name: str, key: str) -> ModelError:
+    what = f'"{item.name}" has no number "{key}"'
+    return ModelError(name, what, checks.nearest(key, _keys(item)) or f"it has: {', '.join(_keys(item))}")
+
+
+def _moved(model: Model, body: Any, position: Any) -> Model:
+    """A body without elements at another place; it turns about the same place of it."""
+    if isinstance(body, PointMass):
+        return _exchanged(model, body, replace(body, position=position))
+    about = body.about + (position - body.position)
+    return _exchanged(model, body, replace(body, position=position, about=about))
+
+
+def _of_section(section: Section, name: str, key: str, part: str | None) -> tuple[float, Any]:
+    plain = described(section)
+    if key in PAIRS:
+        if getattr(section, key) is None:
+            raise ModelError(name, "the section has none")
+        now, made = _of_vector(name, getattr(section, key), part or "0", list)
+        if part is None:
+            raise ModelError(name, "has two values", f"{name}[0], {name}[1]")
+        return now, lambda x: section_of(plain | {key: made(x)})
+    if part is not None:
+        raise ModelError(name, "is one number, it has no components")
+    if key in DIRECT:
+        now = section.EI_y if key == "EI" else getattr(section, key)
+        if key in DAMPINGS:
+            return now, lambda x: section_of(plain | {key: x})
+        return now, lambda x: _direct(section, name, key, x)
+    has = OF_SHAPE[plain.get("shape", "")] if section.E is not None else ()
+    if key not in has:
+        if key == "diameter" and section.diameter is not None:
+            return section.diameter, lambda x: section_of(plain | {key: x})
+        raise ModelError(name, "the section has none", "EA, EI and rhoA are there in every section")
+    return float(plain[key]), lambda x: section_of(_reshaped(section, plain, key, x))
+
+
+def _reshaped(section: Section, plain: dict[str, Any], key: str, x: float) -> dict[str, Any]:
+    """Description of a section with another number; Saint-Venant's torsion constant follows the shape."""
+    given = plain | {key: x}
+    sizes = [name for name in ("width", "height", "diameter") if name in OF_SHAPE[plain["shape"]]]
+    if key in sizes:
+        made = Section.rectangle if plain["shape"] == "rectangle" else Section.circle
+        own, new = (made(**{name: d[name] for name in sizes}, E=1.0, rho=1.0).J for d in (plain, given))
+        if own is not None and np.isclose(own, plain["J"], rtol=1e-12):
+            given["J"] = new
+    return given
+
+
+def _direct(section: Section, name: str, key: str, x: float) -> Section:
+    """A section whose EA, EI or rhoA is another one, whatever its material says."""
+    checked = checks.non_negative(x, name) if key == "EI" else checks.positive(x, name)
+    made: Section = object.__new__(Section)
+    for field in Section.__slots__:
+        object.__setattr__(made, field, getattr(section, field))
+    for field in ("EI_y", "EI_z") if key == "EI" else (key,):
+        object.__setattr__(made, field, checked)
+    return made
+
+
+def _of_length(model: Model, beam: Beam, length: float) -> Model:
+    """A beam of another natural length in the same initial shape; its points stay at their share of it."""
+    factor = length / beam.length
+    node_x = beam.node_x * factor
+    node_x[-1] = length
+    made = replace(beam, length=length, stretch=beam.stretch / factor, node_x=node_x)
+    return _exchanged(model, beam, made, factor)
+
+
+def _of_end(model: Model, beam: Beam, name: str, key: str, part: str | None) -> tuple[float, Any]:
+    """One end of a straight beam, the other one and the natural length stay."""
+    ends = {"start": beam.node_position[0].copy(), "end": beam.node_position[-1].copy()}
+    if np.max(np.linalg.norm(np.cross(beam.node_tangent, ends["end"] - ends["start"]), axis=1)) > 1e-9 * (
+        beam.length * beam.stretch
+    ):
+        raise ModelError(name, "is an end of a curve", "a function that builds the model, or a model file")
+
+    def use(place: Any) -> Model:
+        both = ends | {key: np.asarray(place)}
+        way = both["end"] - both["start"]
+        distance = float(np.linalg.norm(way))
+        tangent = way / distance
+        y = beam.node_y[0] - (beam.node_y[0] @ tangent) * tangent
+        made = replace(
+            beam,
+            stretch=distance / beam.length,
+            node_position=both["start"] + np.outer(beam.node_x / beam.length, way),
+            node_tangent=np.tile(tangent, (beam.node_x.size, 1)),
+            node_y=np.tile(y / np.linalg.norm(y), (beam.node_x.size, 1)),
+            about=both["start"] if np.array_equal(beam.about, ends["start"]) else beam.about,
+            lay=None,
+        )
+        return _exchanged(model, beam, made)
+
+    if part is None:
+        raise ModelError(name, "has three components", f"{name}[0], {name}[1], {name}[2]")
+    return _of_vector(name, ends[key], part, use)
+
+
+def _of_item(model: Model, item: Any, name: str, key: str, part: str | None) -> tuple[float, Any]:
+    if key not in _keys(item):
+        raise _no_key(item, name, key)
+    value = getattr(item, key)
+
+    def use(changed: Any) -> Model:
+        return _exchanged(model, item, replace(item, **{key: changed}))
+
+    if isinstance(value, float) and part is None:
+        return value, use
+    if isinstance(value, np.ndarray):
+        return _of_vector(name, value, part, use)
+    if isinstance(value, tuple) and part is not None and all(isinstance(x, float) for x in value):
+        return _of_vector(name, value, part, lambda x: use(tuple(x.tolist())))
+    if isinstance(value, TimeFunction):
+        return _of_function(value, name, part, use)
+    raise ModelError(name, f"is no number: {checks.shown(value)}", "a model file with [parameters]")
+
+
+def _of_function(given: TimeFunction, name: str, part: str | None, use: Any) -> tuple[float, Any]:
+    """A constant, or all of a function of time by a factor."""
+    if given.inputs:
+        raise ModelError(name, "depends on inputs", "vary the input")
+    if given.constant:
+        now = given(0.0)
+        if given.size == 1 and part is None:
+            return float(now[0]), lambda x: use(TimeFunction(x, 1, given.where))
+        return _of_vector(name, now, part, lambda x: use(TimeFunction(x, given.size, given.where)))
+    if part is not None:
+        raise ModelError(
+            name, "is a component of a function of time", f"{name[:-3]} is a factor of all of it"
+        )
+    return 1.0, lambda x: use(_Scaled.of(given, x))
+
+
+class _Scaled:
+    """A function of time times a number; a class, to be pickled."""
+
+    def __init__(self, given: TimeFunction, factor: float) -> None:
+        self.given, self.factor = given, factor
+
+    def __call__(self, t: float) -> Any:
+        value = self.factor * self.given(t)
+        return float(value[0]) if self.given.size == 1 else value
+
+    @classmethod
+    def of(cls, given: TimeFunction, factor: float) -> TimeFunction:
+        """As a function of time."""
+        return TimeFunction(cls(given, factor), given.size, given.where)
+
+
+def _exchanged(model: Model, old: Any, new: Any, factor: float = 1.0) -> Model:
+    """A copy of a model with one body or item for another; places on a body of another length move along."""
+    memo: dict[int, Any] = {id(old): new}
+    for item in (*model.bodies.values(), *_items(model)):
+        if item is not old and not is_dataclass(item):
+            memo[id(item)] = item
+        for value in _values(item):
+            if isinstance(value, Point):
+                if value.body is old:
+                    memo[id(value)] = _carried(value, new, factor)
+            elif not isinstance(value, tuple) and not is_dataclass(value):
+                memo[id(value)] = value
+    made = deepcopy(model, memo)
+    if isinstance(old, Beam) and factor != 1.0:
+        for key in GROUPS:
+            setattr(made, key, [_stretched(item, new, factor) for item in getattr(made, key)])
+    return made
+
+
+def _values(item: Any) -> list[Any]:
+    return [getattr(item, field.name) for field in fields(item)] if is_dataclass(item) else []
+
+
+def _carried(point: Point, body: Any, factor: float) -> Point:
+    if not isinstance(body, Beam) or factor == 1.0:
+        return replace(point, body=body)
+    if point.label.endswith(".end"):
+        return body.end
+    x = point.x * factor
+    label = point.label if point.label.endswith(".start") else body.at(x, point.y, point.z).label
+    return replace(point, body=body, x=x, label=label)
+
+
+def _stretched(item: Any, beam: Beam, factor: float) -> Any:
+    if isinstance(item, DistributedLoad) and item.body is beam:
+        x0, x1 = item.between
+        return replace(item, between=(x0 * factor, min(x1 * factor, beam.length)))
+    if isinstance(item, Slide) and item.carrier is beam:
+        return replace(item, s=item.s * factor)
+    return item

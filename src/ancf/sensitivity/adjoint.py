@@ -1,0 +1,243 @@
+"""The adjoint of a simulation: one number's derivatives by any number of parameters, in bounded memory.
+
+A first pass takes the steps and leaves a snapshot at the beginning of each block of them.  The second goes
+through the blocks from the last to the first: their states come back by taking their steps again, to the last
+bit, and the adjoint goes back through them (:mod:`ancf.solvers.adjoint`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import SolveError
+from ..preparation import Prepared
+from ..results.state import State
+from ..solvers.adjoint import back_steps
+from ..solvers.checkpoint import Snapshot
+from ..solvers.record import Stats
+from ..solvers.sensitivity import Way
+from ..solvers.status import OK
+from ..system.system import System
+from .answers import Face
+from .base import check_differentiable, matrices_of
+from .family import Family
+from .follow import Trail, check_method, given_start, refuse_breaks, when_cut
+from .parameters import Parameter
+from .start import Start, at_level
+
+#: Bytes of states up to which all are kept and no step is taken again, and those of a block.
+KEPT, BLOCK = 64e6, 16e6
+#: Change of an unknown, in its own size, of the differences of what is asked.
+MOVED = 1e-4
+PLACES = ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12))
+
+#: ``asked(face)``: the histories on which the number depends, by key, of states (n, size).
+Asked = Callable[[Face], dict[Any, FloatArray]]
+
+
+class Collector:
+    """Recorder that keeps what a block leaves."""
+
+    def __init__(self) -> None:
+        self.q: list[FloatArray] = []
+        self.v: list[FloatArray] = []
+        self.t: list[FloatArray] = []
+
+    def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
+        """States."""
+        self.t.append(t)
+        self.q.append(q)
+        self.v.append(v)
+
+    def record(self, t: FloatArray, samples: FloatArray) -> None:
+        """Nothing."""
+
+    def update(self, stats: Stats, status: str) -> None:
+        """Nothing."""
+
+    def due(self) -> bool:
+        """Never."""
+        return False
+
+    def keep(self, snapshot: Snapshot) -> None:
+        """Nothing."""
+
+    def taken(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Times and states since the last time."""
+        made = tuple(np.concatenate(parts) for parts in (self.t, self.q, self.v))
+        self.t, self.q, self.v = [], [], []
+        return made  # type: ignore[return-value]
+
+
+@dataclass
+class Block:
+    """Steps ``done + 1`` to ``done + count`` of one length h, and where they begin."""
+
+    done: int
+    count: int
+    h: float
+    snapshot: Snapshot | None
+    way: Way | None
+
+
+class Adjoint:
+    """A simulation that is gone through forwards and backwards.
+
+    Parameters
+    ----------
+    made : Prepared
+        At its start, every step stored.
+    parameters : list of Parameter
+    start : State or None
+    asked : function
+        What the number depends on, see ``Asked``.
+    unknowns : (k,) array
+        Entries of the state vectors on which that depends.
+    """
+
+    def __init__(
+        self,
+        made: Prepared,
+        parameters: list[Parameter],
+        start: State | None,
+        asked: Asked,
+        unknowns: Any,
+        where: str,
+    ) -> None:
+        check_method(made, where)
+        self.run: Any = made.run
+        self.system = System(made.system.model)
+        check_differentiable(self.system, where)
+        self.families = [Family(parameter, self.system) for parameter in parameters]
+        self.m = matrices_of(self.system.core, self.system.size, moving=True)
+        self.given = given_start(self.families, self.run.t_start, self.system, start, where)
+        self.asked, self.unknowns = asked, np.asarray(unknowns)
+        self.blocks: list[Block] = []
+        refuse_breaks(self.run)
+
+    def forwards(self) -> tuple[FloatArray, dict[Any, FloatArray]]:
+        """Take all steps; times and histories of what is asked."""
+        run, store, size = self.run, Collector(), self.system.size
+        run.begin(store)
+        t, q, v = store.taken()
+        self.first = q[0].copy(), v[0].copy(), run.memory.a.copy()
+        times, found = [t], [self._asked(q, v)]
+        keep = 24.0 * size * run.steps <= KEPT
+        most = max(1, min(int(BLOCK / (8 * size * (6 * len(self.families) + 12))), run.steps))
+        if not keep:
+            most = min(most, max(16, int(np.sqrt(run.steps))))
+        while run.done < run.steps:
+            h = run.h if run.done < run.full else run.rest
+            count = min(most, (run.full if run.done < run.full else run.steps) - run.done)
+            block = Block(run.done, count, h, None if keep else run.snapshot(), None)
+            trail = Trail(run)
+            self._take(count, store)
+            t, q, v = store.taken()
+            if keep:
+                block.way = Way(q, v, trail.accelerations(v, h, last=True))
+            times.append(t)
+            found.append(self._asked(q, v))
+            self.blocks.append(block)
+        self.t = np.concatenate(times)
+        return self.t, {key: np.concatenate([one[key] for one in found]) for key in found[0]}
+
+    def backwards(self, slopes: dict[Any, FloatArray]) -> FloatArray:
+        """Derivatives of the number by the parameters, (p,), from those by the histories."""
+        run, system = self.run, self.system
+        total, mu = np.zeros(len(self.families)), np.zeros((4, system.size))
+        for block in reversed(self.blocks):
+            rows = slice(block.done + 1, block.done + block.count + 1)
+            own = {key: slope[rows] for key, slope in slopes.items()}
+            way = self._way(block)
+            wanted = self._wanted(way.q, way.v, own)
+            when = run.time(block.done), block.h, run.t_start, run.t_end
+            pushes = [
+                family.at_steps(way.q.copy(), way.v.copy(), way.a.copy(), when, gaps=False)
+                for family in self.families
+            ]
+            lam = np.zeros_like(way.q)
+            tables = system.inputs.tables(*when[:2], block.count, *when[2:])
+            states = Way(*(x.copy() for x in way))
+            scheme = run.scheme
+            _, status = back_steps(system.core, self.m, tables, states, wanted, block.h, scheme, mu, lam)
+            if status != OK:
+                raise SolveError("gradient", "the equations of the adjoint cannot be solved", "smaller steps")
+            for k, push in enumerate(pushes):
+                total[k] -= np.sum(lam * push.push)
+                total[k] += np.sum(np.moveaxis(push.held[:2], 0, 1) * wanted)
+            total += self._explicit(way.q, way.v, own)
+            block.way = None
+        return total + self._of_start({key: slope[:1] for key, slope in slopes.items()}, mu)
+
+    def _of_start(self, slopes: dict[Any, FloatArray], mu: FloatArray) -> FloatArray:
+        run, system = self.run, self.system
+        q, v, _ = self.first
+        wanted = self._wanted(q[None].copy(), v[None].copy(), slopes)[0]
+        when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
+        begin, total = Start(system, self.m, *self.first, when), np.zeros(len(self.families))
+        for k, (family, given) in enumerate(zip(self.families, self.given, strict=True)):
+            s = begin.sensitivity(*given, *at_level(system, self.families, k, self.first, when))
+            q1, v1, a1 = (x[None].copy() for x in self.first)
+            held = family.at_steps(q1, v1, a1, when, gaps=False).held
+            total[k] = np.sum(mu * s) + np.sum(wanted * (s[:2] + held[:2, 0]))
+        return total + self._explicit(q[None], v[None], slopes)
+
+    def _take(self, count: int, store: Collector) -> None:
+        run = self.run
+        end = run.done + count
+        while run.done < end:
+            run.take(min(end - run.done, run.look - run.done, run.span.room(run.done)), store)
+        when_cut(run, run.done)
+
+    def _way(self, block: Block) -> Way:
+        """The states of a block, taken again if they were not kept."""
+        if block.way is not None:
+            return block.way
+        assert block.snapshot is not None
+        run, store = self.run, Collector()
+        run.put_back(block.snapshot)
+        trail = Trail(run)
+        self._take(block.count, store)
+        _, q, v = store.taken()
+        return Way(q, v, trail.accelerations(v, block.h, last=True))
+
+    def _asked(self, q: FloatArray, v: FloatArray) -> dict[Any, FloatArray]:
+        return self.asked(Face(self.system, q, v, 0.0))
+
+    def _explicit(self, q: FloatArray, v: FloatArray, slopes: dict[Any, FloatArray]) -> FloatArray:
+        """What parameters do to the answers of fixed states."""
+        total, here = np.zeros(len(self.families)), self._asked(q, v)
+        for k, family in enumerate(self.families):
+            for system, weight in zip(family.systems, family.weights, strict=True):
+                found = self.asked(Face(system, q, v, 0.0))
+                changes = (np.sum(slope * (found[key] - here[key])) for key, slope in slopes.items())
+                total[k] += weight * float(sum(changes))
+        return total
+
+    def _wanted(self, q: FloatArray, v: FloatArray, slopes: dict[Any, FloatArray]) -> FloatArray:
+        """Derivatives of the number by the states (n, size), (n, 2, size), from those by the answers."""
+        made = np.zeros((len(q), 2, q.shape[1]))
+        weight = np.ones(q.shape[1])
+        weight[: self.system.n] = self.system.core.weight
+        for k, x in enumerate((q, v)):
+            for i in self.unknowns.tolist():
+                e, before = MOVED / (weight[i] if weight[i] > 0.0 else 1.0), x[:, i].copy()
+                for place, w in PLACES:
+                    x[:, i] = before + place * e
+                    found = self._asked(q, v)
+                    for key, slope in slopes.items():
+                        change = (w / e * slope * found[key]).reshape(len(q), -1)
+                        made[:, k, i] += change.sum(axis=1)
+                x[:, i] = before
+        return made
+
+
+def reversible(system: System) -> bool:
+    """Whether a model has an adjoint: its matrices are all exact, and no joint has multipliers."""
+    m = matrices_of(system.core, system.size, moving=True)
+    return not len(m.rough) and not len(m.lossy) and not len(system.multipliers)

@@ -1,0 +1,163 @@
+"""Sensitivity: the derivatives of everything that a state or a result answers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model.describe import point as point_text
+from ..model.points import Point
+from ..results.momenta import Momenta
+from ..results.state import Energy
+from ..system.contact_fields import ContactFields
+from ..system.energy import energies
+from ..system.reactions import reaction, support_name
+from ..system.spring_fields import SpringFields, springs_of
+from ..system.system import System
+from .family import Family
+
+#: Change of a state, in sizes of the model, of the differences of an answer, and of velocities per second.
+MOVED = 1e-4
+#: Questions that are linear in the state.
+LINEAR = ("position", "velocity", "slope", "multiplier", "arc_rate")
+PLACES = ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12))
+
+
+class Face(SpringFields, ContactFields, Momenta):
+    """What can be asked of state vectors of a system, one (size,) or a history (n, size)."""
+
+    def __init__(self, system: System, q: FloatArray, v: FloatArray, t: float) -> None:
+        self.system, self.model, self.t = system, system.model, t
+        self._q, self._v = q, v
+        self._bodies, self._slots = self.model.bodies, system.slots
+        self._joints, self._arcs = system.joints, system.numbering.arcs
+        self._springs = springs_of(self.model.connections)
+
+    def _contact_system(self) -> System:
+        return self.system
+
+    def reaction(self, support: Any) -> FloatArray:
+        """See :meth:`ancf.State.reaction`; of states at rest alone."""
+        name = support_name(self.system, support)
+        force = reaction(self.system, self.q, self.v, self.t, name, True) if self.q.ndim == 1 else None
+        if force is None:
+            what = "derivatives of reactions are known of equilibria only"
+            raise ModelError("sensitivity.reaction", what, "ask the state of ancf.equilibrium")
+        return force
+
+    def energies(self) -> FloatArray:
+        """Kinetic, strain and potential energy, (..., 3), J."""
+        found = energies(self.system, np.atleast_2d(self.q), np.atleast_2d(self.v))
+        return found if self.q.ndim > 1 else found[0]
+
+
+class Sensitivity:
+    """Derivatives by one parameter, per unit of it; it answers what a state or a result answers.
+
+    ``sensitivity.position(point)`` is the derivative of ``result.position(point)``, with the same shape, and
+    so are velocity, tension, strain, curvature, spring_force, energy, ...: of the numbers that were computed,
+    not of what they approximate.
+
+    Parameters
+    ----------
+    family : Family
+    t : ndarray (n,) or float
+        Times, s.
+    q, v : ndarray (n, size) or (size,)
+        States.
+    dq, dv : ndarray
+        Their derivatives.
+    """
+
+    def __init__(
+        self, family: Family, t: Any, q: FloatArray, v: FloatArray, dq: FloatArray, dv: FloatArray
+    ) -> None:
+        self._family, self.t = family, t
+        self._q, self._v, self.dq, self.dv = q, v, dq, dv
+
+    def __repr__(self) -> str:
+        count = f", {len(self.dq)} times" if self.dq.ndim > 1 else ""
+        return f"Sensitivity({self.name!r}{count})"
+
+    def __getattr__(self, name: str) -> Callable[..., FloatArray]:
+        if name.startswith("_") or not callable(getattr(Face, name, None)):
+            raise AttributeError(f"a sensitivity has no {name!r}", name=name, obj=self)
+
+        def answer(*items: Any) -> FloatArray:
+            return self._of(lambda face: getattr(face, name)(*map(text_of, items)), name in LINEAR)
+
+        return answer
+
+    @property
+    def name(self) -> str:
+        """Of the parameter."""
+        return self._family.name
+
+    @property
+    def value(self) -> float:
+        """Of the parameter."""
+        return self._family.parameter.value
+
+    @property
+    def momentum(self) -> FloatArray:
+        """Derivative of the momentum of all bodies, kg m/s per unit."""
+        return self.of(lambda face: face.momentum)
+
+    @property
+    def energy(self) -> Energy:
+        """Derivatives of kinetic, strain and potential energy, J per unit; work is not known and zero."""
+        kinetic, strain, potential = np.moveaxis(self.of(lambda face: face.energies()), -1, 0)
+        none = np.zeros_like(kinetic)
+        return Energy(kinetic, strain, potential, none, none)
+
+    def state(self, index: int = -1) -> Sensitivity:
+        """Of the state at a stored time of a history."""
+        rows = (x[index] for x in (self._q, self._v, self.dq, self.dv))
+        return Sensitivity(self._family, float(self.t[index]), *rows)
+
+    def of(self, question: Callable[[Face], Any]) -> FloatArray:
+        """Derivative of a question, a function of what answers as a state or a result does.
+
+        Raises
+        ------
+        ModelError
+            What the question itself raises.
+        """
+        return self._of(question, False)
+
+    def _of(self, question: Callable[[Face], Any], linear: bool) -> FloatArray:
+        family, t = self._family, np.ravel(self.t)[-1]
+        here = np.asarray(question(Face(family.base, self._q, self._v, t)), dtype=np.float64)
+        total: Any = np.zeros_like(here)
+        for system, weight in zip(family.systems, family.weights, strict=True):
+            total = total + weight * (np.asarray(question(Face(system, self._q, self._v, t))) - here)
+        if linear:
+            return np.asarray(total + question(Face(family.base, self.dq, self.dv, t)))
+        for e, dq, dv in self._moves():
+            for x, w in PLACES:
+                near = Face(family.base, self._q + x * e * dq, self._v + x * e * dv, t)
+                total = total + w / e * np.asarray(question(near))
+        found: FloatArray = np.asarray(total)
+        return found
+
+    def _moves(self) -> list[tuple[float, FloatArray, FloatArray]]:
+        """Sizes and directions of the changes of the state."""
+        n, weight = self._family.base.n, self._family.base.core.weight
+        found = []
+        for dq, dv, x in ((self.dq, 0 * self.dv, self.dq), (0 * self.dq, self.dv, self.dv)):
+            most = float(np.max(np.abs(x[..., :n]) * weight, initial=0.0))
+            most = most if most > 0.0 else float(np.max(np.abs(x), initial=0.0))
+            if most > 0.0:
+                found.append((MOVED / most, dq, dv))
+        return found
+
+
+def text_of(item: Any) -> Any:
+    """A point or an item by its name: it is asked of several models."""
+    if isinstance(item, Point):
+        return point_text(item)
+    return getattr(item, "name", item)

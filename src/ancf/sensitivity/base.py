@@ -1,0 +1,48 @@
+"""The model itself, compiled for sensitivities: its matrices, and what refuses to be differentiated."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..batches import Batches
+from ..compiled import traits
+from ..errors import ModelError
+from ..solvers.directions import exact_masses
+from ..solvers.sensitivity import Matrices
+from ..system.core import Core
+from ..system.system import System
+
+
+def matrices_of(core: Core, size: int, moving: bool) -> Matrices:
+    """Room for the matrices of sensitivities, the masses of exact batches filled in."""
+    batches = [batch for batch in core.batches if len(batch[0])]
+    exact = [batch for batch in batches if _exact(batch, False)]
+    turning = moving and bool(np.any(core.supports.rot_moving >= 0))  # axes that turn are not in the factors
+    lossy = [batch for batch in exact if turning or (moving and not _exact(batch, True))]
+    rough = [batch for batch in batches if not _exact(batch, False)]
+    K, C, M = (np.zeros_like(core.A) for _ in range(3))
+    made = Matrices(
+        Batches(exact), Batches(lossy), Batches(rough), K, C, M, bool(core.damped), np.zeros((9, size))
+    )
+    zero = np.zeros(size)
+    exact_masses(made, core.ws, zero + 1.0, zero)
+    return made
+
+
+def _exact(batch: Any, moving: bool) -> bool:
+    own = traits(batch).exact
+    return own is not None and own(batch, moving)
+
+
+def check_differentiable(system: System, where: str) -> None:
+    """Raise ModelError for what has no sensitivities.
+
+    What batches remember of the motion, as friction on grounds and surfaces, is no part of the state.
+    """
+    for name, batch in system.parts.items():
+        late = traits(batch).late
+        if traits(batch).memory and len(batch[0]) and late is not None and late(batch) is not None:
+            what = f"the model has friction that remembers the way ({name}), which has no derivative here"
+            raise ModelError(where, what, "leave its friction out")

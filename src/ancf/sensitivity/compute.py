@@ -1,0 +1,73 @@
+"""Equilibria and simulations with their sensitivities."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..model.settings import steps_between
+from ..preparation import Prepared, carried_out
+from ..results.result import Result
+from ..results.state import State
+from ..solvers.record import Progress
+from .answers import Sensitivity
+from .base import check_differentiable
+from .family import Family
+from .follow import Following
+from .parameters import Parameter
+from .statics import of_equilibrium
+
+
+def of_state(state: State, names: list[str] | None, parameters: list[Parameter]) -> dict[str, Sensitivity]:
+    """Sensitivities of an equilibrium of some bodies, or of all.
+
+    Raises
+    ------
+    ModelError
+        The model has none, or a parameter changes which unknowns there are.
+    SolveError
+        The equilibrium is neutral.
+    """
+    system = state.system
+    check_differentiable(system, "equilibrium.sensitivities")
+    families = [Family(parameter, system) for parameter in parameters]
+    others = [] if names is None else [name for name in system.model.bodies if name not in names]
+    core = system.holding(others) if others else system.core
+    found = of_equilibrium(system, core, state.q, state.t, families)
+    return {
+        family.name: Sensitivity(family, state.t, state.q, state.v, dq, dv)
+        for family, (dq, dv) in zip(families, found, strict=True)
+    }
+
+
+def with_sensitivities(
+    made: Prepared,
+    parameters: list[Parameter],
+    start: State | None,
+    store: Any,
+    output_step: float | None,
+    progress: Callable[[Progress], None] | None,
+) -> Result:
+    """Carry out a simulation, which stores every step, with sensitivities at the times of the outputs.
+
+    Raises
+    ------
+    ModelError
+        The model or the method has none, or the start does not know its own.
+    SolveError
+        As of :func:`ancf.simulate`, or the derivative jumps.
+    """
+    run: Any = made.run
+    if output_step is not None:
+        made.header["settings"]["output_step"] = output_step
+    every = steps_between("simulate", run.t_end, run.h, output_step, run.t_start)
+    following = Following(made, parameters, start, store, every)
+    result = carried_out(made, store, progress, following)
+    t, q, v = np.array(result.t), result.q[:], result.v[:]
+    result.derivatives = {
+        family.name: Sensitivity(family, t, q, v, rows[:, 0], rows[:, 1])
+        for family, rows in zip(following.families, following.found(), strict=True)
+    }
+    return result

@@ -1,0 +1,257 @@
+"""Sensitivities that follow a simulation, block of steps by block of steps."""
+
+from __future__ import annotations
+
+from typing import Any, NoReturn
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import ModelError, SolveError
+from ..model.integrators.base import NewmarkFamily
+from ..preparation import Prepared, adopted
+from ..results.state import State
+from ..solvers.checkpoint import Snapshot
+from ..solvers.record import Stats
+from ..solvers.sensitivity import Constraining, Way, follow_steps
+from ..solvers.status import OK
+from ..system.system import System
+from .base import check_differentiable, matrices_of
+from .family import Family
+from .parameters import Parameter, check_known
+from .start import Start, at_level
+
+#: Change of the initial motion by joints, in sizes of the model, that does not count.
+SHIFTED = 1e-8
+#: Room for what parameters do to the steps of a block, bytes.
+ROOM = 32e6
+
+
+class Trail:
+    """States of a run as the steps left them: q, v, a at the ends, with accelerations from the velocities.
+
+    Parameters
+    ----------
+    run : Run
+        Of the Newmark family, at its start.
+    """
+
+    def __init__(self, run: Any) -> None:
+        self.run, m = run, run.memory
+        self.v, self.a, self.bar = m.v.copy(), m.a.copy(), m.abar.copy()
+        am, af = run.scheme.alpha_m, run.scheme.alpha_f
+        self._c = (1 - af) / (1 - am), af / (1 - am), -am / (1 - am)
+
+    def accelerations(self, v: FloatArray, h: float, last: bool) -> FloatArray:
+        """Accelerations at the ends of the steps of a block, (n, size), of which v are the velocities.
+
+        ``last``: the run stands at the end of the block, and its own are taken from there on.
+        """
+        c1, c2, c3 = self._c
+        gamma, made = self.run.scheme.gamma, np.empty_like(v)
+        for n in range(len(v)):
+            bar = ((v[n] - self.v) / h - (1 - gamma) * self.bar) / gamma
+            made[n] = (bar - c2 * self.a - c3 * self.bar) / c1
+            self.v, self.a, self.bar = v[n], made[n], bar
+        if last:
+            m = self.run.memory
+            made[-1] = m.a
+            self.v, self.a, self.bar = m.v.copy(), m.a.copy(), m.abar.copy()
+        return made
+
+
+class Following:
+    """Recorder that hands states on to a store and carries sensitivities along.
+
+    Parameters
+    ----------
+    made : Prepared
+        The simulation, which stores every step.
+    parameters : list of Parameter
+    start : State or None
+        Where it starts.
+    store : Recorder
+        Takes every ``every``-th state.
+    every : int
+
+    Raises
+    ------
+    ModelError
+        The model or the method has no sensitivities, or the start does not know its own.
+    """
+
+    def __init__(
+        self, made: Prepared, parameters: list[Parameter], start: State | None, store: Any, every: int
+    ) -> None:
+        where = "simulate.sensitivities"
+        check_method(made, where)
+        self.made, self.store, self.every = made, store, every
+        self.run: Any = made.run
+        self.system = System(made.system.model)
+        check_differentiable(self.system, where)
+        check_shift(made, start, where)
+        self.families = [Family(parameter, self.system) for parameter in parameters]
+        self.m = matrices_of(self.system.core, self.system.size, moving=True)
+        self.given = given_start(self.families, self.run.t_start, self.system, start, where)
+        self.rows: list[FloatArray] = []  # (parameters, n, 2, size) at stored times
+        self.done = 0
+        refuse_breaks(self.run)
+
+    def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
+        """States of a block, see :class:`ancf.solvers.record.Recorder`."""
+        if not self.rows:
+            self._begin()
+            self.store.append(t, q, v, work)
+            return
+        if len(t):
+            self._follow(q, v)
+            numbers = np.arange(self.done + 1, self.done + len(t) + 1)
+            keep = (numbers % self.every == 0) | (numbers == self.run.steps)
+            self.done += len(t)
+            self.rows[-1] = self.rows[-1][:, keep]
+            t, q, v, work = t[keep], q[keep], v[keep], work[keep]
+        self.store.append(t, q, v, work)
+
+    def record(self, t: FloatArray, samples: FloatArray) -> None:
+        """Samples."""
+        self.store.record(t, samples)
+
+    def update(self, stats: Stats, status: str) -> None:
+        """Counters."""
+        self.store.update(stats, status)
+
+    def due(self) -> bool:
+        """Never: a run that is gone on with would not know them."""
+        return False
+
+    def keep(self, snapshot: Snapshot) -> None:
+        """Nothing, see :meth:`due`."""
+
+    def _begin(self) -> None:
+        """Sensitivities of the consistent start."""
+        run, system = self.run, self.system
+        mine, theirs = system.parts.get("slides"), run.system.parts.get("slides")
+        if mine is not None and theirs is not None:
+            mine.mode[...], mine.open[...] = theirs.mode, theirs.open
+        system.measured[...] = run.system.measured
+        when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
+        states = run.memory.q.copy(), run.memory.v.copy(), run.memory.a.copy()
+        begin = Start(system, self.m, *states, when)
+        self.s = np.zeros((len(self.families), 4, system.size))
+        first = np.zeros((len(self.families), 1, 2, system.size))
+        for k, (family, given) in enumerate(zip(self.families, self.given, strict=True)):
+            family.know(system)
+            self.s[k] = begin.sensitivity(*given, *at_level(system, self.families, k, states, when))
+            q, v, a = (x[None].copy() for x in states)
+            held = family.at_steps(q, v, a, when, gaps=False).held
+            first[k, 0] = self.s[k, :2] + held[:2, 0]
+        self.rows.append(first)
+        self.trail = Trail(run)
+
+    def _follow(self, q: FloatArray, v: FloatArray) -> None:
+        """Carry on over the steps of a block, all of one length."""
+        run, count = self.run, len(q)
+        when_cut(run, self.done + count)
+        h = run.h if self.done < run.full else run.rest
+        a = self.trail.accelerations(v, h, last=True)
+        made = np.empty((len(self.families), count, 2, self.system.size))
+        most = max(1, int(ROOM / (8 * self.system.size * (6 * len(self.families) + 24))))
+        for begin in range(0, count, most):
+            rows = slice(begin, min(begin + most, count))
+            made[:, rows] = self._block(Way(q[rows].copy(), v[rows].copy(), a[rows]), h, self.done + begin)
+        self.rows.append(made)
+
+    def _block(self, way: Way, h: float, done: int) -> FloatArray:
+        run, system = self.run, self.system
+        count, size = way.q.shape
+        rule = run.rule(h)
+        joined = Constraining(rule.w0, rule.w1, rule.w2, rule.projects)
+        system.level[:] = rule.w0, rule.w1, rule.w2
+        when = run.time(done), h, run.t_start, run.t_end
+        projects = rule.projects and len(system.multipliers) > 0
+        pushes = []
+        for family in self.families:
+            family.know(system)
+            pushes.append(family.at_steps(*way, when, gaps=projects))
+        push = np.stack([one.push for one in pushes])
+        gap = np.stack([one.gap for one in pushes])
+        out = np.empty((len(self.families), count, 3, size))
+        tables = system.inputs.tables(*when[:2], count, *when[2:])
+        n, status = follow_steps(
+            system.core, self.m, tables, way, push, gap, h, run.scheme, joined, self.s, out
+        )
+        if status != OK:
+            t = run.time(done + int(n) + 1)
+            what = "the equations of the sensitivities cannot be solved"
+            raise SolveError(f"sensitivities at t = {t:.6g} s", what, "take a smaller step")
+        held = np.stack([one.held for one in pushes])
+        made: FloatArray = out[:, :, :2] + np.moveaxis(held[:, :2], 1, 2)
+        return made
+
+    def found(self) -> list[FloatArray]:
+        """Derivatives of q and v at the stored times by parameter, (n, 2, size) each."""
+        whole = np.concatenate(self.rows, axis=1)
+        return list(whole)
+
+
+def check_method(made: Prepared, where: str) -> None:
+    """Raise ModelError for methods whose steps have no sensitivities."""
+    if not isinstance(made.method, NewmarkFamily):
+        what = f"{type(made.method).__name__} has none"
+        raise ModelError(where, what, "take ancf.Trapezoidal or ancf.GeneralizedAlpha")
+
+
+def refuse_breaks(run: Any) -> None:
+    """Let a run stop where it would begin anew: there the derivative jumps."""
+
+    def happened(code: int, t: float, number: int) -> NoReturn:
+        what = "a sliding joint opens, closes or reaches an end there, where the derivative jumps"
+        raise SolveError(f"sensitivities at t = {t:.6g} s, step {number}", what, "end the run before")
+
+    run.happened = happened
+
+
+def given_start(
+    families: list[Family], t0: float, system: System, start: State | None, where: str
+) -> list[tuple[FloatArray, FloatArray]]:
+    """Derivatives of the state from which a run starts, q and v, by family.
+
+    Raises
+    ------
+    ModelError
+        The start does not know its own.
+    """
+    if start is None:
+        return [family.of_states(t0) for family in families]
+    check_known(start, [family.parameter for family in families], where)
+    if any(not np.array_equal(start.slots[name], system.slots[name]) for name in system.slots):
+        what = "the start is a state of a model with other connections or loads"
+        raise ModelError(where, what, "compute its equilibrium again")
+    found = []
+    for family in families:
+        own = start.derivatives[family.name]
+        found.append((own.dq, own.dv) if own is not None else (np.zeros(system.size),) * 2)
+    return found
+
+
+def when_cut(run: Any, done: int) -> None:
+    """Raise SolveError if a step was cut into parts."""
+    if run.bridge.parts:
+        what = "a step was cut into parts, which sensitivities do not follow"
+        raise SolveError(f"sensitivities before t = {run.time(done):.6g} s", what, "take a smaller step")
+
+
+def check_shift(made: Prepared, start: State | None, where: str) -> None:
+    """Raise ModelError if joints have changed the initial motion: how that depends on masses is left out."""
+    run: Any = made.run
+    system = made.system
+    if not len(system.multipliers):
+        return
+    given = system.initial_state(run.t_start) if start is None else adopted(start, system, where)
+    free = np.setdiff1d(system.free, system.multipliers)
+    weight = system.core.weight[free]
+    for word, mine, theirs in zip(("places", "velocities"), given, (run.memory.q, run.memory.v), strict=True):
+        change, size = (float(np.max(np.abs(x[free]) * weight, initial=0.0)) for x in (mine - theirs, theirs))
+        if change > SHIFTED * max(size, 1.0):
+            what = f"the {word} at the start do not fit the joints, which change them by {change:.2g}"
+            raise ModelError(where, what, "set_motion(...) that fits, or start from an equilibrium")

@@ -1,0 +1,117 @@
+"""Parameters of sensitivities: names of numbers of a model, or functions that build it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..errors import ModelError
+from ..model import checks
+from ..model.model import Model
+from ..model.vary import value_of, varied
+
+
+@dataclass(frozen=True)
+class Named:
+    """Builds a model with another value of one of its numbers.
+
+    Parameters
+    ----------
+    model : Model
+    name : str
+        See :func:`ancf.model.vary.varied`.
+    """
+
+    model: Model
+    name: str
+
+    def __call__(self, value: float) -> Model:
+        """The model with this value."""
+        return varied(self.model, self.name, value)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number on which a model depends.
+
+    Parameters
+    ----------
+    name : str
+    value : float
+        Its value in the model.
+    build : callable
+        ``build(value)`` is the model with another value.
+    """
+
+    name: str
+    value: float
+    build: Callable[[float], Model]
+
+    def at(self, value: float) -> Model:
+        """The model with a value.
+
+        Raises
+        ------
+        ModelError
+            It cannot be built, or is none.
+        """
+        made = self.build(value)
+        if not isinstance(made, Model):
+            raise ModelError(
+                self.name, f"build({value:g}) must return a Model, returned {checks.shown(made)}"
+            )
+        return made
+
+
+def parameters_of(model: Model, given: Any, where: str) -> list[Parameter]:
+    """Parameters as sensitivities are given them.
+
+    Parameters
+    ----------
+    model : Model
+    given : sequence or mapping
+        Names of numbers of the model, or by name a pair (value, build).
+    where : str
+        For messages.
+
+    Raises
+    ------
+    ModelError
+        One is no number of the model, or stands twice.
+    """
+    if isinstance(given, Mapping):
+        return [_built(name, item, f"{where}.{name}") for name, item in given.items()]
+    if isinstance(given, str | bytes) or not isinstance(given, Sequence):
+        what = f"must be a list of names of numbers, is {checks.shown(given)}"
+        raise ModelError(where, what, 'such as ["beam.EI", "gravity"], or {name: (value, build)}')
+    made: list[Parameter] = []
+    for k, item in enumerate(given):
+        found = item if isinstance(item, Parameter) else _named(model, item, f"{where}[{k}]")
+        if found.name in [one.name for one in made]:
+            raise ModelError(f"{where}[{k}]", f'"{found.name}" stands there twice')
+        made.append(found)
+    return made
+
+
+def check_known(start: Any, parameters: list[Parameter], where: str) -> None:
+    """Raise ModelError if a state from which something begins does not know how it depends on a parameter."""
+    for parameter in parameters:
+        if parameter.name not in start.derivatives:
+            what = f"the state that is given does not know how it depends on {parameter.name}"
+            hint = "equilibrium(..., sensitivities=[...]), or state.fixed([...]) if it does not"
+            raise ModelError(where, what, hint)
+
+
+def _named(model: Model, name: Any, where: str) -> Parameter:
+    clean = checks.text(name, where)
+    return Parameter(clean, value_of(model, clean), Named(model.snapshot(), clean))
+
+
+def _built(name: Any, given: Any, where: str) -> Parameter:
+    pair = isinstance(given, tuple | list) and len(given) == 2 and callable(given[1])
+    if isinstance(given, Parameter):
+        return given
+    if not pair:
+        raise ModelError(where, f"must be a pair (value, build), is {checks.shown(given)}")
+    return Parameter(checks.text(name, where), checks.number(given[0], where), given[1])

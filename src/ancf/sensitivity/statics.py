@@ -1,0 +1,108 @@
+"""Derivatives of an equilibrium, by the implicit function theorem: K s = -R_p."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import csc_array
+from scipy.sparse.linalg import LinearOperator, gmres, splu
+
+from ..arrays import FloatArray
+from ..errors import SolveError
+from ..linalg.sparse import to_sparse
+from ..solvers.directions import products_along
+from ..solvers.statics import STENCIL_STEP
+from ..system.contacts import touching
+from ..system.core import Core, assemble, follow_supports, place_supports, restrict
+from ..system.system import System
+from .base import matrices_of
+from .family import Family
+
+#: Residual of the equations, relative to their right-hand side, that is aimed at and that is accepted.
+AIMED, ACCEPTED = 1e-13, 1e-8
+#: Directions of a search before it begins again, and how often it does.
+DIRECTIONS, AGAIN = 60, 5
+
+
+def of_equilibrium(
+    system: System, core: Core, q: FloatArray, time: float, families: list[Family]
+) -> list[tuple[FloatArray, FloatArray]]:
+    """Derivatives of the state vectors q and v of an equilibrium, (size,) each, by family.
+
+    Parameters
+    ----------
+    system : System
+        That found it: its contacts and joints are as they are in it.
+    core : Core
+        Of the system, perhaps with bodies that are held altogether.
+    q : (size,)
+    time : float, s
+    families : list of Family
+
+    Raises
+    ------
+    SolveError
+        The equilibrium is neutral: it has no derivative.
+    """
+    system.level[:] = 1.0, 0.0, 0.0
+    h, q, zero = STENCIL_STEP, q.copy(), np.zeros_like(q)
+    tables = system.inputs.tables(time - h, h, 1, time, np.inf)
+    place_supports(core.supports, core.loads.value, tables, 0, q, zero, zero.copy())
+    solve = _solver(system, core, q)
+    found = []
+    for family in families:
+        family.know(system)
+        push = family.at_rest(core, q, (time, h))
+        s = solve(push.push[0], family.name)
+        follow_supports(core.supports, s, np.zeros_like(s), np.zeros_like(s))
+        dq = s + push.held[0, 0]
+        found.append((dq, family.of_motion(q, dq, time)))
+    return found
+
+
+def _solver(system: System, core: Core, q: FloatArray):  # type: ignore[no-untyped-def]
+    """A function that solves K s = -push, with the exact K of the state."""
+    n, still = system.n, np.zeros_like(q)
+    m = matrices_of(core, q.size, moving=False)
+    assemble(core.batches, core.ws, q, still, core.A, 0.0, 0.0, 1.0)
+    restrict(core.supports, core.A)
+    K = csc_array(to_sparse(core.A, system.places) + touching(core, q, n).matrix())
+    try:
+        lu = splu(K)
+    except RuntimeError:
+        raise _neutral() from None
+    d, r = np.zeros((3, q.size)), np.empty_like(q)
+
+    def times(x: FloatArray) -> FloatArray:
+        d[:] = 0.0
+        d[0, :n] = x
+        d[0, core.supports.held] = 0.0
+        products_along(core, m, q, still, still, d, still, r)
+        y: FloatArray = r[:n].copy()
+        y[core.supports.held] = x[core.supports.held]
+        return y
+
+    def solve(push: FloatArray, name: str) -> FloatArray:
+        b, s = -push[:n], np.zeros_like(q)
+        size = float(np.linalg.norm(b))
+        if size == 0.0:
+            return s
+        x = lu.solve(b)
+        if len(m.rough):
+            before = LinearOperator((n, n), matvec=lu.solve, dtype=np.float64)
+            whole = LinearOperator((n, n), matvec=times, dtype=np.float64)
+            x, _ = gmres(whole, b, x0=x, M=before, rtol=AIMED, restart=DIRECTIONS, maxiter=AGAIN)
+        else:
+            x += lu.solve(b - times(x))
+        if not float(np.linalg.norm(times(x) - b)) <= ACCEPTED * max(size, float(np.linalg.norm(x))):
+            raise _neutral(name)
+        s[:n] = x
+        return s
+
+    return solve
+
+
+def _neutral(name: str = "") -> SolveError:
+    what = "the equilibrium is neutral or slack: it does not depend smoothly on a number"
+    return SolveError(
+        f"sensitivity {name}".strip(), what, "hold what moves without force, or use a simulation"
+    )

@@ -1,0 +1,118 @@
+"""The adjoint of the steps of the Newmark family: the derivative of one number by everything, backwards.
+
+With mu_q, mu_v, mu_a, mu_b the derivatives of the number by q, v, a and the algorithmic acceleration at the
+end of a step, by what comes later, and J = M/B + (G/B) C + K,
+
+    J^T lambda = mu_q + (G mu_v + c_1 mu_b + mu_a)/B
+
+at the free unknowns; the number changes by -lambda . R_p, and mu_q - K^T lambda and mu_v - C^T lambda go back
+through q~ and v~ to the start of the step.  For models whose matrices are all exact, which are symmetric.
+"""
+
+from __future__ import annotations
+
+from ..compiled import inline_kernel, kernel
+from ..system.core import drive, solve_matrix
+from .scheme import coefficients
+from .sensitivity import matrices_at, product
+from .status import OK, SINGULAR
+
+
+@inline_kernel
+def folded(supports, x, moved):
+    """Derivatives x by q, v and a at the shadows as those by their unknowns, R^T x; what turns counts too."""
+    for k in range(supports.rot_slot.shape[0]):
+        i, j = supports.rot_slot[k], supports.rot_shadow[k]
+        for c in range(3):
+            f, g = 0.0, 0.0
+            for n in range(3):
+                R, dR = supports.rot_R[k, 0, n, c], supports.rot_R[k, 1, n, c]
+                f += R * x[0][j + n] + dR * x[1][j + n] + supports.rot_R[k, 2, n, c] * x[2][j + n]
+                g += R * x[1][j + n] + 2.0 * dR * x[2][j + n]
+            moved[0][i + c], moved[1][i + c] = f, g
+    for k in range(supports.held.shape[0]):
+        moved[0][supports.held[k]], moved[1][supports.held[k]] = 0.0, 0.0
+
+
+@inline_kernel
+def take_wanted(supports, wanted, mu, x, moved):
+    """Add the derivatives of the number by the state at the end of a step, (2, size), to mu."""
+    for i in range(mu.shape[1]):
+        x[0, i] = moved[0, i] = wanted[0, i]
+        x[1, i] = moved[1, i] = wanted[1, i]
+        x[2, i] = 0.0
+    folded(supports, x, moved)
+    for i in range(mu.shape[1]):
+        mu[0, i] += moved[0, i]
+        mu[1, i] += moved[1, i]
+
+
+@inline_kernel
+def factors(core, mu, c1, B, G, lam):
+    """Fill lambda at the unknowns and, as forces of the residual, at the shadows."""
+    supports, n = core.supports, core.weight.shape[0]
+    for i in range(n):
+        lam[i] = mu[0, i] + (G * mu[1, i] + c1 * mu[3, i] + mu[2, i]) / B
+    for k in range(supports.held.shape[0]):
+        lam[supports.held[k]] = 0.0
+    solve_matrix(core.factor, lam)
+    for i in range(n, lam.shape[0]):
+        lam[i] = 0.0
+    for k in range(supports.rot_slot.shape[0]):
+        i, j = supports.rot_slot[k], supports.rot_shadow[k]
+        for c in range(3):
+            total = 0.0
+            for r in range(3):
+                total += supports.rot_R[k, 0, c, r] * lam[i + r]
+            lam[j + c] = total
+
+
+@kernel
+def back_steps(core, m, tables, way, wanted, h, scheme, mu, out):
+    """Carry the adjoint back through the steps of a block.
+
+    Parameters
+    ----------
+    core, m, tables, way : Core, Matrices, Tables, Way
+        See :func:`ancf.solvers.sensitivity.follow_steps`.
+    wanted : (steps, 2, size)
+        Derivatives of the number by q and v at the ends of the steps.
+    mu : (4, size)
+        mu_q, mu_v, mu_a, mu_b at the end of the block; changed to those at its start.
+    out : (steps, size)
+        lambda.
+
+    Returns
+    -------
+    Steps done and the status of the last one.
+    """
+    B, G = coefficients(h, scheme)
+    am, af, beta, gamma = scheme.alpha_m, scheme.alpha_f, scheme.beta, scheme.gamma
+    c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
+    n, size = core.weight.shape[0], mu.shape[1]
+    back, w, x = m.work[1:3], m.work[3:5], m.work[5:8]
+    for step in range(way.q.shape[0]):
+        at = way.q.shape[0] - 1 - step
+        drive(core.supports, core.loads.value, tables, at, way.q[at], way.v[at], way.a[at])
+        if not matrices_at(core, m, way.q[at], way.v[at], B, G):
+            return step, SINGULAR
+        lam = out[at]
+        take_wanted(core.supports, wanted[at], mu, x, back)
+        factors(core, mu, c1, B, G, lam)
+        for i in range(size):
+            x[0, i] = x[1, i] = x[2, i] = 0.0
+        product(core, m.K, lam, x[0], w)
+        product(core, m.M, lam, x[2], w)
+        if m.damped:
+            product(core, m.C, lam, x[1], w)
+        for i in range(size):
+            back[0, i], back[1, i] = x[0, i], x[1, i]
+        folded(core.supports, x, back)
+        for i in range(n):
+            eq, ev = mu[0, i] - back[0, i], mu[1, i] - back[1, i]
+            eb = mu[3, i] + h * h * beta * eq + h * gamma * ev
+            mu[0, i], mu[1, i], mu[2, i] = eq, h * eq + ev, c2 * eb
+            mu[3, i] = c3 * eb + h * h * (0.5 - beta) * eq + h * (1.0 - gamma) * ev
+        for i in range(n, size):
+            mu[0, i] = mu[1, i] = mu[2, i] = mu[3, i] = lam[i] = 0.0
+    return way.q.shape[0], OK

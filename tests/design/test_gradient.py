@@ -1,0 +1,146 @@
+"""Gradients of numbers of a run: the adjoint against differences and against forward sensitivities."""
+
+import numpy as np
+import pytest
+
+import ancf
+from ancf.design.backwards import gradient_of
+from ancf.design.formulas import Formula, Vocabulary
+from ancf.design.gradient import OF_RUN, Histories, slopes_of
+from ancf.paper import cantilever
+from ancf.sensitivity import adjoint
+from ancf.viz.pictures.questions import ask
+from slopes import extrapolated
+
+TIGHT = ancf.Trapezoidal(newton=ancf.Newton(tolerance=1e-14, modified=False))
+INDEX2 = ancf.Trapezoidal(newton=TIGHT.newton, formulation="index2")
+OBJECTIVES = [
+    "last(position(beam.end)[2])",
+    "integral(norm(velocity(beam.end))**2)",
+    "smoothmax(tension(beam.at(0.3)), 20)",
+    "deviation(position(beam.at(0.7))[0]) + mean(t * position(beam.end)[1])",
+    "at(speed(beam.end), 0.0123)",
+]
+
+
+def swinging(moves=True):
+    """A cable with drag, a force, a spring and a clamp that moves."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section(EA=500.0, EI=0.5, rhoA=0.2, damping=0.1)
+    beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
+    model.clamp(beam.start, displacement=(0, 0, "0.02*sin(9*t)") if moves else None)
+    model.add_force(beam.end, (0.1, "0.5*sin(9*t)", 0.0), name="push")
+    model.add_spring(beam.end, (1.0, 0.1, 0.8), stiffness=5.0, length=0.7, name="stay")
+    return model
+
+
+NAMES = ["beam.EI", "beam.rhoA", "beam.damping", "beam.length", "gravity", "push.force", "stay.length"]
+NAMES += ["beam.start[1]"]
+
+
+def settings(method=TIGHT):
+    return {"t_end": 0.0307, "step": 1e-3, "integrator": method}
+
+
+@pytest.mark.parametrize("method", [TIGHT, ancf.GeneralizedAlpha(rho_inf=0.7, newton=TIGHT.newton)])
+@pytest.mark.parametrize("objective", OBJECTIVES)
+def test_adjoint_is_the_forward_derivative(objective, method):
+    """To round-off, for every parameter: they share nothing but the derivative of the residual."""
+    model = swinging()
+    value, slope = ancf.gradient(model, objective, NAMES, **settings(method))
+    result = ancf.simulate(model, sensitivities=NAMES, **settings(method))
+    formula = Formula(objective, "test", OF_RUN)
+    again, slopes = slopes_of(formula, result.t, result)
+    assert value == pytest.approx(again, rel=1e-13)
+    for name in NAMES:
+        own = result.sensitivity(name)
+        wanted = sum(np.sum(x * own.of(lambda f, p=pair: ask(f, *p))) for pair, x in slopes.items())
+        assert slope[name] == pytest.approx(wanted, rel=1e-7, abs=1e-9 * max(map(abs, slope.values()))), name
+
+
+@pytest.mark.parametrize("objective", OBJECTIVES[:3])
+def test_against_differences(objective):
+    model = swinging()
+    _, slope = ancf.gradient(model, objective, ["beam.EI", "gravity"], **settings())
+    for name in slope:
+        wanted = extrapolated(lambda m: ancf.gradient(m, objective, [], **settings())[0], model, name, 2e-2)
+        assert abs(slope[name] - wanted) < 1e-7 * abs(wanted), name
+
+
+def test_steps_taken_again_give_the_same(monkeypatch):
+    model = cantilever.build(2)
+    given = {"t_end": 0.05, "step": 5e-4}
+    first = ancf.gradient(model, OBJECTIVES[1], ["beam.EI", "gravity"], **given)
+    monkeypatch.setattr(adjoint, "KEPT", 0.0)
+    again = ancf.gradient(model, OBJECTIVES[1], ["beam.EI", "gravity"], **given)
+    assert again[0] == first[0]
+    assert again[1] == pytest.approx(first[1], rel=1e-10)
+
+
+def test_from_an_equilibrium():
+    model = swinging(moves=False)
+
+    def value(other, names=()):
+        start = ancf.equilibrium(other, sensitivities=names)
+        return ancf.gradient(other, OBJECTIVES[0], names, start=start, **settings())
+
+    _, slope = value(model, ["beam.EI", "stay.length"])
+    for name in slope:
+        wanted = extrapolated(lambda m: value(m)[0], model, name, 2e-2)
+        assert abs(slope[name] - wanted) < 1e-7 * abs(wanted), name
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "max(x(a))",
+        "min(x(a)) * range(x(a))",
+        "percentile(x(a), 30)",
+        "rms(x(a)) / mean(abs(x(a)))",
+        "first(x(a)) ** 3",
+        "smoothmax(sin(x(a)) + ramp(x(a), 0, 2), 3)",
+        "deviation(exp(-x(a)))",
+        "integral(where(t > 0.5, x(a), tanh(x(a))))",
+        "at(sqrt(4 + x(a)), 0.33)",
+        "last(norm(y(a)) * y(a)[1])",
+        "mean(max(min(x(a), 0.3), 0.1)) + mean(log(3 + x(a)) - cos(x(a)) ** 2)",
+    ],
+)
+def test_formulas_backwards(text):
+    """Each rule of the language against differences by every number of the histories."""
+    words = Vocabulary(("t",), ("x", "y"))
+    rng = np.random.default_rng(3)
+    t, x, y = np.linspace(0, 1, 7), rng.uniform(-1, 1, 7), rng.uniform(-1, 1, (7, 3))
+    formula, histories = Formula(text, "test", words), {("x", "a"): x, ("y", "a"): y}
+    value, slopes = gradient_of(formula, Histories(t, histories))
+    assert value == formula(Histories(t, histories))
+    for key, slope in slopes.items():
+        wanted = np.zeros_like(histories[key])
+        for place in np.ndindex(wanted.shape):
+            near = []
+            for e in (1e-5, -1e-5):
+                moved = {k: h.copy() for k, h in histories.items()}
+                moved[key][place] += e
+                near.append(formula(Histories(t, moved)))
+            wanted[place] = (near[0] - near[1]) / 2e-5
+        assert np.max(np.abs(slope - wanted)) < 1e-8
+
+
+def test_bad_objectives():
+    model = cantilever.build(2)
+    with pytest.raises(ancf.ModelError, match="gives numbers of shape"):
+        ancf.gradient(model, "position(beam.end)", ["gravity"], t_end=0.01, step=1e-3)
+    with pytest.raises(ancf.ModelError, match="unknown name"):
+        ancf.gradient(model, "max(weight(beam.end))", ["gravity"], t_end=0.01, step=1e-3)
+
+
+def test_joints_go_forwards():
+    """A pendulum of a rigid body: it has multipliers, and the gradient takes sensitivities instead."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    hub = model.add_rigid_body("hub", at=(0.5, 0, 0), mass=1.0, inertia=(0.01, 0.1, 0.1))
+    model.hinge(hub.at(-0.5, 0, 0), (0.0, 0.0, 0.0), axis=(0, 1, 0), name="hinge")
+    text, given = "integral(position(hub.centre)[2])", {"t_end": 0.1, "step": 2e-3, "integrator": INDEX2}
+    _, slope = ancf.gradient(model, text, ["gravity", "hub.inertia"], **given)
+    for name in slope:
+        wanted = extrapolated(lambda m: ancf.gradient(m, text, [], **given)[0], model, name, 2e-2)
+        assert abs(slope[name] - wanted) < 1e-7 * abs(wanted)

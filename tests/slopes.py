@@ -1,0 +1,52 @@
+"""Derivatives by extrapolated differences, and Taylor remainders, that tests of sensitivities share."""
+
+import numpy as np
+
+from ancf.model.vary import value_of, varied
+
+
+def extrapolated(function, model, name, step=1e-2, levels=5):
+    """Derivative of function(model) by a number of the model: central differences, extrapolated (Romberg).
+
+    Returns the entry of the table that agrees best with its neighbours.
+    """
+    p = value_of(model, name)
+    unit = abs(p) if p else 1.0
+
+    def at(x):
+        return np.asarray(function(varied(model, name, p + x * step * unit)))
+
+    rows, best = [], (np.inf, None)
+    for k in range(levels):
+        e = 2.0**-k
+        row = [(at(e) - at(-e)) / (2 * e * step * unit)]
+        for j in range(k):
+            row.append(row[j] + (row[j] - rows[-1][j]) / (4 ** (j + 1) - 1))
+        for j in range(1, k + 1):
+            change = np.max(np.abs(row[j] - rows[-1][min(j, k - 1)]))
+            best = min(best, (change, row[j]), key=lambda pair: pair[0])
+        rows.append(row)
+    return best[1]
+
+
+def off(found, wanted):
+    """Largest difference, relative to the largest number."""
+    return float(np.max(np.abs(found - wanted)) / np.max(np.abs(wanted)))
+
+
+def remainder_slopes(function, model, name, derivative, step=0.02, noise=1e-13):
+    """Orders with which |f(p + h) - f(p) - h f'| falls over three decades of h.
+
+    Empty if it is round-off from the start: the function is linear in p.
+    """
+    p = value_of(model, name)
+    unit = abs(p) if p else 1.0
+    here, left = np.asarray(function(model)), []
+    scale = np.max(np.abs(here)) + np.max(np.abs(derivative)) * step * unit
+    for h in step * unit * np.array([1.0, 0.1, 0.01, 0.001]):
+        there = np.asarray(function(varied(model, name, p + h)))
+        left.append(np.max(np.abs(there - here - h * np.asarray(derivative))))
+    if left[0] <= 1e4 * noise * scale:
+        return np.zeros(0)
+    good = np.array(left) > 10 * noise * scale
+    return np.log10(np.array(left)[:-1] / np.array(left)[1:])[good[1:]]
