@@ -97,6 +97,38 @@ def overview() -> None:
         (STATIC / "overview.png").write_bytes(style.png(figure, dpi=160))
 
 
+def belt() -> None:
+    """Belt force around examples/belt.toml in steady motion, and its stick and slip, beside creep theory."""
+    from ancf.reeving.belt import FRICTION, creep_theory, motion
+
+    result = motion()
+    state, loop = result.state(-1), result.model.beams["belt"]
+    theory = creep_theory(loop.length)
+    with style.new_figure(165.0, 66.0) as figure:
+        axes = figure.subplots(1, 2)
+        for side, (name, centre, sign) in enumerate((("driving", 0.0, -1.0), ("driven", 0.314159, 1.0))):
+            line = state.contact_line(f"on {name}")
+            arm = np.array([state.position(loop.at(x)) for x in line.x]) - (centre, 0.0, 0.0)
+            angle = np.degrees(np.arctan2(arm[:, 2] * sign, arm[:, 0] * sign))
+            on = line.normal > 0.0
+            force = np.array([float(state.tension(loop.at(x))) for x in line.x[on]])
+            for mark, slips, color in (("sticks", False, style.BLUE), ("slips", True, style.ORANGE)):
+                here = line.slips[on] == slips
+                axes[side].plot(angle[on][here], force[here], ".", color=color, label=mark, markersize=3)
+            first, last = (theory.tight, theory.slack) if side == 0 else (theory.slack, theory.tight)
+            a = np.linspace(-90.0, 90.0, 181)
+            way = np.maximum(np.radians(a + 90.0) - theory.stick, 0.0)
+            grown = first * np.exp(np.sign(last - first) * FRICTION * way)
+            axes[side].plot(a, grown, color="black", linewidth=0.7, label="creep theory")
+            axes[side].set(
+                title=f"{name} pulley", xlabel="angle from the line of centres [deg]", ylabel="belt force [N]"
+            )
+            axes[side].set_xticks(range(-90, 91, 45))
+        axes[0].legend()
+        (STATIC / "belt.png").write_bytes(style.png(figure, dpi=160))
+
+
 if __name__ == "__main__":
     overview()
     figures()
+    belt()

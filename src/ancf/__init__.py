@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from .design.study import study
     from .model import Gusts, Model, Section, Waves
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
+    from .model.mesh import Mesh
+    from .model.reeving import Reeving
     from .model.series import Series
     from .model.surface_shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
     from .results import Modes, Result, State
@@ -32,6 +34,7 @@ _LATER = {
     "Section": "model",
     "Waves": "model",
     "Gusts": "model",
+    "Reeving": "model.reeving",
     "Series": "model.series",
     "equilibrium": "analysis",
     "simulate": "analysis",
@@ -46,6 +49,7 @@ _LATER = {
     "Modes": "results",
     "Capsule": "model.surface_shapes",
     "Cylinder": "model.surface_shapes",
+    "Mesh": "model.mesh",
     "Plane": "model.surface_shapes",
     "Sheave": "model.surface_shapes",
     "Sphere": "model.surface_shapes",
@@ -77,6 +81,7 @@ __all__ = [
     "Gusts",
     "Interrupted",
     "LogNormal",
+    "Mesh",
     "Model",
     "ModelError",
     "Modes",
@@ -85,6 +90,7 @@ __all__ = [
     "Optimum",
     "Plane",
     "Radau",
+    "Reeving",
     "Result",
     "Section",
     "Series",

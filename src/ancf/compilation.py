@@ -144,7 +144,7 @@ def _useful() -> bool:
 
 def _named(data: Any) -> str:
     """What a kernel is for, in words."""
-    module = data["dispatcher"].py_func.__module__.removeprefix("ancf.")
+    module = (data["dispatcher"].py_func.__module__ or "a formula").removeprefix("ancf.")
     for argument in data["args"]:
         kind = getattr(argument, "batch", argument)
         batch = getattr(kind, "instance_class", None)

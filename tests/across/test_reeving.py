@@ -1,13 +1,24 @@
 """``ancf validate contact``: a short form of its cases, its files and what it refuses."""
 
+import functools
 import json
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import ancf
 from ancf.cli.app import app
-from ancf.reeving import cases, validate
+from ancf.reeving import belt, cases, validate
+
+
+def theory(off=1.0):
+    """What a belt would give that is off by a factor from creep theory."""
+    creep = vars(belt.creep_theory(1.19))
+    found = {
+        f"{key}{name}": off * value for key, value in creep.items() for name in ("", " driving", " driven")
+    }
+    return found | {f"theory {key}": value for key, value in creep.items()}
 
 
 def test_short_form(monkeypatch, tmp_path):
@@ -21,10 +32,13 @@ def test_short_form(monkeypatch, tmp_path):
     }
     for name, values in short.items():
         monkeypatch.setattr(validate, name, values)
+    short_hoist = functools.partial(cases.hoist, time=0.8)
+    monkeypatch.setattr(cases, "hoist", short_hoist)
+    monkeypatch.setattr(belt, "run", theory)  # computed below
     said = []
     groups = validate.compare(lambda done, of: said.append((done, of)))
-    assert said == [(k, 4) for k in range(1, 5)]
-    assert [len(group.rows) for group in groups] == [1, 1, 1, 2]
+    assert said == [(k, 6) for k in range(1, 7)]
+    assert [len(group.rows) for group in groups] == [1, 1, 1, 2, 1, 9]
     assert all(q.inside for group in groups for q in group.rows)
     assert groups[0].rows[0].value == pytest.approx(np.exp(0.3 * np.pi), rel=1e-3)
     written = validate.write(groups, tmp_path)
@@ -32,7 +46,7 @@ def test_short_form(monkeypatch, tmp_path):
     assert plain["case"] == "contact"
     assert plain["all_inside"] is True
     assert set(plain["rows"][0]) == {"quantity", "unit", "value", "low", "high", "inside", "tag"}
-    assert written[1].read_text().count("<table>") == 4
+    assert written[1].read_text().count("<table>") == 6
 
 
 def test_a_number_that_is_off_is_outside(monkeypatch):
@@ -40,7 +54,56 @@ def test_a_number_that_is_off_is_outside(monkeypatch):
     monkeypatch.setattr(cases, "line_load", lambda load: (1.0011 * load, load))
     monkeypatch.setattr(cases, "hung_over", lambda low: (0.9988, 1.0))
     monkeypatch.setattr(cases, "pulley", lambda inertia: {"speed": 1.006, "drift": 1.1e-6})
+    monkeypatch.setattr(cases, "hoist", lambda: 1.1e-6)
+    monkeypatch.setattr(belt, "run", lambda: theory(1.011))
     assert not any(q.inside for group in validate.compare() for q in group.rows)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("elements", [120, 240])
+def test_belt_drive(elements):
+    """Forces, speed, torque and arcs of creep theory."""
+    found = belt.run(elements)
+    for key, of_theory, _ in validate.BELT:
+        assert found[key] == pytest.approx(found[f"theory {of_theory}"], rel=1e-2), key
+
+
+@pytest.mark.parametrize("elements", [60, 120])
+def test_belt_that_speeds_up(elements):
+    """What accelerates the driven pulley and its brake is the difference of the belt forces."""
+    model = belt.drive(elements)
+    start = ancf.equilibrium(model, of=["belt"])
+    around = [float(start.tension(f"belt.at({s})")) for s in np.linspace(0.0, 1.1, 12)]
+    assert np.array(around) == pytest.approx(
+        belt.EA * belt.STRAIN, rel=4e-3
+    )  # tensioned by its natural length
+    result = ancf.simulate(model, t_end=0.2, step=belt.STEP, output_step=1e-3, start=start)
+    omega = -result.angular_velocity("driven")[:, 1]
+    length = model.body("belt").length
+    slack, tight = (result.tension(f"belt.at({s * length})") for s in (0.125, 0.625))
+    torque = (tight - slack) * belt.RADIUS
+    work = np.sum(0.5 * (torque[1:] + torque[:-1]) * np.diff(result.t))
+    brake = belt.BRAKE * np.sum(0.5 * (omega[1:] + omega[:-1]) * np.diff(result.t))
+    assert work == pytest.approx(belt.INERTIA * omega[-1] + brake, rel=0.03)
+    assert omega[-1] > 1.0
+
+
+def test_creep_theory_without_load_and_inertia(monkeypatch):
+    """A belt that carries nothing has one force, that of its stretch, and sticks all around."""
+    monkeypatch.setattr(belt, "LOAD", 1e-9)
+    monkeypatch.setattr(belt, "BRAKE", 0.0)
+    monkeypatch.setattr(belt, "RHO_A", 1e-12)
+    length = 2 * belt.APART + 2 * np.pi * belt.RADIUS
+    creep = belt.creep_theory(length * (1 - belt.STRAIN))
+    assert creep.tight == pytest.approx(belt.EA * belt.STRAIN, rel=1e-6)
+    assert creep.slack == pytest.approx(creep.tight, rel=1e-6)
+    assert creep.stick == pytest.approx(np.pi, abs=1e-5)
+
+
+@pytest.mark.parametrize("step", [1e-3, 5e-4])
+def test_account_of_a_hoist(step):
+    """Work in = work out + friction."""
+    assert cases.hoist(step, 0.8) < 1e-6
 
 
 def test_helix_turns_less_than_it_winds():

@@ -74,7 +74,8 @@ def places(count=300, seed=2):
 
 class TestDistances:
     def test_all_shapes_are_here(self):
-        assert {type(shape) for shape, _, _ in OUTLINES.values()} == set(SHAPES.values())
+        meshes = {ancf.Mesh}  # kernels/test_meshes.py
+        assert {type(shape) for shape, _, _ in OUTLINES.values()} | meshes == set(SHAPES.values())
 
     @pytest.mark.parametrize("name", OUTLINES)
     def test_against_the_nearest_of_many_points(self, name):
@@ -137,7 +138,17 @@ def below(kind, **numbers):
     return make
 
 
+def below_mesh(gap, at):
+    """An octahedron with an edge below the rope."""
+    points = 0.3 * np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1.0]])
+    rows = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]]
+    turn = np.array([[1, 0, 0], [0, 1, 1], [0, -1, 1]]) / [[1], [np.sqrt(2)], [np.sqrt(2)]]
+    points = points @ turn.T
+    return ancf.Mesh(points=points, triangles=rows, at=np.array([0.001, 0.0, -gap - points[:, 2].max()]) - at)
+
+
 KINDS = {
+    "mesh": below_mesh,
     "plane": below("plane"),
     "sphere": below("sphere", radius=0.3),
     "cylinder": below("cylinder", radius=0.2),

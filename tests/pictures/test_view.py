@@ -193,6 +193,7 @@ class TestHistories:
             springs={},
             joints={},
             arcs={},
+            lengths={},
             t=t,
             q=q,
             v=v,

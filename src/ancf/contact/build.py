@@ -15,10 +15,11 @@ from ..elements.shapes import gauss
 from ..errors import ModelError
 from ..loads.along import along
 from ..model.surfaces import Surface, SurfaceContact
+from .mesh import distances, trees
 from .press import PressBatch
-from .profiles import NUMBER, distances
+from .profiles import NUMBER
 from .rub import RubBatch
-from .touch import BODY, NUMBERS
+from .touch import BODY, NODES, NUMBERS
 
 #: Gauss points of an element.
 POINTS = 5
@@ -43,6 +44,7 @@ def batches(
         _refuse_sunk(item)
     surfaces = list(dict.fromkeys(item.surface for item in items))
     fields, owners = along([item.body for item in items], locate, POINTS)
+    assert fields["base"].shape[1] == NODES  # the axis of an element depends on no more, and on no less
     which = np.repeat(np.arange(len(items)), [item.body.elements for item in items])
     bodies = np.full((len(owners), BODY), -1, dtype=np.int64)
     for e, k in enumerate(which.tolist()):
@@ -62,16 +64,27 @@ def batches(
         "surfaces": np.array([_lie(surface) for surface in surfaces]),
         "shape_of": np.array([NUMBER[s.shape.word] for s in surfaces], dtype=np.int64),
         "found": measured,
-        "far": np.full((len(base), 4), -np.inf),
+        "hint": np.zeros(fields["weight"].shape, dtype=np.int64),
+        "far": np.full((len(base), 5), -np.inf),
     }
-    found: dict[str, Any] = {"pressing": PressBatch(**given)}
+    tree, faces, first = trees([surface.shape for surface in surfaces])
+    given |= {"tree": tree, "faces": faces}
+    given["surfaces"][:, NUMBERS] = np.where(first >= 0, first, given["surfaces"][:, NUMBERS])
+    every = np.concatenate([[len(base), 0], np.arange(len(base))]).astype(np.int64)
+    lit = np.ones(len(base), dtype=np.int64)
+    found: dict[str, Any] = {"pressing": PressBatch(**given, near=every, lit=lit)}
     rough = np.array([items[k].friction > 0.0 for k in which.tolist()], dtype=bool)
     if np.any(rough):
-        rows = ("base", "dest", "shape", "reach", "weight", "contact", "surface", "far")
+        rows = ("base", "dest", "shape", "reach", "weight", "contact", "surface", "hint", "far")
         mine = {key: x[rough].copy() if key in rows else x for key, x in given.items()}
         anchor = np.concatenate([_places(item) for item in items if item.friction > 0.0])
         found["rubbing"] = RubBatch(
-            **mine, anchor=anchor, limit=np.zeros(anchor.shape[:2]), most=np.zeros(len(anchor))
+            **mine,
+            anchor=anchor,
+            limit=np.zeros(anchor.shape[:2]),
+            before=np.zeros(anchor.shape[:2]),
+            most=np.zeros(len(anchor)),
+            lit=np.zeros(len(anchor) + 1, dtype=np.int64),
         )
     return found
 

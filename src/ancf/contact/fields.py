@@ -11,9 +11,9 @@ from ..arrays import BoolArray, FloatArray
 from ..compiled import kernel
 from ..elements.shapes import gauss
 from ..model.surfaces import SurfaceContact
-from .press import press_measure, pressed, still_or
+from .press import press_measure, pressed
 from .rub import RUBBED, SLIPPED, drawn, rub_measure, rubbed
-from .touch import carrier, lie, outside, place_on
+from .touch import carrier, lie, nodes_of, outside, place_on, row_of
 
 __all__ = ["RUBBED", "SLIPPED", "ContactLine", "contact_line", "frictions", "nearest_places", "pressures"]
 
@@ -71,10 +71,9 @@ def press_line(batch, j, q, v, out):
     for e in range(batch.base.shape[0]):
         if batch.contact[e] != j:
             continue
-        body, moving = carrier(batch, e, q), still_or(batch, e, v)
-        at, axis = lie(batch, e, body)
+        row = row_of(batch, e, q, v)
         for p in range(batch.weight.shape[1]):
-            g, _, N, _, _, _, _, _, _ = pressed(batch, e, p, q, v, body, moving, at, axis)
+            g, _, N, _, _, _, _, _, _ = pressed(batch, e, p, row)
             out[m, p, 0], out[m, p, 1] = -g, N
         m += 1
 
@@ -86,11 +85,10 @@ def rub_line(batch, j, q, v, out):
     for e in range(batch.base.shape[0]):
         if batch.contact[e] != j:
             continue
-        body, moving = carrier(batch, e, q), still_or(batch, e, v)
-        at, axis = lie(batch, e, body)
+        row = row_of(batch, e, q, v)
         for p in range(batch.weight.shape[1]):
-            r, _, u, n = rubbed(batch, e, p, q, v, body, moving, at, axis)
-            w, _, f, _ = drawn(batch, e, p, r, u, n, body)
+            r, _, u, n = rubbed(batch, e, p, row)
+            w, _, f, _ = drawn(batch, e, p, r, u, n, row[2])
             out[m, p, 0], out[m, p, 1], out[m, p, 2] = -f * w[0], -f * w[1], -f * w[2]
             out[m, p, 3] = batch.limit[e, p]
         m += 1
@@ -107,10 +105,11 @@ def press_nearest(batch, j, q, out):
         for e in range(batch.base.shape[0]):
             if batch.contact[e] != j:
                 continue
-            at, axis = lie(batch, e, carrier(batch, e, q[n]))
+            body, nodes = carrier(batch, e, q[n]), nodes_of(batch, e, q[n])
+            at, axis = lie(batch, e, body)
             for p in range(batch.weight.shape[1]):
-                r = place_on(batch, e, p, q[n])
-                d, normal, _, _, _ = outside(batch, e, r, at, axis)
+                r = place_on(batch, e, p, nodes)
+                d, normal, _, _, _ = outside(batch, e, p, body, at, axis, r)
                 if d < nearest:
                     nearest = d
                     for c in range(3):

@@ -27,21 +27,28 @@ from .touch import (
     RADIUS,
     ROOM,
     STIFFNESS,
-    add_pair,
+    ZERO,
     add_pair_block,
+    add_sums,
     carrier,
     first_node,
     in_body,
     is_far,
     lie,
     look_around,
+    nodes_of,
+    nothing,
     outside,
     place_on,
     pressure,
     relative,
+    row_of,
     turning,
+    with_force,
 )
 
+#: Entries of ``near``: how many rows, whether the others are watched, then the rows.
+COUNT, WATCHED, FIRST = range(3)
 #: Columns of ``found``: force of all points, N, and the largest depth, m.
 FORCE, DEPTH = range(2)
 #: Share of the depth at which a surface has no sides that a beam may reach.
@@ -62,63 +69,59 @@ class PressBatch(NamedTuple):
     surfaces: FloatArray  # (surfaces, 10) columns PLACE ... NUMBERS
     shape_of: NDArray[np.int64]  # (surfaces,) number of the profile
     found: FloatArray  # (contacts, 4) columns FORCE, DEPTH when it was measured last
-    far: (
-        FloatArray  # (n, 4) memory: where the first node was, and how far it may go until something may touch
-    )
+    tree: FloatArray  # (m, 8) boxes of all meshes, see contact.mesh
+    faces: FloatArray  # (t, 30) their triangles
+    hint: NDArray[np.int64]  # (n, points) triangle that was nearest when it was looked for last
+    far: FloatArray  # (n, 5) memory: where the first node was, ROOM and GONE
+    near: NDArray[np.int64]  # (n + 2,) how many rows are not far, whether all are watched, and which they are
+    lit: NDArray[np.int64]  # (n,) 1 if it is one of them
 
 
 @inline_kernel
-def pressed(batch, e, p, q, v, body, moving, at, axis):
-    """Place of point p in body axes, normal force and its derivatives, normal and what it turns with."""
-    r = place_on(batch, e, p, q)
-    d, n, away, bend, about = outside(batch, e, r, at, axis)
+def pressed(batch, e, p, row):
+    """Place of point p in body axes, normal force and its derivatives, normal and how it turns."""
+    nodes, rates, body, moving, at, axis = row
+    r = place_on(batch, e, p, nodes)
+    d, n, a, bend, about = outside(batch, e, p, body, at, axis, r)
     data = batch.data[batch.contact[e]]
     g = data[RADIUS] - d
     if g <= 0.0:
-        return g, (0.0, 0.0, 0.0), 0.0, 0.0, 0.0, n, away, bend, about
+        return g, ZERO, 0.0, 0.0, 0.0, n, a, bend, about
     x = in_body(body, r)
-    u = relative(place_on(batch, e, p, v), moving, x)
+    u = relative(place_on(batch, e, p, rates), moving, x)
     N, by_g, by_rate = pressure(data, g, -dot(u, n))
-    return g, x, N, by_g, by_rate, n, away, bend, about
+    return g, x, N, by_g, by_rate, n, a, bend, about
 
 
 @inline_kernel
 def press_force(batch, q, v, a, r, ws):
     """Subtract the normal forces from r."""
-    for e in range(batch.base.shape[0]):
+    for i in range(batch.near[COUNT]):
+        e = batch.near[FIRST + i]
         if is_far(batch, e, q):
             continue
-        body, moving = carrier(batch, e, q), still_or(batch, e, v)
-        at, axis = lie(batch, e, body)
+        row, sums = row_of(batch, e, q, v), nothing()
         for p in range(batch.weight.shape[1]):
-            _, x, N, _, _, n, _, _, _ = pressed(batch, e, p, q, v, body, moving, at, axis)
+            _, x, N, _, _, n, _, _, _ = pressed(batch, e, p, row)
             if N > 0.0:
-                add_pair(batch, e, p, x, N * n[0], N * n[1], N * n[2], r)
-
-
-@inline_kernel
-def still_or(batch, e, v):
-    """Rates of the place and the directions of what carries a surface; zero on the ground."""
-    if batch.base[e, batch.base.shape[1] - 4] < 0:
-        zero = (0.0, 0.0, 0.0)
-        return zero, zero, zero, zero
-    return carrier(batch, e, v)
+                sums = with_force(batch, e, p, x, (N * n[0], N * n[1], N * n[2]), sums)
+        add_sums(batch, e, sums, r)
 
 
 @inline_kernel
 def press_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add minus the derivatives by position and velocity."""
-    for e in range(batch.base.shape[0]):
+    for i in range(batch.near[COUNT]):
+        e = batch.near[FIRST + i]
         if is_far(batch, e, q):
             continue
-        body, moving = carrier(batch, e, q), still_or(batch, e, v)
-        at, axis = lie(batch, e, body)
+        row = row_of(batch, e, q, v)
         for p in range(batch.weight.shape[1]):
-            _, x, N, by_g, by_rate, n, away, bend, about = pressed(batch, e, p, q, v, body, moving, at, axis)
+            _, x, N, by_g, by_rate, n, along, bend, about = pressed(batch, e, p, row)
             if N == 0.0:
                 continue
             k = c_stiffness * by_g + c_damping * by_rate
-            t = turning(-c_stiffness * N, n, away, axis, bend, about)
+            t = turning(-c_stiffness * N, n, along, bend, about)
             rows = (
                 (t[0][0] + k * n[0] * n[0], t[0][1] + k * n[0] * n[1], t[0][2] + k * n[0] * n[2]),
                 (t[1][0] + k * n[1] * n[0], t[1][1] + k * n[1] * n[1], t[1][2] + k * n[1] * n[2]),
@@ -134,10 +137,10 @@ def press_energy(batch, q, ws):
     for e in range(batch.base.shape[0]):
         if is_far(batch, e, q):
             continue
-        at, axis = lie(batch, e, carrier(batch, e, q))
-        data = batch.data[batch.contact[e]]
+        body, nodes, data = carrier(batch, e, q), nodes_of(batch, e, q), batch.data[batch.contact[e]]
+        at, axis = lie(batch, e, body)
         for p in range(batch.weight.shape[1]):
-            d, _, _, _, _ = outside(batch, e, place_on(batch, e, p, q), at, axis)
+            d, _, _, _, _ = outside(batch, e, p, body, at, axis, place_on(batch, e, p, nodes))
             g = max(data[RADIUS] - d, 0.0)
             energy += 0.5 * batch.weight[e, p] * data[STIFFNESS] * g * g
     return energy
@@ -149,37 +152,58 @@ def press_measure(batch, q, v):
     for j in range(batch.found.shape[0]):
         batch.found[j, FORCE], batch.found[j, DEPTH] = 0.0, -np.inf
     for e in range(batch.base.shape[0]):
-        body, moving, j = carrier(batch, e, q), still_or(batch, e, v), batch.contact[e]
-        at, axis = lie(batch, e, body)
+        row, j = row_of(batch, e, q, v), batch.contact[e]
         for p in range(batch.weight.shape[1]):
-            g, _, N, _, _, _, _, _, _ = pressed(batch, e, p, q, v, body, moving, at, axis)
+            g, _, N, _, _, _, _, _, _ = pressed(batch, e, p, row)
             batch.found[j, FORCE] += batch.weight[e, p] * N
             batch.found[j, DEPTH] = max(batch.found[j, DEPTH], g)
 
 
 @inline_kernel
 def press_remember(batch, q, v):
-    """See which elements are far."""
+    """See which elements are far; the others are looked at until the next time.
+
+    Those that leave their balls meanwhile are found by ``press_passed``, which has to watch for that: where
+    nothing does, as in a method that does not ask, all are looked at.
+    """
+    watched, count = batch.near[WATCHED], 0
     for e in range(batch.base.shape[0]):
-        look_around(batch, e, q)
+        far = look_around(batch, e, q) and watched == 1
+        batch.lit[e] = 0 if far else 1
+        if not far:
+            batch.near[FIRST + count] = e
+            count += 1
+    batch.near[COUNT], batch.near[WATCHED] = count, 0
 
 
 @inline_kernel
 def press_passed(batch, q, ws):
     """Slot of the first node of an element that may have gone through a surface since the last step, else -1.
 
-    It is deeper than half of where a surface has no sides, or has come as far near it in one step.
+    It is deeper than half of where a surface has no sides, or has come as far near it in one step.  One that
+    was far and is no more counts as well: the step was taken without it, the next attempt is with it.
     """
+    found = -1
     for e in range(batch.base.shape[0]):
+        if batch.lit[e] == 0 and not is_far(batch, e, q):
+            batch.lit[e], batch.near[FIRST + batch.near[COUNT]] = 1, e
+            batch.near[COUNT] += 1
+            found = batch.base[e, 0]
+    batch.near[WATCHED] = 1
+    if found >= 0:
+        return found
+    for i in range(batch.near[COUNT]):
+        e = batch.near[FIRST + i]
         if is_far(batch, e, q):
             continue
         narrow, r, far = batch.data[batch.contact[e], NARROW], first_node(batch, e, q), batch.far[e]
         way = math.sqrt((r[0] - far[0]) ** 2 + (r[1] - far[1]) ** 2 + (r[2] - far[2]) ** 2)
         if way > narrow and far[ROOM] > -math.inf:
             return batch.base[e, 0]
-        at, axis = lie(batch, e, carrier(batch, e, q))
+        body, nodes = carrier(batch, e, q), nodes_of(batch, e, q)
+        at, axis = lie(batch, e, body)
         for p in range(batch.weight.shape[1]):
-            d, _, _, _, _ = outside(batch, e, place_on(batch, e, p, q), at, axis)
+            d, _, _, _, _ = outside(batch, e, p, body, at, axis, place_on(batch, e, p, nodes))
             if d < -PASSED * narrow:
                 return batch.base[e, 0]
     return -1
@@ -190,6 +214,8 @@ def press_lost(batch, q, holds):
     """Forget in the initial shape of an equilibrium where elements were: its steps are long."""
     for e in range(batch.base.shape[0]):
         batch.far[e, ROOM] = -math.inf
+        batch.near[FIRST + e], batch.lit[e] = e, 1
+    batch.near[COUNT], batch.near[WATCHED] = batch.base.shape[0], 0
 
 
 def look_everywhere(batch, q, holds):

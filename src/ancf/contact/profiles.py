@@ -20,7 +20,8 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..compiled import inline_kernel, kernel
-from ..model.surface_shapes import SHAPES, Shape
+from ..model.shape import Shape
+from ..model.surface_shapes import SHAPES
 
 
 @inline_kernel
@@ -32,7 +33,7 @@ def plane(numbers, rho, z):
 @inline_kernel
 def round_corner(x, y):
     """Distance from a corner that is x and y away, both positive."""
-    d = math.hypot(x, y)
+    d = math.sqrt(x * x + y * y)
     s = 1.0 / d if d > 0.0 else 0.0
     return d, x * s, y * s, s
 
@@ -79,12 +80,12 @@ def torus(numbers, rho, z):
 
 @inline_kernel
 def sheave(numbers, rho, z):
-    """Tread radius at the bottom of the groove, radius of the groove, depth, half angle of the flanks.
+    """Tread radius at the bottom of the groove, its radius, its depth, sine of half the angle of the flanks.
 
     The bottom is an arc, the flanks are its tangents, the rim is a cylinder without end.
     """
-    groove, slope = numbers[1], numbers[3]
-    s, c = math.sin(slope), math.cos(slope)
+    groove, s = numbers[1], numbers[3]
+    c = math.sqrt(1.0 - s * s)
     x, y = rho - numbers[0] - groove, abs(z)  # from the centre of the arc
     up = 1.0 if z >= 0.0 else -1.0
     rim = numbers[2] - groove  # its height over the centre
@@ -137,8 +138,8 @@ def _nowhere(shape, numbers, rho, z):
 
 def _all() -> Any:
     chosen = _nowhere
-    for word, number in NUMBER.items():
-        chosen = _or(number, PROFILES[word], chosen)
+    for word, profile in PROFILES.items():
+        chosen = _or(NUMBER[word], profile, chosen)
     return chosen
 
 

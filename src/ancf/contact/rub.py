@@ -2,13 +2,14 @@
 
 At the place x of the axis, which a surface that moves carries along, with the normal n and P = 1 - n n^T,
 
-    T = -w,   w = P (k_t (r - anchor) + c_t v),   cut to |T| <= limit,   limit = mu N of the last step,
+    T = -w,   w = P (k_t (r - anchor) + c_t v),   cut to |T| <= limit,   limit = mu N,
 
 where v is the velocity past the surface and c_t = c sqrt(k_t/k).  The anchor is where the spring has no
 force; it stays in the axes of what carries the surface, so that a drum which turns takes it along.  A
 point that does not touch takes its anchor along, one that slips drags it at the distance limit/k_t.  Anchors
-and limits are memory: they change once for each accepted step, see ``rub_remember``.  A limit of the step
-before keeps the matrix symmetric and the iteration stable.
+and limits are memory: they change once for each accepted step, see ``rub_remember``.  A limit that is known
+before the step keeps the matrix symmetric and the iteration stable; N is continued from the ends of the last
+two steps, so that what passes by does not feel the pressure where it was.
 
 In an equilibrium the anchors are the places of the initial shape, so that friction opposes the way from
 there.  It holds what touches there while the loads come on, so that nothing falls off that friction alone
@@ -26,22 +27,26 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel, kernel
-from .press import pressed, still_or
+from .press import pressed
 from .touch import (
     DRAG,
     FRICTION,
     RADIUS,
     STICK,
-    add_pair,
     add_pair_block,
+    add_sums,
     carried,
     carrier,
     in_body,
     lie,
     look_around,
+    nodes_of,
+    nothing,
     outside,
     place_on,
     relative,
+    row_of,
+    with_force,
 )
 
 #: Columns of ``found``: friction of all points added up by size, N, and the share of it that slips.
@@ -49,6 +54,8 @@ RUBBED, SLIPPED = 2, 3
 #: Share of a change of the limits that a round of an equilibrium takes: all of it would swing past a cable
 #: that friction holds on several turns.
 TAKEN = 0.4
+#: Share of a normal force by which the one of the next step is expected to differ at most.
+GROWS = 0.1
 #: A limit that nothing reaches, N/m, and the gap in radii up to which a point counts as one that touches.
 GRIP, CLOSE = 1e100, 0.05
 
@@ -67,16 +74,32 @@ class RubBatch(NamedTuple):
     surfaces: FloatArray
     shape_of: NDArray[np.int64]
     found: FloatArray  # (contacts, 4) columns RUBBED, SLIPPED when it was measured last
-    far: FloatArray  # (n, 4) memory
+    tree: FloatArray
+    faces: FloatArray
+    hint: NDArray[np.int64]
+    far: FloatArray  # (n, 5) memory
     anchor: FloatArray  # (n, points, 3) memory: where friction has no force, in axes of what carries
     limit: FloatArray  # (n, points) memory: largest friction, N/m
-    most: FloatArray  # (n,) memory: the largest of them
+    before: FloatArray  # (n, points) memory: normal force at the end of the step before, N/m
+    most: FloatArray  # (n,) memory: the largest limit of a row
+    lit: NDArray[np.int64]  # (n + 1,) memory: how many rows have a limit, and which
 
 
 @inline_kernel
 def rubs(batch, e):
     """Whether a row may have friction in this step."""
     return batch.most[e] > 0.0
+
+
+@inline_kernel
+def light(batch):
+    """List the rows that may have friction."""
+    count = 0
+    for e in range(batch.base.shape[0]):
+        if rubs(batch, e):
+            count += 1
+            batch.lit[count] = e
+    batch.lit[0] = count
 
 
 @inline_kernel
@@ -97,43 +120,40 @@ def drawn(batch, e, p, r, u, n, body):
 
 
 @inline_kernel
-def rubbed(batch, e, p, q, v, body, moving, at, axis):
+def rubbed(batch, e, p, row):
     """Place of point p, in body axes too, its velocity past the surface and the normal."""
-    r = place_on(batch, e, p, q)
-    _, n, _, _, _ = outside(batch, e, r, at, axis)
+    nodes, rates, body, moving, at, axis = row
+    r = place_on(batch, e, p, nodes)
+    _, n, _, _, _ = outside(batch, e, p, body, at, axis, r)
     x = in_body(body, r)
-    return r, x, relative(place_on(batch, e, p, v), moving, x), n
+    return r, x, relative(place_on(batch, e, p, rates), moving, x), n
 
 
 @inline_kernel
 def rub_force(batch, q, v, a, r, ws):
     """Subtract the friction from r."""
-    for e in range(batch.base.shape[0]):
-        if not rubs(batch, e):
-            continue
-        body, moving = carrier(batch, e, q), still_or(batch, e, v)
-        at, axis = lie(batch, e, body)
+    for i in range(batch.lit[0]):
+        e = batch.lit[1 + i]
+        row, sums = row_of(batch, e, q, v), nothing()
         for p in range(batch.weight.shape[1]):
             if batch.limit[e, p] > 0.0:
-                place, x, u, n = rubbed(batch, e, p, q, v, body, moving, at, axis)
-                w, _, f, _ = drawn(batch, e, p, place, u, n, body)
-                add_pair(batch, e, p, x, -f * w[0], -f * w[1], -f * w[2], r)
+                place, x, u, n = rubbed(batch, e, p, row)
+                w, _, f, _ = drawn(batch, e, p, place, u, n, row[2])
+                sums = with_force(batch, e, p, x, (-f * w[0], -f * w[1], -f * w[2]), sums)
+        add_sums(batch, e, sums, r)
 
 
 @inline_kernel
 def rub_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add minus the derivatives by position and velocity, the normal as it is."""
-    for e in range(batch.base.shape[0]):
-        if not rubs(batch, e):
-            continue
-        data = batch.data[batch.contact[e]]
-        body, moving = carrier(batch, e, q), still_or(batch, e, v)
-        at, axis = lie(batch, e, body)
+    for i in range(batch.lit[0]):
+        e = batch.lit[1 + i]
+        data, row = batch.data[batch.contact[e]], row_of(batch, e, q, v)
         for p in range(batch.weight.shape[1]):
             if batch.limit[e, p] == 0.0:
                 continue
-            place, x, u, n = rubbed(batch, e, p, q, v, body, moving, at, axis)
-            w, size, f, slips = drawn(batch, e, p, place, u, n, body)
+            place, x, u, n = rubbed(batch, e, p, row)
+            w, size, f, slips = drawn(batch, e, p, place, u, n, row[2])
             one = f * (c_stiffness * data[STICK] + c_damping * data[DRAG])
             ww = -one / (size * size) if slips else 0.0
             xy = ww * w[0] * w[1] - one * n[0] * n[1]
@@ -154,12 +174,11 @@ def rub_remember(batch, q, v):
         if look_around(batch, e, q) and not rubs(batch, e):
             continue
         batch.most[e] = 0.0
-        data, moving = batch.data[batch.contact[e]], still_or(batch, e, v)
-        body = carrier(batch, e, q)
-        at, axis = lie(batch, e, body)
+        data, row = batch.data[batch.contact[e]], row_of(batch, e, q, v)
+        body = row[2]
         for p in range(batch.weight.shape[1]):
-            _, _, N, _, _, n, _, _, _ = pressed(batch, e, p, q, v, body, moving, at, axis)
-            r, x, u, _ = rubbed(batch, e, p, q, v, body, moving, at, axis)
+            _, _, N, _, _, n, _, _, _ = pressed(batch, e, p, row)
+            r, x, u, _ = rubbed(batch, e, p, row)
             w, _, f, slips = drawn(batch, e, p, r, u, n, body)
             if N == 0.0:
                 batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = x
@@ -167,8 +186,18 @@ def rub_remember(batch, q, v):
                 keep = f / data[STICK]
                 left = in_body(body, (r[0] - keep * w[0], r[1] - keep * w[1], r[2] - keep * w[2]))
                 batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = left
-            batch.limit[e, p] = data[FRICTION] * N
+            batch.limit[e, p] = data[FRICTION] * ahead(N, batch.before[e, p])
+            batch.before[e, p] = N
             batch.most[e] = max(batch.most[e], batch.limit[e, p])
+    light(batch)
+
+
+@inline_kernel
+def ahead(N, before):
+    """The normal force a step later, if it goes on to change as it did, and changes by little."""
+    if before == 0.0:
+        return N
+    return min(max(2.0 * N - before, (1.0 - GROWS) * N), (1.0 + GROWS) * N)
 
 
 @inline_kernel
@@ -179,11 +208,10 @@ def rub_measure(batch, q, v):
     for e in range(batch.base.shape[0]):
         if not rubs(batch, e):
             continue
-        body, moving, j = carrier(batch, e, q), still_or(batch, e, v), batch.contact[e]
-        at, axis = lie(batch, e, body)
+        row, j = row_of(batch, e, q, v), batch.contact[e]
         for p in range(batch.weight.shape[1]):
-            place, _, u, n = rubbed(batch, e, p, q, v, body, moving, at, axis)
-            _, size, f, slips = drawn(batch, e, p, place, u, n, body)
+            place, _, u, n = rubbed(batch, e, p, row)
+            _, size, f, slips = drawn(batch, e, p, place, u, n, row[2])
             force = batch.weight[e, p] * f * size
             batch.found[j, RUBBED] += force
             batch.found[j, SLIPPED] += force if slips else 0.0
@@ -201,18 +229,18 @@ def renew_limits(batch, q, v):
     change, most = 0.0, 0.0
     for e in range(batch.base.shape[0]):
         batch.most[e] = 0.0
-        body, moving, data = carrier(batch, e, q), still_or(batch, e, v), batch.data[batch.contact[e]]
-        at, axis = lie(batch, e, body)
+        row, data = row_of(batch, e, q, v), batch.data[batch.contact[e]]
         for p in range(batch.weight.shape[1]):
-            _, _, N, _, _, _, _, _, _ = pressed(batch, e, p, q, v, body, moving, at, axis)
-            wanted, limit = data[FRICTION] * N, batch.limit[e, p]
+            _, _, N, _, _, _, _, _, _ = pressed(batch, e, p, row)
+            wanted, limit, batch.before[e, p] = data[FRICTION] * N, batch.limit[e, p], N  # at rest N stays
             if limit == GRIP:
-                r, _, u, n = rubbed(batch, e, p, q, v, body, moving, at, axis)
-                limit = max(wanted, drawn(batch, e, p, r, u, n, body)[1])
+                r, _, u, n = rubbed(batch, e, p, row)
+                limit = max(wanted, drawn(batch, e, p, r, u, n, row[2])[1])
             change = max(change, abs(wanted - limit))
             most = max(most, wanted)
             batch.limit[e, p] = limit + TAKEN * (wanted - limit)
             batch.most[e] = max(batch.most[e], batch.limit[e, p])
+    light(batch)
     return change, most
 
 
@@ -220,13 +248,14 @@ def renew_limits(batch, q, v):
 def grip(batch, q, holds):
     """Let friction hold all that touches in the state q, whatever it takes, or nothing."""
     for e in range(batch.base.shape[0]):
-        at, axis = lie(batch, e, carrier(batch, e, q))
+        body, nodes = carrier(batch, e, q), nodes_of(batch, e, q)
+        at, axis = lie(batch, e, body)
         radius, batch.most[e] = batch.data[batch.contact[e], RADIUS], 0.0
         for p in range(batch.weight.shape[1]):
-            d, _, _, _, _ = outside(batch, e, place_on(batch, e, p, q), at, axis)
+            d, _, _, _, _ = outside(batch, e, p, body, at, axis, place_on(batch, e, p, nodes))
             batch.limit[e, p] = GRIP if holds and d < (1.0 + CLOSE) * radius else 0.0
             batch.most[e] = max(batch.most[e], batch.limit[e, p])
-            batch.most[e] = max(batch.most[e], batch.limit[e, p])
+    light(batch)
 
 
 def hold(batch, q, holds):
@@ -248,7 +277,7 @@ implements(
     remember=rub_remember,
     measure=rub_measure,
     role=Role.RUBS | Role.MEASURES,
-    memory=("far", "anchor", "limit", "most"),
+    memory=("far", "anchor", "limit", "before", "most", "lit"),
     late=lambda batch: let_rub,
     early=hold,
 )

@@ -13,43 +13,48 @@ import math
 import numpy as np
 
 from ..compiled import inline_kernel
-from ..vectors import dot
+from ..vectors import cross, dot
+from .mesh import MESH, nearest_face
 from .profiles import profile_of
 
-#: Slots of a rigid body.
-BODY = 4
+#: Slots of an element that its axis depends on: r and r_x of both nodes; and of a rigid body.
+NODES, BODY = 4, 4
 #: Columns of ``surfaces``: its place and its axis in body axes, then the numbers of its shape.
 PLACE, AXIS, NUMBERS = 0, 3, 6
 #: Columns of ``data``: radius of the beam, k, c, mu, k_t, c_t, depth at which a surface has no sides.
 RADIUS, STIFFNESS, DAMPING, FRICTION, STICK, DRAG, NARROW = range(7)
 #: Depth in radii over which damping comes on.
 SOFT = 0.02
-#: Column of ``far`` behind a place in body axes: how far the first node may go from there, m.
-ROOM = 3
+#: Columns of ``far`` behind a place in body axes: how far the first node may go from there, and how far it
+#: has gone when that was looked at last, m.
+ROOM, GONE = 3, 4
+#: Steps such as the last in which it must stay there to count as far.
+STEPS = 4.0
 #: Factor of the size of an element by which it may grow before its ball is renewed.
 STRETCHED = 1.25
 #: Indices without a sign: it need not be looked at.
 ONE, TWO = np.uint64(1), np.uint64(2)
+ZERO = (0.0, 0.0, 0.0)
 EX, EY, EZ = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
 @inline_kernel
 def at_slot(q, i):
-    """The vector of a slot."""
-    return q[i], q[i + 1], q[i + 2]
+    """The vector of a slot; one without a sign need not be looked at."""
+    return q[i], q[i + ONE], q[i + TWO]
 
 
 @inline_kernel
 def carrier(batch, e, q):
     """Place and directions of what carries the surface of a row."""
-    k = batch.base.shape[1] - BODY
-    if batch.base[e, k] < 0:
-        return (0.0, 0.0, 0.0), EX, EY, EZ
+    b = batch.base[e]
+    if b[NODES] < 0:
+        return ZERO, EX, EY, EZ
     return (
-        at_slot(q, batch.base[e, k]),
-        at_slot(q, batch.base[e, k + 1]),
-        at_slot(q, batch.base[e, k + 2]),
-        at_slot(q, batch.base[e, k + 3]),
+        at_slot(q, np.uint64(b[NODES])),
+        at_slot(q, np.uint64(b[NODES + 1])),
+        at_slot(q, np.uint64(b[NODES + 2])),
+        at_slot(q, np.uint64(b[NODES + 3])),
     )
 
 
@@ -85,9 +90,15 @@ def cylindrical(r, at, axis):
 
 
 @inline_kernel
-def outside(batch, e, r, at, axis):
-    """Signed distance of a place from the surface of a row, the normal, and what its derivative needs."""
+def outside(batch, e, p, body, at, axis, r):
+    """Signed distance of a place from the surface of a row, the normal, and how it turns.
+
+    That is: a direction a along the surface, the curvature along n x a and the one along a, 1/m.  Point p
+    is where a mesh begins to look.
+    """
     k = batch.surface[e]
+    if batch.shape_of[k] == MESH:
+        return beside_mesh(batch, e, p, k, body, r)
     h, rho, away = cylindrical(r, at, axis)
     d, n_rho, n_z, bend = profile_of(batch.shape_of[k], batch.surfaces[k, NUMBERS:], rho, h)
     n = (
@@ -96,20 +107,68 @@ def outside(batch, e, r, at, axis):
         n_rho * away[2] + n_z * axis[2],
     )
     about = n_rho / rho if rho > 0.0 else bend
-    return d, n, away, bend, about
+    return d, n, cross(axis, away), bend, about
 
 
 @inline_kernel
-def place_on(batch, e, p, q):
-    """Position of point p of row e, or its velocity from v."""
-    x, y, z = 0.0, 0.0, 0.0
-    for k in range(batch.base.shape[1] - BODY):
-        i, w = batch.base[e, k], batch.shape[e, p, k]
-        if i >= 0:
-            x += w * q[i]
-            y += w * q[i + 1]
-            z += w * q[i + 2]
-    return x, y, z
+def beside_mesh(batch, e, p, k, body, r):
+    """The same of a mesh, which lies in body axes."""
+    s = batch.surfaces[k]
+    x = in_body(body, r)
+    x = x[0] - s[PLACE], x[1] - s[PLACE + 1], x[2] - s[PLACE + 2]
+    d, n, a, bend, about, face = nearest_face(batch.tree, batch.faces, s[NUMBERS], batch.hint[e, p], x)
+    batch.hint[e, p] = face
+    return d, turned(body, n), turned(body, a), bend, about
+
+
+@inline_kernel
+def turned(body, n):
+    """A direction in body axes as a global one."""
+    _, a, b, d = body
+    return (
+        n[0] * a[0] + n[1] * b[0] + n[2] * d[0],
+        n[0] * a[1] + n[1] * b[1] + n[2] * d[1],
+        n[0] * a[2] + n[1] * b[2] + n[2] * d[2],
+    )
+
+
+@inline_kernel
+def nodes_of(batch, e, q):
+    """The four vectors of a row, or their rates from v."""
+    b = batch.base[e]
+    return (
+        at_slot(q, np.uint64(b[0])),
+        at_slot(q, np.uint64(b[1])),
+        at_slot(q, np.uint64(b[2])),
+        at_slot(q, np.uint64(b[3])),
+    )
+
+
+@inline_kernel
+def row_of(batch, e, q, v):
+    """What all points of a row share: its vectors and their rates, what carries the surface, how it lies."""
+    body = carrier(batch, e, q)
+    at, axis = lie(batch, e, body)
+    return nodes_of(batch, e, q), nodes_of(batch, e, v), body, still_or(batch, e, v), at, axis
+
+
+@inline_kernel
+def still_or(batch, e, v):
+    """Rates of the place and the directions of what carries a surface; zero on the ground."""
+    if batch.base[e, NODES] < 0:
+        return ZERO, ZERO, ZERO, ZERO
+    return carrier(batch, e, v)
+
+
+@inline_kernel
+def place_on(batch, e, p, nodes):
+    """Position of point p of row e from its four vectors, or its velocity from their rates."""
+    s, (a, b, c, d) = batch.shape[e, p], nodes
+    return (
+        s[0] * a[0] + s[1] * b[0] + s[2] * c[0] + s[3] * d[0],
+        s[0] * a[1] + s[1] * b[1] + s[2] * c[1] + s[3] * d[1],
+        s[0] * a[2] + s[1] * b[2] + s[2] * c[2] + s[3] * d[2],
+    )
 
 
 @inline_kernel
@@ -123,9 +182,8 @@ def in_body(body, r):
 @inline_kernel
 def first_node(batch, e, q):
     """Place of the first node of a row, in the axes of what carries the surface."""
-    k = batch.base.shape[1] - BODY
-    r = at_slot(q, batch.base[e, 0])
-    if batch.base[e, k] < 0:
+    r = at_slot(q, np.uint64(batch.base[e, 0]))
+    if batch.base[e, NODES] < 0:
         return r
     return in_body(carrier(batch, e, q), r)
 
@@ -137,15 +195,14 @@ def reach_of(batch, e, q):
     With the factors S_k of the points in q_k, r_0 the first node, sum |S_k| |q_k - r_0|, or |q_k| of a
     slope, bounds it; the sum of the sizes of the components bounds the size of a vector.
     """
-    r = at_slot(q, batch.base[e, 0])
-    reach = batch.data[batch.contact[e], RADIUS]
-    for k in range(1, batch.base.shape[1] - BODY):
-        i, w = batch.base[e, k], batch.reach[e, k]
-        if i >= 0:
-            if w > 0.0:
-                reach += w * (abs(q[i]) + abs(q[i + 1]) + abs(q[i + 2]))
-            else:
-                reach -= w * (abs(q[i] - r[0]) + abs(q[i + 1] - r[1]) + abs(q[i + 2] - r[2]))
+    nodes = nodes_of(batch, e, q)
+    r, reach = nodes[0], batch.data[batch.contact[e], RADIUS]
+    for k in range(1, NODES):
+        w, x = batch.reach[e, k], nodes[k]
+        if w > 0.0:
+            reach += w * (abs(x[0]) + abs(x[1]) + abs(x[2]))
+        else:
+            reach -= w * (abs(x[0] - r[0]) + abs(x[1] - r[1]) + abs(x[2] - r[2]))
     return reach
 
 
@@ -153,7 +210,7 @@ def reach_of(batch, e, q):
 def is_far(batch, e, q):
     """Whether no point of a row can touch: its first node has not left the ball in which none does."""
     i, far = np.uint64(batch.base[e, 0]), batch.far[e]
-    if batch.base[e, batch.base.shape[1] - BODY] < 0:
+    if batch.base[e, NODES] < 0:
         return abs(q[i] - far[0]) + abs(q[i + ONE] - far[1]) + abs(q[i + TWO] - far[2]) < far[ROOM]
     r = first_node(batch, e, q)
     return abs(r[0] - far[0]) + abs(r[1] - far[1]) + abs(r[2] - far[2]) < far[ROOM]
@@ -161,15 +218,22 @@ def is_far(batch, e, q):
 
 @inline_kernel
 def look_around(batch, e, q):
-    """Whether a row is far; its ball is renewed when half of it is used up."""
+    """Whether a row is far; its ball is renewed when half of it is used up.
+
+    One that would leave its ball in a few steps such as the last counts as near.
+    """
     r, far = first_node(batch, e, q), batch.far[e]
-    if 2.0 * (abs(r[0] - far[0]) + abs(r[1] - far[1]) + abs(r[2] - far[2])) < far[ROOM]:
-        return True
-    at, axis = lie(batch, e, carrier(batch, e, q))
-    d, _, _, _, _ = outside(batch, e, at_slot(q, batch.base[e, 0]), at, axis)
+    gone = abs(r[0] - far[0]) + abs(r[1] - far[1]) + abs(r[2] - far[2])
+    way = abs(gone - far[GONE])
+    far[GONE] = gone
+    if 2.0 * gone < far[ROOM]:
+        return gone + STEPS * way < far[ROOM]
+    body = carrier(batch, e, q)
+    at, axis = lie(batch, e, body)
+    d, _, _, _, _ = outside(batch, e, 0, body, at, axis, at_slot(q, np.uint64(batch.base[e, 0])))
     far[0], far[1], far[2] = r
-    far[ROOM] = d - STRETCHED * reach_of(batch, e, q)
-    return far[ROOM] > 0.0
+    far[ROOM], far[GONE] = d - STRETCHED * reach_of(batch, e, q), 0.0
+    return far[ROOM] > STEPS * way
 
 
 @inline_kernel
@@ -196,51 +260,83 @@ def pressure(data, g, rate):
 @inline_kernel
 def factor_of(batch, e, p, k, x):
     """Factor of slot k in the place of point p against the surface, which it meets at x in body axes."""
-    size = batch.base.shape[1] - BODY
-    if k < size:
+    if k < NODES:
         return batch.shape[e, p, k]
-    return -1.0 if k == size else -x[k - size - 1]
+    return -1.0 if k == NODES else -x[k - NODES - 1]
 
 
 @inline_kernel
-def add_pair(batch, e, p, x, fx, fy, fz, r):
-    """Subtract a force per reference length on point p, and the opposite one on what it touches, from r."""
-    size = batch.base.shape[1]
-    w = batch.weight[e, p]
-    for k in range(size):
-        i = batch.base[e, k]
-        if i >= 0:
-            s = w * factor_of(batch, e, p, k, x)
-            r[i] -= s * fx
-            r[i + 1] -= s * fy
-            r[i + 2] -= s * fz
+def plus(a, s, f):
+    """a + s f."""
+    return a[0] + s * f[0], a[1] + s * f[1], a[2] + s * f[2]
+
+
+@inline_kernel
+def nothing():
+    """The sums of a row without forces: of its four vectors, of the place and the directions of its body."""
+    return ZERO, ZERO, ZERO, ZERO, ZERO, ZERO, ZERO, ZERO
+
+
+@inline_kernel
+def with_force(batch, e, p, x, f, sums):
+    """The sums with a force f per reference length on point p, which meets the surface at x in body axes."""
+    s, w = batch.shape[e, p], batch.weight[e, p]
+    a, b, c, d, o, i, j, k = sums
+    return (
+        plus(a, w * s[0], f),
+        plus(b, w * s[1], f),
+        plus(c, w * s[2], f),
+        plus(d, w * s[3], f),
+        plus(o, -w, f),
+        plus(i, -w * x[0], f),
+        plus(j, -w * x[1], f),
+        plus(k, -w * x[2], f),
+    )
+
+
+@inline_kernel
+def take(r, i, f):
+    """Subtract a vector from a slot."""
+    r[i] -= f[0]
+    r[i + ONE] -= f[1]
+    r[i + TWO] -= f[2]
+
+
+@inline_kernel
+def add_sums(batch, e, sums, r):
+    """Subtract the forces of a row, and the opposite ones on what it touches, from r."""
+    b = batch.base[e]
+    take(r, np.uint64(b[0]), sums[0])
+    take(r, np.uint64(b[1]), sums[1])
+    take(r, np.uint64(b[2]), sums[2])
+    take(r, np.uint64(b[3]), sums[3])
+    if b[NODES] >= 0:
+        take(r, np.uint64(b[NODES]), sums[4])
+        take(r, np.uint64(b[NODES + 1]), sums[5])
+        take(r, np.uint64(b[NODES + 2]), sums[6])
+        take(r, np.uint64(b[NODES + 3]), sums[7])
 
 
 @inline_kernel
 def add_pair_block(batch, e, p, x, rows, A):
     """Add a symmetric 3x3 matrix per length, minus the derivative of that force by the way apart, to A."""
-    size = batch.base.shape[1]
+    size = NODES if batch.base[e, NODES] < 0 else NODES + BODY
     for k in range(size):
         wk = batch.weight[e, p] * factor_of(batch, e, p, k, x)
         for m in range(size):
-            place = batch.dest[e, size * k + m]
-            if place < 0:
+            place = batch.dest[e, (NODES + BODY) * k + m]
+            if place < 0:  # one half of a symmetric matrix is kept
                 continue
             w = wk * factor_of(batch, e, p, m, x)
             for i in range(3):
                 for j in range(3):
-                    A[place + 6 * i + j] += w * rows[i][j]
+                    A[np.uint64(place + 6 * i + j)] += w * rows[i][j]
 
 
 @inline_kernel
-def turning(N, n, away, axis, bend, about):
+def turning(N, n, a, bend, about):
     """Rows of N times the derivative of the normal by the place."""
-    a = (
-        axis[1] * away[2] - axis[2] * away[1],
-        axis[2] * away[0] - axis[0] * away[2],
-        axis[0] * away[1] - axis[1] * away[0],
-    )
-    b = n[1] * a[2] - n[2] * a[1], n[2] * a[0] - n[0] * a[2], n[0] * a[1] - n[1] * a[0]
+    b = cross(n, a)
     s, t = N * about, N * bend
     xy, xz = s * a[0] * a[1] + t * b[0] * b[1], s * a[0] * a[2] + t * b[0] * b[2]
     yz = s * a[1] * a[2] + t * b[1] * b[2]

@@ -70,6 +70,16 @@ def along(shape: Sampler, fraction: FloatArray, first: FloatArray) -> FloatArray
     return _double_reflection(position, tangent, first)[::parts].copy()
 
 
+def closing(y: FloatArray, tangent: FloatArray, fraction: FloatArray) -> FloatArray:
+    """Local y axes (n, 3) of a loop: carried without twist they come back turned, which is spread evenly."""
+    first, last = y[0], y[-1]
+    angle = float(np.arctan2(np.cross(first, last) @ tangent[0], first @ last))
+    turn = -angle * fraction[:, None]
+    turned: FloatArray = np.cos(turn) * y + np.sin(turn) * np.cross(tangent, y)
+    turned[-1] = first
+    return turned
+
+
 def carried(vector: FloatArray, old: FloatArray, new: FloatArray) -> FloatArray:
     """Vectors (n, 3) after the smallest rotations that take the unit vectors `old` to `new`."""
     w = np.cross(old, new)

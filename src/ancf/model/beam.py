@@ -54,6 +54,8 @@ class Beam:
         too but no use for them.
     velocity, angular_velocity, about : (3,) arrays
         Initial rigid motion, m/s, rad/s, m.
+    closed : bool
+        Whether the end is the start: a loop, whose last row of the nodes repeats the first.
     along, velocities : (m,) and (m, 3) arrays
         Initial velocities beside the rigid motion, m/s, at arc lengths, m; without any, m is 0.
     lay : callable, optional
@@ -78,6 +80,7 @@ class Beam:
     velocity: FloatArray
     angular_velocity: FloatArray
     about: FloatArray
+    closed: bool = False
     lay: Shape | None = None
     along: FloatArray = field(default_factory=lambda: np.zeros(0))
     velocities: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
@@ -134,11 +137,15 @@ class Beam:
 
     @property
     def end(self) -> Point:
-        """The point at the full reference length."""
+        """The point at the full reference length; of a closed beam its start."""
+        if self.closed:
+            return self.start
         return Point(self, self.length, f"{self.name}.end")
 
     def at(self, x: float, y: float = 0.0, z: float = 0.0) -> Point:
         """Point at the reference arc length x and at (y, z) in the cross-section, m.
+
+        A closed beam goes round: x + length is the same point.
 
         Raises
         ------
@@ -149,6 +156,8 @@ class Beam:
         where = f"{self.name}.at"
         clean = checks.number(x, where)
         slack = NODE_TOLERANCE * self.length
+        if self.closed:
+            clean %= self.length
         if not -slack <= clean <= self.length + slack:
             raise ModelError(where, f"x = {clean:g} m is outside the beam, 0 <= x <= {self.length:g} m")
         clean = min(max(clean, 0.0), self.length)

@@ -70,6 +70,9 @@ def make_contact(
     if not isinstance(carrier, Beam):
         what = f'"{carrier.name}" is a {kind(carrier)}, must be a cable or a beam'
         raise ModelError(f"{where}.along", what)
+    if carrier.closed:
+        what = f'"{carrier.name}" is closed: a strip needs a wire with ends'
+        raise ModelError(f"{where}.along", what, "a surface on a rigid body")
     if point.body is carrier:
         what = f'"{carrier.name}" is the body of {point} itself, it cannot touch itself'
         raise ModelError(f"{where}.along", what)

@@ -97,6 +97,8 @@ def beam(item: Beam) -> dict[str, Any]:
     if not np.array_equal(item.node_x, np.linspace(0.0, item.length, item.elements + 1)):
         plain["nodes"] = item.node_x.tolist()
     plain["y_axis"] = item.node_y[0].tolist()
+    if item.closed:
+        plain["closed"] = True
     if not is_straight(item):
         plain |= {key: getattr(item, key).tolist() for key in PLACED}
     if item.natural_beam is not None:

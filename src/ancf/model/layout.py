@@ -15,6 +15,7 @@ from . import axes, checks, path
 from .axes import Sampler
 from .beam import MOST_ELEMENTS, MOST_GAUSS_POINTS, NATURAL_SHAPES, NODE_TOLERANCE, POISSON, Beam, Shape
 from .elements import KINDS
+from .reeving import Reeved, Reeving
 from .section import MATERIAL, Section
 from .shapes import Rectangle
 
@@ -23,6 +24,7 @@ PLACED = ("node_position", "node_tangent", "node_y")
 CURVE = "curve"  # a natural shape that has its own nodes
 NOT_UNIT = 1e-6  # deviation of a square from 1 of what a description says to be a unit vector
 MOST_STRETCH = 1e9  # initial stretch in a description
+MIN_LOOP = 3  # elements of a closed beam
 MOST_TURN = 2 * math.pi / 3  # rad, of the tangent within an element of a beam
 
 
@@ -43,6 +45,7 @@ def make_beam(
     natural_shape: Any,
     gauss: Any,
     y_axis: Any,
+    closed: Any,
 ) -> Beam:
     """Check everything that ``Model.add_beam`` was given and lay out the nodes."""
     curve = natural_shape if not isinstance(natural_shape, str) else None
@@ -50,12 +53,15 @@ def make_beam(
     words = _words(where, element, strain, poisson, word, NATURAL_SHAPES if curve is None else (CURVE,))
     kind = words["element"]
     _check_section(section, kind, f"{where}.section")
-    arc_length, shape = _initial_shape(where, start, end, path)
+    loop = checks.flag(closed, f"{where}.closed")
+    arc_length, shape = _initial_shape(where, start, end, path, loop)
     natural = arc_length if length is None else checks.positive(length, f"{where}.length")
     if not 1e-6 < arc_length / natural < 1e6:
         raise ModelError(f"{where}.length", f"is {natural:g} m for an initial shape of {arc_length:g} m")
     node_x = _node_x(where, elements, nodes, natural)
-    lay = Lay(shape, path is not None, y_axis, where)
+    if loop and node_x.size < MIN_LOOP + 1:
+        raise ModelError(f"{where}.elements", f"is {node_x.size - 1}, a closed beam has {MIN_LOOP} or more")
+    lay = Lay(shape, path is not None, y_axis, where, loop)
     position, tangent, y = lay(node_x / natural)
     if KINDS[kind].has_section:
         _check_turns(position, arc_length / natural * tangent, np.diff(node_x), where)
@@ -74,6 +80,7 @@ def make_beam(
         velocity=np.zeros(3),
         angular_velocity=np.zeros(3),
         about=position[0].copy(),
+        closed=loop,
         lay=lay,
         **words,
     )
@@ -96,6 +103,7 @@ def _natural_beam(
             length=nodes[-1],
             natural_shape="path",
             y_axis=y_axis,
+            closed=False,
             **given,
         )
     except ModelError as error:
@@ -116,17 +124,23 @@ class Lay:
         As given.
     where : str
         Place in the model, for messages.
+    closed : bool
+        Whether it ends where it starts.
     """
 
     shape: Sampler
     curved: bool
     y_axis: Any
     where: str
+    closed: bool = False
 
     def __call__(self, fraction: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Three arrays (n, 3) at fractions (n,)."""
         position, tangent = self.shape(fraction)
         y = _node_y(self.y_axis, tangent, self.shape if self.curved else None, fraction, self.where)
+        if self.closed:
+            position[-1], tangent[-1] = position[0], tangent[0]
+            y = axes.closing(y, tangent, fraction)
         return position, tangent, y
 
 
@@ -158,7 +172,7 @@ class Straight:
 class Along:
     """Positions and tangents at fractions of a curve's length."""
 
-    curve: path.Curve
+    curve: path.Curve | Reeved
 
     def __call__(self, fraction: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Two arrays (n, 3) at fractions (n,)."""
@@ -181,6 +195,9 @@ def placed_beam(
     node_x = _node_x(where, take("elements") if nodes is None else None, nodes, length)
     lay = None if "node_position" in given else _lay_between(where, take)
     position, tangent, y = _rows(where, node_x.size, take) if lay is None else lay(node_x / length)
+    closed = checks.flag(given.get("closed", False), f"{where}.closed")
+    if closed and not all(np.array_equal(rows[0], rows[-1]) for rows in (position, tangent, y)):
+        raise ModelError(f"{where}.closed", "is true, and the last node is not the first")
     made = Beam(
         name=name,
         section=section,
@@ -194,6 +211,7 @@ def placed_beam(
         velocity=np.zeros(3),
         angular_velocity=np.zeros(3),
         about=position[0].copy(),
+        closed=closed,
         lay=lay,
         **words,
     )
@@ -285,12 +303,16 @@ def _strain(given: Any, element: str, where: str) -> str:
     return checks.choice(given, where, allowed)
 
 
-def _initial_shape(where: str, start: Any, end: Any, given: Any) -> tuple[float, Sampler]:
+def _initial_shape(where: str, start: Any, end: Any, given: Any, closed: bool) -> tuple[float, Sampler]:
     if given is not None:
         if start is not None or end is not None:
             raise ModelError(f"{where}.path", "give either start and end, or path, not both")
-        curve = _curve(given, f"{where}.path")
+        curve = _curve(given, f"{where}.path", closed)
         return curve.length, Along(curve)
+    if closed:
+        raise ModelError(
+            f"{where}.closed", "needs a path that goes round", "give path instead of start and end"
+        )
     for key, value in (("start", start), ("end", end)):
         if value is None:
             raise ModelError(f"{where}.{key}", "is missing: give start and end, or path")
@@ -301,14 +323,16 @@ def _initial_shape(where: str, start: Any, end: Any, given: Any) -> tuple[float,
     return distance, Between(first, last)
 
 
-def _curve(given: Any, where: str) -> path.Curve:
+def _curve(given: Any, where: str, closed: bool) -> path.Curve | Reeved:
+    if isinstance(given, Reeving):
+        return given.curve(where, closed)
     if callable(given):
-        return path.sampled(given, where)
+        return path.sampled(given, where, closed)
     points = checks.array(given, where, (None, 3))
     if len(points) < 3:
         hint = "use start and end for a straight beam"
         raise ModelError(where, f"has {len(points)} points, needs at least 3", hint)
-    return path.interpolated(points, where)
+    return path.interpolated(points, where, closed)
 
 
 def _node_x(where: str, elements: Any, nodes: Any, length: float) -> FloatArray:

@@ -98,6 +98,7 @@ class Model(Surroundings, Readable):
         natural_shape: Any = "path",
         gauss: tuple[int, int] = (5, 3),
         y_axis: Any = None,
+        closed: bool = False,
     ) -> Beam:
         """Add a beam or cable.
 
@@ -109,15 +110,14 @@ class Model(Surroundings, Readable):
             Stiffnesses, mass and damping per length; of a material for the two beams.
         start, end : (3,) m
             Ends of a straight beam.
-        path : (m, 3) m or callable
-            Instead of start and end: at least 3 points of a spline, or a function of u from 0 to 1.
+        path : (m, 3) m, callable or Reeving
+            Instead of start and end: 3 or more points of a spline, or a function of u from 0 to 1.
         elements : int
             Number of elements of equal length.
         nodes : (n+1,) m
             Instead of elements: increasing reference arc lengths from 0 to the length.
         element : "cable", "original" or "nonlocking"
-            Kind of element: the paper's cable (12 unknowns), or its beams with shear, torsion and a
-            deformable cross-section (24 and 30 unknowns).
+            The paper's cable (12 unknowns), or its beams with a cross-section (24 and 30 unknowns).
         strain : "material" or "paper"
             Strain measures of the cable, default "material". The beams have one, "green".
         poisson : "centreline" or "full"
@@ -135,6 +135,8 @@ class Model(Surroundings, Readable):
             Direction near which the local y axis lies at the start; default horizontal, along
             e_z x tangent, or e_y for a vertical start. Along a path the axes do not turn about the
             tangent.
+        closed : bool
+            Join the end to the start, as of a belt; a `length` below the path's gives pre-tension.
 
         """
         where = self._where("add_beam", name if isinstance(name, str) else None)
@@ -154,6 +156,7 @@ class Model(Surroundings, Readable):
             natural_shape=natural_shape,
             gauss=gauss,
             y_axis=y_axis,
+            closed=closed,
         )
         return self._add_body(beam)
 
@@ -163,12 +166,8 @@ class Model(Surroundings, Readable):
         The displacement is from the initial place; what is only pinned turns freely.
         """
         where, clean = self._at_node("pin", point, name)
-        item = Pin(
-            self._names.of_item(name, f"pin at {clean}", where),
-            clean,
-            optional(displacement, 3, f"{where}.displacement"),
-        )
-        return self._add_support(where, item)
+        label = self._names.of_item(name, f"pin at {clean}", where)
+        return self._add_support(where, Pin(label, clean, optional(displacement, 3, f"{where}.displacement")))
 
     def clamp(
         self,

@@ -18,6 +18,8 @@ CHUNK = 20_000
 MOST_SAMPLES = 32_768
 #: Curves until a spline must have its own arc length as parameter, and how much longer it may get meanwhile.
 MOST_CURVES, LONGEST = 100, 1.5
+#: Of the size of a path: two points closer than that are one, where it closes.
+SAME = 1e-9
 
 
 def straight(start: FloatArray, end: FloatArray, fraction: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -31,11 +33,11 @@ def straight(start: FloatArray, end: FloatArray, fraction: FloatArray) -> tuple[
 class Curve:
     """A spline in a parameter u, read by its arc length."""
 
-    def __init__(self, knots: FloatArray, points: FloatArray, where: str) -> None:
+    def __init__(self, knots: FloatArray, points: FloatArray, where: str, closed: bool = False) -> None:
         from scipy.interpolate import CubicSpline
 
         self.where = where
-        self._spline: Any = CubicSpline(knots, points)
+        self._spline: Any = CubicSpline(knots, points, bc_type="periodic" if closed else "not-a-knot")
         self._slope: Any = self._spline.derivative()
         self._parts = max(2, 64 // knots.size)
         self._u = subdivided(knots, self._parts)
@@ -76,20 +78,24 @@ class Curve:
         return u
 
 
-def interpolated(points: FloatArray, where: str) -> Curve:
+def interpolated(points: FloatArray, where: str, closed: bool = False) -> Curve:
     """Spline through points (m, 3) whose parameter is its own arc length at the points.
+
+    A closed one goes on from the last point to the first, which may stand there again.
 
     There is no such spline through some points whose distances differ much: the search for it makes the
     curve longer and longer. It then passes through them with the parameter of the chords' lengths.
     """
     for i, point in enumerate(points):
         checks.place(point, f"{where}[{i}]")
+    if closed:
+        points = _loop(points)
     chords = np.linalg.norm(np.diff(points, axis=0), axis=1)
     if not np.all(chords > 1e-12 * np.sum(chords)) or not np.isfinite(np.sum(chords)):
         i = int(np.argmin(chords))
         raise ModelError(f"{where}[{i + 1}]", f"coincides with {where.rpartition('.')[2]}[{i}]")
     knots = np.concatenate([[0.0], np.cumsum(chords)])
-    first = curve = Curve(knots, points, where)
+    first = curve = Curve(knots, points, where, closed)
     for _ in range(MOST_CURVES):
         change = np.max(np.abs(curve.knot_lengths - knots))
         if change <= 1e-12 * curve.length:
@@ -97,17 +103,25 @@ def interpolated(points: FloatArray, where: str) -> Curve:
         if curve.length > LONGEST * first.length:
             break
         knots = curve.knot_lengths
-        curve = Curve(knots, points, where)
+        curve = Curve(knots, points, where, closed)
     return first
 
 
-def sampled(function: Callable[[float], Any], where: str) -> Curve:
+def _loop(points: FloatArray) -> FloatArray:
+    """The points with the first one at the end."""
+    size = float(np.max(np.ptp(points, axis=0)))
+    if np.linalg.norm(points[-1] - points[0]) <= SAME * size:
+        points = points[:-1]
+    return np.concatenate([points, points[:1]])
+
+
+def sampled(function: Callable[[float], Any], where: str, closed: bool = False) -> Curve:
     """Spline through samples of a function u -> (3,), u from 0 to 1, refined until it stands still."""
     fractions = np.linspace(0.0, 1.0, 33)
     before: FloatArray | None = None
     count, change = 512, np.inf
     while count <= MOST_SAMPLES:
-        curve = _sample(function, count, where)
+        curve = _sample(function, count, where, closed)
         now = curve.at(fractions * curve.length)[0]
         scale = curve.length + 1e-3 * float(np.max(np.abs(now)))
         change = np.inf if before is None else float(np.max(np.abs(now - before))) / scale
@@ -119,14 +133,20 @@ def sampled(function: Callable[[float], Any], where: str) -> Curve:
     raise ModelError(where, "is not smooth: its arc length does not settle", "join two beams at a corner")
 
 
-def _sample(function: Callable[[float], Any], count: int, where: str) -> Curve:
+def _sample(function: Callable[[float], Any], count: int, where: str, closed: bool) -> Curve:
     u = np.linspace(0.0, 1.0, count + 1)
     points = np.array([call(function, value, 3, where, "u", "") for value in u.tolist()])
     if float(np.max(np.abs(points))) > checks.LARGEST:
         raise ModelError(where, f"leaves the space within {checks.LARGEST:g} m")
     if float(np.max(np.ptp(points, axis=0))) == 0.0:
         raise ModelError(where, "has no length: the function returns the same position for every u")
-    return Curve(u, points, where)
+    if closed:
+        gap = float(np.linalg.norm(points[-1] - points[0]))
+        if gap > SAME * float(np.max(np.ptp(points, axis=0))):
+            what = f"does not close: u = 0 and u = 1 are {gap:.4g} m apart"
+            raise ModelError(where, what, "end where it starts, or leave closed out")
+        points[-1] = points[0]
+    return Curve(u, points, where, closed)
 
 
 def _arc(slope: Any, a: FloatArray, b: FloatArray) -> FloatArray:

@@ -105,6 +105,9 @@ def _carrier(point: Point | FloatArray, carrier: Body, where: str) -> Carrier:
     if not isinstance(carrier, Beam | RigidBody):
         what = f'"{carrier.name}" is a {kind(carrier)}, must be a beam, a cable or a rigid body'
         raise ModelError(f"{where}.along", what)
+    if isinstance(carrier, Beam) and carrier.closed:
+        what = f'"{carrier.name}" is closed: nothing slides along a beam without ends'
+        raise ModelError(f"{where}.along", what, "a beam with ends, or a contact with a ring")
     if isinstance(point, Point) and point.body is carrier:
         what = f'"{carrier.name}" is the body of {point} itself, it cannot slide along it'
         raise ModelError(f"{where}.along", what)

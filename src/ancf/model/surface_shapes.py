@@ -1,108 +1,21 @@
-"""Shapes of surfaces that beams and cables touch: planes and bodies of revolution.
+"""Shapes of surfaces that beams and cables touch: planes, bodies of revolution, and meshes of triangles.
 
-A shape is a class here with its parameters, its word in :data:`SHAPES`, and a profile in
-:mod:`ancf.contact.profiles`; checks, tables in files, description and pictures follow.
+A shape is a class here with its parameters, its word in :data:`SHAPES`, that of the class in small letters,
+and a profile in :mod:`ancf.contact.profiles`; checks, tables in files, description and pictures follow.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import MISSING, dataclass, fields
-from typing import Any, ClassVar
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError
-from . import checks
-
-_CHECKS = {"positive": checks.positive, "vector": checks.vector, "direction": checks.direction}
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """A parameter of a shape.
-
-    Parameters
-    ----------
-    name : str
-        Key in the class and in files.
-    kind : str
-        "positive", "vector" or "direction", which is of length 1 after the check.
-    unit, description : str
-    """
-
-    name: str
-    kind: str
-    unit: str
-    description: str
-
-    def check(self, given: Any, where: str) -> Any:
-        """The clean value; ModelError if it is wrong."""
-        return _CHECKS[self.kind](given, f"{where}.{self.name}")
-
-
-AT = Parameter("at", "vector", "m", "Its middle; on a rigid body in body axes from the centre of mass")
-AXIS = Parameter("axis", "direction", "-", "Direction of its axis, any length")
-RADIUS = Parameter("radius", "positive", "m", "Radius")
-
-
-@dataclass(frozen=True, eq=False)
-class Shape:
-    """A surface of revolution about an axis through a place.
-
-    Places and directions are global ones of a surface on the ground; on a rigid body they are in body axes,
-    from its centre of mass.
-    """
-
-    parameters: ClassVar[tuple[Parameter, ...]] = ()
-
-    def __post_init__(self) -> None:
-        for p, field in zip(self.parameters, fields(self), strict=True):
-            given = getattr(self, p.name)
-            if given is None and field.default is not MISSING:
-                continue
-            object.__setattr__(self, p.name, p.check(given, type(self).__name__))
-        self.check()
-
-    def check(self) -> None:
-        """Raise ModelError where its numbers do not fit together."""
-
-    @property
-    def word(self) -> str:
-        """Its name in files."""
-        return next(word for word, shape in SHAPES.items() if shape is type(self))
-
-    @property
-    def place(self) -> FloatArray:
-        """Where its heights are zero, (3,) m."""
-        return np.asarray(getattr(self, "at"), dtype=np.float64)  # noqa: B009
-
-    @property
-    def direction(self) -> FloatArray:
-        """Unit vector of its axis, (3,)."""
-        return np.asarray(getattr(self, "axis", (0.0, 0.0, 1.0)), dtype=np.float64)
-
-    @property
-    def numbers(self) -> list[float]:
-        """What its profile takes, at most four."""
-        return []
-
-    @property
-    def outline(self) -> list[tuple[float, float]]:
-        """Places (rho, z) on the profile, in order, as a picture draws it; m."""
-        return []
-
-    @property
-    def narrowest(self) -> float:
-        """Depth from which nothing says any more on which side a cable is, m."""
-        return math.inf
-
-    def describe(self) -> dict[str, Any]:
-        """Its word and its numbers."""
-        given = {p.name: getattr(self, p.name) for p in self.parameters}
-        plain = {key: x.tolist() if isinstance(x, np.ndarray) else x for key, x in given.items()}
-        return {"shape": self.word, **{key: x for key, x in plain.items() if x is not None}}
+from .mesh import Mesh
+from .shape import AT, AXIS, RADIUS, Parameter, Shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -336,8 +249,8 @@ class Sheave(Shape):
 
     @property
     def numbers(self) -> list[float]:
-        """Radius, radius of the groove, depth, half the angle."""
-        return [self.radius, self.groove, self.depth, 0.5 * self.angle]
+        """Radius, radius of the groove, depth, sine of half the angle."""
+        return [self.radius, self.groove, self.depth, math.sin(0.5 * self.angle)]
 
     @property
     def outline(self) -> list[tuple[float, float]]:
@@ -370,4 +283,5 @@ SHAPES: dict[str, type[Shape]] = {
     "capsule": Capsule,
     "torus": Torus,
     "sheave": Sheave,
+    "mesh": Mesh,
 }

@@ -10,7 +10,8 @@ from ..errors import ModelError
 from . import checks
 from .beam import Beam
 from .bodies import Body, RigidBody, kind
-from .surface_shapes import SHAPES, Shape
+from .shape import Shape
+from .surface_shapes import SHAPES
 from .tables import number, numbers, with_units
 
 

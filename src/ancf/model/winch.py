@@ -76,7 +76,7 @@ def make_winch(where: str, name: str, point: Point, length: Any) -> Winch:
     if not isinstance(body, Beam) or body.has_section:
         what = f'"{body.name}" is no cable, a winch pays out and hauls in cables'
         raise ModelError(f"{where}.point", what, 'add_beam(..., element="cable")')
-    if point.x not in (0.0, body.length):
+    if body.closed or point.x not in (0.0, body.length):
         what = f"{point} is no end of the cable"
         raise ModelError(f"{where}.point", what, f"give {body.name}.start or .end")
     natural = body.natural

@@ -11,7 +11,7 @@ from .bodies import RigidBody, kind
 from .connecting import Connecting, PointLike
 from .contact import make_contact
 from .names import unknown
-from .surface_shapes import Shape
+from .shape import Shape
 from .surfaces import Surface, SurfaceContact, make_surface_contact, shape_of
 
 #: Strip and normal of a contact with a strip that gives none.

@@ -12,7 +12,7 @@ from ..arrays import FloatArray
 from ..model.beam import Beam
 from ..model.model import Model
 from ..model.section import Section
-from ..model.surface_shapes import Cylinder
+from ..model.surface_shapes import Cylinder, Sheave
 
 GRAVITY = 9.81
 #: Radius of the drums and of the rope's axis on them, diameter of the rope, m.
@@ -144,3 +144,42 @@ def pulley(inertia: float, step: float = 5e-4) -> dict[str, float]:
         "speed": float(speed) / (0.5 * push * time / carried),
         "drift": float(np.abs(run.energy.drift).max()) / work,
     }
+
+
+def hoist(step: float = 1e-3, time: float = 1.0) -> float:
+    """Largest error of the account of energies over the work of the motor.
+
+    A motor turns a drum on which friction winds a rope that goes over a sheave and lifts 20 kg.
+    """
+    turn, sheave = 0.15 + 0.008, 1.0
+    model = Model(gravity=(0, 0, -GRAVITY))
+    section = Section(EA=2e5, EI=0.01, rhoA=0.2, diameter=0.016, axial_damping=200.0, bending_damping=0.002)
+    angle = np.linspace(0.0, 4.5 * math.pi, 55)  # from the clip around the drum to its top
+    on = np.stack(
+        [sheave + turn * np.cos(angle), 0.0375 * (1.0 - angle / angle[-1]), turn * np.sin(angle)], axis=1
+    )
+    over = np.linspace(0.5 * math.pi, math.pi, 13)
+    path = [
+        on,
+        np.stack([np.linspace(sheave, 0.0, 21)[1:-1], np.zeros(19), np.full(19, turn)], axis=1),
+        np.stack([turn * np.cos(over), 0.0 * over, turn * np.sin(over)], axis=1),
+        np.stack([np.full(16, -turn), np.zeros(16), np.linspace(0.0, -0.8, 17)[1:]], axis=1),
+    ]
+    rope = model.add_beam(
+        "rope", path=np.concatenate(path), elements=110, section=section, natural_shape="straight"
+    )
+    drum = model.add_rigid_body("drum", at=(sheave, 0, 0), mass=20.0, inertia=(0.15, 0.2, 0.15))
+    wheel = model.add_rigid_body("sheave", at=(0, 0, 0), mass=4.0, inertia=(0.03, 0.05, 0.03))
+    barrel = model.add_surface("barrel", Cylinder(radius=0.15, axis=(0, 1, 0)), on=drum)
+    groove = model.add_surface("groove", Sheave(0.15, groove=0.0085, depth=0.025, axis=(0, 1, 0)), on=wheel)
+    for body, x in ((drum, sheave), (wheel, 0.0)):
+        model.hinge(body, (x, 0, 0), axis=(0, 1, 0))
+    for surface in (barrel, groove):
+        model.add_contact(rope, surface, stiffness=5e6, damping=2000.0, friction=0.2)
+    clip = drum.at(turn, 0.0375, -0.04)
+    model.add_spring(rope.start, clip, stiffness=1e5, damping=100.0)
+    model.connect(model.add_point_mass("load", at=(-turn, 0, -0.8), mass=20.0), rope.end)
+    model.add_moment(drum, (0, "31.4 + 2.4*sin(pi*t)", 0))
+    start = equilibrium(model, of=["rope", "load"])
+    run = simulate(model, t_end=time, step=step, output_step=0.05, start=start)
+    return float(np.abs(run.energy.drift).max() / np.ptp(run.energy.supplied))

@@ -8,7 +8,7 @@ from pathlib import Path
 from .. import validation
 from ..catenary.quantity import Quantity
 from ..validation import Group, Progress
-from . import cases
+from . import belt, cases
 
 CASE = "contact"
 TITLE = "Ropes on drums and pulleys against closed forms"
@@ -16,12 +16,35 @@ TITLE = "Ropes on drums and pulleys against closed forms"
 FRICTIONS, TURNS = (0.05, 0.2, 0.5), (0.25, 1.0, 2.0)
 LOADS, LOWER_ENDS, INERTIAS = (100.0, 3000.0), (0.1, 0.3), (0.01, 0.2)
 #: Shares of the reference within which a quantity counts as reproduced; of the work in 1e-6.
-OF_CAPSTAN, OF_LINE, OF_SPEED, OF_WORK = 1e-2, 1e-3, 5e-3, 1.0
+OF_CAPSTAN, OF_LINE, OF_SPEED, OF_WORK, OF_BELT = 1e-2, 1e-3, 5e-3, 1.0, 1e-2
+#: Rows of the belt: what is computed, the theory's number of it, unit.
+BELT = (
+    ("tight", "tight", "N"),
+    ("slack", "slack", "N"),
+    ("driven", "driven", "rad/s"),
+    ("torque driving", "torque", "N m"),
+    ("torque driven", "torque", "N m"),
+    ("slip driving", "slip", "rad"),
+    ("slip driven", "slip", "rad"),
+    ("stick driving", "stick", "rad"),
+    ("stick driven", "stick", "rad"),
+)
+BELT_NAMES = {
+    "tight": "belt force, tight",
+    "slack": "belt force, slack",
+    "driven": "speed of the driven pulley",
+    "torque driving": "torque in",
+    "torque driven": "torque out",
+    "slip driving": "slip arc, driving",
+    "slip driven": "slip arc, driven",
+    "stick driving": "stick arc, driving",
+    "stick driven": "stick arc, driven",
+}
 
 
 def compare(progress: Progress | None = None) -> list[Group]:
     """Compute all cases beside their closed forms; ``progress(done, of)`` is called after each."""
-    count = len(FRICTIONS) * len(TURNS) + len(LOADS) + len(LOWER_ENDS) + len(INERTIAS)
+    count = len(FRICTIONS) * len(TURNS) + len(LOADS) + len(LOWER_ENDS) + len(INERTIAS) + 2
     done = 0
 
     def told(rows: list[Quantity]) -> list[Quantity]:
@@ -55,6 +78,16 @@ def compare(progress: Progress | None = None) -> list[Group]:
             "Atwood's machine with the moment of inertia of the pulley; energy: what is supplied is there",
             [lambda inertia=inertia: _pulley(inertia) for inertia in INERTIAS],  # type: ignore[misc]
         ),
+        group(
+            "A hoist: a motor, a drum, a sheave and a load, 1 ms",
+            "the work of the motor is what the load has gained, what moves, and what friction has taken",
+            [_hoist],
+        ),
+        group(
+            f"A belt on two pulleys, {1e3 * belt.STEP:g} ms, {belt.STEP / belt.PEER_STEP:g} times the peer's",
+            "creep theory of Reynolds and Euler; drive of Ntarladima, Pieber and Gerstmayr (2023)",
+            [_belt],
+        ),
     ]
 
 
@@ -83,6 +116,20 @@ def _pulley(inertia: float) -> list[Quantity]:
         Quantity(
             "drift", f"drift over work, {name}", "1e-6", 1e6 * found["drift"], None, OF_WORK, "invariant"
         ),
+    ]
+
+
+def _hoist() -> list[Quantity]:
+    drift = cases.hoist()
+    name = "work in less work out and friction, over work in"
+    return [Quantity("account", name, "1e-6", 1e6 * drift, None, OF_WORK, "invariant")]
+
+
+def _belt() -> list[Quantity]:
+    found = belt.run()
+    return [
+        _row(key, BELT_NAMES[key], unit, found[key], found[f"theory {theory}"], OF_BELT)
+        for key, theory, unit in BELT
     ]
 
 

@@ -100,7 +100,7 @@ def turning_nodes(system: System) -> Frames:
         first = 6 * np.arange(system.core.joints.first, system.numbering.blocks)
         return system.places.of(first[None, :], slots[:, None]).astype(np.int64)
 
-    slots = list(system.numbering.slots.values())
+    slots = [system.numbering.each(name) for name in system.numbering.slots]
     return allocate(slots, system.core.supports.held, attached, tail)
 
 

@@ -53,7 +53,7 @@ class Spin:
         for name, beam in system.model.beams.items():
             if not beam.has_section:
                 continue
-            section, slots = beam.section, system.numbering.slots[name][:, 2:4]
+            section, slots = beam.section, system.numbering.each(name)[:, 2:4]
             assert section.G is not None  # the model has checked that there is a material
             assert section.J is not None
             free = ~np.isin(slots[:, :, None] + np.arange(3), held).any(axis=(1, 2))

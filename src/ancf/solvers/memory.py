@@ -31,18 +31,20 @@ class Memory(NamedTuple):
     left: FloatArray  # forces that Newton's method has left in all steps, see carry
     push: FloatArray  # forces that do work at the start of the step
     push_new: FloatArray
+    loss: FloatArray  # forces that dissipate, opposed, at the start of the step
+    loss_new: FloatArray
     counts: NDArray[np.int64]  # (5,) see COUNTS
-    memo: FloatArray  # (12,) see below
+    memo: FloatArray  # (11,) see below
     work: FloatArray  # (2,) energy dissipated and supplied since the start, J
     frames: Frames
     patches: tuple[Patches, ...]  # one or none
 
 
 #: Entries of Memory that are vectors of length n; they come first.
-VECTORS = 15
+VECTORS = 17
 
 # entries of Memory.memo
-H_FACTOR, ETA, H_PREV, WORST, NORM, POWER, NOISE, KNOWN, USUAL, EXCESS, LIMIT, WORN = range(12)
+H_FACTOR, ETA, H_PREV, WORST, NORM, NOISE, KNOWN, USUAL, EXCESS, LIMIT, WORN = range(11)
 #: Iterations more than usual after which a matrix is renewed for the first time, see renewal.
 FIRST_LIMIT = 16.0
 
@@ -51,7 +53,7 @@ def allocate(n: int, frames: Frames, patches: tuple[Patches, ...]) -> Memory:
     """Memory for state vectors of length n."""
     vectors: Any = {name: np.zeros(n) for name in Memory._fields[:VECTORS]}
     counts = np.zeros(len(COUNTS), dtype=np.int64)
-    own: Any = {"counts": counts, "memo": np.zeros(12), "work": np.zeros(2)}
+    own: Any = {"counts": counts, "memo": np.zeros(11), "work": np.zeros(2)}
     memory = Memory(**vectors, **own, frames=frames, patches=patches)
     memory.memo[ETA], memory.memo[LIMIT] = 1.0, FIRST_LIMIT
     return memory

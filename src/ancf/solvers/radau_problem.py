@@ -37,7 +37,7 @@ class SystemProblem:
         self._driven = self._moving or not all(f.constant for f in inputs.loads)
         self._tables: dict[bytes, Tables] = {}
         self._changes = 0
-        self._f, self._push, self._r = (np.zeros(system.size) for _ in range(3))
+        self._f, self._push, self._loss, self._r = (np.zeros(system.size) for _ in range(4))
         self.base = np.zeros((2, system.size))  # what is held and never moves
         self._values = np.zeros((3, system.places.size))
         self._pattern()
@@ -104,7 +104,7 @@ class SystemProblem:
         core, states = self.system.core, self.full(q, v, a)
         power = np.zeros((len(t), 2))
         if core.accounted and (core.damped or core.loaded):
-            stage_powers(core, self.tables(t), *states, self._f, self._push, self._r, power)
+            stage_powers(core, self.tables(t), *states, self._f, self._push, self._loss, self._r, power)
         return power
 
     def matrices(self, t: float, q: FloatArray, v: FloatArray) -> Matrices:

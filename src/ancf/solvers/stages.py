@@ -21,12 +21,12 @@ def stage_residuals(core, tables, q, v, a, f, r):
 
 
 @kernel
-def stage_powers(core, tables, q, v, a, f, push, r, power):
+def stage_powers(core, tables, q, v, a, f, push, loss, r, power):
     """Power dissipated and supplied, shape (m, 2), W, in states (m, size) whose supports are placed."""
     for n in range(q.shape[0]):
         external_force(core.loads, tables.value[n], f)
         drive(core.supports, core.loads.value, tables, n, q[n], v[n], a[n])
-        power[n, 0] = powers(core, q[n], v[n], a[n], f, push, r)
+        power[n, 0] = powers(core, q[n], v[n], a[n], f, push, loss, r)
         supplied = 0.0
         for i in range(f.shape[0]):
             supplied += v[n, i] * push[i]

@@ -32,13 +32,21 @@ def layout(body: Body) -> tuple[int, int, int]:
     return body.elements + 1, kind.vectors, kind.internal
 
 
+def is_loop(body: Body) -> bool:
+    """Whether its last node is its first."""
+    return isinstance(body, Beam) and body.closed
+
+
 def start_vectors(body: Body) -> FloatArray:
     """Vectors of the nodes in the initial shape, shape (nodes, vectors + internal, 3)."""
     if isinstance(body, PointMass):
         return body.position.reshape(1, 1, 3).copy()
     if isinstance(body, RigidBody):
         return np.vstack([body.position, body.axes.T])[None]
-    return ELEMENTS[body.element].initial_vectors(body)
+    vectors = ELEMENTS[body.element].initial_vectors(body)
+    if body.closed:
+        vectors[-1] = vectors[0]  # the internal ones too: the last row has no element
+    return vectors
 
 
 def node_of(body: Body, x: float) -> int:

@@ -13,7 +13,7 @@ from ..model.joints import Slide
 from ..model.model import Model
 from ..model.points import Point
 from ..model.winches import by_body
-from .nodes import layout, names_of, node_of
+from .nodes import is_loop, layout, names_of, node_of
 from .probe import Probe, locate
 
 
@@ -57,7 +57,11 @@ class Numbering:
             vectors = shared + internal
             self.shared[body.name] = shared
             per_node = (vectors + 1) // 2
-            starts = 6 * (self.blocks + per_node * np.arange(nodes)[:, None]) + 3 * np.arange(vectors)
+            row = np.arange(nodes)
+            if is_loop(body):
+                row[-1] = 0  # its last node is its first
+                nodes -= 1
+            starts = 6 * (self.blocks + per_node * row[:, None]) + 3 * np.arange(vectors)
             self.slots[body.name] = starts.astype(np.int64)
             self.blocks += nodes * per_node
             if isinstance(body, RigidBody):
@@ -121,6 +125,11 @@ class Numbering:
         mask[list(self.arcs.values())] = True
         mask[list(self.lengths.values())] = True
         return mask
+
+    def each(self, name: str) -> IntArray:
+        """Slots of the nodes of a body, the one where a loop closes once."""
+        slots = self.slots[name]
+        return slots[:-1] if is_loop(self.model.bodies[name]) else slots
 
     def describe(self, unknown: int) -> str:
         """Name of an unknown: body, node and component, or joint."""

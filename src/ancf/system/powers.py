@@ -15,10 +15,10 @@ from .core import residual
 
 
 @inline_kernel
-def powers(core, q, v, a, f, push, r):
-    """Fill ``push`` with the forces that supply energy; returns the power that is dissipated, W.
+def powers(core, q, v, a, f, push, loss, r):
+    """Fill ``push`` with the forces that supply energy, ``loss`` with those that dissipate it, opposed.
 
-    ``f`` are gravity and dead loads; ``r`` is scratch memory.
+    Returns the power that is dissipated, W. ``f`` are gravity and dead loads; ``r`` is scratch memory.
     """
     n, dissipated = f.shape[0], 0.0
     for i in range(n):
@@ -31,19 +31,21 @@ def powers(core, q, v, a, f, push, r):
         add_forces(core.rubbing, q, push, a, r, core.ws)
         add_forces(core.inertial, q, push, a, r, core.ws)
         for i in range(n):
-            dissipated += v[i] * r[i]
+            loss[i] = r[i]
             r[i] = 0.0
         add_forces(core.inertial, q, v, a, r, core.ws)
         for i in range(n):
-            dissipated -= v[i] * r[i]
+            loss[i] -= r[i]
     if core.damped or core.supports.driven.shape[0] > 0:
         residual(core.batches, core.ws, q, v, a, f, r)
     add_forces(core.external, q, v, a, push, core.ws)
     if core.damped:
         for i in range(n):
-            dissipated += v[i] * r[i]
+            loss[i] += r[i] - push[i]
+        for k in range(core.joints.multipliers.shape[0]):  # they are no places
+            loss[core.joints.multipliers[k]] = 0.0
         for i in range(n):
-            dissipated -= v[i] * push[i]
+            dissipated += v[i] * loss[i]
     for i in range(n):
         push[i] = f[i] - core.loads.gravity[i] - push[i]
     for k in range(core.supports.driven.shape[0]):

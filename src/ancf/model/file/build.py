@@ -13,6 +13,7 @@ from ..kinds import GROUPS, SURROUNDINGS
 from ..model import Model
 from ..names import unknown
 from ..rebuild import add_item, add_surrounding
+from ..reeving import Reeving
 from ..section import Section
 from ..settings import EquilibriumSettings, SimulationSettings
 from .entries import (
@@ -24,6 +25,7 @@ from .entries import (
     InputEntry,
     MomentsEntry,
     RectangleEntry,
+    ReevingEntry,
     SectionEntry,
     SimulationEntry,
 )
@@ -100,6 +102,8 @@ class Builder:
         given = entry.given("name", "section", "motion")
         if isinstance(entry, BeamEntry):
             given["section"] = self._section_of(entry, f"{where}.section")
+            if entry.reeving is not None:
+                given["path"] = _reeving(given, entry.reeving, where)
         add: dict[str, Callable[..., Body]] = {
             "beam": self.model.add_beam,
             "point_mass": self.model.add_point_mass,
@@ -151,6 +155,15 @@ def _section(given: Shaped, where: str) -> Section:
     values = given.given("shape")
     with _renamed(lambda old: where + old.removeprefix("Section")):
         return MAKERS[type(given)](**values)
+
+
+def _reeving(given: dict[str, Any], entry: ReevingEntry, where: str) -> Reeving:
+    del given["reeving"]
+    if "path" in given:
+        raise ModelError(f"{where}.reeving", "give either path or reeving, not both")
+    values = entry.given("wheels")
+    with _renamed(lambda old: f"{where}.reeving" + old.removeprefix("Reeving")):
+        return Reeving([wheel.given() for wheel in entry.wheels], **values)
 
 
 def _set_motion(set_motion: Callable[..., None], given: dict[str, Any], where: str) -> None:

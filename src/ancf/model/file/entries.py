@@ -202,8 +202,25 @@ else:
     AnySupport, AnyLoad, AnyConnection = map(_any_of, (SUPPORTS, LOADS, CONNECTIONS))
 
 
+class WheelEntry(Entry):
+    """A wheel that a rope or belt goes around."""
+
+    at: Vector = Field(description="Centre [m].")
+    radius: Positive = Field(description="Radius of the axis of the rope on it [m].")
+    turn: Literal["left", "right"] = Field("left", description="Which way the path turns, seen against axis.")
+
+
+class ReevingEntry(Entry):
+    """Path over wheels in one plane: arcs and straight lines in between."""
+
+    wheels: list[WheelEntry] = Field(min_length=1, description="Wheels, one after the other.")
+    axis: Vector = Field(description="Normal of the plane of all wheels.")
+    start: Vector | None = Field(None, description="Start, if the path has ends [m].")
+    end: Vector | None = Field(None, description="End, if the path has ends [m].")
+
+
 class BeamEntry(Entry):
-    """A beam or cable: start and end, or path; elements or nodes."""
+    """A beam or cable: start and end, path, or reeving; elements or nodes."""
 
     type: Literal["beam"] = Field("beam", description="Kind of body.")
     name: str = Field(description="Unique name; letters, digits, _, - and spaces inside.")
@@ -211,6 +228,8 @@ class BeamEntry(Entry):
     start: Vector | None = Field(None, description="Start of a straight beam [m].")
     end: Vector | None = Field(None, description="End of a straight beam [m].")
     path: list[Vector] | None = Field(None, description="Points of a spline, instead of start and end [m].")
+    reeving: ReevingEntry | None = Field(None, description="Path over wheels, instead of path.")
+    closed: bool = Field(False, description="The end is joined to the start, as in a belt.")
     elements: int | None = Field(None, ge=1, description="Number of elements of equal length.")
     nodes: list[float] | None = Field(
         None, description="Reference arc lengths of the nodes, 0 to length [m]."
@@ -317,6 +336,8 @@ class FileEntry(Entry):
 
 
 NESTED: dict[str, type[Entry]] = {
+    "wheels": WheelEntry,
+    "reeving": ReevingEntry,
     "inputs": InputEntry,
     "fluids": FluidEntry,
     "grounds": GroundEntry,

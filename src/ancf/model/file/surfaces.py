@@ -8,10 +8,18 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, Union
 
 from pydantic import Discriminator, Field, Tag, create_model
 
-from ..surface_shapes import SHAPES, Shape
+from ..shape import Shape
+from ..surface_shapes import SHAPES
 from . import fields
 
-_TYPES = {"positive": fields.Positive, "vector": fields.Vector, "direction": fields.Vector}
+_TYPES: dict[str, Any] = {
+    "positive": fields.Positive,
+    "vector": fields.Vector,
+    "direction": fields.Vector,
+    "path": str,
+    "points": list[fields.Vector],
+    "triangles": list[Annotated[list[int], Field(min_length=3, max_length=3)]],
+}
 
 
 def _entry(word: str, shape: type[Shape]) -> type[fields.Entry]:

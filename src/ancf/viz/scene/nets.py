@@ -8,6 +8,7 @@ import numpy as np
 
 from ...arrays import FloatArray
 from ...model.grounds import Ground, Relief
+from ...model.mesh import Mesh
 from ...model.surface_shapes import Plane
 from ...model.surfaces import Surface
 from ...model.waves import Waves, wave_numbers
@@ -72,7 +73,10 @@ def _net_lines(across: FloatArray, along: FloatArray, level: float) -> FloatArra
 
 
 def _solid(item: Surface) -> Net | None:
-    """Circles and meridians of a surface of revolution; None for a plane, which has none."""
+    """Circles and meridians of a surface of revolution, edges of a mesh; None for a plane, which has none."""
+    on = "" if item.on is None else item.on.name
+    if isinstance(item.shape, Mesh):
+        return Net(item.name, "contact", item.shape.place + item.shape.lines, on)
     outline = np.array(item.shape.outline)
     if not len(outline):
         return None
@@ -86,7 +90,7 @@ def _solid(item: Surface) -> Net | None:
     meridians = [places[:, k] for k in range(0, CIRCLE, CIRCLE // MERIDIANS)]
     longest = max(map(len, (*rings, *meridians)))
     lines = np.array([_filled(line, longest) for line in (*rings, *meridians)])
-    return Net(item.name, "contact", lines, "" if item.on is None else item.on.name)
+    return Net(item.name, "contact", lines, on)
 
 
 def _plane(item: Surface, middle: FloatArray, reach: float) -> Net:
