@@ -1,21 +1,15 @@
 """A copy of the package in a scratch folder, to which a page of the documentation adds something."""
 
-import importlib
 import json
 import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
-from numba.core.dispatcher import Dispatcher
-
-import ancf
 from ancf import compiled
 from commands import PATIENCE, Ran
+from compiled_kernels import PACKAGE, take_kernels
 from places import HOWTO, ROOT, TESTS
-
-PACKAGE = Path(ancf.__file__).parent
 
 
 class Addition:
@@ -49,18 +43,6 @@ class Addition:
         kept = {p for p in mine & theirs if (self.root / p).read_bytes() == (PACKAGE / p).read_bytes()}
         return sorted(path.as_posix() for path in (mine | theirs) - kept)
 
-    def _take_kernels(self):
-        """Copy what has been compiled of the package: those of the page are new."""
-        for path in compiled.stamped():
-            place = path.relative_to(PACKAGE)
-            module = importlib.import_module(".".join(("ancf", *place.with_suffix("").parts)))
-            kernels = [x for x in vars(module).values() if isinstance(x, Dispatcher)]
-            for cache in {k.stats.cache_path for k in kernels if k.__module__ == module.__name__} - {None}:
-                kept = (self.root / place).parent / "__pycache__"
-                kept.mkdir(exist_ok=True)
-                for file in Path(cache).glob("*.nb?"):
-                    shutil.copy(file, kept)
-
     def python(self, *arguments, interpreted=False):
         """Run Python with the copy, whose compiled kernels are beside its sources, in its folder."""
         paths = map(str, (self.folder / "src", ROOT, TESTS))
@@ -76,7 +58,7 @@ class Addition:
     def found(self, script, interpreted=False):
         """What a script prints as JSON in its last line; it runs in the folder of the copy."""
         if not interpreted:
-            self._take_kernels()
+            take_kernels(self.root)
         ran = self.python("-c", "import tests.mutants.plugin\n" + script, interpreted=interpreted)
         assert ran.code == 0, ran.err
         return json.loads(ran.out.splitlines()[-1])

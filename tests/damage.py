@@ -263,11 +263,17 @@ def _group(file, draw):
     if name == "/":
         return
     if how == "into itself":
-        file[f"{name}/{draw(st.sampled_from(['a', 'slots', '000009']))}"] = file[name]
+        inner = f"{name}/{draw(st.sampled_from(['a', 'slots', '000009']))}"
+        if inner in file:
+            del file[inner]
+        file[inner] = file[name]
     elif how == "twice":
-        file.copy(name, f"{name}_2")
+        if f"{name}_2" not in file:
+            file.copy(name, f"{name}_2")
     elif how == "rename":
-        file.move(name, name[:-1] + draw(st.sampled_from(["x", "\u00e4", "\x1b[2J", "a" * 1000])))
+        other = name[:-1] + draw(st.sampled_from(["x", "\u00e4", "\x1b[2J", "a" * 1000]))
+        if other not in file:
+            file.move(name, other)
     else:
         del file[name]
         if how == "empty":

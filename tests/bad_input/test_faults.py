@@ -95,7 +95,7 @@ class TestDamagedFiles:
             begin = time.perf_counter()
             with pytest.raises(ancf.ModelError, match=re_of(path)):
                 ancf.load(path)
-            assert time.perf_counter() - begin < 120  # the pauses are less than a second in all
+            assert time.perf_counter() - begin < 300  # the pauses are less than a second in all
 
     def test_flipped_metadata_of_a_killed_run(self, tmp_path):
         path = tmp_path / "r.h5"

@@ -63,6 +63,11 @@ class Copies:
             for path in target.rglob("*.py"):
                 path.unlink()
         shutil.copytree(PACKAGE, target, dirs_exist_ok=True)
+        if not any(target.rglob("*.nbi")):
+            # not above: what imports this file must not import the unchanged package
+            from ..compiled_kernels import take_kernels
+
+            take_kernels(target)
 
     def spread(self) -> None:
         """Make the copies of the workers, compiled kernels included."""

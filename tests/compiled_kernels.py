@@ -1,0 +1,25 @@
+"""What has been compiled of the package, for copies of it whose kernels are the same."""
+
+import importlib
+import shutil
+from pathlib import Path
+
+from numba.core.dispatcher import Dispatcher
+
+import ancf
+from ancf import compiled
+
+PACKAGE = Path(ancf.__file__).parent
+
+
+def take_kernels(copy):
+    """Put the compiled kernels of the package beside the sources of a copy, at the path ``copy``."""
+    for path in compiled.stamped():
+        place = path.relative_to(PACKAGE)
+        module = importlib.import_module(".".join(("ancf", *place.with_suffix("").parts)))
+        kernels = [x for x in vars(module).values() if isinstance(x, Dispatcher)]
+        for cache in {k.stats.cache_path for k in kernels if k.__module__ == module.__name__} - {None}:
+            kept = (copy / place).parent / "__pycache__"
+            kept.mkdir(exist_ok=True)
+            for file in Path(cache).glob("*.nb?"):
+                shutil.copy(file, kept)
