@@ -27,7 +27,7 @@ def sheaves(elements: int = 100) -> ancf.Model:
         start=(-0.158, 0, -0.8),
         end=(1.758, 0, -0.8),
     )
-    rope = model.add_beam("rope", path=path, elements=elements, section=section, natural_shape="straight")
+    rope = model.add_beam("rope", path=path, elements=elements, section=section)
     for k, (at, _) in enumerate(places):
         wheel = model.add_rigid_body(f"wheel {k}", at=at, mass=4.0, inertia=(0.03, 0.05, 0.03))
         model.hinge(wheel, at, axis=(0, 1, 0))
