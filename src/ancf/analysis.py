@@ -80,7 +80,7 @@ def equilibrium(
     with expected(model):
         system = independent(model)
         q, stats = statics.equilibrium(system, names, load_steps, time)
-    known = remembered.Remembered(memory=remembered.memory_of(system))
+    known = remembered.Remembered(memory=remembered.memory_of(system), balanced=True)
     state = State(system, float(time), q, system.motion(q, time), stats, known)
     if sensitivities:
         state.derivatives = of_state(state, names, parameters_of(model, sensitivities, SENSITIVITIES[0]))

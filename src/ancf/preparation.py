@@ -17,10 +17,11 @@ from .errors import Interrupted, ModelError, SolveError, StorageError
 from .interrupts import heed, kept
 from .model import checks
 from .model.beam import Beam
-from .model.integrators import INTEGRATORS, Integrator, Trapezoidal
+from .model.integrators import INTEGRATORS, Integrator, Radau, Trapezoidal
 from .model.model import Model
 from .model.series import noises
 from .model.settings import steps_between
+from .model.supports import Support
 from .results import remembered
 from .results.provenance import versions
 from .results.read_store import ReadStore
@@ -88,7 +89,7 @@ def compiled(
     """A simulation that has no state yet; it is given one by ``run.start`` or ``run.restore``."""
     every = steps_between(where, t_end, step, output_step, t_start)
     system = independent(model)  # anew: the model may have changed since the start was computed
-    system.sensors = _sensors(system, sensors)
+    system.sensors = _sensors(system, sensors, not isinstance(method, Radau))
     if not checks.flag(energy, f"{where}.energy"):
         system.skip_energies()
     for text in noises(model):
@@ -175,15 +176,20 @@ def given_state(system: System, about: Any, where: str) -> tuple[Any, Any]:
     return adopted(about, system, where)
 
 
-def _sensors(system: System, given: Any) -> Listing:
+def _sensors(system: System, given: Any, accelerations: bool) -> Listing:
     """What ``sensors`` lists."""
     where = "simulate.sensors"
     if given is None:
         return Listing()
     if not isinstance(given, Sequence) or isinstance(given, str | bytes):
-        what = f"must be a list of points, springs and joints, is {checks.shown(given)}"
+        what = f"must be a list of points, springs, joints and supports, is {checks.shown(given)}"
         raise ModelError(where, what, 'such as sensors=["wire.at(3)", dropper]')
-    return listing(system, [system.model.sensor(item, f"{where}[{k}]") for k, item in enumerate(given)])
+    items = [system.model.sensor(item, f"{where}[{k}]") for k, item in enumerate(given)]
+    held = next((item for item in items if isinstance(item, Support)), None)
+    if held is not None and not accelerations:
+        what = f'"{held.name}" is a support, and with Radau the steps have no accelerations'
+        raise ModelError(where, what, "ask the result for its reaction at the stored times")
+    return listing(system, items, accelerations)
 
 
 def adopted(state: State, system: System, where: str) -> tuple[Any, Any]:
@@ -201,6 +207,13 @@ def _same_nodes(a: Any, b: Any) -> bool:
     if not isinstance(a, Beam) or not isinstance(b, Beam):
         return type(a) is type(b)
     return a.element == b.element and np.array_equal(a.node_x, b.node_x)
+
+
+def once_a_step(model: Model) -> list[str]:
+    """Names of loads and fluids of a compiled model whose Python functions numba could not compile."""
+    items: list[Any] = [*model.loads, *model.fluids]
+    laws = [(item, getattr(item, key, None)) for item in items for key in ("force", "load", "velocity")]
+    return [item.name for item, law in laws if getattr(law, "once", None)]
 
 
 def header_of(
@@ -222,6 +235,7 @@ def header_of(
             **method.settings(),
             "energy": system.core.accounted,
             "sensors": [*map(str, listed.points), *listed.connections],
+            "called once a step": once_a_step(model),
         },
         "versions": versions(),
     }

@@ -111,7 +111,12 @@ class TestForces:
         xi, w = np.polynomial.legendre.leggauss(20)
         t = unit((3, 1, -2))
         parts = [
-            morison(t, np.array([0.5 - 0.2 * (1 + s), 0, 0.1 * (1 + s)]), np.zeros(3), np.zeros(3))
+            morison(
+                t,
+                np.array([0.5 - 0.2 * (1 + s), 0, 0.1 * (1 + s)]),
+                np.array([0.02, 0, -0.01]) * (1 + s),  # the flow goes up, to where it is faster
+                np.zeros(3),
+            )
             for s in xi
         ]
         wanted = np.linalg.norm((3, 1, -2)) / 2 * np.einsum("i,ij->j", w, parts)
@@ -128,7 +133,7 @@ class TestForces:
         model, body = rod(start=(0, 0, 0), end=(0, 0, -1e-3), elements=1)
         model.add_fluid("water", RHO, velocity=["sin(2*t)*(1+x)", 0, 0])
         t = 0.4
-        du = np.array([2 * np.cos(2 * t), 0, 0])
+        du = np.array([2 * np.cos(2 * t) + np.sin(2 * t) ** 2, 0, 0])
         wanted = (
             morison(np.array([0, 0, -1.0]), np.array([np.sin(2 * t), 0, 0]), du, np.zeros(3)) * body.length
         )
@@ -194,6 +199,11 @@ class TestMatrix:
         else:
             places = system.slots["rod"][:, 0] + 2
             assert np.abs(own[np.ix_(places, places)]).max() > 0.0
+
+
+def circle(t):
+    """A turn of 2 rad/s from (0.7, 0)."""
+    return 0.7 * np.cos(2.0 * t), 0.7 * np.sin(2.0 * t)
 
 
 class TestSurface:
@@ -280,6 +290,47 @@ class TestMotion:
         run = ancf.simulate(model, t_end=3.0, step=0.002, output_step=0.1)
         ratio = 1.5 * 10.0 / (5.0 + 5.0)
         assert run.velocity(ball)[:, 0] == pytest.approx(ratio * 0.3 * np.sin(2 * run.t), abs=1e-6)
+
+    @pytest.mark.parametrize(
+        ("flow", "path"),
+        [
+            (["0.6*x", 0, "-0.6*z"], lambda t: (0.7 * np.exp(0.6 * t), 0 * t, 0.4 * np.exp(-0.6 * t))),
+            (lambda t, x, y, z: (-2.0 * y, 2.0 * x, 0.1), lambda t: (*circle(t), 0.4 + 0.1 * t)),
+            (["0.3*t*x", 0, 0], lambda t: (0.7 * np.exp(0.15 * t * t), 0 * t, 0.4 + 0 * t)),
+            (
+                {"z": [-9.0, 9.0], "velocity": [[-4.5, 0, 0.25], [4.5, 0, 0.25]]},
+                lambda t: (0.7 + 0.2 * t + 0.0625 * t * t, 0 * t, 0.4 + 0.25 * t),
+            ),
+        ],
+        ids=["stagnation", "vortex", "unsteady", "shear"],
+    )
+    @pytest.mark.parametrize("added", [0.0, 0.5])
+    def test_what_weighs_as_the_water_goes_with_it(self, flow, path, added):
+        """Without any drag, by the acceleration of the particles of the fluid alone."""
+        model = ancf.Model(gravity=(0, 0, -G))
+        given = {"volume": 0.02, "drag_area": 0.0, "added_mass": added}
+        ball = model.add_point_mass("ball", at=(0.7, 0, 0.4), mass=RHO * 0.02, **given)
+        fluid = model.add_fluid("water", RHO, velocity=flow)
+        ball.set_motion(velocity=fluid.velocity.at(0.0, np.array([0.7, 0, 0.4])))
+        run = ancf.simulate(model, t_end=1.0, step=1e-3)
+        assert run.position(ball) == pytest.approx(np.stack(path(run.t), axis=1), abs=2e-6)
+
+    def test_order_four_in_length_of_a_cable_in_a_current(self):
+        def places(elements):
+            section = ancf.Section(EA=1e5, EI=400.0, rhoA=12.0, diameter=0.08, drag=(1.2, 0.1))
+            model = ancf.Model(gravity=(0, 0, -G))
+            ends = {"start": (0, 0, -9), "end": (8, 1, -2), "length": 11.0}
+            rope = model.add_beam("rope", **ends, elements=elements, section=section)
+            model.pin(rope.start)
+            model.pin(rope.end)
+            stream = ["0.6 + 0.3*sin(0.5*z)*cos(0.2*x)", "1.5*exp(0.1*z)", "0.2*sin(0.3*x)"]
+            model.add_fluid("water", 1025.0, velocity=stream)
+            state = ancf.equilibrium(model)
+            return np.array([state.position(rope.at(x)) for x in (2.75, 5.5, 8.25)])
+
+        exact = places(64)
+        gaps = [np.abs(places(n) - exact).max() for n in (8, 16, 32)]
+        assert np.log2(np.divide(gaps[:-1], gaps[1:])) == pytest.approx([4.0, 4.0], abs=0.25)
 
     @pytest.mark.parametrize("method", METHODS)
     def test_order_two_with_drag_and_added_mass(self, method):

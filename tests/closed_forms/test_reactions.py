@@ -170,24 +170,3 @@ class TestRefused:
         for name in ("mest", 4, ["mast"]):
             with pytest.raises(ModelError, match=r'unknown support .*"mast", "pin at wire\.end"'):
                 state.reaction(name)
-
-    def test_in_motion(self):
-        model, beam = span(length=10.5)
-        pin = model.pin(beam.start)
-        model.pin(beam.end)
-        beam.set_motion(velocity=(0, 0.1, 0))
-        with pytest.warns(UserWarning, match="the support wins"):
-            state = ancf.equilibrium(model)
-        with pytest.raises(ModelError, match=r"wire node \d position y moves"):
-            state.reaction(pin)
-
-    def test_at_rest_but_out_of_balance(self):
-        """The straight start of a run is at rest for a moment, and no equilibrium."""
-        model, beam = span(length=10.5)
-        pin = model.pin(beam.start)
-        model.pin(beam.end)
-        result = ancf.simulate(model, t_end=0.02, step=1e-2)
-        with pytest.raises(ModelError, match="not in equilibrium"):
-            result.state(0).reaction(pin)
-        with pytest.raises(ModelError, match="moves"):
-            result.state(-1).reaction(pin)

@@ -133,29 +133,10 @@ class TestBadInput:
         with pytest.raises(ancf.ModelError, match=f"^add_force\\(mass\\).{place}: .*{what}"):
             model(force)
 
-    @pytest.mark.parametrize(
-        "force",
-        [
-            lambda t, r, v: np.array([float(str(t)), 0, 0]),
-            lambda t, r, v: np.array([{"a": t}.get("b", 0.0), 0, 0]),
-        ],
-    )
-    def test_numba_cannot_compile_it(self, force):
-        with pytest.raises(ancf.ModelError, match=r"numba cannot compile the law: .* numpy and math alone"):
-            ancf.equilibrium(model(force))
-
     @pytest.mark.parametrize("force", [lambda t, r, v: -3.0 * v, ["-3*vx", "-3*vy", 0]])
     def test_resistance_holds_nothing(self, force):
         with pytest.raises(ancf.ModelError, match='nothing holds "mass" in x, y, z'):
             ancf.equilibrium(model(force))
-
-    def test_a_callable_object_is_no_function(self):
-        class Law:
-            def __call__(self, t, r, v):
-                return -r
-
-        with pytest.raises(ancf.ModelError, match="is no plain Python function"):
-            ancf.equilibrium(model(Law()))
 
 
 def raises(t, r, v):

@@ -204,6 +204,45 @@ class TestForces:
             assert lost == pytest.approx(force, rel=2e-3)
 
 
+class TestFluidAbove:
+    """Air over waves: where it begins is where the water ends."""
+
+    @staticmethod
+    def force(above, t, place=2.0, below=0.0):
+        model = ancf.Model(gravity=(0, 0, -G))
+        section = ancf.Section(EA=1e5, EI=10.0, rhoA=12.0, diameter=0.08, drag=(0.0, 0.0))
+        rod = model.add_beam("rod", start=(place, 0, -4), end=(place, 0, 3), elements=7, section=section)
+        model.add_fluid("water", 1025.0, below=below, waves=kinds(15.0, ramp=0.0)["sea"])
+        if above:
+            model.add_fluid("air", 1.2 * above, above=0.0)
+        system = System(model)
+        q, zero = system.initial_shape(t), np.zeros(system.size)
+        r = np.zeros(system.size)
+        system.place(t, q, zero.copy(), zero.copy())
+        residual((system.parts["fluid"],), system.core.ws, q, zero, zero, zero, r)
+        return -sum(r[system.slots[rod.name][:, 0] + 2])
+
+    @pytest.mark.parametrize("t", [0.3, 1.7, 4.4])
+    @pytest.mark.parametrize("place", [0.0, 2.0])
+    def test_what_the_air_carries_is_above_the_waves(self, t, place):
+        rise = kinds(15.0, ramp=0.0)["sea"].elevation(t, place)[0]
+        assert abs(rise) > 0.01
+        more = self.force(50.0, t, place) - self.force(0.0, t, place)
+        assert more == pytest.approx(60.0 * np.pi * 0.0016 * G * (3.0 - rise), rel=1e-9)
+
+    def test_one_that_begins_elsewhere_stays_level(self):
+        """With a gap between water and air nothing ties them."""
+        more = self.force(50.0, 1.7, below=-0.5) - self.force(0.0, 1.7, below=-0.5)
+        assert more == pytest.approx(60.0 * np.pi * 0.0016 * G * 3.0, rel=1e-9)
+
+    def test_waves_on_both_sides_are_refused(self):
+        model, _ = moored(kinds()["regular"])
+        oil = ancf.Waves.regular(0.5, 4.0)
+        model.add_fluid("oil", 900.0, above=0.0, below=5.0, waves=oil)
+        with pytest.raises(ancf.ModelError, match=r'oil: has waves of its own and below it those of "water"'):
+            System(model)
+
+
 class TestMotion:
     @pytest.mark.parametrize("integrator", [ancf.Trapezoidal(), ancf.GeneralizedAlpha(0.8)])
     @pytest.mark.parametrize("name", ["regular", "sea"])

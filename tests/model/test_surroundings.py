@@ -232,12 +232,6 @@ class TestWrong:
             model.add_fluid("water", 1025.0, velocity=law)
         assert caught.value.where == 'add_fluid("water").velocity'
 
-    def test_a_function_that_cannot_be_compiled(self):
-        model = parse_study(study()).model
-        model.add_fluid("water", 1025.0, velocity=lambda t, x, y, z: tuple(map(float, "100")))
-        with pytest.raises(ModelError, match="numba cannot compile"):
-            System(model)
-
     @pytest.mark.parametrize("key", ["drag", "added_mass"])
     def test_coefficients(self, key):
         for value, where in (((-1.0, 0.0), f"Section.{key}[0]"), ((1.0,), f"Section.{key}")):

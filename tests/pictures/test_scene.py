@@ -257,6 +257,38 @@ class TestNets:
             assert net.lines[..., 0].min() < 0.0 < 4.0 < net.lines[..., 0].max()
             assert np.ptp(net.lines[..., 1]) > 1.0
 
+    def test_waves_move_and_fluids_have_arrows(self):
+        """The surface is that of the waves at each time, fine enough for them; arrows are the current's."""
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        section = ancf.Section(EA=1e4, EI=0.01, rhoA=0.5, diameter=0.02, drag=(1, 0))
+        wire = model.add_beam("wire", start=(0, 0, -20), end=(60, 0, 0), elements=3, section=section)
+        model.pin(wire.start)
+        model.pin(wire.end)
+        waves = ancf.Waves.jonswap(2.0, 5.0, seed=2, components=9, direction=0.4, ramp=0.5)
+        profile = {"z": [-20.0, 0.0], "velocity": [[0.0, 0.1, 0], [0.4, 0.9, 0]]}
+        model.add_fluid("water", 1000.0, velocity=profile, below=0.0, waves=waves)
+        model.add_fluid("air", 1.2, above=0.0)
+        scene = make_scene(ancf.simulate(model, t_end=1.0, step=0.05))
+        [net] = scene.nets
+        assert (net.name, net.kind) == ("surface of water", "surface")
+        x, y = net.lines[..., 0], net.lines[..., 1]
+        assert np.abs(np.diff(x[-9:], axis=1)).max() < 39.0 / 10  # the length of the waves of the peak
+        for k in (0, 9, 20):
+            wanted = [
+                [waves.elevation(scene.t[k], *p)[0] for p in zip(*row, strict=True)]
+                for row in zip(x, y, strict=True)
+            ]
+            assert net.heights[k] == pytest.approx(np.array(wanted), abs=1e-12)
+        assert np.ptp(net.heights[20]) > 0.3 > np.ptp(net.heights[0])
+        [arrow] = scene.arrows
+        assert (arrow.name, arrow.kind) == ("water", "fluid")
+        assert arrow.size == pytest.approx(np.hypot(0.4, 0.9))
+        along = arrow.ends[3, :, 1] - arrow.ends[3, :, 0]
+        assert along[-1] / np.linalg.norm(along[-1]) == pytest.approx(
+            np.array([0.4, 0.9, 0]) / np.hypot(0.4, 0.9)
+        )
+        assert np.linalg.norm(along[0]) / np.linalg.norm(along[-1]) == pytest.approx(0.1 / np.hypot(0.4, 0.9))
+
     def test_slopes_and_tables(self):
         tilted = self.of(normal=(0.3, -0.2, 1.0))[0].lines
         assert tilted[..., 2] == pytest.approx(-2.0 - 0.3 * tilted[..., 0] + 0.2 * tilted[..., 1])

@@ -126,8 +126,11 @@ class TestLine:
         sizes = {"wire.at(2.1)": 12, "wire.at(3)": 12, "bob": 3, "dropper": 6, "stay": 15, "ground": 3}
         system = System(model)
         for name, size in sizes.items():
-            assert len(listing(system, [model.sensor(name)]).index) == size, name
-        assert len(listing(system, [model.sensor(name) for name in ("dropper", "bob", "ground")]).index) == 6
+            assert len(listing(system, [model.sensor(name)], True).index) == size, name
+        assert (
+            len(listing(system, [model.sensor(name) for name in ("dropper", "bob", "ground")], True).index)
+            == 6
+        )
 
     def test_oscillator(self):
         """A mass on a spring: the force at every step is that of the closed form, states are four."""
@@ -332,8 +335,8 @@ class TestBadInput:
         [
             ("wire.at(3)", "simulate.sensors", "must be a list"),
             (7, "simulate.sensors", "must be a list"),
-            (["bob", 7], "simulate.sensors[1]", "must be a point, spring or joint"),
-            (["bob", None], "simulate.sensors[1]", "must be a point, spring or joint"),
+            (["bob", 7], "simulate.sensors[1]", "must be a point, spring, joint or support"),
+            (["bob", None], "simulate.sensors[1]", "must be a point, spring, joint or support"),
             (["bob", "droper"], "simulate.sensors[1]", 'did you mean "dropper"'),
             (["wier.at(3)"], "simulate.sensors[0]", 'did you mean "wire"'),
             (["wire.at(5)"], "simulate.sensors[0]", "outside the beam"),

@@ -11,7 +11,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
 from ..model.expression import Expression
 from ..results.store import MemoryStore
-from ..solvers.quick import Quick
+from ..solvers.quick import DONE, PACKED, Quick
 from ..solvers.status import EVENT, OK, SLOW
 from ..solvers.stepping import Run
 from ..system.inputs import on_grid
@@ -42,6 +42,10 @@ class Ahead:
         bundle = run.bundle(ROWS)
         self.tables, self.out = bundle.tables, bundle.out
         self.quick = Quick(bundle)
+        self.step = self.quick.step
+        self.cells = None if any(f.uses_t for *_, f in self.led) else self._cells()
+        self.row: Any = self.tables.value.reshape(-1).data
+        self.sure = False  # the next step may be taken by the shortest way
         self.base = run.done  # steps before the first row
         self.at = self.rows = self.given = (
             0  # next row, rows that are tabulated, and those with inputs of now
@@ -61,15 +65,60 @@ class Ahead:
             count = min(end, run.look, self.base + self.rows) - run.done
             if self.given < self.at + count:
                 self.lead(count)
-            done, status = (0, SLOW) if run.hesitates else self.quick.take(self.at, count)
-            self.at += done
-            run.done += done
-            if status >= EVENT:
-                run.happened(status - EVENT, run.time(run.done), run.done)
-                run.store(-1, self.at - 1, self.out)
-            elif status != OK:
-                self.bridge()
+            self.settle(*((0, SLOW) if run.hesitates else self.quick.take(self.at, count)))
             run.heed_energy()
+        self.sure = not run.hesitates
+
+    def settle(self, done: int, status: int) -> None:
+        """Go on after so many steps, and see to what ended the last one."""
+        run = self.run
+        self.at += done
+        run.done += done
+        if status >= EVENT:
+            run.happened(status - EVENT, run.time(run.done), run.done)
+            run.store(-1, self.at - 1, self.out)
+        elif status != OK:
+            self.bridge()
+
+    def one(self) -> bool:
+        """Take a step with as little Python as there can be; whether that was possible."""
+        at, run = self.at, self.run
+        if at == self.rows or not self.sure:
+            return False
+        if self.changes != self.inputs.changes:
+            if self.cells is None:
+                return False
+            first, row, given = at * self.wide, self.row, self.inputs.given
+            for cells, name, formula in self.cells:
+                number = given[name] if name else formula.at(given)
+                if not name and not math.isfinite(number):
+                    return False
+                for cell in cells:
+                    row[first + cell] = number
+            self.changes, self.given, self.width = self.inputs.changes, at + 1, 1
+        elif at >= self.given:
+            return False
+        packed = self.step(at, 1)
+        if packed == DONE:
+            self.at = at + 1
+            run.done += 1
+        else:
+            self.sure = False
+            self.settle(*divmod(packed, PACKED))
+            self.sure = not run.hesitates
+        if run.done == run.look:
+            run.heed_energy()
+        return True
+
+    def _cells(self) -> list[tuple[list[int], str, Expression]]:
+        """Places in a row of the table that depend on an input, its name, or else a formula."""
+        self.wide = self.tables.value[0].size
+        found = []
+        for load, component, formula in self.led:
+            parts = range(3) if isinstance(component, slice) else (component,)
+            name = formula.text if formula.text in self.inputs.given else ""
+            found.append(([3 * load + part for part in parts], name, formula))
+        return found
 
     def bridge(self) -> None:
         """A step that has failed, in smaller ones; if these fail too, everything is as it was before."""

@@ -12,11 +12,12 @@ from ..errors import ModelError
 from ..model import checks
 from ..model.names import unknown
 from ..preparation import Prepared
-from ..results import remembered
+from ..results import motions, remembered
 from ..results.overview import line_of_state
 from ..results.remembered import Remembered
 from ..results.state import Energy, State
 from ..solvers.record import Stats
+from ..solvers.stepping import Run
 from ..system.energy import energies
 from ..system.inputs import Inputs
 from ..system.spring_fields import springs_of
@@ -85,6 +86,15 @@ class Live(State):
 
     def __repr__(self) -> str:
         return line_of_state(self)
+
+    def _in_motion(self) -> tuple[FloatArray, FloatArray]:
+        """As the step had them; a Radau method has none."""
+        if isinstance(self._run, Run):
+            return self._run.felt()
+        return motions.of_state(self.system, self._q, self._v, self.t, self.known)
+
+    def _reaction_at_rest(self, name: str) -> FloatArray | None:
+        return None
 
     @property
     def q(self) -> FloatArray:

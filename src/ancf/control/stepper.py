@@ -56,6 +56,9 @@ class Stepper(Live):
         ModelError
             A function of time failed.
         """
+        if steps == 1 and type(steps) is int and self._ahead is not None and self._ahead.one():
+            self.t = self._run.t_start + self._run.done * self._run.h
+            return
         if type(steps) is not int or steps < 1:
             checks.integer(steps, "advance.steps", 1, int(MOST_STEPS))
         run = self._run

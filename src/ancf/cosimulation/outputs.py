@@ -18,6 +18,7 @@ OF_POINT = {"position": "m", "velocity": "m/s"}
 OF_LINE = {"tension": "N"}
 OF_SPRING = {"spring_force": "N", "spring_length": "m"}
 OF_JOINT = {"multiplier": "N"}
+OF_SUPPORT = {"reaction": "N"}
 OF_CONTACT = {"contact_force": "N", "contact_gap": "m", "arc_length": "m"}
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*")
 
@@ -66,6 +67,7 @@ def _questions(run: Stepper) -> Iterator[tuple[Any, str, str]]:
         if name in run.arcs:
             questions = questions | {"arc_length": "m"}
         questions = questions | (OF_CONTACT if name in listing.columns else {})
+        questions = questions | (OF_SUPPORT if name in listing.held else {})
         yield from ((name, question, unit) for question, unit in questions.items())
 
 
@@ -73,7 +75,11 @@ def _parts(run: Stepper, of: str, question: str, unit: str) -> Iterator[Output]:
     count = np.size(getattr(run, question)(of))
     word = question.removeprefix("spring_").removeprefix("contact_")
     for k in range(count):
-        part = f".{'xyz'[k]}" if question in OF_POINT else (f"[{k + 1}]" if question in OF_JOINT else "")
+        part = (
+            f".{'xyz'[k]}"
+            if question in OF_POINT | OF_SUPPORT
+            else (f"[{k + 1}]" if question in OF_JOINT else "")
+        )
         yield Output(f"{structured(of)}.{word}{part}", question, of, k, unit)
 
 

@@ -7,8 +7,9 @@ With t the unit tangent, w = v_f - v the velocity of the fluid past the point, n
       + rho A (1 + C_An) a_f,n + rho A (1 + C_At) a_f,t              Froude-Krylov and inertia of the fluid
       - rho A C_An a_n - rho A C_At a_t                              added mass.
 
-d and A = pi d^2/4 are those of the section whatever the stretch.  Of a piece that a surface cuts the part
-that is inside counts: its height is the rise of its length and of its diameter, and it fills it evenly.
+a_f is the rate of the velocity of a particle, dv_f/dt + (v_f . grad) v_f, of waves and gusts its first
+part.  d and A = pi d^2/4 are those of the section whatever the stretch.  Of a piece that a surface cuts the
+part that is inside counts: its height is the rise of its length and of its diameter, and it fills it evenly.
 
 All of it is the work of a load, the kinetic energy of the water that is carried along included.  The matrix
 leaves out how drag changes as the piece turns, but in an equilibrium, where nothing else may hold it.
@@ -30,7 +31,7 @@ from . import gusts
 from .along import add_along, add_block_along, add_slope_block_along, along, place_at, tangent_at
 from .law_functions import address_of
 from .state_force import call
-from .waves import KEPT, RATE, RISE, SPEED, TIME, renew_waves, tables
+from .waves import KEPT, RATE, RISE, SPEED, TIME, renew_waves, tables, under
 
 #: Gauss points of an element.
 POINTS = 5
@@ -38,6 +39,9 @@ POINTS = 5
 DENSITY, LOW, HIGH, GRAVITY = 0, 1, 2, 3
 # columns of ``data``: area, diameter, factors of the drag without the density, coefficients of added mass
 AREA, DIAMETER, DRAG_N, DRAG_T, MASS_N, MASS_T = range(6)
+# columns of ``said``: time, velocity, acceleration
+SAID_TIME, SAID_SPEED, SAID_RATE = 0, 1, 4
+SAID = 7
 # rows of ``value``: velocity and acceleration of what is the same everywhere, and the clock (t, share, 0)
 VELOCITY, ACCELERATION, CLOCK = range(3)
 #: Speed below which drag is taken as smooth by the matrix, m/s.
@@ -57,10 +61,13 @@ class FluidBatch(NamedTuple):
     data: FloatArray  # (n, 6) columns AREA ... MASS_T
     fluids: FloatArray  # (m, 6) columns DENSITY ... GRAVITY
     law: NDArray[np.int64]  # (m,) address of the law of the velocity, 0: none
+    once: NDArray[np.bool_]  # (m,) it is called once a step
+    said: FloatArray  # (n, points, SAID) what such a law said last; no rows where there is none
     first: NDArray[np.int64]  # (m + 1,) first height of the profile
     heights: FloatArray  # (j,)
     profile: FloatArray  # (j, 3)
     moves: NDArray[np.bool_]  # (m,)
+    under: NDArray[np.int64]  # (m,) the fluid whose waves are its lower surface, -1: none
     sea: FloatArray  # (m, 7) see loads/waves.py
     waves: NDArray[np.int64]  # (m + 1,) first chunk of components
     wave: FloatArray  # (chunks, 6, LANES) components
@@ -89,6 +96,9 @@ def build(items, locate, value, model):
     joined = _joined(fields)
     kept = np.zeros((*joined["weight"].shape, KEPT))
     kept[..., TIME] = np.inf
+    law = np.array([_law(item.velocity) for item in items], dtype=np.int64)
+    once = np.array([bool(item.velocity.once) for item in items])
+    said = np.full((len(kept) if np.any(once) else 0, POINTS, SAID), np.inf)
     return FluidBatch(
         **joined,
         **tables(items, model.gravity),
@@ -97,11 +107,14 @@ def build(items, locate, value, model):
         fluid=np.array(which, dtype=np.int64),
         data=np.array(rows, dtype=np.float64).reshape(-1, 6),
         fluids=np.array([[item.density, *item.heights, *model.gravity] for item in items]),
-        law=np.array([_law(item.velocity) for item in items], dtype=np.int64),
+        law=law,
+        once=once,
+        said=said,
         first=np.cumsum([0, *map(len, heights)]).astype(np.int64),
         heights=np.concatenate(heights),
         profile=np.concatenate([item.velocity.profile for item in items]),
         moves=np.array([item.moves for item in items]),
+        under=under(items),
         numbers=np.zeros(9),
         value=value,
     )
@@ -156,15 +169,20 @@ def below(z, rise, height):
 
 @inline_kernel
 def wetted(batch, e, p, z, t, size, rise):
-    """Share of the piece of point p inside its fluid, its surface higher by rise; the derivative by z."""
-    fluid = batch.fluids[batch.fluid[e]]
-    if fluid[LOW] == -math.inf and fluid[HIGH] == math.inf:
+    """Share of the piece of point p inside its fluid, whose waves rise that high; the derivative by z."""
+    k = batch.fluid[e]
+    low, high = batch.fluids[k, LOW], batch.fluids[k, HIGH]
+    if low == -math.inf and high == math.inf:
         return 1.0, 0.0
+    if batch.under[k] >= 0:
+        low += rise
+    else:
+        high += rise
     level = math.sqrt(max(1.0 - t[2] * t[2], 0.0))
-    high = batch.weight[e, p] * size * abs(t[2]) + batch.data[e, DIAMETER] * level
+    tall = batch.weight[e, p] * size * abs(t[2]) + batch.data[e, DIAMETER] * level
     middle = z + batch.shift[e, p] * size * t[2]
-    top, dtop = below(middle, high, fluid[HIGH] + rise)
-    bottom, dbottom = below(middle, high, fluid[LOW])
+    top, dtop = below(middle, tall, high)
+    bottom, dbottom = below(middle, tall, low)
     return top - bottom, dbottom - dtop
 
 
@@ -178,7 +196,7 @@ def by_law(batch, k, time, x, y, z):
 
 @inline_kernel
 def by_profile(batch, k, z):
-    """Velocity of fluid k by its profile."""
+    """Velocity of fluid k by its profile, and how it changes with the height."""
     a, b = batch.first[k], batch.first[k + 1] - 1
     while b - a > 1:
         middle = (a + b) // 2
@@ -186,13 +204,42 @@ def by_profile(batch, k, z):
             a = middle
         else:
             b = middle
-    s = (z - batch.heights[a]) / (batch.heights[b] - batch.heights[a])
+    c = 1.0 / (batch.heights[b] - batch.heights[a])
+    s = (z - batch.heights[a]) * c
+    c = c if 0.0 < s < 1.0 else 0.0
     s = min(max(s, 0.0), 1.0)
     low, high = batch.profile[a], batch.profile[b]
+    x, y, z = high[0] - low[0], high[1] - low[1], high[2] - low[2]
+    return (low[0] + s * x, low[1] + s * y, low[2] + s * z), (c * x, c * y, c * z)
+
+
+@inline_kernel
+def along_law(batch, k, time, at, u):
+    """Velocity by the law of fluid k, and its rate for a particle that moves with it and with u."""
+    x, y, z = at
+    lx, ly, lz = by_law(batch, k, time, x, y, z)
+    dx, dy, dz = STEP * (u[0] + lx), STEP * (u[1] + ly), STEP * (u[2] + lz)
+    bx, by, bz = by_law(batch, k, time - STEP, x - dx, y - dy, z - dz)
+    fx, fy, fz = by_law(batch, k, time + STEP, x + dx, y + dy, z + dz)
+    c = 1.0 / (2.0 * STEP)
+    return (lx, ly, lz), (c * (fx - bx), c * (fy - by), c * (fz - bz))
+
+
+@inline_kernel
+def told(batch, e, p, k, time, at, u, v):
+    """The same; of a law that is called once a step what it said first, unless the point is at rest."""
+    if not batch.once[k]:
+        return along_law(batch, k, time, at, u)
+    said = batch.said[e, p]
+    moves = v[0] != 0.0 or v[1] != 0.0 or v[2] != 0.0
+    if not (moves and said[SAID_TIME] == time):
+        speed, rate = along_law(batch, k, time, at, u)
+        said[SAID_TIME] = time
+        for i in range(3):
+            said[SAID_SPEED + i], said[SAID_RATE + i] = speed[i], rate[i]
     return (
-        low[0] + s * (high[0] - low[0]),
-        low[1] + s * (high[1] - low[1]),
-        low[2] + s * (high[2] - low[2]),
+        (said[SAID_SPEED], said[SAID_SPEED + 1], said[SAID_SPEED + 2]),
+        (said[SAID_RATE], said[SAID_RATE + 1], said[SAID_RATE + 2]),
     )
 
 
@@ -203,29 +250,28 @@ def flow(batch, e, p, k, at, v):
     ux, uy, uz = now[VELOCITY, 0], now[VELOCITY, 1], now[VELOCITY, 2]
     ax, ay, az = now[ACCELERATION, 0], now[ACCELERATION, 1], now[ACCELERATION, 2]
     share = now[CLOCK, 1]
-    if batch.first[k + 1] > batch.first[k]:
-        px, py, pz = by_profile(batch, k, z)
-        ux, uy, uz = ux + share * px, uy + share * py, uz + share * pz
+    if batch.first[k + 1] > batch.first[k] and share > 0.0:
+        speed, shear = by_profile(batch, k, z)
+        ux, uy, uz = ux + share * speed[0], uy + share * speed[1], uz + share * speed[2]
+        ax, ay, az = ax + uz * shear[0], ay + uz * shear[1], az + uz * shear[2]
     if batch.law[k] != 0 and share > 0.0:
-        time = now[CLOCK, 0] / share
-        lx, ly, lz = by_law(batch, k, time, x, y, z)
-        ux, uy, uz = ux + share * lx, uy + share * ly, uz + share * lz
-        bx, by, bz = by_law(batch, k, time - STEP, x, y, z)
-        lx, ly, lz = by_law(batch, k, time + STEP, x, y, z)
-        c = share / (2.0 * STEP)
-        ax, ay, az = ax + c * (lx - bx), ay + c * (ly - by), az + c * (lz - bz)
+        u = ux / share, uy / share, uz / share
+        speed, rate = told(batch, e, p, k, now[CLOCK, 0] / share, at, u, v)
+        ux, uy, uz = ux + share * speed[0], uy + share * speed[1], uz + share * speed[2]
+        ax, ay, az = ax + share * rate[0], ay + share * rate[1], az + share * rate[2]
     if batch.gale[k, gusts.STATIONS] > 0 and share > 0.0:
         squall = batch.squall[k]
         speed, rate = gusts.gust_at(squall, batch.gale[k], batch.gust, now[CLOCK, 0] / share, x, y, z)
         to_x, to_y = share * squall[gusts.TO_X], share * squall[gusts.TO_Y]
         ux, uy, ax, ay = ux + speed * to_x, uy + speed * to_y, ax + rate * to_x, ay + rate * to_y
-    rise = 0.0
-    if batch.waves[k + 1] > batch.waves[k] and share > 0.0:
-        renew_waves(batch, e, p, k, now[CLOCK, 0] / share, at, v)
+    rise, own = 0.0, batch.waves[k + 1] > batch.waves[k]
+    if (own or batch.under[k] >= 0) and share > 0.0:
+        renew_waves(batch, e, p, k if own else batch.under[k], now[CLOCK, 0] / share, at, v)
         w = batch.kept[e, p]
-        ux, uy, uz = ux + share * w[SPEED], uy + share * w[SPEED + 1], uz + share * w[SPEED + 2]
-        ax, ay, az = ax + share * w[RATE], ay + share * w[RATE + 1], az + share * w[RATE + 2]
         rise = share * w[RISE]
+        if own:
+            ux, uy, uz = ux + share * w[SPEED], uy + share * w[SPEED + 1], uz + share * w[SPEED + 2]
+            ax, ay, az = ax + share * w[RATE], ay + share * w[RATE + 1], az + share * w[RATE + 2]
     return (ux, uy, uz), (ax, ay, az), rise
 
 

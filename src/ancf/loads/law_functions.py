@@ -1,13 +1,16 @@
-"""From what a user gives as a law of the state to a compiled function with an address."""
+"""From what a user gives as a law of the state to a function with an address: compiled, or one in Python."""
 
 from __future__ import annotations
 
 import ast
+import ctypes
 import inspect
 import math
+import warnings
 from typing import Any
 
 import numba
+import numpy as np
 from numba import cfunc, njit, types
 
 from ..errors import ModelError
@@ -18,11 +21,10 @@ from ..model.velocity_field import VelocityField
 
 _OPTIONS: dict[str, Any] = {"error_model": "numpy"}
 _SIGNATURE = types.float64(types.float64, types.CPointer(types.float64))
-#: Compiled laws, by formulas or by the user's function; what has an address must stay.
-_LAWS: dict[Any, Any] = {}
-
-HINT = "write it with numbers, numpy and math alone, or as formulas of t, x, y, z, vx, vy, vz"
-PLACE_HINT = "write it with numbers, numpy and math alone, or as formulas of t, x, y, z"
+_PROTOTYPE = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double, ctypes.POINTER(ctypes.c_double))
+#: What was given, what has its address and why it is not compiled, by formulas or by the user's function:
+#: what has an address must stay.
+_LAWS: dict[Any, tuple[Any, Any, str]] = {}
 
 _BINARY: dict[type[ast.AST], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
 _COMPARE: dict[type[ast.AST], str] = {
@@ -45,28 +47,80 @@ def _ramp(t, t0, t1):
 def address_of(function: StateFunction | VelocityField, of_place: bool = False) -> int:
     """Address of a C function ``double law(double t, double data[9])``, see :mod:`ancf.loads.state_force`.
 
-    ``of_place`` says that a Python function takes t, x, y, z instead of t, r, v.
+    What numba cannot compile is called in Python; ``function.once`` then says why, and kernels ask for it
+    once a step.  ``of_place`` says that it takes t, x, y, z instead of t, r, v.
 
     Raises
     ------
     ModelError
-        The law cannot be compiled.
+        A law has no value where it is tried.
     """
     texts = [p.text if isinstance(p, Expression) else float(p) for p in function.parts]
-    key = tuple(texts) or (function.given, of_place)
-    hint = PLACE_HINT if of_place else HINT
-    if not texts and not inspect.isfunction(function.given):
-        what = f"{checks.shown(function.given)} is no plain Python function, which numba could compile"
-        raise ModelError(function.where, what, hint)
+    given = function.law if isinstance(function, VelocityField) else function.given
+    key = tuple(texts) or (id(given), of_place)
+    if key not in _LAWS:
+        _LAWS[key] = given, *_made(function, texts, given, of_place)
+    _, law, function.once = _LAWS[key]
+    if function.once and isinstance(law, Called):
+        law.function = function
+    return int(law.address)
+
+
+def _made(
+    function: StateFunction | VelocityField, texts: list[str | float], given: Any, of_place: bool
+) -> tuple[Any, str]:
+    """What has an address, and why it is called once a step, "" if it is compiled."""
+    if texts:
+        return _compiled(python_of(texts)), ""
+    if not inspect.isfunction(given):
+        return Called(function, of_place), f"{checks.shown(given)} is no plain Python function"
     try:
-        if key not in _LAWS:
-            given = _of_place(function.given) if of_place and not texts else function.given
-            _LAWS[key] = _compiled(python_of(texts) if texts else given)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of numba, about what it then cannot compile
+            return _compiled(_of_place(given) if of_place else given), ""
     except Exception as error:  # numba raises all kinds of them
-        lines = [line.strip() for line in str(error).splitlines() if line.strip()] or [type(error).__name__]
-        reason = next((line for line in lines if "nopython" not in line), lines[0])
-        raise ModelError(function.where, f"numba cannot compile the law: {reason}", hint) from None
-    return int(_LAWS[key].address)
+        lines = [line.strip(" -") for line in str(error).splitlines()]
+        told = [line for line in lines if line and not line.endswith(":") and "nopython" not in line]
+        reason = told[0] if told else type(error).__name__
+        return Called(function, of_place), f"numba cannot compile it: {reason}"
+
+
+class Called:
+    """A law in Python with an address, as a compiled one has; what it raises is kept, its force is then none.
+
+    Attributes
+    ----------
+    address : int
+    problem : ModelError or None
+        What was wrong when it was called last.
+    """
+
+    def __init__(self, function: StateFunction | VelocityField, of_place: bool) -> None:
+        self.function, self.of_place = function, of_place
+        self.problem: ModelError | None = None
+        self._call = _PROTOTYPE(self._called)
+        self.address = ctypes.cast(self._call, ctypes.c_void_p).value
+
+    def _called(self, t: float, data: Any) -> float:
+        numbers = np.ctypeslib.as_array(data, (9,))
+        try:
+            r, v = numbers[:3].copy(), numbers[3:6].copy()
+            function: Any = self.function
+            numbers[6:] = function.at(t, r) if self.of_place else function(t, r, v)
+        except ModelError as error:
+            numbers[6:], self.problem = math.nan, error
+            return 1.0
+        return 0.0
+
+
+def problem_of(function: StateFunction | VelocityField) -> ModelError | None:
+    """What was wrong when a law was called last that is called once a step, told once."""
+    given = function.law if isinstance(function, VelocityField) else function.given
+    law = next((_LAWS[key][1] for key in ((id(given), True), (id(given), False)) if key in _LAWS), None)
+    if not isinstance(law, Called):
+        return None
+    problem, law.problem = law.problem, None
+    return problem
 
 
 def _compiled(function: Any) -> Any:

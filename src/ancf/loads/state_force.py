@@ -3,6 +3,10 @@
 A law is a C function of a time and of nine numbers: position, velocity, and the force that it leaves.  The
 kernels know its address, so that a new law compiles nothing but itself.  The matrix takes the symmetric
 part of its derivatives, by central differences.
+
+A law that stays in Python is called once a step, where the step first looks for its end, and its force is
+then kept: that place is off by the third power of the step, the velocity by the second.  A point at rest, as
+in an equilibrium, is asked anew each time.
 """
 
 from __future__ import annotations
@@ -41,6 +45,8 @@ class StateForceBatch(NamedTuple):
     size: FloatArray  # (n,) of the model, m
     data: FloatArray  # (n, 9) scratch memory of the calls
     rows: FloatArray  # (n, 3, 3) of the differences
+    once: NDArray[np.bool_]  # (n,) is called once a step
+    kept: FloatArray  # (n, 4) of such a law: the time when it was called, and the force
     value: FloatArray  # (items, 1, 3) inputs now: t at [k, 0, 0]
 
 
@@ -55,9 +61,13 @@ def build(items, locate, value):
             laws.append(law)
             rows.append(k)
     n = len(points)
+    kept = np.zeros((n, 4))
+    kept[:, 0] = np.inf
     return StateForceBatch(
         **at_points(points, locate),
         law=np.array([address_of(law) for law in laws], dtype=np.int64),
+        once=np.array([bool(law.once) for law in laws]),
+        kept=kept,
         weight=np.array(weights),
         item=np.array(rows, dtype=np.int64),
         size=np.array([law.size for law in laws]),
@@ -118,11 +128,24 @@ def law_force(batch, e):
 
 
 @inline_kernel
+def force_now(batch, e):
+    """The same, of a law that is called once a step what it gave first."""
+    if not batch.once[e]:
+        return law_force(batch, e)
+    kept, t = batch.kept[e], batch.value[batch.item[e], 0, 0]
+    moves = batch.data[e, 3] != 0.0 or batch.data[e, 4] != 0.0 or batch.data[e, 5] != 0.0
+    if not (moves and kept[0] == t):
+        kept[1], kept[2], kept[3] = law_force(batch, e)
+        kept[0] = t
+    return kept[1], kept[2], kept[3]
+
+
+@inline_kernel
 def state_force(batch, q, v, a, r, ws):
     """Subtract the forces from r."""
     for e in range(batch.base.shape[0]):
         put_state(batch, e, q, v)
-        add_force_at(batch, e, law_force(batch, e), r)
+        add_force_at(batch, e, force_now(batch, e), r)
 
 
 @inline_kernel
@@ -145,6 +168,8 @@ def add_differences(batch, e, first, step, weight):
 def state_force_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add the symmetric part of minus the derivatives by position and velocity."""
     for e in range(batch.base.shape[0]):
+        if batch.once[e] and (c_mass != 0.0 or c_damping != 0.0):
+            continue  # in a step its force does not change
         put_state(batch, e, q, v)
         for i in range(3):
             for j in range(3):

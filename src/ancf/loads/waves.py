@@ -11,6 +11,7 @@ import math
 import numpy as np
 
 from ..compiled import inline_kernel, kernel
+from ..errors import ModelError
 from ..simd import LANES, cos_and_sin, decay, every, load, store, total
 
 # columns of ``sea``: mean level, depth, ramp, direction, stretched or not, largest wave number
@@ -41,6 +42,25 @@ def tables(items, gravity):
         "wave": np.concatenate(wave),
         "angle": np.zeros((2, max(_chunks(items)), LANES)),
     }
+
+
+def under(items):
+    """Of each fluid the one whose waves are its lower surface, -1: none.
+
+    Raises
+    ------
+    ModelError
+        A fluid has waves on both surfaces.
+    """
+    found = np.full(len(items), -1, dtype=np.int64)
+    for k, item in enumerate(items):
+        for j, other in enumerate(items):
+            if other.waves is not None and other.below == item.above and other.meets(item):
+                if item.waves is not None:
+                    what = f'has waves of its own and below it those of "{other.name}"'
+                    raise ModelError(item.name, what, "leave out one of them")
+                found[k] = j
+    return found
 
 
 def _chunks(items):

@@ -51,6 +51,10 @@ class Fluid:
         """Whether it acts on a body."""
         return self.on is None or name in self.on
 
+    def meets(self, other: Fluid) -> bool:
+        """Whether there may be a body on which both act."""
+        return self.on is None or other.on is None or bool(set(self.on) & set(other.on))
+
 
 #: Step of the differences that give the acceleration of a fluid, s.
 STEP = 1e-4

@@ -240,6 +240,7 @@ FLUID = Kind(
     between=sheets.between_heights,
     batch="fluid",
     inputs=lambda item: item.functions(),
+    push=Push("velocity", "m/s"),
 )
 GROUND = Kind(
     Ground,
@@ -290,5 +291,6 @@ def marked() -> dict[str, Look]:
 
 
 def pushing() -> dict[str, Push]:
-    """Kinds of loads that pictures draw as arrows, by noun."""
-    return {kind.noun: kind.push for kind in all_kinds() if kind.push is not None}
+    """Kinds of loads and surroundings that pictures draw as arrows, by noun."""
+    kinds = (*all_kinds(), *SURROUNDINGS.values())
+    return {kind.noun: kind.push for kind in kinds if kind.push is not None}

@@ -19,10 +19,13 @@ from .inputs import Input, make_input
 from .kinds import GROUPS, SURROUNDINGS, kind_of
 from .names import POINT_LABEL, Names, numbers_of, split_label, unknown
 from .points import Point
+from .supports import Support
 
 
 class Lookup:
     """Bodies, connections, inputs and names of one model."""
+
+    supports: list[Support]
 
     def __init__(self) -> None:
         self.bodies: dict[str, Body] = {}
@@ -111,8 +114,8 @@ class Lookup:
                 return item
         raise unknown(where, "joint or spring", name, [item.name for item in self.connections])
 
-    def sensor(self, item: object, where: str = "Model.sensor") -> Point | Connection:
-        """Return the point, spring or joint that a sensor may record, given as an object or by its name."""
+    def sensor(self, item: object, where: str = "Model.sensor") -> Point | Connection | Support:
+        """Return the point, spring, joint or support that a sensor may record, an object or its name."""
         if isinstance(item, Point | PointMass | RigidBody | Beam):
             return self._point(item, where)
         found = next((c for c in self.connections if item is c or item == c.name), None)
@@ -121,13 +124,16 @@ class Lookup:
             raise ModelError(where, what, "list one of its points")
         if found is not None:
             return found
+        held = next((support for support in self.supports if item is support or item == support.name), None)
+        if held is not None:
+            return held
         if not isinstance(item, str):
-            what = f"must be a point, spring or joint of this model, or its name, is {checks.shown(item)}"
-            raise ModelError(where, what)
+            what = "must be a point, spring, joint or support of this model, or its name"
+            raise ModelError(where, f"{what}, is {checks.shown(item)}")
         if POINT_LABEL.fullmatch(item.strip()) or item.strip() in self.bodies:
             return self._point(item, where)
-        names = [*self.bodies, *(c.name for c in self.connections)]
-        raise unknown(where, "point, spring or joint", item, names)
+        names = [*self.bodies, *(c.name for c in self.connections), *(s.name for s in self.supports)]
+        raise unknown(where, "point, spring, joint or support", item, names)
 
     @contextmanager
     def located(self, place: str) -> Iterator[None]:

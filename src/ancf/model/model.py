@@ -302,9 +302,9 @@ class Model(Surroundings, Readable):
         ----------
         point : Point, PointMass or RigidBody
         force : (3,) N, function of time or law of the state
-            A law is a function of t, r and v, the position (3,) in m and velocity (3,) in m/s of the
-            point, such as ``lambda t, r, v: -20.0 * v``, that numba can compile; or three numbers and
-            formulas of t, x, y, z, vx, vy, vz. Its work is supplied energy; in an equilibrium v is zero.
+            A law is a function of t, r and v, place (3,) in m and velocity (3,) in m/s of the point, such as
+            ``lambda t, r, v: -20.0 * v``, called once a step if numba cannot compile it; or numbers and
+            formulas of t, x, y, z, vx, vy, vz. Its work is supplied energy; in equilibria v is zero.
         name : str
             Default "force at beam.end".
 

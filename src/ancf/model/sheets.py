@@ -38,7 +38,12 @@ def value(function: TimeFunction | StateFunction, unit: str) -> str:
     if isinstance(given, dict):
         return f"table of {plural(len(given['t']), 'time')} [{unit}]"
     shown = f"({', '.join(map(str, given))})" if isinstance(given, list) else str(given)
-    return f"{shown} [{unit}]"
+    return f"{shown} [{unit}]{way(getattr(function, 'once', ''))}"
+
+
+def way(once: str | None) -> str:
+    """How a Python function is called, where that is known and not by compiled code."""
+    return ", called once a step" if once else ""
 
 
 def pin(item: Pin) -> str:
@@ -167,7 +172,7 @@ def _velocity(field: VelocityField) -> str:
     if len(field.heights):
         return f"velocity by a profile of {plural(len(field.heights), 'height')}"
     if field.law is not None or field.parts:
-        return f"velocity {_given(field.describe())} [m/s]"
+        return f"velocity {_given(field.describe())} [m/s]{way(field.once)}"
     return f"velocity {value(field.uniform, 'm/s')}"
 
 

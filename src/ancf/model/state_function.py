@@ -24,8 +24,8 @@ class StateFunction:
     Parameters
     ----------
     given : callable or list
-        A Python function of t in s, r (3,) in m and v (3,) in m/s that returns three numbers, simple enough
-        to be compiled by numba; or three numbers and formulas of t, x, y, z, vx, vy, vz.
+        A Python function of t in s, r (3,) in m and v (3,) in m/s that returns three numbers, compiled by
+        numba if it can be, else called once a step; or three numbers and formulas of t, x, y, z, vx, vy, vz.
     where : str
         Place in the model, for messages.
     position : (3,) m
@@ -33,13 +33,19 @@ class StateFunction:
     size : float, m
         Size of the model.
 
+    Attributes
+    ----------
+    once : str or None
+        Why numba cannot compile it and it is called once a step; "" if it is compiled, None before a model
+        with it was computed.
+
     Raises
     ------
     ModelError
         It cannot be evaluated there.
     """
 
-    __slots__ = ("given", "parts", "size", "where")
+    __slots__ = ("given", "once", "parts", "size", "where")
     constant = False
 
     def __init__(self, given: Any, where: str, position: FloatArray, size: float) -> None:
@@ -48,6 +54,7 @@ class StateFunction:
 
     def _take(self, given: Any, where: str, size: float) -> None:
         self.given, self.where, self.size = given, where, size
+        self.once: str | None = None
         self.parts = [] if callable(given) else _formulas(given, where)
 
     def __getstate__(self) -> Any:

@@ -51,9 +51,10 @@ class Surroundings(WithSurfaces):
         density : float, kg/m^3
         velocity : (3,) m/s, function of time, profile, formulas or function of t, x, y, z
             A profile is ``{"z": heights, "velocity": (n, 3)}``; formulas are three of t, x, y, z. A Python
-            function of t, x, y, z returns three numbers and is compiled by numba.
+            function of t, x, y, z returns three numbers; it is compiled by numba if it can be, else called
+            once a step.
         above, below : float, m
-            Heights z between which the fluid is; default everywhere.
+            Heights z between which the fluid is; default everywhere. Above one with waves it follows them.
         on : sequence of bodies or names, optional
             Bodies on which it acts; default all.
         waves : Waves or dict, optional
@@ -154,7 +155,7 @@ class Surroundings(WithSurfaces):
 
 def _refuse_both(where: str, one: Fluid, other: Fluid) -> None:
     """Raise ModelError where two fluids are in one place, for the same bodies."""
-    if one.on is not None and other.on is not None and not set(one.on) & set(other.on):
+    if not one.meets(other):
         return
     low = max(one.heights[0], other.heights[0])
     high = min(one.heights[1], other.heights[1])

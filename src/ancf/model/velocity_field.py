@@ -27,7 +27,7 @@ class VelocityField:
     given : (3,), function of time, dict, list of formulas or callable
         What a function of time may be; ``{"z": (n,), "velocity": (n, 3)}``, linear between the heights and
         constant outside; formulas of t, x, y, z; or a Python function of t, x, y, z that returns three
-        numbers, simple enough to be compiled by numba.
+        numbers, compiled by numba if it can be, else called once a step.
     where : str
         Place in the model, for messages.
 
@@ -41,6 +41,9 @@ class VelocityField:
         Formulas of the place, if it was given so.
     law : callable or None
         A Python function of t, x, y, z.
+    once : str or None
+        Why numba cannot compile it and it is called once a step; "" if it is compiled, None before a model
+        with it was computed.
 
     Raises
     ------
@@ -48,7 +51,7 @@ class VelocityField:
         It is none of these, or cannot be evaluated at t = 0 in the origin.
     """
 
-    __slots__ = ("given", "heights", "law", "parts", "profile", "uniform", "where")
+    __slots__ = ("given", "heights", "law", "once", "parts", "profile", "uniform", "where")
 
     def __init__(self, given: Any, where: str) -> None:
         self.given: Any = given.given if isinstance(given, VelocityField | TimeFunction) else given
@@ -56,6 +59,7 @@ class VelocityField:
         self.heights, self.profile = np.zeros(0), np.zeros((0, 3))
         self.parts: list[Expression | float] = []
         self.law: Any = None
+        self.once: str | None = None
         given, rest = self.given, [0.0, 0.0, 0.0]
         if isinstance(given, Mapping) and "z" in given:
             self._read_profile(given)

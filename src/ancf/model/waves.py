@@ -225,12 +225,19 @@ class Waves:
 
     def elevation(self, t: Any, x: float = 0.0, y: float = 0.0, g: float = 9.81) -> FloatArray:
         """Height of the surface over the mean level, m, at times t (n,) in s at one place, shape (n,)."""
-        t = np.atleast_1d(np.asarray(t, dtype=np.float64))
-        s = x * math.cos(self.direction) + y * math.sin(self.direction)
-        angle = self.numbers(g) * s + self.phase - self.omega * t[:, None]
-        share: FloatArray = np.array([grown(float(now), self.ramp)[0] for now in t])
-        eta: FloatArray = share * (np.cos(angle) @ self.amplitude)
-        return eta
+        return self.elevations(np.atleast_1d(t), np.float64(x), np.float64(y), g)
+
+    def elevations(self, t: Any, x: Any, y: Any, g: float = 9.81) -> FloatArray:
+        """The same at places x, y of any shape (...), shape (n, ...)."""
+        t = np.asarray(t, dtype=np.float64)
+        s = np.asarray(x) * math.cos(self.direction) + np.asarray(y) * math.sin(self.direction)
+        place = self.numbers(g) * s[..., None] + self.phase
+        share = [grown(float(now), self.ramp)[0] for now in t]
+        rows = [
+            r * (np.cos(place - self.omega * now) @ self.amplitude)
+            for r, now in zip(share, t.tolist(), strict=True)
+        ]
+        return np.array(rows).reshape(len(t), *s.shape)
 
     def refuse_breaking(self, where: str, g: float) -> None:
         """Raise ModelError if such a wave would break under the gravity g."""

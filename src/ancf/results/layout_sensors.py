@@ -24,10 +24,12 @@ def write_listing(file: Any, listing: Listing) -> None:
     group = file.create_group("sensors")
     points = [{"body": p.body.name, "label": p.label, "place": (p.x, p.y, p.z)} for p in listing.points]
     columns = {name: places.tolist() for name, places in listing.columns.items()}
-    listed = {"points": points, "connections": listing.connections, "columns": columns}
+    held = {name: places.tolist() for name, places in listing.held.items()}
+    listed = {"points": points, "connections": listing.connections, "columns": columns, "held": held}
     group.attrs["listed"] = json.dumps(listed)
     group["index"], group["entries"] = listing.index, listing.entries
-    for name, width in zip(DATA, (len(listing.index),) * 2 + (len(listing.entries), None), strict=True):
+    group["moved"], group["pushed"] = listing.moved, listing.pushed
+    for name, width in zip(DATA, (len(listing.index),) * 2 + (listing.width, None), strict=True):
         tail = () if width is None else (width,)
         chunk = () if width is None else (max(1, min(width, COLUMNS)),)
         most = () if width is None else (width or None,)
@@ -43,4 +45,8 @@ def read_listing(group: Any, bodies: dict[str, Body]) -> Listing:
         points.append(Point(bodies[item["body"]], x, item["label"], y, z))
     columns = {name: np.array(places, dtype=np.int64) for name, places in listed["columns"].items()}
     connections = tuple(listed["connections"])
-    return Listing(tuple(points), connections, group["index"][:], group["entries"][:], columns)
+    held = {name: np.array(places, dtype=np.int64) for name, places in listed.get("held", {}).items()}
+    moved, pushed = (group[key][:] if key in group else np.zeros(0, np.int64) for key in ("moved", "pushed"))
+    return Listing(
+        tuple(points), connections, group["index"][:], group["entries"][:], columns, moved, pushed, held
+    )

@@ -40,7 +40,8 @@ def of_result(result: History) -> Sheet:
         ("bodies", sizes(bodies)),
         ("cost", _cost(result)),
         ("energy", _drift(result, settings)),
-        ("sensors", _sensors(settings.get("sensors", []))),
+        ("sensors", _names(settings.get("sensors", []))),
+        ("called once a step", _names(settings.get("called once a step", []))),
         *(("note", text) for text in _notes(result)),
     ]
     return Sheet(f"Result{_quoted(plain.get('title'))}", facts, [body_table(bodies)])
@@ -138,7 +139,7 @@ def _notes(result: History) -> list[str]:
     return result.notes if len(result.t) and result.q.shape[0] * result.q.shape[1] <= MOST_READ else []
 
 
-def _sensors(names: list[str]) -> str:
+def _names(names: list[str]) -> str:
     if not names:
         return ""
     first = ", ".join(names[:6])

@@ -6,6 +6,7 @@ Whether a unilateral joint is open follows from its gap and is not kept.
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -34,11 +35,20 @@ class Remembered:
         Arc length on the wire by contact, m, from where the next search starts.
     memory : dict of str to ndarray
         What batches remember of the motion until the state, see ``System.memory``.
+    inputs : dict of str to float
+        The model's inputs in the state; nothing where they are not known.
+    led : bool
+        Inputs have changed during the run.
+    balanced : bool
+        It is the state of an equilibrium.
     """
 
     modes: dict[str, int] = field(default_factory=dict)
     places: dict[str, float] = field(default_factory=dict)
     memory: dict[str, FloatArray] = field(default_factory=dict)
+    inputs: dict[str, float] = field(default_factory=dict)
+    led: bool = False
+    balanced: bool = False
 
     def until(self, index: int, q: Any, v: Any, arcs: dict[str, int]) -> Remembered:
         """The same at an earlier stored state, shapes of q and v (n_t, size).
@@ -49,7 +59,8 @@ class Remembered:
         still = {n for n in ended if _stands(q[index:, arcs[n]]) and not np.any(v[index:, arcs[n]])}
         modes = {name: mode if name in still else SLIDES for name, mode in self.modes.items()}
         last = index == q.shape[0] - 1  # the memory is that of the last state
-        return Remembered(modes, self.places, self.memory if last else {})
+        inputs = self.inputs if last or not self.led else {}
+        return Remembered(modes, self.places, self.memory if last else {}, inputs, self.led)
 
 
 def of_system(system: System) -> Remembered:
@@ -57,7 +68,9 @@ def of_system(system: System) -> Remembered:
     batch = _sliding(system)
     modes = [] if batch is None else batch.mode.tolist()
     places = {name: float(system.measured[system.measures[name][ARC]]) for name in _contacts(system.model)}
-    return Remembered(dict(zip(_slides(system.model), modes, strict=True)), places, memory_of(system))
+    held = dict(zip(_slides(system.model), modes, strict=True))
+    inputs = system.inputs
+    return Remembered(held, places, memory_of(system), dict(inputs.given), inputs.changes > 0)
 
 
 def memory_of(system: System) -> dict[str, FloatArray]:
@@ -94,6 +107,8 @@ def write(file: Any, known: Remembered) -> None:
             file[key][...] = row
         else:
             file[key] = row
+    if known.inputs:
+        file.attrs["inputs"] = json.dumps({"values": known.inputs, "led": known.led})
     for name, x in known.memory.items():
         if f"memory/{name}" in file:
             file[f"memory/{name}"][...] = x
@@ -114,7 +129,11 @@ def read(file: Any, model: Model) -> Remembered:
         raise ModelError("modes", f"must each be {SLIDES}, {FROZEN} or {FREE}")
     found = dict(zip(_slides(model), modes, strict=True)), dict(zip(_contacts(model), places, strict=True))
     memory = {name: x[...] for name, x in file["memory"].items()} if "memory" in file else {}
-    return Remembered(*found, memory)
+    inputs: dict[str, Any] = {"values": {}, "led": False}
+    if "inputs" in file.attrs:
+        inputs = json.loads(file.attrs["inputs"])
+    values = {name: float(inputs["values"][name]) for name in model.inputs if name in inputs["values"]}
+    return Remembered(*found, memory, values, bool(inputs["led"]))
 
 
 def _slides(model: Model) -> list[str]:

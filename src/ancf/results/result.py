@@ -22,18 +22,20 @@ from ..system.probe import lengths_of
 from ..system.redundancy import independent
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import accuracy, remembered, tension
+from . import accuracy, motions, remembered, tension
 from .momenta import Momenta
+from .motions import Motions
 from .overview import line_of_result, of_result
 from .pictures import Filmed
 from .read_store import ReadStore
+from .remembered import Remembered
 from .sensitivities import sensitivity_of
 from .sensors import Sensors
 from .state import Energy, State
 from .store import FileStore, MemoryStore
 
 
-class Result(SpringFields, ContactFields, Momenta, Filmed, Readable):
+class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
     """History of a simulation; see :class:`Fields` for positions, velocities, strains, tensions, ...
 
     ``print(result)`` says how it went; ``model`` is the model that was computed.
@@ -42,6 +44,7 @@ class Result(SpringFields, ContactFields, Momenta, Filmed, Readable):
     def __init__(self, store: MemoryStore | ReadStore, header: dict[str, Any], system: System | None) -> None:
         self._store, self._header, self._made_by = store, header, system
         self._recorded: Sensors | None = None
+        self._moving: tuple[FloatArray, FloatArray] | None = None
         self.derivatives: dict[str, Any] = {}  # by the name of a parameter
         if system is not None:
             self.model, self._slots, self._joints = system.model, system.slots, system.joints
@@ -57,7 +60,7 @@ class Result(SpringFields, ContactFields, Momenta, Filmed, Readable):
 
     def __getstate__(self) -> dict[str, Any]:
         """All but what is made again when it is asked for; of a file its place, not its content."""
-        return {**self.__dict__, "_recorded": None, "_system": None}
+        return {**self.__dict__, "_recorded": None, "_moving": None, "_system": None}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         del state["_system"]
@@ -146,6 +149,16 @@ class Result(SpringFields, ContactFields, Momenta, Filmed, Readable):
                 )
         return self._recorded
 
+    def _in_motion(self) -> tuple[FloatArray, FloatArray]:
+        """Accelerations and forces out of balance of all stored states, shapes (n_t, size), kept."""
+        if self._moving is None or len(self._moving[0]) != len(self.t):
+            known = [self._known(k) for k in range(len(self.t))]
+            self._moving = motions.of_history(self._system, self.q, self.v, self.t, known)
+        return self._moving
+
+    def _known(self, index: int) -> Remembered:
+        return self._last.until(index, self.q, self.v, self._arcs)
+
     @property
     def energy(self) -> Energy:
         """Energies at the stored times, J.
@@ -203,7 +216,7 @@ class Result(SpringFields, ContactFields, Momenta, Filmed, Readable):
     def state(self, index: int = -1) -> State:
         """State at a stored time, from which a simulation can go on."""
         q, v = np.array(self.q[index]), np.array(self.v[index])  # copies: a state outlives its history
-        known = self._last.until(range(len(self.t))[index], self.q, self.v, self._arcs)
+        known = self._known(range(len(self.t))[index])
         made = State(self._system, float(self.t[index]), q, v, self.stats, known)
         made.derivatives = {name: item.state(index) for name, item in self.derivatives.items()}
         return made

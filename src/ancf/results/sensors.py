@@ -12,7 +12,7 @@ from ..errors import ModelError, named
 from ..model.bodies import PointMass, RigidBody
 from ..model.points import Point
 from ..system.contact_fields import ContactFields
-from ..system.probe import BeamProbe, Probe
+from ..system.probe import BeamProbe, Probe, R, locate
 from ..system.sensors import Listing
 from ..system.spring_fields import SpringFields
 from .pictures import Plotted
@@ -36,6 +36,7 @@ class Sensors(SpringFields, ContactFields, Plotted):
     def __init__(self, listing: Listing, arrays: Callable[[], dict[str, Any]], whole: Any) -> None:
         self.listing, self._arrays = listing, arrays
         self.model, self._bodies = whole.model, whole.bodies
+        self._whole_slots = whole.slots
         self._slots = {name: listing.places(slots) for name, slots in whole.slots.items()}
         self._lengths = {
             name: (int(listing.places(np.array([unknown]))[0]), far)
@@ -67,8 +68,58 @@ class Sensors(SpringFields, ContactFields, Plotted):
 
     @property
     def names(self) -> list[str]:
-        """Points, springs and joints that were recorded."""
+        """Points, springs, joints, contacts and supports that were recorded."""
         return [*map(str, self.listing.points), *self.listing.connections]
+
+    def acceleration(self, point: Point | PointMass | RigidBody | str) -> FloatArray:
+        """Acceleration of a point, m/s^2, shape (n, 3), as the steps had it.
+
+        Raises
+        ------
+        ModelError
+            The point was not recorded; of methods of the Radau family no accelerations are.
+        """
+        probe = self._probe(point)
+        measured = self._arrays()["measured"]
+        used = probe.S[R] != 0.0
+        unknowns = self._whole_probe(probe).slots[used]
+        columns = self.listing.accelerated(unknowns[:, None] + np.arange(3))
+        if np.any(columns < 0):
+            hint = "Radau's methods have none; ask the result, or list the point in sensors"
+            raise ModelError(named(str(point)), "the sensors have no accelerations of it", hint)
+        first = len(self.listing.entries)
+        a: FloatArray = np.zeros((len(self.t), 3))
+        for weight, column in zip(probe.S[R][used], columns, strict=True):
+            a = a + weight * np.stack([measured[..., first + int(c)] for c in column], axis=-1)
+        return a
+
+    def _sliding(self, joint: Any) -> tuple[FloatArray, FloatArray]:
+        hint = "ask the result, at its stored times"
+        raise ModelError(
+            named(getattr(joint, "name", joint)), "its carrier was not recorded by the sensors", hint
+        )
+
+    def reaction(self, support: Any) -> FloatArray:
+        """Force of the ground on the node of a support, N, shape (n, 3), global components.
+
+        Raises
+        ------
+        ModelError
+            The support was not recorded.
+        """
+        name = getattr(support, "name", support)
+        if name not in self.listing.held:
+            raise ModelError(named(name), "is no support that the sensors have recorded", self._recorded())
+        first = len(self.listing.entries) + len(self.listing.moved)
+        measured, force = self._arrays()["measured"], np.zeros((len(self.t), 3))
+        for place, component in self.listing.held[name].tolist():
+            force[:, component] = measured[..., first + place]
+        return force
+
+    def _whole_probe(self, probe: Probe) -> Probe:
+        """Where a point is in whole state vectors."""
+        place = Point(probe.body, probe.x, "", probe.y, probe.z)
+        return locate(place, self._whole_slots[probe.body.name])
 
     def missing(self) -> str:
         """The first listed point of which not all was recorded, as in a damaged file; "" for none."""

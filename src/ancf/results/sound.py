@@ -48,8 +48,9 @@ def check_header(header: Any) -> None:
             checks.number(settings[key], f"header.settings.{key}")
     checks.flag(settings.get("energy", True), "header.settings.energy")
     checks.text(settings.get("integrator", ""), "header.settings.integrator")
-    for k, name in enumerate(_list(settings.get("sensors", []), "header.settings.sensors")):
-        checks.text(name, f"header.settings.sensors[{k}]")
+    for key in ("sensors", "called once a step"):
+        for k, name in enumerate(_list(settings.get(key, []), f"header.settings.{key}")):
+            checks.text(name, f"header.settings.{key}[{k}]")
     for key in ("title", "created"):
         checks.text(header.get(key, ""), f"header.{key}")
     for key, version in _table(header.get("versions", {}), "header.versions").items():
@@ -80,11 +81,19 @@ def check_listing(listing: Listing, width: int, widths: dict[str, int]) -> None:
     _unknowns(listing.index, "sensors/index", (None,), width)
     if np.any(np.diff(listing.index) <= 0):
         raise ModelError("sensors/index", "does not ascend")
-    wanted = {"q": len(listing.index), "v": len(listing.index), "measured": len(listing.entries)}
+    wanted = {"q": len(listing.index), "v": len(listing.index), "measured": listing.width}
     if widths != wanted:
         raise ModelError("sensors", f"has data of widths {widths}, wanted {wanted}")
     for name, places in listing.columns.items():
         _unknowns(places, f'sensors "{name}"', (4,), len(listing.entries))
+    for key in ("moved", "pushed"):
+        _unknowns(getattr(listing, key), f"sensors/{key}", (None,), width)
+    if np.any(np.diff(listing.moved) <= 0):
+        raise ModelError("sensors/moved", "does not ascend")
+    for name, places in listing.held.items():
+        if places.size:
+            _unknowns(places[:, 0], f'sensors "{name}"', (None,), len(listing.pushed))
+            _unknowns(places[:, 1], f'sensors "{name}"', (None,), 3)
 
 
 def check_times(t: FloatArray, where: str) -> None:

@@ -11,17 +11,16 @@ import numpy as np
 from ..arrays import FloatArray
 from ..contact.fields import ContactLine, contact_line
 from ..errors import ModelError, named
-from ..model.supports import Support
 from ..model.surfaces import SurfaceContact
 from ..model.tables import Readable, Sheet
 from ..solvers.record import Stats
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
-from ..system.reactions import reaction
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import accuracy
+from . import accuracy, motions
 from .momenta import Momenta
+from .motions import Motions
 from .overview import line_of_state, of_state
 from .pictures import StatePlotted
 from .remembered import Remembered
@@ -60,7 +59,7 @@ class Energy:
         return drift
 
 
-class State(SpringFields, ContactFields, Momenta, StatePlotted, Readable):
+class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readable):
     """Positions and velocities of a model at one time; see :class:`Fields` for what it answers.
 
     Parameters
@@ -90,6 +89,7 @@ class State(SpringFields, ContactFields, Momenta, StatePlotted, Readable):
         self.derivatives: dict[str, Any] = {}  # by the name of a parameter, None: it does not depend on it
         self.stats = Stats() if stats is None else stats
         self._q, self._v = q, v
+        self._moving: tuple[FloatArray, FloatArray] | None = None
         self._bodies, self._slots = self.model.bodies, system.slots
         self._joints, self._arcs, self._lengths = system.joints, system.numbering.arcs, system.lengths
         self._springs = springs_of(system.model.connections)
@@ -177,20 +177,10 @@ class State(SpringFields, ContactFields, Momenta, StatePlotted, Readable):
         other.derivatives = self.derivatives | dict.fromkeys(names)
         return other
 
-    def reaction(self, support: Support | str) -> FloatArray:
-        """Force of the ground on the node of a support in an equilibrium, N, shape (3,), global components.
+    def _in_motion(self) -> tuple[FloatArray, FloatArray]:
+        if self._moving is None:
+            self._moving = motions.of_state(self.system, self.q, self.v, self.t, self.known)
+        return self._moving
 
-        Components that the support does not hold are zero; of a clamp it is the force, without the
-        moment. Of two supports that hold the same component of a node that bodies share, the one that
-        was added first has it.
-
-        Parameters
-        ----------
-        support : Pin, Clamp, Hold or its name
-
-        Raises
-        ------
-        ModelError
-            There is no such support, something moves, or the support's body is not in equilibrium.
-        """
-        return reaction(self.system, self.q, self.v, self.t, support)
+    def _reaction_at_rest(self, name: str) -> FloatArray | None:
+        return motions.at_rest(self.system, self.q, self.v, self.t, self.known, name)

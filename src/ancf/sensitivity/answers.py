@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
+from ..errors import ModelError
 from ..model.describe import point as point_text
 from ..model.points import Point
 from ..results.momenta import Momenta
 from ..results.state import Energy
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
-from ..system.reactions import reaction
+from ..system.reactions import reaction, support_name
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 from .family import Family
@@ -40,8 +41,13 @@ class Face(SpringFields, ContactFields, Momenta):
         return self.system
 
     def reaction(self, support: Any) -> FloatArray:
-        """See :meth:`ancf.State.reaction`."""
-        return reaction(self.system, self.q, self.v, self.t, support)
+        """See :meth:`ancf.State.reaction`; of states at rest alone."""
+        name = support_name(self.system, support)
+        force = reaction(self.system, self.q, self.v, self.t, name, True) if self.q.ndim == 1 else None
+        if force is None:
+            what = "derivatives of reactions are known of equilibria only"
+            raise ModelError("sensitivity.reaction", what, "ask the state of ancf.equilibrium")
+        return force
 
     def energies(self) -> FloatArray:
         """Kinetic, strain and potential energy, (..., 3), J."""

@@ -27,7 +27,7 @@ from ..system.core import (
 )
 from .balance import balance
 from .memory import NORM, WORST
-from .sampling import sample
+from .sampling import note, sample
 from .status import DIVERGED, NOT_FINITE, OK, SINGULAR, STEPS
 
 #: A step in which something moves by more than this many sizes of the model is no motion.
@@ -93,6 +93,8 @@ def advance_explicit(core, s, tables, h, turning, keep, sampling, out):
         s.counts[STEPS] += 1
         if core.accounted and (core.damped or core.loaded):
             balance(core, s, h)
+        if n < out.samples.shape[0]:
+            note(core, s, sampling)
         remember_all(core.remembering, s.q, s.v)
         if keep[n] >= 0:
             for i in range(s.q.shape[0]):

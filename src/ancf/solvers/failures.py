@@ -6,6 +6,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
+from ..loads.law_functions import problem_of
 from ..loads.state_force import law_of, places_of
 from ..model.kinds import kind_of
 from ..system.system import System
@@ -23,6 +24,8 @@ REASONS = {
     TOO_MANY: f"steps had to be halved, into more than {MOST_PARTS} parts on average",
 }
 
+HINT = "a law must have a value wherever its point may get"
+
 
 def blamed(
     system: System, q: FloatArray, v: FloatArray, t: float, number: int, h: float
@@ -31,17 +34,22 @@ def blamed(
 
     What a law raises in a step is lost; so it is asked again, in Python, where its point would be on the way.
     """
+    where = f"t = {t:.6g} s, step {number}"
+    for fluid in system.model.fluids:
+        if fluid.velocity.once and (problem := problem_of(fluid.velocity)) is not None:
+            return SolveError(f"{where}, {problem.where}", problem.what, HINT)
     for load in system.model.loads:
         if kind_of(load).batch != "state_force" or not kind_of(load).has_batch(load):
             continue
+        if law_of(load).once and (problem := problem_of(law_of(load))) is not None:
+            return SolveError(f"{where}, {problem.where}", problem.what, HINT)
         for point, _ in places_of(load):
             probe, law = system.probe(point), law_of(load)
             for share in (0.0, 0.25, 0.5, 0.75, 1.0):
                 try:
                     law(t + share * h, probe.field(q + share * h * v), probe.field(v))
                 except ModelError as error:
-                    where = f"t = {t:.6g} s, step {number}, {error.where}"
-                    return SolveError(where, error.what, "a law must have a value wherever its point may get")
+                    return SolveError(f"{where}, {error.where}", error.what, HINT)
     return None
 
 

@@ -46,7 +46,7 @@ from .entwined import solve_apart, solve_entwined
 from .low_rank import forget, move_on
 from .memory import ETA, H_FACTOR, NOISE, NORM, WORST
 from .renewal import count, renewed
-from .sampling import sample
+from .sampling import note, sample
 from .scheme import coefficients, finish, predict, restore
 from .status import (
     DIVERGED,
@@ -331,6 +331,8 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out):
         finish(s, h, scheme)
         if core.accounted and (core.damped or core.loaded):
             balance(core, s, h)
+        if n < out.samples.shape[0]:
+            note(core, s, sampling)
         remember_all(core.remembering, s.q, s.v)
         if keep[n] >= 0:
             for i in range(s.q.shape[0]):

@@ -7,15 +7,17 @@ a step is a call with the address of the record and the number of its row.
 
 from __future__ import annotations
 
-import ctypes
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 from numba import typeof, types
+from numba.core import cgutils
 from numba.core.registry import cpu_target
+from numba.extending import intrinsic
 from numpy.typing import NDArray
 
-from ..compiled import separate_kernel
+from ..compiled import kernel, separate_kernel
 from ..records import RecordType, keep, read
 from ..system.core import Core, Tables
 from .explicit import advance_explicit
@@ -23,10 +25,15 @@ from .memory import Memory
 from .newmark import Rule, advance
 from .sampling import Output, Sampling
 from .scheme import Scheme
+from .status import OK
+
+#: Factor of the number of steps in what kernels return, where a status is smaller; one step that went well.
+PACKED = 1 << 32
+DONE = PACKED + OK
 
 
 class Implicit(NamedTuple):
-    """All that :func:`ancf.solvers.newmark.advance` takes, and where it says how it ended."""
+    """All that :func:`ancf.solvers.newmark.advance` takes."""
 
     core: Core
     memory: Memory
@@ -37,7 +44,6 @@ class Implicit(NamedTuple):
     row: NDArray[np.int64]  # (rows,) -1: no states are kept
     sampling: Sampling
     out: Output
-    ended: NDArray[np.int64]  # (2,) steps done and the status of the last one
 
 
 class Direct(NamedTuple):
@@ -51,18 +57,17 @@ class Direct(NamedTuple):
     row: NDArray[np.int64]
     sampling: Sampling
     out: Output
-    ended: NDArray[np.int64]
 
 
 @separate_kernel
 def implicit_at(record, first, count):
-    """Steps ``first`` to ``first + count`` of the tables."""
+    """Steps from ``first`` on, of the tables; how many were done and the status of the last one, packed."""
     b, last = read(record), first + count
     tables = Tables(b.tables.value[first:last], b.tables.motion[first:last], b.tables.rotation[first:last])
     out = Output(b.out.q, b.out.v, b.out.work, b.out.samples[first:last])
     row = b.row[first:last]
     done, status = advance(b.core, b.memory, tables, b.step, b.scheme, b.rule, row, b.sampling, out)
-    b.ended[0], b.ended[1] = done, status
+    return done * PACKED + status
 
 
 @separate_kernel
@@ -73,7 +78,31 @@ def direct_at(record, first, count):
     out = Output(b.out.q, b.out.v, b.out.work, b.out.samples[first:last])
     row = b.row[first:last]
     done, status = advance_explicit(b.core, b.memory, tables, b.step, b.turning, row, b.sampling, out)
-    b.ended[0], b.ended[1] = done, status
+    return done * PACKED + status
+
+
+@intrinsic
+def call_at(typing, function, record, first, count):
+    """Call the kernel at an address with a record and two numbers."""
+
+    def generate(context, builder, signature, values):
+        given = types.voidptr, types.int64, types.int64
+        kind = context.call_conv.get_function_type(types.int64, given).as_pointer()
+        place = builder.inttoptr(values[0], kind)
+        record = builder.inttoptr(values[1], context.get_value_type(types.voidptr))
+        call = context.call_conv.call_function
+        status, value = call(builder, place, types.int64, given, [record, values[2], values[3]])
+        with cgutils.if_unlikely(builder, status.is_error):
+            context.call_conv.return_status_propagate(builder, status)
+        return value
+
+    return types.int64(types.int64, types.int64, types.int64, types.int64), generate
+
+
+@kernel
+def steps_at(function, record, first, count):
+    """The kernel at an address, one for all models: Python calls what takes numbers alone much faster."""
+    return call_at(function, record, first, count)
 
 
 class Quick:
@@ -86,7 +115,7 @@ class Quick:
     """
 
     def __init__(self, bundle: Any) -> None:
-        self.bundle, self.ended = bundle, bundle.ended
+        self.bundle = bundle
         kind, context = typeof(bundle), cpu_target.target_context
         size = context.get_abi_sizeof(context.get_data_type(kind))
         self._words = np.zeros(-(-size // 8), dtype=np.int64)
@@ -96,16 +125,14 @@ class Quick:
         dispatcher.compile(signature)
         compiled = dispatcher.overloads[signature]
         address = compiled.library.get_pointer_to_function(compiled.fndesc.llvm_func_name)
-        # as numba calls a function: place of the result, place of an exception, arguments; returns a status
-        prototype = ctypes.CFUNCTYPE(ctypes.c_int32, *[ctypes.c_void_p] * 3, ctypes.c_int64, ctypes.c_int64)
-        self._call, self._scratch = prototype(address), np.zeros(4, dtype=np.int64)
-        places = self._scratch.ctypes.data
-        self._given = places, places + 16, self._words.ctypes.data
+        self._function, self._record = int(address), int(self._words.ctypes.data)
+        #: As :meth:`take`, which divides what it returns by PACKED.
+        self.step: Any = partial(steps_at, self._function, self._record)
 
     def take(self, first: int, count: int) -> tuple[int, int]:
         """Take ``count`` steps from row ``first`` on; how many were done, and the status of the last one."""
-        self._call(*self._given, first, count)
-        return int(self.ended[0]), int(self.ended[1])
+        done, status = divmod(self.step(first, count), PACKED)
+        return done, status
 
 
 def shared(run: Any, rows: int) -> dict[str, Any]:
@@ -120,5 +147,4 @@ def shared(run: Any, rows: int) -> dict[str, Any]:
         "row": np.full(rows, -1, dtype=np.int64),
         "sampling": run.sampling,
         "out": run.room(0, rows),
-        "ended": np.zeros(2, dtype=np.int64),
     }

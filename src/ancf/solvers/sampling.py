@@ -1,18 +1,20 @@
 """What sensors take from every step: a copy of some entries of the state vectors, made in the compiled loop.
 
-A row of samples holds q of the entries, v of the entries, and entries of an array in which batches leave
-what they have measured (``System.measured``).
+A row of samples holds q of the entries, v of the entries, entries of an array in which batches leave what
+they have measured (``System.measured``), accelerations, and forces out of balance of held unknowns, which are
+reactions.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..batches import Batches, measure_all
-from ..compiled import kernel
+from ..compiled import formula, kernel
+from ..system.core import residual
 from ..system.system import System
 
 
@@ -23,11 +25,14 @@ class Sampling(NamedTuple):
     batches: Batches  # that measure, see ancf.compiled.measure
     measured: FloatArray  # (m,) shared with them
     entries: IntArray  # (j,) entries of measured
+    moved: IntArray  # (m,) unknowns whose acceleration is taken
+    pushed: IntArray  # (p,) held unknowns whose reaction is taken
+    felt: FloatArray  # (2, size) accelerations and forces out of balance at the end of the step
 
     @property
     def width(self) -> int:
-        """Numbers in a row of samples: 2 k + j."""
-        return 2 * len(self.unknowns) + len(self.entries)
+        """Numbers in a row of samples: 2 k + j + m + p."""
+        return 2 * len(self.unknowns) + len(self.entries) + len(self.moved) + len(self.pushed)
 
 
 class Output(NamedTuple):
@@ -49,7 +54,26 @@ def sampling_of(system: System) -> Sampling:
     """Sampling of the sensors of a system."""
     listed = system.sensors
     batches = Batches(system.measuring if len(listed.entries) else ())
-    return Sampling(listed.index, batches, system.measured, listed.entries)
+    felt = np.zeros((2, system.size))
+    return Sampling(listed.index, batches, system.measured, listed.entries, listed.moved, listed.pushed, felt)
+
+
+@formula
+def note(core: Any, s: Any, sampling: Any) -> None:
+    """Leave accelerations and forces out of balance at the end of a step, before batches remember it."""
+    if sampling.moved.shape[0] > 0:
+        for i in range(s.a.shape[0]):
+            sampling.felt[0, i] = s.a[i]
+    if sampling.pushed.shape[0] > 0:
+        residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)
+        for i in range(s.a.shape[0]):
+            sampling.felt[1, i] = s.r[i]
+
+
+@kernel
+def note_now(core: Any, s: Any, sampling: Any) -> None:
+    """See :func:`note`."""
+    note(core, s, sampling)
 
 
 @kernel
@@ -61,6 +85,12 @@ def sample(sampling: Sampling, q: FloatArray, v: FloatArray, row: FloatArray) ->
         row[i], row[k + i] = q[sampling.unknowns[i]], v[sampling.unknowns[i]]
     for i in range(sampling.entries.shape[0]):
         row[2 * k + i] = sampling.measured[sampling.entries[i]]
+    k = 2 * k + sampling.entries.shape[0]
+    for i in range(sampling.moved.shape[0]):
+        row[k + i] = sampling.felt[0, sampling.moved[i]]
+    k += sampling.moved.shape[0]
+    for i in range(sampling.pushed.shape[0]):
+        row[k + i] = sampling.felt[1, sampling.pushed[i]]
 
 
 @kernel

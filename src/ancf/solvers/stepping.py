@@ -13,7 +13,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
 from ..model.integrators import Integrator
 from ..system.consistency import open_contacts
-from ..system.core import Tables, apply_load, first_event
+from ..system.core import Tables, apply_load, first_event, residual
 from ..system.energy import energies
 from ..system.system import System
 from . import failures
@@ -29,7 +29,7 @@ from .memory import H_FACTOR, H_PREV, KNOWN, WORST, Memory, allocate
 from .newmark import UNLIMITED, Rule, advance
 from .quick import Direct, Implicit, shared
 from .record import Progress, Recorder, Stats
-from .sampling import Output, sample, sampling_of
+from .sampling import Output, note_now, sample, sampling_of
 from .scheme import Scheme
 from .span import Span
 from .start import consistent_start
@@ -268,6 +268,7 @@ class Run:
         if k >= 0:
             out.q[k], out.v[k], out.work[k] = m.q, m.v, m.work
         if self.sampling.width:
+            note_now(self.system.core, m, self.sampling)
             sample(self.sampling, m.q, m.v, out.samples[n])
 
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
@@ -286,6 +287,12 @@ class Run:
         """State vectors q, v, and work dissipated and supplied, as they are now and will be changed."""
         m = self.memory
         return m.q, m.v, m.work
+
+    def felt(self) -> tuple[FloatArray, FloatArray]:
+        """Accelerations, and forces out of balance, which in held rows are reactions, of the state now."""
+        m, core, r = self.memory, self.system.core, np.zeros(self.system.size)
+        residual(core.batches, core.ws, m.q, m.v, m.a, m.f, r)
+        return m.a, r
 
     def bundle(self, rows: int) -> Implicit | Direct:
         """All that steps one by one take, with room for so many of them."""

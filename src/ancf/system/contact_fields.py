@@ -17,7 +17,7 @@ from ..model.cable_contact import CableContact
 from ..model.contact import Contact
 from ..model.model import Model
 from ..model.surfaces import SurfaceContact
-from .joint_fields import JointFields
+from .slide_fields import SlideFields
 from .system import System
 
 #: By kind of contact with many places: its batches, and what tells their sums.
@@ -28,7 +28,7 @@ TOUCHING: dict[type, tuple[str, str, Any, Any]] = {
 }
 
 
-class ContactFields(JointFields):
+class ContactFields(SlideFields):
     """Values of contacts, given as the model's object or by name; shapes are () or (n_t,)."""
 
     model: Model

@@ -1,4 +1,4 @@
-"""Forces that supports exert on nodes at rest."""
+"""Forces that supports exert on nodes."""
 
 from __future__ import annotations
 
@@ -18,33 +18,49 @@ BALANCED = 1e-3  # out-of-balance force of a body's nodes, of the largest force
 ROUND_OFF = 1e-8  # the same, of the largest stiffness, N
 
 
-def reaction(system: System, q: FloatArray, v: FloatArray, time: float, support: Any) -> FloatArray:
-    """Force of a support on its node in an equilibrium, N, shape (3,), global components.
+def reaction(
+    system: System, q: FloatArray, v: FloatArray, time: float, name: str, balanced: bool
+) -> FloatArray | None:
+    """Force of a support on its node in an equilibrium, N, shape (3,), global components; None in motion.
 
-    It is what the rows of the held unknowns, which the solver drops, are out of balance.
+    It is what the rows of the held unknowns, which the solver drops, are out of balance.  What is at rest
+    but out of balance is in motion too: it has just been let go.
 
     Raises
     ------
     ModelError
-        There is no such support, or the state is in motion or not in equilibrium.
+        The state is one of ``ancf.equilibrium``, which ``balanced`` says, but not of the support's body.
     """
+    moving = np.abs(v[: system.n]) * system.core.weight
+    moving[list(system.numbering.lengths.values())] = 0.0  # an equilibrium has them at a time
+    if np.max(moving) > AT_REST:
+        return None
+    r, load = _out_of_balance(system, q.copy(), time)
+    loose = _loose(system, name, r, load)
+    if loose > 0.0 and balanced:
+        body = next(s for s in system.model.supports if s.name == name).point.body.name
+        what = f'"{body}" is not in equilibrium: {loose:.3g} N are out of balance'
+        raise ModelError("State.reaction", what, "ask the state of ancf.equilibrium(model)")
+    if loose > 0.0:
+        return None
+    return held_part(system, name, r)
+
+
+def held_part(system: System, name: str, r: FloatArray) -> FloatArray:
+    """Of forces out of balance, shape (size,), those in the directions that a support holds, shape (3,)."""
+    force = np.zeros(3)
+    for i in system.constraints.positions[name]:
+        force[i % 3] = r[i]
+    return force
+
+
+def support_name(system: System, support: Any) -> str:
+    """Name of a support; ModelError if there is no such one."""
     name = getattr(support, "name", support)
     positions = system.constraints.positions
     if not isinstance(name, str) or name not in positions:
-        raise unknown("State.reaction", "support", name, positions)
-    moving = np.abs(v[: system.n]) * system.core.weight
-    moving[list(system.numbering.lengths.values())] = 0.0  # an equilibrium has them at a time
-    worst = int(np.argmax(moving))
-    if moving[worst] > AT_REST:
-        what = f"{system.numbering.describe(worst)} moves: reactions are known of a state at rest only"
-        hint = "ask the state of ancf.equilibrium(model) without set_motion and at a time without motion"
-        raise ModelError("State.reaction", what, hint)
-    r, load = _out_of_balance(system, q.copy(), time)
-    _check_balance(system, name, r, load)
-    force = np.zeros(3)
-    for i in positions[name]:
-        force[i % 3] = r[i]
-    return force
+        raise unknown("reaction", "support", name, positions)
+    return name
 
 
 def _out_of_balance(system: System, q: FloatArray, time: float) -> tuple[FloatArray, FloatArray]:
@@ -57,8 +73,8 @@ def _out_of_balance(system: System, q: FloatArray, time: float) -> tuple[FloatAr
     return r, f
 
 
-def _check_balance(system: System, name: str, r: FloatArray, load: FloatArray) -> None:
-    """Raise ModelError if the free nodes of the support's body are not in equilibrium.
+def _loose(system: System, name: str, r: FloatArray, load: FloatArray) -> float:
+    """What is out of balance on the free nodes of the support's body, N, zero in equilibrium.
 
     Nodes shared with other bodies do not count: those may have been left out of the equilibrium.
     """
@@ -70,9 +86,7 @@ def _check_balance(system: System, name: str, r: FloatArray, load: FloatArray) -
     held = [i for unknowns in system.constraints.positions.values() for i in unknowns]
     largest = max(float(np.max(np.abs(r[held]))), float(np.max(np.abs(load))))
     loose = float(np.max(np.abs(r[mine]), initial=0.0))
-    if loose > BALANCED * largest + ROUND_OFF * _stiffness(system):
-        what = f'"{body}" is not in equilibrium: {loose:.3g} N are out of balance'
-        raise ModelError("State.reaction", what, "ask the state of ancf.equilibrium(model)")
+    return loose if loose > BALANCED * largest + ROUND_OFF * _stiffness(system) else 0.0
 
 
 def _stiffness(system: System) -> float:

@@ -197,6 +197,11 @@ class System:
         return self.core._replace(supports=supports)
 
     @cached_property
+    def double(self) -> System:
+        """Another one of the same model, to ask what would write into the arrays of a run."""
+        return System(self.model, self.spare)
+
+    @cached_property
     def free(self) -> IntArray:
         """Unknowns that move freely."""
         return np.setdiff1d(np.arange(self.n), self.core.supports.held)

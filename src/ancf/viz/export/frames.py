@@ -99,6 +99,8 @@ def _kind(known: Any, item: Any, where: str) -> tuple[str, str]:
             return label, kind
     if label in known._contacts():
         return label, "contact"
+    if isinstance(known, Sensors) and label in known.listing.held:
+        return label, "support"
     try:
         known.position(item)
     except ModelError as error:
@@ -121,6 +123,8 @@ def _columns(known: Any, asked: list[tuple[str, str]]) -> Iterator[tables.Column
         elif kind == "contact":
             yield f"{label} force [N]", known.contact_force(label)
             yield f"{label} gap [m]", known.contact_gap(label)
+        elif kind == "support":
+            yield from tables.vector_columns(f"{label} reaction", known.reaction(label), "N")
         else:
             yield from ((name, values) for name, values in tables.energy_columns(known) if name != "t [s]")
 

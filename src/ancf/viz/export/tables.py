@@ -45,6 +45,8 @@ def sensor_columns(sensors: Sensors) -> Iterator[Column]:
             yield f"{name} length [m]", sensors.spring_length(name)
         if name in sensors.joints:
             yield from joint_parts(sensors, name)
+        if name in sensors.listing.held:
+            yield from vector_columns(f"{name} reaction", sensors.reaction(name), "N")
         if name in sensors.listing.columns:
             yield f"{name} force [N]", sensors.contact_force(name)
             yield f"{name} gap [m]", sensors.contact_gap(name)
@@ -58,8 +60,12 @@ def sensor_columns(sensors: Sensors) -> Iterator[Column]:
 def motion_columns(known: Any, point: Point | str, label: str) -> Iterator[Column]:
     """Position and velocity of a point."""
     for quantity, unit in MOTION.items():
-        values = getattr(known, quantity)(point)
-        yield from ((f"{label} {quantity} {c} [{unit}]", values[:, k]) for k, c in enumerate("xyz"))
+        yield from vector_columns(f"{label} {quantity}", getattr(known, quantity)(point), unit)
+
+
+def vector_columns(label: str, values: FloatArray, unit: str) -> Iterator[Column]:
+    """The components of a vector."""
+    yield from ((f"{label} {c} [{unit}]", values[:, k]) for k, c in enumerate("xyz"))
 
 
 def point_columns(result: Result, labels: Sequence[str]) -> Iterator[Column]:

@@ -1,4 +1,7 @@
-"""Loads as arrows: where they push now, and how hard against the most that a load of the kind pushes."""
+"""Loads as arrows: where they push now, and how hard against the most that a load of the kind pushes.
+
+The velocity of a fluid is drawn as a load is, beside the bodies.
+"""
 
 from __future__ import annotations
 
@@ -12,10 +15,11 @@ from ...arrays import FloatArray
 from ...errors import ModelError
 from ...model.beam import Beam
 from ...model.kind import Push
-from ...model.kinds import kind_of, pushing
+from ...model.kinds import FLUID, kind_of, pushing
 from ...model.points import Point
 from ...model.state_function import StateFunction
 from .parts import Arrow
+from .streams import stream
 
 #: Length of the longest arrow of a kind, of the largest extent, and where lengths are drawn not to scale.
 LONGEST, ACROSS = 0.14, 0.3
@@ -43,6 +47,8 @@ def make_arrows(shown: Any, drawn: list[FloatArray]) -> list[Arrow]:
     for kind, push in pushing().items():
         items = [item for item in shown.model.loads if kind_of(item).noun == kind]
         known = [(item, *acting(shown, item, push)) for item in items]
+        if kind == FLUID.noun:
+            known = [(item, *stream(shown, item, drawn)) for item in shown.model.fluids]
         largest = max((float(size.max()) for *_, size in known if size.size), default=0.0)
         for item, places, value, size in known:
             if size.size and float(size.max()) > SHORTEST * largest:

@@ -125,7 +125,7 @@ def make_scene(
         strips=_strips(shown, source, threads, extent),
         stored=stored,
         arrows=make_arrows(shown, drawn) if moving else [],
-        nets=make_nets(shown.model, drawn),
+        nets=make_nets(shown.model, drawn, shown.t),
     )
 
 

@@ -11,18 +11,21 @@ from ...model.grounds import Ground, Relief
 from ...model.mesh import Mesh
 from ...model.surface_shapes import Plane
 from ...model.surfaces import Surface
+from ...model.waves import Waves, wave_numbers
 from .parts import Net
 
 #: Lines of a net in each direction, share by which it is larger than the bodies, least width as a share.
 LINES, MARGIN, NARROW = 9, 0.1, 0.3
 #: A surface that is farther from all bodies than so many of their extents is not drawn.
 FAR = 0.5
+#: Points of a line of a surface for each length of the waves, and the most.
+PER_WAVE, MOST_POINTS = 12, 61
 #: Of a surface of revolution: points of a circle, meridians, and the most circles.
 CIRCLE, MERIDIANS, RINGS = 48, 12, 7
 
 
-def make_nets(model: Any, drawn: list[FloatArray]) -> list[Net]:
-    """Nets of a model around points that are drawn."""
+def make_nets(model: Any, drawn: list[FloatArray], t: FloatArray) -> list[Net]:
+    """Nets of a model around points that are drawn; surfaces with waves move at the times t (n,), s."""
     solids = [net for item in model.surfaces if (net := _solid(item)) is not None]
     planes = [item for item in model.surfaces if isinstance(item.shape, Plane) and item.on is None]
     if not model.grounds and not model.fluids and not planes:
@@ -35,15 +38,38 @@ def make_nets(model: Any, drawn: list[FloatArray]) -> list[Net]:
     x, y = (np.linspace(middle[k] - half[k], middle[k] + half[k], LINES) for k in range(2))
     nets = [Net(item.name, "ground", _lines(x, y, _heights(item, x, y))) for item in model.grounds]
     levels: set[float] = set()
-    for item in model.fluids:
+    for item in sorted(model.fluids, key=lambda fluid: fluid.waves is None):
         for level in item.heights:
             near = low[2] - FAR * size <= level <= high[2] + FAR * size
             if near and level not in levels:
                 levels.add(level)
-                flat = np.full((LINES, LINES), level)
-                nets.append(Net(f"surface of {item.name}", "surface", _lines(x, y, flat)))
+                waves = item.waves if level == item.heights[1] else None
+                nets.append(_surface(f"surface of {item.name}", level, x, y, waves, t, model.gravity))
     reach = float(np.linalg.norm(half))
     return nets + [_plane(item, 0.5 * (low + high), reach) for item in planes] + solids
+
+
+def _surface(
+    name: str, level: float, x: FloatArray, y: FloatArray, waves: Waves | None, t: FloatArray, g: FloatArray
+) -> Net:
+    """The surface of a fluid at a height; with waves its points lie close enough to show the peak's."""
+    if waves is None:
+        return Net(name, "surface", _lines(x, y, np.full((LINES, LINES), level)))
+    length = 2.0 * np.pi / wave_numbers(np.array([2.0 * np.pi / waves.period]), waves.depth, -g[2])[0]
+    wide = max(float(np.ptp(x)), float(np.ptp(y)))
+    count = int(np.clip(PER_WAVE * wide / length, LINES, MOST_POINTS))
+    ends = [(axis, np.linspace(axis[0], axis[-1], count)) for axis in (x, y)]
+    along = [_net_lines(x, ends[1][1], level), _net_lines(y, ends[0][1], level)[..., [1, 0, 2]]]
+    lines = np.concatenate(along)
+    return Net(
+        name, "surface", lines, heights=level + waves.elevations(t, lines[..., 0], lines[..., 1], -g[2])
+    )
+
+
+def _net_lines(across: FloatArray, along: FloatArray, level: float) -> FloatArray:
+    """Level lines (k, m, 3) at places across, with points along."""
+    first, second = np.meshgrid(across, along, indexing="ij")
+    return np.stack([first, second, np.full_like(first, level)], axis=-1)
 
 
 def _solid(item: Surface) -> Net | None:

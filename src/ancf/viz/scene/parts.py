@@ -159,12 +159,15 @@ class Net:
     lines : (k, m, 3) m
     on : str
         Rigid body of which it has the axes; "": at rest.
+    heights : (n, k, m) m, optional
+        z of its points at each time, of a surface with waves.
     """
 
     name: str
     kind: str
     lines: FloatArray
     on: str = ""
+    heights: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True)

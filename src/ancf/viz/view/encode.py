@@ -91,26 +91,40 @@ def plain_scene(scene: Scene, numbers: Numbers) -> Plain:
             force=[_known(strip.force, scene.t) for strip in scene.strips],
         ),
         "arrows": _arrows(scene, numbers),
-        "nets": [_net(net, scene) for net in scene.nets],
+        "nets": [_net(net, scene, numbers) for net in scene.nets],
     }
 
 
-def _net(net: Net, scene: Scene) -> Plain:
-    """Lines; of one on a rigid body in units of the axes that are drawn of it, and which they are."""
+def _net(net: Net, scene: Scene, numbers: Numbers) -> Plain:
+    """Lines; of one on a rigid body in units of the axes that are drawn of it, and which they are.
+
+    A surface with waves has the heights of its points at each time.
+    """
     plain = {"name": net.name, "kind": net.kind, "lines": net.lines.tolist(), "on": -1}
     if net.on:
         k = [triad.name for triad in scene.triads].index(net.on)
         plain |= {"on": k, "lines": (net.lines / scene.triads[k].size).tolist()}
+    if net.heights is not None:
+        plain["heights"] = numbers.shares(net.heights)
     return plain
 
 
 def _corners(net: Net, scene: Scene) -> FloatArray:
     """Points that hold a net, of one on a rigid body wherever that gets."""
     if not net.on:
-        return net.lines.reshape(-1, 3)
+        return _held_by(net)
     triad = next(triad for triad in scene.triads if triad.name == net.on)
     reach = float(np.max(np.linalg.norm(net.lines, axis=-1)))
     return np.concatenate([triad.centre - reach, triad.centre + reach])
+
+
+def _held_by(net: Net) -> FloatArray:
+    """Points of a net at rest, with waves at their lowest and highest."""
+    points = net.lines.reshape(-1, 3)
+    if net.heights is None:
+        return points
+    ends = (net.heights.min(axis=0).ravel(), net.heights.max(axis=0).ravel())
+    return np.concatenate([np.column_stack([points[:, :2], z]) for z in ends])
 
 
 def _box(scene: Scene) -> FloatArray:

@@ -244,7 +244,7 @@ function strokesOf(tail, tip, { head, turns }) {
   return lines;
 }
 
-// A ground or the surface of a fluid, which stay.
+// A ground or the surface of a fluid, which stay but for waves.
 function netLayer(net, triads) {
   const look = net.kind === "surface" ? { width: 1, color: LOOKS.curves[0] } : { width: 2, color: LOOKS.grey };
   const drawn = (place) => {
@@ -256,6 +256,16 @@ function netLayer(net, triads) {
     return { ...path };
   };
   const more = { hoverinfo: "skip", hovertemplate: null };
+  if (net.heights) {
+    return {
+      trace: line(net.name, look, more),
+      at(k) {
+        const heights = net.heights.row(k);
+        let i = 0;
+        return drawn((p) => [p[0], p[1], heights[i++]]);
+      },
+    };
+  }
   if (net.on < 0) {
     return { trace: line(net.name, look, { ...more, ...drawn((point) => point) }), still: true, at: () => ({}) };
   }

@@ -1,0 +1,122 @@
+"""Accelerations and reactions of states and histories, by the equations of motion of each state."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model.supports import Support
+from ..solvers.in_motion import in_motion
+from ..system.reactions import held_part, reaction, support_name
+from ..system.system import System
+from . import remembered
+from .remembered import Remembered
+
+_FRICTION = "sensors record it at every step, and the last state of a simulation knows it"
+
+
+class Motions:
+    """Questions about forces of inertia; shapes are (3,) for a state, (n_t, 3) for a history."""
+
+    def acceleration(self: Any, point: Any) -> FloatArray:
+        """Acceleration of a point, m/s^2, that the equations of motion give in each state.
+
+        What runs record at every step is in ``sensors``.
+
+        Raises
+        ------
+        ModelError
+            Friction acts, which depends on the way until the state, or inputs whose history is not kept.
+        """
+        a: FloatArray = self._probe(point).field(self._in_motion()[0])
+        return a
+
+    def reaction(self: Any, support: Support | str) -> FloatArray:
+        """Force of the ground on the node of a support, N, global components, at rest or in motion.
+
+        Components that the support does not hold are zero; of a clamp it is the force, without the
+        moment. Of two supports that hold the same component of a node that bodies share, the one that
+        was added first has it. It is what the equations of motion of a state leave; of a state that is no
+        equilibrium with all forces of inertia.
+
+        Parameters
+        ----------
+        support : Pin, Clamp, Hold or its name
+
+        Raises
+        ------
+        ModelError
+            There is no such support, or as for :meth:`acceleration`.
+        """
+        system = self.system
+        name = support_name(system, support)
+        still: FloatArray | None = self._reaction_at_rest(name)
+        if still is not None:
+            return still
+        forces = self._in_motion()[1]
+        found = [held_part(system, name, r) for r in np.atleast_2d(forces)]
+        return found[0] if forces.ndim == 1 else np.array(found).reshape(-1, 3)
+
+    def _reaction_at_rest(self, name: str) -> FloatArray | None:
+        """Of an equilibrium, None for what is in motion."""
+        return None
+
+
+def of_state(
+    system: System, q: FloatArray, v: FloatArray, t: float, known: Remembered
+) -> tuple[FloatArray, FloatArray]:
+    """Accelerations and forces out of balance of a state, each of shape (size,).
+
+    Raises
+    ------
+    ModelError
+        They depend on what is not known.
+    """
+    return in_motion(_double(system, known), q, v, t)
+
+
+def of_history(
+    system: System, q: Any, v: Any, t: FloatArray, known: list[Remembered]
+) -> tuple[FloatArray, FloatArray]:
+    """The same of many states, shapes (n_t, size)."""
+    pairs = [of_state(system, np.array(q[k]), np.array(v[k]), float(t[k]), known[k]) for k in range(len(t))]
+    none = np.zeros((0, system.size))
+    a, r = (np.array(column) for column in zip(*pairs, strict=True)) if pairs else (none, none)
+    return a, r
+
+
+def at_rest(
+    system: System, q: FloatArray, v: FloatArray, t: float, known: Remembered, name: str
+) -> FloatArray | None:
+    """Reaction of an equilibrium, None in motion."""
+    double = system.double
+    double.measured[:] = system.measured  # where contacts are looked for first
+    remembered.restore(double, known)
+    for key, value in known.inputs.items():
+        double.inputs.give(key, value)
+    return reaction(double, q, v, t, name, known.balanced)
+
+
+def _double(system: System, known: Remembered) -> System:
+    """A system that nobody uses, which knows all that the state does."""
+    double = system.double
+    double.measured[:] = system.measured
+    if rubs(system) and any(name not in known.memory for name in system.memory):
+        what = "friction depends on the way until a state, and of this one it is not known"
+        raise ModelError("acceleration, reaction", what, _FRICTION)
+    if double.inputs.led and known.led and not known.inputs:
+        what = "inputs were given while the run went on, and what they were in this state is not kept"
+        raise ModelError("acceleration, reaction", what, "give simulate(..., sensors=[...]), which record it")
+    for name, value in known.inputs.items():
+        double.inputs.give(name, value)
+    remembered.restore(double, known)
+    return double
+
+
+def rubs(system: System) -> bool:
+    """Whether there is friction that sticks."""
+    grounds = any(item.friction > 0.0 for item in system.model.grounds)
+    return grounds or "rubbing" in system.parts

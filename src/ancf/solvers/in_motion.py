@@ -1,0 +1,39 @@
+"""Accelerations and reactions of a state in motion, by its equations of motion."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..system.core import apply_load, residual
+from ..system.system import System
+from .start import consistent_start
+
+STENCIL_STEP = 1e-3  # of the differences that give rates of given motions, s
+
+
+def in_motion(system: System, q: FloatArray, v: FloatArray, time: float) -> tuple[FloatArray, FloatArray]:
+    """Accelerations, and forces out of balance, which in the rows of held unknowns are reactions, N.
+
+    Parameters
+    ----------
+    system : System
+        None that a run is using: its arrays are written into.
+    q, v : ndarray, shape (size,)
+        State vectors.
+    time : float
+        s.
+
+    Raises
+    ------
+    SolveError
+        The mass matrix is singular, or a force is not finite.
+    """
+    h = STENCIL_STEP
+    tables = system.inputs.tables(time - h, h, 1, time, np.inf)
+    q, v = q.copy(), v.copy()
+    a = consistent_start(system, q, v, tables)
+    f, r = np.zeros(system.size), np.zeros(system.size)
+    apply_load(system.core.loads, tables.value[0], f)
+    residual(system.core.batches, system.core.ws, q, v, a, f, r)
+    return a, r
