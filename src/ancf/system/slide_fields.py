@@ -28,7 +28,7 @@ class SlideFields(JointFields):
     def sliding_friction(self, joint: Any) -> FloatArray:
         """Friction of a sliding joint along its carrier, N, that the carrier receives; positive as s grows.
 
-        With the tangent r_x at s and the normal part N it is c the length of r_x s' + mu |N| tanh(|r_x| s'/v0).
+        With the size l of the tangent r_x at s and N of the normal force it is c l s' + mu N tanh(l s'/v0).
 
         Raises
         ------
