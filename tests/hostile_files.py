@@ -119,7 +119,9 @@ def lines():
     yield "line_span_endless", LINE.replace("length = 60.0", "length = 1e20")
     yield "line_span_long", LINE.replace("length = 60.0", "length = 1e6")
     yield "line_spans_many", LINE + 40 * SPAN
-    yield "line_spans_empty", LINE.split("[[spans]]")[0] + "\n[[spans]]\nlength = 60.0\ndroppers = []\n"
+    yield "line_spans_empty", "spans = []\n" + LINE.split("[[spans]]")[0]
+    yield "line_span_bare", LINE.split("[[spans]]")[0] + "\n[[spans]]\nlength = 60.0\ndroppers = []\n"
+    yield "line_dropper_rule_half", LINE.replace("[5.0, 17.0, 30.0, 43.0, 55.0]", "{first = 5.0}")
     yield (
         "line_droppers_many",
         LINE.replace("[5.0, 17.0, 30.0, 43.0, 55.0]", str([0.1 + 0.06 * k for k in range(900)])),

@@ -16,6 +16,7 @@ RIGHT = {
     "killed.h5",
     "line_droppers_many.toml",
     "line_right.toml",
+    "line_span_bare.toml",
     "line_title_with_escapes.toml",
     "mark.toml",
     "name_long.toml",

@@ -15,6 +15,7 @@ from commands import python
 
 #: Kinds that are compiled when they are used first.
 RARE = {"ContactBatch", "StateForceBatch", "PressBatch", "RubBatch"}
+RARE |= {"StrandBatch", "GripBatch", "BumpBatch", "RollBatch", "WinchedBatch"}
 
 
 def rope(**more):

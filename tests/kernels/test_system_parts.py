@@ -370,7 +370,9 @@ class TestContacts:
         entries = system.measures["touch 1"]
         none = np.zeros(0, dtype=np.int64)
         row = np.empty(len(entries))
-        sampling.sample(sampling.Sampling(none, system.measuring, system.measured, entries), q, v, row)
+        felt = np.zeros((2, system.size))
+        where = sampling.Sampling(none, system.measuring, system.measured, entries, none, none, felt)
+        sampling.sample(where, q, v, row)
         assert row[:2] == pytest.approx([200.0 * 0.05, 0.05])
 
 

@@ -499,7 +499,7 @@ class TestFile:
             (
                 {"type": "slider"},
                 "type",
-                'must be one of "spherical", "hinge", "fixation", "slide", "spring"',
+                'must be one of "spherical", "hinge", "cylindrical", "prismatic", "planar", "fixation"',
             ),
             ({"along": "rop"}, "along", "unknown body 'rop'"),
             ({"point": [0, 0]}, "point", "wanted (3,)"),

@@ -181,6 +181,12 @@ class TestFormulas:
         given["spans"][0]["droppers"][0] = "frist"
         with pytest.raises(ancf.ModelError, match=r'spans\[0\]\.droppers\[0\]: .*did you mean "first"'):
             parse_line(given)
+        given["spans"][0] |= {"droppers": {"first": "first", "pitch_max": "first + 2"}, "pre_sag": 0.0}
+        assert parse_line(given).spans[0].droppers == (6.0, 14.0, 22.0, 30.0, 38.0, 46.0, 54.0)
+        for key, place in (("pich_max", "pitch_max: is missing"), ("more", "more: unknown key")):
+            given["spans"][0]["droppers"] = {"first": 6.0, key: 8.0}
+            with pytest.raises(ancf.ModelError, match=rf"spans\[0\]\.droppers\.{place}"):
+                parse_line(given)
 
     def test_schema_takes_formulas(self):
         field = schema()["$defs"]["SectionEntry"]["properties"]["EA"]

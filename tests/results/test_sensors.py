@@ -315,7 +315,7 @@ class TestMeasured:
             made.measures = {"contact": np.array([1, 2, 0, 0])}
             return made
 
-        monkeypatch.setattr("ancf.preparation.system_of", system)
+        monkeypatch.setattr("ancf.preparation.independent", system)
         result = ancf.simulate(
             model, t_end=0.2, step=1e-3, sensors=["contact", beam.end], integrator=method, output_step=0.1
         )

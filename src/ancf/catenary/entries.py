@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
 from ..model.file.fields import Entry, NonNegative, Parameters, Positive
 from .wire import EXPANSION
@@ -90,6 +90,15 @@ class RuleEntry(Entry):
     pitch_max: Positive = Field(description="Largest distance of two droppers [m].")
 
 
+def _of_droppers(given: Any) -> str:
+    return "<rule>" if isinstance(given, dict | RuleEntry) else "<places>"
+
+
+DropperPlaces = Annotated[
+    Annotated[list[float], Tag("<places>")] | Annotated[RuleEntry, Tag("<rule>")], Discriminator(_of_droppers)
+]
+
+
 class TensionerEntry(Entry):
     """Springs that pull the ends of the wires, or friction of the weights."""
 
@@ -144,7 +153,7 @@ class SpanEntry(Entry):
 
     repeat: int = Field(1, ge=1, le=1000, description="How many spans alike follow each other.")
     length: Positive = Field(description="Distance of the two supports [m].")
-    droppers: list[float] | RuleEntry | None = Field(
+    droppers: DropperPlaces | None = Field(
         None, description="Places from the start of the span, increasing [m]; or first and pitch_max."
     )
     pre_sag: NonNegative | list[float] = Field(

@@ -175,6 +175,8 @@ def _laid(entry: LineEntry, rows: list[tuple[str, Row]]) -> dict[str, Any]:
 
 def _entry(parts: tuple[int | str, ...]) -> type[Entry]:
     """Table in which a place in the file is."""
+    if "<rule>" in parts:
+        return RuleEntry
     return TABLES.get(str(parts[0]), LineEntry) if parts else LineEntry
 
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from ..model.file.paths import assignments
 from .output import OutputFolder
 from .screen import Screen, console, table
@@ -61,10 +59,11 @@ def _print_schedule(line: Line | Route, found: AnyForm) -> None:
     where.print(_title(line), soft_wrap=True)
     where.print(shown)
     total = float(found.dropper_natural.sum())
-    shortest = float(found.dropper_length.min(initial=np.inf))
+    lengths = found.dropper_length
+    shortest = f"the shortest {1e3 * float(lengths.min()):.1f} mm, " if lengths.size else ""
     where.print(
-        f"{found.dropper_length.size} droppers, {total:.3f} m unstretched in all, "
-        f"the shortest {1e3 * shortest:.1f} mm, contact wire {line.parts[0].contact_support} at the supports",
+        f"{lengths.size} droppers, {total:.3f} m unstretched in all, {shortest}"
+        f"contact wire {line.parts[0].contact_support} at the supports",
         soft_wrap=True,
     )
 

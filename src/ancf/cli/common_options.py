@@ -43,9 +43,6 @@ States = Annotated[
     bool, typer.Option(help="Write OUT/results.h5 as well, some 10 to 100 MB for ancf view and ancf export.")
 ]
 Report = Annotated[bool, typer.Option(help="Write OUT/report.html as well, which needs matplotlib.")]
-ResultsFile = Annotated[
-    Path, typer.Argument(metavar="RESULTS.h5", help="Results file, or its folder.", show_default=False)
-]
 SchemaFile = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="FILE", help="File to write, instead of printing it.")
 ]

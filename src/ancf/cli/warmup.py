@@ -36,7 +36,7 @@ def parts() -> Iterator[tuple[str, Callable[[], object]]]:
     yield "beams with a cross-section", lambda: simulate(_beams(), t_end=0.002, step=0.001)
     yield "rigid bodies, joints, springs", lambda: simulate(_joints(), t_end=0.002, step=0.001)
     yield "sliding joints", lambda: simulate(_bead(), t_end=0.002, step=0.001)
-    yield "grounds, fluids, contacts", lambda: simulate(_surrounded(), t_end=0.002, step=0.001)
+    yield "grounds, fluids, follower loads", lambda: simulate(_surrounded(), t_end=0.002, step=0.001)
     yield "explicit stepping", lambda: simulate(_cable(), t_end=2e-5, step=1e-5, integrator=Explicit())
     yield "Radau's method", lambda: simulate(_cable(), t_end=0.002, step=0.001, integrator=Radau())
 
@@ -87,6 +87,9 @@ def _surrounded() -> Model:
     rope = model.add_beam("rope", start=(0, 0, 0), end=(1, 0, 0), elements=4, section=section)
     model.pin(rope.start)
     model.pin(rope.end)
+    turning: Any = model  # these methods are those of registered kinds
+    turning.add_follower_force(rope.at(0.5), (0.01, 0.0, 0.0))
+    turning.add_pressure(rope, 0.01, axis=(0.0, 1.0, 0.0))
     model.add_fluid("water", 1000.0, velocity=(0.1, 0.0, 0.0))
     model.add_ground("seabed", height=-0.01, stiffness=1e4, damping=10.0, friction=0.3)
     return model

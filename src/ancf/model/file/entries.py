@@ -214,7 +214,7 @@ class ReevingEntry(Entry):
     """Path over wheels in one plane: arcs and straight lines in between."""
 
     wheels: list[WheelEntry] = Field(min_length=1, description="Wheels, one after the other.")
-    axis: Vector = Field(description="Normal of the plane of all wheels.")
+    axis: Vector = Field(description="Normal of the plane of all wheels, of any length [-].")
     start: Vector | None = Field(None, description="Start, if the path has ends [m].")
     end: Vector | None = Field(None, description="End, if the path has ends [m].")
 

@@ -81,7 +81,8 @@ def kind_of(annotation: Any, metadata: list[Any]) -> str:
     """What a field takes: "number", "whole" numbers, "formula", "named", both of which have formulas of time,
     or "other", where no parameter can stand.
     """
-    leaves = [*_leaves(annotation)]
+    tables = "model_fields"  # their fields have kinds of their own
+    leaves = [leaf for leaf in _leaves(annotation) if not hasattr(leaf, tables)]
     if any(leaf is Any for leaf in leaves):
         return "named" if any(isinstance(mark, Naming) for mark in metadata) else "formula"
     numbers = [leaf for leaf in leaves if leaf is not type(None)]

@@ -284,6 +284,8 @@ def _ways_to_surfaces(shown: Frames, source: Any) -> list[Strip]:
         items = [item for item in shown.model.connections if isinstance(item, kind)]
         for k, item in enumerate(items):
             ends = places(known._contact_system().parts[part], k, shown.q)
+            if isinstance(item, CableContact):  # where nothing is near it is a way of no length
+                ends = np.where(np.isnan(ends), shown.place(item.body.start)[:, None], ends)
             found.append(Strip(item.name, ends, _contact_force(shown, source, item.name)))
     return found
 
