@@ -12,7 +12,7 @@ from ancf.verification import _changed, _halved, _Output, verify
 from places import EXAMPLES
 
 #: Model files; line.toml describes an overhead line, study.toml a study, calibrate.toml a calibration.
-OTHERS = {"line.toml", "study.toml", "calibrate.toml"}
+OTHERS = {"line.toml", "tension_length.toml", "study.toml", "calibrate.toml"}
 FILES = sorted({path.name for path in EXAMPLES.glob("*.toml")} - OTHERS)
 
 

@@ -63,11 +63,9 @@ def newmark(beta, gamma, alpha_m, alpha_f, steps=STEPS):
 
 
 def work_of(q, v, steps=STEPS):
-    """Dissipated and supplied energy by the trapezoidal rule over the steps, at their ends."""
-    power = DAMPING * v**2
-    push = force(STEP * np.arange(steps + 1))
-    dissipated = STEP * np.cumsum(0.5 * (power[1:] + power[:-1]))
-    supplied = np.cumsum(0.5 * (push[1:] + push[:-1]) * np.diff(q))
+    """Dissipated and supplied energy over the steps, mean forces times ways, at their ends."""
+    forces = DAMPING * v, force(STEP * np.arange(steps + 1))
+    dissipated, supplied = (np.cumsum(0.5 * (f[1:] + f[:-1]) * np.diff(q)) for f in forces)
     return np.append(0.0, dissipated), np.append(0.0, supplied)
 
 

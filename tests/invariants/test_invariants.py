@@ -294,7 +294,8 @@ class TestEnergy:
     @pytest.mark.parametrize("case", ["undamped", "damped", "loaded", "driven", "sprung"])
     def test_drift_has_order_two(self, element, case):
         drift = []
-        for step in (1e-3, 5e-4, 2.5e-4):
+        finest = 6.25e-5 if case == "sprung" else 2.5e-4  # the spring starts with a jump: axial waves
+        for step in (4 * finest, 2 * finest, finest):
             method = ancf.Trapezoidal(newton=EXACT)
             energy = ancf.simulate(
                 getattr(self, case)(element), t_end=0.8, step=step, integrator=method
