@@ -82,6 +82,23 @@ class TestDistance:
         found = distances(ancf.Mesh(points=points, triangles=rows), places)
         assert found == pytest.approx([0.1, -np.hypot(0.1, 0.1), 0.5, 0.5, 0.2])
 
+    @pytest.mark.parametrize("seed", range(4))
+    def test_signs_around_sharp_edges(self, seed):
+        """Flat tetrahedra: outside is what is beyond one of the four planes, also at sharp edges."""
+        from scipy.spatial import ConvexHull
+
+        rng = np.random.default_rng(seed)
+        points = rng.uniform(-1, 1, (4, 3)) * (1.0, 1.0, 0.05)
+        rows = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
+        if np.dot(np.cross(points[1] - points[0], points[2] - points[0]), points[3] - points[0]) < 0:
+            rows = rows[:, ::-1]
+        places = rng.uniform(-1.5, 1.5, (600, 3)) * (1.0, 1.0, 0.3)
+        planes = ConvexHull(points).equations
+        beyond = (places @ planes[:, :3].T + planes[:, 3]).max(axis=1)
+        clear = np.abs(beyond) > 1e-6
+        found = distances(ancf.Mesh(points=points, triangles=rows), places)
+        np.testing.assert_array_equal(found[clear] > 0, beyond[clear] > 0)
+
     def test_a_sphere_comes_nearer_with_the_square_of_the_edges(self):
         places = np.random.default_rng(2).uniform(-0.5, 0.5, (300, 3))
         wanted = np.linalg.norm(places, axis=1) - 0.3

@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import ancf
+from ancf.contact.near import node_moved
 from ancf.linalg.sparse import to_sparse
 from ancf.system.contacts import touching
 from ancf.system.core import assemble, keep_memory, residual, restrict
@@ -167,6 +168,18 @@ class TestNear:
             )
             model.add_contact(coil, line, stiffness=K)
         return System(model)
+
+    def test_a_node_that_moves_uses_up_what_is_left(self):
+        """Its way by the sum of components, and the turn of its slope, each in its share."""
+        system = self.coil(24, 0)
+        q, v = system.initial_state()
+        keep_memory(system.core.remembering, q, v)
+        batch = system.parts["crossing"]
+        for slot, size, share in ((0, 0.02, 0.02 * 50.0), (1, -0.3, 0.3 * 2.0)):
+            moved = q.copy()
+            moved[batch.base[3, slot] + 1] += size
+            used = node_moved.py_func(batch, 3, 0, moved, 50.0, 2.0)
+            assert used == pytest.approx(share, abs=1e-12)
 
     @pytest.mark.parametrize(("elements", "seed"), [(24, 0), (37, 3), (60, 2)])
     def test_list_has_all_that_may_touch(self, elements, seed):

@@ -7,6 +7,7 @@ import pytest
 
 import ancf
 from ancf.batches import Batches
+from ancf.contact.press import COUNT, WATCHED
 from ancf.contact.profiles import distances
 from ancf.linalg.sparse import to_sparse
 from ancf.model.surface_shapes import SHAPES
@@ -266,3 +267,18 @@ class TestFar:
             keep_memory(system.core.remembering, away, v)
             assert force_and_matrix(system, "pressing", q, v)[0] == pytest.approx(wanted, abs=1e-12)
         assert (system.parts["pressing"].far[:, 3] > 1.0).all()
+
+    def test_all_are_looked_at_where_nobody_watches(self):
+        """A method that never asks what passed through must not leave out what was far."""
+        system = System(beside(KINDS["sphere"]))
+        q, v = shaken(system, 1e-4)
+        away = q.copy()
+        away[system.slots["rope"][:, 0] + 2] += 5.0
+        batch = system.parts["pressing"]
+        keep_memory(system.core.remembering, away, v)  # it has come far in one step
+        batch.near[WATCHED] = 1
+        keep_memory(system.core.remembering, away, v)
+        assert batch.near[COUNT] == 0
+        for _ in range(2):
+            keep_memory(system.core.remembering, away, v)
+            assert batch.near[COUNT] == len(batch.base)
