@@ -9,7 +9,6 @@ from ..errors import ModelError
 from . import checks
 from .beam import Beam
 from .bodies import Body, kind
-from .tables import with_units
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -85,14 +84,3 @@ def make_cable_contact(
 def between(item: CableContact) -> str:
     """What touches what."""
     return f"{item.body.name} and {'itself' if item.other is item.body else item.other.name}"
-
-
-def data(item: CableContact) -> str:
-    """Stiffness, damping and friction."""
-    given = (
-        ("k", item.stiffness, "Pa"),
-        ("c", item.damping or None, "Pa s"),
-        ("mu", item.friction or None, ""),
-        ("radius", item.radius, "m"),
-    )
-    return with_units(given)

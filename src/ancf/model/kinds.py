@@ -212,7 +212,7 @@ CONNECTIONS: list[Kind] = [
         "contact of cables",
         "add_cable_contact",
         _entry("CableContactEntry"),
-        cable_contact.data,
+        surfaces.data,
         ends=("body", "other"),
         between=cable_contact.between,
         asked=SURFACE_CONTACT,

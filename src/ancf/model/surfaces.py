@@ -10,6 +10,7 @@ from ..errors import ModelError
 from . import checks
 from .beam import Beam
 from .bodies import Body, RigidBody, kind
+from .cable_contact import CableContact
 from .shape import Shape
 from .surface_shapes import SHAPES
 from .tables import number, numbers, with_units
@@ -156,8 +157,8 @@ def between(item: SurfaceContact) -> str:
     return f"{item.body.name} on {item.surface.name}"
 
 
-def data(item: SurfaceContact) -> str:
-    """Stiffness, damping and friction of a contact with a surface."""
+def data(item: SurfaceContact | CableContact) -> str:
+    """Stiffness, damping and friction of a contact of a cable."""
     given = (
         ("k", item.stiffness, "Pa"),
         ("c", item.damping or None, "Pa s"),
