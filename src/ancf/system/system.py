@@ -120,6 +120,7 @@ class System:
             f"{name}.{key}": getattr(batch, key)
             for name, batch in self.parts.items()
             for key in traits(batch).memory
+            if getattr(batch, key).size
         }
 
     def skip_energies(self) -> None:
