@@ -17,7 +17,9 @@ def winched(at_start, surround, noise=0.1):
     """A cable of 1.8 m on a mesh of 1.2 m in a shape and a motion at random, and its System."""
     section = ancf.Section(EA=40.0, EI=2.0, rhoA=0.7, diameter=0.03, drag=(1.3, 0.4), added_mass=(0.9, 0.2))
     model = ancf.Model(gravity=G)
-    beam = model.add_beam("beam", start=(0, 0, 0), end=(1.2, 0.1, 0), length=MADE, section=section, nodes=NODES)
+    beam = model.add_beam(
+        "beam", start=(0, 0, 0), end=(1.2, 0.1, 0), length=MADE, section=section, nodes=NODES
+    )
     model.winch(beam.start if at_start else beam.end, length=1.8)
     surround(model, beam)
     system = System(model)

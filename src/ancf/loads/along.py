@@ -94,7 +94,9 @@ def wound(bodies: Iterable[Body], locate: Callable[[Any], Any], points: int) -> 
     The unknown of the length, -1 for none, and 1/L0; factors of D r and D D r at the points, which have no
     rows where there is no winch.
     """
-    unknowns, lengths, rows = [], [], []
+    unknowns: list[int] = []
+    lengths: list[float] = []
+    rows: list[Any] = []
     xi, _ = gauss(points)
     for body in bodies:
         end = locate(body.start) if isinstance(body, Beam) else None
@@ -240,7 +242,7 @@ def add_along(batch, e, p, fx, fy, fz, r):
 
 @inline_kernel
 def add_material(batch, e, p, fx, fy, fz, q, r):
-    """Subtract a force on point p of row e, per length of the material, from r, and what acts on its length."""
+    """Subtract a force on point p of row e, per length of the material; also what acts on its length."""
     lam, i = stretch_at(batch, e, q), batch.winch[e]
     add_along(batch, e, p, lam * fx, lam * fy, lam * fz, r)
     if i >= 0:

@@ -17,7 +17,7 @@ distance limit/(d k_t).  Anchors and limits are memory: they change once for eac
 stable.  In an equilibrium the anchors are the places of the initial shape, so that friction opposes the way
 from there, whatever the load steps are; it comes on last, with limits that are renewed until they fit.
 
-Along a cable with a winch the material takes its anchors along: what is at X now was at X' = X lam'/lam at the
+Along a cable with a winch the material takes its anchors along: what is at X was at X' = X lam'/lam at the
 last accepted step.  With xi = r - anchor and the length L' of that step the anchor of a point is
 
     anchor(X', L') = anchor + (L/L' - 1) drift,     drift = X d(r - xi)/dX,
@@ -337,8 +337,6 @@ def follow_material(batch, e, q, v):
             elif comes == 1:  # what enters has not touched the ground
                 change = -xi / (math.copysign(1.0 / batch.unwound[e], X) - X)
             batch.drift[e, p, c] = slope[c] - X * change
-
-
 
 
 @kernel
