@@ -125,10 +125,12 @@ def mooring_line(page: Names, figure: Figure) -> None:
     left.axhline(-100.0, color="black", linewidth=0.8)
     left.set(xlabel="x [m]", ylabel="z [m]")
     left.legend()
-    right.plot(rough.sensors.t, rough.sensors.tension("chain.end") / 1e3, color=style.ORANGE, label="in the sea")
-    right.plot(moved.t, moved.tension("chain.end") / 1e3, color=style.BLUE, label="the ship moves by 2 m")
+    right.plot(
+        rough.sensors.t, rough.sensors.tension("chain.end") / 1e3, color=style.ORANGE, label="3 m in the sea"
+    )
+    right.plot(moved.t, moved.tension("chain.end") / 1e3, color=style.BLUE, label="2 m in calm water")
     right.set(xlabel="time [s]", ylabel="force at the fairlead [kN]")
-    right.legend()
+    right.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0))
 
 
 def conductor(page: Names, figure: Figure) -> None:

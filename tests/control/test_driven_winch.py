@@ -93,7 +93,9 @@ class TestWhatItDoes:
 
 @pytest.mark.parametrize("kind", [BY_SPEED, BY_LENGTH], ids=["speed", "length"])
 @pytest.mark.parametrize(
-    "method", [ancf.Trapezoidal(), ancf.GeneralizedAlpha(0.8), ancf.Explicit(check=False)], ids=lambda m: type(m).__name__
+    "method",
+    [ancf.Trapezoidal(), ancf.GeneralizedAlpha(0.8), ancf.Explicit(check=False)],
+    ids=lambda m: type(m).__name__,
 )
 class TestTheSameBits:
     STEP, COUNT = 2e-4, 400
@@ -158,7 +160,9 @@ def test_an_equilibrium_has_the_length_of_the_input():
     model, rope, _ = hoist(length="u", speed=0.5, first=2.5)
     state = ancf.equilibrium(model)
     assert state.natural_length(rope) == 2.5
-    assert ancf.modes(model, about=state, count=1).frequencies[0] == pytest.approx(np.sqrt(9.81 / 2.5), rel=0.02)
+    assert ancf.modes(model, about=state, count=1).frequencies[0] == pytest.approx(
+        np.sqrt(9.81 / 2.5), rel=0.02
+    )
 
 
 def test_halved_steps_leave_the_lengths_that_follow():

@@ -1,5 +1,7 @@
 """Forces along cables of changing length: on the material that passes, found by differences of its motion."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -52,7 +54,7 @@ def material(system, beam, q, v, a, points):
         return probe.field(state)
 
     h = 1e-4
-    for left, right in zip(NODES[:-1], NODES[1:], strict=True):
+    for left, right in pairwise(NODES):
         for s, w in zip(xi, weight, strict=True):
             x = left + s * (right - left)
             label = (x - far) * q[L] / MADE
@@ -154,7 +156,7 @@ def test_anchors_go_with_the_material(at_start, rate, until):
         q = q0 + 0.01 * k * v
         keep_memory(system.core.remembering, q, v)
     off, moved = [], []
-    for e, (left, right) in enumerate(zip(NODES[:-1], NODES[1:], strict=True)):
+    for e, (left, right) in enumerate(pairwise(NODES)):
         for p, x in enumerate(left + xi * (right - left)):
             label = (x - far) * q[L] / q0[L]  # where it was on the mesh
             if abs(label) <= until * MADE:
