@@ -129,6 +129,10 @@ def moored(length, friction, winch=True, elements=20, current=0.0):
     return model, line
 
 
+#: MoorPy 1.3.0, catenary(290, 100, length, 2e8, 411.3786, CB=0): along and across at the fairlead, N.
+MOORPY = {312.0: (171626.525, 125684.204), 320.0: (88346.916, 94633.591), 335.0: (33160.516, 66476.260)}
+
+
 class TestMoored:
     @pytest.mark.parametrize(
         ("length", "friction", "current"), [(312.0, 0.0, 0.0), (335.0, 0.4, 0.0), (325.0, 0.2, 1.0)]
@@ -156,15 +160,12 @@ class TestMoored:
         assert run.tension(line.start)[-1] == pytest.approx(wanted.tension("chain.start"), rel=1e-3)
         assert run.tension(line.end)[-1] > 1.3 * run.tension(line.end)[0]
 
-    #: MoorPy 1.3.0, catenary(290, 100, length, 2e8, 411.3786, CB=0): forces along and across at the fairlead, N
-    MOORPY = {312.0: (171626.525, 125684.204), 320.0: (88346.916, 94633.591), 335.0: (33160.516, 66476.260)}
-
     @pytest.mark.parametrize("length", MOORPY)
     def test_statics_of_moorpy(self, length):
         """One mesh for all lengths."""
         state = ancf.equilibrium(moored(length, 0.0, elements=60)[0])
         force = state.reaction("fairlead")
-        assert force[[0, 2]] == pytest.approx(self.MOORPY[length], rel=5e-4)
+        assert force[[0, 2]] == pytest.approx(MOORPY[length], rel=5e-4)
 
     def test_all_work_is_accounted_for(self):
         """With water, ground, friction and a winch that runs."""

@@ -55,7 +55,7 @@ class TestWhatItDoes:
 
     @pytest.mark.parametrize(("way", "step"), [(-0.7, 2e-3), (0.9, 7e-3), (0.01, 2e-3), (-0.05, 1.3e-2)])
     def test_length_as_fast_as_it_can(self, way, step):
-        """Way s with speed V and acceleration a: s/V + V/a, and it stops there; short ones take 2 sqrt(s/a)."""
+        """Way s with speed V and acceleration a: s/V + V/a, then it stops; short ones 2 sqrt(s/a)."""
         model, rope, _ = hoist(length="u", speed=0.5, first=3.0)
         run = ancf.stepper(model, step=step)
         run.inputs["u"] = 3.0 + way
