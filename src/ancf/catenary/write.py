@@ -29,13 +29,13 @@ LEAST_RANGE = 0.01
 DIGITS = 9
 
 
-def write_run(run: Run, folder: Path, found: Sequence[Statistics] | None = None) -> list[Path]:
+def write_run(run: Run, folder: str | Path, found: Sequence[Statistics] | None = None) -> list[Path]:
     """Write statistics as CSV and JSON, ``force_N.csv``, ``uplift.csv``, ``droppers.csv`` and ``cycles.csv``.
 
     Parameters
     ----------
     run : Run
-    folder : Path
+    folder : str or Path
         Made when it does not exist.
     found : sequence of Statistics, optional
         One for each pantograph; computed when not given.
@@ -52,6 +52,7 @@ def write_run(run: Run, folder: Path, found: Sequence[Statistics] | None = None)
 
     """
     chosen = [statistics(run, k) for k in range(len(run.recordings))] if found is None else found
+    folder = Path(folder)
     files = [write_statistics(chosen, folder / "statistics.csv")]
     files.append(write_json(summary(run, chosen), folder / "statistics.json"))
     for k in range(len(run.recordings)):
