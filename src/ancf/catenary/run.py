@@ -325,4 +325,5 @@ def _recording(sensors: Any, collector: Collector) -> Recording:
         height=head[:, 2] + np.where(np.isfinite(gap), gap, 0.0),
         stagger=head[:, 1] + asides[nearest, every],
         strip=head[:, 2],
+        by_wire=np.stack(forces, axis=1),
     )

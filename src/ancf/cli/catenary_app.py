@@ -6,7 +6,7 @@ from pathlib import Path
 
 import typer
 
-from .common_options import Folder, OptionalFolder, Quiet, Report, Set, States
+from .common_options import Folder, OptionalFolder, Quiet, Report, Set, States, To
 from .guard import reported
 from .line_options import (
     ContactKind,
@@ -58,13 +58,14 @@ def catenary_run(
     output_step: OutputStep = None,
     states: States = True,
     report: Report = True,
+    to: To = None,
     quiet: Quiet = False,
     given: Set = None,
 ) -> None:
     """Run pantographs along an overhead line.
 
-    Writes OUT/results.h5 for ancf view and ancf export, OUT/run.json, CSV files and OUT/report.html, and
-    prints the statistics of the contact force.
+    Writes OUT/results.h5 for ancf view and ancf export, OUT/run.json, CSV files and OUT/report.html (also
+    as PDF and DOCX), and prints the statistics of the contact force.
     """
     with reported():
         from .catenary_run import run_line
@@ -72,7 +73,7 @@ def catenary_run(
         options = {"spacing": spacing, "start": start, "window": window, "contact": contact, "step": step}
         options |= {"output_step": output_step, "until": until, "contact_stiffness": contact_stiffness}
         options["mesh"] = mesh
-        run_line(line, speed, pantograph, options, output, report, states, quiet, given)
+        run_line(line, speed, pantograph, options, output, report, states, quiet, given, to)
 
 
 @catenary.command("elasticity")
