@@ -44,7 +44,7 @@ from . import loads
 from .core import Core, Joints, Loads, Supports
 from .matrix import Places, block_pairs
 from .numbering import Numbering
-from .probe import Probe, locate
+from .probe import Probe, lengths_of, locate
 from .supports import Constraints
 
 Parts = dict[str, Any]
@@ -59,12 +59,13 @@ def build_parts(
     ``measured``, (contacts, 4), what they leave for sensors.
     """
     slots = numbering.slots
-
-    def find(point: Point) -> Probe:
-        return locate(point, slots[point.body.name])
-
     kinds: dict[str, list[Beam]] = {}
     winches = by_body(model)
+    lengths = lengths_of(model, {name: np.array([x]) for name, x in numbering.lengths.items()})
+
+    def find(point: Point) -> Probe:
+        return locate(point, slots[point.body.name], lengths.get(point.body.name, (-1, 0.0)))
+
     for name, beam in model.beams.items():
         if name not in winches:
             kinds.setdefault(beam.element, []).append(beam)
