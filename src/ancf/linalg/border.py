@@ -31,7 +31,7 @@ class Border(NamedTuple):
 
     block: IntArray  # (m,) block of K whose columns are kept, -1: none
     inverse: FloatArray  # (m, 36 n) six columns of K^-1, for each block one after the other
-    count: IntArray  # (t,) blocks in each row now
+    number: IntArray  # (t,) blocks in each row now
     kept: IntArray  # (t, w) which of the m they are
     place: IntArray  # (t, w) where they stand in the matrix
     R: FloatArray  # (36 t w,) row by row
@@ -50,7 +50,7 @@ def room_for_border(head: int, rows: int, widest: int) -> Border:
     return Border(
         block=np.full(kept, -1, dtype=np.int64),
         inverse=np.zeros((kept, 36 * head if rows else 0)),
-        count=np.zeros(rows, dtype=np.int64),
+        number=np.zeros(rows, dtype=np.int64),
         kept=np.zeros((rows, widest), dtype=np.int64),
         place=np.zeros((rows, widest), dtype=np.int64),
         R=np.zeros(36 * rows * widest),
@@ -85,8 +85,8 @@ def unit_columns(factor, n, block, Z):
 @inline_kernel
 def in_use(border, m):
     """Whether the rows that are known already have the kept block m."""
-    for t in range(border.count.shape[0]):
-        for u in range(border.count[t]):
+    for t in range(border.number.shape[0]):
+        for u in range(border.number[t]):
             if border.kept[t, u] == m:
                 return True
     return False
@@ -114,7 +114,7 @@ def read_row(border, A, factor, n, t):
         a = 36 * (blocks + k)
         if factor.column[k] >= n or is_zero(A, a):
             continue
-        u = border.count[t]
+        u = border.number[t]
         o = 36 * (t * width + u)
         for c in range(36):
             border.R[o + c] = A[a + c]
@@ -122,15 +122,15 @@ def read_row(border, A, factor, n, t):
             for j in range(6):
                 border.RT[o + 6 * j + i] = A[a + 6 * i + j]
         border.place[t, u], border.kept[t, u] = a, columns_of(border, factor, n, factor.column[k])
-        border.count[t] = u + 1
+        border.number[t] = u + 1
 
 
 @inline_kernel
 def subtract_inverse(border, t, h, o):
     """S -= R_t K^-1 R_h^T, for the block of S at ``o``."""
     width, part = border.kept.shape[1], border.part
-    for u in range(border.count[t]):
-        for w in range(border.count[h]):
+    for u in range(border.number[t]):
+        for w in range(border.number[h]):
             a, b = 36 * (t * width + u), 36 * (h * width + w)
             G, at = border.inverse[border.kept[t, u]], 36 * border.block[border.kept[h, w]]
             for i in range(0, 36, 6):
@@ -148,8 +148,8 @@ def forget_columns(border):
 @kernel
 def clear_rows(border, A, n):
     """Set what the rows have in the matrix, of which K has n blocks, to zero."""
-    for t in range(border.count.shape[0]):
-        for u in range(border.count[t]):
+    for t in range(border.number.shape[0]):
+        for u in range(border.number[t]):
             for i in range(border.place[t, u], border.place[t, u] + 36):
                 A[i] = 0.0
         for i in range(36 * (n + t), 36 * (n + t + 1)):
@@ -159,10 +159,10 @@ def clear_rows(border, A, n):
 @kernel
 def make_border(border, A, factor):
     """Take the rows from the matrix and factorise S; number of negative pivots, or -(row + 1) if singular."""
-    rows = border.count.shape[0]
+    rows = border.number.shape[0]
     n = factor.row_start.shape[0] - 1 - rows
     for t in range(rows):
-        border.count[t] = 0
+        border.number[t] = 0
     for t in range(rows):
         read_row(border, A, factor, n, t)
     for i in range(border.S.shape[0]):
@@ -180,9 +180,9 @@ def make_border(border, A, factor):
 def across(border, x, y):
     """y = R x."""
     width = border.kept.shape[1]
-    for t in range(border.count.shape[0]):
+    for t in range(border.number.shape[0]):
         s = every(0.0)
-        for u in range(border.count[t]):
+        for u in range(border.number[t]):
             s = s + times(border.RT, 36 * (t * width + u), x, 6 * border.block[border.kept[t, u]])
         store_six(s, y, 6 * t)
 
@@ -191,8 +191,8 @@ def across(border, x, y):
 def spread(border, y, x):
     """x -= K^-1 R^T y."""
     width = border.kept.shape[1]
-    for t in range(border.count.shape[0]):
-        for u in range(border.count[t]):
+    for t in range(border.number.shape[0]):
+        for u in range(border.number[t]):
             Z, part = border.inverse[border.kept[t, u]], border.part
             store_six(times(border.R, 36 * (t * width + u), y, 6 * t), part, 0)
             f0, f1, f2 = every(part[0]), every(part[1]), every(part[2])
@@ -204,7 +204,7 @@ def spread(border, y, x):
 @inline_kernel
 def solve_small(border, y):
     """y -> S^-1 y."""
-    solve_rows(border.small, y, np.int64(0), border.count.shape[0])
+    solve_rows(border.small, y, np.int64(0), border.number.shape[0])
 
 
 @kernel

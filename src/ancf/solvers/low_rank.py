@@ -66,7 +66,7 @@ def room_for_patches(system: System) -> tuple[Patches, ...]:
     most = touching + min(MOST, int(np.count_nonzero(springs.data[:, 3])))
     if most == 0:
         return ()
-    rows = len(system.core.joints.border.count)
+    rows = len(system.core.joints.border.number)
     room = Patches(
         contacts,
         springs,

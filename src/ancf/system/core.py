@@ -273,7 +273,7 @@ def solve_sparse(factor, x, first):
 @formula
 def has_rows(joints):
     """Whether there are rows that are renewed in every step."""
-    return joints.border.count.shape[0] > 0
+    return joints.border.number.shape[0] > 0
 
 
 @formula
