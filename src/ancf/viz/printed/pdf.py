@@ -34,7 +34,8 @@ def write(path: Path, title: str, elements: Sequence[Element]) -> None:
     style.require_matplotlib()
     _register_fonts()
     document = SimpleDocTemplate(
-        str(path), title=title, author="ancf", pagesize=(WIDTH + 2 * MARGIN, HEIGHT + 2 * MARGIN), invariant=1,
+        str(path), title=title, author="ancf", invariant=1,
+        pagesize=(WIDTH + 2 * MARGIN, HEIGHT + 2 * MARGIN),
         leftMargin=MARGIN - PADDING, rightMargin=MARGIN - PADDING, topMargin=MARGIN, bottomMargin=MARGIN,
     )  # fmt: skip
     parts = list(_flow(list(blocks(elements))))
