@@ -67,6 +67,10 @@ class Case:
         """The same with the first steps only."""
         return replace(self, t_end=steps * self.step)
 
+    def finer(self, factor: int) -> Self:
+        """The same with steps that are shorter by a factor."""
+        return replace(self, step=self.step / factor)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Cable(Case):
@@ -92,6 +96,38 @@ class Cable(Case):
     @property
     def elements(self) -> int:
         return self.count
+
+
+@dataclass(frozen=True, kw_only=True)
+class Net(Case):
+    """Cables along x, side by side along y, with springs between inner neighbours.
+
+    They are pinned at both ends, but the end of the last one is free.
+
+    Parameters
+    ----------
+    cables, count : int
+        Cables, and elements of each.
+    length, gap : float
+        Of a cable, and between two, m.
+    stiffness, damping : float
+        Of the springs, N/m and N s/m.
+    """
+
+    cables: int
+    count: int
+    length: float
+    gap: float
+    stiffness: float
+    damping: float
+
+    @property
+    def elements(self) -> int:
+        return self.cables * self.count
+
+    @property
+    def size(self) -> str:
+        return f"{self.cables}x{self.count}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -204,6 +240,37 @@ def cable(elements: int, quick: bool) -> Cable:
     )  # fmt: skip
 
 
+def wire() -> Cable:
+    """Steel wire of 2 mm and 5 m, clamped, EA l^2/EI = 1e6: 1000 steps of 0.2 ms."""
+    return Cable(
+        name="wire-50", title="steel wire", count=50,
+        length=5.0, EA=6.6e5, EI=0.165, rhoA=0.0247,
+        clamped=True, step=2e-4, t_end=0.2, accuracy=1e-6, quick=False, peer_tolerance=1e-6,
+    )  # fmt: skip
+
+
+def whirl(elements: int) -> Cable:
+    """The swinging cable, that also turns about the vertical: a chain in space, 1000 steps of 1 ms."""
+    return replace(
+        cable(elements, quick=False), name=f"space-{elements}", title="cable in space", omega=1.0, t_end=1.0,
+        accuracy=1e-6,
+    )  # fmt: skip
+
+
+def short(elements: int) -> Cable:
+    """As many studies have it: ten elements and twenty steps, where the model's description counts."""
+    return replace(cable(elements, quick=True), name=f"short-{elements}", title="short run", t_end=0.02)
+
+
+def net() -> Net:
+    """Twenty cables of ten elements side by side, with springs between neighbouring nodes: 171."""
+    return Net(
+        name="net-20x10", title="net of cables", **square(0.01, 1e8, 1000.0),
+        cables=20, count=10, length=10.0, gap=0.5, stiffness=100.0, damping=1.0,
+        step=1e-3, t_end=0.2, accuracy=1e-6, quick=False,
+    )  # fmt: skip
+
+
 def sliding(carrier: int, slider: int, quick: bool) -> Sliding:
     """Example 7.4: 5000 steps of 0.2 ms."""
     return Sliding(
@@ -238,6 +305,10 @@ CASES: dict[str, Case] = {
         cable(100, quick=True),
         cable(1000, quick=True),
         cable(10000, quick=False),
+        whirl(200),
+        short(10),
+        wire(),
+        net(),
         overhead(32.0),
     )
 }

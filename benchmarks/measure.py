@@ -24,6 +24,12 @@ ONE_THREAD = {
 TUNING_SECONDS = 0.1  # CPU time of one measurement while tuning
 MEMORY_STEPS = 20  # everything is allocated in the first one
 TUNING_WORK = 150_000  # elements times steps that are enough to tune with
+WHOLE_SECONDS = 0.3  # CPU time of one measurement of the settings that are left, over the whole run
+FINALISTS = 8  # settings that are run to the end
+COARSE = 13  # in the short run, every so manieth setting of the grid
+FINER = 4  # how much shorter the steps of the reference are
+ALIKE = 1.5  # ratio of two errors up to which they count as equal
+LEAST_ERROR = 1e-9  # m; what is smaller is that of Newton's method
 
 
 class RefusedError(Exception):
@@ -59,9 +65,13 @@ class Worker:
             raise RefusedError(reply["error"])
         return reply["ok"]
 
-    def solve(self, case: Case, options: Sample, seconds: float, steps: int | None = None) -> Sample:
+    def solve(
+        self, case: Case, options: Sample, seconds: float, steps: int | None = None, refine: int = 1
+    ) -> Sample:
         """Medians over a burst of solves that lasts about so many seconds."""
-        sample: Sample = self.ask("solve", case=case.name, options=options, seconds=seconds, steps=steps)
+        sample: Sample = self.ask(
+            "solve", case=case.name, options=options, seconds=seconds, steps=steps, refine=refine
+        )
         return sample
 
     def close(self) -> None:
@@ -106,8 +116,11 @@ def attempt(worker: Worker, case: Case, options: Sample, seconds: float, steps: 
     return sample if sample["steps"] == steps or case.once else None
 
 
-def ranked(peer: Worker, case: Case, choices: list[Sample]) -> list[Sample]:
-    """Options that end where the default settings do after the first steps, and are faster; best first."""
+def ranked(peer: Worker, case: Case, choices: list[Sample]) -> list[tuple[Sample, Sample]]:
+    """Options that end where the default settings do after the first steps, with their samples; best first.
+
+    The default settings are the first ones.
+    """
     steps = min(case.steps, max(15, TUNING_WORK // case.elements))
     default, *others = [attempt(peer, case, choice, TUNING_SECONDS, steps) for choice in choices]
     if default is None:
@@ -117,35 +130,54 @@ def ranked(peer: Worker, case: Case, choices: list[Sample]) -> list[Sample]:
         for k, trial in enumerate(others, 1)
         if trial and distance(trial, default) <= case.accuracy and trial["cpu"] < default["cpu"]
     ]
-    return [choices[k] for _, k in sorted(better)]
+    found = [(choices[0], default)]
+    return found + [(choices[k], taken(others[k - 1])) for _, k in sorted(better)]
 
 
-def tune(peer: Worker, case: Case, choices: list[Sample]) -> Sample:
-    """The fastest options that keep the accuracy to the end of the whole run.
+def taken(trial: Sample | None) -> Sample:
+    """A sample that is there."""
+    assert trial is not None
+    return trial
 
-    What is accurate on the first steps need not be at the end: then the next fastest is tried.
+
+def tune(peer: Worker, case: Case, choices: list[Sample]) -> tuple[Sample, list[Sample]]:
+    """The fastest options that keep the accuracy to the end of the whole run, and all that were run to it.
+
+    What is accurate and fast on the first steps need not be so at the end: the whole run decides among those
+    that are fastest there.
     """
-    candidates = ranked(peer, case, choices)
+    default, *candidates = ranked(peer, case, choices) or [(choices[0], {})]
     if case.once:
-        return candidates[0] if candidates else choices[0]
-    default = attempt(peer, case, choices[0], 0.0, case.steps) if candidates else None
-    for options in candidates:
-        whole = attempt(peer, case, options, 0.0, case.steps)
-        if whole and default and distance(whole, default) <= case.accuracy:
-            return options
-    return choices[0]
+        return (candidates or [default])[0][0], []
+    whole = attempt(peer, case, default[0], WHOLE_SECONDS, case.steps)
+    if whole is None:
+        return choices[0], []
+    tried = [{"options": default[0], "cpu": whole["cpu"], "tip_difference": 0.0, "accurate": True}]
+    for options, _ in candidates[:FINALISTS]:
+        trial = attempt(peer, case, options, WHOLE_SECONDS, case.steps)
+        if trial is not None:
+            gap = distance(trial, whole)
+            kept = {"cpu": trial["cpu"], "tip_difference": gap, "accurate": gap <= case.accuracy}
+            tried.append({"options": options, **kept})
+    best = min((t for t in tried if t["accurate"]), key=lambda t: float(t["cpu"]))
+    return dict(best["options"]), tried
 
 
-def variants(peers: dict[str, Worker], case: Case) -> dict[str, tuple[Worker, Sample]]:
-    """Ways to run the peer: its normal and its fast build with default settings, and the fast one tuned."""
+def variants(
+    peers: dict[str, Worker], case: Case, every: int
+) -> tuple[dict[str, tuple[Worker, Sample]], list[Sample]]:
+    """Ways to run the peer: its normal and its fast build with default settings, and the fast one tuned.
+
+    And all settings that were tried to the end. Of the grid every so manieth is tried, from the first one on.
+    """
     if not peers:
-        return {}
+        return {}, []
     fast = peers.get("fast") or peers["standard"]
-    choices: list[Sample] = fast.ask("settings", case=case.name)
-    tuned = tune(fast, case, choices)
+    choices: list[Sample] = fast.ask("settings", case=case.name)[::every]
+    tuned, tried = tune(fast, case, choices)
     default = next(choice for choice in choices if choice["solver"] == tuned["solver"])
     chosen = {name: (worker, default) for name, worker in peers.items()}
-    return chosen if tuned == default else {**chosen, "tuned": (fast, tuned)}
+    return (chosen if tuned == default else {**chosen, "tuned": (fast, tuned)}), tried
 
 
 class Pairs:
@@ -183,7 +215,7 @@ def accurate(peers: dict[str, Sample], case: Case) -> list[str]:
 def compare(ours: Worker, peers: dict[str, Worker], case: Case, pairs: int, seconds: float) -> Sample:
     """Measure one case: our side and a variant of the peer in turn, ``pairs`` times for each variant."""
     ours.solve(case, {}, 0.0)  # compiles or loads what is not there yet
-    chosen = variants(peers, case)
+    chosen, tried = variants(peers, case, COARSE if seconds < TUNING_SECONDS else 1)
     taken = Pairs(ours, chosen, case)
     for k in range(pairs):
         taken.round(seconds)
@@ -199,7 +231,10 @@ def compare(ours: Worker, peers: dict[str, Worker], case: Case, pairs: int, seco
         for name, both in taken.by_variant.items()
         if both
     }
-    return {**row, **verdict(row, case)}
+    row |= verdict(row, case)
+    row["tried"] = tried
+    row["equal_accuracy"] = equal_accuracy(ours, chosen, case, row)
+    return row
 
 
 def summary(samples: list[Sample]) -> Sample:
@@ -241,6 +276,34 @@ def verdict(row: Sample, case: Case) -> Sample:
     best = min(fit, key=lambda name: float(peers[name]["cpu_median"]))
     gap = distance(row["ancf"], next(iter(peers.values())))
     return {"best": best, "ratio": peers[best]["ratio"], "tip_difference": gap}
+
+
+def equal_accuracy(
+    ours: Worker, chosen: dict[str, tuple[Worker, Sample]], case: Case, row: Sample
+) -> float | None:
+    """The ratio if the less accurate side had steps short enough for the other's error at the tip.
+
+    Errors are distances from our tip with steps that are shorter by FINER; the order of a side is that of its
+    errors with the step and half of it, its cost is in proportion to the number of steps. None where that
+    takes too long, or where errors do not fall.
+    """
+    if case.once or case.long or row["best"] is None:
+        return None
+    worker, options = chosen[row["best"]]
+    try:
+        truth = ours.solve(case, {}, 0.0, refine=FINER)
+        own, peer = distance(row["ancf"], truth), distance(row["exudyn"][row["best"]], truth)
+        worse = (ours, {}) if own > peer else (worker, options)
+        half = distance(worse[0].solve(case, worse[1], 0.0, refine=2), truth)
+    except RefusedError:
+        return None
+    large, small = max(own, peer), max(min(own, peer), LEAST_ERROR)
+    if large <= ALIKE * small:
+        return float(row["ratio"])
+    if not 0.0 < half < large:
+        return None
+    more = (large / small) ** (1.0 / min(max(math.log2(large / half), 0.5), 4.0))
+    return float(row["ratio"]) * (more if peer > own else 1.0 / more)
 
 
 def contacts(ours: Worker, case: Case) -> dict[str, Sample]:

@@ -7,12 +7,13 @@ accelerations too, so their time is added here: ``Run.start`` gets a clock.
 from __future__ import annotations
 
 import time
+from itertools import pairwise
 from typing import Any
 
 import ancf
 import overhead
 from ancf.solvers.stepping import Run
-from cases import GRAVITY, Cable, Case, Overhead, Sliding
+from cases import GRAVITY, Cable, Case, Net, Overhead, Sliding
 
 spent = {"start": 0.0}  # CPU seconds of the initial accelerations in the last solve
 _start = Run.start
@@ -32,8 +33,28 @@ def version() -> str:
 
 
 def build(case: Case) -> ancf.Model:
+    if isinstance(case, Net):
+        return build_net(case)
     assert isinstance(case, Cable | Sliding)
     return build_cable(case) if isinstance(case, Cable) else build_sliding(case)
+
+
+def build_net(case: Net) -> ancf.Model:
+    section = ancf.Section(EA=case.EA, EI=case.EI, rhoA=case.rhoA)
+    model = ancf.Model(gravity=(0.0, 0.0, -GRAVITY))
+    wires = []
+    for k in range(case.cables):
+        y, name = k * case.gap, "beam" if k == case.cables - 1 else f"cable {k}"
+        ends = {"start": (0, y, 0), "end": (case.length, y, 0)}
+        wires.append(model.add_beam(name, **ends, elements=case.count, section=section))
+        model.pin(wires[-1].start)
+        if k < case.cables - 1:
+            model.pin(wires[-1].end)
+    for one, two in pairwise(wires):
+        for i in range(1, case.count):
+            x = case.length * i / case.count
+            model.add_spring(one.at(x), two.at(x), stiffness=case.stiffness, damping=case.damping)
+    return model
 
 
 def build_cable(case: Cable) -> ancf.Model:

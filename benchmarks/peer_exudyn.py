@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 import warnings
+from itertools import product
 from typing import Any
 
 warnings.filterwarnings("ignore", category=DeprecationWarning)
@@ -21,34 +22,35 @@ SOLVERS = {"dense": exudyn.LinearSolverType.EXUdense, "sparse": exudyn.LinearSol
 
 
 def settings_to_try(case: Case) -> list[Options]:
-    """Settings of Exudyn that its documentation offers for speed; the first one has its defaults.
+    """Settings of Exudyn that its documentation offers for speed, a grid; the first one has its defaults.
 
     The dense solver pays for a few elements only. Contractivity is where modified Newton renews its
     Jacobian; the default absolute tolerance of 1e-10 N is stricter than most models need.
     """
     if isinstance(case, Overhead):
         return for_overhead()
-    if case.peer_tolerance is not None:
-        return [{"solver": "sparse", "newton": {"absoluteTolerance": case.peer_tolerance}}]
     solvers = ["sparse", "dense"] if case.elements <= 10 else ["sparse"]
-    choices = for_sliding() if isinstance(case, Sliding) else for_cables()
-    return [{"solver": solver, **choice} for solver in solvers for choice in choices]
-
-
-def for_cables() -> list[Options]:
-    newton: list[Options] = [
-        {},
-        {"modifiedNewtonContractivity": 0.2},
-        {"modifiedNewtonContractivity": 0.05},
-        {"absoluteTolerance": 1e-8},
-        {"absoluteTolerance": 1e-8, "relativeTolerance": 1e-6},
-        {"absoluteTolerance": 1e-7},
-        {"absoluteTolerance": 1e-7, "relativeTolerance": 1e-6},
-        {"absoluteTolerance": 1e-6},
-        {"absoluteTolerance": 1e-6, "relativeTolerance": 1e-6},
-        {"absoluteTolerance": 1e-6, "modifiedNewtonContractivity": 0.2},
+    patterns = [False, True]
+    choices = for_sliding() if isinstance(case, Sliding) else for_cables(case.peer_tolerance)
+    return [
+        {"solver": solver, "pattern": pattern, **choice}
+        for solver in solvers
+        for pattern in (patterns if solver == "sparse" else patterns[:1])
+        for choice in choices
     ]
-    return [{"newton": choice} for choice in newton]
+
+
+def newton(*values: float | None) -> Options:
+    """Settings of Newton's method that are not Exudyn's defaults: tolerances, contractivity, iterations."""
+    names = "absoluteTolerance", "relativeTolerance", "modifiedNewtonContractivity", "maxIterations"
+    return {key: value for key, value in zip(names, values, strict=False) if value is not None}
+
+
+def for_cables(least: float | None) -> list[Options]:
+    """``least``: absolute tolerance, N, below which the peer does not get through."""
+    absolute = [None, 1e-8, 1e-7, 1e-6, 1e-5] if least is None else [least, 10.0 * least]
+    grid = product(absolute, (None, 1e-7, 1e-6), (None, 0.2, 0.1, 0.05))
+    return [{"newton": newton(*values)} for values in grid]
 
 
 def for_sliding() -> list[Options]:
@@ -56,25 +58,27 @@ def for_sliding() -> list[Options]:
 
     With a spectral radius of 1, the trapezoidal rule, the larger models do not get to the end.
     """
-    choices: list[tuple[float, Options]] = [
-        (0.9, {}),
-        (0.9, {"absoluteTolerance": 1e-7}),
-        (0.9, {"absoluteTolerance": 1e-7, "modifiedNewtonContractivity": 0.2}),
-        (0.9, {"absoluteTolerance": 1e-7, "relativeTolerance": 1e-6}),
-        (0.6, {"absoluteTolerance": 1e-7}),
-    ]
-    return [{"rho": rho, "newton": newton} for rho, newton in choices]
+    grid = product((None, 1e-7, 1e-5, 1e-4, 1e-3), (None, 1e-6, 1e-4), (None, 0.2, 0.1))
+    choices = [newton(*values) for values in grid]
+    return [{"rho": rho, "newton": choice} for rho in (0.9, 0.6) for choice in choices]
 
 
 def for_overhead() -> list[Options]:
     """The generalised-alpha method again; the default tolerance, 1e-10 N, is out of reach here."""
-    choices: list[Options] = [
-        {"absoluteTolerance": 1e-4},
-        {"absoluteTolerance": 1e-4, "modifiedNewtonContractivity": 0.2},
-        {"absoluteTolerance": 1e-4, "relativeTolerance": 1e-6},
-        {"absoluteTolerance": 1e-2},
+    grid: list[tuple[float | None, ...]] = [
+        (1e-4,),
+        (1e-4, None, 0.2),
+        (1e-4, 1e-6),
+        (1e-2,),
+        (1e-2, 1e-5),
+        (1e-2, 1e-5, 0.9, 20),
+        (1e-2, 1e-5, None, 20),
     ]
-    return [{"solver": "sparse", "rho": 0.6, "newton": newton} for newton in choices]
+    return [
+        {"solver": "sparse", "pattern": pattern, "rho": 0.6, "newton": newton(*values)}
+        for pattern in (False, True)
+        for values in grid
+    ]
 
 
 def version() -> str:
@@ -123,6 +127,7 @@ def simulation_settings(case: Case, options: Options) -> Any:
     settings.solution.sensors.active = isinstance(case, Overhead)
     settings.solution.sensors.writePeriod = 5e-3
     settings.linearSolver.solverType = SOLVERS[options.get("solver", "sparse")]
+    settings.linearSolver.reuseAnalyzedPattern = options.get("pattern", False)
     settings.parallel.numberOfThreads = 1
     integration = settings.timeIntegration
     integration.endTime = case.t_end

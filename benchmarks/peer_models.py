@@ -18,12 +18,13 @@ from exudyn.itemInterface import (
     NodePointSlope1,
     ObjectANCFCable,
     ObjectConnectorCoordinate,
+    ObjectConnectorSpringDamper,
     ObjectJointSliding,
     ObjectJointSpherical,
     ObjectMassPoint,
 )
 
-from cases import GRAVITY, Cable, Case, Sliding
+from cases import GRAVITY, Cable, Case, Net, Sliding
 
 Point = tuple[float, float, float]
 WEIGHT = [0, 0, -GRAVITY]
@@ -33,11 +34,35 @@ def build(case: Case) -> tuple[Any, int]:
     """System ready to solve and the number of the tip's node."""
     if isinstance(case, Sliding):
         return sliding(case)
+    if isinstance(case, Net):
+        return net(case)
     assert isinstance(case, Cable)
     system = new_system()
     end = (case.length, 0.0, 0.0)
     nodes, _ = add_cable(system, case, (0.0, 0.0, 0.0), end, case.elements, omega=case.omega)
     hold(system, nodes[0], 6 if case.clamped else 3)
+    system.Assemble()
+    return system, nodes[-1]
+
+
+def net(case: Net) -> tuple[Any, int]:
+    """Cables side by side with springs; the last one is free at its end, which is the tip."""
+    system = new_system()
+    before: list[int] = []
+    nodes: list[int] = []
+    for k in range(case.cables):
+        y = k * case.gap
+        nodes, _ = add_cable(system, case, (0.0, y, 0.0), (case.length, y, 0.0), case.count)
+        hold(system, nodes[0], 3)
+        if k < case.cables - 1:
+            hold(system, nodes[-1], 3)
+        for pair in zip(before[1:-1], nodes[1:-1], strict=False):
+            ends = [system.AddMarker(MarkerNodePosition(nodeNumber=node)) for node in pair]
+            spring = ObjectConnectorSpringDamper(
+                markerNumbers=ends, referenceLength=case.gap, stiffness=case.stiffness, damping=case.damping
+            )
+            system.AddObject(spring)
+        before = nodes
     system.Assemble()
     return system, nodes[-1]
 

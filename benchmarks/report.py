@@ -56,13 +56,17 @@ def both(row: Results, key: str) -> str:
 
 
 def speed(rows: list[Results]) -> Table:
-    """One line for each case: our solve, the best of the peer's, and their ratio."""
-    made = table("CPU time of the solve (ancf, best variant of Exudyn)", "model, elements",
-                 "ancf s", "Exudyn s", "ancf µs/step", "Exudyn µs/step", "ratio")  # fmt: skip
+    """One line for each case: our solve, the best of the peer's, and their ratio.
+
+    Then the ratio from the empty model to the tip, and the one at equal accuracy.
+    """
+    columns = "ancf s", "Exudyn s", "ancf µs/step", "Exudyn µs/step", "ratio", "whole", "equal accuracy"
+    made = table("CPU time of the solve (ancf, best variant of Exudyn)", "model, elements", *columns)
     for row in rows:
         sides = row["ancf"], row["exudyn"].get(row["best"], {})
         cells = [number(side.get(key)) for key in ("cpu_median", "us_per_step") for side in sides]
-        made.add_row(name(row), *cells, number(row["ratio"], ".1f"))
+        ratios = row["ratio"], sides[1].get("ratio_whole"), row.get("equal_accuracy")
+        made.add_row(name(row), *cells, *(number(ratio, ".1f") for ratio in ratios))
     return made
 
 
@@ -105,10 +109,12 @@ def described(options: Results) -> str:
         "absoluteTolerance": "atol",
         "relativeTolerance": "rtol",
         "modifiedNewtonContractivity": "contr.",
+        "maxIterations": "iterations",
     }
     parts = [f"{short[key]} {value:g}" for key, value in options.get("newton", {}).items()]
     radius = [f"rho {options['rho']:g}"] if "rho" in options else []
-    return ", ".join([options.get("solver", ""), *radius, *parts])
+    pattern = ["pattern kept"] if options.get("pattern") else []
+    return ", ".join([options.get("solver", ""), *pattern, *radius, *parts])
 
 
 def contacts(row: Results) -> Table:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -132,6 +133,27 @@ def our_elements(quick: bool) -> dict[str, Any]:
     return {"elements": costs(3) if quick else costs(), "kernels": [] if quick else all_kernels()}
 
 
+def remember(results: dict[str, Any], file: Path) -> None:
+    """Add a line with the commit and all ratios to the history; where there is no repository, none."""
+    git = subprocess.run(
+        ["git", "-C", str(HERE), "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=False
+    )
+    if git.returncode:
+        return
+    keys = "ratio", "equal_accuracy"
+    cases = {
+        row["name"]: {
+            **{key: row.get(key) for key in keys},
+            "ratio_whole": row["exudyn"].get(row["best"], {}).get("ratio_whole"),
+            "us_per_step": row["ancf"]["us_per_step"],
+        }
+        for row in results["cases"]
+    }
+    line = {"commit": git.stdout.strip(), "machine": results["machine"], "cases": cases}
+    with file.open("a", encoding="utf-8") as history:
+        history.write(json.dumps(line) + "\n")
+
+
 def main() -> None:
     options = arguments()
     console = Console(width=None if sys.stdout.isatty() else 100)
@@ -155,6 +177,8 @@ def main() -> None:
     if options.only and options.output.exists():
         results = replaced(json.loads(options.output.read_text(encoding="utf-8")), results)
     options.output.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+    if not (options.quick or options.only):
+        remember(results, options.output.with_name("history.jsonl"))
     show(results, console)
     console.print(f"[dim]{results['seconds']:.0f} s, stored in {options.output.name}[/]")
 

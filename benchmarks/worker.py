@@ -61,6 +61,7 @@ def answer(side: Any, request: dict[str, Any]) -> Any:
             model = CASES[request["case"]]
             if request["steps"]:
                 model = model.first(request["steps"])
+            model = model.finer(request["refine"])
             return burst(side, model, request["options"], request["seconds"])
     raise ValueError(request["do"])
 
