@@ -18,6 +18,7 @@ from ..solvers.status import OK
 from ..system.system import System
 from .base import check_differentiable, matrices_of
 from .family import Family
+from .nearby import Nearby
 from .parameters import Parameter, check_known
 from .start import Start, at_level
 
@@ -91,6 +92,7 @@ class Following:
         check_differentiable(self.system, where)
         check_shift(made, start, where)
         self.families = [Family(parameter, self.system) for parameter in parameters]
+        self.nearby = Nearby(self.families, self.system)
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
         self.rows: list[FloatArray] = []  # (parameters, n, 2, size) at stored times
@@ -169,23 +171,19 @@ class Following:
         system.level[:] = rule.w0, rule.w1, rule.w2
         when = run.time(done), h, run.t_start, run.t_end
         projects = rule.projects and len(system.multipliers) > 0
-        pushes = []
-        for family in self.families:
-            family.know(system)
-            pushes.append(family.at_steps(*way, when, gaps=projects))
-        push = np.stack([one.push for one in pushes])
-        gap = np.stack([one.gap for one in pushes])
-        out = np.empty((len(self.families), count, 3, size))
         tables = system.inputs.tables(*when[:2], count, *when[2:])
+        found = self.nearby.at_steps(way, when, tables, projects)
+        out = np.empty((len(self.families), count, 3, size))
         n, status = follow_steps(
-            system.core, self.m, tables, way, push, gap, h, run.scheme, joined, self.s, out
+            system.core, self.m, tables, way, found.push, found.gap, h, run.scheme, joined, self.s, out
         )
         if status != OK:
             t = run.time(done + int(n) + 1)
             what = "the equations of the sensitivities cannot be solved"
             raise SolveError(f"sensitivities at t = {t:.6g} s", what, "take a smaller step")
-        held = np.stack([one.held for one in pushes])
-        made: FloatArray = out[:, :, :2] + np.moveaxis(held[:, :2], 1, 2)
+        made: FloatArray = out[:, :, :2]
+        for k, held in found.held.items():
+            made[k] += np.moveaxis(held[:2], 0, 1)
         return made
 
     def found(self) -> list[FloatArray]:
