@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .catalogue import line_file, line_names, read_line
 from .conditions import Conditions
+from .derivatives import slopes
 from .elasticity import Elasticity, elasticity
 from .fittings import Droppers, Load, SteadyArm, Tensioner
 from .form import Form
@@ -74,6 +75,7 @@ __all__ = [
     "reference_run",
     "rows",
     "run",
+    "slopes",
     "statistics",
     "verify",
     "wire",

@@ -31,6 +31,9 @@ ABOVE = (
     (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0),
     (-147 / 60, 360 / 60, -450 / 60, 400 / 60, -225 / 60, 72 / 60, -10 / 60),
 )
+#: The step where forces have kinks, which no value may reach: a taut dropper is stretched by 0.1 mm.
+TINY = 1e-7
+KINKED = {"springs", "contacts", "pressing", "rubbing", "crossing", "gripping", "bumping", "rolling"}
 #: The same where all is linear; energies are quadratic then.
 PAIR = ((-3.0, 3.0), (-1 / 6, 1 / 6))
 #: How far the mean of two values may be from that between them, relative to their difference, up to which a
@@ -70,21 +73,37 @@ class Family:
     def __init__(self, parameter: Parameter, base: System, thorough: bool = False) -> None:
         self.parameter, self.base = parameter, base
         p = parameter.value
-        h = STEP * abs(p) if p != 0.0 else STEP
+        unit = abs(p) if p != 0.0 else 1.0
         self._made: dict[float, System] = {}
-        self.linear = not thorough and p != 0.0
-        if self.linear:
-            self._take(h, *PAIR)
-            self.linear = self._linear()
-        if not self.linear:
-            try:
-                self._take(h, *BOTH)
-            except ModelError:
-                if p != 0.0:
-                    raise
-                self._take(h, *ABOVE)  # it may not be negative
+        self.linear = False
+        if parameter.quadratic:
+            self._take(TINY, *PAIR)
+        else:
+            self._choose(STEP * unit, TINY * unit, thorough)
         self._made.clear()
         self._look()
+
+    def _choose(self, h: float, tiny: float, thorough: bool) -> None:
+        """Take values h apart, two or six, or two that are tiny steps apart where forces have kinks."""
+        p = self.parameter.value
+        if p != 0.0:
+            self._take(h, *PAIR)
+            if self._names() & KINKED and not thorough:
+                self._made.clear()
+                return self._take(tiny, *PAIR)
+            if not thorough and self._linear():
+                self.linear = True
+                return None
+        try:
+            return self._take(h, *BOTH)
+        except ModelError:
+            if p != 0.0:
+                raise
+        return self._take(h, *ABOVE)  # it may not be negative
+
+    def _names(self) -> set[str]:
+        """Of the batches on which the parameter acts."""
+        return set().union(*(self._changed(s) for s in self.systems))
 
     def _take(self, h: float, places: tuple[float, ...], weights: tuple[float, ...]) -> None:
         """Let the systems be those at these places, in steps h."""
@@ -106,7 +125,7 @@ class Family:
     def _look(self) -> None:
         """See what of the model depends on the parameter."""
         base = self.base
-        changed = self._names = set().union(*(self._changed(s) for s in self.systems))
+        changed = self.changed = self._names()
         self._few = [Batches(b for name, b in s.parts.items() if name in changed) for s in self.systems]
         self.plain = all(self._is_plain(s, few) for s, few in zip(self.systems, self._few, strict=True))
         self._loads = any(not _same_loads(base, s) for s in self.systems)
@@ -134,7 +153,7 @@ class Family:
         """
         if not self.linear:
             return list(zip(self.weights, self._few, strict=True))
-        base = Batches(batch for name, batch in self.base.parts.items() if name in self._names)
+        base = Batches(batch for name, batch in self.base.parts.items() if name in self.changed)
         return [(1.0 / self.offsets[-1], self._few[-1]), (-1.0 / self.offsets[-1], base)]
 
     def loads_used(

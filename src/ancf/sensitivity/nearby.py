@@ -51,7 +51,16 @@ class Nearby:
             np.array([row for row, _ in uses], dtype=np.int64),
             np.array([weight for _, weight in uses], dtype=np.float64),
         )
-        self._work = np.zeros(system.size)
+        self._work, self._kept = np.zeros(system.size), np.zeros(0)
+
+    def _room(self, count: int) -> FloatArray:
+        """Zeros (p, count, size), in the memory of the block before: pages that are new cost time."""
+        wanted = len(self.families) * count * self.system.size
+        if wanted > self._kept.size:
+            self._kept = np.zeros(wanted)
+        room = self._kept[:wanted].reshape(len(self.families), count, self.system.size)
+        room[...] = 0.0
+        return room
 
     def at_steps(self, way: Way, when: tuple[float, float, float, float], tables: Any, gaps: bool) -> Pushes:
         """Of the states at the ends of the steps of a block.
@@ -61,7 +70,7 @@ class Nearby:
         count, size = way.q.shape
         for family in self.families:
             family.know(self.system)
-        push = np.zeros((len(self.families), count, size))
+        push = self._room(count)
         if self.plain:
             rows = push if not self.others else np.zeros((len(self.plain), count, size))
             for row, k in enumerate(self.plain):

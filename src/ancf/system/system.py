@@ -110,14 +110,19 @@ class System:
 
     def _order(self, parts: Any, like: System | None) -> None:
         """Order of the nodes and pattern of the matrix."""
+        self.rank: IntArray
+        self.pairs: IntArray
+        self.ordering: str
+        self.half_bandwidth: int
+        self.places: Places
         if like is not None and like.numbering.blocks == self.numbering.blocks:
-            self.rank, self.pairs, self.places = like.rank, like.pairs, like.places
-            self.ordering, self.half_bandwidth = like.ordering, like.half_bandwidth
-            self.numbering.renumber(self.rank)
-            return
-        found = order_blocks(parts, self.numbering)
+            found = like.rank, like.pairs, like.ordering, like.half_bandwidth
+            self.numbering.renumber(like.rank)
+        else:
+            found = order_blocks(parts, self.numbering)
+            like = None
         self.rank, self.pairs, self.ordering, self.half_bandwidth = found
-        self.places = Places(*fill_pattern(self.pairs, self.numbering.blocks))
+        self.places = like.places if like else Places(*fill_pattern(self.pairs, self.numbering.blocks))
 
     def __reduce__(self) -> Any:
         """Addresses of compiled operations hold in one process alone: another one makes the system again."""
