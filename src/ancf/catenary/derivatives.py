@@ -163,11 +163,7 @@ def records(sensors: Any, overhead: Assembled, collectors: Sequence[Any], name: 
     own = sensors.sensitivity(name)
     force = tuple(np.sum([own.contact_force(meter) for meter in c.meters], axis=0) for c in collectors)
     uplift = np.stack([own.position(p)[:, 2] - float(rest.position(p)[2]) for p in overhead.supports], axis=1)
-    dropper = np.zeros((len(uplift), len(overhead.droppers)))
-    for j, item in enumerate(overhead.droppers):
-        if item is not None:
-            dropper[:, j] = own.spring_force(item)
-    return RunSlopes(force, uplift, dropper)
+    return RunSlopes(force, uplift)
 
 
 def slopes(run: Run, pantograph: int = 0, filter: Butterworth | None = None) -> dict[str, dict[str, float]]:

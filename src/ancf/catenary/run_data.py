@@ -67,14 +67,11 @@ class RunSlopes:
         Contact force of each pantograph, N/m.
     uplift : (n, supports)
         m/m, without the height at rest.
-    dropper_force : (n, droppers)
-        N/m.
 
     """
 
     force: tuple[FloatArray, ...]
     uplift: FloatArray
-    dropper_force: FloatArray
 
 
 @dataclass(frozen=True)
