@@ -19,7 +19,7 @@ from ..batches import Batches
 from ..errors import ModelError
 from ..solvers.checkpoint import distinct
 from ..solvers.stages import place_rows, stage_residuals
-from ..system.core import Core, apply_load, apply_supports, place_supports, residual
+from ..system.core import Core, Tables, apply_load, apply_supports, place_supports, residual
 from ..system.system import System
 from .parameters import Parameter
 
@@ -131,6 +131,7 @@ class Family:
         self._few = [Batches(b for name, b in s.parts.items() if name in changed) for s in self.systems]
         self.plain = all(self._is_plain(s, few) for s, few in zip(self.systems, self._few, strict=True))
         self._loads = any(not _same_loads(base, s) for s in self.systems)
+        self._fed = all(_same_values(base, s) for s in self.systems)
 
     def _is_plain(self, system: System, few: Batches) -> bool:
         """Whether supports are as they are, and no batch has inputs or rows of constraints of its own."""
@@ -159,16 +160,22 @@ class Family:
         return [(1.0 / self.offsets[-1], self._few[-1]), (-1.0 / self.offsets[-1], base)]
 
     def loads_used(
-        self, when: tuple[float, float, float, float], count: int
+        self, when: tuple[float, float, float, float], tables: Tables
     ) -> Iterator[tuple[float, Any, Any]]:
-        """Weights, dead loads at each value and their inputs (steps or 1, n, 3), if they depend on it."""
+        """Weights, dead loads at each value and their inputs (steps or 1, n, 3), if they depend on it.
+
+        ``tables`` are those of the model itself.
+        """
         if not self._loads:
             return
         start, step, first, last = when
         for system, weight in zip(self.systems, self.weights, strict=True):
-            constant = all(function.constant for function in system.inputs.loads)
-            tables = system.inputs.tables(start, step, 1 if constant else count, first, last)
-            yield weight, system.core.loads, tables.value
+            value = tables.value
+            if not self._fed:
+                constant = all(function.constant for function in system.inputs.loads)
+                count = 1 if constant else len(value)
+                value = system.inputs.tables(start, step, count, first, last).value
+            yield weight, system.core.loads, value
 
     @property
     def name(self) -> str:
@@ -352,6 +359,14 @@ def _same_motions(a: System, b: System) -> bool:
         if not np.array_equal(mine.motion, other.motion) or not np.array_equal(mine.rotation, other.rotation):
             return False
     return True
+
+
+def _same_values(a: System, b: System) -> bool:
+    """Whether the inputs of loads are the same, as they are at some odd times."""
+    return all(
+        np.array_equal(*(s.inputs.tables(time, 1e-3, 1, time, np.inf).value for s in (a, b)))
+        for time in TIMES
+    )
 
 
 def _same_loads(a: System, b: System) -> bool:

@@ -74,7 +74,7 @@ class Nearby:
         if self.plain:
             rows = push if not self.others else np.zeros((len(self.plain), count, size))
             for row, k in enumerate(self.plain):
-                for weight, loads, value in self.families[k].loads_used(when, count):
+                for weight, loads, value in self.families[k].loads_used(when, tables):
                     add_loads(loads, value, weight, self._work, rows[row])
             add_pushes(self.system.core, self._uses, tables, way, self._work, rows)
             if self.others:
