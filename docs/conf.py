@@ -3,12 +3,14 @@
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "src"))
+sys.path[:0] = [str(Path(__file__).resolve().parent.parent / "src"), str(Path(__file__).resolve().parent)]
+
+import ancf  # noqa: E402
 
 project = "ancf"
 author = "The ancf developers"
 copyright = "2026, The ancf developers"
-release = version = "0.1.0"
+release = version = ancf.__version__
 
 extensions = [
     "myst_parser",
@@ -16,18 +18,21 @@ extensions = [
     "sphinx.ext.mathjax",
     "sphinx.ext.napoleon",
     "sphinx-mathjax-offline",  # equations are drawn without a network
+    "reference_pages",
 ]
 exclude_patterns = ["_build"]
-source_suffix = {".md": "markdown"}
+source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 
 napoleon_google_docstring = False
 napoleon_numpy_docstring = True
+napoleon_use_ivar = True  # attributes are a list, as properties have entries of their own
 autodoc_member_order = "bysource"
 autodoc_typehints = "description"
 
+html_show_search_summary = False  # a summary is fetched, which a page from disk may not do
 html_theme = "furo"
 html_title = f"ancf {release}"
 html_static_path = ["_static"]

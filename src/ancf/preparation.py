@@ -23,6 +23,7 @@ from .model.series import noises
 from .model.settings import steps_between
 from .model.supports import Support
 from .results import remembered
+from .results.impacts import unresolved
 from .results.provenance import versions
 from .results.read_store import ReadStore
 from .results.result import Result, load, read
@@ -71,6 +72,8 @@ def prepared(
         q, v = system.initial_state(t0) if start is None else adopted(start, system, f"{where}.start")
         remembered.begin(system, q, v, None if start is None else start.known)
         check_gaps(system, q, f"{where}.start")
+        for text in unresolved(system, q, method, step):
+            warnings.warn(text, UserWarning, stacklevel=3)
         made.run.start(q, v)
     return made
 
@@ -89,6 +92,10 @@ def compiled(
     """A simulation that has no state yet; it is given one by ``run.start`` or ``run.restore``."""
     every = steps_between(where, t_end, step, output_step, t_start)
     system = independent(model)  # anew: the model may have changed since the start was computed
+    if system.inputs.drives and isinstance(method, Radau):
+        what = f'does not know "{system.inputs.drives[0].winch.name}", whose length follows from step to step'
+        hint = "take Trapezoidal, GeneralizedAlpha or Explicit, or give its length as a function of time"
+        raise ModelError(f"{where}.integrator", what, hint)
     system.sensors = _sensors(system, sensors, not isinstance(method, Radau))
     if not checks.flag(energy, f"{where}.energy"):
         system.skip_energies()

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import ancf
-from ancf.contact.near import node_moved
+from ancf.contact.near import LEFT, node_moved
 from ancf.linalg.sparse import to_sparse
 from ancf.system.contacts import touching
 from ancf.system.core import assemble, keep_memory, residual, restrict
@@ -180,6 +180,58 @@ class TestNear:
             moved[batch.base[3, slot] + 1] += size
             used = node_moved.py_func(batch, 3, 0, moved, 50.0, 2.0)
             assert used == pytest.approx(share, abs=1e-12)
+
+    @staticmethod
+    def apart(elements, seed, own):
+        """Wavy cables away from each other, and a state to which everything may move."""
+        rng = np.random.default_rng(seed)
+        model, section = ancf.Model(), ancf.Section(EA=1e5, EI=0.1, rhoA=0.3, diameter=D)
+        x, cables = np.linspace(0, 3, 200), []
+        for k in range(3):
+            phase, wide = rng.uniform(0, 6, 2), 0.2 * rng.uniform(size=2)
+            path = np.stack(
+                [x, 0.9 * k + wide[0] * np.sin(x + phase[0]), wide[1] * np.sin(2 * x + phase[1])], 1
+            )
+            cables.append(model.add_beam(f"c{k}", path=path, elements=elements, section=section))
+        for a, b in ((0, 1), (1, 2)):
+            model.add_contact(cables[a], cables[b], stiffness=K)
+        if own:
+            model.add_contact(cables[1], cables[1], stiffness=K)
+        return System(model), [cables[0], cables[1], cables[2]]
+
+    @pytest.mark.parametrize("own", [False, True])
+    @pytest.mark.parametrize(("elements", "seed"), [(20, 0), (33, 1), (64, 2), (100, 5)])
+    def test_what_is_free_is_half_of_the_least_distance_or_less(self, elements, seed, own):
+        """Against the distance of many places; a good part of it where cables are nearly straight."""
+        system, cables = self.apart(elements, seed, own)
+        q, v = system.initial_state()
+        keep_memory(system.core.remembering, q, v)
+        batch, places = system.parts["crossing"], []
+        for cable in cables:
+            places.append(np.array([cable.initial_position(s) for s in np.linspace(0, cable.length, 400)]))
+        pairs = [(0, 1), (1, 2)]
+        least = min(np.linalg.norm(places[a][:, None] - places[b], axis=-1).min() for a, b in pairs) - D
+        assert batch.first[-1] == 0
+        assert 0.15 * least < batch.room[LEFT] < 0.5 * least
+
+    def test_a_cable_bent_round_is_not_taken_for_straight(self):
+        """The list of a hairpin has the pairs of its two legs."""
+        a = np.linspace(0, np.pi, 50)
+        legs = np.linspace(0, 1, 30)[:-1]
+        bow = np.stack([1 + 0.5 * 1.02 * D * np.sin(a), -0.5 * 1.02 * D * np.cos(a)], 1)
+        path = np.vstack(
+            [np.stack([legs, 0 * legs - 0.51 * D], 1), bow, np.stack([legs, 0 * legs + 0.51 * D], 1)[::-1]]
+        )
+        model, section = ancf.Model(), ancf.Section(EA=1e5, EI=0.1, rhoA=0.3, diameter=D)
+        pin = model.add_beam(
+            "pin", path=np.column_stack([path, 0 * path[:, 0]]), elements=60, section=section
+        )
+        model.add_contact(pin, pin, stiffness=K)
+        system = System(model)
+        q, v = system.initial_state()
+        keep_memory(system.core.remembering, q, v)
+        batch = system.parts["crossing"]
+        assert all(batch.first[e] < batch.first[e + 1] for e in range(5, 20))
 
     @pytest.mark.parametrize(("elements", "seed"), [(24, 0), (37, 3), (60, 2)])
     def test_list_has_all_that_may_touch(self, elements, seed):

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from .acceptance import acceptance, time_above
 from .catalogue import line_file, line_names, read_line
+from .clamp_strain import ClampStrain, clamp_strains
 from .conditions import Conditions
+from .cycles import Cycles, FatigueLine, rainflow
 from .derivatives import slopes
 from .elasticity import Elasticity, elasticity
 from .fittings import Droppers, Load, SteadyArm, Tensioner
 from .form import Form
+from .identify import Identified, dynamic_stiffness, identify_pantograph
 from .irregular import dropper_errors, height_errors
 from .line import Line
+from .measuring import Measured, MeasuringHead, measure
 from .mesh import Mesh
 from .opened import Overhead, assemble
 from .pantograph import Pantograph, find_pantograph, pantographs, read_pantograph
@@ -33,13 +38,19 @@ from .write import write_run
 
 __all__ = [
     "Butterworth",
+    "ClampStrain",
     "Conditions",
+    "Cycles",
     "DropperRule",
     "Droppers",
     "Elasticity",
+    "FatigueLine",
     "Form",
+    "Identified",
     "Line",
     "Load",
+    "Measured",
+    "MeasuringHead",
     "Mesh",
     "Overhead",
     "Pantograph",
@@ -58,16 +69,22 @@ __all__ = [
     "Verified",
     "Wire",
     "WireType",
+    "acceptance",
     "add_pantograph",
     "assemble",
+    "clamp_strains",
     "dropper_errors",
+    "dynamic_stiffness",
     "elasticity",
     "find_pantograph",
     "form",
     "height_errors",
+    "identify_pantograph",
     "line_file",
     "line_names",
+    "measure",
     "pantographs",
+    "rainflow",
     "read_line",
     "read_pantograph",
     "reference_case",
@@ -77,6 +94,7 @@ __all__ = [
     "run",
     "slopes",
     "statistics",
+    "time_above",
     "verify",
     "wire",
     "wires",

@@ -21,14 +21,14 @@ from .shape import WireShape
 class RouteForm:
     """Tension lengths at rest.
 
+    Arrays of droppers and supports are those of all sections, one after the other; see :class:`Form`.
+
     Attributes
     ----------
     line : Route
     mesh : Mesh
     forms : tuple of Form
         Of each tension length by itself, x from its own first support.
-
-    Arrays of droppers and supports are those of all sections, one after the other; see :class:`Form`.
 
     """
 

@@ -99,14 +99,14 @@ def _all_inside(rows: list[Quantity]) -> bool | None:
     return all(judged) if judged else None
 
 
-def write_validation(run: Run, reference: Reference, folder: Path, report: bool = True) -> list[Path]:
+def write_validation(run: Run, reference: Reference, folder: str | Path, report: bool = True) -> list[Path]:
     """Write ``validate.json``, the CSV files of the run and ``report.html``.
 
     Parameters
     ----------
     run : Run
     reference : Reference
-    folder : Path
+    folder : str or Path
         Made when it does not exist.
     report : bool
         Whether the report is written, which needs matplotlib.
@@ -117,7 +117,7 @@ def write_validation(run: Run, reference: Reference, folder: Path, report: bool 
         The files written.
 
     """
-    found = statistics(run)
+    folder, found = Path(folder), statistics(run)
     files = [write_json(validation(run, reference, found), folder / "validate.json")]
     files += write_run(run, folder, [found])
     if report:

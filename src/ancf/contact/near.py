@@ -5,6 +5,9 @@ that a pair which is not in it could touch.  That is looked at once in a step, a
 the forces where steps are long.  Elements are sorted into a grid of cubes, each as wide as the largest
 ball, by a hash of its place; so the list costs time in proportion to the elements (Teschner et al. 2003).
 
+Before that, pieces of cables are looked at, in boxes along the axes: where all that may touch each other lie
+apart, or are nearly straight beside each other, the list is empty and half of the least distance may be gone.
+
 Elements of one cable that is nearly straight between them are left out: where all tangents are within 60
 degrees of one direction, places are farther apart than half of the cable between them.
 """
@@ -15,7 +18,7 @@ import math
 
 import numpy as np
 
-from ..compiled import inline_kernel
+from ..compiled import formula, inline_kernel
 from ..vectors import dot
 from .strand import cubic, less, on_cubic
 
@@ -23,6 +26,8 @@ from .strand import cubic, less, on_cubic
 #: evaluation of the forces looks; whether the list has just been made; the share of the way that the step
 #: just judged has used up, -1: not known; the length of the longest element.
 LEFT, WIDEST, LIVE, MADE, SEEN, LONGEST = range(6)
+#: Elements of a piece of a cable, and the most pairs of pieces for each element that are looked at.
+PIECE, PAIRS = 32, 16
 #: Share of the way that is left after which a step makes the list again.
 USED = 0.5
 #: Change of a tangent with which the list is made again, and the cosine of the angle from a common direction
@@ -32,7 +37,7 @@ TURNED, STRAIGHT = 0.4, 0.83
 FACTORS = (73856093, 19349663, 83492791)
 
 
-@inline_kernel
+@formula
 def node_moved(batch, e, k, q, near, turned):
     """Share of what the list allows for that a node has used up; near and turned: what 1 m and 1 rad do."""
     i, j, seen = batch.base[e, k], batch.base[e, k + 1], batch.seen[e]
@@ -41,15 +46,35 @@ def node_moved(batch, e, k, q, near, turned):
     return x * near + y * turned
 
 
+@formula
+def chord_turned(batch, e, q):
+    """Share of the turning that the list allows for that the chord of an element has used up."""
+    i, j, seen, way = batch.base[e, 0], batch.base[e, 2], batch.seen[e], 0.0
+    for c in range(3):
+        way += abs((q[j + c] - q[i + c]) - (seen[6 + c] - seen[c]))
+    return way / (TURNED * batch.length[e])
+
+
+@inline_kernel
+def touches_itself(batch):
+    """Whether some cable may."""
+    own = False
+    for k in range(batch.law.shape[0]):
+        own = own or batch.law[k, k] >= 0
+    return own
+
+
 @inline_kernel
 def used_up(batch, q):
     """Share of what the list allows for that is used up; more than all without a list."""
     if batch.room[LEFT] < 0.0:
         return np.inf
     near, most = 1.0 / batch.room[LEFT], 0.0
-    turned = max(0.4 * batch.room[LONGEST] * near, 1.0 / TURNED)
+    turned, own = max(0.4 * batch.room[LONGEST] * near, 1.0 / TURNED), touches_itself(batch)
     for e in range(batch.base.shape[0]):
         most = max(most, node_moved(batch, e, 0, q, near, turned))
+        if own:
+            most = max(most, chord_turned(batch, e, q))
         if batch.beside[e, 1] < 0:
             most = max(most, node_moved(batch, e, 2, q, near, turned))
     return most
@@ -236,6 +261,62 @@ def look_back(batch, q):
 
 
 @inline_kernel
+def box_in(batch):
+    """Boxes about the balls of all elements of each piece."""
+    for i in range(batch.box.shape[0]):
+        for c in range(3):
+            batch.box[i, c], batch.box[i, 3 + c] = np.inf, -np.inf
+        for e in range(batch.piece[i], batch.piece[i + 1]):
+            for c in range(3):
+                batch.box[i, c] = min(batch.box[i, c], batch.middle[e, c] - batch.middle[e, 3])
+                batch.box[i, 3 + c] = max(batch.box[i, 3 + c], batch.middle[e, c] + batch.middle[e, 3])
+
+
+@inline_kernel
+def all_lead(batch, i, j, q):
+    """Whether the cable is nearly straight from the start of piece i to the end of piece j."""
+    first, last = cubic(batch, batch.piece[i], q), cubic(batch, batch.piece[j + 1] - 1, q)
+    u, straight = less(on_cubic(last, 1.0), first[0]), True
+    for e in range(batch.piece[i], batch.piece[j + 1]):
+        straight = straight and leads(batch, e, q, u)
+    return straight
+
+
+@inline_kernel
+def free_way(batch, q):
+    """How far everything may go before pieces of cables meet that may touch, m; 0 where some may already.
+
+    Pieces next to each other are no obstacle where their cable is nearly straight.
+    """
+    n, least = batch.box.shape[0], np.inf
+    if n * n > PAIRS * batch.base.shape[0] and n > PIECE:
+        return 0.0
+    box_in(batch)
+    for i in range(n):
+        for j in range(i, n):
+            a, b = batch.cable[batch.piece[i]], batch.cable[batch.piece[j]]
+            if batch.law[a, b] < 0 or (a == b and j == i and n > 1 and follows(batch, i)):
+                continue
+            if a == b and j <= i + 1:
+                if not all_lead(batch, i, j, q):
+                    return 0.0
+                continue
+            away = 0.0
+            for c in range(3):
+                away = max(away, batch.box[j, c] - batch.box[i, 3 + c], batch.box[i, c] - batch.box[j, 3 + c])
+            least = min(least, 0.5 * away)
+            if least == 0.0:
+                return 0.0
+    return least
+
+
+@inline_kernel
+def follows(batch, i):
+    """Whether the next piece is of the same cable: then both are looked at together."""
+    return i + 1 < batch.box.shape[0] and batch.cable[batch.piece[i]] == batch.cable[batch.piece[i + 1]]
+
+
+@inline_kernel
 def make(batch, q):
     """Make the list with the widest margin for which there is room."""
     largest, sound = 0.0, True
@@ -250,6 +331,11 @@ def make(batch, q):
         batch.first[e] = 0
     if not sound or largest > 1e6 * margin:
         return  # an iteration that goes astray
+    free = free_way(batch, q)
+    if free > margin:
+        keep(batch, q, batch.seen)
+        batch.room[LEFT] = free
+        return
     while not fill(batch, q, margin, 2.0 * (largest + margin)):
         margin *= 0.5
         if margin < 1e-9 * batch.room[WIDEST]:

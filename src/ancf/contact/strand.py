@@ -54,6 +54,8 @@ class StrandBatch(NamedTuple):
     room: FloatArray  # (6,) when it is to be made again, see :mod:`ancf.contact.near`
     first: NDArray[np.int64]  # (n + 1,) first entry of ``near`` of each element
     near: NDArray[np.int64]  # (room,) elements that are near, ascending for each element
+    piece: NDArray[np.int64]  # (pieces + 1,) first element of each piece of a cable, and the end
+    box: FloatArray  # (pieces, 6) workspace of the list: least and largest coordinates of pieces
     middle: FloatArray  # (n, 4) workspace of the list: balls about the elements
     head: NDArray[np.int64]  # (buckets,) workspace of the list
     link: NDArray[np.int64]  # (n,) the same

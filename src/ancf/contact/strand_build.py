@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from ..model.cable_contact import CableContact
 from ..model.points import Point
 from .build import SUNK
 from .grip import COLUMNS, GripBatch
+from .near import PIECE
 from .rows import StrandBatch
 from .strand import APART
 
@@ -61,6 +63,9 @@ def strands(
     margin = OF_LENGTH * float(length.mean()) + OF_DIAMETER * 2.0 * max(radius)
     reach = (2.0 * (max(radius) + margin) + float(length.max())) / float(length.min())
     zones = ZONES * n + MORE_ZONES
+    ends = np.cumsum([0, *counts])
+    starts = [np.arange(a, b, PIECE) for a, b in pairwise(ends.tolist())]
+    pieces = np.concatenate([*starts, ends[-1:]]).astype(np.int64)
     batch = StrandBatch(
         base=np.concatenate([_slots(cable, locate) for cable in cables]),
         length=length,
@@ -76,6 +81,8 @@ def strands(
         room=np.array([-1.0, margin, 1.0, 0.0, -1.0, float(length.max())]),
         first=np.zeros(n + 1, dtype=np.int64),
         near=np.zeros(n * min(n, NEAR + int(MORE_NEAR * reach)) + 2, dtype=np.int64),
+        piece=pieces,
+        box=np.zeros((len(pieces) - 1, 6)),
         middle=np.zeros((n, 4)),
         head=np.full(2 ** math.ceil(math.log2(2 * n + 2)), -1, dtype=np.int64),
         link=np.zeros(n, dtype=np.int64),

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from ..compiled import inline_kernel
+from ..compiled import formula, inline_kernel
 from ..vectors import cross, dot
 from .mesh import MESH, nearest_face
 from .profiles import profile_of
@@ -179,7 +179,7 @@ def in_body(body, r):
     return dot(x, a), dot(x, b), dot(x, d)
 
 
-@inline_kernel
+@formula
 def first_node(batch, e, q):
     """Place of the first node of a row, in the axes of what carries the surface."""
     r = at_slot(q, np.uint64(batch.base[e, 0]))
@@ -206,7 +206,7 @@ def reach_of(batch, e, q):
     return reach
 
 
-@inline_kernel
+@formula
 def is_far(batch, e, q):
     """Whether no point of a row can touch: its first node has not left the ball in which none does."""
     i, far = np.uint64(batch.base[e, 0]), batch.far[e]
@@ -216,7 +216,7 @@ def is_far(batch, e, q):
     return abs(r[0] - far[0]) + abs(r[1] - far[1]) + abs(r[2] - far[2]) < far[ROOM]
 
 
-@inline_kernel
+@formula
 def look_around(batch, e, q):
     """Whether a row is far; its ball is renewed when half of it is used up.
 
@@ -228,7 +228,13 @@ def look_around(batch, e, q):
     far[GONE] = gone
     if 2.0 * gone < far[ROOM]:
         return gone + STEPS * way < far[ROOM]
-    body = carrier(batch, e, q)
+    return renew_ball(batch, e, q, r, way)
+
+
+@inline_kernel
+def renew_ball(batch, e, q, r, way):
+    """Lay the ball of a row about its first node r, which went so far in the last step; whether it is far."""
+    far, body = batch.far[e], carrier(batch, e, q)
     at, axis = lie(batch, e, body)
     d, _, _, _, _ = outside(batch, e, 0, body, at, axis, at_slot(q, np.uint64(batch.base[e, 0])))
     far[0], far[1], far[2] = r

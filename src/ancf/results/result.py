@@ -36,7 +36,7 @@ from .store import FileStore, MemoryStore
 
 
 class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
-    """History of a simulation; see :class:`Fields` for positions, velocities, strains, tensions, ...
+    """History of a simulation: what it was, at any point, joint or support, at all stored times.
 
     ``print(result)`` says how it went; ``model`` is the model that was computed.
     """
