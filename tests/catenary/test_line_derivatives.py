@@ -16,7 +16,8 @@ from ancf.catenary.rest import assemble
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "droppers_line.toml"
 MESH = Mesh(contact=3.0, messenger=4.0)
-TIGHT = ancf.GeneralizedAlpha(0.9, newton=ancf.Newton(tolerance=1e-12, corotate=False))
+#: Iterations that settle part by part leave 1e-7 N, which differences of runs see.
+TIGHT = ancf.GeneralizedAlpha(0.9, newton=ancf.Newton(tolerance=1e-12, modified=False))
 RUN = {"speed": 80.0, "step": 2e-3, "pantograph": "en50318-2002", "start": 10.0}
 RUN |= {"window": (61.0, 101.0), "until": 110.0, "integrator": TIGHT}
 KEYS = ("deviation", "mean_force", "maximum", "deviation_5_20", "uplift")
