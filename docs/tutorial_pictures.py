@@ -114,6 +114,40 @@ def _force(page: Names, axes: Axes) -> None:
     axes.legend(ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1.0))
 
 
+def mooring_line(page: Names, figure: Figure) -> None:
+    left, right = figure.subplots(1, 2)
+    moved, rough = page["moved"], page["rough"]
+    shapes = shape(moved, "chain", 320.0)
+    for k in range(600, 800, 25):
+        left.plot(*shapes[:, k, ::2].T, color=style.LIGHT, linewidth=0.9)
+    left.plot(*shape(page["rest"], "chain", 320.0)[:, ::2].T, color=style.BLUE, label="at rest")
+    left.plot(*shape(page["hauled"], "chain", 320.0)[:, -1, ::2].T, color=style.ORANGE, label="hauled in")
+    left.axhline(-100.0, color="black", linewidth=0.8)
+    left.set(xlabel="x [m]", ylabel="z [m]")
+    left.legend()
+    right.plot(
+        rough.sensors.t, rough.sensors.tension("chain.end") / 1e3, color=style.ORANGE, label="3 m in the sea"
+    )
+    right.plot(moved.t, moved.tension("chain.end") / 1e3, color=style.BLUE, label="2 m in calm water")
+    right.set(xlabel="time [s]", ylabel="force at the fairlead [kN]")
+    right.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+
+
+def conductor(page: Names, figure: Figure) -> None:
+    left, right = figure.subplots(1, 2)
+    for name, colour, label in (("calm", style.BLUE, "calm"), ("blown", style.ORANGE, "25 m/s")):
+        left.plot(*shape(page[name], "wire", 303.0)[:, 1:].T, color=colour, label=label)
+    middle = page["swing"].position("wire.at(151.5)")
+    left.plot(*middle[:, 1:].T, color=style.GREEN, linewidth=0.9, label="middle in the gust")
+    left.set(xlabel="y [m]", ylabel="z [m]", aspect="equal")
+    left.legend(loc="upper right")
+    shaken, swing = page["shaken"], page["swing"]
+    right.plot(shaken.t[page["late"]], page["lean"], color=style.LIGHT, label="turbulence")
+    right.plot(swing.t, page["angle"], color=style.GREEN, label="gust")
+    right.set(xlabel="time [s]", ylabel="lean of the span [deg]")
+    right.legend()
+
+
 #: Pictures and the pages that they belong to.
 PICTURES = {
     "cantilever": ("cantilever", cantilever),
@@ -121,6 +155,8 @@ PICTURES = {
     "mooring": ("hanging_and_moored_cable", mooring),
     "sliding": ("sliding_joint", sliding),
     "overhead_line": ("overhead_line", overhead_line),
+    "mooring_line": ("mooring", mooring_line),
+    "conductor": ("conductor", conductor),
 }
 
 

@@ -8,8 +8,9 @@ Processes that start together on an empty cache would all compile the same kerne
 needs a kernel compiles it, and the others wait for it and read it. A kernel waits for those that it calls and
 for no other, so that two processes never wait for each other.
 
-An index names the classes that kernels take. After an update one of them may have gone, and numba would fail
-while it reads; here what cannot be read is compiled anew.
+An index names the classes that kernels take. One that is defined in another program, or has gone with an
+update, cannot be read, and numba would fail, or begin an empty index. Here each entry is read by itself: what
+this process cannot read stays for those that can.
 
 Without a folder to write to, or with one that is full, kernels are compiled at each start: a warning says so.
 The folder may be shared: the lock is opened such that no link of somebody else makes this process write, or
@@ -58,7 +59,8 @@ def share() -> None:
     """Let this process wait while another one writes; the system frees the lock of a killed process."""
     numbas = cast(Any, IndexDataCacheFile)
     numbas.save = _save
-    numbas._load_index = _or(numbas._load_index, dict)
+    numbas._save_index = _each_by_itself(numbas._save_index)
+    numbas._load_index = _or(_read_each(numbas._load_index), dict)
     numbas.load = _or(numbas.load, lambda: None)
     cache = cast(Any, Cache)
     cache._save_overload = _if_possible(cache._save_overload)
@@ -155,6 +157,30 @@ def _or(read: Callable[..., Any], nothing: Callable[[], Any]) -> Callable[..., A
             return nothing()
 
     return readable
+
+
+def _each_by_itself(save: Callable[..., Any]) -> Callable[..., Any]:
+    """Write the keys of an index as bytes; those that came as bytes are as they were."""
+
+    def saved(self: Any, index: dict[Any, str]) -> None:
+        save(self, {key if isinstance(key, bytes) else self._dump(key): name for key, name in index.items()})
+
+    return saved
+
+
+def _read_each(load: Callable[..., Any]) -> Callable[..., Any]:
+    """Read the keys of an index; one that this process cannot read stays bytes."""
+
+    def key_of(raw: bytes) -> Any:
+        try:
+            return pickle.loads(raw)
+        except UNREADABLE:
+            return raw
+
+    def loaded(self: Any) -> dict[Any, str]:
+        return {key_of(raw): name for raw, name in load(self).items()}
+
+    return loaded
 
 
 def _save(self: Any, key: Any, data: Any) -> None:

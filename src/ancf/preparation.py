@@ -89,6 +89,10 @@ def compiled(
     """A simulation that has no state yet; it is given one by ``run.start`` or ``run.restore``."""
     every = steps_between(where, t_end, step, output_step, t_start)
     system = independent(model)  # anew: the model may have changed since the start was computed
+    if system.inputs.drives and isinstance(method, Radau):
+        what = f'does not know "{system.inputs.drives[0].winch.name}", whose length follows from step to step'
+        hint = "take Trapezoidal, GeneralizedAlpha or Explicit, or give its length as a function of time"
+        raise ModelError(f"{where}.integrator", what, hint)
     system.sensors = _sensors(system, sensors, not isinstance(method, Radau))
     if not checks.flag(energy, f"{where}.energy"):
         system.skip_energies()

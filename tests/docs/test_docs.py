@@ -28,6 +28,7 @@ MOST_LEFT_OUT = 40
 LONG = (
     ["reproduce"],
     ["validate"],
+    ["catenary", "sweep"],
     ["catenary", "run", "examples/line.toml"],
     ["catenary", "elasticity", "examples/line.toml"],
 )

@@ -48,6 +48,17 @@ def twice(x):
 use(twice, STAMP)
 """
 PART = "import numba\n@numba.njit\ndef part(x):\n    return {factor} * x\n"
+OF_EITHER = """
+import importlib
+import numba
+
+def given(kind):
+    return importlib.import_module(kind).Part(1.5)
+
+@numba.njit(cache=True)
+def twice(part):
+    return 2 * part.x
+"""
 #: Waits until three processes are here.
 MEET = """
 import os, pathlib, time
@@ -158,3 +169,13 @@ def test_class_that_has_gone(tmp_path):
         (tmp_path / f"{name}.py").write_text(CLASS, encoding="utf-8")
         (tmp_path / "kernels.py").write_text(WITH_CLASS.replace("PARTS", name), encoding="utf-8")
         assert [ended(start(tmp_path, "float")) for _ in range(2)] == ["3.0 0", "3.0 1"]
+
+
+def test_a_class_of_another_program_leaves_its_kernels(tmp_path):
+    """Two programs have each an element of their own, which the other cannot import."""
+    (tmp_path / "kernels.py").write_text(OF_EITHER, encoding="utf-8")
+    for hits in (0, 1, 1):
+        for own, other in (("mine", "yours"), ("yours", "mine")):
+            (tmp_path / f"{other}.py").unlink(missing_ok=True)
+            (tmp_path / f"{own}.py").write_text(CLASS, encoding="utf-8")
+            assert ended(start(tmp_path, own)) == f"3.0 {hits}"

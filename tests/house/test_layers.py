@@ -210,7 +210,7 @@ print("done", len(result.t))
 
 class TestExtras:
     EXTRAS = (
-        "pandas,pyarrow,SALib,dask,distributed,cloudpickle,"
+        "pandas,pyarrow,SALib,dask,distributed,cloudpickle,reportlab,docx,"
         "matplotlib,plotly,exudyn,sphinx,psutil,furo,pyvista,vtk,jax,pytest"
     )
 

@@ -109,9 +109,8 @@ def refused(change, *parts):
         (lambda m, r: m.hold(r.end, slope="x"), ["holds a slope"]),
         (lambda m, r: m.clamp(r.end, stretch="fixed"), ["holds a slope", "free"]),
         (lambda m, r: m.add_distributed_load(r, (1, 0, 0), between=(0, 1)), ["a part of the cable"]),
-        (lambda m, r: m.add_distributed_load(r, ["x", 0, 0]), ["law of the state"]),
         (lambda m, r: m.slide((0, 0, -1), along=r), ["runs along", "rope"]),
-        (lambda m, r: m.add_ground("floor", -3.0, 1e4), ["floor", "rope", "on="]),
+        (lambda m, r: m.add_ground("floor", -5.0, 1e4), ["floor", "rope", "diameter"]),
         (
             lambda m, r: m.winch(
                 m.add_beam("b", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=ROPE).at(0.5), 1

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from .acceptance import acceptance, time_above
 from .catalogue import line_file, line_names, read_line
+from .clamp_strain import ClampStrain, clamp_strains
 from .conditions import Conditions
+from .cycles import Cycles, FatigueLine, rainflow
 from .elasticity import Elasticity, elasticity
 from .fittings import Droppers, Load, SteadyArm, Tensioner
 from .form import Form
@@ -32,10 +35,13 @@ from .write import write_run
 
 __all__ = [
     "Butterworth",
+    "ClampStrain",
     "Conditions",
+    "Cycles",
     "DropperRule",
     "Droppers",
     "Elasticity",
+    "FatigueLine",
     "Form",
     "Line",
     "Load",
@@ -57,8 +63,10 @@ __all__ = [
     "Verified",
     "Wire",
     "WireType",
+    "acceptance",
     "add_pantograph",
     "assemble",
+    "clamp_strains",
     "dropper_errors",
     "elasticity",
     "find_pantograph",
@@ -67,6 +75,7 @@ __all__ = [
     "line_file",
     "line_names",
     "pantographs",
+    "rainflow",
     "read_line",
     "read_pantograph",
     "reference_case",
@@ -75,6 +84,7 @@ __all__ = [
     "rows",
     "run",
     "statistics",
+    "time_above",
     "verify",
     "wire",
     "wires",

@@ -68,7 +68,7 @@ def shown(value: float | None, unit: str = "") -> str:
     """A number as a table shows it: digits that an engineer reads, by unit."""
     if value is None:
         return ""
-    digits = {"N": 1, "mm": 1, "%": 2, "ms": 1, "km/h": 1, "": 3, "count": 0}.get(unit, 4)
+    digits = {"N": 1, "mm": 1, "%": 2, "ms": 1, "km/h": 1, "": 3, "count": 0, "1e-6": 0}.get(unit, 4)
     text = f"{value:.{digits}f}"
     return text.replace("-", "\N{MINUS SIGN}") if float(text) else text.lstrip("-")
 

@@ -208,7 +208,7 @@ def _integrator(plan: Plan) -> ancf.GeneralizedAlpha:
 
 def _collectors(overhead: Assembled, plan: Plan, active: bool) -> list[Collector]:
     """Add the pantographs where they come to rest."""
-    heights, count = _lifted(plan), len(plan.places)
+    heights, count = _lifted(overhead, plan), len(plan.places)
     collectors = []
     for k, place in enumerate(plan.places):
         collectors.append(
@@ -229,9 +229,8 @@ def _collectors(overhead: Assembled, plan: Plan, active: bool) -> list[Collector
     return collectors
 
 
-def _lifted(plan: Plan) -> list[float]:
+def _lifted(overhead: Assembled, plan: Plan) -> list[float]:
     """Heights of the wire at the pantographs' places when it is lifted by their forces."""
-    overhead = plan.door.overhead(plan.form)
     return lifted_heights(overhead, plan.places, [plan.lift(k) for k in range(len(plan.places))])
 
 
@@ -326,4 +325,5 @@ def _recording(sensors: Any, collector: Collector) -> Recording:
         height=head[:, 2] + np.where(np.isfinite(gap), gap, 0.0),
         stagger=head[:, 1] + asides[nearest, every],
         strip=head[:, 2],
+        by_wire=np.stack(forces, axis=1),
     )

@@ -35,6 +35,8 @@ class Recording:
         Sideways position of the contact point, m.
     strip : (n,) float
         Height of the strip, m.
+    by_wire : (n, wires) float, optional
+        The force on each contact wire, of which `force` is the sum; default one wire that takes all.
 
     Raises
     ------
@@ -49,12 +51,22 @@ class Recording:
     height: FloatArray
     stagger: FloatArray
     strip: FloatArray
+    by_wire: FloatArray | None = None
 
     def __post_init__(self) -> None:
         where = f'recording "{self.name}"'
         count = (np.size(self.position),)
         for field in ("position", "force", "height", "stagger", "strip"):
             _check(getattr(self, field), count, f"{where}.{field}")
+        if self.by_wire is not None:
+            _check(self.by_wire, (*count, self.by_wire.shape[-1]), f"{where}.by_wire")
+
+    def force_on(self, wire: int) -> FloatArray:
+        """Force (n,) on one of the contact wires, N."""
+        if self.by_wire is None:
+            return self.force if wire == 0 else np.zeros_like(self.force)
+        part: FloatArray = self.by_wire[:, wire]
+        return part
 
 
 @dataclass(frozen=True)

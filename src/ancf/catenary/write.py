@@ -12,7 +12,10 @@ import numpy as np
 
 from .._version import __version__
 from ..files import cell, to_json, write_text
-from .passing import dropper_forces
+from .acceptance import acceptance
+from .clamp_strain import bends, clamp_strains
+from .cycles import rainflow
+from .passing import dropper_forces, dropper_places
 from .signals import Intervals
 from .statistics import Statistics, statistics
 
@@ -20,12 +23,14 @@ if TYPE_CHECKING:
     from .run_data import Run
 
 Cell = str | int | float | bool | None
+#: Share of the largest range of a history below which cycles are not listed.
+LEAST_RANGE = 0.01
 #: Significant digits of a number in a history.
 DIGITS = 9
 
 
 def write_run(run: Run, folder: str | Path, found: Sequence[Statistics] | None = None) -> list[Path]:
-    """Write ``statistics.csv``, ``statistics.json``, ``force_N.csv``, ``uplift.csv`` and ``droppers.csv``.
+    """Write statistics as CSV and JSON, ``force_N.csv``, ``uplift.csv``, ``droppers.csv`` and ``cycles.csv``.
 
     Parameters
     ----------
@@ -54,6 +59,7 @@ def write_run(run: Run, folder: str | Path, found: Sequence[Statistics] | None =
         files.append(write_force(run, k, chosen[k], folder / f"force_{k + 1}.csv"))
     files.append(write_uplift(run, chosen, folder / "uplift.csv"))
     files.append(write_droppers(run, folder / "droppers.csv"))
+    files.append(write_cycles(run, folder / "cycles.csv"))
     return files
 
 
@@ -78,6 +84,7 @@ def _of_pantograph(run: Run, k: int, found: Statistics) -> dict[str, Any]:
         "name": found.pantograph,
         "title": run.pantographs[k].title,
         "statistics": [{"key": q.key, **q.row} for q in found.quantities],
+        "acceptance": [{"key": q.key, **q.row} for q in acceptance(run, k, found=found)],
         "uplift_mm": [
             {"support": s.number, "position_m": s.position, "uplift_mm": 1e3 * s.uplift}
             for s in found.supports
@@ -134,6 +141,25 @@ def write_droppers(run: Run, path: Path) -> Path:
         for d in dropper_forces(run)
     ]
     return _write_csv(path, (*head, *slack), rows)
+
+
+def write_cycles(run: Run, path: Path) -> Path:
+    """One row for each cycle, by rainflow: of the droppers of the window in N, of the strain at their clamps.
+
+    Ranges below a hundredth of the largest one are left out.
+    """
+    places, (low, high) = dropper_places(run), run.window
+    forces = [(*place, rainflow(run.dropper_force[:, j])) for j, place in enumerate(places)]
+    strains = clamp_strains(run) if bends(run.form.line) else []
+    counted = [("force_N", *one) for one in forces if low <= one[2] <= high]
+    counted += [("strain", c.span, c.number, c.position, c.cycles) for c in strains]
+    rows = [
+        (kind, span, number, x, *row)
+        for kind, span, number, x, cycles in counted
+        for row in zip(cycles.range.tolist(), cycles.mean.tolist(), cycles.count.tolist(), strict=True)
+        if row[0] >= LEAST_RANGE * cycles.largest
+    ]
+    return _write_csv(path, ("quantity", "span", "dropper", "position_m", "range", "mean", "count"), rows)
 
 
 def _slack(slack: Intervals) -> tuple[int, float, float]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import typer
 
-from .common_options import Folder, OptionalFolder, Quiet, Report, Set, States
+from .common_options import Folder, OptionalFolder, Quiet, Report, Set, States, To
 from .guard import reported
 from .line_options import (
     ContactKind,
@@ -17,12 +17,15 @@ from .line_options import (
     OutputStep,
     Pantographs,
     Spacing,
+    Spacings,
     Speed,
+    Speeds,
     Start,
     Step,
     Until,
     Window,
 )
+from .study_options import Retry, Workers
 
 catenary = typer.Typer(help="Overhead lines.", no_args_is_help=True, rich_markup_mode=None)
 
@@ -58,13 +61,14 @@ def catenary_run(
     output_step: OutputStep = None,
     states: States = True,
     report: Report = True,
+    to: To = None,
     quiet: Quiet = False,
     given: Set = None,
 ) -> None:
     """Run pantographs along an overhead line.
 
-    Writes OUT/results.h5 for ancf view and ancf export, OUT/run.json, CSV files and OUT/report.html, and
-    prints the statistics of the contact force.
+    Writes OUT/results.h5 for ancf view and ancf export, OUT/run.json, CSV files and OUT/report.html (also
+    as PDF and DOCX), and prints the statistics of the contact force.
     """
     with reported():
         from .catenary_run import run_line
@@ -72,7 +76,38 @@ def catenary_run(
         options = {"spacing": spacing, "start": start, "window": window, "contact": contact, "step": step}
         options |= {"output_step": output_step, "until": until, "contact_stiffness": contact_stiffness}
         options["mesh"] = mesh
-        run_line(line, speed, pantograph, options, output, report, states, quiet, given)
+        run_line(line, speed, pantograph, options, output, report, states, quiet, given, to)
+
+
+@catenary.command("sweep")
+def catenary_sweep(
+    line: LineName,
+    speed: Speeds,
+    output: Folder = Path("out"),
+    spacing: Spacings = None,
+    pantograph: Pantographs = None,
+    start: Start = None,
+    window: Window = None,
+    until: Until = None,
+    step: Step = None,
+    mesh: Elements = None,
+    workers: Workers = None,
+    retry: Retry = False,
+    to: To = None,
+    quiet: Quiet = False,
+    given: Set = None,
+) -> None:
+    """Run pantographs along an overhead line at many speeds, and distances of a second one.
+
+    Writes OUT/table.csv with a row for each case and OUT/report.html (also as PDF and DOCX). Cases run in
+    parallel; the same command goes on after any end.
+    """
+    with reported():
+        from .catenary_sweep import sweep_line
+
+        options = {"start": start, "window": window, "until": until, "step": step, "mesh": mesh}
+        options |= {"workers": workers, "retry": retry}
+        sweep_line(line, speed, spacing, pantograph, options, output, to, quiet, given)
 
 
 @catenary.command("elasticity")

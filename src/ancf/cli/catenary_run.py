@@ -29,6 +29,7 @@ def run_line(
     states: bool = True,
     quiet: bool = False,
     changes: list[str] | None = None,
+    to: str | None = None,
 ) -> None:
     """Run, write and print.
 
@@ -44,8 +45,10 @@ def run_line(
     from ..model.checks import positive
     from ..model.file.paths import assignments
     from ..model.settings import MOST_STEPS
+    from ..viz.printed import chosen
     from ..viz.style import require_matplotlib
 
+    formats = chosen(to) if report else ()
     speed = positive(speed_kmh, "--speed") / 3.6
     line = read_line(name, assignments(changes))
     if report:
@@ -67,7 +70,7 @@ def run_line(
             warnings.simplefilter("always")
             with screen.progress(1) as progress, _kept(given["file"]):
                 done = run(line, speed=speed, progress=progress, **given)
-        files = [*([output.results] if states else []), *_written(done, folder, report)]
+        files = [*([output.results] if states else []), *_written(done, folder, formats)]
     if not quiet:
         for warning in caught:
             console().print(f"warning: {warning.message}", soft_wrap=True)
@@ -87,19 +90,19 @@ def _kept(results: Path | None) -> Iterator[None]:
         raise
 
 
-def _written(done: Run, folder: Path, report: bool) -> list[Path]:
+def _written(done: Run, folder: Path, formats: tuple[str, ...]) -> list[Path]:
     from ..catenary.statistics import statistics
     from ..catenary.write import summary, write_json, write_run
 
     found = [statistics(done, k) for k in range(len(done.recordings))]
     files = [write_json(summary(done, found), folder / "run.json"), *write_run(done, folder, found)]
-    if report:
+    if formats:
         from ..catenary.elasticity import elasticity_beside
-        from ..catenary.report import write_report
+        from ..catenary.report import write_reports
 
         gives = elasticity_beside(done.form.line)
         files.append(gives.save(folder / "elasticity.csv"))
-        files.append(write_report(done, folder / "report.html", elasticity=gives))
+        files += write_reports(done, folder, formats, elasticity=gives)
     return files
 
 

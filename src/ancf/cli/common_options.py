@@ -43,6 +43,14 @@ States = Annotated[
     bool, typer.Option(help="Write OUT/results.h5 as well, some 10 to 100 MB for ancf view and ancf export.")
 ]
 Report = Annotated[bool, typer.Option(help="Write OUT/report.html as well, which needs matplotlib.")]
+To = Annotated[
+    str | None,
+    typer.Option(
+        metavar="FORMATS",
+        help='Of the report, such as "html,pdf,docx"; PDF and DOCX need the extra report.',
+        show_default="all that are installed",
+    ),
+]
 SchemaFile = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="FILE", help="File to write, instead of printing it.")
 ]

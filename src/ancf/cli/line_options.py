@@ -17,6 +17,18 @@ Case = Annotated[
     ),
 ]
 Speed = Annotated[float, typer.Option("--speed", metavar="KMH", help="Speed, km/h.", show_default=False)]
+Speeds = Annotated[
+    str,
+    typer.Option(
+        "--speed", metavar="KMH", help='Speeds, km/h: "160:320:20" or "200,250".', show_default=False
+    ),
+]
+Spacings = Annotated[
+    str | None,
+    typer.Option(
+        "--spacing", metavar="M", help='Distances of a second pantograph, m: "150:250:25" or "200".'
+    ),
+]
 CaseSpeed = Annotated[
     float | None, typer.Option("--speed", metavar="KMH", help="Speed of a line, km/h.", show_default=False)
 ]

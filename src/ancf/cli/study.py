@@ -40,7 +40,7 @@ def run_study(path: Path, folder: Path, options: dict[str, Any], quiet: bool = F
         require_matplotlib()
     given, screen = read_study_file(path), Screen(quiet)
     try:
-        with _progress(screen) as progress:
+        with cases_progress(screen) as progress:
             more = {"folder": folder, "progress": progress, "title": given.title, "files": files}
             study(given.case, given.samples, **more, **options)
     except KeyboardInterrupt as error:
@@ -62,7 +62,7 @@ def show_status(folder: Path) -> None:
 
 
 @contextmanager
-def _progress(screen: Screen) -> Iterator[Any]:
+def cases_progress(screen: Screen) -> Iterator[Any]:
     """What ``study(progress=...)`` gets: a bar in a terminal, else a line for every tenth."""
     if screen.quiet:
         yield None

@@ -14,6 +14,7 @@ from ..results.store import MemoryStore
 from ..solvers.quick import DONE, PACKED, Quick
 from ..solvers.status import EVENT, OK, SLOW
 from ..solvers.stepping import Run
+from ..system.drives import driven_steps
 from ..system.inputs import on_grid
 
 #: Steps ahead.
@@ -43,7 +44,8 @@ class Ahead:
         self.tables, self.out = bundle.tables, bundle.out
         self.quick = Quick(bundle)
         self.step = self.quick.step
-        self.cells = None if any(f.uses_t for *_, f in self.led) else self._cells()
+        slow = bool(self.inputs.drives) or any(f.uses_t for *_, f in self.led)
+        self.cells = None if slow else self._cells()
         self.row: Any = self.tables.value.reshape(-1).data
         self.sure = False  # the next step may be taken by the shortest way
         self.base = run.done  # steps before the first row
@@ -131,6 +133,8 @@ class Ahead:
         run.store(-1, self.at, self.out)
         self.at += 1
         run.done += 1
+        if self.inputs.drives:  # lengths go on from where the parts of the step have left them
+            self.given, self.width = self.at, 1
 
     def tabulate(self, wanted: int) -> None:
         """Functions of time of the next steps; of those that are wanted if one fails further on."""
@@ -138,7 +142,8 @@ class Ahead:
         run = self.run
         for rows in (ROWS, min(wanted, ROWS), 1):
             try:
-                found = self.inputs.tables(run.time(run.done), run.h, rows, run.t_start, run.t_end)
+                times = run.time(run.done), run.h, rows, run.t_start, run.t_end
+                found = self.inputs.tables(*times, self.here)
                 break
             except ModelError:
                 if rows == 1:
@@ -153,6 +158,11 @@ class Ahead:
         first = self.given
         last = min(first + max(count, self.width), self.rows)
         self.width *= 2
+        try:
+            self.drive(first, last)
+        except ModelError:  # perhaps further on than is asked for
+            last = self.at + count
+            self.drive(first, last)
         value, given, times = self.tables.value, self.inputs.given, np.zeros(0)
         for load, component, formula in self.led:
             if not formula.uses_t:
@@ -167,6 +177,22 @@ class Ahead:
             if not sound:  # this says where, when and what
                 self.inputs.loads[load].under(given, self.times(first, last))
         self.given = last
+
+    @property
+    def here(self) -> tuple[FloatArray, FloatArray]:
+        """State vectors now."""
+        return self.run.memory.q, self.run.memory.v
+
+    def drive(self, first: int, last: int) -> None:
+        """Lengths that follow from step to step in the rows from ``first`` to ``last``."""
+        for drive in self.inputs.drives:
+            if first == self.at:
+                length, rate = (float(x[drive.unknown]) for x in self.here)
+            else:
+                length, rate = self.tables.motion[first - 1, drive.column, :2].tolist()
+            times = self.times(first, last)
+            found = driven_steps(drive.winch, length, rate, times, self.run.h, self.inputs.given)
+            drive.put(self.tables, slice(first, last), found)
 
     def times(self, first: int, last: int) -> FloatArray:
         """Times at the ends of the steps of some rows, s."""

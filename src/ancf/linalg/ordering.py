@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, eye_array
 from scipy.sparse.csgraph import reverse_cuthill_mckee
@@ -32,12 +34,19 @@ def fill_pattern(pairs: IntArray, n: int) -> tuple[IntArray, IntArray]:
     column : ndarray
         Columns j < i of the blocks L_ij, ascending in each row.
     """
+    rows = [sorted(row) for row in _rows(pairs, n)]
+    row_start = np.concatenate([[0], np.cumsum([len(r) for r in rows])]).astype(np.int64)
+    column = np.array([j for r in rows for j in r], dtype=np.int64)
+    return row_start, column
+
+
+def _rows(pairs: IntArray, n: int) -> Iterator[set[int]]:
+    """Columns of the blocks of L, row by row."""
     neighbours: list[set[int]] = [set() for _ in range(n)]
     for i, j in pairs.tolist():
         if i != j:
             neighbours[max(i, j)].add(min(i, j))
     parent = [-1] * n
-    rows: list[list[int]] = []
     for i in range(n):
         row: set[int] = set()
         for j in sorted(neighbours[i]):
@@ -46,10 +55,17 @@ def fill_pattern(pairs: IntArray, n: int) -> tuple[IntArray, IntArray]:
                 if parent[j] < 0:
                     parent[j] = i
                 j = parent[j]
-        rows.append(sorted(row))
-    row_start = np.concatenate([[0], np.cumsum([len(r) for r in rows])]).astype(np.int64)
-    column = np.array([j for r in rows for j in r], dtype=np.int64)
-    return row_start, column
+        yield row
+
+
+def _count(pairs: IntArray, n: int, most: float = np.inf) -> float:
+    """Number of the blocks of L; infinite as soon as there are more than so many."""
+    count = 0
+    for row in _rows(pairs, n):
+        count += len(row)
+        if count > most:
+            return np.inf
+    return count
 
 
 def order(pairs: IntArray, n: int) -> tuple[IntArray, str]:
@@ -66,16 +82,16 @@ def order(pairs: IntArray, n: int) -> tuple[IntArray, str]:
     name : str
         ``"as given"``, ``"band"`` or ``"minimum degree"``.
     """
-    candidates = {"as given": np.arange(n)}
-    counts = {"as given": len(fill_pattern(pairs, n)[1])}
+    given = np.arange(n)
     least = len({(min(p), max(p)) for p in map(tuple, pairs.tolist()) if p[0] != p[1]})
-    if counts["as given"] <= NEAR * least:  # no other order can be better by more
-        return candidates["as given"], "as given"
-    candidates["band"] = band(pairs, n)
-    counts["band"] = len(fill_pattern(candidates["band"][pairs], n)[1])
-    if min(counts.values()) > 1.02 * least:  # a tree or a chain cannot do better than no fill
+    if _count(pairs, n, NEAR * least) <= NEAR * least:  # no other order can be better by more
+        return given, "as given"
+    candidates = {"as given": given, "band": band(pairs, n)}
+    counts = {"band": _count(candidates["band"][pairs], n)}
+    if counts["band"] > 1.02 * least:  # a tree or a chain cannot do better than no fill
         candidates[MINIMUM_DEGREE] = _minimum_degree(pairs, n)
-        counts[MINIMUM_DEGREE] = len(fill_pattern(candidates[MINIMUM_DEGREE][pairs], n)[1])
+        counts[MINIMUM_DEGREE] = _count(candidates[MINIMUM_DEGREE][pairs], n)
+    counts["as given"] = _count(pairs, n, NEAR * min(counts.values()))
     best = min(counts.values())
     name = next(k for k in candidates if counts[k] <= NEAR * best)
     return candidates[name], name

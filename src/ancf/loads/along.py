@@ -9,6 +9,10 @@ The piece reaches from the sum of the weights before it to that with its own, so
 cover it; ``shift[e, p]`` is the way from the point to the middle of its piece.
 
 A point mass or the centre of a rigid body is a row with one point of weight 1 and without a slope.
+
+Of a cable with a winch (:mod:`ancf.elements.winched`) the piece holds lam times that length of the material,
+which passes the point: with D = X d/dX and mu = (dL/dt)/L its velocity is w = v - mu D r, its acceleration
+a - (dmu/dt) D r - mu (2 D v - mu D D r), and a force f on it does the work f.w, so that -f.D r/L acts on L.
 """
 
 from __future__ import annotations
@@ -65,6 +69,66 @@ def along(
     return fields, owners
 
 
+def joined(parts: list[dict[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
+    """Rows of many :func:`along`, of one width."""
+    k = max(part["base"].shape[1] for part in parts)
+    found: dict[str, NDArray[Any]] = {}
+    empties: dict[str, Any] = {"base": -1, "shape": 0.0, "slope": 0.0}
+    for key, empty in empties.items():
+        found[key] = np.concatenate([_widened(part[key], k, empty) for part in parts])
+    for key in ("weight", "shift"):
+        found[key] = np.concatenate([part[key] for part in parts])
+    found["dest"] = np.full((len(found["base"]), k * k), -1, dtype=np.int64)
+    return found
+
+
+def _widened(x: NDArray[Any], k: int, empty: Any) -> NDArray[Any]:
+    wide = np.full((*x.shape[:-1], k), empty, dtype=x.dtype)
+    wide[..., : x.shape[-1]] = x
+    return wide
+
+
+def wound(bodies: Iterable[Body], locate: Callable[[Any], Any], points: int) -> dict[str, NDArray[Any]]:
+    """Fields ``winch``, ``unwound``, ``passing``, ``twice`` for the rows that :func:`along` gives.
+
+    The unknown of the length, -1 for none, and 1/L0; factors of D r and D D r at the points, which have no
+    rows where there is no winch.
+    """
+    unknowns: list[int] = []
+    lengths: list[float] = []
+    rows: list[Any] = []
+    xi, _ = gauss(points)
+    for body in bodies:
+        end = locate(body.start) if isinstance(body, Beam) else None
+        unknown = getattr(end, "unknown", -1)
+        count = body.elements if isinstance(body, Beam) else 1
+        unknowns += [unknown] * count
+        lengths += [1.0 / body.length if unknown >= 0 else 0.0] * count  # type: ignore[union-attr]
+        rows += _passing(body, end, xi) if unknown >= 0 else [None] * count
+    n, k = len(rows), max((len(row[0][0]) for row in rows if row), default=0)
+    factors = np.zeros((2, n if k else 0, points, k))
+    for e, row in enumerate(rows):
+        if row:
+            factors[:, e] = row
+    return {
+        "winch": np.array(unknowns, dtype=np.int64),
+        "unwound": np.array(lengths),
+        "passing": factors[0],
+        "twice": factors[1],
+    }
+
+
+def _passing(beam: Any, end: Any, xi: Any) -> list[Any]:
+    """Factors of D r and D D r at the points of each element."""
+    shape, rows = ELEMENTS[beam.element].shape, []
+    for a, b in zip(beam.node_x[:-1].tolist(), beam.node_x[1:].tolist(), strict=True):
+        h = b - a
+        X = (a + xi * h - end.far)[:, None]
+        slope, bend = (shape(beam.element, xi, h, derivative=name) for name in ("r_x", "r_xx"))
+        rows.append((X * slope, X * (slope + X * bend)))
+    return rows
+
+
 def _of_beam(beam: Beam, locate: Callable[[Any], Any], xi: Any, w: Any) -> list[tuple[Any, ...]]:
     """Slots, factors and weights of each element."""
     shape, made = ELEMENTS[beam.element].shape, {}
@@ -103,6 +167,53 @@ def place_at(batch, e, p, q):
 
 
 @inline_kernel
+def stretch_at(batch, e, q):
+    """Length of the material in row e as a multiple of that of the mesh."""
+    i = batch.winch[e]
+    return q[i] * batch.unwound[e] if i >= 0 else 1.0
+
+
+@inline_kernel
+def passed(base, factors, e, p, q):
+    """Sum of factors of point p of row e times q."""
+    x, y, z = 0.0, 0.0, 0.0
+    for k in range(factors.shape[2]):
+        i, w = base[e, k], factors[e, p, k]
+        if i >= 0:
+            x += w * q[i]
+            y += w * q[i + 1]
+            z += w * q[i + 2]
+    return x, y, z
+
+
+@inline_kernel
+def velocity_at(batch, e, p, q, v):
+    """Velocity of the material at point p of row e."""
+    u, i = place_at(batch, e, p, v), batch.winch[e]
+    if i < 0:
+        return u
+    mu, d = v[i] / q[i], passed(batch.base, batch.passing, e, p, q)
+    return u[0] - mu * d[0], u[1] - mu * d[1], u[2] - mu * d[2]
+
+
+@inline_kernel
+def acceleration_at(batch, e, p, q, v, a):
+    """Acceleration of the material at point p of row e."""
+    b, i = place_at(batch, e, p, a), batch.winch[e]
+    if i < 0:
+        return b
+    mu = v[i] / q[i]
+    dmu = a[i] / q[i] - mu * mu
+    d, dv = passed(batch.base, batch.passing, e, p, q), passed(batch.base, batch.passing, e, p, v)
+    dd = passed(batch.base, batch.twice, e, p, q)
+    return (
+        b[0] - dmu * d[0] - mu * (2.0 * dv[0] - mu * dd[0]),
+        b[1] - dmu * d[1] - mu * (2.0 * dv[1] - mu * dd[1]),
+        b[2] - dmu * d[2] - mu * (2.0 * dv[2] - mu * dd[2]),
+    )
+
+
+@inline_kernel
 def tangent_at(batch, e, p, q):
     """Unit tangent t and the length of r_x; zeros for a point without a slope."""
     x, y, z = 0.0, 0.0, 0.0
@@ -127,6 +238,27 @@ def add_along(batch, e, p, fx, fy, fz, r):
             r[i] -= w * fx
             r[i + 1] -= w * fy
             r[i + 2] -= w * fz
+
+
+@inline_kernel
+def add_material(batch, e, p, fx, fy, fz, q, r):
+    """Subtract a force on point p of row e, per length of the material; also what acts on its length."""
+    lam, i = stretch_at(batch, e, q), batch.winch[e]
+    add_along(batch, e, p, lam * fx, lam * fy, lam * fz, r)
+    if i >= 0:
+        d = passed(batch.base, batch.passing, e, p, q)
+        r[i] += batch.weight[e, p] * batch.unwound[e] * (fx * d[0] + fy * d[1] + fz * d[2])
+
+
+@inline_kernel
+def scaled(factor, rows):
+    """A factor times a 3x3 matrix, of three tuples."""
+    a, b, c = rows
+    return (
+        (factor * a[0], factor * a[1], factor * a[2]),
+        (factor * b[0], factor * b[1], factor * b[2]),
+        (factor * c[0], factor * c[1], factor * c[2]),
+    )
 
 
 @inline_kernel

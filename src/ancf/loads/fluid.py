@@ -28,7 +28,19 @@ from ..compiled import Role, implements, inline_kernel
 from ..model.beam import Beam
 from ..model.fluids import STEP, require_section
 from . import gusts
-from .along import add_along, add_block_along, add_slope_block_along, along, place_at, tangent_at
+from .along import (
+    acceleration_at,
+    add_block_along,
+    add_material,
+    add_slope_block_along,
+    along,
+    joined,
+    place_at,
+    stretch_at,
+    tangent_at,
+    velocity_at,
+    wound,
+)
 from .law_functions import address_of
 from .state_force import call
 from .waves import KEPT, RATE, RISE, SPEED, TIME, renew_waves, tables, under
@@ -57,6 +69,10 @@ class FluidBatch(NamedTuple):
     slope: FloatArray  # (n, points, k)
     weight: FloatArray  # (n, points) m
     shift: FloatArray  # (n, points) m
+    winch: NDArray[np.int64]  # (n,) see loads/along.py
+    unwound: FloatArray  # (n,) 1/m
+    passing: FloatArray  # (n, points, k)
+    twice: FloatArray  # (n, points, k)
     fluid: NDArray[np.int64]  # (n,) which fluid
     data: FloatArray  # (n, 6) columns AREA ... MASS_T
     fluids: FloatArray  # (m, 6) columns DENSITY ... GRAVITY
@@ -82,25 +98,27 @@ class FluidBatch(NamedTuple):
 
 def build(items, locate, value, model):
     """Batch of these fluids; ModelError if a section lacks what they need."""
-    fields, rows, which = [], [], []
+    parts, rows, which, everybody = [], [], [], []
     for k, item in enumerate(items):
         bodies = [body for name, body in model.bodies.items() if item.acts_on(name) and _takes_part(body)]
         for body in bodies:
             if isinstance(body, Beam):
                 require_section(item, body, ("diameter", "drag"))
         found, owners = along(bodies, locate, POINTS)
-        fields.append(found)
+        parts.append(found)
+        everybody += bodies
         rows += [_data(body) for body in owners]
         which += [k] * len(owners)
     heights = [item.velocity.heights for item in items]
-    joined = _joined(fields)
-    kept = np.zeros((*joined["weight"].shape, KEPT))
+    fields = joined(parts)
+    kept = np.zeros((*fields["weight"].shape, KEPT))
     kept[..., TIME] = np.inf
     law = np.array([_law(item.velocity) for item in items], dtype=np.int64)
     once = np.array([bool(item.velocity.once) for item in items])
     said = np.full((len(kept) if np.any(once) else 0, POINTS, SAID), np.inf)
     return FluidBatch(
-        **joined,
+        **fields,
+        **wound(everybody, locate, POINTS),
         **tables(items, model.gravity),
         **gusts.tables(items),
         kept=kept,
@@ -118,24 +136,6 @@ def build(items, locate, value, model):
         numbers=np.zeros(9),
         value=value,
     )
-
-
-def _joined(parts):
-    """Rows of all fluids, of one width."""
-    k = max(part["base"].shape[1] for part in parts)
-    joined = {}
-    for key, empty in (("base", -1), ("shape", 0.0), ("slope", 0.0)):
-        joined[key] = np.concatenate([_widened(part[key], k, empty) for part in parts])
-    for key in ("weight", "shift"):
-        joined[key] = np.concatenate([part[key] for part in parts])
-    joined["dest"] = np.full((len(joined["base"]), k * k), -1, dtype=np.int64)
-    return joined
-
-
-def _widened(x, k, empty):
-    wide = np.full((*x.shape[:-1], k), empty, dtype=x.dtype)
-    wide[..., : x.shape[-1]] = x
-    return wide
 
 
 def _takes_part(body):
@@ -293,16 +293,15 @@ def fluid_force(batch, q, v, a, r, ws):
         for p in range(batch.weight.shape[1]):
             if batch.weight[e, p] == 0.0:
                 continue
-            at, own = place_at(batch, e, p, q), place_at(batch, e, p, v)
+            at, own = place_at(batch, e, p, q), velocity_at(batch, e, p, q, v)
             t, size = tangent_at(batch, e, p, q)
             u, du, rise = flow(batch, e, p, k, at, own)
             part, _ = wetted(batch, e, p, at[2], t, size, rise)
             if part == 0.0:
                 continue
             wt, n, speed = apart((u[0] - own[0], u[1] - own[1], u[2] - own[2]), t)
-            bx, by, bz = place_at(batch, e, p, a)
             ft, fn, _ = apart(du, t)
-            bt, bn, _ = apart((bx, by, bz), t)
+            bt, bn, _ = apart(acceleration_at(batch, e, p, q, v, a), t)
             rho = part * fluid[DENSITY]
             m, mn, mt = rho * data[AREA], data[MASS_N], data[MASS_T]
             lift = -share * m
@@ -312,7 +311,7 @@ def fluid_force(batch, q, v, a, r, ws):
             fy = dn * n[1] + along_t * t[1] + m * ((1.0 + mn) * fn[1] - mn * bn[1])
             fz = dn * n[2] + along_t * t[2] + m * ((1.0 + mn) * fn[2] - mn * bn[2])
             g = fluid[GRAVITY], fluid[GRAVITY + 1], fluid[GRAVITY + 2]
-            add_along(batch, e, p, fx + lift * g[0], fy + lift * g[1], fz + lift * g[2], r)
+            add_material(batch, e, p, fx + lift * g[0], fy + lift * g[1], fz + lift * g[2], q, r)
 
 
 @inline_kernel
@@ -358,16 +357,17 @@ def fluid_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
         for p in range(batch.weight.shape[1]):
             if batch.weight[e, p] == 0.0:
                 continue
-            at, own = place_at(batch, e, p, q), place_at(batch, e, p, v)
+            at, own = place_at(batch, e, p, q), velocity_at(batch, e, p, q, v)
             t, size = tangent_at(batch, e, p, q)
             u, _, rise = flow(batch, e, p, k, at, own)
             part, rising = wetted(batch, e, p, at[2], t, size, rise)
             if part == 0.0 and rising == 0.0:
                 continue
-            rho = part * fluid[DENSITY]
+            lam = stretch_at(batch, e, q)
+            rho = lam * part * fluid[DENSITY]
             m = c_mass * rho * data[AREA]
             one, nn, tt = m * data[MASS_N], 0.0, m * (data[MASS_T] - data[MASS_N])
-            lift = batch.value[k, CLOCK, 1] * fluid[DENSITY] * data[AREA] * fluid[GRAVITY + 2]
+            lift = lam * batch.value[k, CLOCK, 1] * fluid[DENSITY] * data[AREA] * fluid[GRAVITY + 2]
             zz = c_stiffness * lift * rising
             n = 0.0, 0.0, 0.0
             if batch.moves[k] or c_damping != 0.0:
@@ -391,6 +391,7 @@ implements(
     force=fluid_force,
     tangent=fluid_tangent,
     role=Role.EXTERNAL,
+    slots=("base", "winch"),
     follows=lambda batch: bool(np.any(batch.moves)),
     turning_mass=lambda batch: bool(np.any(batch.data[:, MASS_N] != batch.data[:, MASS_T])),
 )

@@ -16,6 +16,13 @@ distance limit/(d k_t).  Anchors and limits are memory: they change once for eac
 ``ground_remember``.  A limit that is that of the step before keeps the matrix symmetric and the iteration
 stable.  In an equilibrium the anchors are the places of the initial shape, so that friction opposes the way
 from there, whatever the load steps are; it comes on last, with limits that are renewed until they fit.
+
+Along a cable with a winch the material takes its anchors along: what is at X was at X' = X lam'/lam at the
+last accepted step.  With xi = r - anchor and the length L' of that step the anchor of a point is
+
+    anchor(X', L') = anchor + (L/L' - 1) drift,     drift = X d(r - xi)/dX,
+
+where r has its slope, and xi the difference to the point from which the material comes.
 """
 
 from __future__ import annotations
@@ -28,12 +35,23 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel, kernel
+from ..elements.shapes import gauss
 from ..errors import ModelError
 from ..model.beam import Beam
 from ..model.fluids import require_section
 from ..model.grounds import Relief
 from ..model.points import initial_position
-from .along import add_along, add_block_along, along, place_at
+from .along import (
+    add_block_along,
+    add_material,
+    along,
+    passed,
+    place_at,
+    scaled,
+    stretch_at,
+    velocity_at,
+    wound,
+)
 
 #: Gauss points of an element.
 POINTS = 10
@@ -54,6 +72,12 @@ class GroundBatch(NamedTuple):
     slope: FloatArray  # (n, points, k)
     weight: FloatArray  # (n, points) m
     shift: FloatArray  # (n, points) m
+    winch: NDArray[np.int64]  # (n,) see loads/along.py
+    unwound: FloatArray  # (n,) 1/m
+    passing: FloatArray  # (n, points, k)
+    twice: FloatArray  # (n, points, k)
+    label: FloatArray  # (n, points) X of cables with a winch, m
+    beside: NDArray[np.int64]  # (n, 2) rows that go on towards the far end and the winch, -1: none
     ground: NDArray[np.int64]  # (n,) which ground
     diameter: FloatArray  # (n,)
     grounds: FloatArray  # (m, 11) columns PLACE ... DRAG
@@ -61,6 +85,8 @@ class GroundBatch(NamedTuple):
     table: FloatArray  # (j,) x, y and z of the tables, one after the other
     anchor: FloatArray  # (n, points, 3) memory: where friction has no force
     limit: FloatArray  # (n, points) memory: largest friction, N/m
+    drift: FloatArray  # (n, points, 3) memory: by how much anchors move with the length; no rows: no winch
+    since: FloatArray  # (n,) memory: length at the last accepted step, m, 0: none; no rows as well
 
 
 def build(items, locate, value, model):
@@ -72,12 +98,17 @@ def build(items, locate, value, model):
                 require_section(item, body, ("diameter",))
                 _refuse_buried(item, body, model)
                 pairs.append((k, body))
-    fields, owners = along([body for _, body in pairs], locate, POINTS)
+    bodies = [body for _, body in pairs]
+    fields, owners = along(bodies, locate, POINTS)
     which = [k for k, body in pairs for _ in range(body.elements)]
     tables = [_table(item) for item in items]
     starts = np.cumsum([0, *(len(table) for _, _, table in tables)])
+    winches = wound(bodies, locate, POINTS)
+    moved = len(winches["passing"])
     return GroundBatch(
         **fields,
+        **winches,
+        **_order(bodies, locate),
         ground=np.array(which, dtype=np.int64),
         diameter=np.array([body.section.diameter for body in owners], dtype=np.float64),
         grounds=np.array([_numbers(item) for item in items]),
@@ -85,7 +116,24 @@ def build(items, locate, value, model):
         table=np.concatenate([t[2] for t in tables]),
         anchor=np.zeros((len(owners), POINTS, 3)),
         limit=np.zeros((len(owners), POINTS)),
+        drift=np.zeros((moved, POINTS, 3)),
+        since=np.zeros(moved),
     )
+
+
+def _order(bodies, locate):
+    """Fields ``label`` and ``beside``."""
+    xi, _ = gauss(POINTS)
+    label, beside = [np.zeros((0, POINTS))], [np.zeros((0, 2), dtype=np.int64)]
+    first = 0
+    for body in bodies:
+        far, rows = locate(body.start).far, np.arange(first, first + body.elements)
+        ends = body.node_x
+        label.append(ends[:-1, None] + xi * np.diff(ends)[:, None] - far)
+        before, after = np.where(rows > first, rows - 1, -1), np.where(rows < rows[-1], rows + 1, -1)
+        beside.append(np.stack([after, before] if far > 0.0 else [before, after], axis=1))
+        first += body.elements
+    return {"label": np.concatenate(label), "beside": np.concatenate(beside)}
 
 
 def _numbers(item):
@@ -104,7 +152,7 @@ def _table(item):
 
 def _refuse_buried(item, body, model):
     for support in model.supports:
-        if support.point.body is body:
+        if support.held and support.point.body is body:
             depth = item.depth(initial_position(support.point))
             if depth > BURIED * body.section.diameter:
                 what = f'"{support.name}" is {depth:.4g} m below the ground "{item.name}"'
@@ -169,16 +217,28 @@ def touch_at(batch, e, p, q, v):
     g, n = depth_at(batch, k, at[0], at[1], at[2])
     if g <= -SOFT * d:
         return at, (0.0, 0.0, 0.0), n, 0.0, 0.0, 0.0
-    u = place_at(batch, e, p, v)
+    u = velocity_at(batch, e, p, q, v)
     rate = -(u[0] * n[0] + u[1] * n[1] + u[2] * n[2])
     N, by_g, by_rate = pressure(batch.grounds[k], d, g, rate)
     return at, u, n, N, by_g, by_rate
 
 
 @inline_kernel
-def drawn_at(batch, e, p, r, u, n):
+def anchor_at(batch, e, p, q):
+    """The anchor of the material that is at point p of row e."""
+    x, y, z = batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2]
+    i = batch.winch[e]
+    if i >= 0 and batch.since[e] > 0.0:
+        c = q[i] / batch.since[e] - 1.0
+        drift = batch.drift[e, p]
+        x, y, z = x + c * drift[0], y + c * drift[1], z + c * drift[2]
+    return x, y, z
+
+
+@inline_kernel
+def drawn_at(batch, e, p, q, r, u, n):
     """The vector w of the friction, its size, and the factor f of the force -f w; whether it slips."""
-    ground, anchor, d = batch.grounds[batch.ground[e]], batch.anchor[e, p], batch.diameter[e]
+    ground, anchor, d = batch.grounds[batch.ground[e]], anchor_at(batch, e, p, q), batch.diameter[e]
     stick, c = ground[STICK], ground[DRAG]
     x, y, z = (
         stick * (r[0] - anchor[0]) + c * u[0],
@@ -200,10 +260,11 @@ def ground_force(batch, q, v, a, r, ws):
         for p in range(batch.weight.shape[1]):
             at, u, n, N, _, _ = touch_at(batch, e, p, q, v)
             if batch.limit[e, p] > 0.0:
-                w, _, f, _ = drawn_at(batch, e, p, at, u, n)
-                add_along(batch, e, p, N * n[0] - f * w[0], N * n[1] - f * w[1], N * n[2] - f * w[2], r)
+                w, _, f, _ = drawn_at(batch, e, p, q, at, u, n)
+                f0, f1, f2 = N * n[0] - f * w[0], N * n[1] - f * w[1], N * n[2] - f * w[2]
+                add_material(batch, e, p, f0, f1, f2, q, r)
             elif N > 0.0:
-                add_along(batch, e, p, N * n[0], N * n[1], N * n[2], r)
+                add_material(batch, e, p, N * n[0], N * n[1], N * n[2], q, r)
 
 
 @inline_kernel
@@ -218,7 +279,7 @@ def ground_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
             nn, one, ww = c_stiffness * by_g + c_damping * by_rate, 0.0, 0.0
             w = 0.0, 0.0, 0.0
             if batch.limit[e, p] > 0.0:
-                w, size, f, slips = drawn_at(batch, e, p, at, u, n)
+                w, size, f, slips = drawn_at(batch, e, p, q, at, u, n)
                 one = f * (c_stiffness * ground[STICK] + c_damping * ground[DRAG])
                 if slips:
                     ww = -one / (size * size)
@@ -231,7 +292,7 @@ def ground_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                 (xy, one + nn * n[1] * n[1] + ww * w[1] * w[1], yz),
                 (xz, yz, one + nn * n[2] * n[2] + ww * w[2] * w[2]),
             )
-            add_block_along(batch, e, p, rows, A)
+            add_block_along(batch, e, p, scaled(stretch_at(batch, e, q), rows), A)
 
 
 @inline_kernel
@@ -241,16 +302,41 @@ def ground_remember(batch, q, v):
         ground = batch.grounds[batch.ground[e]]
         for p in range(batch.weight.shape[1]):
             at, u, n, N, _, _ = touch_at(batch, e, p, q, v)
-            anchor, stick = batch.anchor[e, p], ground[STICK]
-            w, _, f, slips = drawn_at(batch, e, p, at, u, n)
+            stick = ground[STICK]
+            w, _, f, slips = drawn_at(batch, e, p, q, at, u, n)
+            x, y, z = anchor_at(batch, e, p, q)
             if slips or N == 0.0:
                 keep = f / (batch.diameter[e] * stick) if N > 0.0 else 0.0
-                anchor[0], anchor[1], anchor[2] = (
-                    at[0] - keep * w[0],
-                    at[1] - keep * w[1],
-                    at[2] - keep * w[2],
-                )
+                x, y, z = at[0] - keep * w[0], at[1] - keep * w[1], at[2] - keep * w[2]
+            batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = x, y, z
             batch.limit[e, p] = ground[FRICTION] * N
+    for e in range(batch.since.shape[0]):
+        if batch.winch[e] >= 0:
+            follow_material(batch, e, q, v)
+
+
+@inline_kernel
+def follow_material(batch, e, q, v):
+    """How the anchors of row e move with the length from here on."""
+    i = batch.winch[e]
+    batch.since[e] = q[i]
+    comes = 1 if v[i] > 0.0 else 0  # from the far end or from the winch
+    last = batch.weight.shape[1] - 1
+    up = (batch.label[e, last] < 0.0) != (comes == 1)  # whether that is towards higher numbers
+    for p in range(last + 1):
+        other, m = e, p + 1 if up else p - 1
+        if m < 0 or m > last:
+            other, m = batch.beside[e, comes], 0 if up else last
+        X, at, own = batch.label[e, p], place_at(batch, e, p, q), batch.anchor[e, p]
+        slope = passed(batch.base, batch.passing, e, p, q)
+        for c in range(3):
+            xi, change = at[c] - own[c], 0.0
+            if other >= 0:
+                there = place_at(batch, other, m, q)
+                change = (xi - there[c] + batch.anchor[other, m, c]) / (X - batch.label[other, m])
+            elif comes == 1:  # what enters has not touched the ground
+                change = -xi / (math.copysign(1.0 / batch.unwound[e], X) - X)
+            batch.drift[e, p, c] = slope[c] - X * change
 
 
 @kernel
@@ -279,7 +365,8 @@ implements(
     tangent=ground_tangent,
     remember=ground_remember,
     role=Role.EXTERNAL,
-    memory=("anchor", "limit"),
+    slots=("base", "winch"),
+    memory=("anchor", "limit", "drift", "since"),
     follows=lambda batch: False,
     late=lambda batch: let_rub if np.any(batch.grounds[:, FRICTION]) else None,
 )

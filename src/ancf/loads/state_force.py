@@ -39,6 +39,9 @@ class StateForceBatch(NamedTuple):
     base: NDArray[np.int64]  # (n, k)
     dest: NDArray[np.int64]  # (n, k*k)
     factor: FloatArray  # (n, k)
+    winch: NDArray[np.int64]  # (n,) of places along a cable with a winch the unknown of the length, -1: none
+    unwound: FloatArray  # (n,) of them 1/L0, 1/m
+    passing: FloatArray  # (n, k) of them factors of D r, see loads/along.py
     law: NDArray[np.int64]  # (n,) addresses
     weight: FloatArray  # (n,) length for which a point of a distributed load stands, m; 1 at a point
     item: NDArray[np.int64]  # (n,) row of `value`
@@ -52,7 +55,7 @@ class StateForceBatch(NamedTuple):
 
 def build(items, locate, value):
     """Batch of forces at points, and of loads along beams, which act at Gauss points of the elements."""
-    points, weights, laws, rows = [], [], [], []
+    points, weights, laws, rows, spread = [], [], [], [], []
     for k, item in enumerate(items):
         law = law_of(item)
         for point, weight in places_of(item):
@@ -60,11 +63,14 @@ def build(items, locate, value):
             weights.append(weight)
             laws.append(law)
             rows.append(k)
+            spread.append(isinstance(item, DistributedLoad))
     n = len(points)
+    fields = at_points(points, locate)
     kept = np.zeros((n, 4))
     kept[:, 0] = np.inf
     return StateForceBatch(
-        **at_points(points, locate),
+        **fields,
+        **_wound(points, spread, locate, fields["factor"].shape),
         law=np.array([address_of(law) for law in laws], dtype=np.int64),
         once=np.array([bool(law.once) for law in laws]),
         kept=kept,
@@ -75,6 +81,19 @@ def build(items, locate, value):
         rows=np.zeros((n, 3, 3)),
         value=value,
     )
+
+
+def _wound(points, spread, locate, shape):
+    """Fields ``winch``, ``unwound`` and ``passing``; ``spread``: which points are of loads along a beam."""
+    winch, unwound = np.full(len(points), -1, dtype=np.int64), np.zeros(len(points))
+    passing = np.zeros(shape)
+    for e in np.flatnonzero(spread):
+        probe = locate(points[e])
+        if probe.unknown >= 0:
+            winch[e], unwound[e] = probe.unknown, 1.0 / probe.beam.length
+            used = np.flatnonzero(probe.S[0])
+            passing[e, : len(used)] = (probe.x - probe.far) * probe.S[1][used]
+    return {"winch": winch, "unwound": unwound, "passing": passing}
 
 
 def law_of(item):
@@ -113,29 +132,48 @@ def call(typing_context, address, time, data):
 
 
 @inline_kernel
-def put_state(batch, e, q, v):
-    """Position and velocity of point e to where its law looks for them."""
-    batch.data[e, 0], batch.data[e, 1], batch.data[e, 2] = at_point(batch, e, q)
-    batch.data[e, 3], batch.data[e, 4], batch.data[e, 5] = at_point(batch, e, v)
+def passing_at(batch, e, q):
+    """D r at point e of a cable with a winch, of material that passes."""
+    x, y, z = 0.0, 0.0, 0.0
+    for k in range(batch.base.shape[1]):
+        i, w = batch.base[e, k], batch.passing[e, k]
+        if i >= 0:
+            x += w * q[i]
+            y += w * q[i + 1]
+            z += w * q[i + 2]
+    return x, y, z
 
 
 @inline_kernel
-def law_force(batch, e):
-    """Force of law e in the state that has been put."""
+def put_state(batch, e, q, v):
+    """Position and velocity of the material at point e to where its law looks for them; the length there."""
+    batch.data[e, 0], batch.data[e, 1], batch.data[e, 2] = at_point(batch, e, q)
+    x, y, z = at_point(batch, e, v)
+    i, size = batch.winch[e], batch.weight[e]
+    if i >= 0:
+        mu, d = v[i] / q[i], passing_at(batch, e, q)
+        x, y, z = x - mu * d[0], y - mu * d[1], z - mu * d[2]
+        size *= q[i] * batch.unwound[e]
+    batch.data[e, 3], batch.data[e, 4], batch.data[e, 5] = x, y, z
+    return size
+
+
+@inline_kernel
+def law_force(batch, e, w):
+    """Force of law e in the state that has been put, on the length w."""
     call(batch.law[e], batch.value[batch.item[e], 0, 0], batch.data[e].ctypes.data)
-    w = batch.weight[e]
     return w * batch.data[e, FORCE], w * batch.data[e, FORCE + 1], w * batch.data[e, FORCE + 2]
 
 
 @inline_kernel
-def force_now(batch, e):
+def force_now(batch, e, w):
     """The same, of a law that is called once a step what it gave first."""
     if not batch.once[e]:
-        return law_force(batch, e)
+        return law_force(batch, e, w)
     kept, t = batch.kept[e], batch.value[batch.item[e], 0, 0]
     moves = batch.data[e, 3] != 0.0 or batch.data[e, 4] != 0.0 or batch.data[e, 5] != 0.0
     if not (moves and kept[0] == t):
-        kept[1], kept[2], kept[3] = law_force(batch, e)
+        kept[1], kept[2], kept[3] = law_force(batch, e, w)
         kept[0] = t
     return kept[1], kept[2], kept[3]
 
@@ -144,19 +182,23 @@ def force_now(batch, e):
 def state_force(batch, q, v, a, r, ws):
     """Subtract the forces from r."""
     for e in range(batch.base.shape[0]):
-        put_state(batch, e, q, v)
-        add_force_at(batch, e, force_now(batch, e), r)
+        force = force_now(batch, e, put_state(batch, e, q, v))
+        add_force_at(batch, e, force, r)
+        i = batch.winch[e]
+        if i >= 0:
+            d = passing_at(batch, e, q)
+            r[i] += (force[0] * d[0] + force[1] * d[1] + force[2] * d[2]) / q[i]
 
 
 @inline_kernel
-def add_differences(batch, e, first, step, weight):
+def add_differences(batch, e, size, first, step, weight):
     """Subtract ``weight`` times the derivatives by the numbers from ``first`` on from the rows."""
     for j in range(3):
         here = batch.data[e, first + j]
         batch.data[e, first + j] = here + step
-        fx, fy, fz = law_force(batch, e)
+        fx, fy, fz = law_force(batch, e, size)
         batch.data[e, first + j] = here - step
-        gx, gy, gz = law_force(batch, e)
+        gx, gy, gz = law_force(batch, e, size)
         batch.data[e, first + j] = here
         w = weight / (2.0 * step)
         batch.rows[e, 0, j] -= w * (fx - gx)
@@ -170,15 +212,15 @@ def state_force_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     for e in range(batch.base.shape[0]):
         if batch.once[e] and (c_mass != 0.0 or c_damping != 0.0):
             continue  # in a step its force does not change
-        put_state(batch, e, q, v)
+        size = put_state(batch, e, q, v)
         for i in range(3):
             for j in range(3):
                 batch.rows[e, i, j] = 0.0
         if c_stiffness != 0.0:
-            add_differences(batch, e, 0, STEP * batch.size[e], c_stiffness)
+            add_differences(batch, e, size, 0, STEP * batch.size[e], c_stiffness)
         if c_damping != 0.0:
             speed = abs(batch.data[e, 3]) + abs(batch.data[e, 4]) + abs(batch.data[e, 5])
-            add_differences(batch, e, 3, STEP * (batch.size[e] + speed), c_damping)
+            add_differences(batch, e, size, 3, STEP * (batch.size[e] + speed), c_damping)
         m = batch.rows[e]
         xy, xz, yz = 0.5 * (m[0, 1] + m[1, 0]), 0.5 * (m[0, 2] + m[2, 0]), 0.5 * (m[1, 2] + m[2, 1])
         rows = ((m[0, 0], xy, xz), (xy, m[1, 1], yz), (xz, yz, m[2, 2]))
@@ -190,4 +232,5 @@ implements(
     force=state_force,
     tangent=state_force_tangent,
     role=Role.EXTERNAL,
+    slots=("base", "winch"),
 )

@@ -6,30 +6,25 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..arrays import FloatArray
-from ..errors import ModelError
 from . import checks, describe, rebuild
 from .beam import Beam
-from .bodies import RigidBody
 from .connecting import PointLike
-from .functions import check_inputs, refuse_inputs
-from .joints import Fixation
+from .functions import check_inputs
 from .kinds import GROUPS, SURROUNDINGS, all_kinds, kind_of
 from .layout import make_beam
 from .loads import DistributedLoad, Force, Load, Moment, make_distributed, make_moment
 from .overview import of_model
-from .points import Point, initial_position
+from .points import initial_position
 from .section import Section
 from .state_function import force_function
-from .supports import Clamp, Hold, Pin, Support, check_overlap, make_clamp, make_hold, optional, require_node
-from .surroundings import Surroundings
+from .supporting import Supporting
+from .supports import Support
 from .tables import Readable, Sheet
-from .winch import Winch, make_winch
 
-SupportT = TypeVar("SupportT", bound=Support)
 LoadT = TypeVar("LoadT", bound=Load)
 
 
-class Model(Surroundings, Readable):
+class Model(Supporting, Readable):
     """Bodies, supports, loads and connections in a field of gravity.
 
     Points are given as ``beam.start``, ``beam.end``, ``beam.at(x)``, on a beam with a cross-section also
@@ -160,141 +155,6 @@ class Model(Surroundings, Readable):
         )
         return self._add_body(beam)
 
-    def pin(self, point: PointLike, displacement: Any = None, name: str | None = None) -> Pin:
-        """Hold a node, point mass or rigid body's centre, or move it by displacement(t) (3,) in m.
-
-        The displacement is from the initial place; what is only pinned turns freely.
-        """
-        where, clean = self._at_node("pin", point, name)
-        label = self._names.of_item(name, f"pin at {clean}", where)
-        return self._add_support(where, Pin(label, clean, optional(displacement, 3, f"{where}.displacement")))
-
-    def clamp(
-        self,
-        point: PointLike,
-        stretch: str = "free",
-        rotation: Any = None,
-        axis: Any = (0, 0, 1),
-        rotation_rate: Any = None,
-        rotation_acceleration: Any = None,
-        displacement: Any = None,
-        name: str | None = None,
-        to: RigidBody | str | None = None,
-        rotation_vector: Any = None,
-    ) -> Clamp | Fixation:
-        """Hold position and slope of a node, on a beam all three slopes, or a rigid body, or move them.
-
-        Parameters
-        ----------
-        point : Point or RigidBody
-            At a node, or a rigid body, which is held altogether.
-        stretch : "free" or "fixed"
-            Hold the direction of r_x only, or all of it (the wall strain is then zero); on a beam of
-            r_x, r_y and r_z.
-        rotation : function of time, rad
-            Angle of the slopes or the body about `axis`, from the initial ones.
-        axis : (3,)
-            Axis of the rotation; any length but zero.
-        rotation_rate, rotation_acceleration : functions of time, rad/s, rad/s^2
-            Exact derivatives, both or none.
-        displacement : function of time, (3,) m
-            From the initial position.
-        name : str
-            Default "clamp at beam.start".
-        to : RigidBody
-            Clamp the node to this body where it is, instead of holding or moving it.
-        rotation_vector : function of time, (3,) rad
-            Instead of `rotation`: the axis times the angle from the initial slopes, for what turns about
-            axes that change, as a gripper does.
-
-        """
-        if to is not None:
-            moving = {
-                "rotation": rotation,
-                "rotation_vector": rotation_vector,
-                "rotation_rate": rotation_rate,
-                "rotation_acceleration": rotation_acceleration,
-                "displacement": displacement,
-            }
-            for key, given in moving.items():
-                if given is not None:
-                    where = f"{self._where('clamp', name, point)}.{key}"
-                    raise ModelError(where, "has no effect with to: the node follows the body")
-            return self._fix(point, to, stretch, name)
-        where, clean = self._at_node("clamp", point, name)
-        item = make_clamp(
-            where,
-            self._names.of_item(name, f"clamp at {clean}", where),
-            clean,
-            stretch=stretch,
-            rotation=rotation,
-            axis=axis,
-            rotation_rate=rotation_rate,
-            rotation_acceleration=rotation_acceleration,
-            displacement=displacement,
-            rotation_vector=rotation_vector,
-        )
-        return self._add_support(where, item)
-
-    def hold(
-        self,
-        point: PointLike,
-        position: str = "",
-        slope: str = "",
-        slope_y: str = "",
-        slope_z: str = "",
-        twist: bool = False,
-        displacement: Any = None,
-        name: str | None = None,
-    ) -> Hold:
-        """Keep single components of position and slopes of a node at their initial values, or move the first.
-
-        Parameters
-        ----------
-        point : Point, PointMass or RigidBody
-            At a node, or a point mass or a rigid body's centre, which have a position only.
-        position, slope : str
-            Letters of "xyz" of the position r and of the slope r_x, global directions.
-        slope_y, slope_z : str
-            The same of r_y and r_z, of beams only.
-        twist : bool
-            Hold the component of r_y along the initial local z axis: the section does not turn about
-            the tangent and is free to bend. Of beams only, and not together with slope_y.
-        displacement : function of time, (3,) m
-            The components in `position` follow it from the initial place; those that are not held stay
-            free, whatever it says of them.
-        name : str
-            Default "hold at beam.start".
-
-        """
-        where, clean = self._at_node("hold", point, name)
-        label = self._names.of_item(name, f"hold at {clean}", where)
-        letters = {"position": position, "slope": slope, "slope_y": slope_y, "slope_z": slope_z}
-        item = make_hold(where, label, clean, **letters, twist=twist, displacement=displacement)
-        return self._add_support(where, item)
-
-    def winch(self, point: PointLike, length: Any, name: str | None = None) -> Winch:
-        """Pay out or haul in a cable at one of its ends.
-
-        All elements share the change of the length; the other end keeps its material. The node at the winch
-        is not held: pin it, or connect it to what carries the winch. `point.at(x)` of such a cable is the
-        place at the fraction x/length of its present length, and nothing may be fastened between its ends.
-
-        Parameters
-        ----------
-        point : Point
-            Start or end of a cable that is naturally straight.
-        length : function of time, m
-            Natural length of what is paid out; it should start and stop smoothly. A constant is a length
-            that differs from the one of ``add_beam``.
-        name : str
-            Default "winch at rope.start".
-
-        """
-        where, clean = self._at_node("winch", point, name)
-        item = make_winch(where, self._names.of_item(name, f"winch at {clean}", where), clean, length)
-        return self._add_support(where, item)
-
     def add_force(self, point: PointLike, force: Any, name: str | None = None) -> Force:
         """Add a force (3,) in N at a point, in fixed directions.
 
@@ -384,16 +244,3 @@ class Model(Surroundings, Readable):
         """Items that had a Python function, and its name, where a description could not keep it."""
         keys = *GROUPS, *SURROUNDINGS
         return [pair for key in keys for item in getattr(self, key) for pair in rebuild.missing(item)]
-
-    def _at_node(self, method: str, point: object, name: object) -> tuple[str, Point]:
-        where = self._where(method, name, point)
-        clean = self._point(point, f"{where}.point")
-        require_node(clean, f"{where}.point")
-        return where, clean
-
-    def _add_support(self, where: str, item: SupportT) -> SupportT:
-        check_overlap(where, item, self.supports)
-        refuse_inputs(item)
-        self._names.take(item.name, "support")
-        self.supports.append(item)
-        return item

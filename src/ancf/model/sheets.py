@@ -78,7 +78,11 @@ def hold(item: Hold) -> str:
 
 def winch(item: Winch) -> str:
     """The length that it leaves."""
-    return f"nothing; length {value(item.length, 'm')}"
+    text = f"nothing; length {value(item.length, 'm')}"
+    if item.speed is None:
+        return text
+    word = "at most" if item.goes_to_length else "speed"
+    return f"{text}, {word} {value(item.speed, 'm/s')}, {item.acceleration:g} m/s^2"
 
 
 def _moves(item: Pin | Clamp | Hold) -> str:

@@ -7,10 +7,7 @@ from typing import Any
 from ..errors import ModelError
 from .cable_contact import CableContact
 from .contact import Contact
-from .fluids import Fluid
 from .followers import Pressure
-from .functions import TimeFunction
-from .grounds import Ground
 from .joints import Fixation, Slide
 from .loads import DistributedLoad
 from .model import Model
@@ -49,17 +46,9 @@ def check_winches(model: Model) -> None:
             _check_end(winch, load.name, load.point)
     for item in model.connections:
         _check_connection(winches, item)
-    surroundings: list[Fluid | Ground] = [*model.fluids, *model.grounds]
-    for around in surroundings:
-        for name, winch in winches.items():
-            if around.acts_on(name):
-                hint = "give on= with the other bodies"
-                raise _refused(around.name, winch, "acts along the cable", hint)
 
 
 def _check_along(winch: Winch, load: DistributedLoad) -> None:
-    if not isinstance(load.load, TimeFunction):
-        raise _refused(load.name, winch, "is a law of the state along the cable", "give a function of time")
     if load.between != (0.0, load.body.length):
         raise _refused(load.name, winch, "acts on a part of the cable", "leave between out")
 

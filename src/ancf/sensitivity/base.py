@@ -41,6 +41,9 @@ def check_differentiable(system: System, where: str) -> None:
 
     What batches remember of the motion, as friction on grounds and surfaces, is no part of the state.
     """
+    for drive in system.inputs.drives:
+        what = f'the length of "{drive.winch.name}" follows from step to step, which has no derivative here'
+        raise ModelError(where, what, "give its length as a function of time")
     for name, batch in system.parts.items():
         late = traits(batch).late
         if traits(batch).memory and len(batch[0]) and late is not None and late(batch) is not None:

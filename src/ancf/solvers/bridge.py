@@ -92,7 +92,7 @@ class Bridge:
         run, m = self.run, self.run.memory
         core = run.system.core._replace(accounted=True)
         if not run.system.core.accounted:  # what is judged here must not depend on what is recorded
-            now = run.system.inputs.tables(t - h, h, 1, run.t_start, run.t_end)
+            now = run.system.inputs.tables(t - h, h, 1, run.t_start, run.t_end, (m.q, m.v), still=True)
             apply_load(core.loads, now.value[0], m.f)
             balance(core, m, 0.0)
         units = 2**MOST_HALVINGS
@@ -122,7 +122,7 @@ class Bridge:
         short = part <= ANYWHERE * h
         again = part == h and m.memo[KNOWN] > 0.0  # what is kept has been tried
         rule = run.rule(part, int(again), LAST, UNLIMITED if short else FURTHEST)
-        tables = run.system.inputs.tables(t, part, 1, run.t_start, run.t_end)
+        tables = run.system.inputs.tables(t, part, 1, run.t_start, run.t_end, (m.q, m.v))
         before, energy = self._save(), self._energy()[0]
         row, room = np.full(1, -1), run.room(0, 0)
         status = int(advance(core, m, tables, part, run.scheme, rule, row, run.sampling, room)[1])

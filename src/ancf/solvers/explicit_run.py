@@ -71,7 +71,8 @@ class ExplicitRun(Run):
         """
         m, system = self.memory, self.system
         m.q[:], m.v[:] = q, v
-        first = system.inputs.tables(self.t_start - self.h, self.h, 1, self.t_start, self.t_end)
+        times = self.t_start - self.h, self.h, 1, self.t_start, self.t_end
+        first = system.inputs.tables(*times, (m.q, m.v), still=True)
         m.a[:] = consistent_start(system, m.q, m.v, first)
         self.limit = stable_limit(system, m.q, m.v)  # leaves the factors of the mass matrix
         stable = self.method.safety * self.limit
@@ -100,7 +101,8 @@ class ExplicitRun(Run):
         return Direct(**shared(self, rows), turning=self.turning)
 
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
-        core, tables = self.system.core, self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end)
+        core, here = self.system.core, (self.memory.q, self.memory.v)
+        tables = self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end, here)
         n, self._status = advance_explicit(
             core, self.memory, tables, h, self.turning, row, self.sampling, out
         )

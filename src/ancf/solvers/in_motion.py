@@ -30,7 +30,7 @@ def in_motion(system: System, q: FloatArray, v: FloatArray, time: float) -> tupl
         The mass matrix is singular, or a force is not finite.
     """
     h = STENCIL_STEP
-    tables = system.inputs.tables(time - h, h, 1, time, np.inf)
+    tables = system.inputs.tables(time - h, h, 1, time, np.inf, (q, v), still=True)
     q, v = q.copy(), v.copy()
     a = consistent_start(system, q, v, tables)
     f, r = np.zeros(system.size), np.zeros(system.size)

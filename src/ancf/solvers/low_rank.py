@@ -21,7 +21,7 @@ from ..compiled import inline_kernel, optional
 from ..connections.contact import DAMPING, FORCE, STIFFNESS, add_row, touch
 from ..connections.contact_build import no_contacts
 from ..connections.spring_damper import spring_gradient, spring_state
-from ..linalg.block_ldl import solve
+from ..linalg.reach import clear, solve_near, spread_of
 from ..system.core import to_local
 from ..system.system import System
 
@@ -29,8 +29,8 @@ from ..system.system import System
 MOST = 24
 #: Steps for which the row of a contact is kept.
 KEPT = 1
-#: Unknowns on which a spring or a contact depends, at most.
-WIDEST = 60
+#: Unknowns on which a spring or a contact depends, at most, and ranges of blocks that they make.
+WIDEST, RANGES = 60, 4
 
 
 class Patches(NamedTuple):
@@ -41,12 +41,17 @@ class Patches(NamedTuple):
     entry: IntArray  # (MOST, WIDEST) unknowns of b_j
     value: FloatArray  # (MOST, WIDEST)
     width: IntArray  # (MOST,) their number
-    back: FloatArray  # (MOST, size) z_j
+    back: FloatArray  # (MOST, size) z_j, zero but in these ranges of blocks:
+    low: IntArray  # (MOST, RANGES)
+    high: IntArray  # (MOST, RANGES)
+    ranges: IntArray  # (MOST,) their number
     gram: FloatArray  # (MOST, MOST)
     spring: IntArray  # (MOST,) which spring, of rows behind those of the contacts
     used: IntArray  # (2,) rows in use, and the age of those of the contacts in steps
     active: IntArray  # (MOST,) workspace
     small: FloatArray  # (MOST, MOST + 1) workspace
+    slots: IntArray  # (WIDEST,) workspace
+    spread: int  # see ancf.linalg.reach
 
 
 def room_for_patches(system: System) -> tuple[Patches, ...]:
@@ -63,11 +68,16 @@ def room_for_patches(system: System) -> tuple[Patches, ...]:
         np.zeros((most, WIDEST)),
         np.zeros(most, dtype=np.int64),
         np.zeros((most, size)),
+        np.zeros((most, RANGES), dtype=np.int64),
+        np.zeros((most, RANGES), dtype=np.int64),
+        np.zeros(most, dtype=np.int64),
         np.zeros((most, most)),
         np.zeros(most, dtype=np.int64),
         np.array([touching, KEPT], dtype=np.int64),
         np.zeros(most, dtype=np.int64),
         np.zeros((most, most + 1)),
+        np.zeros(WIDEST, dtype=np.int64),
+        spread_of(system.core.factor),
     )
     return (room,)
 
@@ -91,16 +101,54 @@ def times(p, k, x):
 
 
 @inline_kernel
-def fill(core, p, k, n):
-    """Row k of B, of Z and of the products; z_k holds b_k in physical components."""
-    z, w = p.back[k], 0
+def empty(p, k, n):
+    """Set row k of Z to zero."""
+    for m in range(p.ranges[k]):
+        clear(p.back[k], p.low[k, m], p.high[k, m])
+    for i in range(n, p.back.shape[1]):
+        p.back[k, i] = 0.0
+    p.ranges[k] = p.width[k] = 0
+
+
+@inline_kernel
+def add_slots(core, p, listed, count):
+    """Add slots to those that are there, in ascending order, each once; the number of all."""
+    supports = core.supports
+    for m in range(listed.shape[0]):
+        slot = listed[m]
+        for k in range(supports.rot_slot.shape[0]):
+            if supports.rot_shadow[k] == slot:
+                slot = supports.rot_slot[k]
+        i = count
+        while i > 0 and p.slots[i - 1] > slot:
+            i -= 1
+        if slot < 0 or (i > 0 and p.slots[i - 1] == slot):
+            continue
+        for j in range(count, i, -1):
+            p.slots[j] = p.slots[j - 1]
+        p.slots[i] = slot
+        count += 1
+    return count
+
+
+@inline_kernel
+def fill(core, p, k, count):
+    """Row k of B, of Z and of the products; z_k holds b_k in physical components, in so many slots."""
+    z, w, ranges = p.back[k], 0, 0
     to_local(core.supports, z)
-    for i in range(n):
-        if z[i] != 0.0:
-            p.entry[k, w], p.value[k, w] = i, z[i]
-            w += 1
+    for m in range(count):
+        block = p.slots[m] // 6
+        for i in range(p.slots[m], p.slots[m] + 3):
+            if z[i] != 0.0:
+                p.entry[k, w], p.value[k, w] = i, z[i]
+                w += 1
+        if ranges > 0 and (block <= p.high[k, ranges - 1] + p.spread or ranges == RANGES):
+            p.high[k, ranges - 1] = block + 1
+        else:
+            p.low[k, ranges], p.high[k, ranges] = block, block + 1
+            ranges += 1
     p.width[k] = w
-    solve(core.factor, z, p.entry[k, 0] // 6 if w > 0 else 0)
+    p.ranges[k] = solve_near(core.factor, z, p.low[k], p.high[k], ranges, p.spread)
     for j in range(p.used[0]):
         p.gram[j, k] = times(p, j, z)
         p.gram[k, j] = p.gram[j, k]
@@ -110,12 +158,12 @@ def fill(core, p, k, n):
 def renew_contacts(core, p, q, v, n):
     """Rows of the contacts in the state q, v."""
     for j in range(p.contacts.slot.shape[0]):
-        p.back[j, :] = 0.0
-        p.width[j] = 0
+        empty(p, j, n)
         pushes, e, xi, m, _ = touch(p.contacts, j, q, v)
         if pushes:
             add_row(p.contacts, j, e, xi, m, 1.0, p.back[j])
-            fill(core, p, j, n)
+            count = add_slots(core, p, p.contacts.slot[j], 0)
+            fill(core, p, j, add_slots(core, p, p.contacts.line_slot[e], count))
         p.spring[j] = pushes
     p.used[1] = 0
 
@@ -129,10 +177,10 @@ def place_of(core, p, e, q, n):
     k = p.used[0]
     if k == p.back.shape[0]:
         return -1
-    p.back[k, :] = 0.0
+    empty(p, k, n)
     spring_gradient(p.springs, e, q, p.back[k])
     p.spring[k], p.used[0] = e, k + 1
-    fill(core, p, k, n)
+    fill(core, p, k, add_slots(core, p, p.springs.base[e], 0))
     return k
 
 
@@ -198,9 +246,11 @@ def _correct(patches, core, q, v, gb, x):
         p.small[i, m] = times(p, p.active[i], x)
     eliminate(p.small, m)
     for j in range(m):
-        y, z = p.small[j, m], p.back[p.active[j]]
-        for i in range(n):
-            x[i] -= y * z[i]
+        k, y = p.active[j], p.small[j, m]
+        z = p.back[k]
+        for piece in range(p.ranges[k]):
+            for i in range(6 * p.low[k, piece], 6 * p.high[k, piece]):
+                x[i] -= y * z[i]
 
 
 #: The matrix is new.

@@ -45,6 +45,7 @@ from .corotation import remember, turn, turn_forth, turn_rows
 from .entwined import solve_apart, solve_entwined
 from .low_rank import forget, move_on
 from .memory import ETA, H_FACTOR, NOISE, NORM, WORST
+from .near import iterate, take_all
 from .renewal import count, renewed
 from .sampling import note, sample
 from .scheme import coefficients, finish, predict, restore
@@ -228,17 +229,24 @@ def newton(core, s, h, rule, modified, B, G):
         tolerance = max(min(tolerance, JOINTED * B * largest(s.a, core.weight)), FINEST)
     tolerance = max(tolerance, s.memo[NOISE])
     s.memo[NOISE] *= FADING
-    older, old, since = -1.0, -1.0, 0
+    older, old, since, whole = -1.0, -1.0, 0, True
+    nearby = modified and len(core.near) > 0 and not rule.corotate  # a part of it may iterate by itself
     for iteration in range(rule.max_iterations):
         if renew:
             if not new_matrix(core, s, h, B, G):
                 return SINGULAR
-            renew, fresh, older, old, eta, since = False, True, -1.0, -1.0, 1.0, 0
-        unbalanced(core, s, h)
-        solve_apart(core, s, rule, G / B)
-        solve_entwined(core.entwined, core, s, rule, G / B)
-        norm = update(s, core.weight, G / B, 1.0 / B)
-        size = norm
+            renew, fresh, older, old, eta, since, whole = False, True, -1.0, -1.0, 1.0, 0, True
+        if whole:
+            unbalanced(core, s, h)
+            solve_apart(core, s, rule, G / B)
+            solve_entwined(core.entwined, core, s, rule, G / B)
+            if nearby:
+                norm = take_all(core.near, s, core.weight, G / B, 1.0 / B)
+            else:
+                norm = update(s, core.weight, G / B, 1.0 / B)
+        else:
+            norm = iterate(core.near, core, s, tolerance / eta, G / B, 1.0 / B)
+        size, whole = norm, not nearby
         if has_joints:
             still(core.joints, s.v, s.a)
             if rule.projects:  # the shift leaves the accelerations alone: its own tolerance is the rule's

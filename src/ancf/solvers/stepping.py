@@ -153,7 +153,7 @@ class Run:
     def _restart(self, t: float) -> Tables:
         """Consistent velocities, accelerations and multipliers at t; the memory of earlier steps is lost."""
         m, system = self.memory, self.system
-        now = system.inputs.tables(t - self.h, self.h, 1, self.t_start, self.t_end)
+        now = system.inputs.tables(t - self.h, self.h, 1, self.t_start, self.t_end, (m.q, m.v), still=True)
         m.a[:] = consistent_start(system, m.q, m.v, now)
         m.abar[:] = m.a
         m.memo[H_FACTOR] = m.memo[H_PREV] = m.memo[KNOWN] = 0.0
@@ -274,7 +274,8 @@ class Run:
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
         if self.hesitates:
             return 0, SLOW
-        core, tables = self.system.core, self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end)
+        core, here = self.system.core, (self.memory.q, self.memory.v)
+        tables = self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end, here)
         n, status = advance(core, self.memory, tables, h, self.scheme, self.rule(h), row, self.sampling, out)
         return int(n), int(status)
 

@@ -43,8 +43,9 @@ from ..model.winches import by_body
 from . import loads
 from .core import Core, Joints, Loads, Supports
 from .matrix import Places, block_pairs
+from .near import near_of
 from .numbering import Numbering
-from .probe import Probe, locate
+from .probe import Probe, lengths_of, locate
 from .supports import Constraints
 
 Parts = dict[str, Any]
@@ -59,12 +60,13 @@ def build_parts(
     ``measured``, (contacts, 4), what they leave for sensors.
     """
     slots = numbering.slots
-
-    def find(point: Point) -> Probe:
-        return locate(point, slots[point.body.name])
-
     kinds: dict[str, list[Beam]] = {}
     winches = by_body(model)
+    lengths = lengths_of(model, {name: np.array([x]) for name, x in numbering.lengths.items()})
+
+    def find(point: Point) -> Probe:
+        return locate(point, slots[point.body.name], lengths.get(point.body.name, (-1, 0.0)))
+
     for name, beam in model.beams.items():
         if name not in winches:
             kinds.setdefault(beam.element, []).append(beam)
@@ -140,7 +142,7 @@ def order_blocks(parts: Parts, numbering: Numbering) -> tuple[IntArray, IntArray
     behind_bodies = np.setdiff1d(joints, numbering.sliding)
     band = behind(rank, pairs, behind_bodies, numbering.sliding)
     spread = int(np.max(np.abs(np.diff(band[pairs], axis=1)), initial=0))
-    if ordering != MINIMUM_DEGREE:
+    if ordering != MINIMUM_DEGREE and not _is_line(parts):
         rank = from_both_ends(rank, int(np.max(np.abs(np.diff(rank[pairs], axis=1)), initial=0)))
     rank = behind(rank, pairs, behind_bodies, numbering.sliding)
     numbering.renumber(rank)
@@ -188,6 +190,7 @@ def make_core(
 ) -> Core:
     """What the kernels work on."""
     batches = tuple(parts.values())
+    factor = allocate(places.row_start, places.column)
     external, rubbing = with_role(batches, Role.EXTERNAL), with_role(batches, Role.RUBS)
     losing = [b for b in batches if _damped(b) and Role.RUBS not in traits(b).role]
     return Core(
@@ -198,9 +201,10 @@ def make_core(
         inertial=Batches(alone(b) for b in losing if (alone := traits(b).inertial)),
         remembering=Batches(b for b in batches if traits(b).memory),
         entwined=tuple(b for b in batches if isinstance(b, StrandBatch) and not isinstance(b, GripBatch)),
+        near=near_of(batches, factor, supports.rot_slot, len(weight)) if _is_line(parts) else (),
         ws=workspace(),
         A=np.zeros(places.size),
-        factor=allocate(places.row_start, places.column),
+        factor=factor,
         weight=weight,
         supports=supports,
         joints=joints,
@@ -210,6 +214,12 @@ def make_core(
         loaded=bool(len(dead.value) or any(len(b.base) for b in external) or len(supports.driven)),
         accounted=True,
     )
+
+
+def _is_line(parts: Parts) -> bool:
+    """Whether strips run along wires, without joints: blocks then ascend along these, see near."""
+    others = ("joints", "slides", "crossing", "gripping")
+    return "contacts" in parts and not any(name in parts for name in others)
 
 
 def _damped(batch: Any) -> bool:

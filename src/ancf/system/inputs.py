@@ -3,17 +3,45 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..model.functions import TimeFunction
+from ..model.winch import Winch
 from .core import Tables
-from .supports import Constraints, Rotation
+from .drives import driven_steps
+from .supports import Constraints, Motion, Rotation
 
 #: Points of the difference formulas for the rates of given motions: sixth order.
 STENCIL = 7
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Where a length that follows from step to step stands in tables and state vectors."""
+
+    winch: Winch
+    unknown: int
+    column: int  # of Tables.motion
+    row: int  # of the inputs of loads: the weight goes with the length
+
+    def put(self, tables: Tables, rows: slice, found: FloatArray) -> None:
+        """Put lengths and their rates, (3,) or (n, 3), into some rows of tables."""
+        tables.motion[rows, self.column] = found
+        tables.value[rows, self.row] = found[..., :1]
+
+
+def _drives(motions: list[Motion], loads: list[TimeFunction]) -> list[Drive]:
+    found, column = [], 0
+    for motion in motions:
+        if motion.drive is not None:
+            row = next(k for k, function in enumerate(loads) if function is motion.drive.length)
+            found.append(Drive(motion.drive, motion.unknowns[0], column, row))
+        column += len(motion.unknowns)
+    return found
 
 
 class Inputs:
@@ -36,6 +64,8 @@ class Inputs:
         How often they have changed.
     led : list of int
         Loads that depend on them.
+    drives : list of Drive
+        Lengths that follow from step to step.
     """
 
     def __init__(
@@ -44,8 +74,10 @@ class Inputs:
         self.loads = loads
         self.given = {} if given is None else dict(given)
         self.changes = 0
-        self.led = [k for k, function in enumerate(loads) if function.inputs]
         self.motions = constraints.motions
+        self.drives = _drives(self.motions, loads)
+        own = {drive.row for drive in self.drives}
+        self.led = [k for k, function in enumerate(loads) if function.inputs and k not in own]
         self.rotations = [r for r in constraints.rotations if r.moves]
         self.prescribed = np.array([i for m in self.motions for i in m.unknowns], dtype=np.int64)
 
@@ -55,25 +87,62 @@ class Inputs:
             self.given[name] = value
             self.changes += 1
 
-    def tables(self, start: float, step: float, steps: int, first: float, last: float) -> Tables:
+    def tables(
+        self,
+        start: float,
+        step: float,
+        steps: int,
+        first: float,
+        last: float,
+        here: tuple[FloatArray, FloatArray] | None = None,
+        still: bool = False,
+    ) -> Tables:
         """Tables at start + step, ..., start + steps * step.
 
         ``first`` and ``last`` are the times of the whole run, s: rates are differences of values
-        between them.
+        between them.  ``here``: state vectors q, v from which lengths follow that are driven; ``still``: they
+        stay as they are there.
         """
         times = on_grid(start, step, np.arange(1, steps + 1), first)
         motion = [self._motion(k, times, step, first, last) for k in range(len(self.motions))]
         rotation = [self._rotation(r, times, step, first, last) for r in self.rotations]
-        return Tables(
+        made = Tables(
             value=_amplitudes(self.loads, times, self.given),
             motion=np.ascontiguousarray(np.concatenate([np.zeros((steps, 0, 3)), *motion], axis=1)),
             rotation=np.ascontiguousarray(
                 np.stack(rotation, axis=1) if rotation else np.zeros((steps, 0, 3, 3, 3))
             ),
         )
+        for drive in self.drives:
+            self._lengths(drive, made, times, step, here, still)
+        return made
+
+    def _lengths(
+        self,
+        drive: Drive,
+        tables: Tables,
+        times: FloatArray,
+        step: float,
+        here: tuple[FloatArray, FloatArray] | None,
+        still: bool,
+    ) -> None:
+        """Fill in a driven length."""
+        length = 0.0 if here is None else float(here[0][drive.unknown])
+        if length <= 0.0:  # there is none yet
+            length = float(drive.winch.length.under(self.given, times[:1])[0, 0])
+            drive.winch.check_left(np.array([length]), times[:1])
+            here = None
+        rate = 0.0 if here is None else float(here[1][drive.unknown])
+        if here is None or still:
+            drive.put(tables, slice(None), np.array([length, rate, 0.0]))
+        else:
+            found = driven_steps(drive.winch, length, rate, times, step, self.given)
+            drive.put(tables, slice(None), found)
 
     def _motion(self, k: int, times: FloatArray, step: float, first: float, last: float) -> FloatArray:
         motion = self.motions[k]
+        if motion.drive is not None:
+            return np.zeros((len(times), 1, 3))
         if motion.rates is not None:
             return np.stack([motion.values(times), *motion.rates(times)], axis=-1)
         return np.stack(differences(motion.values, times, step, first, last), axis=-1)

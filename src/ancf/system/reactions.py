@@ -68,7 +68,8 @@ def _out_of_balance(system: System, q: FloatArray, time: float) -> tuple[FloatAr
     zero, f, r = np.zeros(system.size), np.zeros(system.size), np.zeros(system.size)
     h = 1e-3
     system.place(time, q, zero.copy(), zero.copy())
-    apply_load(system.core.loads, system.inputs.tables(time - h, h, 1, time, np.inf).value[0], f)
+    tables = system.inputs.tables(time - h, h, 1, time, np.inf, (q, zero), still=True)
+    apply_load(system.core.loads, tables.value[0], f)
     residual(system.core.batches, system.core.ws, q, zero, zero, f, r)
     return r, f
 

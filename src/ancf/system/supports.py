@@ -61,6 +61,7 @@ class Motion:
     unknowns: list[int]
     values: Callable[[FloatArray], FloatArray]
     rates: Callable[[FloatArray], tuple[FloatArray, FloatArray]] | None = None
+    drive: Winch | None = None  # it follows from step to step
 
 
 @dataclass
@@ -85,7 +86,8 @@ def collect(model: Model, numbering: Numbering) -> Constraints:
         if isinstance(support, Winch):
             unknown = numbering.lengths[support.name]
             constraints.held.add(unknown)
-            constraints.motions.append(Motion([unknown], support.lengths))
+            drive = support if support.driven else None
+            constraints.motions.append(Motion([unknown], support.lengths, drive=drive))
             constraints.driven.add(unknown)
         elif isinstance(support, Pin):
             _hold_position(constraints, slots[0], start_vectors(body)[node, 0], support.displacement)

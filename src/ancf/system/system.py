@@ -120,6 +120,7 @@ class System:
             f"{name}.{key}": getattr(batch, key)
             for name, batch in self.parts.items()
             for key in traits(batch).memory
+            if getattr(batch, key).size
         }
 
     def skip_energies(self) -> None:
@@ -287,7 +288,7 @@ class System:
     def place(self, time: float, q: FloatArray, v: FloatArray, a: FloatArray) -> None:
         """Put supports where they are at ``time``, and inputs of loads; fills the shadows."""
         h = 1e-3
-        tables = self.inputs.tables(time - h, h, 1, time, np.inf)
+        tables = self.inputs.tables(time - h, h, 1, time, np.inf, (q, v), still=True)
         place_supports(self.core.supports, self.core.loads.value, tables, 0, q, v, a)
 
     def _set_motion(self, q: FloatArray, v: FloatArray, a: FloatArray, time: float) -> None:

@@ -51,9 +51,10 @@ def pairs(rows: Iterable[tuple[str, str]]) -> Element:
     return element("div", element("table", element("tbody", *lines), class_="pairs"), class_="scroll")
 
 
-def figure(name: str, title: str, caption: str, svg: str) -> Element:
-    """Figure with its picture inside the page; a picture of its own keeps its ids apart from others."""
-    image = picture(svg.encode("utf-8"), "svg+xml", f"{title}. {caption}")
+def figure(name: str, title: str, caption: str, drawn: str | bytes) -> Element:
+    """Figure with its picture inside the page, SVG as text or PNG as bytes; ids stay apart."""
+    content, kind = (drawn, "png") if isinstance(drawn, bytes) else (drawn.encode("utf-8"), "svg+xml")
+    image = picture(content, kind, f"{title}. {caption}")
     text = element("figcaption", element("strong", f"{title}. "), caption)
     return element("figure", image, text, id=f"figure-{name}")
 

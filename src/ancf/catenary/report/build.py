@@ -1,19 +1,21 @@
-"""The report of a run: one HTML file with all figures and tables, which needs nothing else."""
+"""The report of a run: one HTML file with all figures and tables, which needs nothing else, PDF and DOCX."""
 
 from __future__ import annotations
 
 import datetime
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..._version import __version__
 from ...files import write_text
-from ...viz import style
+from ...viz import printed, style
 from ...viz.html import element, figure, page, section
+from ..acceptance import acceptance
+from ..clamp_strain import bends
 from . import tables
 from .content import Content
-from .figures import FIGURES, figure_names, picture
+from .figures import FIGURES, Save, figure_names, picture
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
@@ -30,13 +32,13 @@ def write_report(
     reference: Reference | None = None,
     elasticity: Elasticity | None = None,
 ) -> Path:
-    """Write the report of a run as one HTML file.
+    """Write the report of a run as one file, in the format that its name ends with.
 
     Parameters
     ----------
     run : Run
     path : path
-        File to write; its folder is made when it does not exist.
+        File to write, ``.html``, ``.pdf`` or ``.docx``; its folder is made when it does not exist.
     reference : Reference, optional
         Published ranges to compare the first table with.
     elasticity : Elasticity, optional
@@ -45,20 +47,48 @@ def write_report(
     Raises
     ------
     ModelError
-        matplotlib is missing, the file cannot be written, or the run does not cover its window.
+        matplotlib or what writes the format is missing, the file cannot be written, or the run does not
+        cover its window.
 
     """
+    kind = Path(path).suffix.removeprefix(".")
+    formats = printed.chosen([kind], str(path)) if kind in printed.FORMATS else (printed.HTML,)
+    return _write(Content.of(run, reference, elasticity), [(formats[0], Path(path))])[0]
+
+
+def write_reports(
+    run: Run,
+    folder: Path,
+    formats: Sequence[str],
+    *,
+    reference: Reference | None = None,
+    elasticity: Elasticity | None = None,
+) -> list[Path]:
+    """Write ``report.html``, ``report.pdf`` and ``report.docx``, those that are asked for, into a folder."""
+    content = Content.of(run, reference, elasticity)
+    return _write(content, [(kind, folder / f"report.{kind}") for kind in formats])
+
+
+def _write(content: Content, files: Sequence[tuple[str, Path]]) -> list[Path]:
     style.require_matplotlib()
-    return write_text(Path(path), report(Content.of(run, reference, elasticity)))
+    title = f"{content.run.form.line.title}, {content.speed_kmh:.4g} km/h"
+    on_paper: list[Element] = []
+    for kind, path in files:
+        if kind == printed.HTML:
+            write_text(path, page(title, *pieces(content, title)))
+            continue
+        on_paper = on_paper or pieces(content, title, style.png)
+        printed.write_printed(path, title, on_paper)
+    return [path for _, path in files]
 
 
-def report(content: Content) -> str:
-    """HTML of the report."""
-    run = content.run
-    title = f"{run.form.line.title}, {content.speed_kmh:.4g} km/h"
-    parts = [*_statistics(content), _figures(content), *_line_tables(content), _computed(content)]
+def pieces(content: Content, title: str, save: Save = style.svg) -> list[Element]:
+    """Elements of the report, its pictures as SVG or PNG."""
+    judged = [] if content.reference is not None else [_acceptance(content)]
+    answers = [*_statistics(content), _figures(content, save), *_line_tables(content)]
+    parts = [*judged, *answers, _computed(content)]
     links = [element("a", str(part[0].text), href=f"#{part.get('id')}") for part in parts]
-    return page(title, *_top(content, title), element("nav", *links), *parts, _foot())
+    return [*_top(content, title), element("nav", *links), *parts, _foot()]
 
 
 def _top(content: Content, title: str) -> Iterator[Element]:
@@ -87,26 +117,44 @@ def _verdict(content: Content, k: int) -> str:
     return f"{before}{found}{told}; {content.filter_note(k)}."
 
 
+def _acceptance(content: Content) -> Element:
+    """What the standards ask for, of all pantographs side by side."""
+    lists = [acceptance(content.run, k, found=one) for k, one in enumerate(content.found)]
+    limits = (
+        "Limits of EN 50367, EN 50119 and the TSI Energy for AC 25 kV, and the bending strain of contact "
+        "wires that RTRI allows (Quarterly Report 66 (2025) 84-89)."
+    )
+    return section(
+        "Acceptance",
+        "acceptance",
+        tables.beside(content.names, lists),
+        tables.tags([q for one in lists for q in one]),
+        element("p", limits, class_="faint"),
+        element("h3", "Time above a force"),
+        tables.times_above(content),
+    )
+
+
 def _statistics(content: Content) -> Iterator[Element]:
-    for k, found in enumerate(content.found):
-        title = f"Statistics, {content.name(k)}" if content.several else "Statistics"
-        pieces = []
-        if content.reference is not None:
-            compared = content.compared(k)
-            pieces += [
-                element("h3", content.reference.title),
-                tables.quantities(compared),
-                tables.tags(compared),
-            ]
-            source = f"Ranges: {content.reference.source}. They are not interpolated between speeds."
-            pieces.append(element("p", source, class_="faint"))
-        pieces += [
-            element("h3", "All quantities"),
-            tables.quantities(found.quantities),
-            tables.tags(found.quantities),
-        ]
-        pieces.append(element("p", _remarks(content), class_="faint"))
-        yield section(title, f"statistics-{k + 1}", *pieces)
+    for k in range(len(content.found) if content.reference is not None else 0):
+        assert content.reference is not None
+        compared = content.compared(k)
+        source = f"Ranges: {content.reference.source}. They are not interpolated between speeds."
+        yield section(
+            f"Statistics, {content.name(k)}" if content.several else "Statistics",
+            f"statistics-{k + 1}",
+            element("h3", content.reference.title),
+            tables.quantities(compared),
+            tables.tags(compared),
+            element("p", source, class_="faint"),
+        )
+    yield section(
+        "All quantities",
+        "statistics",
+        tables.beside(content.names, [found.quantities for found in content.found]),
+        tables.tags([q for found in content.found for q in found.quantities]),
+        element("p", _remarks(content), class_="faint"),
+    )
 
 
 def _remarks(content: Content) -> str:
@@ -119,14 +167,16 @@ def _remarks(content: Content) -> str:
     )
 
 
-def _figures(content: Content) -> Element:
+def _figures(content: Content, save: Save) -> Element:
     made = [
-        figure(n, FIGURES[n].title, FIGURES[n].caption, picture(n, content)) for n in figure_names(content)
+        figure(n, FIGURES[n].title, FIGURES[n].caption, picture(n, content, save))
+        for n in figure_names(content)
     ]
     return section("Figures", "figures", *made)
 
 
 def _line_tables(content: Content) -> Iterator[Element]:
+    low, high = content.run.window
     if content.elasticity is not None:
         title = f"Static elasticity of span {content.elasticity.span + 1}"
         yield section(title, "elasticity", tables.elasticity(content))
@@ -134,6 +184,17 @@ def _line_tables(content: Content) -> Iterator[Element]:
     for k in range(len(content.found)):
         title = "Droppers in the window" + (f", {content.name(k)}" if content.several else "")
         yield section(title, f"droppers-{k + 1}", tables.droppers(content, k))
+    if bends(content.run.form.line) and any(low <= x <= high for x in content.run.form.line.dropper_x):
+        yield section("Cycles of clamps and droppers", "cycles", tables.clamps(content), *_of_cycles())
+
+
+def _of_cycles() -> Iterator[Element]:
+    text = (
+        "Strain of the upper edge of the contact wire by bending at the clamps of the window, over the whole "
+        "run with all pantographs, from the forces of droppers and strips by the closed form of a beam under "
+        "tension. Cycles by rainflow (ASTM E1049)."
+    )
+    yield element("p", text, class_="faint")
 
 
 def _computed(content: Content) -> Element:

@@ -59,6 +59,11 @@ class Content:
         names = [found.pantograph for found in self.found]
         return names[k] if names.count(names[k]) == 1 else f"{names[k]} ({k + 1})"
 
+    @property
+    def names(self) -> list[str]:
+        """Names of all pantographs."""
+        return [self.name(k) for k in range(len(self.found))]
+
     def compared(self, k: int) -> list[Quantity]:
         """Quantities of the reference with their ranges; nothing without a reference."""
         return self.reference.compare(self.found[k], self.run.speed_kmh) if self.reference else []

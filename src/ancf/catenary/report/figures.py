@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from .content import Content
 
 
+#: ``style.svg`` or ``style.png``.
+Save = Callable[["Figure"], str | bytes]
+
+
 @dataclass(frozen=True)
 class FigureKind:
     """One figure of a report.
@@ -98,8 +102,8 @@ def figure_names(content: Content) -> list[str]:
     return [name for name in FIGURES if name != "elasticity" or content.elasticity is not None]
 
 
-def picture(name: str, content: Content) -> str:
-    """SVG of a figure.
+def picture(name: str, content: Content, save: Save) -> str | bytes:
+    """A figure as ``style.svg`` or ``style.png`` save it.
 
     Raises
     ------
@@ -110,4 +114,4 @@ def picture(name: str, content: Content) -> str:
     kind = FIGURES[name]
     with style.new_figure(*kind.size(content)) as figure:
         kind.draw(content, figure)
-        return style.svg(figure)
+        return save(figure)

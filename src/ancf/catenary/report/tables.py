@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...viz.html import element, pairs, table
+from ..acceptance import LEVELS, time_above
+from ..clamp_strain import clamp_strains
+from ..cycles import rainflow
 from ..passing import DropperForces, dropper_places
 from ..quantity import TAGS, shown
 from ..route import Route
@@ -28,10 +31,70 @@ def quantities(rows: Iterable[Quantity]) -> Element:
     made = table(
         ("quantity", "value", "unit", "accepted", "", "tag"), [texts(q) for q in rows], numbers=(1, 3)
     )
-    for row in made.iter("tr"):
-        if len(row) == 6 and row[4].text in ("inside", "outside"):
-            row[4].set("class", str(row[4].text))
+    _colour(made)
     return made
+
+
+def beside(names: Sequence[str], lists: Sequence[Sequence[Quantity]]) -> Element:
+    """Quantities of several pantographs or runs side by side, by the names of what they are of.
+
+    One that is missing somewhere has an empty cell; limits that differ stand one after the other.
+    """
+    if len(lists) == 1:
+        return quantities(lists[0])
+    by_key = [{q.key: q for q in one} for one in lists]
+    keys = dict.fromkeys(q.key for one in lists for q in one)
+    rows = [_side_by_side([one.get(key) for one in by_key]) for key in keys]
+    heads = [text for name in names for text in (name, "")]
+    made = table(
+        ("quantity", *heads, "unit", "accepted", "tag"),
+        rows,
+        numbers=(*range(1, 2 * len(lists), 2), 2 * len(lists) + 2),
+    )
+    _colour(made)
+    return made
+
+
+def _side_by_side(found: Sequence[Quantity | None]) -> tuple[str, ...]:
+    first = next(q for q in found if q is not None)
+    cells = [text for q in found for text in (("", "") if q is None else (texts(q)[1], texts(q)[4]))]
+    limits = dict.fromkeys(texts(q)[3] for q in found if q is not None)
+    return (first.name, *cells, texts(first)[2], "; ".join(filter(None, limits)), first.tag or "")
+
+
+def _colour(made: Element) -> None:
+    """Mark verdicts in a table."""
+    for cell in made.iter("td"):
+        if cell.text in ("inside", "outside"):
+            cell.set("class", str(cell.text))
+
+
+def times_above(content: Content) -> Element:
+    """Share of the time above some forces, one column for each pantograph."""
+    heads = [content.name(k) if content.several else "time above it [%]" for k in range(len(content.found))]
+    shares = [time_above(content.run, LEVELS, k) for k in range(len(content.found))]
+    rows = [
+        (f"{level:g}", *(shown(float(share[i]), "%") for share in shares)) for i, level in enumerate(LEVELS)
+    ]
+    return table(("contact force [N]", *heads), rows, numbers=range(1 + len(heads)))
+
+
+def clamps(content: Content) -> Element:
+    """Bending strain of the contact wire at the clamps of the window, cycles of clamps and droppers."""
+    forces = {
+        (span, number): rainflow(content.run.dropper_force[:, j])
+        for j, (span, number, _) in enumerate(dropper_places(content.run))
+    }
+    rows = []
+    for c in clamp_strains(content.run):
+        strains = (f"{1e6 * value:.0f}" for value in (c.rest, c.largest, c.smallest, c.cycles.largest))
+        force = forces[c.span, c.number]
+        many = f"{c.cycles.number(0.5 * c.cycles.largest):g}"
+        worst = (shown(force.largest, "N"), f"{force.number(0.5 * force.largest):g}")
+        rows.append((str(c.span), str(c.number), f"{c.position:g}", *strains, many, *worst))
+    head = ("span", "dropper", "position [m]", "strain at rest [1e-6]", "largest", "smallest", "range")
+    cycles = ("cycles above half of it", "range of dropper force [N]", "cycles above half of it")
+    return table((*head, *cycles), rows, numbers=range(10))
 
 
 def tags(rows: Iterable[Quantity]) -> Element:

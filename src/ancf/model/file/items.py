@@ -73,7 +73,13 @@ class WinchEntry(Entry):
 
     type: Literal["winch"] = Field(description="Kind of support.")
     point: PointLabel
-    length: ScalarFunction = Field(description="Natural length of what is paid out, function of t [m].")
+    length: ScalarFunction = Field(
+        description="Natural length of what is paid out, function of t, or of inputs with speed [m]."
+    )
+    speed: ScalarFunction | None = Field(
+        None, description="Speed that is followed, or the largest one towards a length of inputs [m/s]."
+    )
+    acceleration: Positive | None = Field(None, description="Largest change of the speed in time [m/s^2].")
     name: ItemName = None
 
 

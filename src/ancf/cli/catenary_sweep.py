@@ -1,0 +1,106 @@
+"""``ancf catenary sweep``: pantographs along a line at many speeds and distances, with a report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from .guard import FAILED
+from .screen import Screen, console, table
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+    from ..catenary import Line, Route
+
+#: Quantities on the screen, and their digits.
+SHOWN = (("mean_force", 1), ("deviation", 1), ("minimum", 1), ("arcing", 2), ("uplift", 1))
+
+
+def sweep_line(
+    name: str,
+    speeds: str,
+    spacings: str | None,
+    pantographs: list[str] | None,
+    options: dict[str, Any],
+    folder: Path,
+    to: str | None = None,
+    quiet: bool = False,
+    changes: list[str] | None = None,
+) -> None:
+    """Compute what is left, write the table and the reports, and print.
+
+    Raises
+    ------
+    ModelError
+        Something given is wrong, or a package is missing; nothing was computed.
+    typer.Exit
+        With code 1 when cases failed.
+    """
+    from ..catenary import Mesh, find_pantograph, read_line
+    from ..design.sweep import sweep, values_of
+    from ..model.file.paths import assignments
+    from ..viz.printed import chosen
+    from ..viz.style import require_matplotlib
+    from .study import cases_progress
+
+    formats = chosen(to)
+    require_matplotlib()
+    given = {key: value for key, value in options.items() if value is not None}
+    if "mesh" in given:
+        given["mesh"] = Mesh(contact=given["mesh"][0], messenger=given["mesh"][1])
+    line, at = read_line(name, assignments(changes)), values_of(speeds, "--speed")
+    apart = values_of(spacings, "--spacing") if spacings is not None else []
+    units = [find_pantograph(unit) for unit in pantographs or ["benchmark-2015"]]
+    screen = Screen(quiet)
+    screen.announce_compilation()
+    try:
+        with cases_progress(screen) as progress:
+            unit = units[0] if len(units) == 1 else units
+            done = sweep(line, at, apart, folder=folder, progress=progress, pantograph=unit, **given)
+    except KeyboardInterrupt as error:
+        error.add_note(f"what has ended is kept in {folder}: the same command goes on")
+        raise
+    names = [units[min(k, len(units) - 1)].name for k in range(2 if apart else 1)]
+    files = _report(line, done, names, folder, formats)
+    if not quiet:
+        _show(done, len(names))
+        console().print("written: " + ", ".join(map(str, [folder / "table.csv", *files])), soft_wrap=True)
+    failed = done[done["status"] != "ok"]
+    if len(failed):
+        text = f"{len(failed)} of {len(done)} cases failed; the first: {failed['message'].iloc[0]}"
+        console(stderr=True).print(text, style="bold", soft_wrap=True)
+        raise typer.Exit(FAILED)
+
+
+def _report(
+    line: Line | Route, done: DataFrame, names: list[str], folder: Path, formats: tuple[str, ...]
+) -> list[Path]:
+    from ..catenary.report.sweep import Sweep, write_sweep
+    from ..design.sweep import SPACING, SPEED
+
+    told = names if len(set(names)) == len(names) else [f"{name} ({k + 1})" for k, name in enumerate(names)]
+    rows = [{str(key): value for key, value in row.items()} for row in done.to_dict("records")]
+    settings = [("Pantographs, the first ahead" if len(told) > 1 else "Pantograph", ", ".join(told))]
+    return write_sweep(Sweep(line.title, rows, SPEED, SPACING, told, settings), folder, formats)
+
+
+def _show(done: DataFrame, count: int) -> None:
+    from ..design.sweep import SPACING, SPEED
+
+    apart = SPACING in done.columns
+    heads = ["speed [km/h]", *(["distance [m]"] if apart else []), *(["pantograph"] if count > 1 else [])]
+    shown = table(*heads, "Fm [N]", "sigma [N]", "smallest [N]", "NQ [%]", "uplift [mm]", "limits")
+    for row in done[done["status"] == "ok"].to_dict("records"):
+        for k in range(1, count + 1):
+            place = [f"{row[SPEED]:g}", *([f"{row[SPACING]:g}"] if apart else [])]
+            numbers = [_text(row.get(f"{key}_{k}"), digits) for key, digits in SHOWN]
+            verdict = "inside" if row[f"accepted_{k}"] else "outside"
+            shown.add_row(*place, *([str(k)] if count > 1 else []), *numbers, verdict)
+    console().print(shown)
+
+
+def _text(value: float | None, digits: int) -> str:
+    return "" if value is None else f"{value:.{digits}f}"
