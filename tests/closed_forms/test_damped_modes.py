@@ -142,3 +142,29 @@ def test_what_is_no_steady_rotation_is_refused():
         ancf.damped_modes(model, count=1000)
     with pytest.raises(ModelError, match="must be a State"):
         ancf.damped_modes(model, about="rest")
+
+
+def test_damping_inside_a_blade_is_that_of_its_bending():
+    """Of a turning blade too the first mode loses by its strains alone: D is proportional to K at rest."""
+    found = []
+    for rate in (0.0, 6.0):
+        model = ancf.Model()
+        section = ancf.Section(EA=1e7, EI=1.0, rhoA=1.0, bending_damping=1e-3)
+        blade = model.add_beam("b", start=(0, 0, 0), end=(1, 0, 0), elements=4, section=section)
+        model.clamp(blade.start, rotation=lambda t, rate=rate: rate * t, axis=(0, 0, 1))
+        blade.set_motion(angular_velocity=(0, 0, rate))
+        found.append(ancf.damped_modes(model, count=2).eigenvalues)
+    still, turning = found
+    assert still.real == pytest.approx(-0.5e-3 * np.abs(still) ** 2, rel=1e-4)
+    assert np.all(turning.real < 0.0)
+    assert np.abs(turning[1]) == pytest.approx(7.3604, rel=1e-3)
+
+
+def test_resistance_that_stands_still_is_refused_of_what_turns():
+    model = ancf.Model()
+    section = ancf.Section(EA=1e5, EI=1.0, rhoA=1.0, damping=0.1)
+    rope = model.add_beam("r", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
+    model.pin(rope.start)
+    rope.set_motion(angular_velocity=(0, 0, 5.0))
+    with pytest.raises(SolveError, match="resistance that stands still"):
+        ancf.damped_modes(model, count=3)

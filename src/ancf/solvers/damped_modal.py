@@ -55,6 +55,7 @@ class Damped:
         system.level[:] = 1.0, 0.0, 0.0
         self.M = self._whole(1.0, 0.0, 0.0)
         if np.any(self.spin):
+            self._check_surroundings()
             self._check_symmetry()
             self._settle()
 
@@ -63,7 +64,7 @@ class Damped:
         kept = None if joints is None else joints.scale.copy()
         if joints is not None:
             joints.scale[:] = 0.0  # the matrices themselves, without the multiples of C^T C that help a solve
-        assemble(core.batches, core.ws, self.q, self.v, core.A, mass, damping, stiffness)
+        assemble(core.batches, core.ws, self.q, np.zeros_like(self.q), core.A, mass, damping, stiffness)
         if joints is not None:
             joints.scale[:] = kept
         return csc_array(to_sparse(core.A, self.system.places))
@@ -98,8 +99,18 @@ class Damped:
         """Internal forces and constraints less loads."""
         core, f, r = self.system.core, np.zeros(self.system.size), np.zeros(self.system.size)
         apply_load(core.loads, core.loads.value, f)
-        residual(core.batches, core.ws, q, self.v, np.zeros_like(f), f, r)
+        still = np.zeros_like(f)  # in axes that turn along nothing moves
+        residual(core.batches, core.ws, q, still, still.copy(), f, r)
         return r
+
+    def _check_surroundings(self) -> None:
+        """Nothing that stands still brakes what turns."""
+        model = self.system.model
+        outside = [item.name for item in model.fluids] + [item.name for item in model.grounds]
+        braked = [b.name for b in model.beams.values() if b.section.damping or b.section.slope_damping]
+        if outside or braked:
+            what = f'"{(braked or outside)[0]}" has or is a resistance that stands still'
+            raise SolveError("damped_modes", what, "leave it out of a model that turns")
 
     def _check_symmetry(self) -> None:
         """Forces turn with the model: what stands still and acts on it does so the same from all sides."""
