@@ -23,6 +23,7 @@ from .model.series import noises
 from .model.settings import steps_between
 from .model.supports import Support
 from .results import remembered
+from .results.impacts import unresolved
 from .results.provenance import versions
 from .results.read_store import ReadStore
 from .results.result import Result, load, read
@@ -71,6 +72,8 @@ def prepared(
         q, v = system.initial_state(t0) if start is None else adopted(start, system, f"{where}.start")
         remembered.begin(system, q, v, None if start is None else start.known)
         check_gaps(system, q, f"{where}.start")
+        for text in unresolved(system, q, method, step):
+            warnings.warn(text, UserWarning, stacklevel=3)
         made.run.start(q, v)
     return made
 

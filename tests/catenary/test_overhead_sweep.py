@@ -1,6 +1,7 @@
 """Sweeps over speed and distance: cases against single runs, resuming, the report, bad input."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -9,10 +10,10 @@ import pytest
 from typer.testing import CliRunner
 
 from ancf import ModelError
-from ancf.catenary import Mesh, acceptance, read_line, run
+from ancf.catenary import Mesh, Quantity, acceptance, read_line, run
 from ancf.catenary.report.sweep import Sweep, pieces, write_sweep
 from ancf.cli.app import app
-from ancf.design.sweep import SPACING, SPEED, sweep, values_of
+from ancf.design.sweep import SPACING, SPEED, SweepCase, sweep, values_of
 from ancf.viz.html import page
 from ancf.viz.printed.blocks import Picture, Table, blocks
 
@@ -84,6 +85,21 @@ class TestCases:
         other = read_line(path, {"contact_wire.tension": 21e3})
         with pytest.raises(ModelError, match="another study"):
             sweep(other, (120.0,), (30.0,), **more)
+
+    @pytest.mark.parametrize(
+        ("values", "accepted"), [((1.0, 1.0), 1.0), ((1.0, 9.0), 0.0), ((9.0, 9.0), 0.0)]
+    )
+    def test_accepted_is_what_no_limit_speaks_against(self, path, monkeypatch, values, accepted):
+        """A quantity without a limit says nothing."""
+        found = [Quantity(f"q{k}", "", "N", value, high=5.0) for k, value in enumerate(values)]
+        monkeypatch.setattr("ancf.design.sweep.run_line", lambda *a, **k: SimpleNamespace(recordings=[0]))
+        monkeypatch.setattr(
+            "ancf.design.sweep.acceptance", lambda *a: [*found, Quantity("free", "", "N", 3.0)]
+        )
+        case = SweepCase(read_line(path), {}, mesh=COARSE["mesh"])
+        assert case(**{SPEED: 100.0}) == {
+            "q0_1": values[0], "q1_1": values[1], "free_1": 3.0, "accepted_1": accepted
+        }  # fmt: skip
 
 
 class TestValues:

@@ -1,5 +1,7 @@
 """Bodies on grounds: rest, impact, friction that sticks and slips, memory; catenaries of other programs."""
 
+import warnings
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -111,6 +113,52 @@ class TestExplicit:
             ancf.simulate(model, t_end=0.3, step=4e-3, integrator=ancf.Explicit())
         run = ancf.simulate(model, t_end=0.3, step=2e-4, integrator=ancf.Explicit())
         assert run.position(cable.start)[:, 2].min() > -0.05
+
+
+class TestSteps:
+    """A step in which a cable bounces off, and more, is named before anything has fallen."""
+
+    @pytest.mark.parametrize(
+        ("step", "method", "height", "said"),
+        [
+            (1e-2, ancf.Trapezoidal(), 0.5, True),
+            (1e-3, ancf.Trapezoidal(), 0.5, False),
+            (1e-2, ancf.GeneralizedAlpha(0.8), 0.5, True),
+            (1e-2, ancf.GeneralizedAlpha(0.0), 0.5, False),
+            (1e-2, ancf.Trapezoidal(), -1e-4, False),
+        ],
+    )
+    def test_it_is_said_at_the_start(self, step, method, height, said):
+        model, *_ = lying(z=height, elements=2, stiffness=1e6)
+        rate = np.sqrt(1e6 * D / RHOA)
+        with warnings.catch_warnings(record=True) as heard:
+            warnings.simplefilter("always")
+            ancf.stepper(model, step=step, integrator=method)
+        assert len(heard) == said
+        for text in (str(w.message) for w in heard):
+            assert '"cable" would bounce on the ground "ground"' in text
+            assert f"{rate:.3g} rad/s" in text
+            assert f"take {0.5 / rate:.2g} s" in text
+
+    @pytest.mark.parametrize("zeta", [0.0, 1.0])
+    def test_there_energy_appears_and_below_it_does_not(self, zeta):
+        """After an impact there is more than it fell with, damped or not, but with rho_inf = 0."""
+        k, fell = 1e5, RHOA * 2.0 * G * 0.5
+        made = {}
+        for phase, rho_inf in ((3.0, 0.8), (0.45, 0.8), (3.0, 0.0), (20.0, 0.0)):
+            model, *_ = lying(z=0.5, elements=2, stiffness=k, damping=2 * zeta * np.sqrt(k * RHOA / D))
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                energy = ancf.simulate(
+                    model,
+                    t_end=3.0,
+                    step=phase / np.sqrt(k * D / RHOA),
+                    integrator=ancf.GeneralizedAlpha(rho_inf),
+                ).energy
+            total = energy.kinetic + energy.strain + energy.potential
+            made[phase, rho_inf] = (total.max() - total[0]) / fell
+        assert made[3.0, 0.8] > 0.2
+        assert max(made[key] for key in made if key != (3.0, 0.8)) < 0.05
 
 
 class TestFriction:

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.solvers.bridge import Bridge
+from ancf.solvers.status import UNBALANCED
 
 SECTION = ancf.Section(EA=1e3, EI=0.1, rhoA=1.0, diameter=0.05, drag=(1.2, 0.1), added_mass=(1.0, 0.0))
 
@@ -148,3 +150,38 @@ def test_one_that_has_no_value_ends_the_run(way, late, what):
     assert caught.value.where.startswith("t = 0.05")
     assert ", step 51, add_f" in caught.value.where
     assert caught.value.result.t[-1] == pytest.approx(0.05)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_halved_steps_ask_it_anew(way, monkeypatch):
+    """A step that fails has asked for its end; its halves, and the end of the second, are asked for again."""
+    given, _, kind, _ = WAYS[way]
+    whole, ends = Bridge._part, []
+
+    def fails(looks):
+        def part(bridge, core, t, size, h):
+            if size < h:
+                return whole(bridge, core, t, size, h)
+            before = bridge._save()
+            if looks:
+                whole(bridge, core, t, size, h)
+            bridge._put_back(before)
+            return UNBALANCED
+
+        return part
+
+    for looks in (True, False):  # as far as to the end of the step, or not at all
+        law = kind()
+        model, _ = hung(**given(law), elements=4)
+        run = ancf.stepper(model, step=0.02)
+        run.advance(10)
+        law.times.clear()
+        with monkeypatch.context() as patched:
+            patched.setattr(Bridge, "_part", fails(looks))
+            run._ahead.bridge()
+        asked = np.array(law.times)
+        back = np.diff(asked[np.abs(asked - asked.round(2)) < 1e-9])  # a fluid is asked beside its times too
+        assert np.any(back < -5e-3) == looks
+        run.advance(10)
+        ends.append(run.q)
+    assert np.array_equal(*ends)

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from numba import njit
 
+from ancf.compiled import kernel
 from ancf.linalg.block_ldl import allocate
 from ancf.linalg.ordering import fill_pattern
 from ancf.linalg.reach import solve_near, spread_of
@@ -11,7 +11,7 @@ from ancf.system.core import factorise_matrix, solve_sparse
 from ancf.system.matrix import Places
 
 
-@njit
+@kernel
 def near(factor, x, low, high, count, spread):
     """A kernel of its own: :func:`solve_near` is a part of others."""
     return solve_near(factor, x, low, high, count, spread)

@@ -217,6 +217,21 @@ class TestWrong:
         with pytest.raises(ModelError, match=r"1 m below the ground \"seabed\""):
             System(model)
 
+    def test_waves_of_less_water_than_there_is(self):
+        """The anchor would be below their bottom; a chain that has sunk in a little is not."""
+        for depth, fits in ((6.0, False), (9.95, True), (30.0, True)):
+            model = parse_study(
+                study(fluids=[FLUID | {"below": 0.0, "waves": WAVE | {"depth": depth}}])
+            ).model
+            if fits:
+                System(model)
+                continue
+            with pytest.raises(
+                ModelError, match=r'water of 6 m depth, and "line" starts 10 m below'
+            ) as caught:
+                System(model)
+            assert caught.value.where == "water.waves"
+
     @pytest.mark.parametrize(
         ("law", "what"),
         [

@@ -10,8 +10,10 @@ from .cycles import Cycles, FatigueLine, rainflow
 from .elasticity import Elasticity, elasticity
 from .fittings import Droppers, Load, SteadyArm, Tensioner
 from .form import Form
+from .identify import Identified, dynamic_stiffness, identify_pantograph
 from .irregular import dropper_errors, height_errors
 from .line import Line
+from .measuring import Measured, MeasuringHead, measure
 from .mesh import Mesh
 from .opened import Overhead, assemble
 from .pantograph import Pantograph, find_pantograph, pantographs, read_pantograph
@@ -43,8 +45,11 @@ __all__ = [
     "Elasticity",
     "FatigueLine",
     "Form",
+    "Identified",
     "Line",
     "Load",
+    "Measured",
+    "MeasuringHead",
     "Mesh",
     "Overhead",
     "Pantograph",
@@ -68,12 +73,15 @@ __all__ = [
     "assemble",
     "clamp_strains",
     "dropper_errors",
+    "dynamic_stiffness",
     "elasticity",
     "find_pantograph",
     "form",
     "height_errors",
+    "identify_pantograph",
     "line_file",
     "line_names",
+    "measure",
     "pantographs",
     "rainflow",
     "read_line",

@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from ..errors import ModelError
 from .beam import Beam
 from .functions import TimeFunction
@@ -67,7 +69,12 @@ def _rate(function: TimeFunction) -> TimeFunction:
 
 
 def require_section(item: Any, beam: Beam, wanted: tuple[str, ...]) -> None:
-    """Raise ModelError if the section of a beam lacks what a fluid or a ground asks for."""
+    """Raise ModelError if a beam cannot be in a fluid or on a ground.
+
+    Its section lacks what they ask for, or it starts below the bottom of the fluid's waves.
+    """
+    if isinstance(item, Fluid):
+        _refuse_deeper(item, beam)
     lacking = [key for key in wanted if getattr(beam.section, key) is None]
     if lacking:
         what = f'its section has no {" and no ".join(lacking)}, which "{item.name}" needs'
@@ -76,4 +83,19 @@ def require_section(item: Any, beam: Beam, wanted: tuple[str, ...]) -> None:
         raise ModelError(f'"{beam.name}"', what, hint)
 
 
+def _refuse_deeper(item: Fluid, beam: Beam) -> None:
+    """Raise ModelError if a beam starts below the bottom of the water that waves need."""
+    if item.waves is None or item.below is None or math.isinf(item.waves.depth):
+        return
+    depth = item.waves.depth
+    lowest = item.below - float(np.min(beam.node_position[:, 2]))
+    if lowest > (1.0 + DEEPER) * depth:
+        what = f'have water of {depth:.4g} m depth, and "{beam.name}" starts {lowest:.4g} m below its surface'
+        raise ModelError(
+            f"{item.name}.waves", what, f"give depth={lowest:.4g} or more, or leave it out: deep"
+        )
+
+
+#: Share of the depth by which bodies may lie below the bottom, sunk into a soft ground.
+DEEPER = 0.01
 _EXAMPLES = {"diameter": "0.1", "drag": "(1.2, 0.01)"}

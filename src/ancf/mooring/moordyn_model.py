@@ -200,7 +200,8 @@ def _lines(
             at = _number_of(row.cells[key])
             if at not in points:
                 what = f'ends at "{row.cells[key]}", which is no point of the file'
-                raise ModelError(row.where, what, "lines on bodies and rods cannot be taken")
+                hint = "lines on bodies and rods cannot be taken, nor files of version 1 with other columns"
+                raise ModelError(row.where, what, hint)
             ends.setdefault(at, []).append(f"{name}.{end}")
         segments, length = row.number("segments"), row.number("length")
         if segments < 1 or segments != int(segments):

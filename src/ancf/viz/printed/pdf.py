@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 #: Points in a millimetre.
 MM = 72.0 / style.MM_PER_INCH
 MARGIN, WIDTH, HEIGHT = 15 * MM, 180 * MM, 267 * MM
+#: That ReportLab leaves at the edges of a frame, points.
+PADDING = 6.0
 #: Size of letters: of text, and of tables by the letters of a row that have to fit.
 SIZE, SIZES, LETTERS = 9.0, (8.0, 5.5), 118.0
 FONT, BOLD = "DejaVu", "DejaVu-Bold"
@@ -32,8 +34,9 @@ def write(path: Path, title: str, elements: Sequence[Element]) -> None:
     style.require_matplotlib()
     _register_fonts()
     document = SimpleDocTemplate(
-        str(path), title=title, pagesize=(WIDTH + 2 * MARGIN, HEIGHT + 2 * MARGIN), leftMargin=MARGIN,
-        rightMargin=MARGIN, topMargin=MARGIN, bottomMargin=MARGIN, author="ancf", invariant=1,
+        str(path), title=title, author="ancf", invariant=1,
+        pagesize=(WIDTH + 2 * MARGIN, HEIGHT + 2 * MARGIN),
+        leftMargin=MARGIN - PADDING, rightMargin=MARGIN - PADDING, topMargin=MARGIN, bottomMargin=MARGIN,
     )  # fmt: skip
     parts = list(_flow(list(blocks(elements))))
     document.build(parts, onFirstPage=_numbered, onLaterPages=_numbered)

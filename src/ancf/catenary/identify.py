@@ -1,0 +1,200 @@
+"""A pantograph from a measured frequency response: a chain of masses that answers alike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model import checks
+from .pantograph import Pantograph
+
+#: What is measured at the strip: force over acceleration in kg, over velocity in N s/m, over displacement in
+#: N/m, or their inverses; with the power of i omega that makes it a force over displacement.
+KINDS = {"apparent_mass": (2, False), "impedance": (1, False), "dynamic_stiffness": (0, False)}
+KINDS |= {"accelerance": (2, True), "mobility": (1, True), "receptance": (0, True)}
+WHERE = "identify_pantograph"
+#: Most masses that are tried, starts of each search, bounds of it as factors of the start.
+MOST_MASSES, STARTS, WIDE = 4, 12, 1e4
+
+
+def dynamic_stiffness(unit: Pantograph, frequency: npt.ArrayLike) -> npt.NDArray[np.complex128]:
+    """Force over displacement (n,) at the head of a pantograph on a roof at rest, N/m.
+
+    Of a chain from the roof on, Z_1 = k_1 + i w c_1 - w^2 m_1 and, with s_j = k_j + i w c_j,
+    Z_j = s_j Z_{j-1} / (s_j + Z_{j-1}) - w^2 m_j.
+
+    Parameters
+    ----------
+    unit : Pantograph
+    frequency : (n,) float
+        Hz.
+    """
+    return _chain(
+        np.array(unit.masses),
+        np.array(unit.stiffness),
+        np.array(unit.damping),
+        2.0 * np.pi * np.asarray(frequency, dtype=np.float64),
+    )
+
+
+def _chain(m: FloatArray, k: FloatArray, c: FloatArray, w: FloatArray) -> npt.NDArray[np.complex128]:
+    spring = k[:, None] + 1j * w * c[:, None]
+    below = spring[0] - w**2 * m[0]
+    for j in range(1, len(m)):
+        below = spring[j] * below / (spring[j] + below) - w**2 * m[j]
+    made: npt.NDArray[np.complex128] = below
+    return made
+
+
+@dataclass(frozen=True)
+class Identified:
+    """A pantograph from its frequency response, and how far it is off.
+
+    Parameters
+    ----------
+    pantograph : Pantograph
+    frequency : (n,) float
+        Hz.
+    measured, fitted : (n,) complex
+        Dynamic stiffness at the head, N/m.
+
+    """
+
+    pantograph: Pantograph
+    frequency: FloatArray
+    measured: npt.NDArray[np.complex128]
+    fitted: npt.NDArray[np.complex128]
+
+    @property
+    def error(self) -> float:
+        """Root of the mean square of the relative errors."""
+        return float(np.sqrt(np.mean(np.abs(self.errors) ** 2)))
+
+    @property
+    def errors(self) -> npt.NDArray[np.complex128]:
+        """(fitted - measured) / |measured| at each frequency (n,)."""
+        made: npt.NDArray[np.complex128] = (self.fitted - self.measured) / np.abs(self.measured)
+        return made
+
+    @property
+    def largest(self) -> float:
+        """Largest of them."""
+        return float(np.max(np.abs(self.errors)))
+
+
+def identify_pantograph(
+    frequency: npt.ArrayLike,
+    response: npt.ArrayLike,
+    *,
+    kind: str = "apparent_mass",
+    masses: int | None = None,
+    tolerance: float = 0.02,
+    static_force: float = 70.0,
+    **more: Any,
+) -> Identified:
+    """Fit a chain of masses to the frequency response at the strip, from the roof at rest.
+
+    Relative errors of the complex response at all frequencies are made as small as can be in the mean, from
+    several starts. Without `masses` the shortest chain that stays within the tolerance is taken, or the best.
+
+    Parameters
+    ----------
+    frequency : (n,) float
+        Hz, above 0.
+    response : (n,) complex
+        At these frequencies, force upwards from the wire on the strip over its motion, or the inverse.
+    kind : str
+        "apparent_mass", "impedance", "dynamic_stiffness" or their inverses "accelerance", "mobility",
+        "receptance", SI units.
+    masses : int
+        1 to 4; default found.
+    tolerance : float
+        Root of the mean square of the relative errors, of which the result says what it is.
+    static_force, more
+        What a response does not say: see :class:`Pantograph`.
+
+    Raises
+    ------
+    ModelError
+        Lists of different lengths, too few values, a value that is zero or not finite, an unknown kind.
+    """
+    f, stiffness = _checked(frequency, response, kind)
+    counts = list(range(1, MOST_MASSES + 1))
+    if masses is not None:
+        counts = [checks.integer(masses, f"{WHERE}.masses", 1, MOST_MASSES)]
+    checks.positive(tolerance, f"{WHERE}.tolerance")
+    best: Identified | None = None
+    for count in counts:
+        if 3 * count > 2 * f.size:
+            break
+        m, k, c = _fit(f, stiffness, count)
+        unit = Pantograph(
+            masses=m, stiffness=k, damping=c, static_force=static_force, **{"name": "identified", **more}
+        )
+        found = Identified(unit, f, stiffness, dynamic_stiffness(unit, f))
+        if best is None or found.error < best.error:
+            best = found
+        if best.error <= tolerance:
+            break
+    if best is None:
+        raise ModelError(f"{WHERE}.frequency", f"has {f.size} values, too few for the chain", "give more")
+    return best
+
+
+def _checked(frequency: Any, response: Any, kind: str) -> tuple[FloatArray, npt.NDArray[np.complex128]]:
+    """Frequencies in ascending order and the dynamic stiffness there."""
+    checks.choice(kind, f"{WHERE}.kind", tuple(KINDS))
+    f, given = np.asarray(frequency, dtype=np.float64), np.asarray(response, dtype=np.complex128)
+    if f.ndim != 1 or f.shape != given.shape or f.size < 2:
+        what = f"has the shape {given.shape} for frequencies of the shape {f.shape}"
+        raise ModelError(f"{WHERE}.response", what, "give one complex number for each frequency")
+    for i in range(f.size):
+        if not (np.isfinite(f[i]) and f[i] > 0.0):
+            raise ModelError(f"{WHERE}.frequency[{i}]", f"is {f[i]:g}, must be finite and > 0")
+        if not np.isfinite(given[i]) or given[i] == 0:
+            raise ModelError(f"{WHERE}.response[{i}]", f"is {given[i]:g}, must be finite and not 0")
+    power, inverse = KINDS[kind]
+    stiffness = (1.0 / given if inverse else given) * (2j * np.pi * f) ** power
+    order = np.argsort(f, kind="stable")
+    made: npt.NDArray[np.complex128] = stiffness[order]
+    return f[order], made
+
+
+def _fit(
+    f: FloatArray, measured: npt.NDArray[np.complex128], count: int
+) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
+    """Masses, stiffnesses and dampings of the best chain, by least squares in their logarithms."""
+    from scipy.optimize import least_squares
+
+    w = 2.0 * np.pi * f
+    scale = np.abs(measured)
+
+    def residual(x: FloatArray) -> FloatArray:
+        m, k, c = np.exp(x).reshape(3, count)
+        difference = (_chain(m, k, c, w) - measured) / scale
+        return np.concatenate([difference.real, difference.imag])
+
+    total = max(float(np.median(scale / w**2)), 1e-3)
+    rng = np.random.default_rng(0)
+    best, least = None, np.inf
+    for start in range(STARTS):
+        low, high = np.log(f[0]), np.log(f[-1])
+        at, m = np.linspace(low, high, count + 2)[1:-1], np.full(count, total)
+        if start > 0:
+            at, m = rng.uniform(low, high, count), total * np.exp(rng.normal(0.0, 0.7, count))
+        k = m * (2.0 * np.pi * np.exp(at)) ** 2
+        x = np.log(np.concatenate([m, k, 0.2 * np.sqrt(k * m)]))
+        wide = np.log(WIDE)
+        found = least_squares(residual, x, bounds=(x - wide, x + wide), x_scale=1.0, max_nfev=400)
+        if found.cost < least:
+            best, least = found.x, found.cost
+        if least < 1e-12 * f.size:
+            break
+    assert best is not None
+    rows = np.exp(best).reshape(3, count).tolist()
+    return tuple(rows[0]), tuple(rows[1]), tuple(rows[2])

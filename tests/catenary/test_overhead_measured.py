@@ -1,0 +1,190 @@
+"""Pantographs from measured frequency responses, and measuring pantographs, against closed forms."""
+
+import dataclasses
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import catenary_stand_in as stand_in
+from ancf import ModelError
+from ancf.catenary import (
+    MeasuringHead,
+    Pantograph,
+    dynamic_stiffness,
+    identify_pantograph,
+    measure,
+    pantographs,
+)
+
+FREQUENCY = np.linspace(0.25, 20.0, 80)  # Hz
+
+
+def chain(seed, count=3):
+    """A chain with values as pantographs have them."""
+    rng = np.random.default_rng(seed)
+    stiffness = [rng.uniform(50, 400), *rng.uniform(4e3, 2e4, count - 1)]
+    return Pantograph(
+        masses=tuple(rng.uniform(4, 16, count)),
+        stiffness=tuple(stiffness),
+        damping=(rng.uniform(50, 150), *rng.uniform(10, 80, count - 1)),
+        static_force=70.0,
+    )
+
+
+def by_matrices(unit, frequency):
+    """Dynamic stiffness at the head from the matrices of the whole chain."""
+    n = len(unit.masses)
+    below = np.eye(n) - np.eye(n, k=-1)
+    K, C = (below.T @ np.diag(values) @ below for values in (unit.stiffness, unit.damping))
+    found = []
+    for w in 2 * np.pi * np.asarray(frequency):
+        found.append(1.0 / np.linalg.inv(K + 1j * w * C - w**2 * np.diag(unit.masses))[-1, -1])
+    return np.array(found)
+
+
+class TestIdentify:
+    @pytest.mark.parametrize("count", [1, 2, 3, 4])
+    def test_dynamic_stiffness(self, count):
+        unit = chain(count, count)
+        assert dynamic_stiffness(unit, FREQUENCY) == pytest.approx(by_matrices(unit, FREQUENCY), rel=1e-9)
+
+    @pytest.mark.parametrize("name", ["en50318-2002", "benchmark-2015", "dsa380"])
+    def test_known_pantographs(self, name):
+        unit = pantographs()[name]
+        found = identify_pantograph(FREQUENCY, by_matrices(unit, FREQUENCY), kind="dynamic_stiffness")
+        assert found.largest <= 0.02
+        assert found.error == pytest.approx(
+            np.sqrt(np.mean(np.abs(by_matrices(found.pantograph, FREQUENCY) / found.measured - 1.0) ** 2))
+        )
+        exact = identify_pantograph(
+            FREQUENCY, found.measured, kind="dynamic_stiffness", masses=len(unit.masses)
+        )
+        assert exact.error < 1e-3
+        assert exact.pantograph.masses == pytest.approx(unit.masses, rel=2e-3)
+
+    @pytest.mark.parametrize("seed", range(4))
+    def test_noise(self, seed):
+        """Of 1 % noise less than 2 % is left in the whole band, against the chain that was measured."""
+        unit, rng = chain(seed), np.random.default_rng(seed + 100)
+        true = by_matrices(unit, FREQUENCY)
+        noise = rng.normal(size=(2, FREQUENCY.size)) / np.sqrt(2.0)
+        found = identify_pantograph(
+            FREQUENCY, true * (1.0 + 0.01 * (noise[0] + 1j * noise[1])), kind="dynamic_stiffness", masses=3
+        )
+        assert np.abs(found.fitted / true - 1.0).max() < 0.02
+        assert 0.005 < found.error < 0.013
+
+    @pytest.mark.parametrize(
+        ("kind", "power", "inverse"),
+        [
+            ("apparent_mass", 2, False),
+            ("impedance", 1, False),
+            ("accelerance", 2, True),
+            ("mobility", 1, True),
+            ("receptance", 0, True),
+        ],
+    )
+    def test_kinds(self, kind, power, inverse):
+        unit = pantographs()["en50318-2002"]
+        response = by_matrices(unit, FREQUENCY) / (2j * np.pi * FREQUENCY) ** power
+        order = np.random.default_rng(0).permutation(FREQUENCY.size)
+        given = (1.0 / response if inverse else response)[order]
+        found = identify_pantograph(FREQUENCY[order], given, kind=kind)
+        assert found.pantograph.masses == pytest.approx(unit.masses, rel=1e-6)
+        assert found.pantograph.damping == pytest.approx(unit.damping, rel=1e-6)
+
+    def test_a_chain_that_is_too_short_says_so(self):
+        measured = by_matrices(pantographs()["benchmark-2015"], FREQUENCY)
+        found = identify_pantograph(FREQUENCY, measured, kind="dynamic_stiffness", masses=1)
+        assert found.error > 0.1
+        assert found.largest >= found.error
+        best = identify_pantograph(FREQUENCY, measured, kind="dynamic_stiffness", tolerance=1e-3)
+        assert len(best.pantograph.masses) == 3
+
+    @pytest.mark.parametrize(
+        ("frequency", "response", "more", "said"),
+        [
+            ([1.0, 2.0], [1.0], {}, r"response: has the shape \(1,\)"),
+            ([0.0, 2.0, 3.0], [1.0, 1.0, 1.0], {}, r"frequency\[0\]: is 0"),
+            ([1.0, 2.0, 3.0], [1.0, np.nan, 1.0], {}, r"response\[1\]: is nan"),
+            ([1.0, 2.0, 3.0], [1.0, 1.0, 1.0], {"kind": "inertance"}, r"kind"),
+            ([1.0, 2.0, 3.0], [1.0, 1.0, 1.0], {"masses": 9}, r"masses"),
+            ([1.0, 2.0, 3.0], [1.0, 1.0, 1.0], {"masses": 3}, r"has 3 values, too few"),
+        ],
+    )
+    def test_wrong(self, frequency, response, more, said):
+        with pytest.raises(ModelError, match=said):
+            identify_pantograph(frequency, response, **more)
+
+
+#: Height of the made-up strip: 22 mm over 60 m.
+AMPLITUDE, SPEED = 0.022, 250 / 3.6
+CIRCULAR = 2 * np.pi * SPEED / 60.0
+
+
+@pytest.fixture(scope="module")
+def run():
+    """A run with a constant contact force; the strip follows a cosine."""
+    made = stand_in.run(step=1e-3)
+    steady = dataclasses.replace(made.recordings[0], force=np.full(made.t.size, 120.0))
+    return dataclasses.replace(made, recordings=[steady])
+
+
+class TestMeasure:
+    def test_without_errors_it_is_the_true_force(self, run):
+        made = stand_in.run(step=1e-3)
+        found = measure(made)
+        assert found.largest_error < 1e-9
+        assert np.ptp(found.true[found.window]) > 50.0
+
+    @pytest.mark.parametrize("mass", [4.0, 7.2])
+    @pytest.mark.parametrize("corrected", [0.0, 0.5, 1.2])
+    def test_inertia(self, run, mass, corrected):
+        """What is not corrected of the inertia of a head that moves as a cosine: m A w^2/sqrt(2)."""
+        found = measure(run, head=MeasuringHead(mass=mass, corrected_mass=corrected * mass))
+        expected = abs(1.0 - corrected) * mass * AMPLITUDE * CIRCULAR**2 / np.sqrt(2.0)
+        assert np.std(found.error) == pytest.approx(expected, rel=5e-3)
+        assert found.deviation_error == pytest.approx(expected, rel=5e-3)
+
+    @pytest.mark.parametrize("delay", [0.005, 0.02])
+    def test_delay(self, run, delay):
+        """cos(wt) less cos(w(t - d)) has the amplitude 2 sin(wd/2)."""
+        found = measure(run, head=MeasuringHead(delay=delay))
+        amplitude = 7.2 * AMPLITUDE * CIRCULAR**2 * 2.0 * np.sin(0.5 * CIRCULAR * delay)
+        assert np.std(found.error) == pytest.approx(amplitude / np.sqrt(2.0), rel=1e-2)
+
+    @pytest.mark.parametrize("rate", [200.0, 500.0, 1000.0])
+    def test_noise(self, run, rate):
+        """Of white noise a low pass leaves the share of its band."""
+        errors = [
+            np.std(measure(run, head=MeasuringHead(force_noise=10.0, rate=rate, seed=seed)).error)
+            for seed in range(12)
+        ]
+        assert np.sqrt(np.mean(np.square(errors))) == pytest.approx(10.0 * np.sqrt(40.0 / rate), rel=0.12)
+
+    def test_a_slow_accelerometer(self, run):
+        """A low pass of second order at f0 is late by sqrt(2)/w0 far below f0."""
+        slow = measure(run, head=MeasuringHead(acceleration_band=40.0))
+        late = measure(run, head=MeasuringHead(delay=np.sqrt(2.0) / (2 * np.pi * 40.0)))
+        assert np.std(slow.error) == pytest.approx(np.std(late.error), rel=0.05)
+
+    def test_wind_on_the_head(self, run):
+        """It is known and corrected, whatever its size."""
+        unit = SimpleNamespace(masses=(15.0, 7.2), aerodynamics=(0.0, 0.01))
+        assert measure(dataclasses.replace(run, pantographs=[unit])).largest_error < 1e-9
+
+    @pytest.mark.parametrize(
+        ("head", "said"),
+        [
+            ({"rate": 100.0}, r"measuring.rate: .*0.694 m apart, at most 0.4 m"),
+            ({"rate": 2000.0}, r"measuring.rate: is 2000 Hz, the run has 1000"),
+            ({"force_band": 600.0}, r"measuring.force_band: .*below 500 Hz"),
+            ({"mass": -1.0}, r"measuring.mass"),
+            ({"force_noise": np.nan}, r"measuring.force_noise"),
+            ({"seed": -1}, r"measuring.seed"),
+        ],
+    )
+    def test_wrong(self, run, head, said):
+        with pytest.raises(ModelError, match=said):
+            measure(run, head=MeasuringHead(**head))
