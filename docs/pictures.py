@@ -127,6 +127,23 @@ def knot() -> None:
         (STATIC / "knot.png").write_bytes(style.png(figure, dpi=160))
 
 
+def edge() -> None:
+    """How the cable of examples/edge.toml slides off its table."""
+    study = read_study(STATIC.parents[1] / "examples" / "edge.toml")
+    run = ancf.simulate(study.model, t_end=0.8, step=study.simulation.step, output_step=0.2)
+    shapes, a = nodes(run, "cable", study.model.beams["cable"].length, 400), np.linspace(0, 2 * np.pi, 90)
+    with style.new_figure(110.0, 100.0) as figure:
+        axes = figure.subplots()
+        axes.fill([-0.9, 0, 0, -0.9], [0, 0, -0.9, -0.9], color=style.LIGHT)
+        axes.fill(0.06 * np.cos(a), 0.06 * np.sin(a) - 0.06, color=style.LIGHT)
+        for k in range(shapes.shape[1]):
+            label = f"{run.t[k]:g} s"
+            axes.plot(shapes[:, k, 0], shapes[:, k, 2], color=style.BLUE, alpha=0.3 + 0.17 * k, label=label)
+        axes.set(aspect="equal", xlim=(-1.0, 0.45), ylim=(-1.1, 0.1), xlabel="x [m]", ylabel="z [m]")
+        axes.legend(loc="lower right")
+        (STATIC / "edge.png").write_bytes(style.png(figure, dpi=160))
+
+
 def belt() -> None:
     """Belt force around examples/belt.toml in steady motion, and its stick and slip, beside creep theory."""
     from ancf.reeving.belt import FRICTION, creep_theory, motion
@@ -163,3 +180,4 @@ if __name__ == "__main__":
     knot()
     figures()
     belt()
+    edge()

@@ -114,6 +114,27 @@ def _force(page: Names, axes: Axes) -> None:
     axes.legend(ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1.0))
 
 
+def hoist(page: Names, figure: Figure) -> None:
+    at_rest, lifted, right = figure.subplots(1, 3, width_ratios=(0.8, 0.8, 1.3))
+    run = page["run"]
+    length, angle = page["rope"].length, np.linspace(0, 2 * np.pi, 60)
+    drawn = shape(run, "rope", length, 321)
+    for axes, n, title in ((at_rest, 0, "at rest"), (lifted, -1, "lifted")):
+        for k in range(1, 5):
+            x, _, z = run.position(f"sheave {k}.centre")[n]
+            axes.fill(x + 0.15 * np.cos(angle), z + 0.15 * np.sin(angle), color=style.LIGHT)
+            rim = run.position(f"sheave {k}.at(0.15, 0, 0)")[n]
+            axes.plot([x, rim[0]], [z, rim[2]], color="white")
+        x, _, z = run.position("block.centre")[n]
+        axes.plot(x, z, "s", color=style.ORANGE, markersize=7)
+        axes.plot(*drawn[:, n, ::2].T, color=style.BLUE, linewidth=1.2)
+        axes.set(title=title, xlabel="x [m]", ylabel="z [m]", aspect="equal")
+    right.plot(run.sensors.t, page["pull"], color=style.BLUE, label="computed")
+    right.plot(run.sensors.t, page["expected"], "--", color="black", label="by hand")
+    right.set(xlabel="time [s]", ylabel="force of the hand [N]", ylim=(0.85 * page["by_hand"], None))
+    right.legend()
+
+
 def mooring_line(page: Names, figure: Figure) -> None:
     left, right = figure.subplots(1, 2)
     moved, rough = page["moved"], page["rough"]
@@ -155,6 +176,7 @@ PICTURES = {
     "mooring": ("hanging_and_moored_cable", mooring),
     "sliding": ("sliding_joint", sliding),
     "overhead_line": ("overhead_line", overhead_line),
+    "hoist": ("hoist", hoist),
     "mooring_line": ("mooring", mooring_line),
     "conductor": ("conductor", conductor),
 }

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import ancf
 
@@ -79,6 +80,35 @@ class TestBall:
             rolls = friction == 0.5
             a = 5 / 7 * math.sin(slope) if rolls else math.sin(slope) - friction * math.cos(slope)
             assert run.velocity(body.centre)[-1, 0] == pytest.approx(G * a * 0.3, rel=2e-3)
+
+
+def restitution(x):
+    """e for x = chi v of F = k g (1 + chi dg/dt), from chi (1 + e) v = ln((1 + chi v)/(1 - e chi v))."""
+    return brentq(lambda e: x * (1 + e) - math.log((1 + x) / (1 - e * x)), 1e-9, min(1.0, (1 - 1e-12) / x))
+
+
+class TestRestitution:
+    """Where it is less deep than a fiftieth of the radius the law is that of Hunt and Crossley (1975).
+
+    m v dv/dg = -k g (1 + chi v) has the same integral over g on both ways, whatever m and k are; for small
+    chi v it is e = 1 - 2/3 chi v (their 1 - alpha v with chi = 3/2 alpha).
+    """
+
+    @pytest.mark.parametrize(("x", "speed", "mass"), [(0.02, 0.5, 1.0), (0.3, 0.2, 0.5), (2.0, 0.4, 1.0)])
+    def test_on_a_plane(self, x, speed, mass):
+        k, R = 1e6, 0.1
+        model = ancf.Model()
+        body, skin = ball(model, "ball", (0, 0, R + 1e-4), R, mass, velocity=(0, 0, -speed))
+        floor = model.add_surface("floor", "plane")
+        contact = model.add_contact(skin, floor, stiffness=k, damping=x / speed * k * 0.02 * R)
+        half = math.pi * math.sqrt(mass / k)
+        run = ancf.simulate(model, t_end=3 * half + 1e-4 / speed, step=half / 300, sensors=[contact])
+        assert -run.sensors.contact_gap(contact).min() < 0.02 * R
+        e = run.velocity(body.centre)[-1, 2] / speed
+        assert run.sensors.contact_force(contact)[-1] == 0.0
+        assert e == pytest.approx(restitution(x), abs=5e-4)
+        if x < 0.1:
+            assert e == pytest.approx(1 - 2 / 3 * x, abs=x**2)
 
 
 def test_two_balls_keep_momenta():

@@ -15,8 +15,8 @@ from ancf.linalg.sparse import to_sparse
 from ancf.system.core import (
     apply_supports,
     assemble,
+    factorise_head,
     factorise_matrix,
-    factorise_tail,
     restrict,
     solve_matrix,
     solve_sparse,
@@ -207,46 +207,24 @@ class TestFactorisation:
         assert factorised(A, pairs, n)[1] < 0
 
 
-class TestRenewedRows:
-    """When the last rows alone have changed, the rows before keep their factors."""
+class TestHead:
+    """The first rows alone, where the last ones change in every step."""
 
-    @pytest.mark.parametrize("first", [0, 1, 5, -1])
-    def test_equals_a_whole_factorisation(self, pattern, first):
+    @pytest.mark.parametrize("last", [1, 5, -1])
+    def test_equals_the_factors_of_the_part(self, pattern, last):
         pairs, n = pattern
-        first %= n
+        last %= n
         A = definite(pairs, n)
-        factor, _ = factorised(A, pairs, n)
-        changed = A.copy()
-        change = random_symmetric(pairs, n, seed=3)
-        rows = np.arange(6 * n) >= 6 * first
-        changed[np.ix_(rows, np.ones(6 * n, bool))] += change[rows]
-        changed[np.ix_(~rows, rows)] = changed[np.ix_(rows, ~rows)].T
         places = Places(*fill_pattern(pairs, n))
-        negative = int(factorise_tail(values(changed, places), factor, first))
-        whole, expected = factorised(changed, pairs, n)
-        assert negative == expected  # all rows before are positive definite
-        for one, two in zip(factor[2:4], whole[2:4], strict=True):
-            assert np.array_equal(one, two)
-        b = RNG.standard_normal(6 * n)
-        x = b.copy()
-        solve_matrix(factor, x)
-        growth = max(np.max(np.abs(factor.L)), 1.0) ** 2
-        assert backward_error(changed, x, b) < 1e-13 * growth
-
-    def test_rows_before_are_not_read(self):
-        pairs, n = PATTERNS["wires"]
-        A = definite(pairs, n)
-        factor, _ = factorised(A, pairs, n)
-        places = Places(*fill_pattern(pairs, n))
-        spoiled = values(A, places)
-        spoiled[: 36 * 9] = np.nan
-        below = 36 * (n + int(places.row_start[9]))
-        spoiled[36 * n : below] = np.nan
-        assert factorise_tail(spoiled, factor, 9) == 0
-        b = RNG.standard_normal(6 * n)
-        x = b.copy()
-        solve_matrix(factor, x)
-        assert backward_error(A, x, b) < 1e-14
+        factor = allocate(places.row_start, places.column)
+        spoiled = A.copy()
+        spoiled[6 * last :] = np.nan  # not read
+        assert factorise_head(values(spoiled, places), factor, last) == 0
+        whole, _ = factorised(A, pairs, n)
+        assert np.array_equal(factor.D_inv[: 36 * last], whole.D_inv[: 36 * last])
+        below = 36 * int(places.row_start[last])
+        assert np.array_equal(factor.L[:below], whole.L[:below])
+        assert not factor.L[below:].any()
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,7 @@ from ancf.system.matrix import Places
 @kernel
 def near(factor, x, low, high, count, spread):
     """A kernel of its own: :func:`solve_near` is a part of others."""
-    return solve_near(factor, x, low, high, count, spread)
+    return solve_near(factor, factor.row_start.shape[0] - 1, x, low, high, count, spread)
 
 
 def banded(n, width, stiffness, seed=0):

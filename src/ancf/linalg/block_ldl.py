@@ -137,16 +137,15 @@ def is_zero(T, t):
 
 
 @inline_kernel
-def factorise(A, factor, start):
+def factorise(A, factor, last):
     """Fill ``factor`` from the values A; number of negative pivots, or -(block + 1) if singular.
 
-    Rows before ``start`` are taken as they are: when A has changed in its last rows alone, these are all
-    that has to be done again.
+    Rows from block ``last`` on are left out: see :mod:`ancf.linalg.border`.
     """
     row_start, column, L, LT, D_inv, T, place = factor
     n = row_start.shape[0] - 1
     negative = 0
-    for i in range(start, n):
+    for i in range(last):
         first, last = row_start[i], row_start[i + 1]
         for k in range(first, last):
             place[column[k]] = k - first
@@ -182,10 +181,9 @@ def factorise(A, factor, start):
 
 
 @formula
-def solve(factor, x, first):
-    """Replace the right-hand side x, shape (6 n,) or more, which is zero before block ``first``."""
+def solve_rows(factor, x, first, n):
+    """Replace the first n blocks of the right-hand side x, which is zero before block ``first``."""
     row_start, column, L, LT, D_inv, _, _ = factor
-    n = row_start.shape[0] - 1
     for i in range(first, n):
         if row_start[i] < row_start[i + 1]:
             s = load_six(x, 6 * i)

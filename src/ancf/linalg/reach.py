@@ -33,10 +33,9 @@ def clear(x, first, last):
 
 
 @inline_kernel
-def forward(factor, x, low, high, count, spread):
+def forward(factor, n, x, low, high, count, spread):
     """The forward pass; the ranges grow and join, their number is returned."""
     row_start, column, _, LT, _, _, _ = factor
-    n = row_start.shape[0] - 1
     pieces, end, largest = 0, 0, 0.0
     for k in range(count):
         i, last = low[k], high[k]
@@ -88,12 +87,14 @@ def backward(factor, x, low, high, pieces, spread):
 
 
 @inline_kernel
-def solve_near(factor, x, low, high, count, spread):
+def solve_near(factor, n, x, low, high, count, spread):
     """Replace a right-hand side that counts in some ranges of rows alone by the solution near them.
 
     Parameters
     ----------
     factor : Factor
+    n : int
+        Rows that are there: those before the border, see :mod:`ancf.linalg.border`.
     x : (6 n,) or more
         Right-hand side in the rows low[k] <= i < high[k], which ascend and do not overlap; what else it
         holds does not matter.
@@ -110,7 +111,7 @@ def solve_near(factor, x, low, high, count, spread):
         Number of ranges.
 
     """
-    pieces = forward(factor, x, low, high, count, spread)
+    pieces = forward(factor, n, x, low, high, count, spread)
     for p in range(pieces):
         for i in range(low[p], high[p]):
             store_six(times(factor.D_inv, 36 * i, x, 6 * i), x, 6 * i)
@@ -118,8 +119,8 @@ def solve_near(factor, x, low, high, count, spread):
     return pieces
 
 
-def spread_of(factor: Factor) -> int:
-    """Largest distance of a block of L from the diagonal, at least 1."""
-    rows = range(len(factor.row_start) - 1)
+def spread_of(factor: Factor, n: int | None = None) -> int:
+    """Largest distance of a block of L from the diagonal, at least 1; of its first n rows alone if given."""
+    rows = range(len(factor.row_start) - 1 if n is None else n)
     first = [(i, factor.column[factor.row_start[i] : factor.row_start[i + 1]]) for i in rows]
     return max([1, *(int(i - found[0]) for i, found in first if len(found))])

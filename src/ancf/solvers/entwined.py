@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from ..compiled import formula, inline_kernel, optional
 from ..contact.rows import find_rows
-from ..system.core import solve_matrix, to_local
+from ..system.core import solve_kept, to_local
 from .corotation import turn_back, turn_forth
 from .low_rank import correct
 
@@ -113,7 +115,7 @@ def solve_turned(core, s, rule):
     """Replace the residual s.r by the correction, with a factorisation that turns with the nodes."""
     if rule.corotate:
         turn_back(s.frames, s.r)
-    solve_matrix(core.factor, s.r)
+    solve_kept(core, s.r, np.int64(0))
     if rule.corotate:
         turn_forth(s.frames, s.r)
 

@@ -7,7 +7,9 @@ factorisation Woodbury's formula corrects the solution x = K^-1 r:
     (K + sum c_j b_j b_j^T)^-1 r = x - Z (diag(1/c) + B^T Z)^-1 B^T x,      z_j = K^-1 b_j,
 
 where c is negative for what went slack.  The z_j of springs are kept as long as the factorisation is,
-those of contacts, which move on, for one step.
+those of contacts, which move on, for one step.  Sliding joints have rows R at the border of K, with a Schur
+complement S (:mod:`ancf.linalg.border`); with them z_j becomes z_j + K^-1 R^T e_j, e_j = S^-1 R z_j, of which
+e_j alone changes in every step.
 """
 
 from __future__ import annotations
@@ -21,8 +23,9 @@ from ..compiled import inline_kernel, optional
 from ..connections.contact import DAMPING, FORCE, STIFFNESS, add_row, touch
 from ..connections.contact_build import no_contacts
 from ..connections.spring_damper import spring_gradient, spring_state
+from ..linalg.border import across, solve_small, spread
 from ..linalg.reach import clear, solve_near, spread_of
-from ..system.core import to_local
+from ..system.core import has_rows, to_local
 from ..system.system import System
 
 #: Springs that are corrected at once; beyond them the iteration slows down and the matrix is renewed.
@@ -50,6 +53,8 @@ class Patches(NamedTuple):
     used: IntArray  # (2,) rows in use, and the age of those of the contacts in steps
     active: IntArray  # (MOST,) workspace
     small: FloatArray  # (MOST, MOST + 1) workspace
+    met: FloatArray  # (MOST, 2, 6 t) R z_j and S^-1 R z_j, with t rows of sliding joints
+    total: FloatArray  # (6 t,) workspace
     slots: IntArray  # (WIDEST,) workspace
     spread: int  # see ancf.linalg.reach
 
@@ -61,6 +66,7 @@ def room_for_patches(system: System) -> tuple[Patches, ...]:
     most = touching + min(MOST, int(np.count_nonzero(springs.data[:, 3])))
     if most == 0:
         return ()
+    rows = len(system.core.joints.border.number)
     room = Patches(
         contacts,
         springs,
@@ -76,8 +82,10 @@ def room_for_patches(system: System) -> tuple[Patches, ...]:
         np.array([touching, KEPT], dtype=np.int64),
         np.zeros(most, dtype=np.int64),
         np.zeros((most, most + 1)),
+        np.zeros((most, 2, 6 * rows)),
+        np.zeros(6 * rows),
         np.zeros(WIDEST, dtype=np.int64),
-        spread_of(system.core.factor),
+        spread_of(system.core.factor, system.core.joints.first),
     )
     return (room,)
 
@@ -148,7 +156,7 @@ def fill(core, p, k, count):
             p.low[k, ranges], p.high[k, ranges] = block, block + 1
             ranges += 1
     p.width[k] = w
-    p.ranges[k] = solve_near(core.factor, z, p.low[k], p.high[k], ranges, p.spread)
+    p.ranges[k] = solve_near(core.factor, core.joints.first, z, p.low[k], p.high[k], ranges, p.spread)
     for j in range(p.used[0]):
         p.gram[j, k] = times(p, j, z)
         p.gram[k, j] = p.gram[j, k]
@@ -233,8 +241,33 @@ def eliminate(A, m):
         A[k, m] /= A[k, k]
 
 
+@inline_kernel
+def meet_border(border, p, m):
+    """What the active rows do to the rows of the sliding joints, and these to their products."""
+    for i in range(m):
+        across(border, p.back[p.active[i]], p.met[i, 0])
+        for c in range(p.total.shape[0]):
+            p.met[i, 1, c] = p.met[i, 0, c]
+        solve_small(border, p.met[i, 1])
+    for i in range(m):
+        for j in range(m):
+            for c in range(p.total.shape[0]):
+                p.small[i, j] += p.met[i, 0, c] * p.met[j, 1, c]
+
+
+@inline_kernel
+def correct_border(border, p, m, n, x):
+    """The part of the correction that comes through the sliding joints; they stand behind n unknowns."""
+    for c in range(p.total.shape[0]):
+        p.total[c] = 0.0
+        for j in range(m):
+            p.total[c] += p.small[j, m] * p.met[j, 1, c]
+        x[n + c] += p.total[c]
+    spread(border, p.total, x)
+
+
 def _correct(patches, core, q, v, gb, x):
-    p, n = patches[0], core.weight.shape[0]
+    p, n, border = patches[0], 6 * core.joints.first, core.joints.border
     m = changed(core, p, q, v, gb, n)
     if m == 0:
         return
@@ -242,6 +275,8 @@ def _correct(patches, core, q, v, gb, x):
         for j in range(m):
             g = p.gram[p.active[i], p.active[j]]
             p.small[i, j] = g + p.small[i, i] if i == j else g
+    if has_rows(core.joints):
+        meet_border(border, p, m)
     for i in range(m):
         p.small[i, m] = times(p, p.active[i], x)
     eliminate(p.small, m)
@@ -251,6 +286,8 @@ def _correct(patches, core, q, v, gb, x):
         for piece in range(p.ranges[k]):
             for i in range(6 * p.low[k, piece], 6 * p.high[k, piece]):
                 x[i] -= y * z[i]
+    if has_rows(core.joints):
+        correct_border(border, p, m, n, x)
 
 
 #: The matrix is new.

@@ -94,7 +94,7 @@ def _iterate(nearby, core, s, limit, gb, ib):
     residual_near(near, count, n, core.ws, s.q, s.v, s.a, s.f, s.r)
     to_local(core.supports, s.r)
     clear_beyond(near, count, n // 6, s.r)
-    count = solve_near(core.factor, s.r, near.low, near.high, count, near.spread)
+    count = solve_near(core.factor, core.joints.first, s.r, near.low, near.high, count, near.spread)
     correct(s.patches, core, s.q, s.v, gb, s.r)
     return take(near, s, core.weight, gb, ib, count)
 

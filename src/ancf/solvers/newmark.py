@@ -26,17 +26,18 @@ import numpy as np
 
 from ..batches import add_tangents, find_events, remember_all
 from ..compiled import formula, inline_kernel, kernel
+from ..linalg.border import clear_rows, forget_columns, make_border
 from ..system.core import (
     assemble,
     constraint_rows,
     drive,
     external_force,
-    factorise_matrix,
-    factorise_tail,
+    factorise_head,
     follow,
+    has_rows,
     inverted_section,
     restrict,
-    solve_sparse,
+    solve_kept,
     to_local,
 )
 from .balance import balance
@@ -135,16 +136,12 @@ def still(joints, v, a):
 def renew_tail(tail, core, s, rule, B, G):
     """Renew the rows of the sliding joints alone; whether that is possible."""
     joints, A = core.joints, core.A
-    n = core.factor.row_start.shape[0] - 1
-    for i in range(36 * joints.first, 36 * n):
-        A[i] = 0.0
-    for i in range(36 * (n + core.factor.row_start[joints.first]), A.shape[0]):
-        A[i] = 0.0
+    clear_rows(joints.border, A, joints.first)
     add_tangents(tail, s.q, s.v, A, 1.0 / B, G / B, 1.0, core.ws)
     restrict(joints.supports, A)
     if rule.corotate:
         turn_rows(s.frames, A)
-    return factorise_tail(A, core.factor, joints.first) >= 0
+    return make_border(joints.border, A, core.factor) >= 0
 
 
 @inline_kernel
@@ -160,7 +157,7 @@ def project(batches, core, s, rule):
     if norm <= HELD * rule.tolerance:
         return 0.0
     to_local(core.supports, s.r)  # as in solve_turned, but there is nothing to turn back
-    solve_sparse(core.factor, s.r, joints.lowest)
+    solve_kept(core, s.r, min(joints.lowest, joints.first))
     if rule.corotate:
         turn_forth(s.frames, s.r)
     norm = 0.0
@@ -201,7 +198,11 @@ def new_matrix(core, s, h, B, G):
     remember(s.frames, s.q)
     s.counts[JACOBIANS] += 1
     s.counts[FACTORIZATIONS] += 1
-    bad = factorise_matrix(core.A, core.factor)
+    bad = factorise_head(core.A, core.factor, core.joints.first)
+    if bad >= 0 and has_rows(core.joints):
+        forget_columns(core.joints.border)
+        bad = min(make_border(core.joints.border, core.A, core.factor), 0)
+        bad -= core.joints.first if bad < 0 else 0
     if bad < 0:
         s.memo[WORST] = 6.0 * (-bad - 1)
         return False
@@ -219,9 +220,8 @@ def newton(core, s, h, rule, modified, B, G):
     taut = len(s.patches) > 0 and not has_joints  # a line of wires, as a rule
     if rule.corotate and not renew:
         turn(s.frames, s.q)
-    if not renew and core.joints.first < core.factor.row_start.shape[0] - 1:
+    if not renew and has_rows(core.joints):
         renew = not renew_tail(core.joints.tail, core, s, rule, B, G)
-        forget(s.patches)
     move_on(s.patches)
     eta = max(s.memo[ETA] ** AGED, STALE)
     tolerance = rule.tolerance

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any, NoReturn
 
 import numpy as np
@@ -365,11 +366,16 @@ class Run:
 
     def round_off(self) -> float:
         """Energy that may come from round-off, J."""
-        beams = self.system.model.beams.values()
-        stiff = sum(b.section.EA * b.length for b in beams)  # energy of strain 1
+        stiff, size = self._extent
         loads = np.sum(np.abs(self.system.core.loads.gravity)) + np.sum(np.abs(self.memory.f))
-        weight = float(loads) * self.system.model.size
+        weight = float(loads) * size
         return ROUNDED * float(np.sum(np.abs(self.energy0))) + ROUNDED_FORCES * (stiff + weight)
+
+    @cached_property
+    def _extent(self) -> tuple[float, float]:
+        """Energy of strain 1 in all beams, J, and the size of the model, m."""
+        model = self.system.model
+        return sum(b.section.EA * b.length for b in model.beams.values()), model.size
 
     def _failure(self, t: float, number: int, reason: str, h: float) -> SolveError:
         return failures.failed(self.system, self.memory.memo, t, number, reason, h)

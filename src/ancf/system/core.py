@@ -18,7 +18,8 @@ from ..batches import (
     strain_energies,
 )
 from ..compiled import formula, inline_kernel, inlined_kernel, kernel
-from ..linalg.block_ldl import Factor, factorise, solve
+from ..linalg.block_ldl import Factor, factorise, solve_rows
+from ..linalg.border import Border, solve_border
 
 
 class Supports(NamedTuple):
@@ -59,7 +60,8 @@ class Joints(NamedTuple):
     """Constraints with multipliers.
 
     The multipliers are unknowns of the state vector without rates.  The blocks of the sliding joints,
-    whose rows of the matrix change as they slide, come last: their rows alone are renewed in every step.
+    whose rows of the matrix change as they slide, come last: their rows alone are renewed in every step, as a
+    border of the kept factors of the others.
     """
 
     multipliers: IntArray  # unknowns
@@ -70,6 +72,7 @@ class Joints(NamedTuple):
     first: int  # first block of these rows, the number of blocks if there are none
     lowest: int  # first block with a multiplier, the number of blocks if there are none
     supports: Supports  # the part of the supports that concerns these rows
+    border: Border  # these rows, beside the factors of those before
 
 
 class Core(NamedTuple):
@@ -224,13 +227,13 @@ def restrict(supports, A):
 @kernel
 def factorise_matrix(A, factor):
     """Factorise A; number of negative pivots, or -(block + 1) when singular there."""
-    return factorise(A, factor, np.int64(0))  # a literal 0 would be compiled by itself
+    return factorise(A, factor, factor.row_start.shape[0] - 1)
 
 
 @kernel
-def factorise_tail(A, factor, first):
-    """Factorise the rows from block ``first`` on again; see :func:`factorise_matrix`."""
-    return factorise(A, factor, first)
+def factorise_head(A, factor, last):
+    """Factorise the rows before block ``last`` alone; see :func:`factorise_matrix`."""
+    return factorise(A, factor, last)
 
 
 @inline_kernel
@@ -258,13 +261,28 @@ def constraints(joints, q, v, a, r, ws):
 @inlined_kernel
 def solve_matrix(factor, x):
     """Replace a residual that :func:`to_local` has prepared by the correction."""
-    solve(factor, x, np.int64(0))
+    solve_rows(factor, x, np.int64(0), factor.row_start.shape[0] - 1)  # a literal 0 is a type of its own
 
 
 @kernel
 def solve_sparse(factor, x, first):
     """The same for an x that is zero before block ``first``."""
-    solve(factor, x, first)
+    solve_rows(factor, x, first, factor.row_start.shape[0] - 1)
+
+
+@formula
+def has_rows(joints):
+    """Whether there are rows that are renewed in every step."""
+    return joints.border.number.shape[0] > 0
+
+
+@formula
+def solve_kept(core, x, first):
+    """The same with the factors of a step, which have the rows of the sliding joints at their border."""
+    if first < core.joints.first:
+        solve_rows(core.factor, x, first, core.joints.first)
+    if has_rows(core.joints):
+        solve_border(core.joints.border, x)
 
 
 @kernel

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..arrays import IntArray
 from ..batches import Batches
 from ..compiled import Role, with_role
+from ..linalg.border import room_for_border
 from .core import Joints, Supports, assemble
 from .matrix import Places
 
@@ -23,16 +24,33 @@ def core_joints(batches: list[Any], system: Any, supports: Supports) -> Joints:
     mask[system.multipliers] = 1.0
     first = min(system.numbering.sliding, default=system.numbering.blocks)
     constrained = with_role(batches, Role.CONSTRAINS)
+    tail = with_role(constrained, Role.SLIDES)
     return Joints(
         multipliers=system.multipliers,
         mask=mask,
         level=system.level,
         batches=Batches(constrained),
-        tail=Batches(with_role(constrained, Role.SLIDES)),
+        tail=Batches(tail),
         first=first,
         lowest=int(np.min(system.multipliers, initial=system.n)) // 6,
         supports=tail_supports(supports, system.places, first),
+        border=room_for_border(first, system.numbering.blocks - first, widest_row(tail, system.n)),
     )
+
+
+def widest_row(tail: tuple[Any, ...], n: int) -> int:
+    """Blocks of six of the n unknowns on which a sliding joint depends at most at a time.
+
+    A vector along local axes, which is seen by its shadow, counts as a block of its own.
+    """
+    most = 0
+    for batch in tail:
+        blocks = [np.where(slot < n, slot // 6, slot) for slot in (batch.slot, batch.line_slot)]
+        for j in range(len(batch.unknown)):
+            for line in blocks[1][batch.first[j] : batch.first[j + 1]]:
+                found = np.concatenate([blocks[0][j], line])
+                most = max(most, len(np.unique(found[found >= 0])))
+    return most
 
 
 def tail_supports(supports: Supports, places: Places, first: int) -> Supports:

@@ -11,13 +11,14 @@ from ..arrays import IntArray
 
 def block_pairs(batches: list[Any]) -> IntArray:
     """Pairs of blocks that some batch couples, shape (m, 2), each once."""
-    parts = [np.zeros((0, 2), dtype=np.int64)]
-    for batch in batches:
-        blocks = np.where(batch.base >= 0, batch.base // 6, -1)
-        k = blocks.shape[1]
-        pairs = np.stack([np.repeat(blocks, k, axis=1), np.tile(blocks, (1, k))], axis=-1).reshape(-1, 2)
-        parts.append(np.unique(pairs[(pairs[:, 0] > pairs[:, 1]) & (pairs[:, 1] >= 0)], axis=0))
-    return np.unique(np.concatenate(parts), axis=0)
+    found = [np.where(batch.base >= 0, batch.base // 6, -1) for batch in batches]
+    n = 1 + max((int(blocks.max(initial=-1)) for blocks in found), default=0)
+    keys = [np.zeros(0, dtype=np.int64)]
+    for blocks in found:
+        high, low = blocks[:, :, None], blocks[:, None, :]
+        keys.append((high * n + low)[(high > low) & (low >= 0)])
+    key = np.unique(np.concatenate(keys))  # numbers: rows of two take ten times as long
+    return np.stack([key // max(n, 1), key % max(n, 1)], axis=1)
 
 
 class Places:

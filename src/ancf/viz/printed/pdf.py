@@ -23,6 +23,8 @@ PADDING = 6.0
 #: Size of letters: of text, and of tables by the letters of a row that have to fit.
 SIZE, SIZES, LETTERS = 9.0, (8.0, 5.5), 118.0
 FONT, BOLD = "DejaVu", "DejaVu-Bold"
+#: Space of the headings above a table that has a page of its own.
+HEADINGS = 20 * MM
 #: Space that the head and the first rows of a long table want.
 TOP_OF_TABLE = 50 * MM
 
@@ -77,7 +79,7 @@ def _flow(found: Sequence[Block]) -> Iterator[Any]:
             waiting += _heading(block, styles)
             continue
         parts = _parts(block, styles)
-        long = isinstance(block, Table) and parts[0].wrap(WIDTH, HEIGHT)[1] > 0.85 * HEIGHT
+        long = isinstance(block, Table) and parts[0].wrap(WIDTH, HEIGHT)[1] > HEIGHT - HEADINGS
         yield from (
             [CondPageBreak(TOP_OF_TABLE), *waiting, *parts] if long else [KeepTogether(waiting + parts)]
         )

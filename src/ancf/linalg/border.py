@@ -1,0 +1,221 @@
+"""Rows at the border of a factorised matrix that change in every step: those of sliding joints.
+
+With the kept factors of K the equations of a step are
+
+    [ K  R^T ] [x]   [r]          S = D - R K^-1 R^T,
+    [ R   D  ] [y] = [s],         S y = s - R K^-1 r,      x = K^-1 r - K^-1 R^T y.
+
+D is block diagonal, and a row of R has entries under a few blocks of K alone: the sliding point's and those
+of the element in which the joint is.  For each of these blocks the six columns of K^-1 are kept, as long as
+the factors are.  A step then costs products of 6x6 blocks, whatever the length of the line, and new columns
+only where a joint comes to another element.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..arrays import FloatArray, IntArray
+from ..compiled import inline_kernel, kernel
+from ..simd import every, load_six, store_six
+from .block_ldl import Factor, allocate, columns, factorise, is_zero, solve_rows, subtract_product, times
+
+#: Blocks whose columns are kept for each row besides those that it may have at a time.
+SPARE = 2
+
+
+class Border(NamedTuple):
+    """t rows of blocks behind the n blocks of K, with at most w blocks each; room for m blocks of columns."""
+
+    block: IntArray  # (m,) block of K whose columns are kept, -1: none
+    inverse: FloatArray  # (m, 36 n) six columns of K^-1, for each block one after the other
+    number: IntArray  # (t,) blocks in each row now
+    kept: IntArray  # (t, w) which of the m they are
+    place: IntArray  # (t, w) where they stand in the matrix
+    R: FloatArray  # (36 t w,) row by row
+    RT: FloatArray  # (36 t w,) column by column
+    S: FloatArray  # values of the Schur complement, full
+    small: Factor  # of it
+    y: FloatArray  # (6 t,) workspace
+    part: FloatArray  # (36,) workspace
+
+
+def room_for_border(head: int, rows: int, widest: int) -> Border:
+    """Border of ``rows`` blocks behind ``head`` ones; each row has at most ``widest`` blocks at a time."""
+    kept = rows * (widest + SPARE)
+    start = np.arange(rows + 1) * (np.arange(rows + 1) - 1) // 2
+    column = np.concatenate([np.zeros(0, dtype=np.int64), *(np.arange(t) for t in range(rows))])
+    return Border(
+        block=np.full(kept, -1, dtype=np.int64),
+        inverse=np.zeros((kept, 36 * head if rows else 0)),
+        number=np.zeros(rows, dtype=np.int64),
+        kept=np.zeros((rows, widest), dtype=np.int64),
+        place=np.zeros((rows, widest), dtype=np.int64),
+        R=np.zeros(36 * rows * widest),
+        RT=np.zeros(36 * rows * widest),
+        S=np.zeros(36 * (rows + len(column))),
+        small=allocate(start.astype(np.int64), column.astype(np.int64)),
+        y=np.zeros(6 * rows),
+        part=np.zeros(36),
+    )
+
+
+@inline_kernel
+def unit_columns(factor, n, block, Z):
+    """Z = K^-1 times the unit vectors of a block of the n blocks of K."""
+    row_start, column, L, LT, D_inv, _, _ = factor
+    for i in range(36 * n):
+        Z[i] = 0.0
+    for c in range(6):
+        Z[36 * block + 7 * c] = 1.0
+    for i in range(block + 1, n):
+        for k in range(row_start[i], row_start[i + 1]):
+            if column[k] >= block:
+                subtract_product(Z, 36 * i, Z, 36 * column[k], LT, 36 * k)
+    for i in range(block, n):
+        for c in range(36 * i, 36 * i + 36, 6):
+            store_six(times(D_inv, 36 * i, Z, c), Z, c)
+    for i in range(n - 1, -1, -1):
+        for k in range(row_start[i], row_start[i + 1]):
+            subtract_product(Z, 36 * column[k], Z, 36 * i, L, 36 * k)
+
+
+@inline_kernel
+def in_use(border, m):
+    """Whether the rows that are known already have the kept block m."""
+    for t in range(border.number.shape[0]):
+        for u in range(border.number[t]):
+            if border.kept[t, u] == m:
+                return True
+    return False
+
+
+@inline_kernel
+def columns_of(border, factor, n, block):
+    """Which of the kept blocks this one is; its columns are made if they are not there."""
+    free = -1
+    for m in range(border.block.shape[0]):
+        if border.block[m] == block:
+            return m
+        if border.block[m] < 0 or (free < 0 and not in_use(border, m)):
+            free = m
+    border.block[free] = block
+    unit_columns(factor, n, block, border.inverse[free])
+    return free
+
+
+@inline_kernel
+def read_row(border, A, factor, n, t):
+    """Blocks of row t, from the matrix."""
+    blocks, width = factor.row_start.shape[0] - 1, border.kept.shape[1]
+    for k in range(factor.row_start[n + t], factor.row_start[n + t + 1]):
+        a = 36 * (blocks + k)
+        if factor.column[k] >= n or is_zero(A, a):
+            continue
+        u = border.number[t]
+        o = 36 * (t * width + u)
+        for c in range(36):
+            border.R[o + c] = A[a + c]
+        for i in range(6):
+            for j in range(6):
+                border.RT[o + 6 * j + i] = A[a + 6 * i + j]
+        border.place[t, u], border.kept[t, u] = a, columns_of(border, factor, n, factor.column[k])
+        border.number[t] = u + 1
+
+
+@inline_kernel
+def subtract_inverse(border, t, h, o):
+    """S -= R_t K^-1 R_h^T, for the block of S at ``o``."""
+    width, part = border.kept.shape[1], border.part
+    for u in range(border.number[t]):
+        for w in range(border.number[h]):
+            a, b = 36 * (t * width + u), 36 * (h * width + w)
+            G, at = border.inverse[border.kept[t, u]], 36 * border.block[border.kept[h, w]]
+            for i in range(0, 36, 6):
+                store_six(times(G, at, border.R, a + i), part, i)
+            subtract_product(border.S, o, part, 0, border.RT, b)
+
+
+@kernel
+def forget_columns(border):
+    """The factors are new."""
+    for m in range(border.block.shape[0]):
+        border.block[m] = -1
+
+
+@kernel
+def clear_rows(border, A, n):
+    """Set what the rows have in the matrix, of which K has n blocks, to zero."""
+    for t in range(border.number.shape[0]):
+        for u in range(border.number[t]):
+            for i in range(border.place[t, u], border.place[t, u] + 36):
+                A[i] = 0.0
+        for i in range(36 * (n + t), 36 * (n + t + 1)):
+            A[i] = 0.0
+
+
+@kernel
+def make_border(border, A, factor):
+    """Take the rows from the matrix and factorise S; number of negative pivots, or -(row + 1) if singular."""
+    rows = border.number.shape[0]
+    n = factor.row_start.shape[0] - 1 - rows
+    for t in range(rows):
+        border.number[t] = 0
+    for t in range(rows):
+        read_row(border, A, factor, n, t)
+    for i in range(border.S.shape[0]):
+        border.S[i] = 0.0
+    for t in range(rows):
+        for c in range(36):
+            border.S[36 * t + c] = A[36 * (n + t) + c]
+        subtract_inverse(border, t, t, 36 * t)
+        for h in range(t):
+            subtract_inverse(border, t, h, 36 * (rows + border.small.row_start[t] + h))
+    return factorise(border.S, border.small, rows)
+
+
+@inline_kernel
+def across(border, x, y):
+    """y = R x."""
+    width = border.kept.shape[1]
+    for t in range(border.number.shape[0]):
+        s = every(0.0)
+        for u in range(border.number[t]):
+            s = s + times(border.RT, 36 * (t * width + u), x, 6 * border.block[border.kept[t, u]])
+        store_six(s, y, 6 * t)
+
+
+@inline_kernel
+def spread(border, y, x):
+    """x -= K^-1 R^T y."""
+    width = border.kept.shape[1]
+    for t in range(border.number.shape[0]):
+        for u in range(border.number[t]):
+            Z, part = border.inverse[border.kept[t, u]], border.part
+            store_six(times(border.R, 36 * (t * width + u), y, 6 * t), part, 0)
+            f0, f1, f2 = every(part[0]), every(part[1]), every(part[2])
+            f3, f4, f5 = every(part[3]), every(part[4]), every(part[5])
+            for i in range(Z.shape[0] // 36):
+                store_six(load_six(x, 6 * i) - columns(Z, 36 * i, f0, f1, f2, f3, f4, f5), x, 6 * i)
+
+
+@inline_kernel
+def solve_small(border, y):
+    """y -> S^-1 y."""
+    solve_rows(border.small, y, np.int64(0), border.number.shape[0])
+
+
+@kernel
+def solve_border(border, x):
+    """Replace (K^-1 r, s) by the solution (x, y)."""
+    y = border.y
+    n = border.inverse.shape[1] // 6
+    across(border, x, y)
+    for i in range(y.shape[0]):
+        y[i] = x[n + i] - y[i]
+    solve_small(border, y)
+    spread(border, y, x)
+    for i in range(y.shape[0]):
+        x[n + i] = y[i]
