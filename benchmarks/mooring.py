@@ -146,7 +146,7 @@ def moored(seed: int = 1) -> tuple[ancf.Model, list[ancf.Point]]:
         ends.append(line.end)
     sea = ancf.Waves.jonswap(height=4.0, period=10.0, components=50, seed=seed, depth=100.0)
     model.add_fluid("sea", 1025.0, velocity=(0.5, 0.0, 0.0), below=0.0, waves=sea)
-    model.add_ground("seabed", -100.0, stiffness=3e6, damping=3e5, friction=0.3)
+    model.add_ground("seabed", -100.0, stiffness=3e6, damping=3e5, friction=0.3, stick=3e4)
     return model, ends
 
 

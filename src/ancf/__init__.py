@@ -9,7 +9,7 @@ from ._version import __version__
 from .errors import Interrupted, ModelError, SolveError
 
 if TYPE_CHECKING:
-    from .analysis import equilibrium, load, modes, simulate, stable_step
+    from .analysis import damped_modes, equilibrium, load, modes, simulate, stable_step
     from .control.stepper import Stepper, stepper
     from .design.calibrate import calibrate
     from .design.distributions import Discrete, LogNormal, Normal, Triangular, Uniform
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from .model.reeving import Reeving
     from .model.series import Series
     from .model.surface_shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
-    from .results import Modes, Result, State
+    from .results import DampedModes, Modes, Result, State
     from .resumption import resume
     from .verification import Verification, verify
 
@@ -39,6 +39,7 @@ _LATER = {
     "equilibrium": "analysis",
     "simulate": "analysis",
     "modes": "analysis",
+    "damped_modes": "analysis",
     "stable_step": "analysis",
     "load": "analysis",
     "resume": "resumption",
@@ -47,6 +48,7 @@ _LATER = {
     "Result": "results",
     "State": "results",
     "Modes": "results",
+    "DampedModes": "results",
     "Capsule": "model.surface_shapes",
     "Cylinder": "model.surface_shapes",
     "Mesh": "model.mesh",
@@ -74,6 +76,7 @@ _LATER = {
 __all__ = [
     "Capsule",
     "Cylinder",
+    "DampedModes",
     "Discrete",
     "Explicit",
     "Fit",
@@ -107,6 +110,7 @@ __all__ = [
     "Waves",
     "__version__",
     "calibrate",
+    "damped_modes",
     "equilibrium",
     "gradient",
     "load",

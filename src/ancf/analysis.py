@@ -1,4 +1,4 @@
-"""The three things one does with a model: equilibrium, simulation, modes."""
+"""What one does with a model: equilibrium, simulation, modes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .model.integrators import Explicit, Integrator
 from .model.model import Model
 from .preparation import carried_out, given_state, method_of, prepared
 from .results import remembered
-from .results.modes import Modes
+from .results.modes import DampedModes, Modes
 from .results.result import Result, load
 from .results.state import State
 from .results.store import FileStore, MemoryStore
@@ -28,12 +28,13 @@ from .sensitivity.compute import of_state, with_sensitivities
 from .sensitivity.modal import of_modes
 from .sensitivity.parameters import check_known, parameters_of
 from .solvers import statics
+from .solvers.damped_modal import damped_modes_about
 from .solvers.modal import natural_modes
 from .solvers.record import Progress
 from .solvers.stability import stable_limit
 from .system.redundancy import independent
 
-__all__ = ["equilibrium", "load", "modes", "simulate", "stable_step"]
+__all__ = ["damped_modes", "equilibrium", "load", "modes", "simulate", "stable_step"]
 
 #: Share of its natural length above which a cable at its start is not called pressed.
 PRESSED = 0.999
@@ -230,6 +231,38 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
         omega, shapes = natural_modes(about.system, about.q, count)
     made = Modes(omega, shapes, about)
     return replace(made, derivatives=of_modes(made, parameters)) if parameters else made
+
+
+def damped_modes(model: Model, *, about: State | None = None, count: int = 10) -> DampedModes:
+    """Lowest modes of a model with its damping, about an equilibrium or a steady rotation.
+
+    A model rotates steadily if its velocities say so: those of ``set_motion(angular_velocity=...)``, or of a
+    clamp that turns. The shape that centrifugal forces give it is found first. With the rotation come
+    gyroscopic and centrifugal forces, so that modes whirl.
+
+    Parameters
+    ----------
+    model : Model
+    about : State, optional
+        An equilibrium or a state that rotates; default the initial shape and motion.
+    count : int
+        Number of modes.
+
+    Raises
+    ------
+    ModelError
+        More modes are wanted than there are free unknowns.
+    SolveError
+        The state moves otherwise than in a steady rotation; what stands still does not act alike from all
+        sides of its axis; or there are more than 1500 unknowns.
+    """
+    with expected(model):
+        system = independent(model)
+        q, v = given_state(system, about, "damped_modes.about")
+        time = 0.0 if about is None else about.t
+        checks.integer(count, "damped_modes.count", 1, len(system.free) - 2 * len(system.multipliers))
+        values, shapes, whirl, spin, q = damped_modes_about(system, q, v, time, count)
+        return DampedModes(values, shapes, whirl, spin, State(system, time, q, v))
 
 
 def stable_step(model: Model, *, about: State | None = None, safety: float = 0.9) -> float:

@@ -27,6 +27,7 @@ from .compiled import (
     add_tangent,
     does_something,
     find_event,
+    inline_kernel,
     inverted,
     measure,
     remember,
@@ -359,6 +360,13 @@ def _remembered(batches, q, v):
     table = batches.table
     for k in range(table.shape[0]):
         _remember(table[k, REMEMBER], table[k, 0], (q, v))
+
+
+@inline_kernel
+def add_force_of(batches, k, q, v, a, r, ws):
+    """``add_force`` of one of the :class:`Batches`."""
+    table = batches.table
+    _force(table[k, FORCE], table[k, 0], (q, v, a, r, ws))
 
 
 #: The operations, of all batches in turn: see :mod:`ancf.compiled`.

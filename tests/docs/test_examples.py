@@ -16,8 +16,16 @@ WITH_MAIN = ("cantilever", "pendulum", "spin_up", "coupled_wires", "sliding_beam
 CONTROLLED = ("active_pantograph", "crane", "crane_env")
 #: The script of tests/design/test_calibrate.py.
 CALIBRATED = ("calibrate",)
-#: Model files; two describe overhead lines, study.toml a study, calibrate.toml a calibration.
-OTHERS = {"line.toml", "tension_length.toml", "study.toml", "calibrate.toml"}
+#: Model files; three describe overhead lines, study.toml a study, calibrate.toml a calibration, and
+#: droppers.toml what ancf optimise looks for.
+OTHERS = {
+    "line.toml",
+    "tension_length.toml",
+    "study.toml",
+    "calibrate.toml",
+    "droppers.toml",
+    "droppers_line.toml",
+}
 FILES = sorted({path.name for path in EXAMPLES.glob("*.toml")} - OTHERS)
 
 

@@ -7,6 +7,7 @@ from .catalogue import line_file, line_names, read_line
 from .clamp_strain import ClampStrain, clamp_strains
 from .conditions import Conditions
 from .cycles import Cycles, FatigueLine, rainflow
+from .derivatives import slopes
 from .elasticity import Elasticity, elasticity
 from .fittings import Droppers, Load, SteadyArm, Tensioner
 from .form import Form
@@ -91,6 +92,7 @@ __all__ = [
     "reference_run",
     "rows",
     "run",
+    "slopes",
     "statistics",
     "time_above",
     "verify",

@@ -77,7 +77,7 @@ class Identified:
 
     @property
     def errors(self) -> npt.NDArray[np.complex128]:
-        """(fitted - measured) / |measured| at each frequency (n,)."""
+        """``(fitted - measured) / |measured|`` at each frequency (n,)."""
         made: npt.NDArray[np.complex128] = (self.fitted - self.measured) / np.abs(self.measured)
         return made
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from ..arrays import FloatArray
 from . import cautions
 from .assemble import Assembled
 from .collectors import Collector, Touch, put_pantograph
+from .derivatives import check_run, parameters, records
 from .line import Line
 from .mesh import Mesh
 from .pantograph import Pantograph
@@ -57,6 +58,7 @@ def run(
     controller: Callable[[Any], Any] | None = None,
     control_step: float | None = None,
     modify: Callable[[Assembled], Any] | None = None,
+    sensitivities: Mapping[str, Sequence[str]] | None = None,
 ) -> Run:
     """Run pantographs along a line from its equilibrium.
 
@@ -102,6 +104,9 @@ def run(
     modify : callable
         Called with the :class:`Overhead` before pantographs are added: it changes the model, and nothing
         that it returns counts. A trial run for a mean height has another mesh, to which it is applied too.
+    sensitivities : mapping
+        By the name of a parameter the droppers that it makes longer alike, ``{"first": ["6-1", "7-1"]}``
+        (span and number from 1), by which derivatives are wanted: :func:`ancf.catenary.slopes`.
 
     Returns
     -------
@@ -138,8 +143,13 @@ def run(
     _warn(cautions.before(plan))
     if any(unit.relaxed_at == "mean" for unit in plan.pantographs):
         plan = _relaxed(plan)
-    led = {} if controller is None else {"controller": controller, "control_step": control_step}
-    done = _simulated(plan, integrator, progress, output_step=output_step, file=file, **led)
+    if sensitivities:
+        check_run(plan, sensitivities, controller)
+    led: dict[str, Any] = (
+        {} if controller is None else {"controller": controller, "control_step": control_step}
+    )
+    stored: dict[str, Any] = {"output_step": output_step, "file": file}
+    done = _simulated(plan, integrator, progress, sensitivities=sensitivities, **stored, **led)
     _warn(cautions.after(done))
     return done
 
@@ -174,27 +184,42 @@ def _simulated(
     progress: Callable[[Any], None] | None,
     output_step: float | None = None,
     file: str | Path | None = None,
+    sensitivities: Mapping[str, Sequence[str]] | None = None,
     **led: Any,
 ) -> Run:
     overhead = plan.door.overhead(plan.form)
     rest = _rest(plan)
+    alone = _alone(overhead, sensitivities or {})
     collectors = _collectors(overhead, plan, bool(led))
     model, duration = overhead.model, plan.duration
+    wanted = parameters(overhead, model, sensitivities or {})
     droppers = [dropper for dropper in overhead.droppers if dropper is not None]
     result = ancf.simulate(
         model,
         t_end=duration,
         step=plan.step,
-        start=ancf.equilibrium(model),
+        start=ancf.equilibrium(model, sensitivities=wanted),
         integrator=_integrator(plan) if integrator is None else integrator,
         output_step=duration if output_step is None else output_step,
         sensors=[*droppers, *overhead.supports, *(s for c in collectors for s in c.sensors())],
         energy=False,
         file=file,
         progress=progress,
+        sensitivities=wanted,
         **led,
     )
-    return _recorded(result, overhead, collectors, plan, rest)
+    made = _recorded(result, overhead, collectors, plan, rest)
+    if alone is None:
+        return made
+    names = [parameter.name for parameter in wanted]
+    found = {n: records(result.sensors, overhead, collectors, n, alone.sensitivity(n)) for n in names}
+    return replace(made, slopes=found)
+
+
+def _alone(overhead: Assembled, sensitivities: Mapping[str, Sequence[str]]) -> ancf.State | None:
+    """The line without pantographs with its derivatives, if they are wanted."""
+    wanted = parameters(overhead, overhead.model, sensitivities)
+    return ancf.equilibrium(overhead.model, sensitivities=wanted) if wanted else None
 
 
 def _integrator(plan: Plan) -> ancf.GeneralizedAlpha:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -56,8 +56,8 @@ class Recording:
     def __post_init__(self) -> None:
         where = f'recording "{self.name}"'
         count = (np.size(self.position),)
-        for field in ("position", "force", "height", "stagger", "strip"):
-            _check(getattr(self, field), count, f"{where}.{field}")
+        for key in ("position", "force", "height", "stagger", "strip"):
+            _check(getattr(self, key), count, f"{where}.{key}")
         if self.by_wire is not None:
             _check(self.by_wire, (*count, self.by_wire.shape[-1]), f"{where}.by_wire")
 
@@ -67,6 +67,23 @@ class Recording:
             return self.force if wire == 0 else np.zeros_like(self.force)
         part: FloatArray = self.by_wire[:, wire]
         return part
+
+
+@dataclass(frozen=True)
+class RunSlopes:
+    """Derivatives of the records of a run by one parameter, per m.
+
+    Attributes
+    ----------
+    force : tuple of (n,)
+        Contact force of each pantograph, N/m.
+    uplift : (n, supports)
+        m/m, without the height at rest.
+
+    """
+
+    force: tuple[FloatArray, ...]
+    uplift: FloatArray
 
 
 @dataclass(frozen=True)
@@ -97,6 +114,8 @@ class Run:
         How it was computed: step, mesh, contact, integrator and so on.
     result : Result, optional
         States of the whole line, to plot and to animate, and what was recorded.
+    slopes : dict of str to RunSlopes
+        Derivatives of the records by parameter, where they were asked for.
 
     Raises
     ------
@@ -118,6 +137,7 @@ class Run:
     real_time_factor: float
     settings: Mapping[str, Any]
     result: Result | None = None
+    slopes: Mapping[str, RunSlopes] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
         count, line = np.size(self.t), self.form.line

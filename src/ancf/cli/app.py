@@ -27,7 +27,7 @@ from .common_options import (
 )
 from .guard import reported
 from .line_options import Case, CaseSpeed
-from .study_options import CalibrationFile, Retry, Scheduler, Status, StudyFile, Workers
+from .study_options import CalibrationFile, OptimisationFile, Retry, Scheduler, Status, StudyFile, Workers
 from .view_options import Color, Frames, Live, Open, Page, Several, Traced
 
 app = typer.Typer(
@@ -243,6 +243,18 @@ def calibrate(
         from .calibrate import calibrate_file
 
         calibrate_file(file, output, workers, report, quiet)
+
+
+@app.command()
+def optimise(file: OptimisationFile, output: Folder = Path("out"), quiet: Quiet = False) -> None:
+    """Find lengths of droppers with which a number of a run along a line is least, by exact gradients.
+
+    Writes OUT/optimum.toml, the line with these lengths, OUT/optimum.json and OUT/runs.csv.
+    """
+    with reported():
+        from .optimise import optimise_file
+
+        optimise_file(file, output, quiet)
 
 
 MoorDynInput = Annotated[

@@ -23,3 +23,6 @@ Status = Annotated[bool, typer.Option("--status", help="Say how far the study in
 CalibrationFile = Annotated[
     Path, typer.Argument(metavar="CALIBRATE.toml", help="Calibration file.", show_default=False)
 ]
+OptimisationFile = Annotated[
+    Path, typer.Argument(metavar="OPTIMISE.toml", help="Optimisation file.", show_default=False)
+]

@@ -1,9 +1,9 @@
 """What a run computed: states, histories, energies, counters, and the file that holds them."""
 
 from ..solvers.record import Progress, Stats
-from .modes import Modes
+from .modes import DampedModes, Modes
 from .result import Result
 from .sensors import Sensors
 from .state import Energy, State
 
-__all__ = ["Energy", "Modes", "Progress", "Result", "Sensors", "State", "Stats"]
+__all__ = ["DampedModes", "Energy", "Modes", "Progress", "Result", "Sensors", "State", "Stats"]

@@ -1,4 +1,4 @@
-"""Natural modes about a state."""
+"""Natural modes about a state, undamped and damped."""
 
 from __future__ import annotations
 
@@ -73,3 +73,53 @@ class Modes(ModesPlotted, Readable):
     def position(self, point: Point | PointMass | RigidBody | str) -> FloatArray:
         """Displacement of a point in each mode, shape (count, 3), m for a modal mass of 1 kg."""
         return _Shapes(self.about, self.shapes).position(point)
+
+
+@dataclass(frozen=True)
+class DampedModes:
+    """Damped modes about an equilibrium or a steady rotation; they grow and swing as ``exp(eigenvalue t)``.
+
+    Of a pair of conjugate eigenvalues the one with the positive imaginary part is listed. About a rotation
+    shapes and frequencies are those that an observer sees who turns with it: a circle with ``whirl`` 1 and
+    the angular frequency w is one with w + spin for who stands still, one with -1 has spin - w.
+
+    Parameters
+    ----------
+    eigenvalues : ndarray of complex, shape (count,)
+        1/s, ascending by size.
+    shapes : ndarray of complex, shape (count, size)
+        State vectors of the shapes.
+    whirl : ndarray, shape (count,)
+        About the axis of the rotation 1 for circles with it, -1 against it, 0 for what swings in a plane, and
+        without a rotation.
+    spin : ndarray, shape (3,)
+        Rate of the steady rotation, rad/s.
+    about : State
+        The equilibrium, or what was found to turn steadily.
+    """
+
+    eigenvalues: Any
+    shapes: Any
+    whirl: FloatArray
+    spin: FloatArray
+    about: State
+
+    @property
+    def frequencies_hz(self) -> FloatArray:
+        """Frequencies of the damped swinging, Hz; 0 of what only decays."""
+        found: FloatArray = np.abs(self.eigenvalues.imag) / (2 * np.pi)
+        return found
+
+    @property
+    def damping_ratios(self) -> FloatArray:
+        """Shares of the critical damping; negative of what grows, 0 of what is neutral."""
+        size = np.abs(self.eigenvalues)
+        found: FloatArray = -self.eigenvalues.real / np.where(size > 0.0, size, 1.0)
+        return found
+
+    def position(self, point: Point | PointMass | RigidBody | str) -> Any:
+        """Displacement of a point in each mode, complex, shape (count, 3): its size and its phase."""
+        real, imaginary = (
+            _Shapes(self.about, part).position(point) for part in (self.shapes.real, self.shapes.imag)
+        )
+        return real + 1j * imaginary

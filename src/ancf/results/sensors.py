@@ -16,6 +16,7 @@ from ..system.probe import BeamProbe, Probe, R, locate
 from ..system.sensors import Listing
 from ..system.spring_fields import SpringFields
 from .pictures import Plotted
+from .sensitivities import sensitivity_of
 
 
 class Sensors(SpringFields, ContactFields, Plotted):
@@ -49,6 +50,7 @@ class Sensors(SpringFields, ContactFields, Plotted):
         ends = [end for s in self._springs.values() for end in (s.a, s.b) if isinstance(end, Point)]
         self._listed = frozenset(listing.points)
         self._placed = self._listed.union(ends)
+        self.derivatives: dict[str, Any] = {}  # by the name of a parameter
 
     @property
     def t(self) -> FloatArray:
@@ -70,6 +72,16 @@ class Sensors(SpringFields, ContactFields, Plotted):
     def names(self) -> list[str]:
         """Points, springs, joints, contacts and supports that were recorded."""
         return [*map(str, self.listing.points), *self.listing.connections]
+
+    def sensitivity(self, name: str) -> Any:
+        """Derivatives of what was recorded by a parameter of ``simulate(..., sensitivities=[...])``.
+
+        Raises
+        ------
+        ModelError
+            It was not asked for.
+        """
+        return sensitivity_of(self.derivatives, name)
 
     def acceleration(self, point: Point | PointMass | RigidBody | str) -> FloatArray:
         """Acceleration of a point, m/s^2, shape (n, 3), as the steps had it.

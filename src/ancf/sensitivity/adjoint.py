@@ -27,6 +27,7 @@ from .answers import Face
 from .base import check_differentiable, matrices_of
 from .family import Family
 from .follow import Trail, check_method, given_start, refuse_breaks, when_cut
+from .nearby import Nearby
 from .parameters import Parameter
 from .start import Start, at_level
 
@@ -114,6 +115,7 @@ class Adjoint:
         self.system = System(made.system.model)
         check_differentiable(self.system, where)
         self.families = [Family(parameter, self.system) for parameter in parameters]
+        self.nearby = Nearby(self.families, self.system)
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
         self.asked, self.unknowns = asked, np.asarray(unknowns)
@@ -156,20 +158,17 @@ class Adjoint:
             way = self._way(block)
             wanted = self._wanted(way.q, way.v, own)
             when = run.time(block.done), block.h, run.t_start, run.t_end
-            pushes = [
-                family.at_steps(way.q.copy(), way.v.copy(), way.a.copy(), when, gaps=False)
-                for family in self.families
-            ]
             lam = np.zeros_like(way.q)
             tables = system.inputs.tables(*when[:2], block.count, *when[2:])
+            found = self.nearby.at_steps(Way(*(x.copy() for x in way)), when, tables, gaps=False)
             states = Way(*(x.copy() for x in way))
             scheme = run.scheme
             _, status = back_steps(system.core, self.m, tables, states, wanted, block.h, scheme, mu, lam)
             if status != OK:
                 raise SolveError("gradient", "the equations of the adjoint cannot be solved", "smaller steps")
-            for k, push in enumerate(pushes):
-                total[k] -= np.sum(lam * push.push)
-                total[k] += np.sum(np.moveaxis(push.held[:2], 0, 1) * wanted)
+            total -= np.einsum("ni,pni->p", lam, found.push)
+            for k, held in found.held.items():
+                total[k] += np.sum(np.moveaxis(held[:2], 0, 1) * wanted)
             total += self._explicit(way.q, way.v, own)
             block.way = None
         return total + self._of_start({key: slope[:1] for key, slope in slopes.items()}, mu)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from ..results.momenta import Momenta
 from ..results.state import Energy
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
+from ..system.probe import Probe
 from ..system.reactions import reaction, support_name
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
@@ -24,6 +26,8 @@ from .family import Family
 MOVED = 1e-4
 #: Questions that are linear in the state.
 LINEAR = ("position", "velocity", "slope", "multiplier", "arc_rate")
+#: Where points are, by system and by name.
+_PROBES: WeakKeyDictionary[System, dict[str, Probe]] = WeakKeyDictionary()
 PLACES = ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12))
 
 
@@ -36,6 +40,15 @@ class Face(SpringFields, ContactFields, Momenta):
         self._bodies, self._slots = self.model.bodies, system.slots
         self._joints, self._arcs = system.joints, system.numbering.arcs
         self._springs = springs_of(self.model.connections)
+        self._found = _PROBES.setdefault(system, {})
+
+    def _probe(self, point: Any) -> Probe:
+        """Where a point is, which is asked many times of one system by its name."""
+        if not isinstance(point, str):
+            return super()._probe(point)
+        if point not in self._found:
+            self._found[point] = super()._probe(point)
+        return self._found[point]
 
     def _contact_system(self) -> System:
         return self.system

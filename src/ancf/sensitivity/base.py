@@ -10,7 +10,7 @@ from ..batches import Batches
 from ..compiled import traits
 from ..errors import ModelError
 from ..solvers.directions import exact_masses
-from ..solvers.sensitivity import Matrices
+from ..solvers.sensitivity import FURTHEST, MOVED, Matrices
 from ..system.core import Core
 from ..system.system import System
 
@@ -23,12 +23,17 @@ def matrices_of(core: Core, size: int, moving: bool) -> Matrices:
     lossy = [batch for batch in exact if turning or (moving and not _exact(batch, True))]
     rough = [batch for batch in batches if not _exact(batch, False)]
     K, C, M = (np.zeros_like(core.A) for _ in range(3))
-    made = Matrices(
-        Batches(exact), Batches(lossy), Batches(rough), K, C, M, bool(core.damped), np.zeros((9, size))
-    )
-    zero = np.zeros(size)
-    exact_masses(made, core.ws, zero + 1.0, zero)
+    kinds = Batches(exact), Batches(lossy), Batches(rough)
+    made = Matrices(*kinds, K, C, M, bool(core.damped), moved_by(core), np.zeros((9, size)))
+    apart = 1.0 + 0.5 * np.sin(np.arange(size, dtype=np.float64))  # springs between places that are not one
+    exact_masses(made, core.ws, apart, np.zeros(size))
     return made
+
+
+def moved_by(core: Core) -> float:
+    """Change of a state, in sizes of the model, of differences of its forces."""
+    least = float(np.min(core.weight[core.weight > 0.0], initial=1.0))  # 1/size, or 1 for a small model
+    return min(MOVED, FURTHEST * least)
 
 
 def _exact(batch: Any, moving: bool) -> bool:

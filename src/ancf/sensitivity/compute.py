@@ -17,6 +17,7 @@ from .base import check_differentiable
 from .family import Family
 from .follow import Following
 from .parameters import Parameter
+from .samples import SensorSensitivity
 from .statics import of_equilibrium
 
 
@@ -70,4 +71,10 @@ def with_sensitivities(
         family.name: Sensitivity(family, t, q, v, rows[:, 0], rows[:, 1])
         for family, rows in zip(following.families, following.found(), strict=True)
     }
+    if following.samples.sampling.width:
+        sensors = result.sensors
+        sensors.derivatives = {
+            family.name: SensorSensitivity(family, sensors, rows)
+            for family, rows in zip(following.families, following.samples.rows, strict=True)
+        }
     return result

@@ -9,6 +9,7 @@ Where it is found to be linear, two values are enough.
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,7 +19,7 @@ from ..batches import Batches
 from ..errors import ModelError
 from ..solvers.checkpoint import distinct
 from ..solvers.stages import place_rows, stage_residuals
-from ..system.core import Core, apply_load, apply_supports, place_supports, residual
+from ..system.core import Core, Tables, apply_load, apply_supports, place_supports, residual
 from ..system.system import System
 from .parameters import Parameter
 
@@ -30,9 +31,18 @@ ABOVE = (
     (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0),
     (-147 / 60, 360 / 60, -450 / 60, 400 / 60, -225 / 60, 72 / 60, -10 / 60),
 )
-#: Difference of the derivatives from two and from all values, relative, up to which a parameter is linear,
-#: and the size of the changes of the state in which that is tried.
-LINEAR, SHAKEN = 1e-11, 0.01
+#: Times at which motions of supports are compared, s.
+TIMES = 0.0, 0.137, 1.713
+#: The step where forces have kinks, which no value may reach: a taut dropper is stretched by 0.1 mm.
+TINY = 1e-7
+KINKED = {"springs", "contacts", "pressing", "rubbing", "crossing", "gripping", "bumping", "rolling"}
+#: The same where all is linear; energies are quadratic then.
+PAIR = ((-3.0, 3.0), (-1 / 6, 1 / 6))
+#: How far the mean of two values may be from that between them, relative to their difference, up to which a
+#: parameter is linear, and the size of the changes of the state in which that is tried.
+LINEAR, SHAKEN = 1e-10, 0.01
+#: Accelerations where that is tried once more, in these per square second, and round-off of the residuals.
+PUSHED, ROUND_OFF = 1e3, 1e-14
 #: What runs and searches change in a batch: it does not depend on a parameter.
 OWN = ("value", "level", "found", "alpha", "scale", "inside", "measured", "mode", "open")
 
@@ -53,6 +63,8 @@ class Family:
     parameter : Parameter
     base : System
         Of the model itself.
+    thorough : bool
+        Take all values also of a parameter in which the residual is linear, for what is asked of matrices.
 
     Raises
     ------
@@ -60,70 +72,154 @@ class Family:
         The parameter changes which unknowns there are, or the model cannot be built around its value.
     """
 
-    def __init__(self, parameter: Parameter, base: System) -> None:
+    def __init__(self, parameter: Parameter, base: System, thorough: bool = False) -> None:
         self.parameter, self.base = parameter, base
         p = parameter.value
-        h = STEP * abs(p) if p != 0.0 else STEP
+        unit = abs(p) if p != 0.0 else 1.0
+        self._made: dict[float, System] = {}
+        self.linear = False
+        if parameter.quadratic:
+            self._take(TINY, *PAIR)
+        else:
+            self._choose(STEP * unit, TINY * unit, thorough)
+        self._made.clear()
+        self._look()
+
+    def _choose(self, h: float, tiny: float, thorough: bool) -> None:
+        """Take values h apart, two or six, or two that are tiny steps apart where forces have kinks."""
+        p = self.parameter.value
+        if p != 0.0:
+            self._take(h, *PAIR)
+            if self._names() & KINKED and not thorough:
+                self._made.clear()
+                return self._take(tiny, *PAIR)
+            if not thorough and self._linear():
+                self.linear = True
+                return None
         try:
-            self.systems = self._compiled(h, BOTH[0])
-            chosen: tuple[tuple[float, ...], tuple[float, ...]] = BOTH
+            return self._take(h, *BOTH)
         except ModelError:
             if p != 0.0:
                 raise
-            self.systems = self._compiled(h, ABOVE[0])  # it may not be negative
-            chosen = ABOVE
-        self.offsets, self.weights = [h * x for x in chosen[0]], [w / h for w in chosen[1]]
-        self._shape = [s.initial_shape() - base.initial_shape() for s in self.systems]
-        changed = set().union(*(self._changed(s) for s in self.systems))
+        return self._take(h, *ABOVE)  # it may not be negative
+
+    def _names(self) -> set[str]:
+        """Of the batches on which the parameter acts."""
+        return set().union(*(self._changed(s) for s in self.systems))
+
+    def _take(self, h: float, places: tuple[float, ...], weights: tuple[float, ...]) -> None:
+        """Let the systems be those at these places, in steps h."""
+        for x in places:
+            if x not in self._made:
+                self._made[x] = self._compiled(h * x)
+        self.systems = [self._made[x] for x in places]
+        self.offsets, self.weights = [h * x for x in places], [w / h for w in weights]
+        self._shape = [s.initial_shape() - self.base.initial_shape() for s in self.systems]
+        base = self.base
+        self._states = [
+            (getattr(s.parts[name], key), name, key)
+            for s in self.systems
+            for name in base.parts
+            for key in ("mode", "open")
+            if hasattr(base.parts[name], key)
+        ]
+
+    def _look(self) -> None:
+        """See what of the model depends on the parameter."""
+        base = self.base
+        changed = self.changed = self._names()
         self._few = [Batches(b for name, b in s.parts.items() if name in changed) for s in self.systems]
-        self._every = [*zip(range(len(self.systems)), self.weights, strict=True)]
-        self._used = self._ends() or self._every
+        self.plain = all(self._is_plain(s, few) for s, few in zip(self.systems, self._few, strict=True))
+        self._loads = any(not _same_loads(base, s) for s in self.systems)
+        self._fed = all(_same_values(base, s) for s in self.systems)
+
+    def _is_plain(self, system: System, few: Batches) -> bool:
+        """Whether supports are as they are, and no batch has inputs or rows of constraints of its own."""
+        base, held = self.base, self.base.core.supports.held
+        supports = base.core.supports, system.core.supports
+        if not _same_motions(base, system):
+            return False
+        if any(np.any(shape[held]) for shape in self._shape):
+            return False
+        if not np.array_equal(supports[0].rot_R[:, 0], supports[1].rot_R[:, 0]):
+            return False
+        value = system.core.loads.value
+        shared = (
+            np.may_share_memory(x, value) for b in few for x in b if isinstance(x, np.ndarray) and x.size
+        )
+        return not any(shared) and not any(b in system.core.joints.batches for b in few)
+
+    def used(self) -> list[tuple[float, Batches]]:
+        """Weights and the batches that the parameter changes at each value.
+
+        Where two values do, one of them and that of the model, which all parameters share.
+        """
+        if not self.linear:
+            return list(zip(self.weights, self._few, strict=True))
+        base = Batches(batch for name, batch in self.base.parts.items() if name in self.changed)
+        return [(1.0 / self.offsets[-1], self._few[-1]), (-1.0 / self.offsets[-1], base)]
+
+    def loads_used(
+        self, when: tuple[float, float, float, float], tables: Tables
+    ) -> Iterator[tuple[float, Any, Any]]:
+        """Weights, dead loads at each value and their inputs (steps or 1, n, 3), if they depend on it.
+
+        ``tables`` are those of the model itself.
+        """
+        if not self._loads:
+            return
+        start, step, first, last = when
+        for system, weight in zip(self.systems, self.weights, strict=True):
+            value = tables.value
+            if not self._fed:
+                constant = all(function.constant for function in system.inputs.loads)
+                count = 1 if constant else len(value)
+                value = system.inputs.tables(start, step, count, first, last).value
+            yield weight, system.core.loads, value
 
     @property
     def name(self) -> str:
         """Of the parameter."""
         return self.parameter.name
 
-    def _ends(self) -> list[tuple[int, float]]:
-        """The first and the last value with their weights, if the residual is linear in the parameter."""
+    def _linear(self) -> bool:
+        """Whether residual and initial state are linear in the parameter, which two values tell then."""
         base, rng = self.base, np.random.default_rng(1)
-        n, there = base.n, base.numbering.used()
-        q = base.initial_shape()
-        v = np.zeros_like(q)
-        states = np.stack([q, v, np.zeros_like(q)])[:, None]
-        states[:, 0, :n] += SHAKEN * base.model.size * rng.uniform(-1, 1, (3, n)) * there
-        before, when = base.level.copy(), (-1e-3, 1e-3, 0.0, np.inf)
-        found: list[FloatArray] = []
-        last = len(self.systems) - 1
-        width = self.offsets[last] - self.offsets[0]
-        ends = [(0, -1.0 / width), (last, 1.0 / width)]
-        for used in (ends, self._every):
-            self._used = used
-            base.level[:] = 1.0, 0.0, 0.0
-            self.know(base)
-            q, v, a = (x.copy() for x in states)
-            made = self.at_steps(q, v, a, when, gaps=False)
-            if np.any(made.held):
-                base.level[:] = before
-                return []
-            found.append(made.push)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            first = [s.initial_state() for s in (base, *self.systems)]
+        if not all(_on_a_line(*x) for x in zip(*first, strict=True)):
+            return False
+        n, q = base.n, base.initial_shape()
+        rest, shake = np.zeros_like(q), np.zeros((3, base.size))
+        shake[:, :n] = SHAKEN * base.model.size * rng.uniform(-1, 1, (3, n)) * base.numbering.used()
+        before = base.level.copy()
+        base.level[:] = 1.0, 0.0, 0.0
+        self.know(base)
+        strained = [self._residual(s, (q + shake[0], shake[1], rest)) for s in (base, *self.systems)]
+        pushed = [self._residual(s, (q, rest, PUSHED * shake[2])) for s in (base, *self.systems)]
         base.level[:] = before
-        two, all_of_it = found
-        size = float(np.max(np.abs(all_of_it)))
-        if not size > 0.0 or float(np.max(np.abs(two - all_of_it))) > LINEAR * size:
-            return []
-        return ends
+        changes = any(np.any(found[1] != found[2]) for found in (strained, pushed))
+        return changes and _on_a_line(*strained) and _on_a_line(*pushed)
 
-    def _compiled(self, h: float, places: tuple[float, ...]) -> list[System]:
-        made = []
-        for x in places:
-            value = self.parameter.value + h * x
-            system = System(self.parameter.at(value))
-            if not _alike(self.base, system):
-                what = f"with {value:.8g} the model has other unknowns than with {self.parameter.value:.8g}"
-                raise ModelError(self.name, what, "the number of elements, nodes and joints has to stay")
-            made.append(system)
-        return made
+    def _residual(self, system: System, states: tuple[FloatArray, FloatArray, FloatArray]) -> FloatArray:
+        """Of a system at states q, v, a, of which it keeps nothing."""
+        core, (q, v, a) = system.core, (x.copy() for x in states)
+        tables = system.inputs.tables(-1e-3, 1e-3, 1, 0.0, np.inf)
+        value, r, force = core.loads.value.copy(), np.empty_like(q), np.empty_like(q)
+        place_supports(core.supports, core.loads.value, tables, 0, q, v, a)
+        apply_load(core.loads, tables.value[0], force)
+        residual(core.batches, core.ws, q, v, a, force, r)
+        core.loads.value[...] = value
+        return r
+
+    def _compiled(self, offset: float) -> System:
+        value = self.parameter.value + offset
+        system = System(self.parameter.at(value), like=self.base)
+        if not _alike(self.base, system):
+            what = f"with {value:.8g} the model has other unknowns than with {self.parameter.value:.8g}"
+            raise ModelError(self.name, what, "the number of elements, nodes and joints has to stay")
+        return system
 
     def _changed(self, system: System) -> set[str]:
         """Names of the batches on which the parameter acts."""
@@ -141,13 +237,10 @@ class Family:
         """Let all systems be as one that runs: its joints, and the weights of their rows."""
         for own in self.systems:
             own.level[:] = system.level
-            for name, batch in own.parts.items():
-                for key in ("mode", "open"):
-                    if hasattr(batch, key):
-                        getattr(batch, key)[...] = getattr(system.parts[name], key)
-        if len(system.measured):
-            for own in self.systems:
+            if len(system.measured):
                 own.measured[...] = system.measured
+        for mine, name, key in self._states:
+            mine[...] = getattr(system.parts[name], key)
 
     def at_steps(
         self, q: FloatArray, v: FloatArray, a: FloatArray, when: tuple[float, float, float, float], gaps: bool
@@ -158,7 +251,7 @@ class Family:
         """
         start, step, first, last = when
         made = Push(np.zeros_like(q), np.zeros_like(q), np.zeros((3, *q.shape)))
-        for k, weight in self._used:
+        for k, weight in enumerate(self.weights):
             system = self.systems[k]
             tables = system.inputs.tables(start, step, len(q), first, last)
             states = self._moved(k, q), v.copy(), a.copy()
@@ -182,7 +275,7 @@ class Family:
         """
         time, h = when
         made = Push(np.zeros((1, q.size)), np.zeros((1, q.size)), np.zeros((3, 1, q.size)))
-        for k, weight in self._every:
+        for k, weight in enumerate(self.weights):
             system = self.systems[k]
             tables = system.inputs.tables(time - h, h, 1, time, np.inf)
             x, zero, force, r = (
@@ -250,6 +343,38 @@ def _gaps(system: System, tables: Any, states: Any) -> FloatArray:
     system.level[:] = level
     rows: FloatArray = r * system.core.joints.mask
     return rows
+
+
+def _on_a_line(middle: FloatArray, low: FloatArray, high: FloatArray) -> bool:
+    """Whether a vector at the middle of two values is their mean."""
+    width = LINEAR * float(np.max(np.abs(high - low), initial=0.0))
+    width += ROUND_OFF * float(np.max(np.abs(middle), initial=0.0))
+    return float(np.max(np.abs(0.5 * (high + low) - middle), initial=0.0)) <= width
+
+
+def _same_motions(a: System, b: System) -> bool:
+    """Whether supports move alike, as they do at some odd times."""
+    for time in TIMES:
+        mine, other = (s.inputs.tables(time, 1e-3, 1, time, np.inf) for s in (a, b))
+        if not np.array_equal(mine.motion, other.motion) or not np.array_equal(mine.rotation, other.rotation):
+            return False
+    return True
+
+
+def _same_values(a: System, b: System) -> bool:
+    """Whether the inputs of loads are the same, as they are at some odd times."""
+    for time in TIMES:
+        mine, other = (s.inputs.tables(time, 1e-3, 1, time, np.inf).value for s in (a, b))
+        if not np.array_equal(mine, other):
+            return False
+    return True
+
+
+def _same_loads(a: System, b: System) -> bool:
+    """Whether dead loads are the same numbers and functions."""
+    names = ("still", "hung", "slot", "factor")
+    same = all(np.array_equal(getattr(a.core.loads, x), getattr(b.core.loads, x)) for x in names)
+    return same and all(x is y for x, y in zip(a.inputs.loads, b.inputs.loads, strict=True))
 
 
 def _alike(a: System, b: System) -> bool:

@@ -6,25 +6,27 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from ..arrays import FloatArray
+from ..arrays import BoolArray, FloatArray
 from ..errors import ModelError, SolveError
 from ..model.integrators.base import NewmarkFamily
 from ..preparation import Prepared, adopted
 from ..results.state import State
 from ..solvers.checkpoint import Snapshot
 from ..solvers.record import Stats
-from ..solvers.sensitivity import Constraining, Way, follow_steps
+from ..solvers.sensitivity import Constraining, Way, accelerations, follow_steps
 from ..solvers.status import OK
 from ..system.system import System
 from .base import check_differentiable, matrices_of
 from .family import Family
+from .nearby import Nearby
 from .parameters import Parameter, check_known
+from .samples import Samples
 from .start import Start, at_level
 
 #: Change of the initial motion by joints, in sizes of the model, that does not count.
 SHIFTED = 1e-8
 #: Room for what parameters do to the steps of a block, bytes.
-ROOM = 32e6
+ROOM = 4e6
 
 
 class Trail:
@@ -38,25 +40,19 @@ class Trail:
 
     def __init__(self, run: Any) -> None:
         self.run, m = run, run.memory
-        self.v, self.a, self.bar = m.v.copy(), m.a.copy(), m.abar.copy()
-        am, af = run.scheme.alpha_m, run.scheme.alpha_f
-        self._c = (1 - af) / (1 - am), af / (1 - am), -am / (1 - am)
+        self.before = np.stack([m.v, m.a, m.abar])
 
     def accelerations(self, v: FloatArray, h: float, last: bool) -> FloatArray:
         """Accelerations at the ends of the steps of a block, (n, size), of which v are the velocities.
 
         ``last``: the run stands at the end of the block, and its own are taken from there on.
         """
-        c1, c2, c3 = self._c
-        gamma, made = self.run.scheme.gamma, np.empty_like(v)
-        for n in range(len(v)):
-            bar = ((v[n] - self.v) / h - (1 - gamma) * self.bar) / gamma
-            made[n] = (bar - c2 * self.a - c3 * self.bar) / c1
-            self.v, self.a, self.bar = v[n], made[n], bar
+        made = np.empty_like(v)
+        accelerations(v, h, self.run.scheme, self.before, made)
         if last:
             m = self.run.memory
             made[-1] = m.a
-            self.v, self.a, self.bar = m.v.copy(), m.a.copy(), m.abar.copy()
+            self.before = np.stack([m.v, m.a, m.abar])
         return made
 
 
@@ -91,24 +87,28 @@ class Following:
         check_differentiable(self.system, where)
         check_shift(made, start, where)
         self.families = [Family(parameter, self.system) for parameter in parameters]
+        self.nearby = Nearby(self.families, self.system)
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
-        self.rows: list[FloatArray] = []  # (parameters, n, 2, size) at stored times
-        self.done = 0
+        self.done, self.stored = 0, 0
+        run: Any = self.run
+        count = 2 + (run.steps - 1) // every
+        self.rows = np.empty((len(self.families), count, 2, self.system.size))  # at stored times
+        self.samples = Samples(self.families, self.system, run.system.sensors, run.steps)
+        self._kept = np.zeros(0)
         refuse_breaks(self.run)
 
     def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
         """States of a block, see :class:`ancf.solvers.record.Recorder`."""
-        if not self.rows:
+        if not self.stored:
             self._begin()
             self.store.append(t, q, v, work)
             return
         if len(t):
-            self._follow(q, v)
             numbers = np.arange(self.done + 1, self.done + len(t) + 1)
             keep = (numbers % self.every == 0) | (numbers == self.run.steps)
+            self._follow(q, v, keep)
             self.done += len(t)
-            self.rows[-1] = self.rows[-1][:, keep]
             t, q, v, work = t[keep], q[keep], v[keep], work[keep]
         self.store.append(t, q, v, work)
 
@@ -138,28 +138,35 @@ class Following:
         states = run.memory.q.copy(), run.memory.v.copy(), run.memory.a.copy()
         begin = Start(system, self.m, *states, when)
         self.s = np.zeros((len(self.families), 4, system.size))
-        first = np.zeros((len(self.families), 1, 2, system.size))
+        first = np.zeros((len(self.families), 1, 3, system.size))
         for k, (family, given) in enumerate(zip(self.families, self.given, strict=True)):
             family.know(system)
             self.s[k] = begin.sensitivity(*given, *at_level(system, self.families, k, states, when))
             q, v, a = (x[None].copy() for x in states)
             held = family.at_steps(q, v, a, when, gaps=False).held
-            first[k, 0] = self.s[k, :2] + held[:2, 0]
-        self.rows.append(first)
+            first[k, 0] = self.s[k, :3] + held[:, 0]
+        self._keep(first[:, :, :2])
+        self.samples.take(states[0][None], states[1][None], first)
         self.trail = Trail(run)
 
-    def _follow(self, q: FloatArray, v: FloatArray) -> None:
-        """Carry on over the steps of a block, all of one length."""
+    def _keep(self, made: FloatArray) -> None:
+        """Store derivatives (p, n, 2, size)."""
+        self.rows[:, self.stored : self.stored + made.shape[1]] = made
+        self.stored += made.shape[1]
+
+    def _follow(self, q: FloatArray, v: FloatArray, keep: BoolArray) -> None:
+        """Carry on over the steps of a block, all of one length, and store those to keep."""
         run, count = self.run, len(q)
         when_cut(run, self.done + count)
         h = run.h if self.done < run.full else run.rest
         a = self.trail.accelerations(v, h, last=True)
-        made = np.empty((len(self.families), count, 2, self.system.size))
-        most = max(1, int(ROOM / (8 * self.system.size * (6 * len(self.families) + 24))))
+        most = max(1, int(ROOM / (8 * self.system.size * (4 * len(self.families) + 3))))
         for begin in range(0, count, most):
             rows = slice(begin, min(begin + most, count))
-            made[:, rows] = self._block(Way(q[rows].copy(), v[rows].copy(), a[rows]), h, self.done + begin)
-        self.rows.append(made)
+            way = Way(q[rows].copy(), v[rows].copy(), a[rows])
+            made = self._block(way, h, self.done + begin)
+            self._keep(made[:, keep[rows], :2])
+            self.samples.take(way.q, way.v, made)
 
     def _block(self, way: Way, h: float, done: int) -> FloatArray:
         run, system = self.run, self.system
@@ -169,29 +176,26 @@ class Following:
         system.level[:] = rule.w0, rule.w1, rule.w2
         when = run.time(done), h, run.t_start, run.t_end
         projects = rule.projects and len(system.multipliers) > 0
-        pushes = []
-        for family in self.families:
-            family.know(system)
-            pushes.append(family.at_steps(*way, when, gaps=projects))
-        push = np.stack([one.push for one in pushes])
-        gap = np.stack([one.gap for one in pushes])
-        out = np.empty((len(self.families), count, 3, size))
         tables = system.inputs.tables(*when[:2], count, *when[2:])
+        found = self.nearby.at_steps(way, when, tables, projects)
+        wanted = len(self.families) * count * 3 * size
+        if wanted > self._kept.size:
+            self._kept = np.zeros(wanted)
+        out = self._kept[:wanted].reshape(len(self.families), count, 3, size)
         n, status = follow_steps(
-            system.core, self.m, tables, way, push, gap, h, run.scheme, joined, self.s, out
+            system.core, self.m, tables, way, found.push, found.gap, h, run.scheme, joined, self.s, out
         )
         if status != OK:
             t = run.time(done + int(n) + 1)
             what = "the equations of the sensitivities cannot be solved"
             raise SolveError(f"sensitivities at t = {t:.6g} s", what, "take a smaller step")
-        held = np.stack([one.held for one in pushes])
-        made: FloatArray = out[:, :, :2] + np.moveaxis(held[:, :2], 1, 2)
-        return made
+        for k, held in found.held.items():
+            out[k] += np.moveaxis(held, 0, 1)
+        return out
 
     def found(self) -> list[FloatArray]:
         """Derivatives of q and v at the stored times by parameter, (n, 2, size) each."""
-        whole = np.concatenate(self.rows, axis=1)
-        return list(whole)
+        return list(self.rows[:, : self.stored])
 
 
 def check_method(made: Prepared, where: str) -> None:

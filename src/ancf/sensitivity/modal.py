@@ -101,7 +101,7 @@ def of_modes(modes: Modes, parameters: list[Parameter]) -> dict[str, ModalSensit
     problem = _Problem(modes)
     made = {}
     for parameter in parameters:
-        family = Family(parameter, system)
+        family = Family(parameter, system, thorough=True)
         own = about.derivatives.get(family.name)
         if own is not None:
             dq = own.dq

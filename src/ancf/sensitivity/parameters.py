@@ -42,11 +42,14 @@ class Parameter:
         Its value in the model.
     build : callable
         ``build(value)`` is the model with another value.
+    quadratic : bool
+        What it builds is known to change by a polynomial of degree two: two values tell all.
     """
 
     name: str
     value: float
     build: Callable[[float], Model]
+    quadratic: bool = False
 
     def at(self, value: float) -> Model:
         """The model with a value.

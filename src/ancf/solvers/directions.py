@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..batches import add_tangents
 from ..compiled import kernel
 from ..system.core import constraint_rows, follow
-from .sensitivity import MOVED, out_of_balance
+from .sensitivity import out_of_balance
 
 
 @kernel
@@ -33,7 +33,7 @@ def rows_along(core, m, q, v, a, d, r):
     for k in range(3):
         for i in range(r.shape[0]):
             most = max(most, abs(d[k, i]))
-    e = MOVED / most if most > 0.0 else 1.0
+    e = m.moved / most if most > 0.0 else 1.0
     for side in (1.0, -1.0):
         for i in range(r.shape[0]):
             w[1, i] = q[i] + side * e * d[0, i]

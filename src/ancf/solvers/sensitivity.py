@@ -35,13 +35,15 @@ from ..system.core import (
 from .scheme import coefficients
 from .status import OK, SINGULAR, SLOW
 
-#: Change of a state, in sizes of the model, and of its velocities, in these per second, of the differences.
-MOVED = 3e-6
+#: Change of a state, in sizes of the model, and of its velocities, in these per second, of the differences;
+#: and its most in m: a contact is pressed by a millimetre, whatever the length of its line.
+MOVED, FURTHEST = 3e-6, 2e-5
 #: The same of damping forces, which are smooth, by differences of order four, and their weights.
 LOSSY, NEAR, FAR = 3e-4, 8.0 / 12.0, -1.0 / 12.0
 #: Corrections of a sensitivity: how many at most, the part of it below which they end, and the one below
-#: which they end when the next one is not smaller, which is round-off.
-MOST, ENOUGH, NOISY = 60, 1e-13, 1e-8
+#: which they end when the next one is not smaller, which is round-off; of long lines, whose places have more
+#: of it, when it is as large.
+MOST, ENOUGH, NOISY, ROUGH = 60, 1e-13, 1e-8, 1e-6
 #: A correction that is none, whatever its units.
 LEAST = 1e-200
 #: Places of the vectors of a sensitivity.
@@ -58,6 +60,7 @@ class Matrices(NamedTuple):
     C: FloatArray
     M: FloatArray
     damped: bool  # C is not zero
+    moved: float  # change of a state, in sizes of the model, of differences
     work: FloatArray  # (9, size)
 
 
@@ -156,12 +159,12 @@ def both_along(batches, core, m, x, d, r):
     for i in range(r.shape[0]):
         most = max(most, abs(d[0][i]))
     if most > 0.0:
-        e = MOVED / size if size > 0.0 else MOVED / most
+        e = m.moved / size if size > 0.0 else m.moved / most
         along(batches, ws, x, d, (e, 0.0), r, w)
     size = extent(d[1], core.weight)
     size = size if size > 0.0 else extent(d[2], core.weight)
     if size > 0.0:
-        along(batches, ws, x, d, (0.0, MOVED / size), r, w)
+        along(batches, ws, x, d, (0.0, m.moved / size), r, w)
 
 
 @inline_kernel
@@ -239,7 +242,7 @@ def shifted(core, m, x, d, gap, joined, r):
     joints, w = core.joints, m.work
     joints.level[0], joints.level[1], joints.level[2] = 1.0, 0.0, 0.0
     size = extent(d[0], core.weight)
-    e = MOVED / size if size > 0.0 else 1.0
+    e = m.moved / size if size > 0.0 else 1.0
     for i in range(r.shape[0]):
         r[i] = gap[i]
     for side in (1.0, -1.0):
@@ -310,6 +313,8 @@ def solved(core, m, x, d, push, gap, joined, B, G):
         size = extent(d[0], core.weight)
         if norm <= ENOUGH * size or norm < LEAST or (norm <= NOISY * size and norm >= 0.5 * before):
             return OK
+        if norm <= ROUGH * size and norm >= 0.9 * before:
+            return OK
         before = norm
     return SLOW
 
@@ -325,6 +330,27 @@ def predicted(s, d, h, scheme):
         d[0][i] = q + h * v + h * h * ((0.5 - scheme.beta) * bar + scheme.beta * new)
         d[1][i] = v + h * ((1.0 - scheme.gamma) * bar + scheme.gamma * new)
         d[2][i] = a
+
+
+@kernel
+def accelerations(v, h, scheme, before, made):
+    """Accelerations at the ends of steps from the velocities there.
+
+    Parameters
+    ----------
+    v, made : (steps, size)
+    h, scheme : float, Scheme
+    before : (3, size)
+        v, a and the algorithmic acceleration at the start; changed to those at the end.
+    """
+    am, af, gamma = scheme.alpha_m, scheme.alpha_f, scheme.gamma
+    c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
+    for n in range(v.shape[0]):
+        for i in range(v.shape[1]):
+            bar = ((v[n, i] - before[0, i]) / h - (1.0 - gamma) * before[2, i]) / gamma
+            a = (bar - c2 * before[1, i] - c3 * before[2, i]) / c1
+            made[n, i] = a
+            before[0, i], before[1, i], before[2, i] = v[n, i], a, bar
 
 
 @kernel

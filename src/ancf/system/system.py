@@ -45,6 +45,8 @@ class System:
     model : Model
     spare : ndarray, optional
         Multipliers of rows that others hold already: they are zero.
+    like : System, optional
+        One of the same bodies and connections with other numbers: its order of the nodes is taken over.
 
     Attributes
     ----------
@@ -73,7 +75,7 @@ class System:
         Entries of ``measured`` by connection.
     """
 
-    def __init__(self, model: Model, spare: IntArray | None = None) -> None:
+    def __init__(self, model: Model, spare: IntArray | None = None, like: System | None = None) -> None:
         if not model.bodies:
             raise ModelError("bodies", "the model has no body", "add one with model.add_beam(...)")
         check_winches(model)
@@ -88,11 +90,10 @@ class System:
         functions = loads.functions(model)
         value = np.zeros((len(functions), 3))
         parts = build_parts(model, self.numbering, self.level, value, self.measured.reshape(-1, 4))
-        rank, self.pairs, self.ordering, self.half_bandwidth = order_blocks(parts, self.numbering)
+        self._order(parts, like)
         self.constraints = collect(model, self.numbering)
         self.spare = np.zeros(0, dtype=np.int64) if spare is None else spare
         self.constraints.held |= set(self.spare.tolist())
-        self.places = Places(*fill_pattern(self.pairs, self.numbering.blocks))
         self.n = 6 * self.numbering.blocks
         self.size = self.n + 3 * len(self.constraints.rotations)
         self.slots = {name: self._shadowed(s) for name, s in self.numbering.slots.items()}
@@ -100,12 +101,28 @@ class System:
         self.joints = _joint_unknowns(self.numbering)
         first = {item.name: item.value for item in model.inputs.values()}
         self.inputs = Inputs(functions, self.constraints, first)
-        self.parts = bind_parts(parts, rank, self.constraints, self.places)
+        self.parts = bind_parts(parts, self.rank, self.constraints, self.places)
         supports = self._supports()
         joints = core_joints(list(self.parts.values()), self, supports)
         self.core = make_core(self.parts, self.places, self._weight(), supports, joints, self._loads(value))
         set_scales(self)
         self.measuring = with_role(self.core.batches, Role.MEASURES)
+
+    def _order(self, parts: Any, like: System | None) -> None:
+        """Order of the nodes and pattern of the matrix."""
+        self.rank: IntArray
+        self.pairs: IntArray
+        self.ordering: str
+        self.half_bandwidth: int
+        self.places: Places
+        if like is not None and like.numbering.blocks == self.numbering.blocks:
+            found = like.rank, like.pairs, like.ordering, like.half_bandwidth
+            self.numbering.renumber(like.rank)
+        else:
+            found = order_blocks(parts, self.numbering)
+            like = None
+        self.rank, self.pairs, self.ordering, self.half_bandwidth = found
+        self.places = like.places if like else Places(*fill_pattern(self.pairs, self.numbering.blocks))
 
     def __reduce__(self) -> Any:
         """Addresses of compiled operations hold in one process alone: another one makes the system again."""

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 
 WIDTH, BAR, REST = 140.0, 30.0, 22.0  # mm: of a figure, for the colour bar, for legend and labels
+FRAME = 24.0  # mm: title and labels of one of several panels
 TIMES = 200  # shapes in a picture, at most
 MODES = 24
 STILL = 1e-9  # of the model's size: a smaller displacement is none
@@ -56,7 +57,7 @@ def plot_modes(modes: Any, count: int, *, plane: Any, size: Any) -> Picture:
     columns = min(2, shown)
     rows = -(-shown // columns)
     width = style.TWO_COLUMNS / columns
-    height = rows * (max(view.height(width - 18.0) for view in views) + 14.0)
+    height = rows * (max(view.height(width - 18.0) for view in views) + FRAME)
     with style.new_figure(*size_of(size, (style.TWO_COLUMNS, height))) as figure:
         for k, (scene, view) in enumerate(zip(scenes, views, strict=True)):
             axes = view.add_axes(figure, rows, columns, k + 1)

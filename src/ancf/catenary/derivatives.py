@@ -1,0 +1,230 @@
+"""Derivatives of a run by lengths of droppers: what they do to its model, its records and its statistics."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from copy import deepcopy
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import ancf
+
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model import checks
+from ..sensitivity.parameters import Parameter
+from .assemble import Assembled
+from .form import Form
+from .passing import in_window, uplift_in_window
+from .run_data import RunSlopes
+from .signals import BANDS, Butterworth, sample_rate
+
+if TYPE_CHECKING:
+    from .plan import Plan
+    from .run_data import Run
+
+WHERE = "run.sensitivities"
+MM = 1e3
+
+
+@dataclass(frozen=True)
+class Lengthened:
+    """One dropper and what it changes by per metre of its natural length.
+
+    Parameters
+    ----------
+    name : str
+        Of the spring.
+    clamps : tuple of str
+        Masses that have half of its mass each.
+    stiffness, damping : float
+        N/m and N s/m per m: with EA it is softer, its clamps give more of their share.
+    mass : float
+        Of each half, kg per m.
+
+    """
+
+    name: str
+    clamps: tuple[str, ...]
+    stiffness: float
+    damping: float
+    mass: float
+
+
+@dataclass(frozen=True)
+class Longer:
+    """Builds the model of a line with some droppers longer, to the first order.
+
+    Parameters
+    ----------
+    model : Model
+    droppers : tuple of Lengthened
+
+    """
+
+    model: ancf.Model = field(repr=False)
+    droppers: tuple[Lengthened, ...]
+
+    def __call__(self, by: float) -> ancf.Model:
+        """The model with natural lengths that are longer by this, m."""
+        made = deepcopy(self.model)
+        own = {dropper.name: dropper for dropper in self.droppers}
+        for k, item in enumerate(made.connections):
+            if item.name in own:
+                made.connections[k] = _longer(item, own[item.name], by)
+        for dropper in self.droppers:
+            for name in dropper.clamps:
+                body = made.bodies[name]
+                object.__setattr__(body, "mass", body.mass + dropper.mass * by)  # type: ignore[union-attr]
+        return made
+
+
+def _longer(spring: Any, own: Lengthened, by: float) -> Any:
+    stiffness, damping = spring.stiffness + own.stiffness * by, spring.damping + own.damping * by
+    return replace(spring, length=spring.length + by, stiffness=stiffness, damping=damping)
+
+
+def parameters(overhead: Assembled, model: ancf.Model, given: Mapping[str, Sequence[str]]) -> list[Parameter]:
+    """Parameters by name of the droppers that they lengthen alike, such as "6-1", span and number from 1.
+
+    Raises
+    ------
+    ModelError
+        There is no such dropper, or it stands twice.
+
+    """
+    made = []
+    for name, labels in given.items():
+        where = f"{WHERE}.{name}"
+        if isinstance(labels, str) or not isinstance(labels, Sequence) or not labels:
+            raise ModelError(
+                where, f"must be a list of droppers, is {checks.shown(labels)}", 'such as ["6-1"]'
+            )
+        if len(set(labels)) < len(labels):
+            raise ModelError(where, "a dropper stands there twice")
+        droppers = tuple(_lengthened(overhead, model, label, where) for label in labels)
+        made.append(Parameter(name, 0.0, Longer(model.snapshot(), droppers), quadratic=True))
+    return made
+
+
+def check_run(plan: Plan, given: Any, controller: Any) -> None:
+    """Raise ModelError for runs that have no derivatives by lengths of droppers."""
+    if not isinstance(given, Mapping):
+        raise ModelError(WHERE, f"must be a mapping, is {checks.shown(given)}", '{"first": ["6-1", "7-1"]}')
+    if controller is not None:
+        raise ModelError(WHERE, "a controller has no derivatives", "give one of both")
+    if not hasattr(plan.form.line, "dropper_span"):
+        raise ModelError(WHERE, "a route has none", "take one of its tension lengths")
+    for unit in plan.pantographs:
+        if unit.relaxed_at != "nominal" and unit.stiffness[0] > 0.0:
+            what = (
+                f'the lowest spring of {unit.name} is relaxed at "{unit.relaxed_at}", which the droppers move'
+            )
+            raise ModelError(WHERE, what, 'take relaxed_at = "nominal"')
+
+
+def place_of(line: Any, label: Any, where: str) -> int:
+    """Place among the droppers of a line of one such as "6-1"."""
+    labels = [
+        f"{span + 1}-{number + 1}"
+        for span, number in zip(line.dropper_span, line.dropper_number, strict=True)
+    ]
+    if label not in labels:
+        raise ModelError(
+            where, f"there is no dropper {checks.shown(label)}", checks.nearest(str(label), labels)
+        )
+    return labels.index(label)
+
+
+def _lengthened(overhead: Assembled, model: ancf.Model, label: Any, where: str) -> Lengthened:
+    form = overhead.form
+    assert isinstance(form, Form)
+    j = place_of(form.line, label, where)
+    spring = overhead.droppers[j]
+    if spring is None:
+        raise ModelError(where, f"dropper {label} is broken")
+    droppers, natural = form.line.droppers, float(form.dropper_natural[j])
+    stiffness = float(form.dropper_stiffness[j])
+    rate, damping, stretch = 0.0, 0.0, 1.0
+    if droppers.EA is not None:
+        share = float(form.spring_stiffness[j]) / stiffness  # in series with its clamps
+        rate = -stiffness / natural * share**2
+        damping = 2.0 * droppers.damping * share**3 * float(form.clamp_give[j]) * stiffness / natural
+        stretch += float(form.dropper_force[j]) / droppers.EA
+    names = (f"{overhead.prefix}{end} clamp {label}" for end in ("lower", "upper"))
+    clamps = tuple(name for name in names if name in model.bodies)
+    return Lengthened(spring.name, clamps, rate, damping, 0.5 * droppers.mass * stretch)
+
+
+def records(sensors: Any, overhead: Assembled, collectors: Sequence[Any], name: str, rest: Any) -> RunSlopes:
+    """Derivatives of what a run recorded; ``rest`` is the sensitivity of the line without pantographs."""
+    own = sensors.sensitivity(name)
+    force = tuple(np.sum([own.contact_force(meter) for meter in c.meters], axis=0) for c in collectors)
+    uplift = np.stack([own.position(p)[:, 2] - float(rest.position(p)[2]) for p in overhead.supports], axis=1)
+    return RunSlopes(force, uplift)
+
+
+def slopes(run: Run, pantograph: int = 0, filter: Butterworth | None = None) -> dict[str, dict[str, float]]:
+    """Derivatives of the statistics of one pantograph, by parameter and quantity.
+
+    Those of mean, deviations, extremes of the filtered and the raw force, and the largest uplift. Numbers
+    that are counted, as losses of contact, have none.
+
+    Parameters
+    ----------
+    run : Run
+        With ``sensitivities``.
+    pantograph : int
+    filter : Butterworth, optional
+        As of :func:`ancf.catenary.statistics`.
+
+    Returns
+    -------
+    dict of str to dict of str to float
+        Unit of the quantity per m of the parameter.
+
+    """
+    chosen = Butterworth() if filter is None else filter
+    rate, window = sample_rate(run.t), in_window(run, pantograph)
+    raw = run.recordings[pantograph].force
+    found = {}
+    for name, own in run.slopes.items():
+        change = own.force[pantograph]
+        made = _of_force(raw, change, chosen, rate, window)
+        if uplifts := uplift_in_window(run, pantograph):
+            most = max(uplifts, key=lambda one: one.uplift)
+            column = most.number - 1
+            row = int(np.argmax(run.uplift[:, column] == most.uplift))
+            made["uplift"] = MM * float(own.uplift[row, column])
+        found[name] = made
+    return found
+
+
+def _of_force(
+    raw: FloatArray, change: FloatArray, chosen: Butterworth, rate: float, window: slice
+) -> dict[str, float]:
+    force, slope = (chosen.low_pass(x, rate)[window] for x in (raw, change))
+    mean, deviation = float(np.mean(slope)), _of_deviation(force, slope)
+    average = float(np.mean(force))
+    made = {
+        "mean_force": mean,
+        "deviation": deviation,
+        "mean_plus_3_sigma": mean + 3.0 * deviation,
+        "mean_minus_3_sigma": mean - 3.0 * deviation,
+        "maximum": float(slope[np.argmax(force)]),
+        "minimum": float(slope[np.argmin(force)]),
+        "raw_maximum": float(change[window][np.argmax(raw[window])]),
+        "raw_minimum": float(change[window][np.argmin(raw[window])]),
+        "relative_deviation": (deviation - float(np.std(force)) * mean / average) / average,
+    }
+    for low, high in BANDS[1:]:
+        parts = (chosen.band(x, rate, low, high)[window] for x in (raw, change))
+        made[f"deviation_{low:g}_{high:g}"] = _of_deviation(*parts)
+    return made
+
+
+def _of_deviation(x: FloatArray, slope: FloatArray) -> float:
+    size = float(np.std(x))
+    return float(np.mean((x - np.mean(x)) * slope)) / size if size > 0.0 else 0.0

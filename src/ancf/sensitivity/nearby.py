@@ -1,0 +1,89 @@
+"""What all parameters of a run do to its states, block of steps by block of steps."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..batches import Batches
+from ..solvers.pushes import Uses, add_loads, add_pushes
+from ..solvers.sensitivity import Way
+from ..system.system import System
+from .family import Family
+
+
+class Pushes(NamedTuple):
+    """What the parameters do to states at fixed free unknowns, per unit of each; see ``Push``."""
+
+    push: FloatArray  # (p, n, size)
+    gap: FloatArray  # (p, n, size), or the push again where it was not asked for
+    held: dict[int, FloatArray]  # (3, n, size) of the parameters that move what is held
+
+
+class Nearby:
+    """The families of all parameters of a run.
+
+    Those that move no support and change no load that depends on the state are differentiated in compiled
+    code, each batch once for all of them.
+
+    Parameters
+    ----------
+    families : list of Family
+    system : System
+        On whose arrays the sensitivities are computed.
+    """
+
+    def __init__(self, families: list[Family], system: System) -> None:
+        self.families, self.system = families, system
+        self.plain = [k for k, family in enumerate(families) if family.plain]
+        self.others = [k for k, family in enumerate(families) if not family.plain]
+        found: dict[int, tuple[Any, list[tuple[int, float]]]] = {}
+        for row, k in enumerate(self.plain):
+            for weight, changed in families[k].used():
+                for batch in changed:
+                    found.setdefault(id(batch), (batch, []))[1].append((row, weight))
+        uses = [use for _, own in found.values() for use in own]
+        self._uses = Uses(
+            Batches(batch for batch, _ in found.values()),
+            np.cumsum([0] + [len(own) for _, own in found.values()]),
+            np.array([row for row, _ in uses], dtype=np.int64),
+            np.array([weight for _, weight in uses], dtype=np.float64),
+        )
+        self._work, self._kept = np.zeros(system.size), np.zeros(0)
+
+    def _room(self, count: int) -> FloatArray:
+        """Zeros (p, count, size), in the memory of the block before: pages that are new cost time."""
+        wanted = len(self.families) * count * self.system.size
+        if wanted > self._kept.size:
+            self._kept = np.zeros(wanted)
+        room = self._kept[:wanted].reshape(len(self.families), count, self.system.size)
+        room[...] = 0.0
+        return room
+
+    def at_steps(self, way: Way, when: tuple[float, float, float, float], tables: Any, gaps: bool) -> Pushes:
+        """Of the states at the ends of the steps of a block.
+
+        ``when``: start, step, first and last time, as ``Inputs.tables`` takes them, and these tables.
+        """
+        count, size = way.q.shape
+        for family in self.families:
+            family.know(self.system)
+        push = self._room(count)
+        if self.plain:
+            rows = push if not self.others else np.zeros((len(self.plain), count, size))
+            for row, k in enumerate(self.plain):
+                for weight, loads, value in self.families[k].loads_used(when, tables):
+                    add_loads(loads, value, weight, self._work, rows[row])
+            add_pushes(self.system.core, self._uses, tables, way, self._work, rows)
+            if self.others:
+                push[self.plain] = rows
+        gap = np.zeros_like(push) if gaps else push
+        held = {}
+        for k in self.others if not gaps else range(len(self.families)):
+            found = self.families[k].at_steps(*way, when, gaps=gaps)
+            push[k], held[k] = found.push, found.held
+            if gaps:
+                gap[k] = found.gap
+        return Pushes(push, gap, held)

@@ -1,0 +1,166 @@
+"""Derivatives of what sensors record at every step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..results.sensors import Sensors
+from ..solvers.sampling import sample_rows, sampling_of
+from ..system.sensors import Listing
+from ..system.system import System
+from .answers import LINEAR, MOVED, PLACES, Face, text_of
+from .family import Family
+
+#: Change of the state of the differences of contact forces, m, and of velocities, m/s.
+NEAR = 2e-6
+
+
+class Samples:
+    """Derivatives of the rows of samples of a run, by parameter.
+
+    Parameters
+    ----------
+    families : list of Family
+    system : System
+        On whose arrays the sensitivities are computed.
+    listing : Listing
+        What the run records.
+    steps : int
+    """
+
+    def __init__(self, families: list[Family], system: System, listing: Listing, steps: int) -> None:
+        self.families, self.listing, self.done = families, listing, 0
+        every = [system, *(own for family in families for own in family.systems)]
+        for one in every:
+            one.sensors = listing
+        self.sampling = sampling_of(system)
+        self.near = [[sampling_of(own) for own in family.systems] for family in families]
+        rows = steps + 1 if self.sampling.width else 0
+        self.rows = np.zeros((len(families), rows, self.sampling.width))
+        self.weight = system.core.weight
+
+    def take(self, q: FloatArray, v: FloatArray, made: FloatArray) -> None:
+        """Of states (n, size) whose derivatives q, v, a are ``made``, (p, n, 3, size)."""
+        if not self.sampling.width:
+            return
+        s, count = self.sampling, len(q)
+        k, j, moved = len(s.unknowns), len(s.entries), len(s.moved)
+        for p, family in enumerate(self.families):
+            row = self.rows[p, self.done : self.done + count]
+            row[:, :k] = made[p, :, 0][:, s.unknowns]
+            row[:, k : 2 * k] = made[p, :, 1][:, s.unknowns]
+            if j:
+                row[:, 2 * k : 2 * k + j] = self._measured(p, family, q, v, made[p])[:, 2 * k : 2 * k + j]
+            row[:, 2 * k + j : 2 * k + j + moved] = made[p, :, 2][:, s.moved]
+        self.done += count
+
+    def _measured(self, p: int, family: Family, q: FloatArray, v: FloatArray, made: FloatArray) -> FloatArray:
+        total, here = np.zeros((len(q), self.sampling.width)), self._rows(self.sampling, q, v)
+        for sampling, weight in zip(self.near[p], family.weights, strict=True):
+            total += weight * (self._rows(sampling, q, v) - here)
+        still = np.zeros_like(q)
+        for dq, dv, d in ((made[:, 0], still, made[:, 0]), (still, made[:, 1], made[:, 1])):
+            size = np.max(np.abs(d[:, : len(self.weight)]), axis=1, keepdims=True)
+            e = NEAR / np.where(size > 0.0, size, 1.0)
+            for x, w in PLACES:
+                total += w / e * self._rows(self.sampling, q + x * e * dq, v + x * e * dv)
+        return total
+
+    def _rows(self, sampling: Any, q: FloatArray, v: FloatArray) -> FloatArray:
+        rows = np.zeros((len(q), sampling.width))
+        sample_rows(sampling, np.ascontiguousarray(q), np.ascontiguousarray(v), rows)
+        return rows
+
+
+class _Recorded(Sensors):
+    """Samples with other numbers."""
+
+    def __init__(self, sensors: Sensors, whole: Any, arrays: dict[str, FloatArray]) -> None:
+        super().__init__(sensors.listing, lambda: arrays, whole)
+
+    def _check(self, probe: Any, point: Any, known: Any) -> None:
+        """The sensors themselves were asked before, with bodies of their own."""
+
+
+class SensorSensitivity:
+    """Derivatives by one parameter, per unit of it, of what sensors have recorded, at all steps.
+
+    It answers what :class:`ancf.results.Sensors` answers; reactions of supports it does not know.
+
+    Parameters
+    ----------
+    family : Family
+    sensors : Sensors
+    rows : (n, width)
+        Derivatives of the samples.
+    """
+
+    def __init__(self, family: Family, sensors: Sensors, rows: FloatArray) -> None:
+        self._family, self._sensors = family, sensors
+        k = len(sensors.listing.index)
+        self._d = {"q": rows[:, :k], "v": rows[:, k : 2 * k], "measured": rows[:, 2 * k :]}
+        self.t = sensors.t
+
+    def __repr__(self) -> str:
+        return f"SensorSensitivity({self.name!r}, {len(self.t)} times)"
+
+    @property
+    def name(self) -> str:
+        """Of the parameter."""
+        return self._family.name
+
+    def __getattr__(self, name: str) -> Callable[..., FloatArray]:
+        if name.startswith("_") or not callable(getattr(Sensors, name, None)):
+            raise AttributeError(f"a sensitivity has no {name!r}", name=name, obj=self)
+
+        def answer(*items: Any) -> FloatArray:
+            return self.of(lambda one: getattr(one, name)(*map(text_of, items)), name in LINEAR, name)
+
+        return answer
+
+    def of(self, question: Callable[[Any], Any], linear: bool = False, name: str = "") -> FloatArray:
+        """Derivative of a question, a function of what answers as sensors do.
+
+        Raises
+        ------
+        ModelError
+            What the question itself raises; a reaction.
+        """
+        if name == "reaction":
+            what = "derivatives of reactions are known of equilibria only"
+            raise ModelError("sensitivity.reaction", what, "ask the state of ancf.equilibrium")
+        here, d = self._sensors._arrays(), self._d
+        now = {key: np.asarray(here[key][:]) for key in ("time", "q", "v", "measured")}
+        question(self._sensors)
+        base = np.asarray(question(self._with(self._family.base, now)))
+        total: Any = np.zeros_like(base)
+        for system, weight in zip(self._family.systems, self._family.weights, strict=True):
+            total = total + weight * (np.asarray(question(self._with(system, now))) - base)
+        if linear or name.startswith(("contact", "acceleration")):
+            return np.asarray(total + question(self._with(self._family.base, now | d)))
+        for key in d:
+            size = float(np.max(np.abs(d[key]), initial=0.0))
+            for x, w in PLACES if size > 0.0 else ():
+                e = MOVED / size
+                moved = now | {key: now[key] + x * e * d[key]}
+                total = total + w / e * np.asarray(question(self._with(self._family.base, moved)))
+        found: FloatArray = np.asarray(total)
+        return found
+
+    def _with(self, system: System, arrays: dict[str, FloatArray]) -> _Recorded:
+        whole = Face(system, np.zeros(system.size), np.zeros(system.size), 0.0)
+        return _Recorded(self._sensors, _Whole(whole), arrays)
+
+
+class _Whole:
+    """What sensors want of a result."""
+
+    def __init__(self, face: Face) -> None:
+        self.model, self.bodies, self.slots = face.model, face.model.bodies, face.system.slots
+        self.lengths, self.springs = face.system.lengths, face._springs
+        self.joints, self.arcs = face.system.joints, face.system.numbering.arcs

@@ -1,0 +1,298 @@
+"""Damped modes about an equilibrium, or about a steady rotation: complex eigenvalues.
+
+In axes that turn with the rate W the equations of motion of all vectors of unknowns are, W being the skew
+matrix of the rate on each of them,
+
+    M x'' + (D + 2 M W) x' + (K + M W W) x = 0,    C x = 0,
+
+because the mass matrix is the same in all axes and the elements' forces turn with the body.  The steady
+rotation itself, q with M W W q + internal forces + C^T lambda = 0, is found by Newton's method from the given
+state.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import eig, null_space
+from scipy.sparse import coo_array, csc_array
+from scipy.spatial.transform import Rotation
+
+from ..arrays import FloatArray, IntArray
+from ..errors import SolveError
+from ..linalg.sparse import to_sparse
+from ..system.core import apply_load, assemble, follow_supports, residual
+from ..system.system import System
+
+MANY = 1500  # unknowns, as all of it is dense
+STEADY = 0.05  # velocities that are no rotation, of the largest
+SYMMETRIC = 1e-6  # forces that change when the model is turned, of the largest
+BALANCED = 1e-7  # forces that are left, of the largest
+ROUNDS = 30  # of Newton's method
+SHIFT = 1e-6  # of a mean frequency: about what eigenvalues are found
+NEUTRAL = 1e-3  # of the shift: what is zero
+TURN = 0.3  # rad, by which a model is turned to see whether it turns freely
+
+ComplexArray = np.ndarray
+
+
+class Damped:
+    """Matrices of a system about a state, in the components that are free."""
+
+    def __init__(self, system: System, q: FloatArray, v: FloatArray, time: float) -> None:
+        self.system, self.time = system, time
+        self.lam = np.intersect1d(system.free, system.multipliers)
+        self.free = np.setdiff1d(system.free, self.lam)
+        if len(self.free) > MANY:
+            raise SolveError(
+                "damped_modes", f"{len(self.free)} unknowns, the most are {MANY}", "take fewer elements"
+            )
+        self.q = q.copy()
+        self.v, self.a = np.zeros_like(q), np.zeros_like(q)
+        system.place(time, self.q, self.v, self.a)
+        self.spin, self.centre = rotation_of(system, q, v)
+        self.axes = _axes(system)
+        self.W = _turning(system, self.spin)
+        system.level[:] = 1.0, 0.0, 0.0
+        self.M = self._whole(1.0, 0.0, 0.0)
+        if np.any(self.spin):
+            self._check_surroundings()
+            self._check_symmetry()
+            self._settle()
+
+    def _whole(self, mass: float, damping: float, stiffness: float) -> csc_array:
+        core, joints = self.system.core, self.system.parts.get("joints")
+        kept = None if joints is None else joints.scale.copy()
+        if joints is not None:
+            joints.scale[:] = 0.0  # the matrices themselves, without the multiples of C^T C that help a solve
+        assemble(core.batches, core.ws, self.q, np.zeros_like(self.q), core.A, mass, damping, stiffness)
+        if joints is not None:
+            joints.scale[:] = kept
+        return csc_array(to_sparse(core.A, self.system.places))
+
+    def _part(self, A: csc_array, rows: IntArray, columns: IntArray) -> FloatArray:
+        """Rows and columns of a matrix in the components of the unknowns."""
+        found: FloatArray = csc_array(self.axes.T @ A @ self.axes)[rows][:, columns].toarray()
+        return found
+
+    def matrices(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Mass, damping with the gyroscopic part, stiffness with the centrifugal one, constraints."""
+        f = self.free
+        K = self._whole(0.0, 0.0, 1.0)
+        M = self._part(self.M, f, f)
+        D = self._part(csc_array(self._whole(0.0, 1.0, 0.0) + 2.0 * (self.M @ self.W)), f, f)
+        turned = self._part(csc_array(K + self.M @ self.W @ self.W), f, f)
+        return M, D, turned, self._part(K, self.lam, f)
+
+    def _forces(self) -> tuple[FloatArray, float]:
+        """What the steady rotation leaves in the free unknowns and constraints, and the largest force."""
+        system = self.system
+        arm = _physical(system, self.q)
+        for slots in system.numbering.slots.values():
+            for c in range(3):
+                arm[np.unique(slots[:, 0]) + c] -= self.centre[c]
+        inertia = self.M @ (self.W @ (self.W @ arm))
+        r = self.axes.T @ (_physical(system, self._residual(self.q)) + inertia)
+        both = np.concatenate([self.free, self.lam])
+        return r[both], float(np.max(np.abs(inertia), initial=0.0))
+
+    def _residual(self, q: FloatArray) -> FloatArray:
+        """Internal forces and constraints less loads."""
+        core, f, r = self.system.core, np.zeros(self.system.size), np.zeros(self.system.size)
+        apply_load(core.loads, core.loads.value, f)
+        still = np.zeros_like(f)  # in axes that turn along nothing moves
+        residual(core.batches, core.ws, q, still, still.copy(), f, r)
+        return r
+
+    def _check_surroundings(self) -> None:
+        """Nothing that stands still brakes what turns."""
+        model = self.system.model
+        outside = [item.name for item in model.fluids] + [item.name for item in model.grounds]
+        braked = [b.name for b in model.beams.values() if b.section.damping or b.section.slope_damping]
+        if outside or braked:
+            what = f'"{(braked or outside)[0]}" has or is a resistance that stands still'
+            raise SolveError("damped_modes", what, "leave it out of a model that turns")
+
+    def _check_symmetry(self) -> None:
+        """Forces turn with the model: what stands still and acts on it does so the same from all sides."""
+        R = Rotation.from_rotvec(TURN * self.spin / np.linalg.norm(self.spin)).as_matrix()
+        turned, places = self.q.copy(), _vectors(self.system.slots)
+        first = np.concatenate([slots[:, 0] for slots in self.system.slots.values()])
+        centre = np.where(np.isin(places[:, :1], first), self.centre, 0.0)
+        turned[places] = centre + (self.q[places] - centre) @ R.T
+        before, after = self._residual(self.q), self._residual(turned)
+        expected = before.copy()
+        expected[places] = before[places] @ R.T
+        off = float(np.max(np.abs(after - expected)))
+        arm = self.M @ (self.W @ (self.W @ _physical(self.system, self.q)))
+        largest = max(float(np.max(np.abs(x))) for x in (after, before, arm))
+        if off > SYMMETRIC * largest:
+            what = "forces or joints that stand still do not act alike from all sides of the axis of rotation"
+            raise SolveError(
+                "damped_modes", what, "loads and gravity along the axis, joints that turn about it"
+            )
+
+    def _settle(self) -> None:
+        """Newton's method for the state that turns steadily."""
+        f, lam = self.free, self.lam
+        for _ in range(ROUNDS):
+            left, largest = self._forces()
+            if np.max(np.abs(left)) <= BALANCED * largest:
+                return
+            _, _, K, C = self.matrices()
+            scale = np.ones(len(left))
+            scale[len(f) :] = np.max(np.abs(K))  # rows of joints as large as stiffnesses
+            both = np.block([[K, C.T], [C, np.zeros((len(lam), len(lam)))]]) * np.outer(scale, scale)
+            step = scale * np.linalg.lstsq(both, -scale * left, rcond=1e-13)[0]
+            self.q[np.concatenate([f, lam])] += step
+            follow_supports(self.system.core.supports, self.q, self.v, self.a)
+        what = f"{np.max(np.abs(left)):.3g} are left of {largest:.3g} N: the state does not turn steadily"
+        raise SolveError("damped_modes", what, "let loads and supports turn with it, or leave them out")
+
+
+def damped_modes_about(
+    system: System, q: FloatArray, v: FloatArray, time: float, count: int
+) -> tuple[ComplexArray, ComplexArray, FloatArray, FloatArray, FloatArray]:
+    """Lowest damped modes about a state.
+
+    Returns
+    -------
+    values : ndarray of complex, shape (count,)
+        Eigenvalues, 1/s, of a pair that with the positive imaginary part.
+    shapes : ndarray of complex, shape (count, size)
+    whirl : ndarray, shape (count,)
+        Along the axis of the spin, 1 and -1 for circles with and against it.
+    spin : ndarray, shape (3,)
+        rad/s.
+    q : ndarray, shape (size,)
+        State vector about which they are.
+    """
+    made = Damped(system, q, v, time)
+    M, D, K, C = made.matrices()
+    Z = null_space(C) if len(C) else np.eye(len(M))
+    M, D, K = Z.T @ M @ Z, Z.T @ D @ Z, Z.T @ K @ Z
+    values, vectors = _lowest(M, D, K, count)
+    shapes = np.zeros((len(values), system.size), dtype=complex)
+    shapes[:, made.free] = (Z @ vectors).T
+    for shape in shapes:
+        for part in (shape.real, shape.imag):
+            whole, zero = np.ascontiguousarray(part), np.zeros(system.size)
+            follow_supports(system.core.supports, whole, zero, zero.copy())
+            part[:] = whole
+    return values, shapes, _whirl(made, shapes), made.spin, made.q
+
+
+def _lowest(M: FloatArray, D: FloatArray, K: FloatArray, count: int) -> tuple[ComplexArray, ComplexArray]:
+    """Eigenvalues next to zero of l^2 M + l D + K, of conjugate pairs one, by the inverse about a shift."""
+    n = len(M)
+    sigma = SHIFT * float(np.sqrt(np.abs(K).sum() / np.abs(M).sum()))
+    A = np.block([[np.zeros((n, n)), np.eye(n)], [-K, -D]])
+    B = np.block([[np.eye(n), np.zeros((n, n))], [np.zeros((n, n)), M]])
+    mu, vectors = eig(np.linalg.solve(A - sigma * B, B))
+    finite = np.flatnonzero(np.abs(mu) > 1e-14 * np.max(np.abs(mu)))
+    values = sigma + 1.0 / mu[finite]
+    values[np.abs(values) < NEUTRAL * sigma] = 0.0  # a double zero comes out to half of the digits
+    upper = np.flatnonzero(values.imag > -1e-9 * np.abs(values))
+    order = upper[np.argsort(np.abs(values[upper]), kind="stable")][:count]
+    return values[order], vectors[:n, finite[order]]
+
+
+def _whirl(made: Damped, shapes: ComplexArray) -> FloatArray:
+    """How much of each shape turns about the axis of the spin: of positions, and of what lies along the axis.
+
+    Vectors across the axis turn with their body and tell of a tilt by moving along it.
+    """
+    rate, system = float(np.linalg.norm(made.spin)), made.system
+    if rate == 0.0:
+        return np.zeros(len(shapes))
+    first = np.concatenate([slots[:, 0] for slots in system.slots.values()])
+    places = _vectors(system.slots)
+    is_place = np.isin(places[:, 0], first)
+    here = made.q[places]
+    length = np.linalg.norm(here, axis=1)  # 1 of a direction, 0 of how it changes along an element
+    along = (np.abs(here @ made.spin) > 0.7 * rate * length) & (length > 0.5)
+    weight = np.where(is_place, 1.0 / system.model.size**2, np.where(along, 1.0, 0.0))
+    found = np.zeros(len(shapes))
+    for k, shape in enumerate(shapes):
+        x = shape[places]
+        turned = np.cross(made.spin / rate, x)
+        whole = float(weight @ np.sum(np.abs(x) ** 2, axis=1))
+        if whole > 0.0:
+            found[k] = float(weight @ np.sum(x.conj() * turned, axis=1).imag) / whole
+    return found
+
+
+def rotation_of(system: System, q: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Rate of the steady rotation that velocities are, rad/s, and a place on its axis, m.
+
+    Raises
+    ------
+    SolveError
+        They are no rotation.
+    """
+    places = _vectors(system.slots)
+    rates = v[places]
+    largest = float(np.max(np.abs(rates), initial=0.0))
+    if largest == 0.0:
+        return np.zeros(3), np.zeros(3)
+    first = np.concatenate([slots[:, 0] for slots in system.slots.values()])
+    moved = np.isin(places[:, 0], first)
+    blocks = np.zeros((len(places), 3, 6))
+    blocks[:, :, :3] = np.array([_skew(-r) for r in q[places]])  # omega x r = -r x omega
+    blocks[moved, :, 3:] = np.eye(3)
+    found = np.linalg.lstsq(blocks.reshape(-1, 6), rates.ravel(), rcond=None)[0]
+    spin: FloatArray = np.array(found[:3], dtype=np.float64)
+    shift = found[3:]
+    left = np.abs(blocks.reshape(-1, 6) @ found - rates.ravel())
+    rate = float(np.linalg.norm(spin))
+    along = abs(float(shift @ spin)) / rate if rate > 0.0 else float(np.linalg.norm(shift))
+    if np.max(left) > STEADY * largest or along > STEADY * largest:
+        what = "the state moves, and not in a steady rotation of all bodies about one axis"
+        raise SolveError(
+            "damped_modes", what, "give an equilibrium, or velocities by set_motion(angular_velocity=)"
+        )
+    centre: FloatArray = np.cross(spin, shift) / rate**2
+    return spin, centre
+
+
+def _skew(w: FloatArray) -> FloatArray:
+    return np.array([[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]])
+
+
+def _vectors(tables: dict[str, IntArray]) -> IntArray:
+    """Places of all vectors of nodes, shape (count, 3)."""
+    slots = np.unique(np.concatenate([table.ravel() for table in tables.values()]))
+    found: IntArray = slots[:, None] + np.arange(3)
+    return found
+
+
+def _turning(system: System, spin: FloatArray) -> csc_array:
+    """Skew matrix of a rate for every vector of unknowns, in global components."""
+    places = _vectors(system.numbering.slots)
+    values = np.tile(_skew(spin).ravel(), len(places))
+    rows, columns = np.repeat(places, 3, axis=1).ravel(), np.tile(places, (1, 3)).ravel()
+    return csc_array(coo_array((values, (rows, columns)), shape=(system.n, system.n)))
+
+
+def _axes(system: System) -> csc_array:
+    """Global components of all unknowns."""
+    supports = system.core.supports
+    whole = np.ones(system.n)
+    rows, columns, values = [], [], []
+    for k, slot in enumerate(supports.rot_slot.tolist()):
+        whole[slot : slot + 3] = 0.0
+        rows += np.repeat(slot + np.arange(3), 3).tolist()
+        columns += np.tile(slot + np.arange(3), 3).tolist()
+        values += supports.rot_R[k, 0].ravel().tolist()
+    each = np.flatnonzero(whole)
+    i, j = np.concatenate([each, rows]).astype(int), np.concatenate([each, columns]).astype(int)
+    given = np.concatenate([np.ones(len(each)), values])
+    return csc_array(coo_array((given, (i, j)), shape=(system.n, system.n)))
+
+
+def _physical(system: System, x: FloatArray) -> FloatArray:
+    """Global components (n,) of a state vector or of forces, whose shadows have them."""
+    found = x[: system.n].copy()
+    supports = system.core.supports
+    for slot, shadow in zip(supports.rot_slot.tolist(), supports.rot_shadow.tolist(), strict=True):
+        found[slot : slot + 3] = x[shadow : shadow + 3]
+    return found

@@ -1,0 +1,170 @@
+"""Damped and rotating modes against closed forms: oscillator, string, shafts that whirl, blades that turn."""
+
+import numpy as np
+import pytest
+
+import ancf
+from ancf.errors import ModelError, SolveError
+
+
+@pytest.mark.parametrize(
+    ("mass", "stiffness", "damping"), [(2.0, 50.0, 3.0), (0.1, 7.0, 0.0), (1.0, 4.0, 10.0)]
+)
+def test_oscillator(mass, stiffness, damping):
+    """m x'' + d x' + k x = 0, swinging and creeping."""
+    model = ancf.Model()
+    body = model.add_point_mass("p", at=(1, 0, 0), mass=mass)
+    model.hold(body, position="yz")
+    model.add_spring(body, (0, 0, 0), stiffness=stiffness, damping=damping)
+    exact = np.roots([mass, damping, stiffness])
+    modes = ancf.damped_modes(model, count=1)
+    wanted = exact[np.argmin(np.abs(exact) - exact.imag * 1e-9)]
+    assert modes.eigenvalues[0] == pytest.approx(wanted, rel=1e-10, abs=1e-12)
+    critical = damping / (2 * np.sqrt(stiffness * mass))
+    if critical < 1:
+        assert modes.damping_ratios[0] == pytest.approx(critical, abs=1e-12)
+    assert abs(modes.position(body)[0, 0]) > 0.0
+    assert np.all(modes.position(body)[:, 1:] == 0.0)
+
+
+@pytest.mark.parametrize("strain", ["material", "paper"])
+def test_taut_string_in_honey(strain):
+    """External damping c per length: every mode of rhoA w'' + c w' - T w_xx decays with c/(2 rhoA)."""
+    model = ancf.Model()
+    section = ancf.Section(EA=1e5, EI=1e-6, rhoA=0.01, damping=0.4)
+    string = model.add_beam(
+        "s", start=(0, 0, 0), end=(1, 0, 0), elements=16, length=0.999, section=section, strain=strain
+    )
+    model.pin(string.start)
+    model.pin(string.end)
+    state = ancf.equilibrium(model)
+    modes = ancf.damped_modes(model, about=state, count=4)
+    assert modes.eigenvalues.real == pytest.approx(-20.0, rel=1e-9)
+    undamped = ancf.modes(model, about=state, count=4).frequencies
+    assert modes.eigenvalues.imag == pytest.approx(np.sqrt(undamped**2 - 400.0), rel=1e-9)
+    assert np.all(modes.whirl == 0.0)
+
+
+def in_space(modes):
+    """Angular frequencies of the circles for an observer at rest, with the rotation positive."""
+    spin = np.linalg.norm(modes.spin)
+    circles = np.abs(modes.whirl) > 0.9
+    return np.sort((spin + modes.whirl.round() * modes.eigenvalues.imag)[circles])
+
+
+@pytest.mark.parametrize("rate", [50.0, 500.0])
+@pytest.mark.parametrize("diameter", [0.05, 0.1])
+def test_shaft_splits_its_frequencies(diameter, rate):
+    """Rayleigh's shaft, simply supported: (A + I k^2) w^2 - 2 W I k^2 w = E I k^4/rho."""
+    E, rho, k = 2e11, 7850.0, np.pi / 2
+    model = ancf.Model()
+    section = ancf.Section.circle(diameter=diameter, E=E, rho=rho, nu=0.3)
+    shaft = model.add_beam(
+        "s", start=(0, 0, 0), end=(2, 0, 0), elements=4, section=section, element="nonlocking"
+    )
+    model.pin(shaft.start)
+    model.hold(shaft.end, position="yz")
+    shaft.set_motion(angular_velocity=(rate, 0, 0))
+    modes = ancf.damped_modes(model, count=16)
+    assert modes.spin == pytest.approx([rate, 0, 0], abs=1e-9 * rate)
+    A, Iy = section.A, section.I_y
+    exact = np.sort(np.roots([A + Iy * k**2, -2 * rate * Iy * k**2, -E * Iy * k**4 / rho]).real)
+    found = in_space(modes)
+    found = found[np.argsort(np.abs(np.abs(found) - exact[1]))[:2]]
+    assert np.sort(found) == pytest.approx(exact, rel=4e-3)  # shear, which Rayleigh leaves out
+    assert found.sum() == pytest.approx(exact.sum(), rel=0.02)  # the split, by gyroscopic moments alone
+    assert np.abs(modes.eigenvalues.real[2:6]).max() < 1e-9 * rate  # behind the two neutral ones
+
+
+@pytest.mark.parametrize("rate", [20.0, 60.0])
+def test_overhung_disc(rate):
+    """A disc on a light cantilever (Stodola): z and phi of the disc, polar moment twice the diametral one."""
+    L, m, Id = 0.5, 10.0, 0.05
+    model = ancf.Model()
+    section = ancf.Section.circle(diameter=0.02, E=2e11, rho=1e-2, nu=0.3)
+    shaft = model.add_beam(
+        "s", start=(0, 0, 0), end=(L, 0, 0), elements=3, section=section, element="nonlocking"
+    )
+    disc = model.add_rigid_body("disc", at=(L, 0, 0), mass=m, inertia=(2 * Id, Id, Id))
+    model.clamp(shaft.start, rotation=lambda t: rate * t, axis=(1, 0, 0))
+    model.clamp(shaft.end, to=disc)
+    for body in (shaft, disc):
+        body.set_motion(angular_velocity=(rate, 0, 0))
+    modes = ancf.damped_modes(model, count=8)
+    EI = section.EI_y
+    K = EI / L**3 * np.array([[12, -6 * L], [-6 * L, 4 * L**2]])
+    M, G = np.diag([m, Id]), np.diag([0.0, 2 * Id * rate])
+    # with z = y + i z and exp(i w t): (K + w G' - w^2 M), G' = -G
+    A = np.block([[np.zeros((2, 2)), np.eye(2)], [np.linalg.solve(M, K), np.linalg.solve(M, G)]])
+    exact = np.sort(np.linalg.eigvals(A).real)
+    found = in_space(modes)
+    for w in exact:
+        assert np.min(np.abs(found - w)) < 3e-3 * abs(w), (w, found)
+
+
+@pytest.mark.parametrize(("rate", "flap"), [(0.0, 3.5160), (2.0, 4.1373), (6.0, 7.3604), (12.0, 13.1702)])
+def test_blade_gets_stiffer(rate, flap):
+    """First frequency of a turning cantilever (Wright et al. 1982), and in the plane w^2 less W^2."""
+    model = ancf.Model()
+    section = ancf.Section(EA=1e7, EI=1.0, rhoA=1.0)
+    blade = model.add_beam("b", start=(0, 0, 0), end=(1, 0, 0), elements=8, section=section)
+    model.clamp(blade.start, rotation=lambda t: rate * t, axis=(0, 0, 1))
+    blade.set_motion(angular_velocity=(0, 0, rate))
+    modes = ancf.damped_modes(model, count=2)
+    lag, found = modes.eigenvalues.imag
+    assert found == pytest.approx(flap, rel=2e-4)
+    assert lag**2 == pytest.approx(found**2 - rate**2, rel=1e-3 if rate else 1e-9)
+    stretch = modes.about.position(blade.end)[0] - 1.0
+    assert stretch == pytest.approx(rate**2 / 3e7, rel=1e-2, abs=1e-12)  # rhoA W^2 L^3/(3 EA)
+
+
+def rotor(gravity=(0, 0, 0)):
+    model = ancf.Model(gravity=gravity)
+    section = ancf.Section(EA=1e5, EI=1.0, rhoA=1.0)
+    rope = model.add_beam("r", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
+    model.pin(rope.start)
+    return model, rope
+
+
+def test_what_is_no_steady_rotation_is_refused():
+    model = ancf.Model()
+    for k, speed in enumerate((1.0, -1.0, 1.0)):
+        stone = model.add_point_mass(f"stone {k}", at=(k, 0, 0), mass=1.0)
+        stone.set_motion(velocity=(0, 0, speed))
+    with pytest.raises(SolveError, match="not in a steady rotation"):
+        ancf.damped_modes(model, count=1)
+    model, rope = rotor(gravity=(0, -9.81, 0))
+    rope.set_motion(angular_velocity=(0, 0, 5.0))
+    with pytest.raises(SolveError, match="from all sides of the axis"):
+        ancf.damped_modes(model, count=3)
+    model, rope = rotor()
+    with pytest.raises(ModelError, match=r"damped_modes\.count"):
+        ancf.damped_modes(model, count=1000)
+    with pytest.raises(ModelError, match="must be a State"):
+        ancf.damped_modes(model, about="rest")
+
+
+def test_damping_inside_a_blade_is_that_of_its_bending():
+    """Of a turning blade too the first mode loses by its strains alone: D is proportional to K at rest."""
+    found = []
+    for rate in (0.0, 6.0):
+        model = ancf.Model()
+        section = ancf.Section(EA=1e7, EI=1.0, rhoA=1.0, bending_damping=1e-3)
+        blade = model.add_beam("b", start=(0, 0, 0), end=(1, 0, 0), elements=4, section=section)
+        model.clamp(blade.start, rotation=lambda t, rate=rate: rate * t, axis=(0, 0, 1))
+        blade.set_motion(angular_velocity=(0, 0, rate))
+        found.append(ancf.damped_modes(model, count=2).eigenvalues)
+    still, turning = found
+    assert still.real == pytest.approx(-0.5e-3 * np.abs(still) ** 2, rel=1e-4)
+    assert np.all(turning.real < 0.0)
+    assert np.abs(turning[1]) == pytest.approx(7.3604, rel=1e-3)
+
+
+def test_resistance_that_stands_still_is_refused_of_what_turns():
+    model = ancf.Model()
+    section = ancf.Section(EA=1e5, EI=1.0, rhoA=1.0, damping=0.1)
+    rope = model.add_beam("r", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
+    model.pin(rope.start)
+    rope.set_motion(angular_velocity=(0, 0, 5.0))
+    with pytest.raises(SolveError, match="resistance that stands still"):
+        ancf.damped_modes(model, count=3)
