@@ -13,34 +13,14 @@ from ..errors import ModelError, SolveError
 from ..model import checks
 from .backwards import gradient_of
 from .formulas import Formula, Vocabulary
-from .lines import HIGHEST, SIGMA
+from .lines import HIGHEST, OF_FORCE, SIGMA
 
 if TYPE_CHECKING:
     from ..catenary import Line
     from ..catenary.mesh import Mesh
 
 #: Numbers of a run that have derivatives, by their names in formulas.
-NUMBERS = {
-    SIGMA: "deviation",
-    HIGHEST: "uplift",
-    **{
-        key: key
-        for key in (
-            "mean_force",
-            "deviation",
-            "mean_plus_3_sigma",
-            "mean_minus_3_sigma",
-            "maximum",
-            "minimum",
-            "raw_maximum",
-            "raw_minimum",
-            "relative_deviation",
-            "deviation_0_2",
-            "deviation_0_5",
-            "deviation_5_20",
-        )
-    },
-}
+NUMBERS = {SIGMA: "deviation", HIGHEST: "uplift", **{key: key for key in OF_FORCE}}
 OF_RUN = Vocabulary(tuple(NUMBERS))
 WHERE = "optimise"
 

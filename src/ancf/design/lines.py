@@ -30,8 +30,8 @@ OF_FORM = {
 }
 #: Arrays of a run beside its statistics.
 OF_RUN = ("uplift", "dropper_force")
-#: Quantities of the statistics of a run by their keys; sigma is short for the first deviation.
-STATISTICS = (
+#: Quantities of the statistics of a contact force by their keys; sigma is short for the first deviation.
+OF_FORCE = (
     "mean_force",
     "deviation",
     "mean_plus_3_sigma",
@@ -44,6 +44,9 @@ STATISTICS = (
     "deviation_0_2",
     "deviation_0_5",
     "deviation_5_20",
+)
+STATISTICS = (
+    *OF_FORCE,
     "loss",
     "loss_number",
     "loss_longest",
