@@ -11,9 +11,8 @@ from ancf.model.refine import refined
 from ancf.verification import _changed, _halved, _Output, verify
 from places import EXAMPLES
 
-#: Model files; line.toml describes an overhead line, study.toml a study, calibrate.toml a calibration.
-OTHERS = {"line.toml", "tension_length.toml", "study.toml", "calibrate.toml"}
-FILES = sorted({path.name for path in EXAMPLES.glob("*.toml")} - OTHERS)
+#: Model files: those that say how they are simulated.
+FILES = sorted(path.name for path in EXAMPLES.glob("*.toml") if "\n[simulation]" in path.read_text("utf-8"))
 
 
 def cantilever(elements, **more):

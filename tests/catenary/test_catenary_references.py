@@ -188,6 +188,7 @@ class TestFiles:
             "statistics.json",
             "uplift.csv",
             "droppers.csv",
+            "cycles.csv",
             "force_1.csv",
             "force_2.csv",
         }
