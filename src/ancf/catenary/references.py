@@ -156,7 +156,7 @@ def reference_names() -> list[str]:
 
 
 def reference_case(name: str) -> Reference:
-    """A reference case by name.
+    """A reference case by name, or by a beginning that one alone has: ``en50318-2018``.
 
     Raises
     ------
@@ -165,6 +165,9 @@ def reference_case(name: str) -> Reference:
 
     """
     known = reference_names()
+    begun = [other for other in known if other.startswith(f"{name}-")]
+    if name not in known and len(begun) == 1:
+        name = begun[0]
     if name not in known:
         hint = nearest(name, known)
         raise ModelError("reference case", f'there is no "{name}", there are {listed(known)}', hint)

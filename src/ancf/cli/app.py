@@ -189,8 +189,8 @@ def validate(
 ) -> None:
     """Run a reference case of a standard, mooring lines or ropes on drums, beside what is published.
 
-    Writes OUT/validate.json, CSV files and OUT/report.html. Quantities outside their ranges are reported and
-    are no error: the exit code is 0 when all was computed.
+    Writes OUT/validate.json, CSV files and OUT/report.html, of a line at several speeds in OUT/KMH.
+    Quantities outside their ranges are reported and are no error: the exit code is 0 when all was computed.
     """
     with reported():
         from .validate import WITHOUT_SPEED, validate_case, validate_groups

@@ -30,7 +30,13 @@ Spacings = Annotated[
     ),
 ]
 CaseSpeed = Annotated[
-    float | None, typer.Option("--speed", metavar="KMH", help="Speed of a line, km/h.", show_default=False)
+    float | None,
+    typer.Option(
+        "--speed",
+        metavar="KMH",
+        help="Speed of a line, km/h; default: each that has ranges.",
+        show_default=False,
+    ),
 ]
 Pantographs = Annotated[
     list[str] | None,

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def validate_case(
     case: str, speed_kmh: float | None, folder: Path, report: bool = True, quiet: bool = False
 ) -> None:
-    """Run, compare, write and print.
+    """Run, compare, write and print; without a speed at each that has ranges, in folders of their own.
 
     Raises
     ------
@@ -27,22 +27,29 @@ def validate_case(
         nothing was computed.
 
     """
-    from ..catenary import validate
     from ..catenary.references import reference_case
     from ..model.checks import positive
     from ..viz.style import require_matplotlib
 
     reference = reference_case(case)
-    if speed_kmh is None:
-        raise ModelError("--speed", "is missing", f"such as: ancf validate {case} --speed 250")
-    positive(speed_kmh, "--speed")
+    if speed_kmh is not None:
+        positive(speed_kmh, "--speed")
     if report:
         require_matplotlib()
+    if speed_kmh is not None:
+        return _at_speed(reference, speed_kmh, folder, report, quiet)
+    for speed in reference.speeds:
+        _at_speed(reference, speed, folder / f"{speed:g}", report, quiet)
+
+
+def _at_speed(reference: Reference, speed_kmh: float, folder: Path, report: bool, quiet: bool) -> None:
+    from ..catenary import validate
+
     output, screen = OutputFolder(folder), Screen(quiet)
     with output.locked():
         screen.announce_compilation()
         with screen.progress(1) as progress:
-            run = validate.reference_run(case, speed_kmh, progress=progress)
+            run = validate.reference_run(reference.name, speed_kmh, progress=progress)
         files = validate.write_validation(run, reference, folder, report)
     if not quiet:
         show(run, reference)
