@@ -217,26 +217,6 @@ class TestCommand:
             found = json.loads((tmp_path / f"new/{kmh}/validate.json").read_text())
             assert found["speed_kmh"] == kmh
 
-    def test_speed_without_ranges(self, monkeypatch, run, tmp_path):
-        arguments = ("en50318-2002", "--speed", "260", "-o", str(tmp_path), "--no-report")
-        done, _ = self.validate(monkeypatch, run, *arguments)
-        assert done.exit_code == 0
-        assert "no accepted ranges at 260 km/h" in done.stdout
-        found = json.loads((tmp_path / "validate.json").read_text())
-        assert found["all_inside"] is None
-        assert {row["inside"] for row in found["rows"]} == {None}
-        assert not (tmp_path / "report.html").exists()
-
-    def test_without_a_speed_it_runs_each_that_has_ranges(self, monkeypatch, run, tmp_path):
-        """The case by the beginning of its name, which it alone has."""
-        arguments = ("en50318-2018", "-o", str(tmp_path / "new"), "--no-report")
-        done, calls = self.validate(monkeypatch, run, *arguments)
-        assert done.exit_code == 0, done.output
-        assert calls == [("en50318-2018-ac-simple", 275.0), ("en50318-2018-ac-simple", 320.0)]
-        for kmh in (275, 320):
-            found = json.loads((tmp_path / f"new/{kmh}/validate.json").read_text())
-            assert found["speed_kmh"] == kmh
-
     def test_quiet(self, monkeypatch, run, tmp_path):
         arguments = ("en50318-2002", "--speed", "250", "-o", str(tmp_path), "-q", "--no-report")
         done, _ = self.validate(monkeypatch, run, *arguments)
