@@ -126,7 +126,7 @@ def moored(seed: int = 1) -> tuple[ancf.Model, list[ancf.Point]]:
     section = ancf.Section(EA=2e8, EI=0.0, rhoA=50.0, diameter=0.1, drag=(1.6, 0.1), added_mass=(1.0, 0.0))
     rng = np.random.default_rng(seed)
     ways = []
-    for size in (1.5, 0.8):  # m, of six components about the peak of the sea each
+    for size in (0.75, 0.4):  # m, deviation; that of the water is 1 m, and a ship goes with less of it
         omega, phase = rng.uniform(0.4, 0.9, 6), rng.uniform(0.0, 2.0 * math.pi, 6)
         parts = [f"sin({w:.6f}*t + {p:.6f})" for w, p in zip(omega, phase, strict=True)]
         ways.append(f"{size / math.sqrt(3.0):.6f}*ramp(t, 0, 60)*({' + '.join(parts)})")
