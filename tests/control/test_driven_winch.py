@@ -165,19 +165,24 @@ def test_an_equilibrium_has_the_length_of_the_input():
     )
 
 
-def test_halved_steps_leave_the_lengths_that_follow():
-    """Steps that are cut into parts: the next ones go on from where the drum is."""
+def test_halved_steps_leave_the_lengths_that_follow(tmp_path):
+    """Steps that are cut into parts: the next ones go on from where the drum is, also after a restart."""
     runs = []
     for count in (1, 40):
-        model, _, _ = hoist(speed="u", acceleration=3.0)
+        model, _, _ = hoist(length="u", speed=0.5, first=3.0, acceleration=1.0)
         model.add_force("load", ["20*sin(60*t)", "40*sin(80*t)", "-30*cos(70*t)"])
         run = ancf.stepper(model, step=0.04)
-        run.inputs["u"] = -0.6
+        run.inputs["u"] = 2.0
         for _ in range(40 // count):
             run.advance(count)
+            if run.t < 0.1:
+                run.save(tmp_path / "early.h5")
         runs.append(run)
+    again = ancf.stepper(model, start=tmp_path / "early.h5")
+    again.advance(38)
     assert runs[0].stats.retries > 0
     assert np.array_equal(runs[0].q, runs[1].q)
+    assert np.array_equal(runs[0].q, again.q)
 
 
 def test_files(tmp_path):
