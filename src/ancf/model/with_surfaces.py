@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from ..errors import ModelError
@@ -259,10 +260,8 @@ class WithSurfaces(Connecting):
         first, second = self._body(body, f"{where}.body"), self._body(other, f"{where}.other")
         what = "itself" if second is first else second.name
         label = self._names.of_item(name, f"contact of {first.name} and {what}", where)
-        for old in self.connections:
-            if isinstance(old, CableContact) and {old.body, old.other} == {first, second}:
-                what = f'"{old.name}" is between "{first.name}" and "{second.name}" already'
-                raise ModelError(f"{where}.other", what)
+        known = (c for c in self.connections if isinstance(c, CableContact))
+        _refuse_a_second(where, first, second, ((c.name, {c.body, c.other}) for c in known))
         item = make_cable_contact(
             where,
             label,
@@ -310,10 +309,8 @@ class WithSurfaces(Connecting):
         where = self._where("add_body_contact", name)
         first, second = self.surface(surface, f"{where}.surface"), self.surface(other, f"{where}.other")
         label = self._names.of_item(name, f"contact of {first.name} and {second.name}", where)
-        for old in self.connections:
-            if isinstance(old, BodyContact) and {old.surface, old.other} == {first, second}:
-                what = f'"{old.name}" is between "{first.name}" and "{second.name}" already'
-                raise ModelError(f"{where}.other", what)
+        known = (c for c in self.connections if isinstance(c, BodyContact))
+        _refuse_a_second(where, first, second, ((c.name, {c.surface, c.other}) for c in known))
         item = make_body_contact(
             where,
             label,
@@ -337,3 +334,11 @@ def _refuse(where: str, given: dict[str, Any], kind_of_it: str) -> None:
     for key, value in given.items():
         if value is not None:
             raise ModelError(f"{where}.{key}", f"has no effect on {kind_of_it}", "leave it out")
+
+
+def _refuse_a_second(where: str, first: Any, second: Any, known: Iterable[tuple[str, set[Any]]]) -> None:
+    """One contact between two is enough: another one would double its force."""
+    for name, pair in known:
+        if pair == {first, second}:
+            what = f'"{name}" is between "{first.name}" and "{second.name}" already'
+            raise ModelError(f"{where}.other", what)
