@@ -59,6 +59,11 @@ class Case:
         return False
 
     @property
+    def static(self) -> bool:
+        """An equilibrium instead of a motion; it has one step."""
+        return False
+
+    @property
     def long(self) -> bool:
         """One solve takes seconds: it is measured by single solves, and less often."""
         return self.steps * self.elements > 300_000
@@ -96,6 +101,41 @@ class Cable(Case):
     @property
     def elements(self) -> int:
         return self.count
+
+
+@dataclass(frozen=True, kw_only=True)
+class Beams(Cable):
+    """The same with elements that have a cross-section, a square one, and no lateral contraction.
+
+    Parameters
+    ----------
+    element : str
+        Ours: "original" or "nonlocking".
+    side, E, rho : float
+        m, N/m^2, kg/m^3.
+    """
+
+    element: str
+    side: float
+    E: float
+    rho: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hanging(Cable):
+    """The equilibrium of a cable that starts straight without its weight.
+
+    Parameters
+    ----------
+    held : bool
+        The end is hinged, too.
+    """
+
+    held: bool
+
+    @property
+    def static(self) -> bool:
+        return True
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -257,6 +297,30 @@ def whirl(elements: int) -> Cable:
     )  # fmt: skip
 
 
+def beams(element: str) -> Beams:
+    """Fifty beams of 0.1 m side, 4 m long in all, clamped, fall under their weight: 500 steps of 1 ms."""
+    side, E, rho = 0.1, 1e7, 1000.0
+    title = {"original": "original beams", "nonlocking": "locking-free beams"}[element]
+    return Beams(
+        name=f"{element}-50", title=title, element=element, count=50, side=side, E=E, rho=rho,
+        length=4.0, **square(side, E, rho),
+        clamped=True, step=1e-3, t_end=0.5, accuracy=1e-6, quick=False,
+    )  # fmt: skip
+
+
+def static(count: int, held: bool) -> Hanging:
+    """The cantilever of 7.1 under its weight, or the carrier of 7.4, laid level, between two hinges."""
+    side, E, rho, length = (0.01, 1e6, 800.0, 10.0**0.5) if held else (0.01, 1e8, 500.0, 1.0)
+    name, title = (
+        ("static-carrier", "carrier at rest") if held else ("static-cantilever", "cantilever at rest")
+    )
+    return Hanging(
+        name=f"{name}-{count}", title=title, count=count, held=held,
+        length=length, **square(side, E, rho),
+        clamped=not held, step=1.0, t_end=1.0, accuracy=1e-4 if held else 1e-6, quick=not held,
+    )  # fmt: skip
+
+
 def short(elements: int) -> Cable:
     """As many studies have it: ten elements and twenty steps, where the model's description counts."""
     return replace(cable(elements, quick=True), name=f"short-{elements}", title="short run", t_end=0.02)
@@ -309,6 +373,10 @@ CASES: dict[str, Case] = {
         short(10),
         wire(),
         net(),
+        beams("original"),
+        beams("nonlocking"),
+        static(100, held=False),
+        static(64, held=True),
         overhead(32.0),
     )
 }

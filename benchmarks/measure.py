@@ -21,11 +21,13 @@ HERE = Path(__file__).parent
 ONE_THREAD = {
     f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "NUMBA", "NUMEXPR", "VECLIB_MAXIMUM")
 }
-TUNING_SECONDS = 0.1  # CPU time of one measurement while tuning
+TUNING_SECONDS = 0.05  # CPU time of one measurement while tuning
 MEMORY_STEPS = 20  # everything is allocated in the first one
-TUNING_WORK = 150_000  # elements times steps that are enough to tune with
+TUNING_WORK = 30_000  # elements times steps that are enough to tune with
 WHOLE_SECONDS = 0.3  # CPU time of one measurement of the settings that are left, over the whole run
-FINALISTS = 8  # settings that are run to the end
+LEAST_STEPS = 5  # of it, in large models
+FINALISTS = 8  # settings that are run to the end; of long cases fewer
+FEW_FINALISTS = 4
 COARSE = 13  # in the short run, every so manieth setting of the grid
 FINER = 4  # how much shorter the steps of the reference are
 ALIKE = 1.5  # ratio of two errors up to which they count as equal
@@ -121,7 +123,7 @@ def ranked(peer: Worker, case: Case, choices: list[Sample]) -> list[tuple[Sample
 
     The default settings are the first ones.
     """
-    steps = min(case.steps, max(15, TUNING_WORK // case.elements))
+    steps = min(case.steps, max(LEAST_STEPS, TUNING_WORK // case.elements))
     default, *others = [attempt(peer, case, choice, TUNING_SECONDS, steps) for choice in choices]
     if default is None:
         return []
@@ -153,7 +155,7 @@ def tune(peer: Worker, case: Case, choices: list[Sample]) -> tuple[Sample, list[
     if whole is None:
         return choices[0], []
     tried = [{"options": default[0], "cpu": whole["cpu"], "tip_difference": 0.0, "accurate": True}]
-    for options, _ in candidates[:FINALISTS]:
+    for options, _ in candidates[: FEW_FINALISTS if case.long else FINALISTS]:
         trial = attempt(peer, case, options, WHOLE_SECONDS, case.steps)
         if trial is not None:
             gap = distance(trial, whole)
@@ -224,7 +226,7 @@ def compare(ours: Worker, peers: dict[str, Worker], case: Case, pairs: int, seco
         if k == 0 and case.long:
             taken.prune()
     row: Sample = {"name": case.name, "title": case.title, "elements": case.elements, "size": case.size}
-    error = None if case.once else newton_error(ours, case, taken.own[-1])
+    error = None if case.once or case.static else newton_error(ours, case, taken.own[-1])
     row["ancf"] = {**summary(taken.own), "newton_error": error}
     row["exudyn"] = {
         name: {**summary([a for a, _ in both]), **ratios(both), "options": chosen[name][1]}
@@ -287,7 +289,7 @@ def equal_accuracy(
     errors with the step and half of it, its cost is in proportion to the number of steps. None where that
     takes too long, or where errors do not fall.
     """
-    if case.once or case.long or row["best"] is None:
+    if case.once or case.long or case.static or row["best"] is None:
         return None
     worker, options = chosen[row["best"]]
     try:

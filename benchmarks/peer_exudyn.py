@@ -13,11 +13,12 @@ import exudyn  # noqa: E402
 
 import overhead  # noqa: E402
 import peer_overhead  # noqa: E402
-from cases import Case, Overhead, Sliding  # noqa: E402
+from cases import Beams, Case, Overhead, Sliding  # noqa: E402
 from peer_models import build  # noqa: E402
 
 Options = dict[str, Any]
 METHODS = (exudyn.DynamicSolverType.TrapezoidalIndex2, exudyn.DynamicSolverType.GeneralizedAlpha)
+GEOMETRIC_RANGE = 1e4  # of the last load step to the first
 SOLVERS = {"dense": exudyn.LinearSolverType.EXUdense, "sparse": exudyn.LinearSolverType.EigenSparse}
 
 
@@ -29,9 +30,14 @@ def settings_to_try(case: Case) -> list[Options]:
     """
     if isinstance(case, Overhead):
         return for_overhead()
+    if case.static:
+        return for_statics()
     solvers = ["sparse", "dense"] if case.elements <= 10 else ["sparse"]
     patterns = [False, True]
-    choices = for_sliding() if isinstance(case, Sliding) else for_cables(case.peer_tolerance)
+    if isinstance(case, Sliding):
+        choices = for_sliding()
+    else:
+        choices = for_cables(case.peer_tolerance, few=isinstance(case, Beams))
     return [
         {"solver": solver, "pattern": pattern, **choice}
         for solver in solvers
@@ -46,9 +52,10 @@ def newton(*values: float | None) -> Options:
     return {key: value for key, value in zip(names, values, strict=False) if value is not None}
 
 
-def for_cables(least: float | None) -> list[Options]:
-    """``least``: absolute tolerance, N, below which the peer does not get through."""
+def for_cables(least: float | None, few: bool) -> list[Options]:
+    """``least``: absolute tolerance, N, below which it does not get through; ``few``: a coarser grid."""
     absolute = [None, 1e-8, 1e-7, 1e-6, 1e-5] if least is None else [least, 10.0 * least]
+    absolute = absolute[::2] if few else absolute
     grid = product(absolute, (None, 1e-7, 1e-6), (None, 0.2, 0.1, 0.05))
     return [{"newton": newton(*values)} for values in grid]
 
@@ -81,6 +88,20 @@ def for_overhead() -> list[Options]:
     ]
 
 
+def for_statics() -> list[Options]:
+    """Load steps up to the twenty that the carrier of 7.4 needs, tolerances, plain and modified Newton.
+
+    A cable between hinges has no stiffness against its weight at first: steps that grow geometrically.
+    """
+    grid = product((1, 3, 10, 20), (None, 1e-6), (None, 1e-7), (False, True), (False, True))
+    return [
+        {"solver": "sparse", "load_steps": steps, "geometric": steps > 1 and geometric, "modified": modified,
+         "newton": newton(absolute, relative)}
+        for steps, absolute, relative, modified, geometric in grid
+        if steps > 1 or not geometric
+    ]  # fmt: skip
+
+
 def version() -> str:
     return str(exudyn.__version__)
 
@@ -95,17 +116,20 @@ def solve(case: Case, options: Options) -> dict[str, Any]:
         system, tip = build(case)
     settings = simulation_settings(case, options)
     before = time.process_time()
-    done = system.SolveDynamic(settings, solverType=METHODS["rho" in options])
+    if case.static:
+        done = system.SolveStatic(settings)
+    else:
+        done = system.SolveDynamic(settings, solverType=METHODS["rho" in options])
     after = time.process_time()
     if done is False:
-        raise RuntimeError("Exudyn did not reach the end time")
-    counters = system.sys["dynamicSolver"].it
+        raise RuntimeError("Exudyn did not get to the end")
+    counters = system.sys["staticSolver" if case.static else "dynamicSolver"].it
     records = {key: system.GetSensorStoredData(number) for key, number in sensors.items()}
     return {
         **force_of(records),
         "cpu": after - before,
         "cpu_whole": after - start,
-        "steps": counters.currentStepIndex - 1,
+        "steps": 1 if case.static else counters.currentStepIndex - 1,
         "newton_iterations": counters.newtonStepsCount,
         "jacobians": counters.newtonJacobiCount,
         "tip": [float(x) for x in system.GetNodeOutput(tip, exudyn.OutputVariableType.Position)],
@@ -129,6 +153,9 @@ def simulation_settings(case: Case, options: Options) -> Any:
     settings.linearSolver.solverType = SOLVERS[options.get("solver", "sparse")]
     settings.linearSolver.reuseAnalyzedPattern = options.get("pattern", False)
     settings.parallel.numberOfThreads = 1
+    if case.static:
+        load_steps(settings.staticSolver, options)
+        return settings
     integration = settings.timeIntegration
     integration.endTime = case.t_end
     integration.numberOfSteps = case.steps
@@ -139,3 +166,14 @@ def simulation_settings(case: Case, options: Options) -> Any:
     for key, value in options.get("newton", {}).items():
         setattr(integration.newton, key, value)
     return settings
+
+
+def load_steps(static: Any, options: Options) -> None:
+    """How the load grows, and Newton's method for it; a step that fails is cut as it is by default."""
+    static.verboseMode = 0
+    static.numberOfLoadSteps = options["load_steps"]
+    static.loadStepGeometric = options["geometric"]
+    static.loadStepGeometricRange = GEOMETRIC_RANGE
+    static.newton.useModifiedNewton = options["modified"]
+    for key, value in options["newton"].items():
+        setattr(static.newton, key, value)

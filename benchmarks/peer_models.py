@@ -6,6 +6,7 @@ from itertools import pairwise
 from typing import Any
 
 import exudyn
+import numpy as np
 from exudyn.itemInterface import (
     LoadMassProportional,
     MarkerBodyBeamShape,
@@ -16,6 +17,8 @@ from exudyn.itemInterface import (
     NodePoint,
     NodePointGround,
     NodePointSlope1,
+    NodePointSlope23,
+    ObjectANCFBeam,
     ObjectANCFCable,
     ObjectConnectorCoordinate,
     ObjectConnectorSpringDamper,
@@ -24,9 +27,10 @@ from exudyn.itemInterface import (
     ObjectMassPoint,
 )
 
-from cases import GRAVITY, Cable, Case, Net, Sliding
+from cases import GRAVITY, Beams, Cable, Case, Hanging, Net, Sliding
 
 Point = tuple[float, float, float]
+SQUARE_TORSION = 0.1406  # J / side^4
 WEIGHT = [0, 0, -GRAVITY]
 
 
@@ -36,11 +40,40 @@ def build(case: Case) -> tuple[Any, int]:
         return sliding(case)
     if isinstance(case, Net):
         return net(case)
+    if isinstance(case, Beams):
+        return beams(case)
     assert isinstance(case, Cable)
     system = new_system()
     end = (case.length, 0.0, 0.0)
     nodes, _ = add_cable(system, case, (0.0, 0.0, 0.0), end, case.elements, omega=case.omega)
     hold(system, nodes[0], 6 if case.clamped else 3)
+    hanging = isinstance(case, Hanging)
+    if hanging and case.held:
+        hold(system, nodes[-1], 3)
+    system.Assemble()
+    return system, nodes[case.count // 2 if hanging else -1]
+
+
+def beams(case: Beams) -> tuple[Any, int]:
+    """Its own beam with a cross-section: two nodes, linear, eighteen coordinates."""
+    system = new_system()
+    section = exudyn.BeamSection()
+    section.massPerLength = case.rhoA
+    second = case.side**4 / 12.0
+    section.inertia = case.rho * np.diag([2.0 * second, second, second])
+    shear, torsion = 0.5 * case.EA, 0.5 * SQUARE_TORSION * case.E * case.side**4  # without contraction
+    factor = 5.0 / 6.0
+    section.stiffnessMatrix = np.diag([case.EA, factor * shear, factor * shear, torsion, case.EI, case.EI])
+    h = case.length / case.count
+    axes = [0, 1, 0, 0, 0, 1]
+    nodes = [
+        int(system.AddNode(NodePointSlope23(referenceCoordinates=[i * h, 0, 0, *axes])))
+        for i in range(case.count + 1)
+    ]
+    for pair in pairwise(nodes):
+        beam = ObjectANCFBeam(nodeNumbers=list(pair), length=h, sectionData=section)
+        add_weight(system, int(system.AddObject(beam)))
+    hold(system, nodes[0], 9)
     system.Assemble()
     return system, nodes[-1]
 

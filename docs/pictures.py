@@ -38,7 +38,8 @@ def cantilever(axes: Axes) -> None:
     for k in range(len(result.t)):
         shade = 0.25 + 0.75 * k / (len(result.t) - 1)
         axes.plot(shapes[:, k, 0], shapes[:, k, 2], color=style.BLUE, alpha=shade)
-    axes.set(title="falling cantilever, every 0.05 s", xlabel="x [m]", ylabel="z [m]", aspect="equal")
+    axes.set(title="falling cantilever, every 0.05 s", xlabel="x [m]", ylabel="z [m]", xlim=(-0.03, 1.05))
+    axes.set_aspect("equal", adjustable="datalim")
 
 
 def pendulum(axes: Axes) -> None:
@@ -56,9 +57,8 @@ def pendulum(axes: Axes) -> None:
         axes.plot(*shapes[:, k].T, color=style.BLUE)
     axes.set(title="soft 3D pendulum, path of the tip", xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
     axes.view_init(22, -60)
-    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
-        axis.get_major_locator().set_params(nbins=4)
-    axes.set_box_aspect(None, zoom=0.82)
+    axes.set(xticks=(-1, 0, 1), yticks=(-0.5, 0.5), zticks=(-0.6, -0.3, 0))
+    axes.set_box_aspect((1.0, 1.0, 0.6), zoom=0.86)
 
 
 def hanging(axes: Axes) -> None:
@@ -74,7 +74,7 @@ def hanging(axes: Axes) -> None:
         label = f"{length:g} m, {state.tension('c.start'):.0f} N"
         axes.plot(shape[:, 0], shape[:, 2], label=label, **style.line(number))
     axes.plot([0, 10], [0, 1], color=style.LIGHT, lw=1, label="start")
-    axes.legend(loc="upper left", bbox_to_anchor=(0.0, 1.0))
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, 1.0), fontsize="small")
     axes.set_ylim(-2.7, 3.2)
     axes.set(title="slack cables: length, tension at the left end", xlabel="x [m]", ylabel="z [m]")
 

@@ -272,7 +272,8 @@ def peers(made: dict[str, Any]) -> list[str]:
         f"Exudyn {machine['versions']['exudyn']}). The last two columns are ratios of processor times.",
         peer_table(bench["cases"]),
         "The tips differ by what Newton's tolerances leave, ours being the second column. With a sliding "
-        "joint they differ by more: Exudyn's is of first order in the step, ours of second. "
+        "joint they differ by more: Exudyn's is of first order in the step, ours of second. Its beam "
+        "with a cross-section is another element than ours. "
         "[](../howto/benchmarks.md) tells how it is measured.",
         "## Independent implementations\n\nSeparate programs, written from the equations and not from this "
         "package: one of the elements and their time integration, one of a plane linear overhead line. "

@@ -95,6 +95,33 @@ def hauled():
     return model
 
 
+def slope():
+    """A cable slips down a slope in a current, pulled to and fro."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e4, EI=0.1, rhoA=3.0, diameter=0.1, drag=(1.2, 0.2), added_mass=(1.0, 0.0))
+    cable = model.add_beam("cable", start=(0, 0, 0), end=(2, 0, -0.6), elements=4, section=section)
+    model.add_ground("slope", 0.0, normal=(0.3, 0, 1), stiffness=2e4, damping=300.0, friction=0.28)
+    model.add_fluid("current", 100.0, velocity=(0, 0.5, 0), below=-0.2)
+    model.add_force(cable.end, ["15*sin(30*t)", "4*cos(50*t)", 0])
+    return model
+
+
+def over_a_sheave():
+    """A winch hauls a rope over a sheave that it turns, sticking and slipping."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e4, EI=1e-3, rhoA=0.05, axial_damping=1.0, diameter=0.02)
+    path = [(-0.21, 0, -0.6), (-0.21, 0, 0), (-0.15, 0, 0.15), (0, 0, 0.21), (0.4, 0, 0.21)]
+    rope = model.add_beam("rope", path=path, elements=14, section=section, natural_shape="straight")
+    hub = model.add_rigid_body("hub", at=(0, 0, 0), mass=0.5, inertia=(0.01, 0.01, 0.01))
+    model.hinge(hub, (0, 0, 0), axis=(0, 1, 0))
+    sheave = model.add_surface("sheave", ancf.Cylinder(radius=0.18, axis=(0, 1, 0)), on=hub)
+    model.add_contact(rope, sheave, stiffness=1e5, damping=30.0, friction=0.3, name="over")
+    model.connect(rope.start, model.add_point_mass("load", at=path[0], mass=0.5))
+    model.pin(rope.end)
+    model.winch(rope.end, length=f"{rope.length} - 0.2*sin(9*t)**2")
+    return model
+
+
 PATCHED = ancf.Trapezoidal(newton=ancf.Newton(corotate=False))
 ALPHA = ancf.GeneralizedAlpha(0.7)
 #: By name: model, method, step in s, number of steps, sensors.
@@ -109,6 +136,8 @@ RUNS = {
     "led clamp": (lambda: driven_clamp("free")[0], ALPHA, 1e-3, 90, ["beam.end"]),
     "beam": (strut, ancf.Trapezoidal(), 1e-3, 60, ["beam.end"]),
     "winch": (hauled, ancf.Trapezoidal(), 1e-3, 80, ["rope.start", "rope.at(0.7)"]),
+    "slope": (slope, ancf.Trapezoidal(), 1e-3, 100, ["cable.end"]),
+    "sheave": (over_a_sheave, ALPHA, 1e-3, 120, ["rope.end", "over"]),
     "hinge": (lambda: rod_on_a_hinge()[0], ancf.Trapezoidal(), 7e-4, 120, ["hinge"]),
     "hinge, radau": (lambda: rod_on_a_hinge()[0], ancf.Radau(), 2e-3, 60, ["hinge"]),
     "joints": (lambda: mechanism().model, ALPHA, 1e-3, 60, ["on wire", "hook"]),

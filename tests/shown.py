@@ -63,12 +63,13 @@ def shown(model, folder, **settings):
     for path in write_csv(run, folder / "tables"):
         with path.open(encoding="utf-8", newline="") as file:
             head, *rows = csv.reader(file)
-        table = dict(zip(head, np.array(rows, dtype=float).T, strict=True))
+        numbers = [[float(cell) if cell else np.inf for cell in row] for row in rows]
+        table = dict(zip(head, np.array(numbers).T, strict=True))
         for name, column in table.items():
             force = table.get(name.replace(" gap [m]", " force [N]")) if name.endswith(" gap [m]") else None
             far = np.isposinf(column) if force is not None else np.zeros(len(column), bool)
             assert np.isfinite(column[~far]).all(), (path.name, name)
-            assert force is None or np.all(force[far] == 0.0)  # a gap is endless where no cable is near
+            assert force is None or np.all(force[far] == 0.0)  # an empty cell where no cable is near
         found["columns"] += head
     return found
 

@@ -207,6 +207,9 @@ class Traits:
     early : function, optional
         ``early(batch, q, holds)``: lets friction hold what touches in the initial shape q of an equilibrium,
         while the loads come on, or takes it away; returns whether there is friction.
+    free : function, optional
+        ``free(batch, q, every)``: lets go what it holds in an equilibrium against its nature, as
+        points that a surface pulls, or all that it holds; returns how much that was.
     turning_mass : function, optional
         ``turning_mass(batch)``: whether it has a mass that changes with the state; default it has none.
     exact : function, optional
@@ -228,6 +231,7 @@ class Traits:
     follows: Callable[[Any], bool] | None = None
     late: Callable[[Any], Callable[[Any, Any], float] | None] | None = None
     early: Callable[[Any, Any, bool], bool] | None = None
+    free: Callable[[Any, Any, bool], int] | None = None
     turning_mass: Callable[[Any], bool] | None = None
     exact: Callable[[Any, bool], bool] | None = None
     inertial: Callable[[Any], Any] | None = None

@@ -50,8 +50,9 @@ UNREADABLE = (
 )
 #: How long to wait for another process that writes, s; writing takes milliseconds.
 PATIENCE = 60.0
-#: How long to wait for another process that compiles a kernel, s; then this one compiles it as well.
-LONGEST = 300.0
+#: How long to wait for another process that compiles a kernel, s; then this one compiles it as well.  Beside
+#: fifteen busy processes on two cores the longest takes ten minutes.  An ended process holds none.
+LONGEST = 1800.0
 _said: set[str] = set()
 
 

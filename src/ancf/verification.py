@@ -172,7 +172,7 @@ def repeated(
 ) -> Verification:
     """Compare a computation with two finer ones; `repeat` makes them as the first one was made."""
     labels = [str(p) for p in shown_points(model)] if outputs is None else outputs
-    given = [*_outputs(first, model, labels, 1)]
+    given = [one for one in _outputs(first, model, labels, 1) if not np.isposinf(one.values).any()]
     runs = [_run("as given", first, model, step)]
 
     def changes(what: str, finer: Model, size: float | None, method: Integrator) -> list[float]:
@@ -182,8 +182,8 @@ def repeated(
             error.add_note(f"when it was computed again with {what}, to verify it")
             raise
         runs.append(_run(what, answer, finer, size))
-        new = _outputs(answer, model, labels, 1 if finer is model else 2)
-        return [a.change(b) for a, b in zip(given, new, strict=True)]
+        new = {output.name: output for output in _outputs(answer, model, labels, 1 if finer is model else 2)}
+        return [output.change(new[output.name]) for output in given]
 
     by_step = None if step is None else changes("half the step", model, step / 2, _halved(integrator))
     finer = refined(model)
@@ -239,11 +239,12 @@ class _Output(NamedTuple):
     times: FloatArray | None = None
 
     def change(self, new: _Output) -> float:
-        """Largest change, at the times of this one."""
-        values = new.values
+        """Largest change, at the times of this one; a gap to what is not near is endless and has none."""
+        values, endless = new.values, np.isposinf(new.values)
         if self.times is not None and new.times is not None:
-            values = np.interp(self.times, new.times, values)
-        return float(np.max(np.abs(values - self.values)))
+            values = np.interp(self.times, new.times, np.where(endless, 0.0, values))
+            endless = np.interp(self.times, new.times, endless) > 0.0
+        return float(np.max(np.abs(values - self.values)[~endless], initial=0.0))
 
 
 def _outputs(known: Answer, model: Model, labels: Sequence[str], parts: int) -> Iterator[_Output]:

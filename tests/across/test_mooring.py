@@ -70,11 +70,20 @@ class TestReport:
         assert plain["case"] == "mooring"
         assert plain["all_inside"] is False
         assert len(plain["rows"]) == sum(len(group.rows) for group in groups) == 28
-        assert set(plain["rows"][0]) == {"quantity", "unit", "value", "low", "high", "inside", "tag"}
+        assert set(plain["rows"][0]) == {
+            *("quantity", "unit", "value", "low", "high", "inside", "tag"),
+            "reference",
+        }
+        for row, (number, _) in zip(plain["rows"], [*ROWS.items()], strict=False):
+            assert row["reference"] == pytest.approx(ROWS[number]["value"], rel=1e-12)
+        assert [row["reference"] for row in plain["rows"][12:14]] == [42.5, 46.8]
         assert set(plain["source"]) == {group.title for group in groups}
         page = written[1].read_text()
         assert page.count("<table>") == len(groups)
         assert "outside" in page
+        assert page.count("<svg") == 1
+        assert "+0.2 %" in page
+        assert "9 of 13 inside the accepted ranges" in page
         assert "10.3390/jmse4010005" in page
         assert [path.name for path in validate.write(groups, tmp_path, report=False)] == ["validate.json"]
 

@@ -46,7 +46,7 @@ def test_short_form(monkeypatch, tmp_path):
     plain = json.loads(written[0].read_text())
     assert plain["case"] == "contact"
     assert plain["all_inside"] is True
-    assert set(plain["rows"][0]) == {"quantity", "unit", "value", "low", "high", "inside", "tag"}
+    assert set(plain["rows"][0]) == {"quantity", "unit", "value", "low", "high", "inside", "tag", "reference"}
     assert written[1].read_text().count("<table>") == 7
 
 

@@ -9,7 +9,7 @@ import pytest
 
 import ancf
 from ancf import catenary
-from ancf.catenary.derivatives import parameters
+from ancf.catenary.derivatives import Linearised, parameters
 from ancf.catenary.file import parse_line
 from ancf.catenary.mesh import Mesh
 from ancf.catenary.rest import assemble
@@ -55,12 +55,25 @@ def test_line_at_rest(line):
     assert np.max(np.abs(mine - differences)) < 1e-4 * np.max(np.abs(differences))
 
 
+def check_linearised(done):
+    """A force that is as many derivatives larger has the statistics of that force."""
+    force = done.recordings[0].force
+    made = Linearised(done)
+    for by in (0.0, 2e-3):
+        recording = replace(done.recordings[0], force=force + by * done.slopes["a"].force[0])
+        statistics = catenary.statistics(replace(done, recordings=[recording]))
+        found = made.at(np.array([by]))
+        for key in ("mean_force", "deviation", "deviation_0_5", "deviation_5_20", "maximum", "raw_minimum"):
+            assert found[key][0] == pytest.approx(statistics[key].value, rel=1e-10), key
+
+
 @pytest.mark.filterwarnings("ignore::UserWarning")
 def test_statistics_of_a_run(line):
     """The bar is 1e-4 where slack droppers and the contact keep their order."""
     done = catenary.run(longer(line, "2-2", 0.0), sensitivities={"a": ["2-2"]}, **RUN)
     assert np.min(done.dropper_force) == 0.0  # some went slack
     found = catenary.slopes(done)["a"]
+    check_linearised(done)
 
     def numbers(by):
         statistics = catenary.statistics(catenary.run(longer(line, "2-2", by), **RUN))

@@ -314,7 +314,7 @@ class TestTable:
     @pytest.mark.parametrize(
         ("old", "new", "said"),
         [
-            ("position,", "place,", "column place: unknown column"),
+            ("position,", "place,", "column position: is missing"),
             ("position,height", "height,height", "column position: is missing"),
             ("105,5.28", "fifty,5.28", 'row 3, column position: is "fifty"'),
             ("105,5.28", "105,", "row 3, column height: is empty"),

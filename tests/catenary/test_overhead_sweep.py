@@ -98,7 +98,8 @@ class TestCases:
         )
         case = SweepCase(read_line(path), {}, mesh=COARSE["mesh"])
         assert case(**{SPEED: 100.0}) == {
-            "q0_1": values[0], "q1_1": values[1], "free_1": 3.0, "accepted_1": accepted
+            "q0_1": values[0], "q1_1": values[1], "free_1": 3.0, "accepted_1": accepted,
+            "outside_q0_1": float(values[0] > 5.0), "outside_q1_1": float(values[1] > 5.0),
         }  # fmt: skip
 
 

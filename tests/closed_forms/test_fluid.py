@@ -1,5 +1,7 @@
 """Bodies in fluids against Morison's formula in numpy and closed forms: drag, added mass, buoyancy."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -359,3 +361,24 @@ class TestMotion:
             drifts.append(np.abs(run.energy.drift).max())
         assert drifts[1] < 1e-3 * abs(run.energy.supplied[-1])
         assert drifts[0] / drifts[1] > 3.0
+
+
+def test_a_velocity_without_a_value_is_named():
+    """In the step where it has none any more, with its time and place; not outside of the fluid."""
+    section = ancf.Section(EA=1e5, EI=0.1, rhoA=3.0, diameter=0.05, drag=(1.2, 0.1), added_mass=(1.0, 0.0))
+    for above, wrong in ((None, True), (5.0, False)):
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        line = model.add_beam("line", start=(0, 0, -1), end=(2, 0, -1), elements=2, section=section)
+        model.pin(line.start)
+        model.add_fluid(
+            "river", 100.0, velocity=lambda t, x, y, z: (math.sqrt(0.05 - t) if t > 0.05 else 0.1, 0.0, 0.0),
+            above=above,
+        )  # fmt: skip
+        if not wrong:
+            ancf.simulate(model, t_end=0.04, step=0.01)
+            continue
+        with pytest.raises(ancf.SolveError, match=r'add_fluid\("river"\).velocity') as caught:
+            ancf.simulate(model, t_end=0.1, step=0.01)
+        assert "t = 0.05" in str(caught.value)
+        assert ", -1" in str(caught.value)
+        assert len(str(caught.value)) < 300

@@ -1,6 +1,8 @@
 """Bodies on grounds: rest, impact, friction that sticks and slips, memory; catenaries of other programs."""
 
+import json
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from ancf.batches import Batches
 from ancf.system.core import residual
 from ancf.system.system import System
 
+DATA = Path(__file__).parents[1] / "data"
 G, D, RHOA = 9.81, 0.1, 3.0
 K = 2e4  # Pa/m
 
@@ -232,26 +235,32 @@ class TestFriction:
             assert np.array_equal(x, before[name])
 
 
-def catenary(friction, elements=100, k=1e8):
-    """Of MoorPy: XF 400 m, ZF 200 m, L 500 m, EA 7.51e12 N, w 800 N/m; the anchor lies as the line does."""
+def catenary(friction, elements=100, k=1e8, length=500.0, nodes=None):
+    """Of MoorPy: XF 400 m, ZF 200 m, EA 7.51e12 N, w 800 N/m; the anchor lies as the line does."""
     low = -800.0 / (k * D)
     model = ancf.Model(gravity=(0, 0, -G))
     section = ancf.Section(EA=7.51e12, EI=0.0, rhoA=800.0 / G, diameter=D)
     ends = (0, 0, low), (400.0, 0, 200.0 + low)
     line = model.add_beam(
-        "line", start=ends[0], end=ends[1], elements=elements, section=section, length=500.0
+        "line",
+        start=ends[0],
+        end=ends[1],
+        elements=None if nodes is not None else elements,
+        nodes=nodes,
+        section=section,
+        length=length,
     )
     anchor, fairlead = model.pin(line.start), model.pin(line.end)
     model.add_ground("seabed", 0.0, stiffness=k, friction=friction)
     state = ancf.equilibrium(model)
-    return -state.reaction(anchor)[0], state.reaction(fairlead)[0]
+    return -state.reaction(anchor)[0], *state.reaction(fairlead)[[0, 2]]
 
 
 class TestMoorPy:
     """Its catenary function, version 1.3.0, with a rigid ground: H 96643.428 N; with CB 0.1 80418.604 N."""
 
     def test_without_friction(self):
-        anchor, fairlead = catenary(0.0)
+        anchor, fairlead, _ = catenary(0.0)
         assert anchor == pytest.approx(96643.428, rel=1e-5)
         assert fairlead == pytest.approx(96643.428, rel=1e-5)
 
@@ -261,6 +270,23 @@ class TestMoorPy:
         assert gaps[0] > 3 * gaps[1]
 
     def test_with_friction(self):
-        anchor, fairlead = catenary(0.1)
+        anchor, fairlead, _ = catenary(0.1)
         assert anchor == pytest.approx(80418.604, rel=1e-4)
         assert fairlead == pytest.approx(96643.428, rel=1e-4)
+
+    @pytest.mark.parametrize("row", json.loads((DATA / "moorpy.json").read_text())["rows"], ids=str)
+    def test_lines_of_other_lengths(self, row):
+        """A taut one and a slack one, with short elements where they touch down."""
+        length, touch = row["length"], row["LBot"]
+        parts = (0.0, touch - 20.0, 41), (touch - 20.0, touch + 20.0, 31), (touch + 20.0, length, 41)
+        nodes = np.unique(np.concatenate([np.linspace(*part) for part in parts]).round(9))
+        anchor, along, up = catenary(row["CB"], length=length, nodes=nodes)
+        assert anchor == pytest.approx(row["HA"], rel=1e-4)
+        assert along == pytest.approx(row["HF"], rel=1e-4)
+        assert up == pytest.approx(row["VF"], rel=1e-4)
+
+    def test_a_slack_line_needs_a_fine_mesh(self):
+        """Its curvature jumps where it touches down: the order comes near two."""
+        gaps = [abs(catenary(0.0, elements=n, length=520.0)[1] / 54331.751 - 1.0) for n in (50, 100, 200)]
+        assert gaps[0] > 2.0 * gaps[1] > 6.0 * gaps[2]
+        assert gaps[2] < 1e-4

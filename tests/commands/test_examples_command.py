@@ -5,7 +5,7 @@ import tomllib
 from pathlib import Path
 
 import ancf
-from ancf.cli import examples
+from ancf.cli import docs, examples
 from ancf.model.file import read_study
 from places import ROOT
 
@@ -38,9 +38,13 @@ def test_what_was_changed_stays(call):
 
 def test_the_wheel_takes_them_along():
     plain = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    assert plain["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"] == {
-        "examples": "ancf/examples"
+    taken = plain["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]
+    assert taken["examples"] == "ancf/examples"
+    pages = {page.relative_to(ROOT / "docs") for page in map(Path, docs.pages().values())}
+    assert {Path("docs") / (page if len(page.parts) == 1 else page.parts[0]) for page in pages} == {
+        Path(source) for source in taken if source not in ("examples", "docs/gallery")
     }
+    assert all(target == f"ancf/{source}" for source, target in taken.items())
     assert Path(ancf.__file__).parent / "examples" == examples.PLACES[0]
 
 

@@ -150,7 +150,7 @@ def test_a_state_goes_on_with_its_length_and_speed():
     first.advance(150)
     other = ancf.stepper(hoist(speed="u")[0], step=H, start=first.state())
     assert other.natural_length(rope) == first.natural_length(rope) < 2.95
-    other.inputs["u"] = -0.4
+    assert other.inputs["u"] == -0.4
     for run in (first, other):
         run.advance(50)
     assert other.natural_length(rope) == pytest.approx(first.natural_length(rope), abs=1e-12)

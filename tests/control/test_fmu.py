@@ -73,6 +73,50 @@ step = 1e-3
 start = "equilibrium"
 sensors = ["rope.end", "rope.at(1)", "load", "tie", "hook"]
 """
+#: A load on a rope that a winch hauls in as it is told.
+HOIST = """
+gravity = [0, 0, -9.81]
+
+[[inputs]]
+name = "speed"
+
+[[bodies]]
+name = "rope"
+start = [0, 0, 0]
+end = [0.3, 0, -2.98]
+length = 3.0
+elements = 4
+section = { EA = 1e4, EI = 1e-3, rhoA = 0.05, axial_damping = 2.0 }
+
+[[bodies]]
+type = "point_mass"
+name = "load"
+at = [0.3, 0, -2.98]
+mass = 1.0
+
+[[supports]]
+type = "pin"
+name = "drum"
+point = "rope.start"
+
+[[supports]]
+type = "winch"
+point = "rope.start"
+length = 3.0
+speed = "speed"
+acceleration = 2.0
+
+[[connections]]
+type = "spherical"
+name = "hook"
+a = "rope.end"
+b = "load"
+
+[simulation]
+t_end = 1.0
+step = 2e-3
+sensors = ["rope.start", "load", "drum"]
+"""
 #: What an importer does, in a process of its own: such units may end a Python process badly when it exits.
 IMPORTER = """
 import json, os, sys
@@ -96,6 +140,44 @@ def units(tmp_path_factory):
     for version in ("2.0", "3.0"):
         export_fmu(file, folder / f"unit{version[0]}.fmu", version)
     return folder
+
+
+#: Speeds that jump, at their times.
+TOLD = {0.0: -0.4, 0.2: 0.3, 0.4: 0.0}
+LEADER = """
+import json, os, sys
+import fmpy, numpy as np
+t, u = zip(*sorted((float(k), v) for k, v in json.loads(sys.argv[2]).items()))
+rows = [row for k in range(len(t)) for row in ([(t[k], u[max(k - 1, 0)])] if k else []) + [(t[k], u[k])]]
+given = np.array([*rows, (9.0, u[-1])], dtype=[("time", float), ("speed", float)])
+found = fmpy.simulate_fmu(sys.argv[1], stop_time=0.6, step_size=0.02, output_interval=0.02, input=given)
+print(json.dumps({name: found[name].tolist() for name in found.dtype.names}))
+sys.stdout.flush()
+os._exit(0)
+"""
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_a_winch_that_is_told_its_speed(version, tmp_path):
+    """By jumps; the drum has its acceleration, as in the stepper, and the load is where its work lifts it."""
+    (tmp_path / "hoist.toml").write_text(HOIST, "utf-8")
+    export_fmu(tmp_path / "hoist.toml", tmp_path / "hoist.fmu", f"{version}.0")
+    command = [sys.executable, "-c", LEADER, str(tmp_path / "hoist.fmu"), json.dumps(TOLD)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stderr[-2000:]
+    found = json.loads(done.stdout.splitlines()[-1])
+    run = ancf.stepper(read_study(tmp_path / "hoist.toml").model, step=2e-3)
+    heights, forces, pulls = [], [], []
+    for k in range(31):
+        heights.append(run.position("load")[2]), forces.append(run.tension("rope.start"))
+        pulls.append(run.reaction("drum")[2])
+        run.inputs["speed"] = TOLD[max(t for t in TOLD if t <= 0.02 * k + 1e-9)]
+        run.advance(10)
+    assert np.allclose(found["load.position.z"], heights, rtol=0, atol=1e-9)
+    assert np.allclose(found["rope.start.tension"], forces, rtol=0, atol=1e-6)
+    assert np.allclose(found["drum.reaction.z"], pulls, rtol=0, atol=1e-6)
+    # in 0.2 s to -0.4 m/s, in 0.35 s to 0.3 m/s, in 0.15 s to rest: what is left of 3 m
+    assert run.natural_length("rope") == pytest.approx(3.0 - 0.04 + 0.2 * -0.4 + 0.04, abs=0.06)
 
 
 def imported(file, begin=0.0, first=0.5):

@@ -44,6 +44,89 @@ def swinging():
     return result.t, result.position("beam.end")[:, 2]
 
 
+class TestPriors:
+    """Against the normal equations of Bayes's rule for Gaussian noise and Gaussian priors."""
+
+    @pytest.mark.parametrize(
+        ("priors", "deviation"),
+        [
+            ({"a": (0.8, 0.02)}, 0.1),
+            ({"b": (-1.0, 0.5)}, 0.3),
+            ({"b": (-1.5, 0.1), "a": (2.0, 0.2)}, 0.15),
+        ],
+    )
+    def test_are_further_measurements(self, priors, deviation):
+        draw = np.random.default_rng(4)
+        y = 1.0 - 2.0 * T + deviation * draw.standard_normal(len(T))
+        bounds = {"a": (-5.0, 5.0), "b": (-5.0, 5.0)}
+        fit = ancf.calibrate(line, {"t": T, "y": y}, bounds, deviations=deviation, priors=priors)
+        slopes = np.stack([np.ones_like(T), T], axis=1) / deviation
+        weights = np.array([1.0 / priors[name][1] ** 2 if name in priors else 0.0 for name in "ab"])
+        means = np.array([priors[name][0] if name in priors else 0.0 for name in "ab"])
+        whole = slopes.T @ slopes + np.diag(weights)
+        solution = np.linalg.solve(whole, slopes.T @ y / deviation + weights * means)
+        assert [*fit.values.values()] == pytest.approx(solution, rel=1e-6)
+        left = np.sum(((solution[0] + solution[1] * T - y) / deviation) ** 2) / (len(T) - 2)
+        assert fit.covariance == pytest.approx(max(left, 1.0) * np.linalg.inv(whole), rel=1e-5)
+        assert fit.freedom == len(T) + len(priors) - 2
+        assert fit.as_dict()["parameters"]["b"].get("prior") == ([*priors["b"]] if "b" in priors else None)
+
+    def test_of_what_the_data_do_not_see(self):
+        """The sum of two parameters is measured; a prior of one tells both."""
+        data = {"t": T, "y": 3.0 * T}
+        fit = ancf.calibrate(
+            lambda a, b: {"y": (a + b) * T},
+            data,
+            {"a": (0, 5), "b": (0, 5)},
+            deviations=1e-3,
+            priors={"a": (1.0, 0.2), "b": (1.9, 0.4)},
+        )
+        # the sum is 3 to 1e-3: of the 0.1 that are missing each takes as its variance wants
+        assert fit.values["a"] == pytest.approx(1.0 + 0.1 * 0.04 / 0.2, abs=1e-4)
+        assert fit.values["b"] == pytest.approx(1.9 + 0.1 * 0.16 / 0.2, abs=1e-4)
+        assert not fit.untold[1:]
+        assert "the data tell less of a than its prior does" not in fit.notes()
+
+    def test_of_what_the_data_do_not_touch(self):
+        fit = ancf.calibrate(
+            lambda a, b: {"y": a * T},
+            noisy(line(0.0, 2.0), 0.01, 3),
+            {"a": (0, 5), "b": (0, 5)},
+            deviations=0.02,
+            priors={"b": (1.0, 0.3)},
+        )
+        assert fit.values["b"] == pytest.approx(1.0)
+        assert fit.untold == ["b"]
+        assert "the data tell less of b than its prior does" in fit.notes()
+
+
+class TestGivenDerivatives:
+    @pytest.mark.parametrize("bounds", [(0.1, 0.9), (0.01, 10.0)])
+    def test_save_runs_and_change_nothing(self, bounds):
+        """One parameter of two with its derivative, looked for itself and by its logarithm."""
+
+        def given(size, rate):
+            own = {column: x / size for column, x in wave(size, rate).items()}
+            return wave(size, rate), {"size": own}
+
+        data = noisy(wave(0.5, 0.7), 0.02, 5)
+        wanted = {"size": bounds, "rate": (0.1, 5.0)}
+        plain = ancf.calibrate(wave, data, wanted, priors={"size": (0.45, 0.01)}, deviations=0.01)
+        fit = ancf.calibrate(given, data, wanted, priors={"size": (0.45, 0.01)}, deviations=0.01)
+        assert fit.values == pytest.approx(plain.values, rel=1e-6)
+        assert fit.covariance == pytest.approx(plain.covariance, rel=1e-4)
+        assert fit.evaluations < plain.evaluations
+
+    def test_of_a_column_that_does_not_change(self):
+        def given(size, rate):
+            return wave(size, rate), {"rate": {"y": -T * wave(size, rate)["y"]}}  # z does not know it
+
+        data = noisy(wave(0.5, 0.7), 0.02, 6)
+        bounds = {"size": (0.1, 0.9), "rate": (0.1, 0.9)}
+        plain, fit = ancf.calibrate(wave, data, bounds), ancf.calibrate(given, data, bounds)
+        assert fit.values == pytest.approx(plain.values, rel=1e-6)
+
+
 class TestLinear:
     @pytest.mark.parametrize("seed", [1, 2, 3])
     def test_is_linear_regression(self, seed):
@@ -187,6 +270,16 @@ class TestBad:
             ({"data": 3.0}, "must be a file, a table or columns by name"),
             ({"data": "nowhere.csv"}, "no such file"),
             ({"start": {"c": 1.0}}, "calibrate.start: c: is no parameter"),
+            ({"priors": {"c": (1.0, 1.0)}}, "calibrate.priors: c: is no parameter"),
+            ({"priors": {"a": (9.0, 1.0)}, "deviations": 0.1}, "must be between -5 and 5"),
+            ({"priors": {"a": (1.0, 0.0)}, "deviations": 0.1}, "its deviation: must be > 0"),
+            ({"priors": {"a": 1.0}, "deviations": 0.1}, "calibrate.priors: a"),
+            ({"priors": [1.0]}, "must be pairs (mean, deviation) by name"),
+            ({"priors": {"a": (1.0, 1.0)}}, "are missing: there are priors"),
+            ({"priors": {"a": (1.0, 1.0)}, "deviations": {}}, "has no deviation: there are priors"),
+            ({"build": lambda a, b: (line(a, b), {"c": {}})}, 'derivatives by "c", which is no parameter'),
+            ({"build": lambda a, b: (line(a, b), 1.0)}, "must return derivatives by parameter"),
+            ({"build": lambda a, b: (line(a, b), {"a": 1.0})}, 'must return derivatives by "a" for columns'),
             ({"start": {"a": 9.0}}, "must be between -5 and 5"),
             ({"deviations": {"x": 1.0}}, "is the deviation of no column"),
             ({"deviations": -1.0}, "must be > 0"),

@@ -1,16 +1,18 @@
 """The joint of docs/howto/write_a_joint.md: two files and a line in a copy of the package."""
 
+import math
+
 import pytest
 
 from additions import Addition
 from places import HOWTO
 
 #: What the page adds: files, and lines behind a line of the registry.
-FILES = {"universal.py": "model/universal.py", "universal_rows.py": "connections/universal.py"}
+FILES = {"rod.py": "model/rod.py", "rod_rows.py": "connections/rod.py"}
 REGISTRY = "model/kinds.py"
 LINES = {
-    "from .supports import Clamp, Hold, Pin\n": "from .universal import UNIVERSAL\n",
-    "CONNECTIONS: list[Kind] = [\n": "    UNIVERSAL,\n",
+    "from .rigid_joints import GUIDE, UNIVERSAL, WELD\n": "from .rod import ROD\n",
+    "CONNECTIONS: list[Kind] = [\n": "    ROD,\n",
 }
 
 SCRIPT = """
@@ -21,41 +23,41 @@ from ancf.model.file import parse_study, schema
 from shown import shown
 
 def model():
-    made = ancf.Model(title="shafts")
-    one = made.add_rigid_body("one", at=(0.5, 0, 0), mass=1.0, inertia=(0.1, 0.2, 0.2))
-    two = made.add_rigid_body("two", at=(1.5, 0, 0), mass=1.0, inertia=(0.1, 0.2, 0.2))
-    made.hinge(one.at(-0.5, 0, 0), (0, 0, 0), axis=(1, 0, 0))
-    made.universal(one.at(0.5, 0, 0), two.at(-0.5, 0, 0), axis_a=(0, 1, 0), axis_b=(0, 0, 1), name="cross")
-    one.set_motion(angular_velocity=(2, 0, 0))
-    two.set_motion(angular_velocity=(2, 0.5, 0.3), about=(1, 0, 0))
+    made = ancf.Model(gravity=(0, 0, -9.81), title="pendulum")
+    one = made.add_point_mass("one", at=(1, 0, 0), mass=1.0)
+    two = made.add_point_mass("two", at=(1.8, 0.6, 0), mass=2.0)
+    made.rod(one, (0, 0, 0), name="upper")
+    made.rod(two, one, name="lower")
     return made
 
 made = model()
-found = shown(made, ".", t_end=0.05, step=1e-3, sensors=["cross"])
-found["dir"] = "universal" in dir(made)
+found = shown(made, ".", t_end=0.05, step=1e-3, sensors=["upper"])
+found["dir"] = "rod" in dir(made)
 study = {"bodies": [
-    {"type": "rigid_body", "name": n, "at": [x, 0.0, 0.0], "mass": 1.0, "inertia": [0.1, 0.2, 0.2]}
-    for n, x in (("one", 0.5), ("two", 1.5))], "connections": [
-    {"type": "universal", "a": "one.at(0.5, 0, 0)", "b": "two.at(-0.5, 0, 0)",
-     "axis_a": [0.0, 1.0, 0.0], "axis_b": [0.0, 0.0, 1.0]}]}
+    {"type": "point_mass", "name": n, "at": [x, 0.0, 0.0], "mass": 1.0}
+    for n, x in (("one", 1.0), ("two", 3.0))],
+    "connections": [{"type": "rod", "a": "one", "b": [0, 0, 0]}, {"type": "rod", "a": "two", "b": "one"}]}
 found["file"] = [type(c).__name__ for c in parse_study(study).model.connections]
-study["connections"][0]["axis_b"] = [0.0, 1.0, 0.0]
+study["connections"][0]["b"] = [1.0, 0.0, 0.0]
 try:
     parse_study(study)
 except ancf.ModelError as error:
     found["refused"] = str(error)
 try:
     double = model()
-    double.universal("one.at(0.5, 0, 0)", "two.at(-0.5, 0, 0)", axis_a=(0, 1, 0), axis_b=(0, 0, 1))
+    double.rod("one", "two")
 except ancf.ModelError as error:
     found["repeated"] = str(error)
-found["schema"] = "UniversalEntry" in schema()["$defs"]
+found["schema"] = "RodEntry" in schema()["$defs"]
 run = ancf.load("run.h5")
-found["multiplier"] = run.multiplier("cross").shape
-gap = run.position("one.at(0.5, 0, 0)") - run.position("two.at(-0.5, 0, 0)")
-axes = [run.section_rotation(name) for name in ("one", "two")]
-found["gap"] = float(np.abs(gap).max())
-found["cross"] = float(np.abs(np.sum(axes[0][:, :, 1] * axes[1][:, :, 2], axis=1)).max())
+found["multiplier"] = run.multiplier("upper").shape
+found["lengths"] = [float(np.abs(np.linalg.norm(x, axis=1) - 1.0).max())
+                    for x in (run.position("one"), run.position("two") - run.position("one"))]
+state = ancf.Model(gravity=(0, 0, -9.81))
+bob = state.add_point_mass("bob", at=(0, 0, -2), mass=3.0)
+rod = state.rod(bob, (0, 0, 0))
+found["pull"] = float(2 * 2.0 * ancf.equilibrium(state).multiplier(rod)[0])
+found["hertz"] = float(ancf.modes(state, about=ancf.equilibrium(state), count=1).frequencies_hz[0])
 print(json.dumps(found))
 """
 
@@ -85,28 +87,30 @@ def test_page_shows_the_files_and_the_lines():
 
 def test_is_a_method_of_a_model_and_is_printed(added):
     assert added["dir"]
-    assert "universal joint" in added["printed"][0]
-    assert "axes (0, 1, 0), (0, 0, 1)" in added["printed"][0]
+    assert "length 1 m" in added["printed"][0]
 
 
 def test_is_read_from_files_and_refused_there(added):
-    assert added["file"] == ["Universal"]
-    assert added["refused"].startswith("connections[0].axis_b: must be normal to axis_a")
-    assert added["repeated"].endswith('"cross" connects one.at(0.5, 0, 0) and two.at(-0.5, 0, 0) already')
+    assert added["file"] == ["Rod", "Rod"]
+    assert added["refused"].startswith("connections[0].b: coincides with a: a rod needs a length")
+    assert added["repeated"].endswith('"lower" connects two and one already') or added["repeated"].endswith(
+        '"lower" connects one and two already'
+    )
     assert added["schema"]
 
 
-def test_moves_as_a_cross(added):
-    """The points coincide, the axes stay normal; a loaded file has the four multipliers."""
-    assert added["gap"] < 1e-12
-    assert added["cross"] < 1e-10
-    assert added["multiplier"] == [51, 4]
+def test_keeps_its_length_and_carries_the_weight(added):
+    """The lengths stay; at rest it pulls with the weight, and the pendulum has its frequency."""
+    assert max(added["lengths"]) < 1e-12
+    assert added["multiplier"] == [51, 1]
+    assert abs(added["pull"]) == pytest.approx(3.0 * 9.81)
+    assert added["hertz"] == pytest.approx(math.sqrt(9.81 / 2.0) / (2 * math.pi), rel=1e-9)
 
 
 def test_is_drawn_exported_and_sampled(added):
     """In the plot, the page, the file of ParaView and the tables."""
-    assert "universal" in added["legend"]
-    assert added["markers"]["cross"] == "universal"
-    assert ["cross", "universal"] in added["parts"]
-    assert added["sensors"] == ["cross"]
-    assert any(name.startswith("cross") for name in added["columns"])
+    assert "rod" in added["legend"]
+    assert added["markers"]["upper"] == "rod"
+    assert ["upper", "rod"] in added["parts"]
+    assert added["sensors"] == ["upper"]
+    assert any(name.startswith("upper") for name in added["columns"])

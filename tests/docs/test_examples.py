@@ -14,8 +14,8 @@ from places import EXAMPLES
 WITH_MAIN = ("cantilever", "pendulum", "spin_up", "coupled_wires", "sliding_beam")
 #: Scripts of tests/control/test_control_examples.py.
 CONTROLLED = ("active_pantograph", "crane", "crane_env")
-#: The script of tests/design/test_calibrate.py.
-CALIBRATED = ("calibrate",)
+#: Scripts of tests/design/test_calibrate.py and test_measured_cable.py.
+CALIBRATED = ("calibrate", "measured_cable")
 #: Model files; three describe overhead lines, study.toml a study, calibrate.toml a calibration, and
 #: droppers.toml what ancf optimise looks for.
 OTHERS = {

@@ -77,6 +77,7 @@ def start(folder, kind):
         warnings.simplefilter("ignore", DeprecationWarning)  # of a process with threads
         child = os.fork()
     if child == 0:
+        compiled.kernel_cache._said.clear()  # of this process, which may have waited too long for another one
         try:
             said = found(folder, kind)
         except BaseException:

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.batches import Batches
+from ancf.contact.profiles import distances
 from ancf.elements.shapes import gauss
-from ancf.system.core import keep_memory, residual
+from ancf.system.core import keep_memory, residual, total_strain_energy
 from ancf.system.system import System
 
 G = np.array([0.0, 0.0, -9.81])
@@ -165,3 +167,98 @@ def test_anchors_go_with_the_material(at_start, rate, until):
                 moved.append(np.linalg.norm(system.probe(beam.at(x)).field(q) - origin))
     assert len(off) > 15
     assert max(off) < 0.01 * max(moved)
+
+
+def pushed(system, name, q, v):
+    """Residual of one batch."""
+    r = np.zeros_like(q)
+    residual(Batches((system.parts[name],)), system.core.ws, q, v, np.zeros_like(q), np.zeros_like(q), r)
+    return r
+
+
+@pytest.mark.parametrize("at_start", [True, False])
+@pytest.mark.parametrize(
+    "shape",
+    [ancf.Plane((0, 0, -0.014), (0.005, 0.0, 1.0)), ancf.Cylinder(0.3, (0.7, 0, -0.311), (0, 1, 0))],
+    ids=["plane", "cylinder"],
+)
+class TestSurface:
+    K, C = 2e3, 40.0
+
+    def touching(self, at_start, shape, damping):
+        def surround(model, beam):
+            model.add_contact(beam, model.add_surface("floor", shape), stiffness=self.K, damping=damping)
+
+        return winched(at_start, surround, 0.02)
+
+    def test_its_elastic_force_is_the_derivative_of_the_energy(self, at_start, shape):
+        """By the length as well."""
+        system, _, q, v, _ = self.touching(at_start, shape, 0.0)
+        part, h = Batches((system.parts["pressing"],)), 1e-6
+        energies = [total_strain_energy(part, system.core.ws, q + s * h * v) for s in (-1, 1)]
+        r = pushed(system, "pressing", q, v)
+        assert np.abs(r).max() > 1.0
+        assert r @ v == pytest.approx((energies[1] - energies[0]) / (2 * h), rel=1e-6)
+
+    def test_force_and_damping_on_the_material(self, at_start, shape):
+        system, beam, q, v, a = self.touching(at_start, shape, self.C)
+        found, forces, lossy = material(system, beam, q, v, a, 5), [], []
+        for _, _, r, _, u, _ in found:
+            h = 1e-6
+            d, n = distances(shape, r[None])[0], np.zeros(3)
+            for c in range(3):
+                n[c] = np.subtract(*(distances(shape, (r + s * h * np.eye(3)[c])[None])[0] for s in (1, -1)))
+            n /= 2 * h
+            g = 0.015 - d
+            on = np.clip(g / (0.02 * 0.015), 0.0, 1.0)
+            N = max(0.0, self.K * g - self.C * on * (u @ n)) if g > 0.0 else 0.0
+            forces.append(N * n)
+            lossy.append((N - self.K * max(g, 0.0)) * n)
+        wanted, _ = gathered(system, q, found, forces)
+        _, lost = gathered(system, q, found, lossy)
+        L = system.lengths["beam"][0]
+        r = pushed(system, "pressing", q, v)
+        rest = np.arange(len(q)) != L
+        assert r[rest] == pytest.approx(wanted[rest], abs=1e-5 * np.abs(wanted).max())
+        assert -(r - pushed(system, "pressing", q, 0.0 * v)) @ v == pytest.approx(lost, rel=1e-5)
+
+
+@pytest.mark.parametrize("at_start", [True, False])
+@pytest.mark.parametrize(("rate", "until"), [(-0.5, 1.0), (0.5, 0.7)])
+def test_anchors_on_a_surface_go_with_the_material(at_start, rate, until):
+    """All sticks on a body that turns: in its axes each anchor is where its material was at first."""
+
+    def surround(model, beam):
+        board = model.add_rigid_body("board", at=(0.4, 0, -0.2), mass=1.0, inertia=(1, 1, 1))
+        table = model.add_surface("table", ancf.Plane((0, 0, 0.19), (0, 0, 1)), on=board)
+        model.add_contact(beam, table, stiffness=1e3, friction=1e9)
+
+    system, beam, q, v, _ = winched(at_start, surround, 0.003)
+    L, far = system.lengths["beam"]
+    v[:], v[L] = 0.0, rate
+    v[system.slots["beam"][:, 0] + 1] = 0.3 * np.array(NODES) ** 2
+    v[system.slots["beam"][:, 1] + 1] = 0.6 * np.array(NODES)
+    q0, xi = q.copy(), gauss(5)[0]
+    place, *directors = system.slots["board"][0]
+    q0[place : place + 3] = 0.4, 0.0, -0.2
+    for k in range(41):
+        q = q0 + 0.01 * k * v
+        turn = 0.02 * k  # about x
+        axes = np.array([[1, 0, 0], [0, np.cos(turn), np.sin(turn)], [0, -np.sin(turn), np.cos(turn)]])
+        for slot, axis in zip(directors, axes, strict=True):
+            q[slot : slot + 3] = axis
+        for slots in system.slots["beam"]:  # the beam turns with it
+            for slot, origin in zip(slots, (q[place : place + 3], np.zeros(3)), strict=True):
+                q[slot : slot + 3] = origin + (q[slot : slot + 3] - origin) @ axes
+        keep_memory(system.core.remembering, q, v)
+    off, moved = [], []
+    for e, (left, right) in enumerate(pairwise(NODES)):
+        for p, x in enumerate(left + xi * (right - left)):
+            label = (x - far) * q[L] / q0[L]
+            if abs(label) <= until * MADE:
+                origin = system.probe(beam.at(label + far)).field(q0) - q0[place : place + 3]
+                off.append(np.linalg.norm(system.parts["rubbing"].anchor[e, p] - origin))
+                here = (system.probe(beam.at(x)).field(q) - q[place : place + 3]) @ axes.T
+                moved.append(np.linalg.norm(here - origin))
+    assert len(off) > 7
+    assert max(off) < 0.02 * max(moved)

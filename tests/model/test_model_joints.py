@@ -499,7 +499,7 @@ class TestFile:
             (
                 {"type": "slider"},
                 "type",
-                'must be one of "spherical", "hinge", "cylindrical", "prismatic", "planar", "fixation"',
+                'must be one of "spherical", "hinge", "cylindrical", "prismatic", "planar", "universal"',
             ),
             ({"along": "rop"}, "along", "unknown body 'rop'"),
             ({"point": [0, 0]}, "point", "wanted (3,)"),

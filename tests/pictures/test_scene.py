@@ -8,6 +8,7 @@ import pytest
 import ancf
 from ancf.system.system import System
 from ancf.viz.scene import QUANTITIES, looks
+from ancf.viz.scene.combs import fastest
 from ancf.viz.scene.compose import FAR, chosen_times, make_scene
 from ancf.viz.scene.sampling import FINEST, corners, places
 
@@ -319,3 +320,83 @@ class TestNets:
 
     def test_none_without_surroundings(self):
         assert scene().nets == []
+
+
+class TestCombs:
+    """Contact forces along a rope on a drum, and where it slips."""
+
+    @staticmethod
+    def hung(friction, pull):
+        """A rope over the upper half of a drum with forces on both ends, held by friction or not."""
+        radius, a = 0.21, np.linspace(0.0, np.pi, 40)
+        arc = np.stack([radius * np.cos(a), 0.0 * a, radius * np.sin(a)], axis=1)
+        path = np.concatenate([[[radius, 0, -0.3]], arc, [[-radius, 0, -0.3]]])
+        model = ancf.Model()
+        section = ancf.Section(EA=1e5, EI=1e-3, rhoA=0.3, diameter=0.02)
+        rope = model.add_beam("rope", path=path, elements=24, section=section)
+        drum = model.add_surface("drum", ancf.Cylinder(radius=0.2, axis=(0, 1, 0)))
+        contact = model.add_contact(rope, drum, stiffness=1e7, damping=500.0, friction=friction, name="on")
+        model.add_force(rope.start, (0, 0, -50.0))
+        model.add_force(rope.end, (0, 0, -pull))
+        return model, rope, contact
+
+    def test_force_points_away_from_the_drum_and_adds_up(self):
+        model, rope, contact = self.hung(0.3, 50.0)
+        run = ancf.simulate(model, t_end=0.02, step=2e-4, output_step=2e-3, sensors=[contact])
+        [comb] = make_scene(run).combs
+        ways = comb.ends[:, :, 1] - comb.ends[:, :, 0]
+        sizes = np.linalg.norm(ways, axis=-1)
+        touched = comb.force > 0.0
+        outwards = comb.ends[:, :, 0] * (1.0, 0.0, 1.0)
+        outwards /= np.linalg.norm(outwards, axis=-1)[..., None]
+        assert np.sum(ways * outwards, axis=-1)[touched] == pytest.approx(sizes[touched], rel=2e-2)
+        ratio = sizes[touched] / comb.force[touched]
+        assert ratio == pytest.approx(ratio[0], rel=2e-2)  # means of normals over an element are shorter
+        whole = comb.force.sum(axis=1) * rope.length / rope.elements
+        assert whole == pytest.approx(run.contact_force(contact), rel=2e-2)
+        limits = 0.3 * comb.force * rope.length / rope.elements
+        slips = (run.sensors.friction_force(contact) * run.sensors.slipping(contact))[
+            :: len(run.sensors.t) // 10
+        ]
+        assert np.sum(limits * comb.slips, axis=1) == pytest.approx(slips, abs=limits.max())
+        assert not np.all(comb.slips[-1][touched[-1]])
+
+    def test_slips_where_it_slides(self):
+        model, rope, contact = self.hung(0.1, 150.0)  # holds 68 N
+        method = ancf.GeneralizedAlpha(rho_inf=0.6)
+        run = ancf.simulate(
+            model, t_end=0.014, step=2e-4, output_step=2e-3, sensors=[contact], integrator=method
+        )
+        comb = make_scene(run).combs[0]
+        there = comb.force[-1] > 0.0
+        assert np.all(comb.slips[-1][there])
+        speed = np.linalg.norm(run.velocity(rope.at(0.5 * rope.length))[-1])
+        assert np.median(comb.slide[-1][there]) == pytest.approx(speed, rel=0.05)
+
+    def test_stick_and_slip_need_sensors(self):
+        model, _, _ = self.hung(0.1, 150.0)
+        run = ancf.simulate(model, t_end=2e-3, step=2e-4)
+        assert make_scene(run).combs[0].slips is None
+
+    def test_the_fastest_slip(self):
+        """As many as the friction that slips takes, in the order of their speeds."""
+        slide = np.array([[0.1, 3.0, 2.0, 0.2], [1.0, 2.0, 3.0, 4.0]])
+        limits = np.array([[5.0, 2.0, 4.0, 0.0], [1.0, 1.0, 1.0, 1.0]])
+        slips = fastest(slide, limits, np.array([6.0, 0.0]))
+        assert slips.tolist() == [[False, True, True, False], [False] * 4]
+
+
+def test_a_way_between_cables_stays_where_it_was_while_nothing_is_near():
+    section = ancf.Section(EA=1e4, EI=0.05, rhoA=0.3, diameter=0.02)
+    model = ancf.Model()
+    low = model.add_beam("low", start=(0, -0.5, 0), end=(0, 0.5, 0), elements=4, section=section)
+    top = model.add_beam("top", start=(-0.4, 0, 0.03), end=(0.6, 0, 0.03), elements=4, section=section)
+    top.set_motion(velocity=(0, 0, 5.0))
+    model.add_contact(top, low, stiffness=1e5, name="way")
+    run = ancf.simulate(model, t_end=0.6, step=2e-3, output_step=0.06)
+    [way] = [strip for strip in make_scene(run).strips if strip.name == "way"]
+    near = np.isfinite(run.contact_gap("way"))
+    assert near[0]
+    assert not near[-1]
+    last = np.flatnonzero(near)[-1]
+    assert way.ends[-1] == pytest.approx(np.repeat(way.ends[last, :1], 2, axis=0))

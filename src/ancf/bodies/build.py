@@ -7,7 +7,9 @@ from collections.abc import Iterable
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
+from ..model.beam import Beam
 from ..model.bodies import PointMass, RigidBody
+from ..model.section_inertia import of_cable
 from .inertia import InertiaBatch
 
 
@@ -17,9 +19,40 @@ def second_moments(body: RigidBody) -> FloatArray:
     return J
 
 
-def inertia(bodies: Iterable[PointMass | RigidBody], slots: dict[str, IntArray]) -> InertiaBatch:
-    """Batch of all their masses."""
-    base, mass = [], []
+def rotary_inertia(beams: Iterable[Beam], slots: dict[str, IntArray]) -> list[tuple[int, int, float]]:
+    """Pairs of slots of cables and their masses: the integral of rho I r_x'. r_x' of the slopes' rates."""
+    found = []
+    for beam in beams:
+        turned = 0.0 if beam.has_section else of_cable(beam.section)
+        if not turned:
+            continue
+        for e, h in enumerate(np.diff(beam.node_x).tolist()):
+            own = np.concatenate([slots[beam.name][e, :2], slots[beam.name][e + 1, :2]]).tolist()
+            entries = turned / (30 * h) * _slopes_product(h)
+            found += [(own[i], own[j], float(entries[i, j])) for i in range(4) for j in range(4)]
+    return found
+
+
+def _slopes_product(h: float) -> FloatArray:
+    """30 h times the integral of S' S'^T over an element of length h; S of r, r_x, r, r_x."""
+    return np.array(
+        [
+            [36.0, 3 * h, -36.0, 3 * h],
+            [3 * h, 4 * h * h, -3 * h, -h * h],
+            [-36.0, -3 * h, 36.0, -3 * h],
+            [3 * h, -h * h, -3 * h, 4 * h * h],
+        ]
+    )
+
+
+def inertia(
+    bodies: Iterable[PointMass | RigidBody],
+    slots: dict[str, IntArray],
+    more: Iterable[tuple[int, int, float]],
+) -> InertiaBatch:
+    """Batch of all their masses, and of more pairs of slots with theirs."""
+    base = [(i, j) for i, j, _ in more]
+    mass = [m for _, _, m in more]
     for body in bodies:
         own = slots[body.name][0]
         base.append((own[0], own[0]))

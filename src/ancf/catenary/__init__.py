@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .acceptance import acceptance, time_above
+from .auxiliary import Auxiliary, LongDroppers
 from .catalogue import line_file, line_names, read_line
 from .clamp_strain import ClampStrain, clamp_strains
 from .conditions import Conditions
@@ -13,6 +14,7 @@ from .fittings import Droppers, Load, SteadyArm, Tensioner
 from .form import Form
 from .identify import Identified, dynamic_stiffness, identify_pantograph
 from .irregular import dropper_errors, height_errors
+from .kept import Kept, read_run
 from .line import Line
 from .measuring import Measured, MeasuringHead, measure
 from .mesh import Mesh
@@ -30,6 +32,7 @@ from .span import DropperRule, Span
 from .statistics import Statistics, statistics
 from .stitch import StitchWire
 from .travelling import add_pantograph
+from .underside import random_underside, read_underside
 from .validate import reference_run, write_validation
 from .verify import Verified, verify
 from .wire import Rayleigh, Wire
@@ -37,6 +40,7 @@ from .wires import WireType, wire, wires
 from .write import write_run
 
 __all__ = [
+    "Auxiliary",
     "Butterworth",
     "ClampStrain",
     "Conditions",
@@ -47,8 +51,10 @@ __all__ = [
     "FatigueLine",
     "Form",
     "Identified",
+    "Kept",
     "Line",
     "Load",
+    "LongDroppers",
     "Measured",
     "MeasuringHead",
     "Mesh",
@@ -85,8 +91,11 @@ __all__ = [
     "measure",
     "pantographs",
     "rainflow",
+    "random_underside",
     "read_line",
     "read_pantograph",
+    "read_run",
+    "read_underside",
     "reference_case",
     "reference_names",
     "reference_run",

@@ -16,15 +16,11 @@ from ..model.connections import Spring
 from ..model.points import Point
 from ..model.supports import Hold, Pin
 from .along_track import add_sideways, add_wind, curve_pull
+from .arms import LONG, add_arms, add_long_spring, add_mass
 from .form import Form
 from .line import Line
 from .route_form import AnyForm
 from .shape import Strung
-
-#: Length of a spring to a fixed point, m: long enough that its force keeps its direction, and unstretched.
-LONG = 20.0
-#: Stiffness of an uplift stop, N/m.
-STOP = 1e5
 
 
 @dataclass(slots=True)
@@ -47,8 +43,13 @@ class Assembled:
         Vertical spring or hinged arm of the contact wire, and spring of the messenger, at the supports.
     arm_holds, hanger_holds : list of Hold or None
         What holds contact wire and messenger sideways there.
-    ends : (2, 2) of Pin, Spring or None
-        What keeps the ends of contact wire and messenger, None for a force.
+    ends : (3, 2) of Pin, Spring or None
+        What keeps the ends of contact wire, messenger and auxiliary, None for a force.
+    auxiliary : Strung or None
+        Of a compound catenary, with what holds it sideways at the supports and what carries it:
+    auxiliary_holds : list of Hold or None
+    long_droppers : list of Spring
+        In the order of ``line.long_x``.
     parts : list of Assembled
         Of a route its tension lengths; `contact` and `messenger` are then those of the first one.
     prefix : str
@@ -67,7 +68,10 @@ class Assembled:
     hangers: list[Spring | None] = field(default_factory=list)
     arm_holds: list[Hold | None] = field(default_factory=list)
     hanger_holds: list[Hold | None] = field(default_factory=list)
-    ends: list[list[Pin | Spring | None]] = field(default_factory=lambda: [[None, None], [None, None]])
+    ends: list[list[Pin | Spring | None]] = field(default_factory=lambda: [[None, None] for _ in range(3)])
+    auxiliary: Strung | None = None
+    auxiliary_holds: list[Hold | None] = field(default_factory=list)
+    long_droppers: list[Spring] = field(default_factory=list)
     parts: list[Assembled] = field(default_factory=list)
     prefix: str = ""
 
@@ -80,6 +84,11 @@ class Assembled:
     def contact_wires(self) -> list[ancf.model.Beam]:
         """The contact wires of all tension lengths."""
         return [part.contact_wire for part in self.parts or [self]]
+
+    @property
+    def strung_contacts(self) -> list[Strung]:
+        """The contact wires of all tension lengths with their shapes."""
+        return [part.contact for part in self.parts or [self]]
 
     @property
     def messengers(self) -> list[Strung]:
@@ -160,12 +169,13 @@ def assembled(
 ) -> Assembled:
     """The model of a form, or its part of a `model` with names that begin with `prefix`.
 
-    Ends (2, 2) of contact wire and messenger that are `held` keep their places; default all of a line with
-    fixed ends, and no others. While it is mounted, one end is pulled, or both, by what `found` has there.
+    Ends (3, 2) of contact wire, messenger and auxiliary that are `held` keep their places; default all of a
+    line with fixed ends, and no others. While it is mounted, one end is pulled, or both, by what `found` has
+    there.
     """
     line = found.line
     if held is None:
-        held = np.full((2, 2), line.anchors == "fixed")
+        held = np.full((3, 2), line.anchors == "fixed")
         if mounting:
             held[:, 1] = False
     own = model is None
@@ -176,15 +186,18 @@ def assembled(
     if found.messenger is not None:
         messenger = found.messenger.add_to(model, f"{prefix}messenger", line.damping)
     overhead = Assembled(found, model, contact, messenger, prefix=prefix)
-    for k, wire in enumerate((contact, messenger)):
+    if found.auxiliary is not None:
+        overhead.auxiliary = found.auxiliary.add_to(model, f"{prefix}auxiliary", line.damping)
+    for k, wire in enumerate((contact, messenger, overhead.auxiliary)):
         if wire is not None:
             sprung = line.anchors == "spring" and not mounting
             overhead.ends[k] = _anchor(overhead, line, wire, found.pull[k], held[k], sprung)
-            _load(overhead, line, wire, ("contact", "messenger")[k])
+            _load(overhead, line, wire, ("contact", "messenger", "auxiliary")[k])
     _add_stitches(overhead, found)
+    _add_auxiliary(overhead, found)
     _add_droppers(overhead, found)
     _add_messenger_supports(overhead, found)
-    _add_arms(overhead, found)
+    add_arms(overhead, found)
     if own and found.settled and line.conditions.wind != 0.0:
         add_wind(model, line.conditions, line.length)
     return overhead
@@ -195,7 +208,7 @@ def _load(overhead: Assembled, line: Line, wire: Strung, name: str) -> None:
     shape = wire.shape
     add_sideways(overhead.model, wire, curve_pull(line, shape, name))
     for k, (load, node) in enumerate(zip(line.loads_on(name), shape.nodes.load.tolist(), strict=True)):
-        _add_mass(overhead.model, f"{overhead.prefix}load {k + 1} on {name}", wire.point(node), load.mass)
+        add_mass(overhead.model, f"{overhead.prefix}load {k + 1} on {name}", wire.point(node), load.mass)
 
 
 def _anchor(
@@ -248,11 +261,43 @@ def _add_stitches(overhead: Assembled, found: Form) -> None:
         overhead.stitches.append(wire)
 
 
+def _add_auxiliary(overhead: Assembled, found: Form) -> None:
+    """What the auxiliary hangs from, and what holds it sideways."""
+    wire, messenger, line, model = overhead.auxiliary, overhead.messenger, found.line, overhead.model
+    overhead.auxiliary_holds = [None] * line.supports.size
+    if wire is None or messenger is None or found.long_droppers is None or line.auxiliary is None:
+        return
+    given, made, before = line.auxiliary.droppers, found.long_droppers, overhead.prefix
+    stiffness = made.spring_stiffness
+    damping = given.damping * (stiffness / made.stiffness) ** 2
+    half = 0.5 * given.mass * made.length
+    pairs = zip(wire.shape.nodes.stitch.tolist(), messenger.shape.nodes.dropper.tolist(), strict=True)
+    for j, (low, high) in enumerate(pairs):
+        below, above, name = wire.point(low), messenger.point(high), f"{before}long dropper {j + 1}"
+        overhead.long_droppers.append(
+            model.add_spring(
+                below,
+                above,
+                stiffness=float(stiffness[j]),
+                damping=float(damping[j]),
+                length=float(made.natural[j]),
+                slack=given.slack,
+                name=name,
+            )
+        )
+        add_mass(model, f"{name} lower clamp", below, given.clamp_contact + half[j])
+        add_mass(model, f"{name} upper clamp", above, given.clamp_messenger + half[j])
+    for k in range(1, line.supports.size - 1):
+        overhead.auxiliary_holds[k] = model.hold(wire.point(wire.shape.nodes.support[k]), position="y")
+
+
 def _uppers(overhead: Assembled, found: Form) -> list[Point]:
     """Upper ends of all droppers."""
     if overhead.messenger is None:
         return []
     line = found.line
+    if overhead.auxiliary is not None:
+        return [overhead.auxiliary.point(node) for node in overhead.auxiliary.shape.nodes.dropper]
     points = [overhead.messenger.point(node) for node in overhead.messenger.shape.nodes.dropper]
     for k, wire in enumerate(overhead.stitches):
         hung = np.flatnonzero(line.dropper_stitch == k + 1)
@@ -281,17 +326,8 @@ def _add_droppers(overhead: Assembled, found: Form) -> None:
                 name=f"{before}dropper {label}",
             )
         )
-        _add_mass(model, f"{before}lower clamp {label}", below, line.droppers.clamp_contact + half[j])
-        _add_mass(model, f"{before}upper clamp {label}", above, line.droppers.clamp_messenger + half[j])
-
-
-def _add_mass(model: ancf.Model, name: str, point: Point, mass: float) -> PointMass | None:
-    """A mass that moves with a node of a wire; nothing if it is zero."""
-    if mass == 0.0:
-        return None
-    body = model.add_point_mass(name, at=point.initial_position, mass=float(mass))
-    model.connect(body, point)
-    return body
+        add_mass(model, f"{before}lower clamp {label}", below, line.droppers.clamp_contact + half[j])
+        add_mass(model, f"{before}upper clamp {label}", above, line.droppers.clamp_messenger + half[j])
 
 
 def _add_messenger_supports(overhead: Assembled, found: Form) -> None:
@@ -302,13 +338,13 @@ def _add_messenger_supports(overhead: Assembled, found: Form) -> None:
         return
     for k in range(1, line.supports.size - 1):
         point = overhead.messenger.point(overhead.messenger.shape.nodes.support[k])
-        _add_mass(model, f"{overhead.prefix}cantilever {k + 1} mass", point, line.messenger_support_mass)
+        add_mass(model, f"{overhead.prefix}cantilever {k + 1} mass", point, line.messenger_support_mass)
         weight = line.messenger_support_mass * line.gravity
         if line.messenger_support is None:
             overhead.hanger_holds[k] = model.hold(point, position="yz")
             continue
         overhead.hanger_holds[k] = model.hold(point, position="y")
-        overhead.hangers[k] = _add_long_spring(
+        overhead.hangers[k] = add_long_spring(
             model,
             point,
             2,
@@ -316,69 +352,3 @@ def _add_messenger_supports(overhead: Assembled, found: Form) -> None:
             found.support_load[k] + weight,
             f"{overhead.prefix}messenger support {k + 1}",
         )
-
-
-def _add_arms(overhead: Assembled, found: Form) -> None:
-    line, model = found.line, overhead.model
-    nodes = found.contact.nodes.support
-    overhead.supports = [overhead.contact.point(node) for node in nodes]
-    overhead.arms = [None] * nodes.size
-    overhead.arm_holds = [None] * nodes.size
-    for k in range(1, nodes.size - 1):
-        point, arm = overhead.supports[k], line.arm(k)
-        force = found.arm_force[k] + np.array([0.0, 0.0, 0.5 * arm.mass * line.gravity])
-        _add_mass(model, f"{overhead.prefix}arm {k + 1} mass", point, 0.5 * arm.mass)
-        name = f"{overhead.prefix}steady arm {k + 1}"
-        if arm.uplift_stop is not None:
-            _add_stop(model, point, arm.uplift_stop, f"{overhead.prefix}uplift stop {k + 1}")
-        if arm.hinged:
-            overhead.arms[k] = _add_hinged_arm(overhead, line, k, force, name)
-            continue
-        overhead.arms[k] = _add_vertical_arm(model, point, arm.vertical, force[2], name)
-        if arm.lateral is None:
-            overhead.arm_holds[k] = model.hold(point, position="y")
-        else:
-            _add_long_spring(model, point, 1, arm.lateral, force[1], f"{name} sideways")
-
-
-def _add_stop(model: ancf.Model, point: Point, height: float, name: str) -> None:
-    """A stop that the wire meets when it is lifted above its rest: a rope that becomes taut."""
-    below = point.initial_position - [0.0, 0.0, LONG]
-    model.add_spring(point, below, stiffness=STOP, length=LONG + height, slack=True, name=name)
-
-
-def _add_vertical_arm(
-    model: ancf.Model, point: Point, stiffness: float | None, load: float, name: str
-) -> Spring | None:
-    """The vertical spring of a steady arm; without stiffness its force at rest alone."""
-    if stiffness:
-        return _add_long_spring(model, point, 2, stiffness, load, name)
-    if load != 0.0:
-        model.add_force(point, (0.0, 0.0, load), name=name)
-    return None
-
-
-def _add_long_spring(
-    model: ancf.Model, point: Point, axis: int, stiffness: float, load: float, name: str
-) -> Spring:
-    """A spring along an axis that pulls with a load at rest, in N, in the direction of the axis."""
-    distance = LONG + max(load, 0.0) / stiffness
-    fixed = point.initial_position + distance * np.eye(3)[axis]
-    return model.add_spring(point, fixed, stiffness=stiffness, length=distance - load / stiffness, name=name)
-
-
-def _add_hinged_arm(overhead: Assembled, line: Line, k: int, force: FloatArray, name: str) -> Spring:
-    """A bar to a pivot on the mast, in the direction in which it has to pull at rest, N."""
-    size = float(np.linalg.norm(force))
-    arm = line.arm(k)
-    assert arm.length is not None
-    if abs(force[1]) < 1.0 or abs(force[2]) > abs(force[1]):
-        what = f"the wire pulls sideways with {abs(force[1]):.0f} N at support {k + 1}, which has to carry "
-        what += f"{force[2]:.0f} N: a hinged arm would hang down"
-        hint = 'give more stagger, contact_support = "free", or vertical instead of length'
-        raise ModelError("line.steady_arm.length", what, hint)
-    point = overhead.supports[k]
-    pivot = point.initial_position + arm.length * force / size
-    return overhead.model.add_spring(
-        point, pivot, stiffness=arm.stiffness, length=arm.length - size / arm.stiffness, name=name
-    )

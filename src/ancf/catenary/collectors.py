@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
 from ..model.beam import Beam
@@ -13,23 +13,18 @@ from ..model.bodies import PointMass
 from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
+from .chain import APART, Chain, Level, add_chain, add_stages, numbered
 from .pantograph import Pantograph
+from .roof import RoofMotion
 from .travel import Travel
 
-#: Nominal height of the wire at a track position, m.
-Level = Callable[[float], Any]
 CONTACTS = ("penalty", "joint")
-#: Distance of the masses in the model, m; only their motion matters.
-APART = 1.0
 #: Contact stiffness of EN 50318, N/m.
 STANDARD = 50e3
 #: Mass of a strip on a spring of its own, kg: its vibration against the head is far above 20 Hz.
 STRIP = 0.05
 #: Distance of the strip from the wire up to which the sliding joint finds its place on it, m.
 NEAR = 2.0
-#: Stiffness of a lowest spring of 0, N/m: the place where a pantograph stands is then unique, and over
-#: centimetres it carries some millinewtons.
-FAINT = 0.1
 #: Stiffness of a contact that only measures, N/m.
 WEIGHTLESS = 1e-9
 
@@ -75,19 +70,26 @@ class Collector:
 
     Attributes
     ----------
+    heads : list of PointMass
+        The strips, or what carries the strip: one, or two, the first ahead.
     touches : list of Contact or Slide
-        With each of the contact wires.
+        Of each strip with each of the contact wires, strip after strip.
     meters : list of Contact
-        Tell where the wires lie on the strip: the contacts themselves, or those of no weight beside joints.
+        Tell where the wires lie on the strips: the contacts themselves, or those of no weight beside joints.
 
     """
 
     name: str
     pantograph: Pantograph
     start: float
-    head: PointMass
+    heads: list[PointMass]
     touches: list[Contact | Slide]
     meters: list[Contact]
+
+    @property
+    def head(self) -> PointMass:
+        """The strip, of two the one ahead."""
+        return self.heads[0]
 
     @property
     def touch(self) -> Contact | Slide:
@@ -106,7 +108,7 @@ class Collector:
 
     def sensors(self) -> list[Any]:
         """What is recorded at every step."""
-        return [self.head, *self.touches, *(self.meters if self.slides else [])]
+        return [*self.heads, *self.touches, *(self.meters if self.slides else [])]
 
 
 def put_pantograph(
@@ -122,6 +124,8 @@ def put_pantograph(
     touch: Touch,
     active: bool = False,
     level: Level | None = None,
+    roof: RoofMotion | None = None,
+    profiles: list[FloatArray] | None = None,
 ) -> Collector:
     """Add a pantograph at the track position ``start`` with its strip at ``height``, where it comes to rest.
 
@@ -129,61 +133,56 @@ def put_pantograph(
     one has an input for a force on its lowest mass, see :func:`force_input`. ``level`` is the nominal height
     of the wire over the track where it is not 0 everywhere: the lowest spring stands on a guide that follows
     it, for a pantograph carries its weight at all heights, and its damper on the roof, which does not.
+    ``roof`` moves the vehicle; ``profiles`` are those of the wires' undersides, one for each wire.
     """
-    motion = _motion(travel)
-    count, sprung = len(pantograph.masses), touch.kind == "joint" and touch.stiffness is not None
-    top = height - APART if sprung else height
-    masses = [
-        model.add_point_mass(
-            f"{label} mass {k + 1}", at=(start, 0.0, top - APART * (count - 1 - k)), mass=mass
-        )
-        for k, mass in enumerate(pantograph.masses)
-    ]
-    roof = model.add_point_mass(f"{label} roof", at=(start, 0.0, top - APART * count), mass=1.0)
-    model.pin(roof, displacement=motion)
-    for mass in masses:
-        model.hold(mass, position="xy", displacement=motion)
-        model.add_force(mass, (0.0, 0.0, mass.mass * -float(model.gravity[2])), name=f"{mass.name} balance")
-    for mass in (roof, *masses):
-        mass.set_motion(velocity=(float(travel.speed(0.0)), 0.0, 0.0))
     nominal = 0.0 if level is None else float(level(start))
     above = height - nominal if pantograph.relaxed_at == "nominal" else -raised
-    guide = roof if level is None else _add_guide(model, roof, travel, level, start, label)
-    _add_springs(model, pantograph, travel, [roof, *masses], above, label, guide)
-    for k, mass in enumerate(masses):
-        name = f"{label} lift" if k == 0 else f"{label} lift of mass {k + 1}"
-        if k == 0 or pantograph.aerodynamics[k] != 0.0:
-            model.add_force(mass, _lift(pantograph, travel, k), name=name)
+    sprung = touch.kind == "joint" and touch.stiffness is not None
+    chain = add_chain(model, pantograph, travel, start, height - APART if sprung else height, label, roof)
+    add_stages(model, chain, above, level, label)
     if active:
         actuator = model.add_input(force_input(label))
-        model.add_force(masses[0], (0.0, 0.0, actuator), name=f"{label} actuator")
-    head = masses[-1]
+        model.add_force(chain.masses[0], (0.0, 0.0, actuator), name=f"{label} actuator")
+    heads = chain.heads
     if sprung:
-        head = _add_strip(model, head, touch, motion, pantograph.force(float(travel.speed(0.0))), label)
+        share = pantograph.force(float(travel.speed(0.0))) / len(heads)
+        heads = [
+            _add_strip(model, head, touch, chain, share, f"{label} strip{n}") for head, n in numbered(heads)
+        ]
     touches, meters = [], []
-    for k, wire in enumerate(wires):
-        number = "" if len(wires) == 1 else f" {k + 1}"
-        touching, meter = _add_touch(model, wire, head, touch, label, number)
-        touches.append(touching)
-        meters.append(meter)
-    return Collector(label, pantograph, start, head, touches, meters)
+    for head, strip in numbered(heads):
+        for k, (wire, number) in enumerate(numbered(wires)):
+            profile = None if profiles is None else profiles[k]
+            names = tuple(
+                f"{label} {what}{' ahead' if strip == ' 1' else ' behind' if strip else ''}{number}"
+                for what in ("contact", "meter")
+            )
+            touching, meter = _add_touch(model, wire, head, touch, names, profile)
+            touches.append(touching)
+            meters.append(meter)
+    return Collector(label, pantograph, start, heads, touches, meters)
 
 
 def _add_touch(
-    model: Model, wire: Beam, head: PointMass, touch: Touch, label: str, number: str
+    model: Model,
+    wire: Beam,
+    head: PointMass,
+    touch: Touch,
+    names: tuple[str, ...],
+    profile: FloatArray | None,
 ) -> tuple[Contact | Slide, Contact]:
     """The contact of a head with one wire, and what measures it."""
-    name = f"{label} contact{number}"
+    name, of_meter = names
     if touch.kind == "penalty":
         assert touch.stiffness is not None
         contact: Contact = model.add_contact(
-            head, wire, stiffness=touch.stiffness, damping=touch.damping, name=name
+            head, wire, stiffness=touch.stiffness, damping=touch.damping, profile=profile, name=name
         )
         return contact, contact
     joint = model.slide(
         head, wire, release=(0, 1, 0), unilateral=(0, 0, 1), tolerance=NEAR, at_end="release", name=name
     )
-    meter: Contact = model.add_contact(head, wire, stiffness=WEIGHTLESS, name=f"{label} meter{number}")
+    meter: Contact = model.add_contact(head, wire, stiffness=WEIGHTLESS, name=of_meter)
     return joint, meter
 
 
@@ -192,84 +191,16 @@ def force_input(label: str) -> str:
     return f"{label.replace(' ', '_')}_force"
 
 
-def _motion(travel: Travel) -> Any:
-    if travel.constant:
-        return (f"{travel.top!r}*t", 0.0, 0.0)
-    return lambda t: (float(travel.distance(t)), 0.0, 0.0)
-
-
-def _add_guide(
-    model: Model, roof: PointMass, travel: Travel, level: Level, start: float, label: str
-) -> PointMass:
-    """A place beside the roof that climbs with the wire."""
-    guide = model.add_point_mass(f"{label} guide", at=roof.position, mass=1.0)
-    first = float(level(start))
-
-    def motion(t: float) -> tuple[float, float, float]:
-        way = float(travel.distance(t))
-        return way, 0.0, float(level(start + way)) - first
-
-    model.pin(guide, displacement=motion)
-    speed, short = float(travel.speed(0.0)), 1e-3
-    climb = (float(level(start + short)) - float(level(start - short))) / (2.0 * short)
-    guide.set_motion(velocity=(speed, 0.0, speed * climb))
-    return guide
-
-
-def _lift(pantograph: Pantograph, travel: Travel, k: int) -> Any:
-    """Static and aerodynamic force on a mass, constant or over time."""
-    first, drag = pantograph.static_force if k == 0 else 0.0, pantograph.aerodynamics[k]
-    if travel.constant:
-        return (0.0, 0.0, first + drag * travel.top**2)
-
-    def force(t: float) -> Sequence[float]:
-        return 0.0, 0.0, first + drag * float(travel.speed(t)) ** 2
-
-    return force
-
-
-def _add_springs(
-    model: Model,
-    pantograph: Pantograph,
-    travel: Travel,
-    masses: list[PointMass],
-    above: float,
-    label: str,
-    guide: PointMass,
-) -> None:
-    """Springs and dampers, as short as the lift makes them.
-
-    The lowest carries nothing when all is ``above`` lower than at the start; it stands on the guide.
-    """
-    for k, (stiffness, damping) in enumerate(zip(pantograph.stiffness, pantograph.damping, strict=True)):
-        stiffness = max(stiffness, FAINT)
-        shortened = -above if k == 0 else pantograph.carried(k, float(travel.speed(0.0))) / stiffness
-        ends = masses[k], masses[k + 1]
-        name = f"{label} spring {k + 1}"
-        if k == 0 and guide is not masses[0]:
-            if damping:
-                model.add_spring(*ends, stiffness=0.0, damping=damping, name=f"{label} damper 1")
-            ends, damping = (guide, masses[1]), 0.0
-        model.add_spring(*ends, stiffness=stiffness, damping=damping, length=APART + shortened, name=name)
-
-
 def _add_strip(
-    model: Model, head: PointMass, touch: Touch, motion: Any, force: float, label: str
+    model: Model, head: PointMass, touch: Touch, chain: Chain, force: float, name: str
 ) -> PointMass:
     """A light strip above the head, on a spring with the stiffness of the contact."""
     assert touch.stiffness is not None
     x, y, z = head.position
-    place = (x, y, z + APART - force / touch.stiffness)
-    strip = model.add_point_mass(f"{label} strip", at=place, mass=STRIP)
-    model.hold(strip, position="xy", displacement=motion)
-    strip.set_motion(velocity=head.velocity)
+    strip = model.add_point_mass(name, at=(x, y, z + APART - force / touch.stiffness), mass=STRIP)
+    chain.hold(model, strip)
     model.add_force(strip, (0.0, 0.0, STRIP * -float(model.gravity[2])), name=f"{strip.name} balance")
     model.add_spring(
-        head,
-        strip,
-        stiffness=touch.stiffness,
-        damping=touch.damping,
-        length=APART,
-        name=f"{label} strip spring",
+        head, strip, stiffness=touch.stiffness, damping=touch.damping, length=APART, name=f"{name} spring"
     )
     return strip

@@ -71,16 +71,16 @@ def read_table(
 def _check_head(
     path: Path, head: list[str], needed: Sequence[str], known: Sequence[str], others: bool
 ) -> None:
-    for key in head:
-        if key not in known and not others:
-            what = f"unknown column, known: {listed(list(known), 30)}"
-            raise ModelError(f"{path}, column {key}", what, nearest(key, known))
     for key in needed:
         if key not in head:
             near = nearest(key, [name for name in head if name not in known])
             raise ModelError(
                 f"{path}, column {key}", "is missing", near or f"the head has: {listed(head, 30)}"
             )
+    for key in head:
+        if key not in known and not others:
+            what = f"unknown column, known: {listed(list(known), 30)}"
+            raise ModelError(f"{path}, column {key}", what, nearest(key, known))
     if len(set(head)) < len(head):
         twice = next(key for key in head if head.count(key) > 1)
         raise ModelError(f"{path}, column {twice}", "stands there twice")

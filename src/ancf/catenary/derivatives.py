@@ -118,7 +118,7 @@ def check_run(plan: Plan, given: Any, controller: Any) -> None:
     if not hasattr(plan.form.line, "dropper_span"):
         raise ModelError(WHERE, "a route has none", "take one of its tension lengths")
     for unit in plan.pantographs:
-        if unit.relaxed_at != "nominal" and unit.stiffness[0] > 0.0:
+        if unit.relaxed_at != "nominal" and unit.slopes()[0] > 0.0:
             what = (
                 f'the lowest spring of {unit.name} is relaxed at "{unit.relaxed_at}", which the droppers move'
             )
@@ -186,45 +186,87 @@ def slopes(run: Run, pantograph: int = 0, filter: Butterworth | None = None) -> 
         Unit of the quantity per m of the parameter.
 
     """
-    chosen = Butterworth() if filter is None else filter
-    rate, window = sample_rate(run.t), in_window(run, pantograph)
-    raw = run.recordings[pantograph].force
-    found = {}
-    for name, own in run.slopes.items():
-        change = own.force[pantograph]
-        made = _of_force(raw, change, chosen, rate, window)
+    return Linearised(run, pantograph, filter).slopes()
+
+
+class Linearised:
+    """Statistics of a run whose contact force changes linearly with the parameters of its sensitivities.
+
+    Not the statistics are linear but the histories: a deviation is the root of a sum of squares, and with the
+    whole history of its derivative the sum is known for any change. Near a minimum that tells more than
+    the derivative of the deviation, which vanishes there.
+
+    Parameters
+    ----------
+    run : Run
+        With ``sensitivities``.
+    pantograph : int
+    filter : Butterworth, optional
+        As of :func:`ancf.catenary.statistics`.
+    """
+
+    def __init__(self, run: Run, pantograph: int = 0, filter: Butterworth | None = None) -> None:
+        chosen = Butterworth() if filter is None else filter
+        rate, window = sample_rate(run.t), in_window(run, pantograph)
+        self.names = list(run.slopes)
+        histories = [run.recordings[pantograph].force]
+        histories += [own.force[pantograph] for own in run.slopes.values()]
+        self.raw = np.stack([x[window] for x in histories])  # (1 + p, n): the force, its derivatives
+        self.force = np.stack([chosen.low_pass(x, rate)[window] for x in histories])
+        self.bands = {
+            f"deviation_{low:g}_{high:g}": np.stack(
+                [chosen.band(x, rate, low, high)[window] for x in histories]
+            )
+            for low, high in BANDS[1:]
+        }
+        self.uplift: FloatArray | None = None
         if uplifts := uplift_in_window(run, pantograph):
             most = max(uplifts, key=lambda one: one.uplift)
             column = most.number - 1
             row = int(np.argmax(run.uplift[:, column] == most.uplift))
-            made["uplift"] = MM * float(own.uplift[row, column])
-        found[name] = made
-    return found
+            rates = [own.uplift[row, column] for own in run.slopes.values()]
+            self.uplift = MM * np.array([most.uplift, *rates])
+
+    def at(self, changes: FloatArray) -> dict[str, tuple[float, FloatArray]]:
+        """Statistics and their derivatives (p,) with changes (p,) of the parameters, in m, by quantity."""
+        along = np.concatenate([[1.0], changes])
+        made = _of_force(along @ self.raw, self.raw[1:], along @ self.force, self.force[1:])
+        for key, band in self.bands.items():
+            made[key] = _deviation(along @ band, band[1:])
+        if self.uplift is not None:
+            made["uplift"] = float(along @ self.uplift), self.uplift[1:]
+        return made
+
+    def slopes(self) -> dict[str, dict[str, float]]:
+        """Derivatives of the statistics of the run itself, by parameter and quantity."""
+        found = self.at(np.zeros(len(self.names)))
+        return {
+            name: {key: float(rates[k]) for key, (_, rates) in found.items()}
+            for k, name in enumerate(self.names)
+        }
 
 
 def _of_force(
-    raw: FloatArray, change: FloatArray, chosen: Butterworth, rate: float, window: slice
-) -> dict[str, float]:
-    force, slope = (chosen.low_pass(x, rate)[window] for x in (raw, change))
-    mean, deviation = float(np.mean(slope)), _of_deviation(force, slope)
-    average = float(np.mean(force))
-    made = {
-        "mean_force": mean,
-        "deviation": deviation,
-        "mean_plus_3_sigma": mean + 3.0 * deviation,
-        "mean_minus_3_sigma": mean - 3.0 * deviation,
-        "maximum": float(slope[np.argmax(force)]),
-        "minimum": float(slope[np.argmin(force)]),
-        "raw_maximum": float(change[window][np.argmax(raw[window])]),
-        "raw_minimum": float(change[window][np.argmin(raw[window])]),
-        "relative_deviation": (deviation - float(np.std(force)) * mean / average) / average,
+    raw: FloatArray, raw_rates: FloatArray, force: FloatArray, rates: FloatArray
+) -> dict[str, tuple[float, FloatArray]]:
+    """Statistics of a force (n,) and their derivatives (p,), by those of the histories, (p, n)."""
+    average, means = float(np.mean(force)), np.mean(rates, axis=1)
+    sigma, sigmas = _deviation(force, rates)
+    most, least = np.argmax(force), np.argmin(force)
+    raw_most, raw_least = np.argmax(raw), np.argmin(raw)
+    return {
+        "mean_force": (average, means),
+        "deviation": (sigma, sigmas),
+        "mean_plus_3_sigma": (average + 3.0 * sigma, means + 3.0 * sigmas),
+        "mean_minus_3_sigma": (average - 3.0 * sigma, means - 3.0 * sigmas),
+        "maximum": (float(force[most]), rates[:, most]),
+        "minimum": (float(force[least]), rates[:, least]),
+        "raw_maximum": (float(raw[raw_most]), raw_rates[:, raw_most]),
+        "raw_minimum": (float(raw[raw_least]), raw_rates[:, raw_least]),
+        "relative_deviation": (sigma / average, (sigmas - sigma * means / average) / average),
     }
-    for low, high in BANDS[1:]:
-        parts = (chosen.band(x, rate, low, high)[window] for x in (raw, change))
-        made[f"deviation_{low:g}_{high:g}"] = _of_deviation(*parts)
-    return made
 
 
-def _of_deviation(x: FloatArray, slope: FloatArray) -> float:
+def _deviation(x: FloatArray, rates: FloatArray) -> tuple[float, FloatArray]:
     size = float(np.std(x))
-    return float(np.mean((x - np.mean(x)) * slope)) / size if size > 0.0 else 0.0
+    return size, rates @ (x - np.mean(x)) / (len(x) * size) if size > 0.0 else np.zeros(len(rates))

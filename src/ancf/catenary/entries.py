@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from ..model.file.fields import Entry, NonNegative, Parameters, Positive
+from ..model.file.fields import Curve, Entry, NonNegative, Parameters, Positive
 from .wire import EXPANSION
 
 
@@ -25,6 +25,15 @@ class WireEntry(Entry):
     expansion: NonNegative = Field(EXPANSION, description="Thermal expansion [1/K].")
 
 
+def _of_number(given: Any) -> str:
+    return "<curve>" if isinstance(given, list) else "<number>"
+
+
+NumberOrCurve = Annotated[
+    Annotated[float, Tag("<number>")] | Annotated[Curve, Tag("<curve>")], Discriminator(_of_number)
+]
+
+
 class PantographEntry(Entry):
     """A pantograph file."""
 
@@ -32,13 +41,23 @@ class PantographEntry(Entry):
     title: str = Field("", description="What it is.")
     parameters: Parameters = Field(default_factory=dict)
     masses: list[float] = Field(min_length=1, description="From the lowest to the head with the strip [kg].")
-    stiffness: list[float] = Field(description="Of the springs below each mass [N/m].")
-    damping: list[float] = Field(description="Of the dampers below each mass [N s/m].")
+    stiffness: list[NumberOrCurve] = Field(
+        description="Of the springs below each mass [N/m]; or rows of elongation [m] and force [N]."
+    )
+    damping: list[NumberOrCurve] = Field(
+        description="Of the dampers below each mass [N s/m]; or rows of rate [m/s] and force [N]."
+    )
     static_force: float = Field(description="Contact force at standstill [N].")
     aerodynamic: float | list[float] = Field(
         0.0, description="k of the force k v^2 on the lowest mass, or on each [N s^2/m^2]."
     )
+    friction: list[float] = Field([], description="Coulomb's, below each mass [N].")
+    stops: list[list[float]] = Field(
+        [], description="Elongations at which the springs meet a stop, [] for none [m]."
+    )
+    stop_stiffness: Positive = Field(1e5, description="Of all stops [N/m].")
     strip_length: float = Field(1.45, description="Length of the strip across the track [m].")
+    strip_distance: NonNegative = Field(0.0, description="Of two strips behind each other, 0 for one [m].")
     relaxed_at: Literal["start", "nominal", "mean"] = Field(
         "start", description="Height at which the lowest spring carries nothing."
     )
@@ -57,6 +76,22 @@ class StitchEntry(WireEntry):
     """Stitch wires."""
 
     reach: Positive = Field(description="Distance of their ends from the support [m].")
+
+
+class RuleEntry(Entry):
+    """Droppers at equal distances."""
+
+    first: Positive = Field(description="Distance of first and last dropper from the supports [m].")
+    pitch_max: Positive = Field(description="Largest distance of two droppers [m].")
+
+
+class AuxiliaryEntry(WireEntry):
+    """Auxiliary messenger of a compound catenary."""
+
+    height: Positive = Field(description="Over the contact wire, at its own droppers and its ends [m].")
+    places: RuleEntry | None = Field(
+        None, description="Where its droppers are in spans without long_droppers: first and pitch_max."
+    )
 
 
 class DroppersEntry(Entry):
@@ -83,13 +118,6 @@ class SteadyArmEntry(Entry):
     uplift_stop: Positive | None = Field(None, description="Uplift at which a stop meets the wire [m].")
 
 
-class RuleEntry(Entry):
-    """Droppers at equal distances."""
-
-    first: Positive = Field(description="Distance of first and last dropper from the supports [m].")
-    pitch_max: Positive = Field(description="Largest distance of two droppers [m].")
-
-
 def _of_droppers(given: Any) -> str:
     return "<rule>" if isinstance(given, dict | RuleEntry) else "<places>"
 
@@ -111,7 +139,7 @@ class LoadEntry(Entry):
 
     position: float = Field(description="Along the track from the first support [m].")
     mass: Positive = Field(description="Mass [kg].")
-    wire: Literal["contact", "messenger"] = Field("contact", description="On which wire.")
+    wire: Literal["contact", "messenger", "auxiliary"] = Field("contact", description="On which wire.")
 
 
 class ConditionsEntry(Entry):
@@ -139,6 +167,9 @@ class SupportEntry(Entry):
     messenger_stagger: float | None = Field(None, description="Sideways place of the messenger [m].")
     radius: float | None = Field(None, description="Of the track in the span, positive to the left [m].")
     droppers: list[float] | None = Field(None, description="Places in the span, default by the rule [m].")
+    long_droppers: list[float] | None = Field(
+        None, description="The same between messenger and auxiliary, default by its rule [m]."
+    )
     pre_sag: NonNegative | None = Field(None, description="Depth of the parabola in the span [m].")
     arm_vertical: NonNegative | None = Field(None, description="Vertical stiffness of its arm [N/m].")
     arm_lateral: Positive | None = Field(None, description="Sideways stiffness of its arm [N/m].")
@@ -161,6 +192,9 @@ class SpanEntry(Entry):
     )
     radius: float | None = Field(
         None, description="Of the track, positive to the left, default straight [m]."
+    )
+    long_droppers: DropperPlaces | None = Field(
+        None, description="Places of those between messenger and auxiliary, as droppers [m]."
     )
 
 
@@ -192,6 +226,12 @@ class LineEntry(Entry):
         description="Rayleigh damping of both wires.",
     )
     stitch: StitchEntry | None = Field(None, description="Stitch wires at the supports, default none.")
+    auxiliary_wire: AuxiliaryEntry | None = Field(
+        None, description="Of a compound catenary, between messenger and contact wire; default none."
+    )
+    long_droppers: DroppersEntry | None = Field(
+        None, description="Those between messenger and auxiliary, needed with one."
+    )
     messenger_support: Positive | None = Field(None, description="Vertical stiffness, default rigid [N/m].")
     messenger_clamp: Literal["hinged", "continuous"] = Field(
         "hinged", description="Whether the messenger turns freely in its supports or bends over them."
@@ -228,6 +268,8 @@ TABLES: dict[str, type[Entry]] = {
     "messenger_wire": WireEntry,
     "damping": RayleighEntry,
     "stitch": StitchEntry,
+    "auxiliary_wire": AuxiliaryEntry,
+    "long_droppers": DroppersEntry,
     "droppers": DroppersEntry,
     "steady_arm": SteadyArmEntry,
     "spans": SpanEntry,

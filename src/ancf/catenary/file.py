@@ -16,6 +16,7 @@ from ..model.file import parameters, read_toml
 from ..model.file.fields import Entry
 from ..model.file.messages import combined, of_validation
 from ..model.file.paths import changed
+from .auxiliary import Auxiliary
 from .conditions import Conditions
 from .csv_table import Row
 from .entries import TABLES, LineEntry, RuleEntry, SpanEntry, StitchEntry, WireEntry
@@ -135,7 +136,13 @@ def parse_line(data: dict[str, Any], source: str = "line") -> Line:
     plain["system_height"] = 0.0 if entry.system_height is None else entry.system_height
     with _in_file(entry, rows):
         line = _line(
-            entry, plain | laid | {"dropper_lengths": lengths_of(entry.dropper_lengths, folder, count)}
+            entry,
+            plain
+            | laid
+            | {
+                "rows": tuple(where for where, _ in rows),
+                "dropper_lengths": lengths_of(entry.dropper_lengths, folder, count),
+            },
         )
     return line
 
@@ -156,6 +163,7 @@ def _line(entry: LineEntry, plain: dict[str, Any]) -> Line:
         else _wire(entry.messenger_wire, "messenger_wire"),
         damping=Rayleigh(**entry.damping.given()),
         stitch=_stitch(entry.stitch),
+        auxiliary=_auxiliary(entry),
         tensioner=Tensioner() if tensioner is None else Tensioner(**tensioner.given()),
         conditions=Conditions() if conditions is None else Conditions(**conditions.given()),
         loads=tuple(Load(**load.given()) for load in entry.loads),
@@ -184,9 +192,22 @@ def _stitch(given: StitchEntry | None) -> StitchWire | None:
     return None if given is None else StitchWire(wire=_wire(given, "stitch"), reach=given.reach)
 
 
+def _auxiliary(entry: LineEntry) -> Auxiliary | None:
+    given, droppers = entry.auxiliary_wire, entry.long_droppers
+    if given is None or droppers is None:
+        if given is not None or droppers is not None:
+            missing = "long_droppers" if droppers is None else "auxiliary_wire"
+            what = LineEntry.model_fields[missing].description or ""
+            raise ModelError(f"line.{missing}", "is missing", what.rstrip("."))
+        return None
+    places = None if given.places is None else DropperRule(**given.places.given())
+    wire = _wire(given, "auxiliary_wire")
+    return Auxiliary(wire=wire, height=given.height, droppers=Droppers(**droppers.given()), places=places)
+
+
 def _wire(given: WireEntry, where: str) -> Wire:
     """A wire of the catalogue with what else is given, or one of its own numbers."""
-    own = given.given("reach", "count")
+    own = given.given("reach", "count", "height", "places")
     if given.type is not None:
         return Wire(**(wire_data(given.type, f"{where}.type") | own)).times(given.count)
     for key in ("EA", "EI", "mass"):
@@ -208,7 +229,16 @@ def _spans(entry: LineEntry, given: SpanEntry, index: int) -> list[Span]:
     try:
         if isinstance(droppers, RuleEntry):
             droppers = DropperRule(**droppers.given())
-        span = Span(length=given.length, droppers=droppers, pre_sag=given.pre_sag, radius=given.radius)
+        long: Any = given.long_droppers
+        if isinstance(long, RuleEntry):
+            long = DropperRule(**long.given())
+        span = Span(
+            length=given.length,
+            droppers=droppers,
+            pre_sag=given.pre_sag,
+            radius=given.radius,
+            long_droppers=long,
+        )
     except ModelError as error:
         where = f"spans[{index}]" + error.where.removeprefix("span")
         raise ModelError(where, error.what, error.hint) from None
@@ -221,7 +251,8 @@ def _in_file(entry: LineEntry, rows: list[tuple[str, Row]]) -> Iterator[None]:
     try:
         yield
     except ModelError as error:
-        where = error.where.removeprefix("line.")
+        where = error.where.removeprefix("line.").replace("auxiliary.droppers", "long_droppers")
+        where = where.replace("auxiliary.", "auxiliary_wire.").replace("_wire.wire.", "_wire.")
         key, _, index = where.partition("[")
         k = int(index.partition("]")[0]) if index else 0
         if key in OF_SUPPORTS and index and k < len(rows) and key in rows[k][1]:

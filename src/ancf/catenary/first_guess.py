@@ -34,7 +34,8 @@ def first_guess(line: Line, mesh: Mesh) -> Hung:
         if isinstance(error, ModelError):
             raise
         raise _beyond() from None
-    shapes = [s for s in (begun.contact, begun.messenger, *begun.stitches) if s is not None]
+    every = (begun.contact, begun.messenger, begun.auxiliary, *begun.stitches)
+    shapes = [s for s in every if s is not None]
     if not all(np.all(np.isfinite(shape.position)) for shape in shapes) or not np.all(
         np.isfinite(begun.lift)
     ):
@@ -51,6 +52,9 @@ def _first_guess(line: Line, mesh: Mesh) -> Hung:
     contact, load = _contact(line, mesh)
     load = load + line.droppers.clamp_contact * line.gravity
     down = load + line.droppers.clamp_messenger * line.gravity
+    auxiliary, long_load = _auxiliary(line, mesh, down)
+    if line.auxiliary is not None:
+        down = long_load + line.auxiliary.droppers.clamp_messenger * line.gravity
     stitches, ends = _stitches(line, mesh, down)
     messenger = None if line.messenger_wire is None else _messenger(line, mesh, down, ends)
     count = line.supports.size
@@ -72,8 +76,44 @@ def _first_guess(line: Line, mesh: Mesh) -> Hung:
         support=np.zeros(count),
         side=np.zeros(count),
         ends=ends,
-        give=_give(line, contact, messenger, placed),
+        give=_give(line, contact, messenger if auxiliary is None else auxiliary, placed),
+        auxiliary=auxiliary,
+        long_lift=long_load,
+        long_give=_long_give(auxiliary, messenger),
+        auxiliary_side=np.zeros(count),
     )
+
+
+def _long_give(auxiliary: WireShape | None, messenger: WireShape | None) -> FloatArray:
+    """What auxiliary and messenger lack at the clamps between them (2, m), m/N.
+
+    Where a dropper hangs below another one, what it pulls down the other one pulls up: little of both is left
+    to bend the auxiliary, which then lacks nothing for either.
+    """
+    if auxiliary is None or messenger is None:
+        return np.zeros((2, 0))
+    low = missing_give(auxiliary.wire, auxiliary.nodes, auxiliary.nodes.stitch)
+    low[np.isin(auxiliary.nodes.stitch, auxiliary.nodes.dropper)] = 0.0
+    high = missing_give(messenger.wire, messenger.nodes, messenger.nodes.dropper, messenger.hinges)
+    return np.stack([low, high])
+
+
+def _auxiliary(line: Line, mesh: Mesh, down: FloatArray) -> tuple[WireShape | None, FloatArray]:
+    """The auxiliary under its droppers, held at its height, and what holds it there, N."""
+    if line.auxiliary is None:
+        return None, np.zeros(0)
+    wire, nodes = line.auxiliary.wire, mesh.nodes(line, "auxiliary")
+    held = np.full(nodes.x.size, np.nan)
+    marks = np.unique(np.concatenate([nodes.stitch, nodes.support[[0, -1]]]))
+    held[marks] = line.height_at(nodes.x[marks]) + line.auxiliary.height
+    load = lumped(nodes.x, wire.mass * line.gravity)
+    load[nodes.load] -= masses(line, "auxiliary")
+    np.subtract.at(load, nodes.dropper, down)
+    z = string_shape(nodes.x, held, load, wire.tension)
+    force = string_loads(nodes.x, z, wire.tension, 0.0) - load
+    y = _sideways(line, nodes, line.stagger, wire, "auxiliary")
+    lift = force[nodes.stitch] + line.auxiliary.droppers.clamp_contact * line.gravity
+    return started(wire, nodes, y, z), lift
 
 
 def _give(
@@ -85,6 +125,8 @@ def _give(
     if messenger is None:
         return give
     give[1] = missing_give(messenger.wire, messenger.nodes, messenger.nodes.dropper, messenger.hinges)
+    if line.auxiliary is not None:
+        give[1, np.isin(messenger.nodes.dropper, messenger.nodes.stitch)] = 0.0  # see _long_give
     for k, shape in enumerate(stitches):
         own = line.dropper_stitch == k + 1
         give[1, own] = missing_give(shape.wire, shape.nodes, shape.nodes.dropper)
@@ -140,7 +182,7 @@ def _messenger(line: Line, mesh: Mesh, down: FloatArray, ends: FloatArray) -> Wi
     assert wire is not None
     load = lumped(nodes.x, wire.mass * line.gravity)
     load[nodes.load] -= masses(line, "messenger")
-    own = line.dropper_stitch < 0
+    own = line.dropper_stitch < 0 if line.auxiliary is None else np.ones(line.long_x.size, dtype=bool)
     load[nodes.dropper[own]] -= down[own]
     np.subtract.at(load, nodes.stitch, ends[:, :, 2].ravel())
     middle = 0.5 * (nodes.x[1:] + nodes.x[:-1])

@@ -48,7 +48,7 @@ class Load:
     position : float, m
         Along the track from the first support.
     mass : float, kg
-    wire : "contact" or "messenger"
+    wire : "contact", "messenger" or "auxiliary"
 
     """
 
@@ -62,7 +62,7 @@ class Load:
             what = f"is {self.position:g} m, the line reaches from 0 to {length:g} m"
             raise ModelError(f"{where}.position", what)
         checks.positive(self.mass, f"{where}.mass")
-        checks.choice(self.wire, f"{where}.wire", ("contact", "messenger"))
+        checks.choice(self.wire, f"{where}.wire", ("contact", "messenger", "auxiliary"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 
@@ -9,8 +10,10 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
+from .auxiliary import LongDroppers
 from .first_guess import first_guess
-from .hang import Hung, hang_contact, hang_messenger, hang_stitches
+from .fittings import Droppers
+from .hang import Hung, hang_auxiliary, hang_contact, hang_messenger, hang_stitches
 from .line import Line
 from .mesh import Mesh
 from .schedule import Row, rows, write
@@ -19,7 +22,7 @@ from .shape import WireShape
 TOLERANCE = 1e-8  # m
 MOST_ITERATIONS = 60
 #: Parts of a line that may change without finding its form again: it rests alike.
-WITHOUT_WEIGHT = ("damping", "title", "source", "tags")
+WITHOUT_WEIGHT = ("damping", "rows", "title", "source", "tags")
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,10 +56,13 @@ class Form:
     arm_force : (supports, 3) N
         Force on the contact wire at the supports; zero at the two anchors.
     iterations : int
-    pull : (2, 2) N
-        Component along the track of the forces at both ends of contact wire and messenger.
+    pull : (2, 2) or (3, 2) N
+        Component along the track of the forces at both ends of contact wire, messenger and auxiliary.
     settled : bool
         Whether it is the state of the line's conditions or of lengths that were given, not of the design.
+    auxiliary : WireShape or None
+        Of a compound catenary; the droppers hang from it then, and it from the messenger by
+    long_droppers : LongDroppers or None
     made_for : (Line, Mesh)
         What it was found for.
 
@@ -87,6 +93,8 @@ class Form:
     iterations: int
     pull: FloatArray
     settled: bool = False
+    auxiliary: WireShape | None = None
+    long_droppers: LongDroppers | None = None
     made_for: tuple[Line, Mesh] | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -173,7 +181,7 @@ def design(line: Line, mesh: Mesh | None = None) -> Form:
         before = now
         now = hang_contact(now)
         contact_error = now.error
-        now = hang_stitches(hang_messenger(now))
+        now = hang_stitches(hang_messenger(hang_auxiliary(now)))
         change = float(np.max(np.abs(now.dropper - before.dropper), initial=0.0))
         left = max(change, contact_error, now.error)
         if left < TOLERANCE:
@@ -196,19 +204,22 @@ def check(line: Line, mesh: Mesh | None = None) -> None:
 
 def _check_reach(line: Line, now: Hung) -> None:
     """Raise ModelError where the messenger is not above the contact wire."""
+    if now.auxiliary is not None and np.any(now.long.vector[:, 2] <= 0.0):
+        worst = int(np.argmin(now.long.vector[:, 2]))
+        what = f"the messenger hangs below the auxiliary at {line.long_x[worst]:g} m"
+        raise ModelError("line.auxiliary.height", what, "give less, or more system_height or tension")
     gap = now.dropper[:, 2]
     if not gap.size:
         return
     worst = int(np.argmin(gap))
     if gap[worst] <= 0.0:
-        what = (
-            f"the messenger hangs {-gap[worst]:.3f} m below the contact wire there, the dropper cannot reach"
-        )
+        upper = "messenger" if now.auxiliary is None else "auxiliary"
+        what = f"the {upper} hangs {-gap[worst]:.3f} m below the contact wire there, the dropper cannot reach"
         raise ModelError(line.dropper_label(worst), what, "give more system_height or more tension")
 
 
 def _finished(line: Line, mesh: Mesh, now: Hung, iterations: int) -> Form:
-    length, force = now.length, now.force
+    length, force = now.short.length, now.short.force
     own = line.droppers.mass * length * line.gravity
     load = force - 0.5 * own
     least = float(np.min(load, initial=np.inf))
@@ -216,7 +227,10 @@ def _finished(line: Line, mesh: Mesh, now: Hung, iterations: int) -> Form:
         worst = int(np.argmax(load <= least + 1e-3 * abs(least)))  # the first of those that are alike
         what = f"would carry {load[worst]:.1f} N at rest: it has to push the contact wire down"
         raise ModelError(line.dropper_label(worst), what, "change its place or the pre_sag around it")
-    natural, stiffness = _unstretched(line, length, force)
+    natural, stiffness = _unstretched(line.droppers, length, force, line.dropper_label)
+    tensions = [line.contact_wire.tension, messenger_tension(line)]
+    if line.auxiliary is not None:
+        tensions.append(line.auxiliary.wire.tension)
     return Form(
         line=line,
         mesh=mesh,
@@ -236,8 +250,29 @@ def _finished(line: Line, mesh: Mesh, now: Hung, iterations: int) -> Form:
         support_side=now.side,
         arm_force=now.arm,
         iterations=iterations,
-        pull=np.outer([line.contact_wire.tension, messenger_tension(line)], [1.0, 1.0]),
+        pull=np.outer(tensions, [1.0, 1.0]),
+        auxiliary=now.auxiliary,
+        long_droppers=_long(line, now),
     )
+
+
+def _long(line: Line, now: Hung) -> LongDroppers | None:
+    """The droppers between messenger and auxiliary, which have to pull."""
+    if line.auxiliary is None:
+        return None
+    ties, given = now.long, line.auxiliary.droppers
+    load = ties.force - 0.5 * given.mass * ties.length * line.gravity
+    if np.any(load <= 0.0):
+        worst = int(np.argmin(load))
+        what = f"the one at {line.long_x[worst]:g} m would carry {load[worst]:.1f} N at rest: it has to push"
+        raise ModelError("line.auxiliary.droppers", what, "change its place, or places of droppers around it")
+
+    def label(j: int) -> str:
+        return f"line.auxiliary: long dropper at {line.long_x[j]:g} m"
+
+    natural, stiffness = _unstretched(given, ties.length, ties.force, label)
+    give: FloatArray = now.long_give.sum(axis=0)
+    return LongDroppers(ties.force, ties.length, natural, stiffness, give, now.auxiliary_side)
 
 
 def messenger_tension(line: Line) -> float:
@@ -245,9 +280,10 @@ def messenger_tension(line: Line) -> float:
     return 0.0 if line.messenger_wire is None else line.messenger_wire.tension
 
 
-def _unstretched(line: Line, length: FloatArray, force: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Natural lengths, m, and stiffnesses, N/m, of the droppers."""
-    droppers = line.droppers
+def _unstretched(
+    droppers: Droppers, length: FloatArray, force: FloatArray, label: Callable[[int], str]
+) -> tuple[FloatArray, FloatArray]:
+    """Natural lengths, m, and stiffnesses, N/m, of droppers."""
     if droppers.EA is not None:
         natural = length / (1.0 + force / droppers.EA)
         return natural, droppers.EA / natural
@@ -256,5 +292,5 @@ def _unstretched(line: Line, length: FloatArray, force: FloatArray) -> tuple[Flo
     if np.any(natural <= 0.0):
         worst = int(np.argmin(natural))
         stretch = f"{1e3 * (length - natural)[worst]:.1f} mm of its {1e3 * length[worst]:.1f} mm"
-        raise ModelError(line.dropper_label(worst), f"is stretched by {stretch}", "give stiffer droppers")
+        raise ModelError(label(worst), f"is stretched by {stretch}", "give stiffer droppers")
     return natural, np.full(length.size, droppers.stiffness)

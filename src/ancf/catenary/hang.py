@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from .along_track import add_sideways, curve_pull
 from .line import Line
 from .rods import add_leans, along
 from .shape import Strung, WireShape
+from .ties import Ties
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +38,13 @@ class Hung:
         What the contact wire and what the droppers hang from give too little at the clamps, on their meshes.
     error : float, m
         Largest distance of a prescribed place from where the point came to rest.
+    auxiliary : WireShape or None
+    long_lift : (m,) N
+        Vertical forces of the droppers between messenger and auxiliary.
+    long_give : (2, m) m/N
+        What auxiliary and messenger give too little there.
+    auxiliary_side : (supports,) N
+        Sideways forces of the supports on the auxiliary.
 
     """
 
@@ -51,10 +59,16 @@ class Hung:
     ends: FloatArray
     give: FloatArray
     error: float = np.inf
+    auxiliary: WireShape | None = None
+    long_lift: FloatArray = field(default_factory=lambda: np.zeros(0))
+    long_give: FloatArray = field(default_factory=lambda: np.zeros((2, 0)))
+    auxiliary_side: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     @property
     def upper(self) -> FloatArray:
         """Nodes (n, 3) from which the droppers hang, m."""
+        if self.auxiliary is not None:
+            return self.auxiliary.position[self.auxiliary.nodes.dropper]
         if self.messenger is None:
             return np.zeros((0, 3))
         position = self.messenger.position[self.messenger.nodes.dropper]
@@ -65,43 +79,24 @@ class Hung:
     @property
     def dropper(self) -> FloatArray:
         """Vectors (n, 3) of the droppers from node to node, up, m."""
-        vector: FloatArray = self.upper - self.contact.position[self.contact.nodes.dropper]
-        return vector
+        return self.short.vector
 
     @property
-    def length(self) -> FloatArray:
-        """Lengths (n,) of the droppers from clamp to clamp, m: the clamps give more than the nodes."""
-        length: FloatArray = self.distance - self.give.sum(axis=0) * self.force
-        return length
+    def short(self) -> Ties:
+        """The droppers of the contact wire."""
+        low = self.contact.position[self.contact.nodes.dropper]
+        return Ties(self.lift, self.upper - low, self.give, self.line.droppers, self.line.gravity)
 
     @property
-    def distance(self) -> FloatArray:
-        """Distances (n,) of the nodes that the droppers join, m."""
-        distance: FloatArray = np.linalg.norm(self.dropper, axis=1)
-        return distance
-
-    @property
-    def force(self) -> FloatArray:
-        """Forces (n,) of the droppers along themselves, N."""
-        force: FloatArray = self.lift * self.distance / self.dropper[:, 2]
-        return force
-
-    @property
-    def lean(self) -> FloatArray:
-        """Sideways force of a dropper by its sideways extent (n,), N/m."""
-        lean: FloatArray = self.lift / self.dropper[:, 2]
-        return lean
-
-    @property
-    def down(self) -> FloatArray:
-        """Vertical forces (n, 3) on what the droppers hang from, their weight and clamp included, N."""
-        load = self.lift + self.weight(self.line.droppers.clamp_messenger)
-        return -np.outer(load, [0.0, 0.0, 1.0])
-
-    def weight(self, clamp: float) -> FloatArray:
-        """Weights (n,) at one end of the droppers, N: half of the dropper and a clamp in kg."""
-        weight: FloatArray = (0.5 * self.line.droppers.mass * self.length + clamp) * self.line.gravity
-        return weight
+    def long(self) -> Ties:
+        """Those between messenger and auxiliary."""
+        assert self.messenger is not None
+        assert self.auxiliary is not None
+        assert self.line.auxiliary is not None
+        high = self.messenger.position[self.messenger.nodes.dropper]
+        low = self.auxiliary.position[self.auxiliary.nodes.stitch]
+        given = self.line.auxiliary.droppers, self.line.gravity
+        return Ties(self.long_lift, high - low, self.long_give, *given)
 
 
 def hang_contact(now: Hung) -> Hung:
@@ -110,14 +105,14 @@ def hang_contact(now: Hung) -> Hung:
     model, wire = _pulled(line, shape, "contact")
     model.hold(wire.start, position="yz")
     model.hold(wire.end, position="yz")
-    weight = -np.outer(now.weight(line.droppers.clamp_contact), [0.0, 0.0, 1.0])
+    weight = -np.outer(now.short.weight(line.droppers.clamp_contact), [0.0, 0.0, 1.0])
     _add_forces(model, wire, nodes.dropper, weight)
     target = shape.position[nodes.dropper].copy()
     target[:, 2] = line.dropper_height - now.give[0] * now.lift
     points = [wire.point(i) for i in nodes.dropper]
     hangers = along(target, 2, now.lift)
     hangers.add_to(model, points)
-    add_leans(model, points, target, now.upper[:, 1], now.lean)
+    add_leans(model, points, target, now.upper[:, 1], now.short.lean)
     held = shape.position[nodes.support[inner]].copy()
     held[:, 1] = line.stagger[inner]
     axes = [1, 2] if line.contact_support == "held" else [1]
@@ -150,11 +145,15 @@ def hang_messenger(now: Hung) -> Hung:
     model, wire = _pulled(line, shape, "messenger")
     model.hold(wire.start, position="yz")
     model.hold(wire.end, position="yz")
-    own = line.dropper_stitch < 0
-    _add_forces(model, wire, nodes.dropper[own], now.down[own])
+    if now.auxiliary is None:
+        own = line.dropper_stitch < 0
+        ties, low = now.short, now.contact.position[now.contact.nodes.dropper]
+    else:
+        ties, low = now.long, now.auxiliary.position[now.auxiliary.nodes.stitch]
+        own = np.ones(len(low), dtype=bool)
+    _add_forces(model, wire, nodes.dropper[own], ties.down[own])
     points = [wire.point(i) for i in nodes.dropper[own]]
-    below = now.contact.position[now.contact.nodes.dropper[own], 1]
-    add_leans(model, points, shape.position[nodes.dropper[own]], below, now.lean[own])
+    add_leans(model, points, shape.position[nodes.dropper[own]], low[own, 1], ties.lean[own])
     _add_forces(model, wire, nodes.stitch, -now.ends.reshape(-1, 3))
     held = shape.position[nodes.support[inner]].copy()
     held[:, 1], held[:, 2] = line.messenger_y[inner], (np.array(line.system_height) + line.heights)[inner]
@@ -165,7 +164,48 @@ def hang_messenger(now: Hung) -> Hung:
     position = wire.positions(state)
     side, support = (np.concatenate([[0.0], group.forces(state), [0.0]]) for group in rods)
     error = max(_largest((position[nodes.support[inner]] - held)[:, 1:]), _misplaced(shape, position))
+    if now.auxiliary is not None:
+        error = max(error, now.error)
     return replace(now, messenger=shape.moved(position), support=support, side=side, error=error)
+
+
+def hang_auxiliary(now: Hung) -> Hung:
+    """The auxiliary at its height below the messenger, under the droppers of the contact wire."""
+    if now.auxiliary is None:
+        return now
+    line, shape, nodes, inner = now.line, now.auxiliary, now.auxiliary.nodes, slice(1, -1)
+    assert line.auxiliary is not None
+    assert now.messenger is not None
+    short, long = now.short, now.long
+    model, wire = _pulled(line, shape, "auxiliary")
+    model.hold(wire.start, position="yz")
+    model.hold(wire.end, position="yz")
+    _add_forces(model, wire, nodes.dropper, short.down)
+    below = now.contact.position[now.contact.nodes.dropper, 1]
+    points = [wire.point(i) for i in nodes.dropper]
+    add_leans(model, points, shape.position[nodes.dropper], below, short.lean)
+    weight = -np.outer(long.weight(line.auxiliary.droppers.clamp_contact), [0.0, 0.0, 1.0])
+    _add_forces(model, wire, nodes.stitch, weight)
+    target = shape.position[nodes.stitch].copy()
+    level = line.height_at(line.long_x) + line.auxiliary.height
+    target[:, 2] = level - now.long_give[0] * now.long_lift
+    points = [wire.point(i) for i in nodes.stitch]
+    hangers = along(target, 2, now.long_lift)
+    hangers.add_to(model, points)
+    above = now.messenger.position[now.messenger.nodes.dropper, 1]
+    add_leans(model, points, target, above, long.lean)
+    held = shape.position[nodes.support[inner]].copy()
+    held[:, 1] = line.stagger[inner]
+    arms = along(held, 1, now.auxiliary_side[inner])
+    arms.add_to(model, [wire.point(i) for i in nodes.support[inner]])
+    state = ancf.equilibrium(model)
+    position = wire.positions(state)
+    lift = hangers.forces(state)
+    off = position[nodes.stitch, 2] + now.long_give[0] * lift - level
+    side = np.concatenate([[0.0], arms.forces(state), [0.0]])
+    error = max(now.error, _largest(off), _largest((position[nodes.support[inner]] - held)[:, 1]))
+    error = max(error, _misplaced(shape, position))
+    return replace(now, auxiliary=shape.moved(position), long_lift=lift, auxiliary_side=side, error=error)
 
 
 def hang_stitches(now: Hung) -> Hung:
@@ -187,10 +227,10 @@ def _hang_stitch(
     """Shape of one stitch wire, forces (2, 3) of the messenger on its ends, error."""
     model, wire = _pulled(now.line, shape, "stitch")
     own = now.line.dropper_stitch == k + 1
-    _add_forces(model, wire, shape.nodes.dropper, now.down[own])
+    _add_forces(model, wire, shape.nodes.dropper, now.short.down[own])
     points = [wire.point(i) for i in shape.nodes.dropper]
     below = now.contact.position[now.contact.nodes.dropper[own], 1]
-    add_leans(model, points, shape.position[shape.nodes.dropper], below, now.lean[own])
+    add_leans(model, points, shape.position[shape.nodes.dropper], below, now.short.lean[own])
     rods = [along(held, axis, now.ends[k, :, axis]) for axis in (1, 2)]
     for group in rods:
         group.add_to(model, [wire.start, wire.end])

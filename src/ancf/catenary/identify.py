@@ -25,8 +25,8 @@ MOST_MASSES, STARTS, WIDE = 4, 12, 1e4
 def dynamic_stiffness(unit: Pantograph, frequency: npt.ArrayLike) -> npt.NDArray[np.complex128]:
     """Force over displacement (n,) at the head of a pantograph on a roof at rest, N/m.
 
-    Of a chain from the roof on, Z_1 = k_1 + i w c_1 - w^2 m_1 and, with s_j = k_j + i w c_j,
-    Z_j = s_j Z_{j-1} / (s_j + Z_{j-1}) - w^2 m_j.
+    Of small motions and without friction. From the roof on Z_1 = k_1 + i w c_1 - w^2 m_1 and, with
+    s_j = k_j + i w c_j, Z_j = s_j Z_{j-1} / (s_j + Z_{j-1}) - w^2 m_j.
 
     Parameters
     ----------
@@ -36,8 +36,8 @@ def dynamic_stiffness(unit: Pantograph, frequency: npt.ArrayLike) -> npt.NDArray
     """
     return _chain(
         np.array(unit.masses),
-        np.array(unit.stiffness),
-        np.array(unit.damping),
+        np.array(unit.slopes()),
+        np.array([stage.damping_at_rest for stage in unit.stages]),
         2.0 * np.pi * np.asarray(frequency, dtype=np.float64),
     )
 

@@ -77,19 +77,7 @@ def height_errors(
         A number is wrong, or the spectrum has values that are no finite numbers >= 0.
 
     """
-    shortest, longest = checks.array(wavelengths, "height_errors.wavelengths", (2,)).tolist()
-    if not 0.0 < shortest < longest:
-        what = f"are {shortest:g} to {longest:g} m, must be 0 < shortest < longest"
-        raise ModelError("height_errors.wavelengths", what)
-    random = np.random.default_rng(checks.integer(seed, "height_errors.seed", 0, MOST_SEED))
-    edges = np.linspace(1.0 / longest, 1.0 / shortest, WAVES + 1)
-    frequency = 0.5 * (edges[1:] + edges[:-1])
-    density = np.asarray(spectrum(frequency), dtype=np.float64)
-    if density.shape != frequency.shape or not np.all(np.isfinite(density)) or np.any(density < 0.0):
-        raise ModelError("height_errors.spectrum", "must give a finite number >= 0 for each frequency")
-    amplitude = np.sqrt(2.0 * density * np.diff(edges))
-    phase = random.uniform(0.0, 2.0 * math.pi, WAVES)
-    error = np.cos(2.0 * math.pi * np.outer(line.dropper_x, frequency) + phase) @ amplitude
+    error = random_waves(spectrum, wavelengths, seed, line.dropper_x, "height_errors")
     first = 0
     spans = []
     for span in line.spans:
@@ -97,3 +85,34 @@ def height_errors(
         spans.append(replace(span, pre_sag=tuple((np.array(span.pre_sag) - own).tolist())))
         first += len(span.droppers)
     return replace(line, spans=tuple(spans))
+
+
+def random_waves(
+    spectrum: Callable[[FloatArray], FloatArray],
+    wavelengths: tuple[float, float],
+    seed: int,
+    places: FloatArray,
+    where: str,
+) -> FloatArray:
+    """A random process of space with a one-sided spectral density in m^2/(1/m), at places (n,) in m.
+
+    Raises
+    ------
+    ModelError
+        A number is wrong, or the spectrum has values that are no finite numbers >= 0.
+
+    """
+    shortest, longest = checks.array(wavelengths, f"{where}.wavelengths", (2,)).tolist()
+    if not 0.0 < shortest < longest:
+        what = f"are {shortest:g} to {longest:g} m, must be 0 < shortest < longest"
+        raise ModelError(f"{where}.wavelengths", what)
+    random = np.random.default_rng(checks.integer(seed, f"{where}.seed", 0, MOST_SEED))
+    edges = np.linspace(1.0 / longest, 1.0 / shortest, WAVES + 1)
+    frequency = 0.5 * (edges[1:] + edges[:-1])
+    density = np.asarray(spectrum(frequency), dtype=np.float64)
+    if density.shape != frequency.shape or not np.all(np.isfinite(density)) or np.any(density < 0.0):
+        raise ModelError(f"{where}.spectrum", "must give a finite number >= 0 for each frequency")
+    amplitude = np.sqrt(2.0 * density * np.diff(edges))
+    phase = random.uniform(0.0, 2.0 * math.pi, WAVES)
+    waves: FloatArray = np.cos(2.0 * math.pi * np.outer(places, frequency) + phase) @ amplitude
+    return waves

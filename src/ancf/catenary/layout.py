@@ -30,7 +30,9 @@ def supports_of(entry: LineEntry, folder: Path) -> list[tuple[str, Row]]:
     """Rows of the supports with their places for messages, from the file or from a table of its own."""
     if isinstance(entry.supports, str):
         path = folder / entry.supports
-        rows = read_table(path, ("position",), tuple(SupportEntry.model_fields), lists=("droppers",))
+        rows = read_table(
+            path, ("position",), tuple(SupportEntry.model_fields), lists=("droppers", "long_droppers")
+        )
         return [(f"{path}, row {k + 1}, column ", row) for k, row in enumerate(rows)]
     given = [support.given() for support in entry.supports or ()]
     return [(f"supports[{k}].", row) for k, row in enumerate(given)]
@@ -73,7 +75,13 @@ def _span(entry: LineEntry, begin: tuple[str, Row], end: tuple[str, Row]) -> Spa
     if not droppers and entry.dropper_rule is not None:
         droppers = DropperRule(**entry.dropper_rule.given())
     try:
-        return Span(length=stop - start, droppers=droppers, pre_sag=row.get("pre_sag", 0.0), radius=radius)
+        return Span(
+            length=stop - start,
+            droppers=droppers,
+            pre_sag=row.get("pre_sag", 0.0),
+            radius=radius,
+            long_droppers=row.get("long_droppers"),
+        )
     except ModelError as error:
         key = error.where.removeprefix("span.").partition("[")[0].partition(".")[0]
         place = f"{behind}position" if key == "length" else f"{where}{key}"

@@ -11,6 +11,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
+from .auxiliary import Auxiliary
 from .conditions import Conditions
 from .fittings import NO_DROPPERS, Droppers, Load, SteadyArm, Tensioner
 from .span import Span
@@ -69,6 +70,8 @@ class Line:
         beside it. In motion the steady arm acts about this place.
     stitch : StitchWire
         Default none.
+    auxiliary : Auxiliary
+        Of a compound catenary; default none.
     anchors : "fixed", "tension" or "spring"
         The wires' ends keep their places, or the forces at both ends keep their size, or springs pull there;
         the wires are then held along the track at the support nearest the middle.
@@ -86,6 +89,8 @@ class Line:
         Unstretched lengths of the droppers as they were built, from clamp to clamp; default those of the
         design. With them the contact wire hangs at other heights than the design wants.
     gravity : float, m/s^2
+    rows : sequence of str
+        Where each support stands in a table, for messages: "supports.csv, row 2, column ".
     title, source : str
     tags : mapping of str to str
         How sure a value is, by its key.
@@ -106,6 +111,7 @@ class Line:
     messenger_stagger: Any = None
     contact_support: str = "held"
     stitch: StitchWire | None = None
+    auxiliary: Auxiliary | None = None
     anchors: str = "fixed"
     tensioner: Tensioner = field(default_factory=Tensioner)
     messenger_support_mass: float = 0.0
@@ -114,6 +120,7 @@ class Line:
     conditions: Conditions = field(default_factory=Conditions)
     dropper_lengths: Any = None
     gravity: float = 9.81
+    rows: tuple[str, ...] = ()
     title: str = ""
     source: str = ""
     tags: Mapping[str, str] = field(default_factory=dict)
@@ -138,6 +145,8 @@ class Line:
             self._per_support("messenger_stagger", alternating=True)
         if self.stitch is not None:
             self._check_stitch(self.stitch)
+        if self.auxiliary is not None:
+            self._check_auxiliary(self.auxiliary)
         self._check_lengths()
 
     def _check_parts(self) -> None:
@@ -176,10 +185,13 @@ class Line:
             load.check(f"line.loads[{k}]", self.length)
             if load.wire == "messenger" and self.messenger_wire is None:
                 raise ModelError(f"line.loads[{k}].wire", "is the messenger, which the line has not")
+            if load.wire == "auxiliary" and self.auxiliary is None:
+                raise ModelError(f"line.loads[{k}].wire", "is the auxiliary, which the line has not")
 
     def _check_wind(self) -> None:
         wires = {"contact_wire": self.contact_wire, "messenger_wire": self.messenger_wire}
         wires["stitch"] = None if self.stitch is None else self.stitch.wire
+        wires["auxiliary"] = None if self.auxiliary is None else self.auxiliary.wire
         for key, wire in wires.items():
             if self.conditions.wind and wire is not None and wire.diameter is None:
                 raise ModelError(f"line.{key}.diameter", "is missing, wind needs it", "m, or a type")
@@ -206,6 +218,26 @@ class Line:
         if stitch.reach >= 0.5 * shortest:
             what = f"is {stitch.reach:g} m, must be less than half of the shortest span, {shortest:g} m"
             raise ModelError("line.stitch.reach", what)
+
+    def _check_auxiliary(self, auxiliary: Auxiliary) -> None:
+        auxiliary.check("line.auxiliary")
+        if self.messenger_wire is None or self.stitch is not None:
+            what = (
+                "has no messenger to hang from"
+                if self.messenger_wire is None
+                else "and stitch are given both"
+            )
+            raise ModelError("line.auxiliary", what, "leave it out")
+        lowest = min(self.system_height)
+        if auxiliary.height >= lowest:
+            what = f"is {auxiliary.height:g} m, the messenger is {lowest:g} m over the contact wire"
+            raise ModelError("line.auxiliary.height", what)
+        for k, span in enumerate(self.spans):
+            if span.long_droppers is None and auxiliary.places is None:
+                what = "is missing, nothing carries the auxiliary"
+                raise ModelError(
+                    f"line.spans[{k}].long_droppers", what, "or give a rule, first and pitch_max"
+                )
 
     def _per_support(self, key: str, alternating: bool) -> tuple[float, ...]:
         """Set a value to one number for each support."""
@@ -279,6 +311,18 @@ class Line:
         return np.where(np.any(inside, axis=1), 1 + np.argmax(inside, axis=1), -1)
 
     @property
+    def long_x(self) -> FloatArray:
+        """Track positions of the droppers between messenger and auxiliary (m,), m."""
+        if self.auxiliary is None:
+            return np.zeros(0)
+        rule = self.auxiliary.places
+        given = [
+            span.long_places(rule if span.long_droppers is None else span.long_droppers)
+            for span in self.spans
+        ]
+        return np.concatenate([x0 + np.array(x) for x0, x in zip(self.supports[:-1], given, strict=True)])
+
+    @property
     def dropper_height(self) -> FloatArray:
         """Prescribed heights of the contact wire at the droppers (n,), m, less the pre-sag."""
         sag = np.concatenate([np.array(s.pre_sag, dtype=np.float64) for s in self.spans])
@@ -296,6 +340,10 @@ class Line:
         return (
             self.height if several else (checks.number(self.height, "line.height"),) * (len(self.spans) + 1)
         )
+
+    def place_of_support(self, key: str, k: int) -> str:
+        """Where a value of a support stands in its table, or in this line."""
+        return f"{self.rows[k]}{key}" if k < len(self.rows) else f"line.{key}[{k}]"
 
     def arm(self, k: int) -> SteadyArm:
         """Steady arm of a support."""
@@ -322,6 +370,7 @@ class Line:
         keys += ["height"] if isinstance(self.height, tuple) else []
         keys += ["messenger_stagger"] if self.messenger_stagger is not None else []
         keys += ["steady_arm"] if isinstance(self.steady_arm, tuple) else []
+        keys += ["rows"] if self.rows else []
         cut: dict[str, Any] = {key: getattr(self, key)[supports] for key in keys}
         if self.dropper_lengths is not None:
             own = (self.dropper_span >= first) & (self.dropper_span < first + count)

@@ -51,13 +51,19 @@ class Mesh:
                 checks.positive(getattr(self, key), f"mesh.{key}")
 
     def nodes(self, line: Line, wire: str) -> Nodes:
-        """Track positions of the nodes of "contact" or "messenger"."""
-        largest: float = getattr(self, wire)
-        near: float = getattr(self, f"{wire}_support") or largest
+        """Track positions of the nodes of "contact", "messenger" or "auxiliary", which is meshed alike."""
+        own = "contact" if wire == "contact" else "messenger"
+        largest: float = getattr(self, own)
+        near: float = getattr(self, f"{own}_support") or largest
         at_dropper = self.dropper or largest
         ends = stitch_ends(line) if wire == "messenger" else np.zeros((0, 2))
         loads = np.array([load.position for load in line.loads_on(wire)])
-        groups = (line.supports, line.dropper_x, ends.ravel(), loads)
+        droppers, hung = line.dropper_x, ends.ravel()
+        if line.auxiliary is not None and wire == "messenger":
+            droppers = line.long_x
+        if wire == "auxiliary":
+            hung = line.long_x
+        groups = (line.supports, droppers, hung, loads)
         return _nodes(groups, (near, at_dropper, at_dropper, largest), largest)
 
     def stitch_nodes(self, line: Line, support: int) -> Nodes:
@@ -77,7 +83,8 @@ class Nodes:
     x : (n,) m
         Track positions at rest.
     support, dropper, stitch, load : arrays of int
-        Which of them are at the supports, the droppers, the ends of stitch wires and at masses.
+        Which of them are at the supports, the droppers, the ends of stitch wires and at masses. Of an
+        auxiliary `stitch` is where it hangs from the messenger, whose `dropper` is that then.
 
     """
 

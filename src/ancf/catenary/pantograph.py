@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
@@ -16,8 +16,19 @@ from ..model import checks
 from ..model.checks import nearest
 from ..model.file import parameters, read_toml
 from ..model.file.messages import combined, of_validation
+from .stage import Stage, damper_of, spring_of, stops_of
 
 RELAXED = ("start", "nominal", "mean")
+#: Stiffness of stops, N/m, and the largest distance of two strips, m.
+STOP, WIDEST = 1e5, 2.0
+#: What each entry of a list has to be.
+CHECKS: dict[str, Callable[[Any, str], Any]] = {
+    "masses": checks.positive,
+    "stiffness": spring_of,
+    "damping": damper_of,
+    "friction": checks.non_negative,
+    "stops": stops_of,
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,14 +42,26 @@ class Pantograph:
     ----------
     masses : sequence of float, kg
         From the lowest to the head with the strip.
-    stiffness, damping : sequence of float, N/m and N s/m
-        Of the springs and dampers below each mass; the first stands on the roof.
+    stiffness : sequence of float, N/m, or of (n, 2)
+        Of the springs below each mass, the first stands on the roof; or rows of elongation in m and force in
+        N, tension positive, straight between them and beyond.
+    damping : sequence of float, N s/m, or of (n, 2)
+        Of the dampers below each mass; or rows of rate of elongation in m/s and force in N.
     static_force : float, N
         Contact force at standstill.
     aerodynamic : float or one for each mass, N s^2/m^2
         k of the force k v^2, on the lowest mass or on each.
+    friction : sequence of float, N
+        Coulomb's, below each mass, by default none. It has grown to 0.76 of its size at 10 mm/s.
+    stops : sequence of (float, float) or None, m
+        Below each mass the elongations of its spring at which it meets a stop; default none.
+    stop_stiffness : float, N/m
+        Of all stops.
     strip_length : float, m
         Length of the collector strip across the track.
+    strip_distance : float, m
+        Of two strips, one behind the other, each with half of the head's mass on half of its spring and
+        damper, so that the head pitches. Default 0, one strip.
     relaxed_at : "start", "nominal" or "mean"
         Height of the strip at which the lowest spring carries nothing: where the pantograph stands in
         equilibrium at the start, the nominal height of the contact wire, or the mean height over the
@@ -56,11 +79,15 @@ class Pantograph:
     """
 
     masses: tuple[float, ...]
-    stiffness: tuple[float, ...]
-    damping: tuple[float, ...]
+    stiffness: tuple[Any, ...]
+    damping: tuple[Any, ...]
     static_force: float
     aerodynamic: Any = 0.0
+    friction: tuple[float, ...] = ()
+    stops: tuple[Any, ...] = ()
+    stop_stiffness: float = STOP
     strip_length: float = 1.45
+    strip_distance: float = 0.0
     relaxed_at: str = "start"
     name: str = "pantograph"
     title: str = ""
@@ -69,17 +96,16 @@ class Pantograph:
 
     def __post_init__(self) -> None:
         where = f"pantograph.{self.name}"
-        for key, check in (
-            ("masses", checks.positive),
-            ("stiffness", checks.non_negative),
-            ("damping", checks.non_negative),
-        ):
+        for key, check in CHECKS.items():
             values = tuple(check(x, f"{where}.{key}[{k}]") for k, x in enumerate(getattr(self, key)))
             object.__setattr__(self, key, values)
-        for key in ("stiffness", "damping"):
+        for key in ("stiffness", "damping", *(name for name in ("friction", "stops") if getattr(self, name))):
             if len(getattr(self, key)) != len(self.masses) or not self.masses:
                 what = f"has {len(getattr(self, key))} values for {len(self.masses)} masses"
                 raise ModelError(f"{where}.{key}", what, "give one for each mass, the lowest first")
+        checks.positive(self.stop_stiffness, f"{where}.stop_stiffness")
+        if checks.non_negative(self.strip_distance, f"{where}.strip_distance") > WIDEST:
+            raise ModelError(f"{where}.strip_distance", f"is {self.strip_distance:g} m", "units are m: 0.58")
         for k, (c, d) in enumerate(zip(self.stiffness, self.damping, strict=True)):
             if c == 0.0 and (k > 0 or d == 0.0):
                 raise ModelError(f"{where}.stiffness[{k}]", "is 0: nothing carries the masses above")
@@ -104,6 +130,24 @@ class Pantograph:
         if isinstance(self.aerodynamic, tuple):
             return self.aerodynamic
         return (self.aerodynamic, *(0.0 for _ in self.masses[1:]))
+
+    @property
+    def stages(self) -> list[Stage]:
+        """What is below each mass."""
+        friction, stops = self.friction or (0.0,) * len(self.masses), self.stops or (None,) * len(self.masses)
+        rows = zip(self.stiffness, self.damping, friction, stops, strict=True)
+        return [Stage(*row, self.stop_stiffness) for row in rows]
+
+    def slopes(self, speed: float = 0.0) -> tuple[float, ...]:
+        """Stiffness of each spring where it carries what it has to at rest, N/m; the lowest relaxed."""
+        held = [
+            0.0,
+            *(stage.elongation(-self.carried(k + 1, speed)) for k, stage in enumerate(self.stages[1:])),
+        ]
+        return tuple(
+            stage.slope(e) if stage.law is not None else stage.stiffness
+            for stage, e in zip(self.stages, held, strict=True)
+        )
 
     def force(self, speed: Any) -> Any:
         """Static and aerodynamic force at a speed in m/s, or at several, N."""

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
 from .assemble import Assembled
@@ -20,9 +21,11 @@ from .line import Line
 from .mesh import Mesh
 from .pantograph import Pantograph, find_pantograph
 from .rest import assemble, form
+from .roof import RoofMotion, roofs
 from .route import Route
 from .route_form import AnyForm, RouteForm
 from .travel import Travel
+from .underside import checked_underside
 
 #: Where the last pantograph starts, as a share of the first span.
 START = 1.0 / 3.0
@@ -88,6 +91,10 @@ class Plan:
         CPU time of what was computed to make it, s.
     door : Door
         How the model of the line is made.
+    roofs : list of RoofMotion or None
+        Of the vehicles, one for each pantograph.
+    underside : (n, 2) array or None
+        Track positions and heights of the underside of the contact wires, m.
 
     """
 
@@ -102,6 +109,8 @@ class Plan:
     step: float
     spent: float = 0.0
     door: Door = field(default_factory=lambda: Door())
+    roofs: list[RoofMotion | None] = field(default_factory=list)
+    underside: FloatArray | None = None
 
     @property
     def duration(self) -> float:
@@ -125,6 +134,8 @@ def make_plan(
     touch: Touch,
     step: float,
     door: Door,
+    roof: Any = None,
+    underside: Any = None,
 ) -> Plan:
     """Check what ``run`` was given."""
     line, units = shape.line, _units(pantograph, spacing)
@@ -145,7 +156,17 @@ def make_plan(
         touch=touch,
         step=checks.positive(step, "run.step"),
         door=door,
+        roofs=roofs(roof, len(units)),
+        underside=_under(underside, touch),
     )
+
+
+def _under(given: Any, touch: Touch) -> FloatArray | None:
+    """The underside of the wires, which a sliding joint does not know."""
+    rows = checked_underside(given)
+    if rows is not None and touch.kind != "penalty":
+        raise ModelError("run.underside", 'has no effect with contact = "joint"', "leave one of both out")
+    return rows
 
 
 def formed(line: Line | Route | AnyForm | Assembled | str | Path, mesh: Mesh | None) -> AnyForm:
@@ -240,7 +261,7 @@ def _check_strips(line: Line | Route, pantographs: list[Pantograph]) -> None:
             if low[k] and abs(side) > 0.5 * pantograph.strip_length:
                 reach = 0.5 * pantograph.strip_length
                 what = f"is {side:g} m, the strip of {pantograph.name} reaches to {reach:g} m"
-                raise ModelError(f"line.stagger[{k}]", what, "give less stagger or a longer strip")
+                raise ModelError(line.place_of_support("stagger", k), what, "less stagger or a longer strip")
 
 
 def _check_sweep(shape: AnyForm, pantographs: list[Pantograph], start: float, end: float) -> None:

@@ -107,6 +107,15 @@ class Route:
         """Staggers of all supports, m."""
         return tuple(self.joined(lambda line: line.stagger).tolist())
 
+    def place_of_support(self, key: str, k: int) -> str:
+        """Where a value of a support stands in its table, or in its section."""
+        for number, line in enumerate(self.lines):
+            if k < line.supports.size:
+                place = line.place_of_support(key, k)
+                return place if line.rows else f"sections[{number}].{place.removeprefix('line.')}"
+            k -= line.supports.size
+        raise IndexError(k)
+
     @property
     def heights(self) -> tuple[float, ...]:
         """Heights of the contact wires at all supports, m."""

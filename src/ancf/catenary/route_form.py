@@ -128,7 +128,10 @@ def _shifted(form: Form, x: float) -> Form:
 
     messenger = None if form.messenger is None else moved(form.messenger)
     stitches = tuple(moved(shape) for shape in form.stitches)
-    return replace(form, contact=moved(form.contact), messenger=messenger, stitches=stitches)
+    auxiliary = None if form.auxiliary is None else moved(form.auxiliary)
+    return replace(
+        form, contact=moved(form.contact), messenger=messenger, stitches=stitches, auxiliary=auxiliary
+    )
 
 
 #: What a model of a line is made of.

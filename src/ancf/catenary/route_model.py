@@ -17,6 +17,15 @@ def assembled_route(found: RouteForm) -> Assembled:
     if found.settled and line.conditions.wind != 0.0:
         add_wind(model, line.conditions, found.line.length)
     whole = Assembled(found, model, parts[0].contact, parts[0].messenger, parts=parts)
-    for key in ("stitches", "droppers", "supports", "arms", "hangers", "arm_holds", "hanger_holds"):
+    for key in (
+        "stitches",
+        "droppers",
+        "supports",
+        "arms",
+        "hangers",
+        "arm_holds",
+        "hanger_holds",
+        "long_droppers",
+    ):
         setattr(whole, key, [item for part in parts for item in getattr(part, key)])
     return whole

@@ -13,6 +13,8 @@ import numpy as np
 import ancf
 
 from ..arrays import FloatArray
+from ..control.delay import Delayed
+from ..model import checks
 from . import cautions
 from .assemble import Assembled
 from .collectors import Collector, Touch, put_pantograph
@@ -27,6 +29,7 @@ from .route_form import AnyForm
 from .run_data import Recording, Run
 from .travel import make_travel
 from .travelling import level_of, lifted_heights
+from .underside import profiles
 
 STEP = 1e-3
 #: Newton's tolerance at a step of 1 ms; it grows with the square of the step, up to the second number.
@@ -57,8 +60,11 @@ def run(
     progress: Callable[[Any], None] | None = None,
     controller: Callable[[Any], Any] | None = None,
     control_step: float | None = None,
+    control_delay: float = 0.0,
     modify: Callable[[Assembled], Any] | None = None,
     sensitivities: Mapping[str, Sequence[str]] | None = None,
+    roof: Any = None,
+    underside: Any = None,
 ) -> Run:
     """Run pantographs along a line from its equilibrium.
 
@@ -100,13 +106,22 @@ def run(
         See :func:`ancf.simulate`; its inputs are forces on the lowest masses of the pantographs, N, upwards:
         ``run.inputs["pantograph_force"]``, of several ``"pantograph_1_force"`` and so on. The contact force
         is ``run.contact_force("pantograph contact")``, that of several ``"pantograph 1 contact"``.
-
+    control_delay : float, s
+        Time after which what the controller gives takes effect, rounded up to whole control steps.
     modify : callable
         Called with the :class:`Overhead` before pantographs are added: it changes the model, and nothing
         that it returns counts. A trial run for a mean height has another mesh, to which it is applied too.
     sensitivities : mapping
         By the name of a parameter the droppers that it makes longer alike, ``{"first": ["6-1", "7-1"]}``
         (span and number from 1), by which derivatives are wanted: :func:`ancf.catenary.slopes`.
+    roof : function of time, m, or CSV file
+        Motion of the vehicle's roof upwards: a formula, a Python function, a :class:`ancf.Series`; or
+        ``{"up": ..., "side": ...}`` with one to the left, which takes the strip along. A file has the columns
+        ``t``, ``up`` and perhaps ``side``, with units in their heads. A list has one for each pantograph.
+    underside : (n, 2) m, or CSV file
+        Track positions and heights of the underside of the contact wires above that of a new wire: what is
+        worn off is positive, so are the crests of waves; see :func:`random_underside`. A file has the columns
+        ``position`` in m and ``height_mm``.
 
     Returns
     -------
@@ -139,12 +154,16 @@ def run(
         Touch(contact, contact_stiffness, contact_damping),
         step,
         Door(line if isinstance(line, Assembled) else None, modify),
+        roof,
+        underside,
     )
     _warn(cautions.before(plan))
     if any(unit.relaxed_at == "mean" for unit in plan.pantographs):
         plan = _relaxed(plan)
     if sensitivities:
         check_run(plan, sensitivities, controller)
+    if controller is not None and checks.non_negative(control_delay, "run.control_delay"):
+        controller = Delayed(controller, control_delay)
     led: dict[str, Any] = (
         {} if controller is None else {"controller": controller, "control_step": control_step}
     )
@@ -173,8 +192,9 @@ def _relaxed(plan: Plan) -> Plan:
     for k, (unit, recording) in enumerate(zip(plan.pantographs, done.recordings, strict=True)):
         passing = (recording.position >= plan.window[0]) & (recording.position <= plan.window[1])
         missing = float(np.mean(plan.lift(k, done.t[passing]) - recording.force[passing]))
-        wanted = unit.relaxed_at == "mean" and unit.stiffness[0] > 0.0
-        raised.append(missing / unit.stiffness[0] if wanted else 0.0)
+        stiffness = unit.slopes()[0]
+        wanted = unit.relaxed_at == "mean" and stiffness > 0.0
+        raised.append(missing / stiffness if wanted else 0.0)
     return replace(plan, raised=raised, spent=done.cpu_seconds)
 
 
@@ -234,6 +254,7 @@ def _integrator(plan: Plan) -> ancf.GeneralizedAlpha:
 def _collectors(overhead: Assembled, plan: Plan, active: bool) -> list[Collector]:
     """Add the pantographs where they come to rest."""
     heights, count = _lifted(overhead, plan), len(plan.places)
+    undersides = profiles(overhead, plan.underside)
     collectors = []
     for k, place in enumerate(plan.places):
         collectors.append(
@@ -249,6 +270,8 @@ def _collectors(overhead: Assembled, plan: Plan, active: bool) -> list[Collector
                 touch=plan.touch,
                 active=active,
                 level=level_of(plan.form.line),
+                roof=plan.roofs[k],
+                profiles=undersides,
             )
         )
     return collectors
@@ -333,22 +356,25 @@ def _recorded(
 
 def _recording(sensors: Any, collector: Collector) -> Recording:
     """Forces of all contacts together; height and stagger are of the wire that presses most."""
-    head = sensors.position(collector.head)
+    places = np.stack([sensors.position(head) for head in collector.heads])
+    strips, wires = len(collector.heads), len(collector.meters) // len(collector.heads)
     if collector.slides:
         forces = [np.maximum(sensors.multiplier(touch)[:, 2], 0.0) for touch in collector.touches]
     else:
         forces = [sensors.contact_force(meter) for meter in collector.meters]
+    shared = np.stack(forces).reshape(strips, wires, -1)
     gaps = np.stack([sensors.contact_gap(meter) for meter in collector.meters])
     asides = np.stack([sensors.contact_offset(meter) for meter in collector.meters])
     known = np.where(np.isfinite(gaps), gaps, np.inf)
-    nearest, every = np.argmin(known, axis=0), np.arange(head.shape[0])
-    gap = known[nearest, every]
+    nearest, every = np.argmin(known, axis=0), np.arange(places.shape[1])
+    gap, head = known[nearest, every], places[nearest // wires, every]
     return Recording(
         name=collector.name,
-        position=head[:, 0],
+        position=np.mean(places[:, :, 0], axis=0),
         force=np.sum(forces, axis=0),
         height=head[:, 2] + np.where(np.isfinite(gap), gap, 0.0),
         stagger=head[:, 1] + asides[nearest, every],
-        strip=head[:, 2],
-        by_wire=np.stack(forces, axis=1),
+        strip=np.mean(places[:, :, 2], axis=0),
+        by_wire=shared.sum(axis=0).T,
+        by_strip=shared.sum(axis=1).T,
     )

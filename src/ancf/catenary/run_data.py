@@ -37,6 +37,8 @@ class Recording:
         Height of the strip, m.
     by_wire : (n, wires) float, optional
         The force on each contact wire, of which `force` is the sum; default one wire that takes all.
+    by_strip : (n, strips) float, optional
+        The force on each strip, the first ahead; default one strip.
 
     Raises
     ------
@@ -52,14 +54,17 @@ class Recording:
     stagger: FloatArray
     strip: FloatArray
     by_wire: FloatArray | None = None
+    by_strip: FloatArray | None = None
 
     def __post_init__(self) -> None:
         where = f'recording "{self.name}"'
         count = (np.size(self.position),)
         for key in ("position", "force", "height", "stagger", "strip"):
             _check(getattr(self, key), count, f"{where}.{key}")
-        if self.by_wire is not None:
-            _check(self.by_wire, (*count, self.by_wire.shape[-1]), f"{where}.by_wire")
+        for key in ("by_wire", "by_strip"):
+            shares = getattr(self, key)
+            if shares is not None:
+                _check(shares, (*count, shares.shape[-1]), f"{where}.{key}")
 
     def force_on(self, wire: int) -> FloatArray:
         """Force (n,) on one of the contact wires, N."""

@@ -11,6 +11,7 @@ import ancf
 from ..arrays import BoolArray, FloatArray
 from ..errors import ModelError, SolveError
 from .assemble import Assembled, assembled
+from .auxiliary import LongDroppers
 from .conditions import Conditions
 from .form import Form
 from .line import Line
@@ -22,7 +23,7 @@ MOST_ITERATIONS = 30
 #: Share of its tension below which a wire is slack.
 SLACK = 0.1
 ENDS = np.array([-1.0, 1.0])
-NAMES = ("contact wire", "messenger")
+NAMES = ("contact wire", "messenger", "auxiliary")
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,21 +79,28 @@ def _changed(built: Form) -> Form:
     warmer = (line.temperature if air.temperature is None else air.temperature) - line.temperature
     contact = _stretched(built.contact, warmer)
     messenger = None if built.messenger is None else _stretched(built.messenger, warmer)
+    auxiliary = None if built.auxiliary is None else _stretched(built.auxiliary, warmer)
     pull = built.pull.copy()
     given = air.contact_tension, air.messenger_tension
-    pull *= np.array(
-        [[1.0 if t is None else t / w] for t, w in zip(given, built.pull.mean(axis=1), strict=True)]
-    )
+    for k, tension in enumerate(given):
+        if tension is not None:
+            pull[k] *= tension / built.pull[k].mean()
     kinds = _wires(line, air, warmer)
     return replace(
         built,
         contact=kinds[0].under(contact, float(pull[0].mean())),
         messenger=None if messenger is None else kinds[1].under(messenger, float(pull[1].mean())),
+        auxiliary=None if auxiliary is None else kinds[2].under(auxiliary, float(pull[2].mean())),
+        long_droppers=_longer(built.long_droppers, 1.0 + _expansion(line) * warmer),
         stitches=tuple(_stitch(line, shape, air, warmer) for shape in built.stitches),
         dropper_natural=built.dropper_natural * (1.0 + _expansion(line) * warmer),
         pull=pull,
         settled=True,
     )
+
+
+def _longer(made: LongDroppers | None, factor: float) -> LongDroppers | None:
+    return None if made is None else replace(made, natural=made.natural * factor)
 
 
 def _expansion(line: Line) -> float:
@@ -108,7 +116,8 @@ def _stretched(shape: WireShape, warmer: float) -> WireShape:
 def _wires(line: Line, air: Conditions, warmer: float) -> list[_Wires]:
     """Contact wire and messenger."""
     made = []
-    for k, wire in enumerate((line.contact_wire, line.messenger_wire)):
+    third = None if line.auxiliary is None else line.auxiliary.wire
+    for k, wire in enumerate((line.contact_wire, line.messenger_wire, third)):
         if wire is None:
             continue
         left = 1.0 - air.wear if k == 0 else 1.0
@@ -128,7 +137,7 @@ def _stitch(line: Line, shape: WireShape, air: Conditions, warmer: float) -> Wir
 def _with_friction(built: Form, begun: Form) -> Form:
     """Ends stay where the tension is between the weights' less and plus friction, and slide elsewhere."""
     share, weights = built.line.tensioner.friction, begun.pull
-    held = np.ones((2, 2), dtype=bool)
+    held = np.ones(weights.shape, dtype=bool)
     for _ in range(MOST_ITERATIONS):
         found = _at_rest(built, begun, held)
         low, high = weights * (1.0 - share), weights * (1.0 + share)
@@ -161,22 +170,24 @@ def _at_rest(built: Form, begun: Form, held: BoolArray | None, mounting: bool = 
 
 
 def _all(form: Form) -> list[WireShape]:
-    return [shape for shape in (form.contact, form.messenger, *form.stitches) if shape is not None]
+    return [
+        shape for shape in (form.contact, form.messenger, form.auxiliary, *form.stitches) if shape is not None
+    ]
 
 
 def _rested(built: Form, now: Form, overhead: Assembled, state: ancf.State) -> Form:
     """Places and forces of an equilibrium as a form."""
-    line, wires = now.line, (overhead.contact, overhead.messenger)
+    line, wires = now.line, (overhead.contact, overhead.messenger, overhead.auxiliary)[: len(now.pull)]
     pull = np.array([_pull(now, k, wire, overhead, state) for k, wire in enumerate(wires)])
     shapes = [
         None if wire is None else _moved(wire, state, float(pull[k].mean())) for k, wire in enumerate(wires)
     ]
-    contact, messenger = shapes
+    contact, messenger, auxiliary = (*shapes, None)[:3]
     assert contact is not None
     stitches = tuple(replace(wire.shape, position=wire.positions(state)) for wire in overhead.stitches)
     force = np.array([float(state.spring_force(d)) for d in overhead.droppers if d is not None])
     length = now.dropper_natural + force / now.dropper_stiffness
-    upper = _uppers(messenger, stitches, line)
+    upper = _uppers(messenger, stitches, line, auxiliary)
     lower = contact.position[contact.nodes.dropper]
     distance = np.linalg.norm(upper - lower, axis=1)
     lift = force * (upper - lower)[:, 2] / np.where(distance > 0.0, distance, 1.0)
@@ -197,7 +208,20 @@ def _rested(built: Form, now: Form, overhead: Assembled, state: ancf.State) -> F
         support_side=side,
         pull=pull,
         settled=True,
+        auxiliary=auxiliary,
+        long_droppers=_long(now, overhead, state),
     )
+
+
+def _long(now: Form, overhead: Assembled, state: ancf.State) -> LongDroppers | None:
+    """Forces and lengths of the droppers between messenger and auxiliary."""
+    made = now.long_droppers
+    if made is None:
+        return None
+    force = np.array([float(state.spring_force(spring)) for spring in overhead.long_droppers])
+    held = overhead.auxiliary_holds
+    side = np.array([0.0 if hold is None else float(state.reaction(hold)[1]) for hold in held])
+    return replace(made, force=force, length=made.natural + force / made.stiffness, side=side)
 
 
 def _moved(wire: Strung, state: ancf.State, tension: float) -> WireShape:
@@ -208,9 +232,13 @@ def _moved(wire: Strung, state: ancf.State, tension: float) -> WireShape:
     return _Wires(rhoA, old.EA, old.EI).under(replace(shape, position=wire.positions(state)), tension)
 
 
-def _uppers(messenger: WireShape | None, stitches: tuple[WireShape, ...], line: Line) -> FloatArray:
+def _uppers(
+    messenger: WireShape | None, stitches: tuple[WireShape, ...], line: Line, auxiliary: WireShape | None
+) -> FloatArray:
     if messenger is None:
         return np.zeros((0, 3))
+    if auxiliary is not None:
+        return auxiliary.position[auxiliary.nodes.dropper]
     position = messenger.position[messenger.nodes.dropper]
     for k, shape in enumerate(stitches):
         position[line.dropper_stitch == k + 1] = shape.position[shape.nodes.dropper]
@@ -278,7 +306,7 @@ def _hangers(
 
 def _check_taut(built: Form, found: Form) -> None:
     air, line = built.line.conditions, built.line
-    for k, name in enumerate(NAMES):
+    for k, name in enumerate(NAMES[: len(found.pull)]):
         if k == 1 and built.messenger is None:
             continue
         left, was = float(found.pull[k].min()), float(built.pull[k].mean())

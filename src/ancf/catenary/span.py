@@ -66,6 +66,8 @@ class Span:
         depth of a parabola between the first and the last dropper.
     radius : float, m
         Of the track's curve; positive to the left, where y points. Default straight.
+    long_droppers : (m,) m, or DropperRule
+        Of a compound catenary, those between messenger and auxiliary; default by the rule of the auxiliary.
 
     Attributes
     ----------
@@ -78,6 +80,7 @@ class Span:
     droppers: Any
     pre_sag: Any = 0.0
     radius: float | None = None
+    long_droppers: Any = None
 
     @property
     def curvature(self) -> float:
@@ -99,6 +102,20 @@ class Span:
         _check_places(droppers.tolist(), self.length)
         object.__setattr__(self, "droppers", tuple(droppers.tolist()))
         object.__setattr__(self, "pre_sag", _pre_sag(self.pre_sag, droppers))
+        if self.long_droppers is not None:
+            object.__setattr__(self, "long_droppers", self.long_places(self.long_droppers))
+
+    def long_places(self, given: Any) -> tuple[float, ...]:
+        """Places of droppers between messenger and auxiliary, from a list or a rule, m."""
+        if isinstance(given, DropperRule):
+            given = given.places(self.length)
+        places = checks.array(given, "span.long_droppers", (None,)).tolist()
+        try:
+            _check_places(places, self.length)
+        except ModelError as error:
+            where = error.where.replace("span.droppers", "span.long_droppers")
+            raise ModelError(where, error.what, error.hint) from None
+        return tuple(places)
 
 
 def _check_places(droppers: list[float], length: float) -> None:

@@ -9,11 +9,14 @@ import ancf
 
 from ..model import checks
 from .assemble import Assembled
-from .collectors import Collector, Level, Touch, put_pantograph
+from .chain import Level
+from .collectors import Collector, Touch, put_pantograph
 from .line import Line
 from .pantograph import Pantograph, find_pantograph
+from .roof import roofs
 from .route import Route
 from .travel import make_travel
+from .underside import checked_underside, profiles
 
 
 def add_pantograph(
@@ -29,6 +32,8 @@ def add_pantograph(
     contact_damping: float = 0.0,
     active: bool = False,
     label: str = "pantograph",
+    roof: Any = None,
+    underside: Any = None,
 ) -> Collector:
     """Add a pantograph to the model of a line, where it stands at the start.
 
@@ -52,6 +57,8 @@ def add_pantograph(
         It has an input for a force on its lowest mass, ``"pantograph_force"``.
     label : str
         Beginning of the names in the model; a second pantograph needs another one.
+    roof, underside
+        As in :func:`run`.
 
     Returns
     -------
@@ -82,6 +89,8 @@ def add_pantograph(
         touch=touch,
         active=active,
         level=level_of(overhead.form.line),
+        roof=roofs(roof, 1)[0],
+        profiles=profiles(overhead, checked_underside(underside)),
     )
 
 

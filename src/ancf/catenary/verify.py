@@ -45,7 +45,8 @@ def verify(overhead: Assembled) -> Verified:
     found = overhead.form
     if isinstance(found, RouteForm):
         raise ModelError("verify", "is for one tension length", "verify the form of each")
-    wires = [w for w in (overhead.contact, overhead.messenger, *overhead.stitches) if w is not None]
+    every = (overhead.contact, overhead.messenger, overhead.auxiliary, *overhead.stitches)
+    wires = [wire for wire in every if wire is not None]
     state = ancf.equilibrium(overhead.model)
     low = overhead.contact.positions(state)[found.contact.nodes.dropper]
     droppers = [d for d in overhead.droppers if d is not None]

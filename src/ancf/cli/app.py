@@ -308,6 +308,20 @@ def examples(copy: Copy = None) -> None:
 
 
 @app.command()
+def docs(
+    word: Annotated[
+        str | None, typer.Argument(help="A page, or what it is about.", show_default=False)
+    ] = None,
+    copy: Copy = None,
+) -> None:
+    """Show the page of the documentation about a word: ancf docs winch; without one, list all pages."""
+    with reported():
+        from .docs import show_docs
+
+        show_docs(word, copy)
+
+
+@app.command()
 def warmup(quiet: Quiet = False) -> None:
     """Compile what runs need, ahead of them; what is compiled already takes seconds."""
     with reported():

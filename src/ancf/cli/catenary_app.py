@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import typer
 
@@ -16,12 +17,15 @@ from .line_options import (
     LineName,
     OutputStep,
     Pantographs,
+    Roof,
+    Runs,
     Spacing,
     Spacings,
     Speed,
     Speeds,
     Start,
     Step,
+    Underside,
     Until,
     Window,
 )
@@ -58,6 +62,8 @@ def catenary_run(
     contact_stiffness: ContactStiffness = None,
     step: Step = None,
     mesh: Elements = None,
+    roof: Roof = None,
+    underside: Underside = None,
     output_step: OutputStep = None,
     states: States = True,
     report: Report = True,
@@ -73,9 +79,15 @@ def catenary_run(
     with reported():
         from .catenary_run import run_line
 
-        options = {"spacing": spacing, "start": start, "window": window, "contact": contact, "step": step}
+        options: dict[str, Any] = {
+            "spacing": spacing,
+            "start": start,
+            "window": window,
+            "contact": contact,
+            "step": step,
+        }
         options |= {"output_step": output_step, "until": until, "contact_stiffness": contact_stiffness}
-        options["mesh"] = mesh
+        options |= {"mesh": mesh, "roof": roof, "underside": underside}
         run_line(line, speed, pantograph, options, output, report, states, quiet, given, to)
 
 
@@ -108,6 +120,20 @@ def catenary_sweep(
         options = {"start": start, "window": window, "until": until, "step": step, "mesh": mesh}
         options |= {"workers": workers, "retry": retry}
         sweep_line(line, speed, spacing, pantograph, options, output, to, quiet, given)
+
+
+@catenary.command("compare")
+def catenary_compare(
+    folders: Runs, output: Folder = Path("comparison"), to: To = None, quiet: Quiet = False
+) -> None:
+    """Compare runs that ancf catenary run has written: quantities side by side, forces over each other.
+
+    Writes OUT/table.csv and OUT/report.html (also as PDF and DOCX).
+    """
+    with reported():
+        from .catenary_compare import compare_runs
+
+        compare_runs(folders, output, to, quiet)
 
 
 @catenary.command("elasticity")

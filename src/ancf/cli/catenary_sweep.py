@@ -88,6 +88,7 @@ def _report(
 
 
 def _show(done: DataFrame, count: int) -> None:
+    from ..catenary.report.sweep import verdict
     from ..design.sweep import SPACING, SPEED
 
     apart = SPACING in done.columns
@@ -97,8 +98,7 @@ def _show(done: DataFrame, count: int) -> None:
         for k in range(1, count + 1):
             place = [f"{row[SPEED]:g}", *([f"{row[SPACING]:g}"] if apart else [])]
             numbers = [_text(row.get(f"{key}_{k}"), digits) for key, digits in SHOWN]
-            verdict = "inside" if row[f"accepted_{k}"] else "outside"
-            shown.add_row(*place, *([str(k)] if count > 1 else []), *numbers, verdict)
+            shown.add_row(*place, *([str(k)] if count > 1 else []), *numbers, verdict(row, k - 1))
     console().print(shown)
 
 

@@ -62,6 +62,8 @@ def _wires(line: Line | Route) -> Any:
         wires["messenger"] = line.messenger_wire
     if line.stitch is not None:
         wires["stitch wire"] = line.stitch.wire
+    if line.auxiliary is not None:
+        wires["auxiliary"] = line.auxiliary.wire
     for name, wire in wires.items():
         numbers = 1e-3 * wire.tension, wire.mass, 1e-6 * wire.EA, wire.EI, 3.6 * wire.wave_speed
         made.add_row(name, *(f"{number:.5g}" for number in numbers))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -84,4 +85,15 @@ Elements = Annotated[
         help="Longest elements of contact wire and messenger, m.",
         show_default="0.8 2",
     ),
+]
+Runs = Annotated[
+    list[Path], typer.Argument(metavar="OUT OUT ...", help="Folders of runs.", show_default=False)
+]
+Roof = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE", help="CSV with the motion of the roof: columns t, up and perhaps side."),
+]
+Underside = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE", help="CSV with the underside of the wire: columns position and height_mm."),
 ]

@@ -71,6 +71,7 @@ def _joints() -> Model:
     model.add_spring(rod.centre, mass, stiffness=100.0, damping=0.1, slack=True)
     other = model.add_rigid_body("other", at=(2.5, 0, -1), mass=1.0, inertia=(0.1, 0.1, 0.1))
     model.hinge(rod.at(1, 0, 0), other.at(-1, 0, 0), axis=(0, 1, 0))
+    model.add_torsion_spring(rod, other, axis=(0, 1, 0), stiffness=1.0)
     return model
 
 

@@ -5,9 +5,10 @@ p across e = u x n at the arc length s, which follows from the positions alone:
 
     e . (p - r(s)) = 0,      overlap g = n . (p - r(s)),      F = max(k g + c dg/dt, 0) where g > 0.
 
+A wire may have a profile h(s), by which its surface stands out towards the strip: g = n . (p - r(s)) + h(s).
 With ds = e . (dp - dr)/(e . r_x) the variation of g is m . (dp - dr(s)),
 
-    m = n - (n . r_x)/(e . r_x) e,
+    m = n - (n . r_x - h')/(e . r_x) e,
 
 so that the force on the wire is F m, normal to the wire and to the strip, and on the point -F m: the part
 along e is what drives the strip uphill.  Nothing is added to the iteration matrix: in a time step the
@@ -24,6 +25,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..compiled import Role, implements, inline_kernel, kernel
 from ..vectors import dot
+from .curves import looked_up
 from .in_matrix import no_pairs, no_places
 from .sliding import COLUMNS, element_at, line, shape, slider
 
@@ -48,6 +50,10 @@ class ContactBatch(NamedTuple):
     data: FloatArray  # (n, 2) STIFFNESS, DAMPING
     travel: FloatArray  # (n, 3) e
     normal: FloatArray  # (n, 3) n
+    begins: IntArray  # (n + 1,) profiles over s, see connections/curves.py
+    place: FloatArray  # (k,)
+    height: FloatArray  # (k,)
+    area: FloatArray  # (k,)
     found: FloatArray  # (n, 4) FORCE ... ASIDE where it was evaluated last; the next search starts at ARC
 
 
@@ -94,9 +100,10 @@ def touch(batch, j, q, v):
     o, t = line(batch, e, xi, q, 0), line(batch, e, xi, q, 1)
     d = (p[0] - o[0], p[1] - o[1], p[2] - o[2])
     u = (n[1] * tau[2] - n[2] * tau[1], n[2] * tau[0] - n[0] * tau[2], n[0] * tau[1] - n[1] * tau[0])
-    overlap = dot(n, d)
+    stands_out, rise, _ = looked_up(batch, j, s)
+    overlap = dot(n, d) + stands_out
     batch.found[j, OVERLAP], batch.found[j, ASIDE] = overlap, -dot(u, d)
-    slope = dot(n, t) / dot(tau, t)
+    slope = (dot(n, t) - rise) / dot(tau, t)
     m = (n[0] - slope * tau[0], n[1] - slope * tau[1], n[2] - slope * tau[2])
     if not overlap > 0.0:
         return False, e, xi, m, 0.0

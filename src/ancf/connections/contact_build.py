@@ -11,6 +11,7 @@ from ..arrays import FloatArray, IntArray
 from ..model.contact import Contact
 from ..model.points import Point
 from .contact import ARC, ContactBatch
+from .curves import curves
 from .joint_build import place_of
 from .sliding import COLUMNS
 from .sliding_build import beam_line
@@ -43,6 +44,7 @@ def contacts(
         data=np.array([[item.stiffness, item.damping] for item in items]),
         travel=np.array([item.travel for item in items]),
         normal=np.array([item.normal for item in items]),
+        **curves([item.profile for item in items]),
         found=measured,
     )
 
@@ -61,5 +63,6 @@ def no_contacts() -> ContactBatch:
         data=line,
         travel=np.zeros((0, 3)),
         normal=np.zeros((0, 3)),
+        **curves([]),
         found=np.zeros((0, 4)),
     )

@@ -43,6 +43,12 @@ class Row:
     second: Vector
     value: float = 0.0
 
+    @property
+    def key(self) -> tuple[Any, ...]:
+        """The same for rows that are the same."""
+        vectors = ((v.slots, v.factors, v.constant.tobytes()) for v in (self.first, self.second))
+        return (*vectors, self.value)
+
 
 UNITS = tuple(Vector(constant=e) for e in np.eye(3))
 

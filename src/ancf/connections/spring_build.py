@@ -11,6 +11,7 @@ from ..model.beam import Beam
 from ..model.connections import Spring
 from ..model.model import Model
 from ..model.points import Point
+from .curves import curves
 from .spring_damper import SpringBatch
 
 CABLE, SOLID = 4, 10  # slots of an element at most
@@ -21,9 +22,10 @@ def springs(model: Model, locate: Callable[[Point], Any]) -> SpringBatch:
     items = [c for c in model.connections if isinstance(c, Spring)]
     n, k = len(items), max((_slots(c) for c in items), default=CABLE)
     base = np.full((n, 2 * k), -1, dtype=np.int64)
-    factor, offset, data = np.zeros((n, 2 * k)), np.zeros((n, 3)), np.zeros((n, 4))
+    factor, offset, data = np.zeros((n, 2 * k)), np.zeros((n, 3)), np.zeros((n, 6))
     for e, spring in enumerate(items):
-        data[e] = spring.stiffness, spring.damping, spring.length, spring.slack
+        data[e, :4] = spring.stiffness, spring.damping, spring.length, spring.slack
+        data[e, 4:] = spring.friction, spring.friction_velocity
         for end, first, sign in ((spring.a, 0, -1.0), (spring.b, k, 1.0)):
             if isinstance(end, Point):
                 probe = locate(end)
@@ -34,7 +36,8 @@ def springs(model: Model, locate: Callable[[Point], Any]) -> SpringBatch:
             else:
                 offset[e] = end
     dest, inside = np.full((n, 4 * k * k), -1, dtype=np.int64), np.zeros(n, dtype=np.int64)
-    return SpringBatch(base, dest, factor, offset, data, inside)
+    given = [curve for item in items for curve in (item.law, item.damper)]
+    return SpringBatch(base, dest, factor, offset, data, inside, **curves(given))
 
 
 def _slots(spring: Spring) -> int:

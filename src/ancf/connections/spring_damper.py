@@ -1,7 +1,9 @@
 """Spring and damper between two points, or a point and the ground; optionally slack in compression.
 
 Tension F = k (l - l0) + c dl/dt along the line between the points.  A slack spring (a dropper, a rope)
-carries nothing while l <= l0 and never pushes: F = max(F, 0).
+carries nothing while l <= l0 and never pushes: F = max(F, 0).  Others may have curves beside it and friction,
+
+    F = k e + c de/dt + f(e) + g(de/dt) + R tanh((de/dt)/w),        e = l - l0.
 """
 
 from __future__ import annotations
@@ -14,6 +16,10 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
+from .curves import looked_up
+
+#: Columns of SpringBatch.data.
+STIFFNESS, DAMPING, LENGTH, SLACK, FRICTION, CREEP = range(6)
 
 
 class SpringBatch(NamedTuple):
@@ -23,8 +29,14 @@ class SpringBatch(NamedTuple):
     dest: NDArray[np.int64]  # (n, k*k) places of the 3x3 blocks in the matrix
     factor: FloatArray  # (n, k) shape functions, negative at the first end
     offset: FloatArray  # (n, 3) position of a fixed second end
-    data: FloatArray  # (n, 4) stiffness, damping, length, 1 if slack
+    data: (
+        FloatArray  # (n, 6) stiffness, damping, length, 1 if slack, friction and the rate where it has grown
+    )
     inside: NDArray[np.int64]  # (n,) 1: its stiffness is in the matrix that was assembled last
+    begins: NDArray[np.int64]  # (2 n + 1,) curves of each: force over elongation, force over its rate
+    place: FloatArray  # (m,) see connections/curves.py
+    height: FloatArray  # (m,)
+    area: FloatArray  # (m,)
 
 
 @inline_kernel
@@ -49,10 +61,26 @@ def spring_state(batch, e, q, v):
     n = (x / length, y / length, z / length)
     dx, dy, dz = spring_vector(batch, e, v, 0.0)
     rate = n[0] * dx + n[1] * dy + n[2] * dz
-    extension = length - batch.data[e, 2]
-    tension = batch.data[e, 0] * extension + batch.data[e, 1] * rate
-    slack = batch.data[e, 3] != 0.0 and (extension <= 0.0 or tension <= 0.0)
-    return n, length, rate, 0.0 if slack else tension, not slack
+    extension = length - batch.data[e, LENGTH]
+    tension = batch.data[e, STIFFNESS] * extension + batch.data[e, DAMPING] * rate
+    if batch.data[e, SLACK] != 0.0:
+        slack = extension <= 0.0 or tension <= 0.0
+        return n, length, rate, 0.0 if slack else tension, not slack
+    tension += looked_up(batch, 2 * e, extension)[0] + looked_up(batch, 2 * e + 1, rate)[0]
+    if batch.data[e, FRICTION] != 0.0:
+        tension += batch.data[e, FRICTION] * math.tanh(rate / batch.data[e, CREEP])
+    return n, length, rate, tension, True
+
+
+@inline_kernel
+def spring_slopes(batch, e, length, rate):
+    """Derivatives of the tension of a spring that carries by its length and by its rate."""
+    k = batch.data[e, STIFFNESS] + looked_up(batch, 2 * e, length - batch.data[e, LENGTH])[1]
+    c = batch.data[e, DAMPING] + looked_up(batch, 2 * e + 1, rate)[1]
+    if batch.data[e, FRICTION] != 0.0:
+        share = math.tanh(rate / batch.data[e, CREEP])
+        c += batch.data[e, FRICTION] / batch.data[e, CREEP] * (1.0 - share * share)
+    return k, c
 
 
 @inline_kernel
@@ -86,12 +114,13 @@ def spring_force(batch, q, v, a, r, ws):
 def spring_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add stiffness and damping of the springs that carry to A."""
     for e in range(batch.base.shape[0]):
-        n, length, _, tension, carries = spring_state(batch, e, q, v)
+        n, length, rate, tension, carries = spring_state(batch, e, q, v)
         batch.inside[e] = carries
         if not carries:
             continue
+        k_slope, c_slope = spring_slopes(batch, e, length, rate)
         across = c_stiffness * tension / length
-        along = c_stiffness * batch.data[e, 0] + c_damping * batch.data[e, 1] - across
+        along = c_stiffness * k_slope + c_damping * c_slope - across
         size = batch.base.shape[1]
         for k in range(size):
             for m in range(size):
@@ -111,10 +140,15 @@ def spring_energy(batch, q, ws):
     energy = 0.0
     for e in range(batch.base.shape[0]):
         x, y, z = spring_vector(batch, e, q, 1.0)
-        extension = math.sqrt(x * x + y * y + z * z) - batch.data[e, 2]
-        if extension > 0.0 or batch.data[e, 3] == 0.0:
-            energy += 0.5 * batch.data[e, 0] * extension**2
+        extension = math.sqrt(x * x + y * y + z * z) - batch.data[e, LENGTH]
+        if extension > 0.0 or batch.data[e, SLACK] == 0.0:
+            energy += 0.5 * batch.data[e, STIFFNESS] * extension**2 + looked_up(batch, 2 * e, extension)[2]
     return energy
+
+
+def _damped(batch):
+    """Whether a spring takes energy."""
+    return bool(np.any(batch.data[:, (DAMPING, FRICTION)])) or bool(np.any(np.diff(batch.begins)[1::2]))
 
 
 implements(
@@ -123,6 +157,6 @@ implements(
     tangent=spring_tangent,
     energy=spring_energy,
     role=Role.DISSIPATES,
-    damped=lambda batch: bool(np.any(batch.data[:, 1])),
-    exact=lambda batch, moving: not (moving and np.any(batch.data[:, 1])),
+    damped=_damped,
+    exact=lambda batch, moving: not (moving and _damped(batch)),
 )

@@ -13,11 +13,12 @@ from ..arrays import FloatArray, IntArray
 from ..elements.registry import ELEMENTS
 from ..elements.shapes import gauss
 from ..errors import ModelError
-from ..loads.along import along
+from ..loads.along import along, ordered
 from ..model.surfaces import Surface, SurfaceContact
 from .mesh import distances, trees
 from .press import PressBatch
 from .profiles import NUMBER
+from .reel import winched
 from .rub import RubBatch
 from .touch import BODY, NODES, NUMBERS
 
@@ -25,6 +26,8 @@ from .touch import BODY, NODES, NUMBERS
 POINTS = 5
 #: Room for the numbers of a shape.
 MOST_NUMBERS = 4
+#: Fields of rows that know their winch.
+REEL = ("winch", "unwound", "mesh")
 #: Part of a beam's radius by which it may be in a surface in the initial shape.
 SUNK = 0.5
 
@@ -58,6 +61,7 @@ def batches(
         "shape": fields["shape"],
         "reach": _reach(fields, items),
         "weight": fields["weight"],
+        **winched([item.body for item in items], locate),
         "contact": which.astype(np.int64),
         "surface": np.array([surfaces.index(items[k].surface) for k in which.tolist()], dtype=np.int64),
         "data": np.array([_numbers(item) for item in items]),
@@ -71,13 +75,15 @@ def batches(
     given |= {"tree": tree, "faces": faces}
     given["surfaces"][:, NUMBERS] = np.where(first >= 0, first, given["surfaces"][:, NUMBERS])
     every = np.concatenate([[len(base), 0], np.arange(len(base))]).astype(np.int64)
-    lit = np.ones(len(base), dtype=np.int64)
-    found: dict[str, Any] = {"pressing": PressBatch(**given, near=every, lit=lit)}
+    lit, bond = np.ones(len(base), dtype=np.int64), np.zeros(fields["weight"].shape, dtype=np.int64)
+    found: dict[str, Any] = {"pressing": PressBatch(**given, near=every, lit=lit, bond=bond)}
     rough = np.array([items[k].friction > 0.0 for k in which.tolist()], dtype=bool)
     if np.any(rough):
-        rows = ("base", "dest", "shape", "reach", "weight", "contact", "surface", "hint", "far")
+        rows = ("base", "dest", "shape", "reach", "weight", "contact", "surface", "hint", "far", *REEL)
         mine = {key: x[rough].copy() if key in rows else x for key, x in given.items()}
-        anchor = np.concatenate([_places(item) for item in items if item.friction > 0.0])
+        rubbing = [item for item in items if item.friction > 0.0]
+        anchor = np.concatenate([_places(item) for item in rubbing])
+        moved = len(anchor) if np.any(mine["winch"] >= 0) else 0
         found["rubbing"] = RubBatch(
             **mine,
             anchor=anchor,
@@ -85,6 +91,10 @@ def batches(
             before=np.zeros(anchor.shape[:2]),
             most=np.zeros(len(anchor)),
             lit=np.zeros(len(anchor) + 1, dtype=np.int64),
+            bond=np.zeros(anchor.shape[:2], dtype=np.int64),
+            **ordered([item.body for item in rubbing], locate, POINTS),
+            drift=np.zeros((moved, POINTS, 3)),
+            since=np.zeros(moved),
         )
     return found
 

@@ -25,6 +25,8 @@ AT_LIMIT = 0.999
 class ContactLine:
     """What a beam and a surface do to each other at m points along the beam.
 
+    Of a cable with a winch places are those on the mesh, forces are per length of the material.
+
     Parameters
     ----------
     x : (m,) m
@@ -88,7 +90,7 @@ def rub_line(batch, j, q, v, out):
         row = row_of(batch, e, q, v)
         for p in range(batch.weight.shape[1]):
             r, _, u, n = rubbed(batch, e, p, row)
-            w, _, f, _ = drawn(batch, e, p, r, u, n, row[2])
+            w, _, f, _ = drawn(batch, e, p, r, u, n, row[2], q)
             out[m, p, 0], out[m, p, 1], out[m, p, 2] = -f * w[0], -f * w[1], -f * w[2]
             out[m, p, 3] = batch.limit[e, p]
         m += 1

@@ -8,6 +8,8 @@ pushes, never pulls, and is continuous: it begins with g.  Its elastic part is s
 length; what damping adds or takes is dissipated.  The surface receives the opposite force in the same
 place, so that forces and moments are balanced.  The matrix has the stiffness along n, the turning of n by the
 curvatures of the surface, and the damping; it leaves out how the surface turns under what it carries.
+Along a cable with a winch lengths are those of the material, see :mod:`ancf.contact.reel`; the force on its
+length L has the elastic part as the derivative of the energy, which is what the sum over the points has.
 """
 
 from __future__ import annotations
@@ -21,6 +23,7 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel, kernel
 from ..vectors import dot
+from .reel import stretched, swept
 from .touch import (
     DAMPING,
     NARROW,
@@ -51,6 +54,8 @@ from .touch import (
 COUNT, WATCHED, FIRST = range(3)
 #: Columns of ``found``: force of all points, N, and the largest depth, m.
 FORCE, DEPTH = range(2)
+#: Gap in radii up to which a surface holds a point while the loads of an equilibrium come on.
+BONDED = 0.01
 #: Share of the depth at which a surface has no sides that a beam may reach.
 PASSED = 0.5
 
@@ -63,6 +68,9 @@ class PressBatch(NamedTuple):
     shape: FloatArray  # (n, points, k)
     reach: FloatArray  # (n, k) largest factors, negative of positions
     weight: FloatArray  # (n, points) m
+    winch: NDArray[np.int64]  # (n,) see contact/reel.py
+    unwound: FloatArray  # (n,) 1/m
+    mesh: FloatArray  # (n, 3)
     contact: NDArray[np.int64]  # (n,) which contact
     surface: NDArray[np.int64]  # (n,) which surface
     data: FloatArray  # (contacts, 6) columns RADIUS ... DRAG
@@ -75,6 +83,7 @@ class PressBatch(NamedTuple):
     far: FloatArray  # (n, 5) memory: where the first node was, ROOM and GONE
     near: NDArray[np.int64]  # (n + 2,) how many rows are not far, whether all are watched, and which they are
     lit: NDArray[np.int64]  # (n,) 1 if it is one of them
+    bond: NDArray[np.int64]  # (n, points) 1 where the surface holds a point while loads come on, else 0
 
 
 @inline_kernel
@@ -85,9 +94,11 @@ def pressed(batch, e, p, row):
     d, n, a, bend, about = outside(batch, e, p, body, at, axis, r)
     data = batch.data[batch.contact[e]]
     g = data[RADIUS] - d
-    if g <= 0.0:
+    if g <= 0.0 and batch.bond[e, p] == 0:
         return g, ZERO, 0.0, 0.0, 0.0, n, a, bend, about
     x = in_body(body, r)
+    if g <= 0.0:
+        return g, x, data[STIFFNESS] * g, data[STIFFNESS], 0.0, n, a, bend, about
     u = relative(place_on(batch, e, p, rates), moving, x)
     N, by_g, by_rate = pressure(data, g, -dot(u, n))
     return g, x, N, by_g, by_rate, n, a, bend, about
@@ -100,12 +111,23 @@ def press_force(batch, q, v, a, r, ws):
         e = batch.near[FIRST + i]
         if is_far(batch, e, q):
             continue
-        row, sums = row_of(batch, e, q, v), nothing()
+        row, sums, more = row_of(batch, e, q, v), nothing(), 0.0
         for p in range(batch.weight.shape[1]):
-            _, x, N, _, _, n, _, _, _ = pressed(batch, e, p, row)
-            if N > 0.0:
+            g, x, N, _, _, n, _, _, _ = pressed(batch, e, p, row)
+            if N != 0.0:
                 sums = with_force(batch, e, p, x, (N * n[0], N * n[1], N * n[2]), sums)
-        add_sums(batch, e, sums, r)
+            if batch.winch[e] >= 0:
+                more += stored_less_work(batch, e, p, row[0], g, n)
+        add_sums(batch, e, sums, row[0], more, q, r)
+
+
+@inline_kernel
+def stored_less_work(batch, e, p, nodes, g, n):
+    """Energy of a depth in a piece of the mesh less the work that its elastic force does along D r, N m/m."""
+    if g <= 0.0 and batch.bond[e, p] == 0:
+        return 0.0
+    work = dot(n, place_on(batch, e, p, swept(batch, e, nodes)))
+    return batch.weight[e, p] * batch.data[batch.contact[e], STIFFNESS] * g * (0.5 * g - work)
 
 
 @inline_kernel
@@ -115,7 +137,7 @@ def press_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
         e = batch.near[FIRST + i]
         if is_far(batch, e, q):
             continue
-        row = row_of(batch, e, q, v)
+        row, lam = row_of(batch, e, q, v), stretched(batch, e, q)
         for p in range(batch.weight.shape[1]):
             _, x, N, by_g, by_rate, n, along, bend, about = pressed(batch, e, p, row)
             if N == 0.0:
@@ -127,7 +149,7 @@ def press_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                 (t[1][0] + k * n[1] * n[0], t[1][1] + k * n[1] * n[1], t[1][2] + k * n[1] * n[2]),
                 (t[2][0] + k * n[2] * n[0], t[2][1] + k * n[2] * n[1], t[2][2] + k * n[2] * n[2]),
             )
-            add_pair_block(batch, e, p, x, rows, A)
+            add_pair_block(batch, e, p, x, lam, rows, A)
 
 
 @inline_kernel
@@ -138,11 +160,11 @@ def press_energy(batch, q, ws):
         if is_far(batch, e, q):
             continue
         body, nodes, data = carrier(batch, e, q), nodes_of(batch, e, q), batch.data[batch.contact[e]]
-        at, axis = lie(batch, e, body)
+        (at, axis), lam = lie(batch, e, body), stretched(batch, e, q)
         for p in range(batch.weight.shape[1]):
             d, _, _, _, _ = outside(batch, e, p, body, at, axis, place_on(batch, e, p, nodes))
             g = max(data[RADIUS] - d, 0.0)
-            energy += 0.5 * batch.weight[e, p] * data[STIFFNESS] * g * g
+            energy += 0.5 * lam * batch.weight[e, p] * data[STIFFNESS] * g * g
     return energy
 
 
@@ -152,10 +174,10 @@ def press_measure(batch, q, v):
     for j in range(batch.found.shape[0]):
         batch.found[j, FORCE], batch.found[j, DEPTH] = 0.0, -np.inf
     for e in range(batch.base.shape[0]):
-        row, j = row_of(batch, e, q, v), batch.contact[e]
+        row, j, lam = row_of(batch, e, q, v), batch.contact[e], stretched(batch, e, q)
         for p in range(batch.weight.shape[1]):
             g, _, N, _, _, _, _, _, _ = pressed(batch, e, p, row)
-            batch.found[j, FORCE] += batch.weight[e, p] * N
+            batch.found[j, FORCE] += lam * batch.weight[e, p] * N
             batch.found[j, DEPTH] = max(batch.found[j, DEPTH], g)
 
 
@@ -211,17 +233,44 @@ def press_passed(batch, q, ws):
 
 @kernel
 def press_lost(batch, q, holds):
-    """Forget in the initial shape of an equilibrium where elements were: its steps are long."""
+    """Forget in the initial shape of an equilibrium where elements were: its steps are long.
+
+    Points that just touch have no stiffness against the surface until something presses them.  If it holds,
+    the surface pulls them as well, until :func:`press_free`.
+    """
     for e in range(batch.base.shape[0]):
         batch.far[e, ROOM] = -math.inf
         batch.near[FIRST + e], batch.lit[e] = e, 1
+        body, nodes = carrier(batch, e, q), nodes_of(batch, e, q)
+        at, axis = lie(batch, e, body)
+        room = BONDED * batch.data[batch.contact[e], RADIUS]
+        for p in range(batch.weight.shape[1]):
+            d, _, _, _, _ = outside(batch, e, p, body, at, axis, place_on(batch, e, p, nodes))
+            batch.bond[e, p] = 1 if holds and d - batch.data[batch.contact[e], RADIUS] < room else 0
     batch.near[COUNT], batch.near[WATCHED] = batch.base.shape[0], 0
 
 
 def look_everywhere(batch, q, holds):
-    """See :func:`press_lost`; there is nothing that it could hold."""
+    """See :func:`press_lost`; there is no friction."""
     press_lost(batch, q, holds)
     return False
+
+
+@kernel
+def press_free(batch, q, every):
+    """Let go the points that a surface pulls in the state q, or every point; how many it pulled."""
+    count = 0
+    for e in range(batch.base.shape[0]):
+        body, nodes = carrier(batch, e, q), nodes_of(batch, e, q)
+        at, axis = lie(batch, e, body)
+        for p in range(batch.weight.shape[1]):
+            if batch.bond[e, p] == 0:
+                continue
+            d, _, _, _, _ = outside(batch, e, p, body, at, axis, place_on(batch, e, p, nodes))
+            pulled = d > batch.data[batch.contact[e], RADIUS]
+            count += 1 if pulled else 0
+            batch.bond[e, p] = 0 if pulled or every else 1
+    return count
 
 
 implements(
@@ -233,7 +282,9 @@ implements(
     remember=press_remember,
     inverted=press_passed,
     early=look_everywhere,
+    free=press_free,
     role=Role.DISSIPATES | Role.MEASURES,
+    slots=("base", "winch"),
     memory=("far",),
     damped=lambda batch: bool(np.any(batch.data[:, DAMPING])),
 )

@@ -15,6 +15,9 @@ In an equilibrium the anchors are the places of the initial shape, so that frict
 there.  It holds what touches there while the loads come on, so that nothing falls off that friction alone
 bears; then its limits are renewed until they fit.  All work of friction counts as dissipated: what the spring
 holds while it sticks, T^2/(2 k_t) per length, it gives back.
+
+Along a cable with a winch the material takes its anchors along, as on a ground (:mod:`ancf.loads.ground`),
+in the axes of what carries the surface: they move by ``drift`` with the growth of the length.
 """
 
 from __future__ import annotations
@@ -27,12 +30,16 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel, kernel
+from ..loads.along import upstream
+from ..vectors import dot
 from .press import pressed
+from .reel import grown, stretched, swept
 from .touch import (
     DRAG,
     FRICTION,
     RADIUS,
     STICK,
+    ZERO,
     add_pair_block,
     add_sums,
     carried,
@@ -44,6 +51,7 @@ from .touch import (
     nothing,
     outside,
     place_on,
+    plus,
     relative,
     row_of,
     with_force,
@@ -68,6 +76,9 @@ class RubBatch(NamedTuple):
     shape: FloatArray
     reach: FloatArray
     weight: FloatArray
+    winch: NDArray[np.int64]
+    unwound: FloatArray
+    mesh: FloatArray
     contact: NDArray[np.int64]
     surface: NDArray[np.int64]
     data: FloatArray
@@ -83,6 +94,11 @@ class RubBatch(NamedTuple):
     before: FloatArray  # (n, points) memory: normal force at the end of the step before, N/m
     most: FloatArray  # (n,) memory: the largest limit of a row
     lit: NDArray[np.int64]  # (n + 1,) memory: how many rows have a limit, and which
+    bond: NDArray[np.int64]  # (n, points) zero: friction knows of no point that is held against its pressure
+    label: FloatArray  # (n, points) see loads/along.py
+    beside: NDArray[np.int64]  # (n, 2)
+    drift: FloatArray  # (n, points, 3) memory: by how much anchors move with the length; no rows: no winch
+    since: FloatArray  # (n,) memory: length at the last accepted step, m, 0: none; no rows as well
 
 
 @inline_kernel
@@ -103,9 +119,18 @@ def light(batch):
 
 
 @inline_kernel
-def drawn(batch, e, p, r, u, n, body):
+def anchor_at(batch, e, p, q):
+    """The anchor of the material that is at point p of row e."""
+    a = batch.anchor[e, p]
+    if batch.winch[e] < 0:
+        return a[0], a[1], a[2]
+    return plus((a[0], a[1], a[2]), grown(batch, e, q), batch.drift[e, p])
+
+
+@inline_kernel
+def drawn(batch, e, p, r, u, n, body, q):
     """The vector w of the friction, its size, and the factor f of the force -f w; whether it slips."""
-    data, anchor = batch.data[batch.contact[e]], batch.anchor[e, p]
+    data, anchor = batch.data[batch.contact[e]], anchor_at(batch, e, p, q)
     k, c = data[STICK], data[DRAG]
     a = carried(body, anchor[0], anchor[1], anchor[2])
     x = k * (r[0] - a[0]) + c * u[0]
@@ -138,9 +163,9 @@ def rub_force(batch, q, v, a, r, ws):
         for p in range(batch.weight.shape[1]):
             if batch.limit[e, p] > 0.0:
                 place, x, u, n = rubbed(batch, e, p, row)
-                w, _, f, _ = drawn(batch, e, p, place, u, n, row[2])
+                w, _, f, _ = drawn(batch, e, p, place, u, n, row[2], q)
                 sums = with_force(batch, e, p, x, (-f * w[0], -f * w[1], -f * w[2]), sums)
-        add_sums(batch, e, sums, r)
+        add_sums(batch, e, sums, row[0], 0.0, q, r)
 
 
 @inline_kernel
@@ -148,12 +173,12 @@ def rub_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add minus the derivatives by position and velocity, the normal as it is."""
     for i in range(batch.lit[0]):
         e = batch.lit[1 + i]
-        data, row = batch.data[batch.contact[e]], row_of(batch, e, q, v)
+        data, row, lam = batch.data[batch.contact[e]], row_of(batch, e, q, v), stretched(batch, e, q)
         for p in range(batch.weight.shape[1]):
             if batch.limit[e, p] == 0.0:
                 continue
             place, x, u, n = rubbed(batch, e, p, row)
-            w, size, f, slips = drawn(batch, e, p, place, u, n, row[2])
+            w, size, f, slips = drawn(batch, e, p, place, u, n, row[2], q)
             one = f * (c_stiffness * data[STICK] + c_damping * data[DRAG])
             ww = -one / (size * size) if slips else 0.0
             xy = ww * w[0] * w[1] - one * n[0] * n[1]
@@ -164,7 +189,7 @@ def rub_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                 (xy, one + ww * w[1] * w[1] - one * n[1] * n[1], yz),
                 (xz, yz, one + ww * w[2] * w[2] - one * n[2] * n[2]),
             )
-            add_pair_block(batch, e, p, x, rows, A)
+            add_pair_block(batch, e, p, x, lam, rows, A)
 
 
 @inline_kernel
@@ -179,17 +204,55 @@ def rub_remember(batch, q, v):
         for p in range(batch.weight.shape[1]):
             _, _, N, _, _, n, _, _, _ = pressed(batch, e, p, row)
             r, x, u, _ = rubbed(batch, e, p, row)
-            w, _, f, slips = drawn(batch, e, p, r, u, n, body)
-            if N == 0.0:
-                batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = x
-            elif slips:
-                keep = f / data[STICK]
-                left = in_body(body, (r[0] - keep * w[0], r[1] - keep * w[1], r[2] - keep * w[2]))
-                batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = left
+            w, _, f, slips = drawn(batch, e, p, r, u, n, body, q)
+            left = x
+            if N > 0.0:
+                left = in_body(body, plus(r, -f / data[STICK], w)) if slips else anchor_at(batch, e, p, q)
+            batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = left
             batch.limit[e, p] = data[FRICTION] * ahead(N, batch.before[e, p])
             batch.before[e, p] = N
             batch.most[e] = max(batch.most[e], batch.limit[e, p])
     light(batch)
+    for e in range(batch.since.shape[0]):
+        if batch.winch[e] >= 0:
+            follow_material(batch, e, q, v)
+
+
+@inline_kernel
+def follow_material(batch, e, q, v):
+    """How the anchors of row e move with the length from here on."""
+    i = batch.winch[e]
+    batch.since[e] = q[i]
+    if not rubs(batch, e):
+        return
+    nodes, body = nodes_of(batch, e, q), carrier(batch, e, q)
+    slopes, comes = swept(batch, e, nodes), 1 if v[i] > 0.0 else 0  # from the far end or from the winch
+    for p in range(batch.weight.shape[1]):
+        other, m = upstream(batch, e, p, comes)
+        X, own, there, way = batch.label[e, p], behind(batch, e, p, nodes, body), ZERO, math.inf
+        if other >= 0:
+            there = behind(batch, other, m, nodes_of(batch, other, q), body)
+            way = X - batch.label[other, m]
+        elif comes == 1:  # what enters has not touched the surface
+            way = X - math.copysign(1.0 / batch.unwound[e], X)
+        slope = of_body(body, place_on(batch, e, p, slopes))
+        for c in range(3):
+            batch.drift[e, p, c] = slope[c] - X * (own[c] - there[c]) / way
+
+
+@inline_kernel
+def behind(batch, e, p, nodes, body):
+    """The way from the anchor to the place of a point, in the axes of what carries the surface."""
+    if not rubs(batch, e):
+        return ZERO
+    x, a = in_body(body, place_on(batch, e, p, nodes)), batch.anchor[e, p]
+    return x[0] - a[0], x[1] - a[1], x[2] - a[2]
+
+
+@inline_kernel
+def of_body(body, f):
+    """A direction in the axes of a body."""
+    return dot(f, body[1]), dot(f, body[2]), dot(f, body[3])
 
 
 @inline_kernel
@@ -208,11 +271,11 @@ def rub_measure(batch, q, v):
     for e in range(batch.base.shape[0]):
         if not rubs(batch, e):
             continue
-        row, j = row_of(batch, e, q, v), batch.contact[e]
+        row, j, lam = row_of(batch, e, q, v), batch.contact[e], stretched(batch, e, q)
         for p in range(batch.weight.shape[1]):
             place, _, u, n = rubbed(batch, e, p, row)
-            _, size, f, slips = drawn(batch, e, p, place, u, n, row[2])
-            force = batch.weight[e, p] * f * size
+            _, size, f, slips = drawn(batch, e, p, place, u, n, row[2], q)
+            force = lam * batch.weight[e, p] * f * size
             batch.found[j, RUBBED] += force
             batch.found[j, SLIPPED] += force if slips else 0.0
     for j in range(batch.found.shape[0]):
@@ -235,7 +298,7 @@ def renew_limits(batch, q, v):
             wanted, limit, batch.before[e, p] = data[FRICTION] * N, batch.limit[e, p], N  # at rest N stays
             if limit == GRIP:
                 r, _, u, n = rubbed(batch, e, p, row)
-                limit = max(wanted, drawn(batch, e, p, r, u, n, row[2])[1])
+                limit = max(wanted, drawn(batch, e, p, r, u, n, row[2], q)[1])
             change = max(change, abs(wanted - limit))
             most = max(most, wanted)
             batch.limit[e, p] = limit + TAKEN * (wanted - limit)
@@ -267,7 +330,9 @@ def hold(batch, q, holds):
 def let_rub(batch, q):
     """Renew the limits in an equilibrium; returns their relative change."""
     change, most = renew_limits(batch, q, np.zeros_like(q))
-    return change / most if most > 0.0 else 0.0
+    if most > 0.0:
+        return float(change / most)
+    return 1.0 if change > 0.0 else 0.0  # what has been held does not touch: it is let go all the same
 
 
 implements(
@@ -277,7 +342,8 @@ implements(
     remember=rub_remember,
     measure=rub_measure,
     role=Role.RUBS | Role.MEASURES,
-    memory=("far", "anchor", "limit", "before", "most", "lit"),
+    slots=("base", "winch"),
+    memory=("far", "anchor", "limit", "before", "most", "lit", "drift", "since"),
     late=lambda batch: let_rub,
     early=hold,
 )

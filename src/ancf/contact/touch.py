@@ -16,6 +16,7 @@ from ..compiled import formula, inline_kernel
 from ..vectors import cross, dot
 from .mesh import MESH, nearest_face
 from .profiles import profile_of
+from .reel import add_on_length, rates_of_material, stretched, times
 
 #: Slots of an element that its axis depends on: r and r_x of both nodes; and of a rigid body.
 NODES, BODY = 4, 4
@@ -146,10 +147,14 @@ def nodes_of(batch, e, q):
 
 @inline_kernel
 def row_of(batch, e, q, v):
-    """What all points of a row share: its vectors and their rates, what carries the surface, how it lies."""
-    body = carrier(batch, e, q)
+    """What all points of a row share: its vectors and their rates, what carries the surface, how it lies.
+
+    The rates are those of the material.
+    """
+    body, nodes = carrier(batch, e, q), nodes_of(batch, e, q)
     at, axis = lie(batch, e, body)
-    return nodes_of(batch, e, q), nodes_of(batch, e, v), body, still_or(batch, e, v), at, axis
+    rates = rates_of_material(batch, e, nodes, nodes_of(batch, e, v), q, v)
+    return nodes, rates, body, still_or(batch, e, v), at, axis
 
 
 @inline_kernel
@@ -285,7 +290,7 @@ def nothing():
 
 @inline_kernel
 def with_force(batch, e, p, x, f, sums):
-    """The sums with a force f per reference length on point p, which meets the surface at x in body axes."""
+    """The sums with a force f per length of the material on point p, at x in body axes of the surface."""
     s, w = batch.shape[e, p], batch.weight[e, p]
     a, b, c, d, o, i, j, k = sums
     return (
@@ -309,9 +314,26 @@ def take(r, i, f):
 
 
 @inline_kernel
-def add_sums(batch, e, sums, r):
-    """Subtract the forces of a row, and the opposite ones on what it touches, from r."""
+def add_sums(batch, e, sums, nodes, more, q, r):
+    """Subtract the forces of a row, and the opposite ones on what it touches, from r.
+
+    Of a cable with a winch see :func:`ancf.contact.reel.add_on_length`, also for ``more``.
+    """
     b = batch.base[e]
+    if batch.winch[e] >= 0:
+        add_on_length(batch, e, nodes, sums, more, r)
+        lam = stretched(batch, e, q)
+        n0, n1, n2, n3, o, i, j, k = sums
+        sums = (
+            times(lam, n0),
+            times(lam, n1),
+            times(lam, n2),
+            times(lam, n3),
+            times(lam, o),
+            times(lam, i),
+            times(lam, j),
+            times(lam, k),
+        )
     take(r, np.uint64(b[0]), sums[0])
     take(r, np.uint64(b[1]), sums[1])
     take(r, np.uint64(b[2]), sums[2])
@@ -324,11 +346,14 @@ def add_sums(batch, e, sums, r):
 
 
 @inline_kernel
-def add_pair_block(batch, e, p, x, rows, A):
-    """Add a symmetric 3x3 matrix per length, minus the derivative of that force by the way apart, to A."""
+def add_pair_block(batch, e, p, x, lam, rows, A):
+    """Add a symmetric 3x3 matrix per length, minus the derivative of that force by the way apart, to A.
+
+    ``lam``: length of the material as a multiple of that of the mesh.
+    """
     size = NODES if batch.base[e, NODES] < 0 else NODES + BODY
     for k in range(size):
-        wk = batch.weight[e, p] * factor_of(batch, e, p, k, x)
+        wk = lam * batch.weight[e, p] * factor_of(batch, e, p, k, x)
         for m in range(size):
             place = batch.dest[e, (NODES + BODY) * k + m]
             if place < 0:  # one half of a symmetric matrix is kept

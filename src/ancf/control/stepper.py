@@ -156,7 +156,7 @@ def stepper(
     start : State or path, optional
         Where to start, default the initial shape and motion at t = 0; or a file that
         :meth:`ancf.Stepper.save` wrote or a simulation, from which the run goes on to the last bit, with
-        its step, integrator and sensors.
+        its step, integrator and sensors. Inputs that were given until a state stay as they are in it.
     integrator : Trapezoidal, GeneralizedAlpha, Explicit or Radau(adaptive=False), optional
         Default the trapezoidal rule.
     sensors : sequence, optional

@@ -52,6 +52,24 @@ def start_of(
     return made
 
 
+def priors_of(
+    given: Any, bounds: dict[str, tuple[float, float]], where: str = "calibrate"
+) -> dict[str, tuple[float, float]]:
+    """Means and standard deviations by name; ModelError if they are none or out of the bounds."""
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise ModelError(f"{where}.priors", "must be pairs (mean, deviation) by name")
+    made = {}
+    for name, pair in given.items():
+        if name not in bounds:
+            raise ModelError(f"{where}.priors: {name}", "is no parameter", checks.nearest(name, bounds))
+        mean, deviation = checks.array(pair, f"{where}.priors: {name}", (2,)).tolist()
+        checks.between(mean, f"{where}.priors: {name}, its mean", *bounds[name])
+        made[str(name)] = mean, checks.positive(deviation, f"{where}.priors: {name}, its deviation")
+    return made
+
+
 def columns_of(data: Any) -> dict[str, FloatArray]:
     """Columns of numbers (n,) of a file, a table or a mapping; ModelError if they are none."""
     where = "calibrate.data"

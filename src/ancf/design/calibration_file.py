@@ -30,6 +30,9 @@ class BoundsEntry(Entry):
     low: float = Field(description="Lower bound [of the parameter].")
     high: float = Field(description="Upper bound [of the parameter].")
     start: float | None = Field(None, description="Where to begin [of the parameter].")
+    prior: tuple[float, float] | None = Field(
+        None, description="Mean and standard deviation of what is known before [of the parameter]."
+    )
 
 
 class CalibrationEntry(Entry):
@@ -76,7 +79,7 @@ class CalibrationFile:
     title : str
     build : FileBuild
     data : dict of str to ndarray
-    bounds, start, deviations : mappings
+    bounds, start, deviations, priors : mappings
     """
 
     title: str
@@ -85,11 +88,12 @@ class CalibrationFile:
     bounds: dict[str, tuple[float, float]]
     start: dict[str, float]
     deviations: Mapping[str, float] | None
+    priors: dict[str, tuple[float, float]]
 
     def fit(self, workers: int) -> Fit:
         """Look for the parameters."""
-        more: dict[str, Any] = {"start": self.start, "deviations": self.deviations, "workers": workers}
-        return calibrate(self.build, self.data, self.bounds, **more)
+        more: dict[str, Any] = {"start": self.start, "deviations": self.deviations, "priors": self.priors}
+        return calibrate(self.build, self.data, self.bounds, workers=workers, **more)
 
 
 def read_calibration(path: str | Path) -> CalibrationFile:
@@ -133,6 +137,7 @@ def read_calibration(path: str | Path) -> CalibrationFile:
         {name: (p.low, p.high) for name, p in zip(names, entry.parameters, strict=True)},
         {name: p.start for name, p in zip(names, entry.parameters, strict=True) if p.start is not None},
         entry.deviations,
+        {name: p.prior for name, p in zip(names, entry.parameters, strict=True) if p.prior is not None},
     )
 
 

@@ -17,6 +17,7 @@ from .lines import HIGHEST, OF_FORCE, SIGMA
 
 if TYPE_CHECKING:
     from ..catenary import Line
+    from ..catenary.derivatives import Linearised
     from ..catenary.mesh import Mesh
 
 #: Numbers of a run that have derivatives, by their names in formulas.
@@ -54,7 +55,7 @@ class Tried:
 
 @dataclass(frozen=True)
 class LineOptimum:
-    """What :func:`shortest` found.
+    """What :func:`ancf.design.descent.least` found.
 
     Parameters
     ----------
@@ -125,7 +126,7 @@ class LineRuns:
             for name, p in self.parameters.items()
         ]
         self.tried: list[Tried] = []
-        self._known: dict[bytes, tuple[FloatArray, FloatArray]] = {}
+        self._known: dict[bytes, Linearised] = {}
         self.natural = np.array(catenary.form(line, mesh).dropper_natural)
 
     def values(self, u: FloatArray) -> dict[str, float]:
@@ -144,114 +145,60 @@ class LineRuns:
 
     def at(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Numbers by formula, (m,), and their derivatives by u, (m, n); each run is taken once."""
-        u = np.clip(u, 0.0, 1.0)
+        return self.predicted(u, u)
+
+    def predicted(self, u: FloatArray, near: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """What the run with the parameters ``near`` tells of those at u: its force changes linearly."""
+        made = self._linearised(np.clip(near, 0.0, 1.0))
+        answers = _Numbers(made.at((np.clip(u, 0.0, 1.0) - np.clip(near, 0.0, 1.0)) * self.widths))
+        numbers, rows = [], []
+        for formula in self.formulas:
+            value, by = gradient_of(formula, answers)
+            numbers.append(value)
+            rows.append(sum(float(x) * answers.found[NUMBERS[key]][1] for key, x in by.items()))
+        return np.array(numbers), np.array(rows) * self.widths
+
+    def _linearised(self, u: FloatArray) -> Linearised:
+        """The run with parameters from 0 to 1; each is taken once."""
         key = u.tobytes()
         if key not in self._known:
             values = self.values(u)
             try:
-                numbers, slopes = self._run(values)
+                self._known[key] = self._run(values)
             except SolveError as error:
                 error.advise("with " + ", ".join(f"{name} = {1e3 * x:.4g} mm" for name, x in values.items()))
                 raise
-            self._known[key] = numbers, slopes * self.widths
+            numbers = self.at(u)[0]
             others = {f.text: float(x) for f, x in zip(self.formulas[1:], numbers[1:], strict=True)}
             self.tried.append(Tried(values, float(numbers[0]), others))
             if self.report is not None:
                 self.report(self.tried[-1])
         return self._known[key]
 
-    def _run(self, values: dict[str, float]) -> tuple[FloatArray, FloatArray]:
+    def _run(self, values: dict[str, float]) -> Linearised:
         from .. import catenary
+        from ..catenary.derivatives import Linearised
 
         line = replace(self.line, dropper_lengths=tuple(self.lengths(values).tolist()))
         wanted = {name: p.labels for name, p in self.parameters.items()}
         done = catenary.run(line, mesh=self.mesh, sensitivities=wanted, **self.settings)
         count = len(done.recordings)
-        which = checks.integer(self.evaluated, "run.evaluated", 0, count - 1)
-        answers = _Numbers(catenary.statistics(done, which))
-        own = catenary.slopes(done, which)
-        numbers, rows = [], []
-        for formula in self.formulas:
-            value, by = gradient_of(formula, answers)
-            numbers.append(value)
-            each = [sum(float(x) * own[name][NUMBERS[key]] for key, x in by.items()) for name in wanted]
-            rows.append(each)
-        return np.array(numbers), np.array(rows)
+        return Linearised(done, checks.integer(self.evaluated, "run.evaluated", 0, count - 1))
 
 
 class _Numbers:
-    """Statistics of a run by the names of formulas."""
+    """Statistics of a run, with their derivatives, by the names of formulas."""
 
-    def __init__(self, found: Any) -> None:
+    def __init__(self, found: Mapping[str, tuple[float, FloatArray]]) -> None:
         self.found = found
 
     def value(self, name: str) -> float:
         """A number."""
         try:
-            return float(self.found[NUMBERS[name]].value)
+            return self.found[NUMBERS[name]][0]
         except KeyError:
             raise ModelError(f"optimise: {name}", "is not to be had of this run") from None
 
     def ask(self, quantity: str, item: str) -> Any:
         """Nothing is asked of items."""
         raise AssertionError(quantity)
-
-
-def least(
-    runs: LineRuns, limits: Mapping[str, tuple[float | None, float | None]] | None = None, most: int = 30
-) -> LineOptimum:
-    """Search for the lengths with which the first formula of the runs is least, by SciPy's SLSQP.
-
-    Parameters
-    ----------
-    runs : LineRuns
-        The formulas after the first are those of the limits.
-    limits : mapping, optional
-        Bounds (low, high) of other numbers by their formulas, None for none.
-    most : int
-        Steps of the search at most.
-
-    Raises
-    ------
-    SolveError
-        A run failed.
-    """
-    from scipy import optimize
-
-    start = np.array([(p.start - p.low) / (p.high - p.low) for p in runs.parameters.values()])
-    first = abs(float(runs.at(start)[0][0])) or 1.0
-    conditions = []
-    for k, (low, high) in enumerate((limits or {}).values(), start=1):
-        for bound, sign in ((low, 1.0), (high, -1.0)):
-            if bound is not None:
-                scale = abs(bound) or 1.0
-                conditions.append(
-                    {
-                        "type": "ineq",
-                        "fun": lambda u, k=k, b=bound, s=sign / scale: s * (runs.at(u)[0][k] - b),
-                        "jac": lambda u, k=k, s=sign / scale: s * runs.at(u)[1][k],
-                    }
-                )
-    search: Any = optimize.minimize
-    found = search(
-        lambda u: (runs.at(u)[0][0] / first, runs.at(u)[1][0] / first),
-        start,
-        jac=True,
-        method="SLSQP",
-        bounds=[(0.0, 1.0)] * len(start),
-        constraints=conditions,
-        options={"maxiter": most, "ftol": 1e-5},
-    )
-    numbers, slopes = runs.at(found.x)
-    values = runs.values(np.clip(found.x, 0.0, 1.0))
-    return LineOptimum(
-        lengths=runs.lengths(values),
-        values=values,
-        slope=dict(zip(values, (slopes[0] / runs.widths).tolist(), strict=True)),
-        objective=float(numbers[0]),
-        first=runs.tried[0].objective,
-        constraints=runs.tried[-1].constraints and dict(zip(limits or {}, numbers[1:].tolist(), strict=True)),
-        tried=runs.tried,
-        converged=bool(found.success),
-        message=str(found.message),
-    )

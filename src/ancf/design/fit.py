@@ -14,6 +14,8 @@ from ..model import checks
 
 #: Standard deviation of a number of which nothing is known but its bounds, in units of their distance.
 UNKNOWN = 1.0 / math.sqrt(12.0)
+#: Part of the deviation of a prior that is left where the data told a tenth of what is known in the end.
+LITTLE = math.sqrt(0.9)
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,8 @@ class Fit:
     converged : bool
     message : str
         How the search ended.
+    priors : dict of str to (float, float)
+        Mean and standard deviation of what was known before.
     """
 
     values: dict[str, float]
@@ -52,6 +56,7 @@ class Fit:
     evaluations: int = 0
     converged: bool = True
     message: str = ""
+    priors: dict[str, tuple[float, float]] = field(default_factory=dict)
 
     @property
     def names(self) -> list[str]:
@@ -65,8 +70,8 @@ class Fit:
 
     @property
     def freedom(self) -> int:
-        """Numbers in the data less parameters."""
-        return self.count - len(self.values)
+        """Numbers in the data and priors less parameters."""
+        return self.count + len(self.priors) - len(self.values)
 
     @property
     def deviations(self) -> dict[str, float]:
@@ -109,8 +114,9 @@ class Fit:
 
     @property
     def untold(self) -> list[str]:
-        """Parameters of which the data tell less than their bounds did."""
+        """Parameters of which the data tell less than their bounds did, or little beside their prior."""
         wide = {name: UNKNOWN * (high - low) for name, (low, high) in self.bounds.items()}
+        wide |= {name: min(wide[name], LITTLE * size) for name, (_, size) in self.priors.items()}
         return [name for name, size in self.deviations.items() if not size < wide[name]]
 
     @property
@@ -127,7 +133,11 @@ class Fit:
         """What to know before the values are believed, one line each."""
         made = [] if self.converged else [f"the search stopped before it was done: {self.message}"]
         made += [f"{name} ended at a bound" for name in self.at_bounds]
-        made += [f"the data tell less of {name} than its bounds do" for name in self.untold]
+        for name in self.untold:
+            before = "prior" if name in self.priors else "bounds"
+            made.append(
+                f"the data tell less of {name} than its {before} {'does' if before == 'prior' else 'do'}"
+            )
         matrix = self.correlation
         for i, one in enumerate(self.names):
             for j, other in enumerate(self.names[:i]):
@@ -144,6 +154,7 @@ class Fit:
                 "deviation": self.deviations[name],
                 "confidence_95": list(intervals[name]),
                 "bounds": list(self.bounds[name]),
+                **({"prior": list(self.priors[name])} if name in self.priors else {}),
             }
             for name, x in self.values.items()
         }

@@ -15,7 +15,8 @@ from ..model import checks
 from ..model.file import read_toml
 from ..model.file.fields import Entry
 from ..model.file.messages import combined, of_validation
-from .droppers import OF_RUN, Droppers, LineOptimum, LineRuns, Tried, least
+from .descent import least
+from .droppers import OF_RUN, Droppers, LineOptimum, LineRuns, Tried
 from .formulas import Formula
 from .lines import SETTINGS
 

@@ -121,6 +121,8 @@ class SweepCase:
             for q in rows:
                 if q.key == "mean_force" and q.low is not None and q.high is not None:
                     found |= {f"mean_force_low_{k + 1}": q.low, f"mean_force_high_{k + 1}": q.high}
+            judged = [q for q in rows if q.inside is not None]
+            found |= {f"outside_{q.key}_{k + 1}": float(not q.inside) for q in judged}
             found[f"accepted_{k + 1}"] = float(all(q.inside is not False for q in rows))
         return found
 

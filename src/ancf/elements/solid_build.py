@@ -11,6 +11,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..model.beam import Beam
 from ..model.section import Rectangle
+from ..model.section_inertia import of_beam
 from ..simd import LANES
 from .chunks import in_lanes
 from .shapes import gauss
@@ -172,7 +173,8 @@ def _part(beam: Beam, slot: IntArray) -> tuple[tuple[int, ...], IntArray, FloatA
     h = np.diff(beam.node_x)[:, None]
     stiff = np.array(stiffnesses(beam)) * h ** _POWERS.astype(float)
     damp = np.hstack([s.axial_damping * h, s.bending_damping / h])
-    mass = np.hstack([s.rho * s.A * h / 420, s.rho * s.I_z * h / 60, s.rho * s.I_y * h / 60])
+    about_y, about_z = of_beam(s)
+    mass = np.hstack([s.rho * s.A * h / 420, about_z * h / 60, about_y * h / 60])
     viscous = np.full_like(h, s.damping / s.rhoA)
     data = np.hstack([h, 1 / h, stiff, damp, mass, viscous])
     points = beam.gauss[0]

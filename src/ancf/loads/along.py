@@ -118,6 +118,26 @@ def wound(bodies: Iterable[Body], locate: Callable[[Any], Any], points: int) -> 
     }
 
 
+def ordered(bodies: Iterable[Body], locate: Callable[[Any], Any], points: int) -> dict[str, NDArray[Any]]:
+    """Fields ``label`` and ``beside`` for the rows that :func:`along` gives, of beams.
+
+    The X of the points of cables with a winch, m, and the rows that go on towards the far end and towards
+    the winch, -1 for none.
+    """
+    xi, _ = gauss(points)
+    label, beside = [np.zeros((0, points))], [np.zeros((0, 2), dtype=np.int64)]
+    first = 0
+    for body in bodies:
+        assert isinstance(body, Beam)
+        far, rows = locate(body.start).far, np.arange(first, first + body.elements)
+        ends = body.node_x
+        label.append(ends[:-1, None] + xi * np.diff(ends)[:, None] - far)
+        before, after = np.where(rows > first, rows - 1, -1), np.where(rows < rows[-1], rows + 1, -1)
+        beside.append(np.stack([after, before] if far > 0.0 else [before, after], axis=1))
+        first += body.elements
+    return {"label": np.concatenate(label), "beside": np.concatenate(beside)}
+
+
 def _passing(beam: Any, end: Any, xi: Any) -> list[Any]:
     """Factors of D r and D D r at the points of each element."""
     shape, rows = ELEMENTS[beam.element].shape, []
@@ -211,6 +231,20 @@ def acceleration_at(batch, e, p, q, v, a):
         b[1] - dmu * d[1] - mu * (2.0 * dv[1] - mu * dd[1]),
         b[2] - dmu * d[2] - mu * (2.0 * dv[2] - mu * dd[2]),
     )
+
+
+@inline_kernel
+def upstream(batch, e, p, comes):
+    """Row and point next to point p of row e from which the material comes; row -1: there is none.
+
+    It comes from the winch if ``comes`` is 1, from the far end if it is 0.
+    """
+    last = batch.label.shape[1] - 1
+    up = (batch.label[e, last] < 0.0) != (comes == 1)  # whether that is towards higher numbers
+    m = p + 1 if up else p - 1
+    if 0 <= m <= last:
+        return e, m
+    return batch.beside[e, comes], 0 if up else last
 
 
 @inline_kernel

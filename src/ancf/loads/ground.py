@@ -35,7 +35,6 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel, kernel
-from ..elements.shapes import gauss
 from ..errors import ModelError
 from ..model.beam import Beam
 from ..model.fluids import require_section
@@ -45,10 +44,12 @@ from .along import (
     add_block_along,
     add_material,
     along,
+    ordered,
     passed,
     place_at,
     scaled,
     stretch_at,
+    upstream,
     velocity_at,
     wound,
 )
@@ -108,7 +109,7 @@ def build(items, locate, value, model):
     return GroundBatch(
         **fields,
         **winches,
-        **_order(bodies, locate),
+        **ordered(bodies, locate, POINTS),
         ground=np.array(which, dtype=np.int64),
         diameter=np.array([body.section.diameter for body in owners], dtype=np.float64),
         grounds=np.array([_numbers(item) for item in items]),
@@ -119,21 +120,6 @@ def build(items, locate, value, model):
         drift=np.zeros((moved, POINTS, 3)),
         since=np.zeros(moved),
     )
-
-
-def _order(bodies, locate):
-    """Fields ``label`` and ``beside``."""
-    xi, _ = gauss(POINTS)
-    label, beside = [np.zeros((0, POINTS))], [np.zeros((0, 2), dtype=np.int64)]
-    first = 0
-    for body in bodies:
-        far, rows = locate(body.start).far, np.arange(first, first + body.elements)
-        ends = body.node_x
-        label.append(ends[:-1, None] + xi * np.diff(ends)[:, None] - far)
-        before, after = np.where(rows > first, rows - 1, -1), np.where(rows < rows[-1], rows + 1, -1)
-        beside.append(np.stack([after, before] if far > 0.0 else [before, after], axis=1))
-        first += body.elements
-    return {"label": np.concatenate(label), "beside": np.concatenate(beside)}
 
 
 def _numbers(item):
@@ -321,12 +307,8 @@ def follow_material(batch, e, q, v):
     i = batch.winch[e]
     batch.since[e] = q[i]
     comes = 1 if v[i] > 0.0 else 0  # from the far end or from the winch
-    last = batch.weight.shape[1] - 1
-    up = (batch.label[e, last] < 0.0) != (comes == 1)  # whether that is towards higher numbers
-    for p in range(last + 1):
-        other, m = e, p + 1 if up else p - 1
-        if m < 0 or m > last:
-            other, m = batch.beside[e, comes], 0 if up else last
+    for p in range(batch.weight.shape[1]):
+        other, m = upstream(batch, e, p, comes)
         X, at, own = batch.label[e, p], place_at(batch, e, p, q), batch.anchor[e, p]
         slope = passed(batch.base, batch.passing, e, p, q)
         for c in range(3):

@@ -11,8 +11,10 @@ from .joints import Fixation, Revolute, Slide, Spherical
 from .loads import DistributedLoad, Force, Moment
 from .model import Model
 from .points import Point
+from .rigid_joints import Guide, Universal, Weld
 from .section import Circle, Rectangle, Section
 from .supports import Clamp, Hold, Pin
+from .torsion import TorsionSpring
 from .waves import Waves
 
 __all__ = [
@@ -24,6 +26,7 @@ __all__ = [
     "DistributedLoad",
     "Fixation",
     "Force",
+    "Guide",
     "Gusts",
     "Hold",
     "Model",
@@ -41,5 +44,8 @@ __all__ = [
     "Spherical",
     "Spring",
     "TimeFunction",
+    "TorsionSpring",
+    "Universal",
     "Waves",
+    "Weld",
 ]

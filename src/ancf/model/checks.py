@@ -22,6 +22,11 @@ def shown(value: object, limit: int = 60) -> str:
     return text if len(text) <= limit else text[: limit - 3] + "..."
 
 
+def spot(r: FloatArray) -> str:
+    """A vector for a message, in six digits."""
+    return f"({', '.join(f'{x:.6g}' for x in r.tolist())})"
+
+
 def number(value: object, where: str) -> float:
     """A finite float; no bool, no text, no NaN."""
     if isinstance(value, bool | np.bool_) or not isinstance(value, int | float | np.integer | np.floating):
@@ -90,6 +95,19 @@ def array(value: object, where: str, shape: tuple[int | None, ...]) -> FloatArra
     )
     if not fits:
         raise ModelError(where, f"has shape {clean.shape}, wanted {_shape_text(shape)}")
+    return clean
+
+
+def curve(value: object, where: str) -> FloatArray:
+    """Two rows or more (n, 2) of a place and a value, the places increasing."""
+    clean = array(value, where, (None, 2))
+    if len(clean) < 2:
+        raise ModelError(where, f"has {len(clean)} rows", "give two or more, [place, value] each")
+    late = np.flatnonzero(np.diff(clean[:, 0]) <= 0.0)
+    if late.size:
+        k = int(late[0]) + 1
+        what = f"is {clean[k, 0]:g} after {clean[k - 1, 0]:g}"
+        raise ModelError(f"{where}[{k}][0]", what, "sort the rows, each place once")
     return clean
 
 

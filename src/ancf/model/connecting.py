@@ -10,7 +10,7 @@ from ..arrays import FloatArray
 from . import checks
 from .beam import Beam
 from .bodies import PointMass, RigidBody
-from .connections import Connection, Spring, make_spring
+from .connections import FRICTION_VELOCITY, Connection, Spring, make_spring
 from .functions import check_inputs, refuse_inputs
 from .guides import Cylindrical, GuideT, Planar, Prismatic, make_guide
 from .joints import Fixation, Revolute, Slide, Spherical
@@ -18,7 +18,9 @@ from .kinds import kind_of
 from .make_joints import make_fixation, make_revolute, make_spherical
 from .points import Point
 from .repeated import check_repeated
+from .rigid_joints import Guide, Universal, Weld, make_guided, make_universal, make_weld
 from .slide_checks import make_slide
+from .torsion import TorsionSpring, make_torsion_spring
 from .undeformed import Undeformed
 
 ConnectionT = TypeVar("ConnectionT", bound=Connection)
@@ -90,6 +92,53 @@ class Connecting(Undeformed):
         `b` lies.
         """
         return self._guide(Planar, "planar", a, b, axis, name)
+
+    def universal(self, a: PointLike, b: Any, axis_a: Any, axis_b: Any, name: str | None = None) -> Universal:
+        """Join two coincident points by a universal (Cardan) joint.
+
+        Parameters
+        ----------
+        a, b : Point, RigidBody or, of b, (3,) m
+            As of ``hinge``.
+        axis_a, axis_b : (3,)
+            Initial global directions of the arms of the cross, normal to each other: the first is fixed in
+            the body of `a`, the second in that of `b`.
+
+        """
+        where, label, first, second = self.named_pair("universal", "universal joint", a, b, name)
+        return self.add_connection(
+            where, make_universal(where, label, first, second, (axis_a, axis_b), self.size)
+        )
+
+    def weld(self, a: PointLike, b: PointLike, name: str | None = None) -> Weld:
+        """Connect two coincident points rigidly: their bodies do not turn against each other.
+
+        Slopes of beams keep their
+        directions to each other and are free to stretch. Two cables may be in one line, where they share
+        their slope, or at a right angle.
+
+        Parameters
+        ----------
+        a, b : Point or RigidBody
+            Nodes of beams and cables, points of rigid bodies.
+        """
+        where, label, first, second = self.named_pair("weld", "weld", a, b, name)
+        return self.add_connection(where, make_weld(where, label, first, second, self.size))
+
+    def guide(self, point: PointLike, axis: Any, name: str | None = None) -> Guide:
+        """Guide a point: it moves along a line that is fixed in space, and its body does not turn.
+
+        Parameters
+        ----------
+        point : Point, PointMass or RigidBody
+            A node of a beam or cable, whose slopes keep their directions, a point of a rigid body, or a
+            point mass, which only stays on the line.
+        axis : (3,)
+            Direction of the line, which goes through the initial place of the point; any length but zero.
+
+        """
+        where, label, clean = self.named_point("guide", "guide", point, name)
+        return self.add_connection(where, make_guided(where, label, clean, axis))
 
     def _guide(
         self, kind: type[GuideT], method: str, a: PointLike, b: Any, axis: Any, name: str | None
@@ -189,10 +238,14 @@ class Connecting(Undeformed):
         a: PointLike,
         b: Any,
         *,
-        stiffness: float,
+        stiffness: float = 0.0,
         damping: float = 0.0,
         length: float | None = None,
         slack: bool = False,
+        law: Any = None,
+        damper: Any = None,
+        friction: float = 0.0,
+        friction_velocity: float = FRICTION_VELOCITY,
         name: str | None = None,
     ) -> Spring:
         """Add a spring and damper between a point and a point or a fixed position (3,) in m.
@@ -211,6 +264,15 @@ class Connecting(Undeformed):
             Length without force; default the initial distance.
         slack : bool
             It carries tension only.
+        law : (n, 2)
+            Rows of elongation in m and force in N, tension positive, of a spring beside it: straight between
+            the rows and beyond them, so that steep ends are stops.
+        damper : (n, 2)
+            Rows of rate of elongation in m/s and force in N of a damper beside it, in the same way.
+        friction : float, N
+            Coulomb's, against elongation and shortening.
+        friction_velocity : float, m/s
+            Rate at which friction has grown to tanh(1) = 0.76 of its size; it never sticks.
         name : str
             Default "spring from a.end to b.end".
 
@@ -219,7 +281,56 @@ class Connecting(Undeformed):
         first, second = self._point(a, f"{where}.a"), self._end(b, f"{where}.b")
         label = self._names.of_item(name, f"spring from {first} to {shown(second)}", where)
         item = make_spring(
-            where, label, first, second, stiffness=stiffness, damping=damping, length=length, slack=slack
+            where,
+            label,
+            first,
+            second,
+            stiffness=stiffness,
+            damping=damping,
+            length=length,
+            slack=slack,
+            law=law,
+            damper=damper,
+            friction=friction,
+            friction_velocity=friction_velocity,
+        )
+        return self.add_connection(where, item)
+
+    def add_torsion_spring(
+        self,
+        a: PointLike,
+        b: Any,
+        *,
+        axis: Any,
+        stiffness: float,
+        damping: float = 0.0,
+        angle: float = 0.0,
+        name: str | None = None,
+    ) -> TorsionSpring:
+        """Add a torsion spring and damper about an axis between two bodies, or a body and the ground.
+
+        It resists turning alone: a joint holds the ends together, where they are to stay together.
+
+        Parameters
+        ----------
+        a : Point or RigidBody
+            Of a rigid body, or a node of a beam or cable. Of a cable the direction of the tangent counts.
+        b : Point, RigidBody or (3,) m
+            The same of another body, or a position in space: the ground.
+        axis : (3,)
+            Initial global direction of the axis. It turns with a rigid body or with the section of a beam.
+        stiffness : float, N m/rad
+            Moment per angle; beyond a full turn the angle grows on.
+        damping : float, N m s/rad
+        angle : float, rad
+            Angle of a against b from the initial position, about the axis, without moment.
+
+        """
+        where = self._where("add_torsion_spring", name, a)
+        first, second = self._point(a, f"{where}.a"), self._end(b, f"{where}.b")
+        label = self._names.of_item(name, f"torsion spring from {first} to {shown(second)}", where)
+        item = make_torsion_spring(
+            where, label, first, second, axis=axis, stiffness=stiffness, damping=damping, angle=angle
         )
         return self.add_connection(where, item)
 

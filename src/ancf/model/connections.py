@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from ..arrays import FloatArray
 from ..errors import ModelError
 from . import checks
@@ -15,7 +17,12 @@ from .contact import Contact
 from .guides import Cylindrical, Planar
 from .joints import Fixation, Revolute, Slide, Spherical
 from .points import Point, initial_position
+from .rigid_joints import Guide, Universal, Weld
 from .surfaces import SurfaceContact
+from .torsion import TorsionSpring
+
+#: Rate at which the friction of a spring has grown to 0.76 of its size, m/s.
+FRICTION_VELOCITY = 0.01
 
 __all__ = ["Connection", "Spherical", "Spring", "initial_position", "make_spring"]
 
@@ -34,6 +41,12 @@ class Spring:
         Length without force, m.
     slack : bool
         It carries tension only.
+    law : (n, 2) array or None
+        Elongation in m and force in N of a spring beside it, linear between the rows and beyond them.
+    damper : (n, 2) array or None
+        Rate of elongation in m/s and force in N of a damper beside it, in the same way.
+    friction, friction_velocity : float
+        Coulomb's force in N, which has grown to 0.76 of its size at this rate in m/s.
 
     """
 
@@ -44,6 +57,15 @@ class Spring:
     damping: float
     length: float
     slack: bool
+    law: FloatArray | None = None
+    damper: FloatArray | None = None
+    friction: float = 0.0
+    friction_velocity: float = FRICTION_VELOCITY
+
+    @property
+    def damped(self) -> bool:
+        """Whether it takes energy."""
+        return self.damping > 0.0 or self.friction > 0.0 or self.damper is not None
 
 
 Connection = (
@@ -51,9 +73,13 @@ Connection = (
     | Revolute
     | Cylindrical
     | Planar
+    | Universal
+    | Weld
+    | Guide
     | Fixation
     | Slide
     | Spring
+    | TorsionSpring
     | Contact
     | SurfaceContact
     | CableContact
@@ -71,14 +97,46 @@ def make_spring(
     damping: Any,
     length: Any,
     slack: Any,
+    law: Any = None,
+    damper: Any = None,
+    friction: Any = 0.0,
+    friction_velocity: Any = FRICTION_VELOCITY,
 ) -> Spring:
     """Check what ``Model.add_spring`` was given."""
     distance = math.dist(initial_position(a), initial_position(b))
     if not 0.0 < distance < math.inf:
         raise ModelError(f"{where}.b", "its two ends coincide, the spring has no direction")
-    k = checks.non_negative(stiffness, f"{where}.stiffness")
-    c = checks.non_negative(damping, f"{where}.damping")
-    if k == 0.0 and c == 0.0:
+    made = Spring(
+        name,
+        a,
+        b,
+        checks.non_negative(stiffness, f"{where}.stiffness"),
+        checks.non_negative(damping, f"{where}.damping"),
+        distance if length is None else checks.non_negative(length, f"{where}.length"),
+        checks.flag(slack, f"{where}.slack"),
+        None if law is None else checks.curve(law, f"{where}.law"),
+        None if damper is None else checks.curve(damper, f"{where}.damper"),
+        checks.non_negative(friction, f"{where}.friction"),
+        checks.positive(friction_velocity, f"{where}.friction_velocity"),
+    )
+    if made.stiffness == 0.0 and made.law is None and not made.damped:
         raise ModelError(f"{where}.stiffness", "stiffness and damping are both 0")
-    natural = distance if length is None else checks.non_negative(length, f"{where}.length")
-    return Spring(name, a, b, k, c, natural, checks.flag(slack, f"{where}.slack"))
+    for key, given in (("law", made.law), ("damper", made.damper), ("friction", made.friction or None)):
+        if made.slack and given is not None:
+            what = "cannot be given for a spring that is slack"
+            raise ModelError(f"{where}.{key}", what, "a law may be 0 in compression")
+    _check_damper(made, where)
+    return made
+
+
+def _check_damper(made: Spring, where: str) -> None:
+    """A damper takes energy at every rate."""
+    if made.damper is None:
+        return
+    rate, force = made.damper.T
+    slope = np.diff(force) / np.diff(rate)
+    beyond = np.array([[rate[0] - 1.0, force[0] - slope[0]], [rate[-1] + 1.0, force[-1] + slope[-1]]])
+    power = np.prod(np.vstack([made.damper, beyond]), axis=1)
+    if np.any(power < 0.0) or not np.any((rate == 0.0) & (force == 0.0)):
+        what = "drives: its force has to be 0 at rest and to have the sign of the rate"
+        raise ModelError(f"{where}.damper", what, "rate in m/s and force in N, [[-1, -50], [0, 0], [1, 90]]")

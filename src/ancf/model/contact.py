@@ -35,6 +35,8 @@ class Contact:
         Unit vectors along the strip and of the force that the wire receives.
     s : float
         Reference arc length near which the wire crosses the strip at the start, m.
+    profile : (n, 2) array or None
+        Reference arc lengths, m, and by how much the wire's surface stands out towards the strip there, m.
 
     """
 
@@ -46,6 +48,7 @@ class Contact:
     strip: FloatArray
     normal: FloatArray
     s: float
+    profile: FloatArray | None = None
 
     @property
     def travel(self) -> FloatArray:
@@ -65,6 +68,7 @@ def make_contact(
     strip: Any,
     normal: Any,
     s: Any,
+    profile: Any = None,
 ) -> Contact:
     """Check what ``Model.add_contact`` was given."""
     if not isinstance(carrier, Beam):
@@ -90,6 +94,7 @@ def make_contact(
         along,
         across,
         start,
+        None if profile is None else checks.curve(profile, f"{where}.profile"),
     )
 
 

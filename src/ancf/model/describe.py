@@ -17,7 +17,7 @@ from .kind import Kind
 from .layout import PLACED, is_straight
 from .points import Point
 from .section import DAMPINGS, MOMENTS, Rectangle, Section
-from .section_fluid import IN_FLUID
+from .section_inertia import OPTIONAL
 from .state_function import StateFunction
 from .surfaces import Surface
 from .velocity_field import VelocityField
@@ -31,7 +31,7 @@ VELOCITIES = ("along", "velocities")
 def section(item: Section) -> dict[str, Any]:
     """Stiffnesses, mass and damping, and shape, material and moments when there are any."""
     plain = {key: getattr(item, key) for key in ("EA", "EI_y", "EI_z", "rhoA", *DAMPINGS)}
-    given = {key: _plain(getattr(item, key)) for key in IN_FLUID}
+    given = {key: _plain(getattr(item, key)) for key in OPTIONAL}
     plain |= {key: value for key, value in given.items() if value is not None}
     if item.shear_factors is None:
         return plain
@@ -45,7 +45,7 @@ def section(item: Section) -> dict[str, Any]:
 
 def section_of(plain: dict[str, Any]) -> Section:
     """The Section that ``section`` described."""
-    given = {key: plain[key] for key in DAMPINGS} | {key: plain[key] for key in IN_FLUID if key in plain}
+    given = {key: plain[key] for key in DAMPINGS} | {key: plain[key] for key in OPTIONAL if key in plain}
     kind = plain.get("shape")
     if kind is None:
         return Section(EA=plain["EA"], EI=plain["EI_y"], rhoA=plain["rhoA"], **given)

@@ -13,6 +13,7 @@ from .points import Point
 #: Under which noun results answer questions about a connection, see ancf.viz.pictures.questions.
 SPRING, CONTACT, SLIDE, JOINT = "spring", "contact", "sliding joint", "joint"
 SURFACE_CONTACT = "contact with a surface"
+TORSION = "torsion spring"
 
 
 @dataclass(frozen=True)
@@ -83,8 +84,8 @@ class Kind:
     between : function, optional
         What a table says of where it is; default its ends one after the other.
     asked : str
-        SPRING, CONTACT, SURFACE_CONTACT, SLIDE or JOINT: what results answer of it; "" for supports and
-        loads.
+        SPRING, TORSION, CONTACT, SURFACE_CONTACT, SLIDE or JOINT: what results answer of it; "" for supports
+        and loads.
     rows : str
         Module in ``ancf.connections`` with its ``rows``, of a joint made of rows.
     look : Look or None

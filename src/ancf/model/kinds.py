@@ -17,8 +17,10 @@ from .guides import Cylindrical, Planar, Prismatic
 from .joints import Fixation, Revolute, Slide, Spherical
 from .kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT, Kind, Look, Push
 from .loads import DistributedLoad, Force, Moment
+from .rigid_joints import GUIDE, UNIVERSAL, WELD
 from .state_function import StateFunction
 from .supports import Clamp, Hold, Pin
+from .torsion import TORSION_SPRING
 from .winch import Winch
 
 
@@ -148,6 +150,9 @@ CONNECTIONS: list[Kind] = [
         rows="planar",
         look=Look("square", "light", 4.0),
     ),
+    UNIVERSAL,
+    WELD,
+    GUIDE,
     Kind(
         Fixation,
         "fixation",
@@ -183,6 +188,7 @@ CONNECTIONS: list[Kind] = [
         ends=("a", "b"),
         asked=SPRING,
     ),
+    TORSION_SPRING,
     Kind(
         Contact,
         "contact",

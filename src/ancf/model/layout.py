@@ -17,6 +17,7 @@ from .beam import MOST_ELEMENTS, MOST_GAUSS_POINTS, NATURAL_SHAPES, NODE_TOLERAN
 from .elements import KINDS
 from .reeving import Reeved, Reeving
 from .section import MATERIAL, Section
+from .section_inertia import of_cable
 from .shapes import Rectangle
 
 #: What the nodes of a beam have in the initial shape.
@@ -54,7 +55,7 @@ def make_beam(
     kind = words["element"]
     _check_section(section, kind, f"{where}.section")
     loop = checks.flag(closed, f"{where}.closed")
-    arc_length, shape = _initial_shape(where, start, end, path, loop)
+    arc_length, shape = initial_shape(where, start, end, path, loop)
     natural = arc_length if length is None else checks.positive(length, f"{where}.length")
     if not 1e-6 < arc_length / natural < 1e6:
         raise ModelError(f"{where}.length", f"is {natural:g} m for an initial shape of {arc_length:g} m")
@@ -280,6 +281,7 @@ def _check_section(section: Any, element: str, where: str) -> None:
     if not KINDS[element].has_section:
         try:
             _ = section.EI
+            of_cable(section)
         except ModelError as error:
             raise ModelError(where, error.what, error.hint) from None
     elif section.E is None:
@@ -303,7 +305,8 @@ def _strain(given: Any, element: str, where: str) -> str:
     return checks.choice(given, where, allowed)
 
 
-def _initial_shape(where: str, start: Any, end: Any, given: Any, closed: bool) -> tuple[float, Sampler]:
+def initial_shape(where: str, start: Any, end: Any, given: Any, closed: bool) -> tuple[float, Sampler]:
+    """Length in m and shape of what a beam follows; ModelError if it is none."""
     if given is not None:
         if start is not None or end is not None:
             raise ModelError(f"{where}.path", "give either start and end, or path, not both")

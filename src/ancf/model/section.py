@@ -8,6 +8,7 @@ from typing import Any
 from ..errors import ModelError
 from . import checks
 from .section_fluid import in_fluid
+from .section_inertia import rotary
 from .section_moments import check_moments, of_similar_rectangle
 from .section_sheet import of_section
 from .shapes import Circle, Rectangle
@@ -52,6 +53,10 @@ class Section(Readable):
         Outer diameter in a fluid and on the ground, m; of a circle its own.
     drag, added_mass : (float, float)
         Coefficients normal to the axis and along it, >= 0, see :meth:`ancf.Model.add_fluid`.
+    rotary_inertia : float or (float, float)
+        Moments of inertia of a section per length about local y and z, kg m, > 0. A cable has none by
+        default, and one about all axes across it; it counts the rate of the whole slope r_x, and so
+        also that of the stretch. A beam of a material has rho I_y and rho I_z by default.
 
     Attributes
     ----------
@@ -106,6 +111,7 @@ class Section(Readable):
     diameter: float | None
     drag: tuple[float, float] | None
     added_mass: tuple[float, float] | None
+    rotary_inertia: tuple[float, float] | None
 
     def __init__(
         self,
@@ -120,6 +126,7 @@ class Section(Readable):
         diameter: float | None = None,
         drag: tuple[float, float] | None = None,
         added_mass: tuple[float, float] | None = None,
+        rotary_inertia: float | tuple[float, float] | None = None,
     ) -> None:
         stiffness = checks.non_negative(EI, "Section.EI")
         _fill(
@@ -130,6 +137,7 @@ class Section(Readable):
             rhoA=checks.positive(rhoA, "Section.rhoA"),
             **_dampings(damping, axial_damping, bending_damping, slope_damping),
             **in_fluid(diameter, drag, added_mass),
+            **rotary(rotary_inertia),
         )
 
     @classmethod
@@ -150,6 +158,7 @@ class Section(Readable):
         diameter: float | None = None,
         drag: tuple[float, float] | None = None,
         added_mass: tuple[float, float] | None = None,
+        rotary_inertia: float | tuple[float, float] | None = None,
     ) -> Section:
         """Rectangle of a material.
 
@@ -164,13 +173,13 @@ class Section(Readable):
         shear_factors : (float, float)
             Of the shear stiffnesses along local y and z; 5/6 for a rectangle in most textbooks.
         damping, axial_damping, bending_damping, slope_damping : float
-        diameter, drag, added_mass
+        diameter, drag, added_mass, rotary_inertia
             As for ``Section``.
 
         """
         b, h = checks.positive(width, "Section.width"), checks.positive(height, "Section.height")
         dampings = _dampings(damping, axial_damping, bending_damping, slope_damping)
-        dampings |= in_fluid(diameter, drag, added_mass)
+        dampings |= in_fluid(diameter, drag, added_mass) | rotary(rotary_inertia)
         return _of_shape(Rectangle(b, h), E, rho, nu, J, shear_factors, dampings)
 
     @classmethod
@@ -189,6 +198,7 @@ class Section(Readable):
         slope_damping: float = 0.0,
         drag: tuple[float, float] | None = None,
         added_mass: tuple[float, float] | None = None,
+        rotary_inertia: float | tuple[float, float] | None = None,
     ) -> Section:
         """Full circle of a material.
 
@@ -202,13 +212,13 @@ class Section(Readable):
         shear_factors : (float, float)
             Of the shear stiffnesses along local y and z; 9/10 for a circle in most textbooks.
         damping, axial_damping, bending_damping, slope_damping : float
-        drag, added_mass : (float, float)
+        drag, added_mass, rotary_inertia
             As for ``Section``.
 
         """
         shape = Circle(checks.positive(diameter, "Section.diameter"))
         dampings = _dampings(damping, axial_damping, bending_damping, slope_damping)
-        dampings |= in_fluid(diameter, drag, added_mass)
+        dampings |= in_fluid(diameter, drag, added_mass) | rotary(rotary_inertia)
         return _of_shape(shape, E, rho, nu, J, shear_factors, dampings)
 
     @classmethod
@@ -233,6 +243,7 @@ class Section(Readable):
         diameter: float | None = None,
         drag: tuple[float, float] | None = None,
         added_mass: tuple[float, float] | None = None,
+        rotary_inertia: float | tuple[float, float] | None = None,
     ) -> Section:
         """Section of any shape with two axes of symmetry, from the integrals over its area.
 
@@ -253,7 +264,7 @@ class Section(Readable):
         shear_factors : (float, float)
             Of the shear stiffnesses along local y and z.
         damping, axial_damping, bending_damping, slope_damping : float
-        diameter, drag, added_mass
+        diameter, drag, added_mass, rotary_inertia
             As for ``Section``.
 
         Raises
@@ -270,7 +281,7 @@ class Section(Readable):
         check_moments(moments)
         torsion = checks.positive(J, "Section.J")
         dampings = _dampings(damping, axial_damping, bending_damping, slope_damping)
-        dampings |= in_fluid(diameter, drag, added_mass)
+        dampings |= in_fluid(diameter, drag, added_mass) | rotary(rotary_inertia)
         return _of_material(None, moments, torsion, E, rho, nu, shear_factors, dampings)
 
     @property

@@ -21,11 +21,20 @@ def of_section(section: Any, dampings: tuple[str, ...]) -> Sheet:
         ("material", material),
         ("moments", with_units(moments)),
         ("stiffness", with_units((("EA", s.EA, "N"), *_bending(s)))),
-        ("mass", with_units((("rhoA", s.rhoA, "kg/m"),))),
+        ("mass", with_units((("rhoA", s.rhoA, "kg/m"), *_rotary(s)))),
         ("damping", with_units(damping)),
         ("in a fluid", _in_fluid(s)),
     ]
     return Sheet("Section", facts)
+
+
+def _rotary(s: Any) -> tuple[tuple[str, float, str], ...]:
+    if s.rotary_inertia is None:
+        return ()
+    y, z = s.rotary_inertia
+    if y == z:
+        return (("rotary inertia", y, "kg m"),)
+    return ("rotary inertia about y", y, "kg m"), ("about z", z, "kg m")
 
 
 def _bending(s: Any) -> tuple[tuple[str, float, str], ...]:

@@ -138,8 +138,14 @@ def spring(item: Spring) -> str:
         ("k", item.stiffness, "N/m"),
         ("c", item.damping or None, "N s/m"),
         ("length", item.length, "m"),
+        ("friction", item.friction or None, "N"),
     )
-    return with_units(given) + (", slack" if item.slack else "")
+    curves = [
+        f"{key} of {len(rows)} points"
+        for key in ("law", "damper")
+        if (rows := getattr(item, key)) is not None
+    ]
+    return ", ".join([with_units(given), *(["slack"] if item.slack else []), *curves])
 
 
 def contact(item: Contact) -> str:

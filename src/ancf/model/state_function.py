@@ -70,7 +70,7 @@ class StateFunction:
         """Value (3,) at the time t, s, the position r, m, and the velocity v, m/s, both (3,)."""
         value = self._given(t, r, v) if callable(self.given) else self._formulas(t, r, v)
         if not np.all(np.isfinite(value)):
-            what = f"is {value.tolist()} at t = {t:.6g} s, r = {r.tolist()} m, v = {v.tolist()} m/s"
+            what = f"is {value.tolist()} at t = {t:.6g} s, r = {checks.spot(r)} m, v = {checks.spot(v)} m/s"
             raise ModelError(self.where, f"{what}, must be finite", "it is asked for at rest too")
         return value
 
@@ -93,13 +93,13 @@ class StateFunction:
             with np.errstate(all="ignore"):
                 value = np.asarray(self.given(t, r.copy(), v.copy()))
         except Exception as error:
-            what = f"at t = {t:.6g} s, r = {r.tolist()} m the function raised {type(error).__name__}: {error}"
+            what = f"the function raised {type(error).__name__}: {error}"
+            what = f"at t = {t:.6g} s, r = {checks.spot(r)} m {what}"
             raise ModelError(self.where, what) from error
         if value.dtype.kind not in "iuf" or value.shape != (3,):
             shape = f"shape {value.shape}" if value.dtype.kind in "iuf" else checks.shown(value.tolist())
-            what = (
-                f"at t = {t:.6g} s, r = {r.tolist()} m the function of t, r, v returned {shape}, wanted (3,)"
-            )
+            what = f"the function of t, r, v returned {shape}, wanted (3,)"
+            what = f"at t = {t:.6g} s, r = {checks.spot(r)} m {what}"
             raise ModelError(self.where, what)
         return value.astype(np.float64)
 

@@ -35,7 +35,7 @@ OF_SHAPE = {
     "circle": ("E", "nu", "rho", "diameter", "J"),
     "moments": ("E", "nu", "rho", "A", "I_y", "I_z", "J"),
 }
-PAIRS = ("shear_factors", "drag", "added_mass")
+PAIRS = ("shear_factors", "drag", "added_mass", "rotary_inertia")
 OF_BEAM = ("length", "start", "end", "velocity", "angular_velocity", "about")
 #: Directions, which are no numbers, and what chooses a way.
 NO_NUMBERS = ("axis", "release", "unilateral", "normal", "strip", "direction", "tolerance")

@@ -106,7 +106,7 @@ class VelocityField:
             columns = [np.interp(r[2], self.heights, c) for c in self.profile.T] if len(self.heights) else 0.0
             value = self.uniform(t) + np.asarray(columns)
         if not np.all(np.isfinite(value)):
-            what = f"is {value.tolist()} at t = {t:.6g} s, r = {r.tolist()} m, must be finite"
+            what = f"is {value.tolist()} at t = {t:.6g} s, r = {checks.spot(r)} m, must be finite"
             raise ModelError(self.where, what)
         return value
 
@@ -132,7 +132,8 @@ class VelocityField:
             with np.errstate(all="ignore"):
                 value = np.asarray(self.law(t, *r.tolist()), dtype=object)
         except Exception as error:
-            what = f"at t = {t:.6g} s, r = {r.tolist()} m the function raised {type(error).__name__}: {error}"
+            what = f"the function raised {type(error).__name__}: {error}"
+            what = f"at t = {t:.6g} s, r = {checks.spot(r)} m {what}"
             raise ModelError(self.where, what) from error
         if value.shape != (3,) or not all(isinstance(part, int | float | np.number) for part in value):
             what = f"the function of t, x, y, z returned {checks.shown(value.tolist())}, wanted three numbers"

@@ -12,7 +12,7 @@ from .joints import Fixation, Slide
 from .loads import DistributedLoad
 from .model import Model
 from .points import Point
-from .surfaces import SurfaceContact
+from .rigid_joints import Weld
 from .winch import Winch
 
 
@@ -28,6 +28,9 @@ def check_winches(model: Model) -> None:
     The places between the ends of such a cable belong to no material: what is fastened there would slide.
     """
     winches = by_body(model)
+    for found in winches.values():
+        if found.beam.section.rotary_inertia is not None:
+            raise _refused("Section.rotary_inertia", found, "is not known for", "leave it out")
     for support in model.supports:
         if not isinstance(support, Winch) and (winch := winches.get(support.point.body.name)):
             _check_end(winch, support.name, support.point)
@@ -58,7 +61,7 @@ def _check_connection(winches: dict[str, Winch], item: Any) -> None:
     carrier = item.carrier if isinstance(item, Slide | Contact) else getattr(item, "body", None)
     for along in (carrier, getattr(item, "other", None)):
         winch = winches.get(getattr(along, "name", ""))
-        if winch and isinstance(item, Slide | Contact | SurfaceContact | CableContact):
+        if winch and isinstance(item, Slide | Contact | CableContact):
             raise _refused(item.name, winch, "runs along the cable", "join it to an end of the cable")
     for end in (getattr(item, key, None) for key in ("a", "b", "point")):
         if isinstance(end, Point) and (winch := winches.get(end.body.name)):
@@ -66,6 +69,8 @@ def _check_connection(winches: dict[str, Winch], item: Any) -> None:
             if isinstance(item, Fixation) and item.stretch == "fixed":
                 what = "holds a slope, whose length goes with the mesh"
                 raise _refused(item.name, winch, what, 'stretch="free"')
+            if isinstance(item, Weld) and item.shares_slope:
+                raise _refused(item.name, winch, "shares its slope with", "clamp both to a rigid body")
 
 
 def _check_end(winch: Winch, name: str, point: Point) -> None:

@@ -77,6 +77,7 @@ class WithSurfaces(Connecting):
         strip: Any = None,
         normal: Any = None,
         s: float | None = None,
+        profile: Any = None,
         name: str | None = None,
     ) -> Any:
         """Let a beam or cable touch a surface, another cable or itself, or rest on a strip through a point.
@@ -108,6 +109,9 @@ class WithSurfaces(Connecting):
             along strip x normal.
         s : float, m
             Reference arc length near which the wire crosses the strip at the start, default the nearest.
+        profile : (n, 2) m
+            Rows of reference arc length and of how far the wire's surface stands out towards the strip
+            there, straight between the rows and beyond them: waves and wear.
         name : str
             Default "contact of head and wire".
 
@@ -118,7 +122,7 @@ class WithSurfaces(Connecting):
         """
         where = self._where("add_contact", name, point)
         of_surface = {"friction": friction, "stick": stick, "radius": radius}
-        of_strip = {"strip": strip, "normal": normal, "s": s}
+        of_strip = {"strip": strip, "normal": normal, "s": s, "profile": profile}
         if self._is_surface(along):
             _refuse(where, of_strip, "a contact with a surface")
             if self._is_surface(point):
@@ -167,6 +171,7 @@ class WithSurfaces(Connecting):
             strip=STRIP if strip is None else strip,
             normal=NORMAL if normal is None else normal,
             s=s,
+            profile=profile,
         )
         return self.add_connection(where, item)
 

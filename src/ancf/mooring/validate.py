@@ -12,6 +12,7 @@ from typing import Any
 from .. import validation
 from ..catenary.quantity import Quantity
 from ..validation import Group, Progress
+from ..viz import style
 from . import cases
 
 CASE = "mooring"
@@ -61,17 +62,37 @@ def _row(row: dict[str, Any], value: float) -> Quantity:
 
 
 def _measured(given: dict[str, Any], places: list[tuple[float, int]], peaks: list[float]) -> Group:
-    """A row for each motion, whose range is twice the accepted mean error, and that of all of them."""
+    """A row for each motion, and the error of all of them."""
     printed = [row for rows in given["periods"].values() for row in rows]
     rows = []
-    for (period, k), peak, value in zip(places, peaks, printed, strict=True):
-        name = f"peak, r = {given['radii'][k]:g} m, T = {period:g} s, measured {value:g} N"
+    for (period, k), peak in zip(places, peaks, strict=True):
+        name = f"peak, r = {given['radii'][k]:g} m, T = {period:g} s"
         rows.append(Quantity("peak", name, "N", peak))
     error = math.sqrt(sum((a - b) ** 2 for a, b in zip(peaks, printed, strict=True)) / len(peaks))
     rows.append(
         Quantity("rmse", "root mean square error of all", "N", error, None, given["most"], "measured")
     )
-    return Group(given["title"], given["source"], rows)
+    return Group(
+        given["title"], given["source"], rows, [*printed, math.nan], lambda: _picture(given, peaks, printed)
+    )
+
+
+def _picture(given: dict[str, Any], peaks: list[float], printed: list[float]) -> str:
+    """Peaks over the radius of the circle, computed and measured, of each period."""
+    count = len(given["radii"])
+    with style.new_figure(120.0, 80.0) as figure:
+        axes = figure.subplots()
+        for n, period in enumerate(given["periods"]):
+            mine = slice(n * count, (n + 1) * count)
+            look = style.look(n)
+            axes.plot(given["radii"], peaks[mine], color=look.color, label=f"T = {float(period):g} s")
+            axes.plot(given["radii"], printed[mine], "o", color=look.color, ms=4.0)
+        axes.plot([], [], "o", color=style.GREY, ms=4.0, label="measured")
+        axes.set_xlabel("radius of the circle [m]")
+        axes.set_ylabel("mean of the peaks of the force [N]")
+        style.legend_above(figure, axes)
+        text = style.svg(figure)
+    return text[text.index("<svg") :]
 
 
 def write(groups: list[Group], folder: Path, report: bool = True) -> list[Path]:

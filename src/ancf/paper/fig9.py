@@ -29,6 +29,8 @@ CLAIM = (
 MESH = sliding.MESHES[0]
 TIMES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)  # s
 SAMPLES = {"carrier": 193, "slider": 65}
+NAMES = 0.09  # m between tips that both have their time written beside them
+ROOM = 0.45  # m, for the names between the tips and the axis
 DRIFT = 2e-4  # m, of the joint within 1 s
 COLUMNS = (*sliding.KEYS, "t", "body", "arc_length", "x", "y", "z")
 SIZE = (110.0, 92.0)  # mm
@@ -59,6 +61,7 @@ def draw(table: Table, figure: Figure) -> None:
     """Carrier, sliding beam and mass; the later, the darker."""
     axes: Any = figure.add_subplot(projection="3d")
     times = np.unique(table.values("t"))
+    tips: dict[float, FloatArray] = {}
     for k, t in enumerate(times):
         shade = 0.25 + 0.75 * k / max(len(times) - 1, 1)
         for body, color in (("carrier", style.BLUE), ("slider", style.ORANGE)):
@@ -66,9 +69,21 @@ def draw(table: Table, figure: Figure) -> None:
             name = body if k == len(times) - 1 else None
             axes.plot(x, y, z, color=color, alpha=shade, linewidth=1.0, label=name)
         axes.plot(x[-1:], y[-1:], z[-1:], "o", color="black", alpha=shade, markersize=4.0)
-        axes.text(x[-1] + 0.07, y[-1], z[-1] - 0.02, f"{t:.4g} s", fontsize=6.5)
+        tips[float(t)] = np.array([x[-1], y[-1], z[-1]])
+    for t in apart(tips):
+        place = tips[t] + (0.07, 0.0, -0.02)
+        axes.text(*place, f"{t:.4g} s", fontsize=6.5)
     axes.set(xlabel="$X$ [m]", ylabel="$Y$ [m]", zlabel="$Z$ [m]")
     _arrange(axes)
+
+
+def apart(tips: dict[float, FloatArray]) -> list[float]:
+    """Times whose names do not lie on each other: the last one, and from it back those far enough."""
+    kept: list[float] = []
+    for t in sorted(tips, reverse=True):
+        if not kept or np.linalg.norm(tips[t] - tips[kept[-1]]) > NAMES:
+            kept.append(t)
+    return kept[::-1]
 
 
 def checks(table: Table) -> list[Check]:
@@ -103,6 +118,8 @@ def _line(table: Table, body: str, t: float) -> FloatArray:
 
 def _arrange(axes: Any) -> None:
     """One scale for all axes, a view in which the beams do not hide each other, room for the names."""
+    axes.set_xlim(right=axes.get_xlim()[1] + ROOM)
+    axes.yaxis.labelpad = 10.0
     limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
     axes.set_box_aspect(np.ptp(limits, axis=1), zoom=0.86)
     axes.locator_params("x", nbins=3)

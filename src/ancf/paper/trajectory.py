@@ -13,6 +13,7 @@ from .references import SHORT, origin, reference
 from .table import Table, sampled_rows
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from .. import Result
@@ -41,6 +42,8 @@ BARS_S = {
     kinds.NONLOCKING: (1e-6,),
 }
 COORDINATES = ("x", "y", "z", "s")  # in the references
+#: Least widths of the two panels over their heights, in m of both.
+NARROW = {"a": 0.6, "b": 0.02}
 LAST = 0.75  # share of the time from which the second panel shows the path
 
 
@@ -66,11 +69,20 @@ def draw(table: Table, figure: Figure, across: str, up: str) -> None:
     whole.plot(u[:1], w[:1], "o", color=style.GREY, label="start")
     for axes, name in ((whole, "a"), (end, "b")):
         axes.set(xlabel=f"${across.upper()}$ of the mass [m]", ylabel=f"${up.upper()}$ of the mass [m]")
-        axes.locator_params("both", nbins=5)
+        axes.locator_params("y", nbins=5)
+        axes.locator_params("x", nbins=3)
         style.panel_name(axes, name)
+        widen(axes, NARROW[name])
     whole.set_aspect("equal", adjustable="box")
     end.set_title(f"from {LAST * t[-1]:.3g} s on")
     style.legend_above(figure, whole, columns=3)
+
+
+def widen(axes: Axes, share: float) -> None:
+    """Show at least a share of the height across: at first the mass falls all but straight down."""
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    more = 0.5 * max(share * (high - low) - (right - left), 0.0)
+    axes.set_xlim(left - more, right + more)
 
 
 def checks(table: Table, columns: str) -> list[Check]:

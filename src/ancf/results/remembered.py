@@ -93,10 +93,17 @@ def restore(system: System, known: Remembered) -> None:
 
 
 def begin(system: System, q: FloatArray, v: FloatArray, known: Remembered | None) -> None:
-    """Let a system begin at a state that knows this, or nothing: then its memory starts there."""
+    """Let a system begin at a state that knows this, or nothing: then its memory starts there.
+
+    Inputs that were given until the state go on as they were; else they have the values of the model.
+    """
     keep_memory(system.core.remembering, q, v)
-    if known is not None:
-        restore(system, known)
+    if known is None:
+        return
+    restore(system, known)
+    for name, value in known.inputs.items() if known.led else ():
+        if name in system.inputs.given:
+            system.inputs.give(name, value)
 
 
 def write(file: Any, known: Remembered) -> None:

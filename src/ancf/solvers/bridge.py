@@ -7,7 +7,7 @@ from typing import Any, NoReturn, Protocol
 import numpy as np
 
 from ..arrays import FloatArray
-from ..system.core import Core, apply_load
+from ..system.core import Core, Tables, apply_load
 from ..system.energy import energies
 from ..system.system import System
 from .balance import balance
@@ -17,6 +17,7 @@ from .rescue import Rescue
 from .sampling import Output, Sampling
 from .scheme import Scheme
 from .status import EVENT, INVERTED, OK, RETRIES, SINGULAR, STEPS, TOO_MANY, UNBALANCED
+from .unresolved import resolve
 
 #: A step is cut into at most 2 ** MOST_HALVINGS parts.
 MOST_HALVINGS = 10
@@ -91,15 +92,18 @@ class Bridge:
         """
         run, m = self.run, self.run.memory
         core = run.system.core._replace(accounted=True)
+        now = run.system.inputs.tables(t - h, h, 1, run.t_start, run.t_end, (m.q, m.v), still=True)
         if not run.system.core.accounted:  # what is judged here must not depend on what is recorded
-            now = run.system.inputs.tables(t - h, h, 1, run.t_start, run.t_end, (m.q, m.v), still=True)
             apply_load(core.loads, now.value[0], m.f)
             balance(core, m, 0.0)
         units = 2**MOST_HALVINGS
+        started = m.memo[KNOWN] == 0.0 and not core.damped  # damping ends what shorter steps begin with
         done, part, calm = 0, units, 0
         while done < units:
             status = self._part(core, t + h * (done / units), h * (part / units), h)
             if status != OK and status < EVENT:
+                if part == units and started and self._resolved(core, now, t, h, number):
+                    return
                 if part == 1:
                     run.stop(t + h * (done / units), number, status, h)
                 m.counts[RETRIES] += part == units
@@ -115,6 +119,19 @@ class Bridge:
             if calm >= 2 and part < units and done % (2 * part) == 0:
                 part, calm = 2 * part, 0
         m.counts[STEPS] += 1
+
+    def _resolved(self, core: Core, now: Tables, t: float, h: float, number: int) -> bool:
+        """The whole step with those accelerations at its start that it can resolve; whether that succeeds."""
+        run, m = self.run, self.run.memory
+        before = self._save()
+        if resolve(run.system, core, m, now, h, run.scheme):
+            status = self._part(core, t, h, h)
+            if status >= EVENT:
+                run.happened(status - EVENT, t + h, number)
+            if status == OK or status >= EVENT:
+                return True
+        self._put_back(before)
+        return False
 
     def _part(self, core: Core, t: float, part: float, h: float) -> int:
         """One step from t to t + part by the fast iteration or, if that fails, by the other one."""
@@ -136,6 +153,7 @@ class Bridge:
                 made = abs(made)
             if made > MOST_MADE * exchanged + run.round_off():
                 self._put_back(before)
+                m.counts[STEPS] -= 1
                 return UNBALANCED
         return status
 
@@ -143,11 +161,9 @@ class Bridge:
         return [x.copy() for x in self._kept()]
 
     def _put_back(self, saved: list[FloatArray]) -> None:
-        m = self.run.memory
         for x, old in zip(self._kept(), saved, strict=True):
             x[:] = old
-        m.memo[H_FACTOR] = 0.0
-        m.counts[STEPS] -= 1
+        self.run.memory.memo[H_FACTOR] = 0.0
 
     def _kept(self) -> list[FloatArray]:
         """All that a step changes but the counters."""

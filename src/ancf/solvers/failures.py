@@ -50,6 +50,25 @@ def blamed(
                     law(t + share * h, probe.field(q + share * h * v), probe.field(v))
                 except ModelError as error:
                     return SolveError(f"{where}, {error.where}", error.what, HINT)
+    return _in_fluids(system, q, v, t, h, where)
+
+
+def _in_fluids(
+    system: System, q: FloatArray, v: FloatArray, t: float, h: float, where: str
+) -> SolveError | None:
+    """The velocity of a fluid that has no value where the nodes of its bodies are on their way, or None."""
+    for fluid in system.model.fluids:
+        low, high = fluid.heights
+        slots = [s for name, own in system.slots.items() if fluid.acts_on(name) for s in own[:, 0].tolist()]
+        for share in (0.0, 0.5, 1.0):
+            for slot in slots:
+                r = q[slot : slot + 3] + share * h * v[slot : slot + 3]
+                if not low <= r[2] <= high:
+                    continue
+                try:
+                    fluid.velocity.at(t + share * h, r)
+                except ModelError as error:
+                    return SolveError(f"{where}, {error.where}", error.what, HINT)
     return None
 
 

@@ -68,8 +68,9 @@ from .status import (
 #: brings the one of the step before nearer to 1.
 STALE, AGED = 0.03, 0.8
 #: Corrections up to this multiple of the tolerance, and up to this size, that a new matrix does not reduce
-#: are round-off.
-ROUND_OFF = 1e4
+#: are round-off.  Where friction sticks and slips a kink of its force may be the reason: a smaller multiple,
+#: until all has been tried.
+ROUND_OFF, AT_KINKS = 1e4, 1e2
 LARGEST_ROUND_OFF = 1e-7
 #: By which round-off that was seen once is forgotten from step to step.
 FADING = 0.99
@@ -230,6 +231,8 @@ def newton(core, s, h, rule, modified, B, G):
     tolerance = max(tolerance, s.memo[NOISE])
     s.memo[NOISE] *= FADING
     older, old, since, whole = -1.0, -1.0, 0, True
+    noise = AT_KINKS if core.sticks and modified else ROUND_OFF
+    noise = min(noise * rule.tolerance, LARGEST_ROUND_OFF)
     nearby = modified and len(core.near) > 0 and not rule.corotate  # a part of it may iterate by itself
     for iteration in range(rule.max_iterations):
         if renew:
@@ -265,7 +268,6 @@ def newton(core, s, h, rule, modified, B, G):
             if rule.corotate and modified:
                 count(s, iteration + 1.0, fresh)
             return OK
-        noise = min(ROUND_OFF * rule.tolerance, LARGEST_ROUND_OFF)
         if fresh and theta > rule.contraction and size <= noise:
             s.memo[NOISE], s.memo[ETA] = 2.0 * norm, 1.0
             return OK

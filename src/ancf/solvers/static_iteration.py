@@ -54,6 +54,7 @@ class Iteration:
     iterations: int = 0
     jacobians: int = 0
     mu: float = 0.0
+    held: bool = False  # whether surfaces and friction hold what they touch
 
     def __post_init__(self) -> None:
         self.zero = np.zeros_like(self.q)
@@ -157,7 +158,7 @@ class Iteration:
         Loads that depend on the state, as moments, are no conservative ones and the symmetric part of their
         stiffness says nothing about stability: with them an indefinite K is taken as it is.
         """
-        if len(self.core.joints.tail):
+        if len(self.core.joints.tail) or self.held:
             return self._short_correction(r)
         negative = self.factorise(self.mu)
         self.spinning = bool(self.spin) and self.spins(r, negative)
@@ -175,9 +176,10 @@ class Iteration:
         raise SolveError("equilibrium", "no regularisation makes the stiffness positive definite")
 
     def _short_correction(self, r: FloatArray) -> FloatArray:
-        """The same with sliding joints: mu is also large enough to keep the correction short.
+        """The same, and mu is also large enough to keep the correction short.
 
-        A point that slides down a slope has no stiffness at all until it has found its place.
+        A point that slides down a slope has no stiffness at all until it has found its place; nor has a rope
+        that was drawn with a bend, across its plane, until it is taut.
         """
         for _ in range(MOST_MU):
             if self.factorise(self.mu) == 0:

@@ -11,6 +11,7 @@ Because only positive definite matrices are accepted, the result is a stable equ
 from __future__ import annotations
 
 import time as clock
+from typing import Any
 
 import numpy as np
 
@@ -30,6 +31,7 @@ from .static_path import follow_path, settle
 STENCIL_STEP = 1e-3  # of the differences that give rates of given motions, s
 RENEWED, MOST_RENEWED = 1e-9, 240  # change of what comes last that is none, and rounds
 UNMOVED = 1e-10  # correction after it that is round-off, positions in sizes of the model
+MOST_RELEASES = 30  # rounds in which surfaces let go what they pull
 MOST_EVENTS = 4  # openings and closings of a contact
 
 
@@ -61,8 +63,7 @@ def equilibrium(
     it = Iteration(system, core, q, force, core.loads.value.copy())
     slack = Slack(system, q, force)
     try:
-        way = gripped if grips(core, q, False) else bring_on
-        halvings = way(it, slack, load_steps)
+        halvings = attempt(it, slack, load_steps)
     finally:
         slack.set(0.0, 0.0)
         core.loads.value[:] = it.inputs
@@ -84,29 +85,63 @@ def bring_on(it: Iteration, slack: Slack, load_steps: int) -> int:
 
 
 def grips(core: Core, q: FloatArray, holds: bool) -> bool:
-    """Let friction hold what it touches, or not; whether there is any."""
+    """Let friction and surfaces hold what they touch, or not; whether there is any friction."""
     ways = [(batch, own) for batch in core.batches if (own := traits(batch).early) is not None]
     found = [early(batch, q, holds) for batch, early in ways]
     return any(found)
 
 
-def gripped(it: Iteration, slack: Slack, load_steps: int) -> int:
-    """Bring on the loads while friction holds what it touches, or else while it is not there.
+def attempt(it: Iteration, slack: Slack, load_steps: int) -> int:
+    """Bring on the loads while what is touched holds, or while it only pushes and there is no friction.
 
-    Where friction alone holds a cable there is no equilibrium without it; where a cable has to slide into
-    its place, holding it may press it together until it buckles.
+    Where friction alone holds a cable there is no equilibrium without it, and a cable that just touches has
+    no stiffness until something presses it; where it has to slide into its place, holding it may press it
+    together until it buckles.
     """
     first, q = None, it.q.copy()
-    for holds in (True, False):
-        it.q, it.mu = q.copy(), 0.0
+    for holds in _attempts(it.core, q):
+        it.q, it.mu, it.held = q.copy(), 0.0, holds
         grips(it.core, it.q, holds)
         try:
-            return bring_on(it, slack, load_steps)
+            halvings = bring_on(it, slack, load_steps)
+            if holds:
+                let_go(it)
+            return halvings
         except SolveError as error:
             slack.set(0.0, 0.0)
             first = first or error
+    grips(it.core, q, False)
     assert first is not None
     raise first
+
+
+def _attempts(core: Core, q: FloatArray) -> tuple[bool, ...]:
+    """Whether the loads come on with what they touch holding, one attempt after the other."""
+    if grips(core, q, False):
+        return True, False
+    return (False, True) if _holding(core) else (False,)
+
+
+def _holding(core: Core) -> list[tuple[Any, Any]]:
+    """What may hold against its nature, and how it lets go."""
+    return [(batch, own) for batch in core.batches if (own := traits(batch).free) is not None]
+
+
+def let_go(it: Iteration) -> None:
+    """Let go, step by step, what surfaces pull, and at last all that they hold."""
+    held = _holding(it.core)
+    for number in range(MOST_RELEASES if held else 0):
+        last = number + 1 == MOST_RELEASES
+        pulled = sum(free(batch, it.q, last) for batch, free in held)
+        if pulled:
+            problem = settle(it, 1.0)
+            if problem is not None:
+                raise it.failure("equilibrium", problem, "start nearer to the equilibrium")
+            bring_late(it)
+        elif not last:
+            break
+    for batch, free in held:
+        free(batch, it.q, True)
 
 
 def bring_late(it: Iteration) -> None:

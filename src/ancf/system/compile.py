@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray, IntArray
 from ..batches import Batches
-from ..bodies.build import inertia
+from ..bodies.build import inertia, rotary_inertia
 from ..compiled import Role, traits, with_role
 from ..connections import joint_build
 from ..connections.contact_build import contacts
 from ..connections.sliding_build import sliding
 from ..connections.spring_build import springs
+from ..connections.torsion_build import torsion_springs
 from ..contact.build import batches as surface_contacts
 from ..contact.bump_build import bumps
 from ..contact.bump_build import share as share_bumps
@@ -39,6 +40,7 @@ from ..model.joints import Slide
 from ..model.model import Model
 from ..model.points import Point
 from ..model.surfaces import SurfaceContact
+from ..model.torsion import TorsionSpring
 from ..model.winches import by_body
 from . import loads
 from .core import Core, Joints, Loads, Supports
@@ -82,10 +84,14 @@ def build_parts(
             model.gravity,
         )
     parts["springs"] = springs(model, find)
+    twisted = [c for c in model.connections if isinstance(c, TorsionSpring)]
+    if twisted:
+        parts["torsion springs"] = torsion_springs(twisted, slots)
     parts |= loads.batches(model, find, value)
     undeformed = [b for b in model.bodies.values() if not isinstance(b, Beam)]
-    if undeformed:
-        parts["bodies"] = inertia(undeformed, slots)
+    rotary = rotary_inertia(model.beams.values(), slots)
+    if undeformed or rotary:
+        parts["bodies"] = inertia(undeformed, slots, rotary)
     touching = [c for c in model.connections if isinstance(c, Contact)]
     if touching:
         parts["contacts"] = contacts(touching, find, slots, measured[: len(touching)])
@@ -209,6 +215,7 @@ def make_core(
         supports=supports,
         joints=joints,
         loads=dead,
+        sticks=any(_sticks(b) for b in batches if len(b[0])),
         damped=bool(rubbing) or bool(losing),
         loses=bool(losing),
         loaded=bool(len(dead.value) or any(len(b.base) for b in external) or len(supports.driven)),
@@ -220,6 +227,11 @@ def _is_line(parts: Parts) -> bool:
     """Whether strips run along wires, without joints: blocks then ascend along these, see near."""
     others = ("joints", "slides", "crossing", "gripping")
     return "contacts" in parts and not any(name in parts for name in others)
+
+
+def _sticks(batch: Any) -> bool:
+    late = traits(batch).late
+    return late is not None and late(batch) is not None
 
 
 def _damped(batch: Any) -> bool:

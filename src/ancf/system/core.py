@@ -98,6 +98,7 @@ class Core(NamedTuple):
     supports: Supports
     joints: Joints
     loads: Loads
+    sticks: bool  # friction sticks or slips: forces have kinks
     damped: bool  # something dissipates
     loses: bool  # something without friction does
     loaded: bool  # something but gravity does work

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -51,6 +53,7 @@ class Numbering:
         self.lengths: dict[str, int] = {}
         self.sliding: list[int] = []
         self.rows: dict[str, list[Row]] = {}
+        self._known: set[Any] = set()
         self.blocks = 0
         for body in model.bodies.values():
             nodes, shared, internal = layout(body)
@@ -84,9 +87,11 @@ class Numbering:
         return locate(point, self.slots[point.body.name])
 
     def _keep(self, name: str, rows: list[Row]) -> None:
-        """Rows and blocks for their multipliers."""
-        self.rows[name] = rows
-        self._number(name, len(rows))
+        """Rows and blocks for their multipliers; one that is there, as of a second weld, stays out."""
+        new = [row for row in rows if row.key not in self._known]
+        self._known.update(row.key for row in new)
+        self.rows[name] = new
+        self._number(name, len(new))
 
     def _number(self, name: str, rows: int) -> None:
         """Blocks for a number of multipliers."""

@@ -9,10 +9,12 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..arrays import IntArray
+from ..connections.torsion_build import torsion_springs
 from ..model.beam import Beam
 from ..model.connections import Connection, Spring
 from ..model.points import Point
 from ..model.supports import Support
+from ..model.torsion import TorsionSpring
 from .probe import Probe, R
 
 
@@ -82,6 +84,7 @@ class Probed(Protocol):
     """What a System has."""
 
     joints: dict[str, IntArray]
+    slots: dict[str, IntArray]
     measures: dict[str, IntArray]
     constraints: Any
 
@@ -114,6 +117,9 @@ def listing(system: Probed, items: Sequence[Point | Connection | Support], accel
         if isinstance(item, Spring):
             ends = [end for end in (item.a, item.b) if isinstance(end, Point)]
             wanted += [_triples(_position_slots(system.probe(end))) for end in ends]
+        if isinstance(item, TorsionSpring):
+            slots = torsion_springs([item], system.slots).base
+            wanted.append(_triples(slots[slots >= 0]))
         if name in system.joints:
             wanted.append(system.joints[name])
         if name in system.measures:

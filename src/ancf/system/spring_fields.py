@@ -10,10 +10,10 @@ from ..arrays import FloatArray
 from ..model.connections import Spring
 from ..model.names import unknown
 from ..model.points import Point
-from .fields import Fields
+from .torsion_fields import TorsionFields
 
 
-class SpringFields(Fields):
+class SpringFields(TorsionFields):
     """Values of springs; shapes are () for a state, (n_t,) for a history.
 
     A spring is the object that the model gave, or its name.
@@ -52,7 +52,7 @@ class SpringFields(Fields):
         extension = length - item.length
         tension: FloatArray = item.stiffness * extension + item.damping * growth
         if not item.slack:
-            return tension
+            return tension + _beside(item, extension, growth)
         carries: FloatArray = np.where((extension > 0.0) & (tension > 0.0), tension, 0.0)
         return carries
 
@@ -72,6 +72,26 @@ class SpringFields(Fields):
         if found is None:
             raise unknown("spring", "spring", name, self._springs)
         return found
+
+
+def _beside(item: Spring, extension: FloatArray, rate: FloatArray) -> FloatArray:
+    """Force of the curves and the friction of a spring, N."""
+    force: FloatArray = np.zeros_like(extension)
+    for curve, x in ((item.law, extension), (item.damper, rate)):
+        if curve is not None:
+            force = force + _along(curve, x)
+    if item.friction:
+        force = force + item.friction * np.tanh(rate / item.friction_velocity)
+    return force
+
+
+def _along(curve: FloatArray, x: FloatArray) -> FloatArray:
+    """Values of a curve (n, 2), which goes straight on beyond its ends."""
+    k = np.clip(np.searchsorted(curve[:, 0], x, side="right") - 1, 0, len(curve) - 2)
+    low, high = curve[k], curve[k + 1]
+    slope = (high[..., 1] - low[..., 1]) / (high[..., 0] - low[..., 0])
+    value: FloatArray = low[..., 1] + slope * (x - low[..., 0])
+    return value
 
 
 def springs_of(connections: list[Any]) -> dict[str, Spring]:

@@ -102,6 +102,8 @@ UNITS = {
     "multiplier": "N",
     "spring_force": "N",
     "spring_length": "m",
+    "torsion_angle": "rad",
+    "torsion_moment": "N m",
     "contact_force": "N",
     "contact_gap": "m",
     "friction_force": "N",

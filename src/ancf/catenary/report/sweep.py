@@ -143,6 +143,18 @@ def _verdict(sweep: Sweep) -> str:
     return text + (f", {failed} could not be run." if failed else ".")
 
 
+def verdict(row: Row, k: int) -> str:
+    """Whether pantograph k is "inside", or which limits it misses, "outside: σ, uplift"."""
+    if row[f"accepted_{k + 1}"]:
+        return "inside"
+    before, behind = "outside_", f"_{k + 1}"
+    keys = [str(key) for key, value in row.items() if str(key).startswith(before) and value == 1.0]
+    names = {key: head.partition(" [")[0] for key, head, _ in COLUMNS}
+    missed = [key.removeprefix(before).removesuffix(behind) for key in keys if key.endswith(behind)]
+    told = ", ".join(names.get(key, key.replace("_", " ")) for key in missed)
+    return f"outside: {told}" if told else "outside"
+
+
 def _heads(sweep: Sweep) -> tuple[str, ...]:
     return ("speed [km/h]", *(["distance [m]"] if sweep.values(sweep.spacing) else []))
 
@@ -157,14 +169,14 @@ def _cases(sweep: Sweep, k: int) -> Element:
     for row in sweep.done:
         numbers = [shown(row.get(f"{key}_{k + 1}"), unit) for key, _, unit in COLUMNS]
         ratio = row[f"deviation_{k + 1}"] / row[f"mean_force_{k + 1}"]
-        verdict = "inside" if row[f"accepted_{k + 1}"] else "outside"
-        rows.append((*_place(sweep, row), *numbers[:2], f"{ratio:.3f}", *numbers[2:], verdict))
+        rows.append((*_place(sweep, row), *numbers[:2], f"{ratio:.3f}", *numbers[2:], verdict(row, k)))
     heads = [head for _, head, _ in COLUMNS]
     first = _heads(sweep)
     made = table((*first, *heads[:2], "σ/Fm", *heads[2:], "all limits"), rows, numbers=range(len(first) + 8))
     for cell in made.iter("td"):
-        if cell.text in ("inside", "outside"):
-            cell.set("class", str(cell.text))
+        word = str(cell.text).partition(":")[0]
+        if word in ("inside", "outside"):
+            cell.set("class", word)
     return made
 
 

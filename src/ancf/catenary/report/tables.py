@@ -210,6 +210,13 @@ def _tension_length(line: Line) -> Iterator[tuple[str, str, str]]:
             continue
         values = f"{wire.mass:g} kg/m, tension {wire.tension:g} N, EA {wire.EA:g} N, EI {wire.EI:g} N m²"
         yield name, key, values + (f", damping {wire.damping:g} N s/m²" if wire.damping else "")
+    if getattr(line, "auxiliary", None) is not None:
+        auxiliary = line.auxiliary
+        assert auxiliary is not None
+        wire = auxiliary.wire
+        values = f"{wire.mass:g} kg/m, tension {wire.tension:g} N, EA {wire.EA:g} N, EI {wire.EI:g} N m²"
+        yield "auxiliary", "auxiliary_wire", f"{values}, {auxiliary.height:g} m over the contact wire"
+        yield "long droppers", "long_droppers", _droppers(auxiliary.droppers)
     yield "damping of the wires", "damping", f"alpha {line.damping.alpha:g} 1/s, beta {line.damping.beta:g} s"
     yield "droppers", "droppers", _droppers(line.droppers)
     yield "system height [m]", "system_height", _few(line.system_height)
@@ -238,12 +245,19 @@ def pantograph_data(content: Content, k: int) -> Element:
         ("name", "name", p.name),
         ("title", "title", p.title or "not given"),
         ("masses, base to head [kg]", "masses", _few(p.masses)),
-        ("stiffness [N/m]", "stiffness", _few(p.stiffness)),
-        ("damping [N s/m]", "damping", _few(p.damping)),
+        ("stiffness [N/m]", "stiffness", _springs(p.stiffness)),
+        ("damping [N s/m]", "damping", _springs(p.damping)),
         ("static force [N]", "static_force", f"{p.static_force:g}"),
         ("aerodynamic force over v² [N s²/m²]", "aerodynamic", _few(p.aerodynamics)),
         ("length of the strip [m]", "strip_length", f"{p.strip_length:g}"),
     ]
+    if any(getattr(p, "friction", ())):
+        rows.append(("friction [N]", "friction", _few(p.friction)))
+    if any(getattr(p, "stops", ())):
+        stops = ("none" if pair is None else f"{pair[0]:g} to {pair[1]:g}" for pair in p.stops)
+        rows.append(("stops, elongation of the spring [m]", "stops", ", ".join(stops)))
+    if getattr(p, "strip_distance", 0.0):
+        rows.append(("distance of its two strips [m]", "strip_distance", f"{p.strip_distance:g}"))
     known: Mapping[str, str] = getattr(p, "tags", None) or {}
     return pairs((name, value + _tagged(key, known)) for name, key, value in rows)
 
@@ -271,6 +285,18 @@ def flattened(settings: Mapping[str, Any], before: str = "") -> list[tuple[str, 
         elif value is not None:
             found.append((name, f"{value:.6g}" if isinstance(value, float) else str(value)))
     return found
+
+
+def _springs(values: Any) -> str:
+    """Numbers as they are, curves by what they cover."""
+    curves = [isinstance(value, tuple) for value in values]
+    if not any(curves):
+        return _few(values)
+    texts = (
+        f"curve from {v[0][1]:g} to {v[-1][1]:g} N" if c else f"{v:g}"
+        for v, c in zip(values, curves, strict=True)
+    )
+    return ", ".join(texts)
 
 
 def _few(values: Any) -> str:

@@ -10,6 +10,7 @@ from ..kind import Kind
 from ..kinds import CONNECTIONS, LOADS, SUPPORTS
 from .fields import (
     Coefficients,
+    ElementCount,
     ElementName,
     Entry,
     Inertia,
@@ -41,6 +42,9 @@ class SectionEntry(Entry):
     added_mass: Coefficients | None = Field(
         None, description="Added mass coefficients, normal and tangential [-]."
     )
+    rotary_inertia: Positive | Coefficients | None = Field(
+        None, description="Moment of inertia of a section per length, or those about local y and z [kg m]."
+    )
 
 
 class MaterialEntry(Entry):
@@ -59,6 +63,9 @@ class MaterialEntry(Entry):
     drag: Coefficients | None = Field(None, description="Drag coefficients, normal and tangential [-].")
     added_mass: Coefficients | None = Field(
         None, description="Added mass coefficients, normal and tangential [-]."
+    )
+    rotary_inertia: Positive | Coefficients | None = Field(
+        None, description="Moment of inertia of a section per length, or those about local y and z [kg m]."
     )
 
 
@@ -230,7 +237,9 @@ class BeamEntry(Entry):
     path: list[Vector] | None = Field(None, description="Points of a spline, instead of start and end [m].")
     reeving: ReevingEntry | None = Field(None, description="Path over wheels, instead of path.")
     closed: bool = Field(False, description="The end is joined to the start, as in a belt.")
-    elements: int | None = Field(None, ge=1, description="Number of elements of equal length.")
+    elements: ElementCount | None = Field(
+        None, description='Number of elements of equal length, or "auto": by an estimate of the error.'
+    )
     nodes: list[float] | None = Field(
         None, description="Reference arc lengths of the nodes, 0 to length [m]."
     )

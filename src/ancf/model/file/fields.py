@@ -10,7 +10,9 @@ from pydantic import (
     AfterValidator,
     BaseModel,
     ConfigDict,
+    Discriminator,
     Field,
+    Tag,
     ValidationInfo,
     WithJsonSchema,
     field_validator,
@@ -24,7 +26,7 @@ from ..elements import KINDS
 from ..functions import TimeFunction
 from ..integrators import INTEGRATORS, integrator_of, table_schema
 from ..state_function import check_force
-from .parameters import Naming, kind_of, resolved
+from .parameters import Naming, kind_of, resolved, words_of
 
 if TYPE_CHECKING:  # the names are known at run time alone
     ElementName: TypeAlias = str
@@ -43,8 +45,11 @@ class Entry(BaseModel):
     @classmethod
     def _without_parameters(cls, value: Any, info: ValidationInfo) -> Any:
         """Numbers in place of the parameters of the file."""
+        kind, words = _kind(cls, info.field_name or "")
+        if isinstance(value, str) and value in words:
+            return value
         try:
-            return resolved(value, _kind(cls, info.field_name or ""))
+            return resolved(value, kind)
         except ModelError as error:
             raise refused(error, error.where) from None
 
@@ -55,9 +60,9 @@ class Entry(BaseModel):
 
 
 @cache
-def _kind(entry: type[Entry], name: str) -> str:
+def _kind(entry: type[Entry], name: str) -> tuple[str, tuple[Any, ...]]:
     field = entry.model_fields[name]
-    return kind_of(field.annotation, field.metadata)
+    return kind_of(field.annotation, field.metadata), words_of(field.annotation)
 
 
 def refused(error: ModelError, place: str) -> PydanticCustomError:
@@ -159,9 +164,15 @@ _TERM = {"anyOf": [_NUMBER, {"type": "string"}]}
 
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
+#: Number of elements; tags like these are no part of a place.
+ElementCount = Annotated[
+    Annotated[int, Field(ge=1), Tag("<number>")] | Annotated[Literal["auto"], Tag("<auto>")],
+    Discriminator(lambda given: "<auto>" if given == "auto" else "<number>"),
+]
 Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
 Coefficients = Annotated[list[NonNegative], Field(min_length=2, max_length=2)]
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
+Curve = Annotated[list[Pair], Field(min_length=2)]
 Matrix = Annotated[list[Vector], Field(min_length=3, max_length=3)]
 Line = Annotated[list[Vector], Field(min_length=2, max_length=2)]
 ScalarFunction = Annotated[Any, checked(lambda v: TimeFunction(v, 1, "")), _function_schema(_TERM, _NUMBER)]

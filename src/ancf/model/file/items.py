@@ -7,6 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from .fields import (
+    Curve,
     Entry,
     ForceFunction,
     ItemName,
@@ -226,10 +227,14 @@ class SpringEntry(Entry):
     type: Literal["spring"] = Field(description="Kind of connection.")
     a: PointLabel
     b: PointOrPosition = Field(description="The other point, or a position in space [m].")
-    stiffness: NonNegative = Field(description="Stiffness [N/m].")
+    stiffness: NonNegative = Field(0.0, description="Stiffness [N/m].")
     damping: NonNegative = Field(0.0, description="Damping [N s/m].")
     length: NonNegative | None = Field(None, description="Length without force, default the initial one [m].")
     slack: bool = Field(False, description="It carries tension only.")
+    law: Curve | None = Field(None, description="Rows of elongation and force of a spring beside it [m, N].")
+    damper: Curve | None = Field(None, description="Rows of rate and force of a damper beside it [m/s, N].")
+    friction: NonNegative = Field(0.0, description="Coulomb's force [N].")
+    friction_velocity: Positive = Field(0.01, description="Rate at which friction is 0.76 of its size [m/s].")
     name: ItemName = None
 
 
@@ -244,6 +249,9 @@ class ContactEntry(Entry):
     strip: Vector = Field([0.0, 1.0, 0.0], description="Direction of the strip [-].")
     normal: Vector = Field([0.0, 0.0, 1.0], description="Direction of the force on the wire [-].")
     s: NonNegative | None = Field(None, description="Arc length near which it starts [m].")
+    profile: Curve | None = Field(
+        None, description="Rows of arc length [m] and how far the wire's surface stands out there [m]."
+    )
     name: ItemName = None
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from types import MappingProxyType
-from typing import Annotated, Any, Union, get_args, get_origin
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from ...errors import ModelError
 from .. import checks
@@ -85,10 +85,15 @@ def kind_of(annotation: Any, metadata: list[Any]) -> str:
     leaves = [leaf for leaf in _leaves(annotation) if not hasattr(leaf, tables)]
     if any(leaf is Any for leaf in leaves):
         return "named" if any(isinstance(mark, Naming) for mark in metadata) else "formula"
-    numbers = [leaf for leaf in leaves if leaf is not type(None)]
+    numbers = [leaf for leaf in leaves if leaf is not type(None) and get_origin(leaf) is not Literal]
     if not numbers or any(leaf is not int and leaf is not float for leaf in numbers):
         return "other"
     return "number" if any(leaf is float for leaf in numbers) else "whole"
+
+
+def words_of(annotation: Any) -> tuple[Any, ...]:
+    """Words that may stand in a field instead of a number, such as "auto"."""
+    return tuple(x for leaf in _leaves(annotation) if get_origin(leaf) is Literal for x in get_args(leaf))
 
 
 def resolved(given: Any, kind: str) -> Any:

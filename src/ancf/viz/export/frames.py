@@ -11,6 +11,7 @@ import numpy as np
 from ...errors import ModelError, named
 from ...model import checks
 from ...model.beam import Beam
+from ...model.kind import TORSION
 from ...model.points import Point
 from ...results.sensors import Sensors
 from . import tables
@@ -80,6 +81,7 @@ def _everything(known: Any) -> list[tuple[str, str]]:
         return [_kind(known, name, name) for name in known.names]
     found = [(label, "point") for label in default_points(known)]
     found += [(name, "spring") for name in known.springs]
+    found += [(name, TORSION) for name in known.torsion_springs]
     found += [(name, "joint") for name in known.joints if name not in known.bodies]
     return [*found, (ENERGY, ENERGY)] if _has_energy(known) else found
 
@@ -94,6 +96,8 @@ def _kind(known: Any, item: Any, where: str) -> tuple[str, str]:
         label = str(item) or label
     if label == ENERGY and _has_energy(known):
         return label, ENERGY
+    if label in known.torsion_springs:
+        return label, TORSION
     for kind, names in (("spring", known.springs), ("joint", known.joints)):
         if label in names and label not in known.model.bodies:
             return label, kind
@@ -118,6 +122,8 @@ def _columns(known: Any, asked: list[tuple[str, str]]) -> Iterator[tables.Column
         elif kind == "spring":
             yield f"{label} force [N]", known.spring_force(label)
             yield f"{label} length [m]", known.spring_length(label)
+        elif kind == TORSION:
+            yield from tables.torsion_columns(known, label)
         elif kind == "joint":
             yield from tables.joint_parts(known, label)
         elif kind == "contact":

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ...arrays import FloatArray
 from ...files import cell, drafted
 from ...model.beam import Beam
@@ -25,13 +27,22 @@ INSIDE = {"tension": "N", "curvature": "1/m"}
 
 
 def write_table(path: Path, columns: Iterable[Column]) -> Path:
-    """Write a CSV file with names and units in its first row; numbers read back to the last bit."""
+    """Write a CSV file with names and units in its first row; numbers read back to the last bit.
+
+    What is not known, or infinite as a gap to what is not near, is an empty cell.
+    """
     listed = list(columns)
     with drafted(path) as draft, draft.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow([cell(name) for name, _ in listed])
-        writer.writerows(zip(*(values.tolist() for _, values in listed), strict=True))
+        writer.writerows(zip(*(_cells(values) for _, values in listed), strict=True))
     return path
+
+
+def _cells(values: FloatArray) -> list[float | None]:
+    """Numbers; None, which is written as nothing, for what is none."""
+    known = np.isfinite(values).tolist()
+    return [x if there else None for x, there in zip(values.tolist(), known, strict=True)]
 
 
 def sensor_columns(sensors: Sensors) -> Iterator[Column]:
@@ -43,6 +54,8 @@ def sensor_columns(sensors: Sensors) -> Iterator[Column]:
         if name in sensors.springs:
             yield f"{name} force [N]", sensors.spring_force(name)
             yield f"{name} length [m]", sensors.spring_length(name)
+        if name in sensors.torsion_springs:
+            yield from torsion_columns(sensors, name)
         if name in sensors.joints:
             yield from joint_parts(sensors, name)
         if name in sensors.listing.held:
@@ -55,6 +68,12 @@ def sensor_columns(sensors: Sensors) -> Iterator[Column]:
                 yield f"{name} slipping [-]", sensors.slipping(name)
             else:
                 yield f"{name} s [m]", sensors.arc_length(name)
+
+
+def torsion_columns(known: Any, name: str) -> Iterator[Column]:
+    """Angle and moment of a torsion spring."""
+    yield f"{name} angle [rad]", known.torsion_angle(name)
+    yield f"{name} moment [N m]", known.torsion_moment(name)
 
 
 def motion_columns(known: Any, point: Point | str, label: str) -> Iterator[Column]:

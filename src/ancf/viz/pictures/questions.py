@@ -11,7 +11,7 @@ from ...errors import ModelError
 from ...model import checks
 from ...model.beam import Beam
 from ...model.bodies import PointMass, RigidBody
-from ...model.kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT
+from ...model.kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT, TORSION
 from ...model.kinds import CONNECTIONS, kind_of
 from ...model.names import POINT_LABEL
 from ...model.points import Point
@@ -39,6 +39,8 @@ QUANTITIES: dict[str, Question] = {
     "twist": Question("twist", (POINT,)),
     "spring_force": Question("spring_force", (SPRING,)),
     "spring_length": Question("spring_length", (SPRING,)),
+    "torsion_angle": Question("torsion_angle", (TORSION,)),
+    "torsion_moment": Question("torsion_moment", (TORSION,)),
     "contact_force": Question("contact_force", (CONTACT, SURFACE_CONTACT)),
     "contact_gap": Question("contact_gap", (CONTACT, SURFACE_CONTACT)),
     "friction_force": Question("friction_force", (SURFACE_CONTACT,)),
@@ -52,6 +54,7 @@ SCALARS = [name for name, question in QUANTITIES.items() if not question.vector]
 DEFAULTS = {
     POINT: "position",
     SPRING: "spring_force",
+    TORSION: "torsion_moment",
     CONTACT: "contact_force",
     SURFACE_CONTACT: "contact_force",
     SLIDE: "arc_length",
@@ -115,7 +118,7 @@ def noun_of(source: Any, item: Any) -> str:
 
 def known(source: Any) -> dict[str, str]:
     """Names of springs, contacts and joints, with what they are."""
-    asked = {*source.joints, *source.springs, *source._contacts()}
+    asked = {*source.joints, *source.springs, *source.torsion_springs, *source._contacts()}
     return {item.name: kind_of(item).asked for item in source.model.connections if item.name in asked}
 
 

@@ -3,11 +3,12 @@
 from ...arrays import FloatArray
 from .arrows import strokes
 from .compose import chosen_times, make_scene
-from .parts import QUANTITIES, Arrow, Link, Marker, Net, Scene, Strip, Thread, Triad, looks
+from .parts import QUANTITIES, Arrow, Comb, Link, Marker, Net, Scene, Strip, Thread, Triad, looks
 
 __all__ = [
     "QUANTITIES",
     "Arrow",
+    "Comb",
     "FloatArray",
     "Link",
     "Marker",

@@ -29,8 +29,9 @@ from ...results.state import State
 from ...system.spring_fields import SpringFields
 from . import sampling
 from .arrows import make_arrows
+from .combs import make_combs
 from .nets import make_nets
-from .parts import Link, Marker, Scene, Strip, Thread, Triad
+from .parts import Comb, Link, Marker, Scene, Strip, Thread, Triad
 
 FRAMES, POINTS = 240, 1500
 #: Largest displacement of a mode as it is drawn, of the model's size.
@@ -126,6 +127,7 @@ def make_scene(
         stored=stored,
         arrows=make_arrows(shown, drawn) if moving else [],
         nets=make_nets(shown.model, drawn, shown.t),
+        combs=_combs(shown, source, drawn) if moving else [],
     )
 
 
@@ -284,17 +286,50 @@ def _ways_to_surfaces(shown: Frames, source: Any) -> list[Strip]:
         items = [item for item in shown.model.connections if isinstance(item, kind)]
         for k, item in enumerate(items):
             ends = places(known._contact_system().parts[part], k, shown.q)
-            if isinstance(item, CableContact):  # where nothing is near it is a way of no length
-                ends = np.where(np.isnan(ends), shown.place(item.body.start)[:, None], ends)
+            if isinstance(item, CableContact):
+                ends = _kept(ends, shown.place(item.body.start))
             found.append(Strip(item.name, ends, _contact_force(shown, source, item.name)))
     return found
 
 
+def _kept(ends: FloatArray, start: FloatArray) -> FloatArray:
+    """Ways (n, 2, 3) with those that are not known, of no length, where the last or else the first one was.
+
+    ``start`` (n, 3) is where they are if there is none at all.
+    """
+    known = np.flatnonzero(np.isfinite(ends[:, 0, 0]))
+    if not len(known):
+        return np.repeat(start[:, None], 2, axis=1)
+    last = known[np.maximum(np.searchsorted(known, np.arange(len(ends)), side="right") - 1, 0)]
+    kept: FloatArray = np.where(np.isnan(ends), ends[last, :1], ends)
+    return kept
+
+
+def _combs(shown: Frames, source: Any, drawn: list[FloatArray]) -> list[Comb]:
+    """Contact forces along beams, if the model has surfaces that beams touch."""
+    if not any(isinstance(item, SurfaceContact) for item in shown.model.connections):
+        return []
+    points = np.concatenate([part.reshape(-1, 3) for part in drawn])
+    slipping = {}
+    for item in shown.model.connections:
+        if isinstance(item, SurfaceContact) and item.friction > 0.0:
+            friction = _contact_number(shown, source, "friction_force", item.name)
+            share = _contact_number(shown, source, "slipping", item.name)
+            if friction is not None and share is not None:
+                slipping[item.name] = friction * share
+    return make_combs(shown, source._contact_system(), float(np.max(np.ptp(points, axis=0))), slipping)
+
+
 def _contact_force(shown: Frames, source: Any, name: str) -> FloatArray | None:
-    """Force of a contact at the times that are drawn, from the sensors or from the states."""
+    """Force of a contact at the times that are drawn."""
+    return _contact_number(shown, source, "contact_force", name)
+
+
+def _contact_number(shown: Frames, source: Any, asked: str, name: str) -> FloatArray | None:
+    """What a contact answers at the times that are drawn, from the sensors or from a state."""
     try:
         whole = source.sensors if isinstance(source, Result) else source
-        force = np.atleast_1d(whole.contact_force(name))
+        force = np.atleast_1d(getattr(whole, asked)(name))
     except (ModelError, AttributeError):
         return None
     times = np.atleast_1d(whole.t)

@@ -120,6 +120,30 @@ class Strip:
 
 
 @dataclass(frozen=True, slots=True)
+class Comb:
+    """What a surface does to a beam: a tooth for each element that touches it at some time.
+
+    Parameters
+    ----------
+    name : str
+    ends : (n, k, 2, 3) m
+        From the axis along the force on the beam; of no length where nothing touches.
+    force : (n, k) N/m
+        Normal force per length.
+    slide : (n, k) m/s
+        Speed past the surface.
+    slips : (n, k) of bool, optional
+        Whether friction slips there; not known without sensors, but of an equilibrium and the last state.
+    """
+
+    name: str
+    ends: FloatArray
+    force: FloatArray
+    slide: FloatArray
+    slips: BoolArray | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Arrow:
     """A load, as one arrow or as a row of them.
 
@@ -178,7 +202,7 @@ class Scene:
     ----------
     title : str
     t : (n,) s
-    threads, links, markers, triads, strips, arrows, nets : list
+    threads, links, markers, triads, strips, arrows, nets, combs : list
     stored : int
         Number of states of the result, of which these are some.
     """
@@ -193,6 +217,7 @@ class Scene:
     stored: int = 1
     arrows: list[Arrow] = field(default_factory=list)
     nets: list[Net] = field(default_factory=list)
+    combs: list[Comb] = field(default_factory=list)
 
     @property
     def box(self) -> FloatArray:

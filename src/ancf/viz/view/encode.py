@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...arrays import FloatArray
 from ...model.kinds import by_word, pushing
-from ..scene import QUANTITIES, Net, Scene, Thread, looks
+from ..scene import QUANTITIES, Comb, Net, Scene, Thread, looks
 from .curve import Curve
 from .ranges import Range
 from .traces import Trace
@@ -91,7 +91,19 @@ def plain_scene(scene: Scene, numbers: Numbers) -> Plain:
             force=[_known(strip.force, scene.t) for strip in scene.strips],
         ),
         "arrows": _arrows(scene, numbers),
+        "combs": [_comb(comb, numbers) for comb in scene.combs],
         "nets": [_net(net, scene, numbers) for net in scene.nets],
+    }
+
+
+def _comb(comb: Comb, numbers: Numbers) -> Plain:
+    """Contact forces of a beam, time first: (n, count, ...)."""
+    shares = {key: numbers.shares(getattr(comb, key)) for key in ("force", "slide")}
+    return {
+        "name": comb.name,
+        "ends": numbers.shares(comb.ends),
+        "slips": None if comb.slips is None else numbers.shares(comb.slips.astype(np.float64)),
+        **shares,
     }
 
 

@@ -24,6 +24,7 @@ function layersOf(scene, traces) {
     ...scene.triads ? [triadLayer(scene.triads)] : [],
     ...scene.markers.map(markerLayer),
     ...scene.arrows.map(arrowLayer),
+    ...scene.combs.length ? [combLayer(scene.combs, false), combLayer(scene.combs, true)] : [],
     ...scene.nets.map((net) => netLayer(net, scene.triads)),
     ...traces.flatMap(traceLayers),
   ];
@@ -216,6 +217,30 @@ function arrowLayer(group, i) {
       });
       return { ...path, text };
     },
+  };
+}
+
+// Normal forces of surfaces along beams, where friction sticks and where it slips.
+function combLayer(combs, slipping) {
+  const known = combs.some(({ slips }) => slips);
+  const name = slipping ? "contact, slips" : known ? "contact, sticks" : "contact forces";
+  return {
+    trace: line(name, { width: 3, color: slipping ? LOOKS.orange : LOOKS.green }, { text: [] }),
+    absent: slipping && !known,
+    at(k) {
+      const path = new Path(), text = [];
+      for (const { name: of, ends, force, slide, slips } of combs) {
+        const row = ends.row(k), forces = force.row(k), speeds = slide.row(k), slip = slips?.row(k);
+        forces.forEach((size, i) => {
+          if (!(size > 0) || Boolean(slip && slip[i] > 0.5) !== slipping) return;
+          path.add(row, 6 * i); path.add(row, 6 * i + 3); path.gap();
+          const said = `${of}: ${written(size)} N/m, slides at ${written(speeds[i])} m/s`;
+          text.push(said, said, "");
+        });
+      }
+      return { ...path, text };
+    },
+    pick: () => null,
   };
 }
 

@@ -92,7 +92,7 @@ def joined(parts: Mapping[str, Part]) -> Part:
         nets=[net for k, net in enumerate(nets) if not any(_same(net, other) for other in nets[:k])],
         **{
             name: [item for scene in scenes.values() for item in getattr(scene, name)]
-            for name in ("threads", "links", "markers", "triads", "strips", "arrows")
+            for name in ("threads", "links", "markers", "triads", "strips", "arrows", "combs")
         },
     )
     owners = [(k, thread.name) for k, part in enumerate(parts.values()) for thread in part.scene.threads]
@@ -106,7 +106,7 @@ def joined(parts: Mapping[str, Part]) -> Part:
 
 
 def _of_run(scene: Scene, label: str) -> Scene:
-    lists = ("threads", "links", "markers", "triads", "strips", "arrows")
+    lists = ("threads", "links", "markers", "triads", "strips", "arrows", "combs")
     nets = [replace(net, name=f"{label}: {net.name}", on=f"{label}: {net.on}") if net.on else net
             for net in scene.nets]  # fmt: skip
     changes: dict[str, Any] = {name: _renamed(getattr(scene, name), label) for name in lists}

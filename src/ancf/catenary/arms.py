@@ -1,0 +1,99 @@
+"""Steady arms in the model: springs, hinged bars, uplift stops, masses. `overhead` is an Assembled."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+import ancf
+
+from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model.bodies import PointMass
+from ..model.connections import Spring
+from ..model.points import Point
+from .form import Form
+from .line import Line
+
+#: Length of a spring to a fixed point, m: long enough that its force keeps its direction, and unstretched.
+LONG = 20.0
+#: Stiffness of an uplift stop, N/m.
+STOP = 1e5
+
+
+def add_mass(model: ancf.Model, name: str, point: Point, mass: float) -> PointMass | None:
+    """A mass that moves with a node of a wire; nothing if it is zero."""
+    if mass == 0.0:
+        return None
+    body = model.add_point_mass(name, at=point.initial_position, mass=float(mass))
+    model.connect(body, point)
+    return body
+
+
+def add_arms(overhead: Any, found: Form) -> None:
+    """The steady arms of all supports but the first and the last."""
+    line, model = found.line, overhead.model
+    nodes = found.contact.nodes.support
+    overhead.supports = [overhead.contact.point(node) for node in nodes]
+    overhead.arms = [None] * nodes.size
+    overhead.arm_holds = [None] * nodes.size
+    for k in range(1, nodes.size - 1):
+        point, arm = overhead.supports[k], line.arm(k)
+        force = found.arm_force[k] + np.array([0.0, 0.0, 0.5 * arm.mass * line.gravity])
+        add_mass(model, f"{overhead.prefix}arm {k + 1} mass", point, 0.5 * arm.mass)
+        name = f"{overhead.prefix}steady arm {k + 1}"
+        if arm.uplift_stop is not None:
+            _add_stop(model, point, arm.uplift_stop, f"{overhead.prefix}uplift stop {k + 1}")
+        if arm.hinged:
+            overhead.arms[k] = _add_hinged_arm(overhead, line, k, force, name)
+            continue
+        overhead.arms[k] = _add_vertical_arm(model, point, arm.vertical, force[2], name)
+        if arm.lateral is None:
+            overhead.arm_holds[k] = model.hold(point, position="y")
+        else:
+            add_long_spring(model, point, 1, arm.lateral, force[1], f"{name} sideways")
+
+
+def _add_stop(model: ancf.Model, point: Point, height: float, name: str) -> None:
+    """A stop that the wire meets when it is lifted above its rest: a rope that becomes taut."""
+    below = point.initial_position - [0.0, 0.0, LONG]
+    model.add_spring(point, below, stiffness=STOP, length=LONG + height, slack=True, name=name)
+
+
+def _add_vertical_arm(
+    model: ancf.Model, point: Point, stiffness: float | None, load: float, name: str
+) -> Spring | None:
+    """The vertical spring of a steady arm; without stiffness its force at rest alone."""
+    if stiffness:
+        return add_long_spring(model, point, 2, stiffness, load, name)
+    if load != 0.0:
+        model.add_force(point, (0.0, 0.0, load), name=name)
+    return None
+
+
+def add_long_spring(
+    model: ancf.Model, point: Point, axis: int, stiffness: float, load: float, name: str
+) -> Spring:
+    """A spring along an axis that pulls with a load at rest, in N, in the direction of the axis."""
+    distance = LONG + max(load, 0.0) / stiffness
+    fixed = point.initial_position + distance * np.eye(3)[axis]
+    return model.add_spring(point, fixed, stiffness=stiffness, length=distance - load / stiffness, name=name)
+
+
+def _add_hinged_arm(overhead: Any, line: Line, k: int, force: FloatArray, name: str) -> Spring:
+    """A bar to a pivot on the mast, in the direction in which it has to pull at rest, N."""
+    size = float(np.linalg.norm(force))
+    arm = line.arm(k)
+    assert arm.length is not None
+    if abs(force[1]) < 1.0 or abs(force[2]) > abs(force[1]):
+        what = f"the wire pulls sideways with {abs(force[1]):.0f} N at support {k + 1}, which has to carry "
+        what += f"{force[2]:.0f} N: a hinged arm would hang down"
+        hint = 'give more stagger, contact_support = "free", or vertical instead of length'
+        raise ModelError("line.steady_arm.length", what, hint)
+    point = overhead.supports[k]
+    pivot = point.initial_position + arm.length * force / size
+    made: Spring = overhead.model.add_spring(
+        point, pivot, stiffness=arm.stiffness, length=arm.length - size / arm.stiffness, name=name
+    )
+    return made

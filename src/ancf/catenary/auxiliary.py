@@ -1,0 +1,74 @@
+"""Auxiliary: the wire of a compound catenary between messenger and contact wire."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..arrays import FloatArray
+from ..model import checks
+from .fittings import Droppers
+from .span import DropperRule
+from .wire import Wire
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Auxiliary:
+    """An auxiliary messenger: it hangs from the messenger, and the contact wire's droppers hang from it.
+
+    At the supports it is held sideways above the contact wire and free upwards; its ends are anchored as
+    those of the other wires.
+
+    Parameters
+    ----------
+    wire : Wire
+    height : float, m
+        Of the auxiliary over the nominal height of the contact wire, at its own droppers and its ends.
+    droppers : Droppers
+        The long ones between messenger and auxiliary; ``clamp_contact`` is the clamp on the auxiliary.
+    places : DropperRule
+        Where they are in spans that do not list ``long_droppers``.
+
+    """
+
+    wire: Wire
+    height: float
+    droppers: Droppers
+    places: DropperRule | None = None
+
+    def check(self, where: str) -> None:
+        """Raise ModelError if a value is out of range."""
+        self.wire.check(where)
+        checks.positive(self.height, f"{where}.height")
+        self.droppers.check(f"{where}.droppers")
+
+
+@dataclass(frozen=True, slots=True)
+class LongDroppers:
+    """The droppers between messenger and auxiliary at rest.
+
+    Attributes
+    ----------
+    force : (m,) N
+        Between their clamps; half of the weight is at each.
+    length, natural : (m,) m
+        From clamp to clamp under this force, and without force.
+    stiffness : (m,) N/m
+    give : (m,) m/N
+        What both wires give too little at the clamps on their meshes.
+    side : (supports,) N
+        Sideways forces of the supports on the auxiliary.
+
+    """
+
+    force: FloatArray
+    length: FloatArray
+    natural: FloatArray
+    stiffness: FloatArray
+    give: FloatArray
+    side: FloatArray
+
+    @property
+    def spring_stiffness(self) -> FloatArray:
+        """Between the nodes, N/m: with the give of their clamps."""
+        stiffness: FloatArray = self.stiffness / (1.0 + self.give * self.stiffness)
+        return stiffness

@@ -1,0 +1,150 @@
+"""The report of a comparison: runs side by side, their forces over each other."""
+
+from __future__ import annotations
+
+import csv
+import datetime
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..._version import __version__
+from ...files import write_text
+from ...viz import printed, style
+from ...viz.html import element, figure, page, section
+from ..kept import Kept
+from ..quantity import shown
+from . import tables
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
+
+    from matplotlib.figure import Figure
+
+    from .figures import Save
+
+TITLE = "Comparison of runs"
+WIDTH = 180.0  # mm
+
+
+def differences(runs: Sequence[Kept]) -> list[tuple[str, str, list[float | None], list[float | None]]]:
+    """Name and unit of each quantity, its values (runs,), and by how much they differ from the first run."""
+    by_key = [{q.key: q for q in run.quantities} for run in runs]
+    keys = dict.fromkeys(key for one in by_key for key in one)
+    found = []
+    for key in keys:
+        first = next(one[key] for one in by_key if key in one)
+        values = [one[key].value if key in one else None for one in by_key]
+        base = values[0]
+        changes = [None if v is None or base is None else v - base for v in values[1:]]
+        found.append((first.name, first.unit, values, changes))
+    return found
+
+
+def write_table(runs: Sequence[Kept], path: Path) -> Path:
+    """CSV with a row for each quantity: values of all runs, differences from the first."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    names = [run.name for run in runs]
+    writer.writerow(["quantity", "unit", *names, *(f"{name} less {names[0]}" for name in names[1:])])
+    for name, unit, values, changes in differences(runs):
+        cells = ("" if value is None else f"{value:.9g}" for value in [*values, *changes])
+        writer.writerow([name, unit, *cells])
+    return write_text(path, text.getvalue())
+
+
+def write_comparison(runs: Sequence[Kept], folder: Path, formats: Sequence[str]) -> list[Path]:
+    """Write ``report.html``, ``report.pdf`` and ``report.docx``, those that are asked for.
+
+    Raises
+    ------
+    ModelError
+        matplotlib or what writes a format is missing, or a file cannot be written.
+
+    """
+    style.require_matplotlib()
+    files = []
+    for kind in formats:
+        path = folder / f"report.{kind}"
+        if kind == printed.HTML:
+            write_text(path, page(TITLE, *pieces(runs, style.svg)))
+        else:
+            printed.write_printed(path, TITLE, pieces(runs, style.png))
+        files.append(path)
+    return files
+
+
+def pieces(runs: Sequence[Kept], save: Save) -> list[Element]:
+    """Elements of the report, its pictures as SVG or PNG."""
+    parts = [element("h1", TITLE)]
+    for run in runs:
+        low, high = run.window
+        what = f"{run.name}: {run.line}, {run.speed_kmh:.4g} km/h, evaluated from {low:g} m to {high:g} m."
+        parts.append(element("p", what, class_="faint"))
+    names = [run.name for run in runs]
+    parts.append(
+        section(
+            "Acceptance",
+            "acceptance",
+            tables.beside(names, [run.acceptance for run in runs]),
+            tables.tags([q for run in runs for q in run.acceptance]),
+        )
+    )
+    parts.append(section("All quantities", "quantities", _all(runs)))
+    drawn = [
+        (
+            "force",
+            "Contact force below 20 Hz",
+            "Over the track; shaded: what is evaluated.",
+            _draw_force,
+            90.0,
+        ),
+        ("uplift", "Uplift at the supports", "Largest while the pantograph passes.", _draw_uplift, 75.0),
+    ]
+    made = []
+    for name, title, caption, draw, height in drawn:
+        with style.new_figure(WIDTH, height) as canvas:
+            draw(canvas, runs)
+            made.append(figure(name, title, caption, save(canvas)))
+    parts.append(section("Figures", "figures", *made))
+    day = datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%d %H:%M UTC")
+    return [*parts, element("p", f"ancf {__version__}, {day}", class_="faint")]
+
+
+def _all(runs: Sequence[Kept]) -> Element:
+    """Values of all runs, and differences from the first."""
+    from ...viz.html import table
+
+    names = [run.name for run in runs]
+    heads = [*names, *(f"{name} less {names[0]}" for name in names[1:])]
+    rows = []
+    for name, unit, values, changes in differences(runs):
+        rows.append((name, "" if unit == "count" else unit, *(shown(v, unit) for v in [*values, *changes])))
+    return table(("quantity", "unit", *heads), rows, numbers=range(2, 2 + len(heads)))
+
+
+def _draw_force(canvas: Figure, runs: Sequence[Kept]) -> None:
+    axes = canvas.subplots()
+    for k, run in enumerate(runs):
+        axes.plot(run.position, run.force, label=run.name, **style.line(k))
+    for low, high in dict.fromkeys(run.window for run in runs):
+        axes.axvspan(low, high, color=style.SHADE, linewidth=0, zorder=0)
+    axes.set(xlabel="track position [m]", ylabel="contact force [N]")
+    low = min(float(np.min(run.position)) for run in runs)
+    axes.set_xlim(low, max(float(np.max(run.position)) for run in runs))
+    style.legend_above(canvas, axes, 3)
+
+
+def _draw_uplift(canvas: Figure, runs: Sequence[Kept]) -> None:
+    axes = canvas.subplots()
+    for k, run in enumerate(runs):
+        if run.uplift:
+            x, size = zip(*run.uplift, strict=True)
+            look = {"marker": style.look(k).marker, "linestyle": "none", "color": style.line(k)["color"]}
+            axes.plot(x, size, label=run.name, **look)
+    axes.set(xlabel="track position [m]", ylabel="largest uplift [mm]")
+    axes.set_ylim(bottom=0.0)
+    style.legend_above(canvas, axes, 3)

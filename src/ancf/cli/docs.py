@@ -1,0 +1,112 @@
+"""``ancf docs``: the pages that come with the package, in the terminal or as files."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+
+from ..errors import ModelError
+from ..files import exists, writing
+from .screen import console
+
+#: Beside the package where it is installed, beside the sources in a clone.
+PLACES = (Path(__file__).parent.parent / "docs", Path(__file__).parents[3] / "docs")
+#: Pages shown when so many or fewer have a word, in full the first one.
+SHOWN = 8
+
+
+def folder() -> Path:
+    """Where the pages are.
+
+    Raises
+    ------
+    ModelError
+        They were not installed with the package.
+    """
+    for place in PLACES:
+        if exists(place / "limits.md"):
+            return place
+    raise ModelError("docs", "were not installed with the package", "install it again from its wheel")
+
+
+def pages() -> dict[str, Path]:
+    """Files of the pages by their names, such as ``howto/winch``."""
+    source = folder()
+    made = ("_build", "reference")  # of the site
+    found = sorted(file for file in source.rglob("*.md") if not set(made) & set(file.parts))
+    return {file.relative_to(source).with_suffix("").as_posix(): file for file in found}
+
+
+def title(file: Path) -> str:
+    """First heading of a page."""
+    with file.open(encoding="utf-8") as lines:
+        return next((line.lstrip("# ").strip() for line in lines if line.startswith("# ")), "")
+
+
+def ranked(word: str) -> list[str]:
+    """Pages about a word: with it in their names, then in their titles, then those that have it most."""
+    wanted, found = word.casefold(), []
+    for name, file in pages().items():
+        text = file.read_text(encoding="utf-8").casefold()
+        count = len(re.findall(re.escape(wanted), text))
+        place = (wanted in name.rpartition("/")[2].replace("_", " "), wanted in title(file).casefold())
+        if count or any(place) or wanted == name:
+            found.append((name != wanted, not place[0], not place[1], -count, name))
+    return [name for *_, name in sorted(found)]
+
+
+def show_docs(word: str | None, copy: Path | None) -> None:
+    """List pages, print the one about a word, or copy all files to a folder.
+
+    Raises
+    ------
+    ModelError
+        No page has the word, a file of that name is there with another content, or it cannot be written.
+    """
+    if copy is not None:
+        _copied(copy)
+        return
+    if word is None:
+        _listed(list(pages()))
+        console().print("\none of them: ancf docs NAME; about something: ancf docs WORD", markup=False)
+        return
+    names = ranked(word.strip())
+    if not word.strip() or not names:
+        raise ModelError(word or '""', "is on no page", "ancf docs lists all pages")
+    _printed(pages()[names[0]])
+    if len(names) > 1:
+        console().print("\nmore about it:", markup=False)
+        _listed(names[1 : SHOWN + 1])
+
+
+def _listed(names: list[str]) -> None:
+    found = pages()
+    width = max(map(len, names))
+    for name in names:
+        console().print(f"{name:<{width}}  {title(found[name])}", soft_wrap=True, markup=False)
+
+
+def _printed(file: Path) -> None:
+    """A page as it is in a file or a pipe, with its headings and tables drawn in a terminal."""
+    text = re.sub(r"<!--.*?-->\n?", "", file.read_text(encoding="utf-8"), flags=re.DOTALL)
+    out = console()
+    if not out.is_terminal:
+        out.print(text, soft_wrap=True, markup=False, highlight=False)
+        return
+    from rich.markdown import Markdown
+
+    out.print(Markdown(text))
+
+
+def _copied(copy: Path) -> None:
+    source = folder()
+    files = [*pages().values(), *sorted((source / "howto").glob("*.py"))]
+    targets = [copy / file.relative_to(source) for file in files]
+    for file, target in zip(files, targets, strict=True):
+        if exists(target) and target.read_bytes() != file.read_bytes():
+            raise ModelError(str(target), "is there and has changed", "copy to another folder")
+    for file, target in zip(files, targets, strict=True):
+        with writing(target):
+            shutil.copyfile(file, target)
+    console().print(f"copied: {len(files)} files to {copy}", soft_wrap=True)

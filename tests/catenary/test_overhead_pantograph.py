@@ -1,0 +1,233 @@
+"""Pantographs with curves, friction, stops, two strips, a moving roof under a rigid wire, against scipy."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import ancf
+from ancf import catenary
+from ancf.catenary.collectors import Touch, put_pantograph
+from ancf.catenary.roof import roofs
+from ancf.catenary.travel import make_travel
+from ancf.errors import ModelError
+
+SPEED, SECONDS, STIFF = 20.0, 0.5, 50e3  # m/s, s, N/m
+BEFORE = -1e-9  # s, the roof rests
+PLAIN = catenary.Pantograph(
+    masses=(15.0, 7.2), stiffness=(400.0, 4200.0), damping=(90.0, 10.0), static_force=100.0, name="plain"
+)
+#: Waves of the underside as a strip meets them: depth in m, wave number in 1/m.
+DEPTH, WAVE = 4e-4, 2.0 * np.pi / 2.5
+ROOF = (0.01, 2.0 * np.pi * 2.2)  # m, rad/s
+
+
+def wavy(x):
+    """Height of the underside above that of a new wire, m."""
+    return DEPTH * (1.0 - np.cos(WAVE * x))
+
+
+UNDERSIDE = np.column_stack([np.linspace(0.0, 14.0, 5601), wavy(np.linspace(0.0, 14.0, 5601))])
+
+
+def computed(unit, roof=None, underside=False, seconds=SECONDS):
+    """Contact forces (n, strips) over times (n,) under a wire that does not give way."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section(EA=1e10, EI=1e10, rhoA=1.0)
+    wire = model.add_beam("wire", start=(0, 0, 0), end=(14, 0, 0), elements=7, section=section)
+    for x in np.linspace(0.0, 14.0, 8):
+        model.pin(wire.at(x))
+    rows = [np.column_stack([UNDERSIDE[:, 0], -UNDERSIDE[:, 1]])] if underside else None
+    made = put_pantograph(
+        model,
+        [wire],
+        unit,
+        make_travel(SPEED),
+        label="pantograph",
+        start=1.0,
+        height=unit.static_force / STIFF,
+        raised=0.0,
+        touch=Touch(stiffness=STIFF),
+        roof=roofs(roof, 1)[0],
+        profiles=rows,
+    )
+    start = ancf.equilibrium(model)
+    result = ancf.simulate(model, t_end=seconds, step=1e-4, start=start, sensors=made.meters, energy=False)
+    sensors = result.sensors
+    return sensors.t, np.stack([sensors.contact_force(meter) for meter in made.meters], axis=1)
+
+
+def curve(given, x):
+    """A number times x, or a curve that goes straight on."""
+    if not isinstance(given, tuple):
+        return given * x
+    place, force = np.array(given).T
+    k = int(np.clip(np.searchsorted(place, x, side="right") - 1, 0, len(place) - 2))
+    return force[k] + (force[k + 1] - force[k]) / (place[k + 1] - place[k]) * (x - place[k])
+
+
+def expected(unit, t, roof=(0.0, 0.0), waves=0.0):
+    """The same by an independent program; places count upwards from the state with relaxed springs."""
+    half = 0.5 * unit.strip_distance
+    strips = (half, -half) if half else (0.0,)
+    low, share = len(unit.masses) - 1, 1.0 / len(strips)
+    mass = np.array([*unit.masses[:-1], *[share * unit.masses[-1]] * len(strips)])
+    friction = unit.friction or (0.0,) * len(unit.masses)
+    stops = unit.stops or (None,) * len(unit.masses)
+
+    def between(k, elongation, rate, part):
+        force = curve(unit.stiffness[k], elongation) + curve(unit.damping[k], rate)
+        force += friction[k] * np.tanh(rate / 0.01)
+        if stops[k]:
+            short, far = stops[k]
+            force += unit.stop_stiffness * (min(elongation - short, 0.0) + max(elongation - far, 0.0))
+        return part * force
+
+    def forces(t, y):
+        z, v = y[: len(mass)], y[len(mass) :]
+        size, rate = roof
+        floor = size * np.sin(rate * max(t, 0.0)), size * rate * np.cos(rate * t) * (t >= 0.0)
+        total = np.zeros(len(mass))
+        total[0] += unit.static_force * (1.0 if low else share)
+        for k in range(len(unit.masses)):
+            tops = [k] if k < low else range(low, len(mass))
+            below = floor if k == 0 else (z[k - 1], v[k - 1])
+            for i in tops:
+                part = 1.0 if k < low else share
+                force = between(k, z[i] - below[0], v[i] - below[1], part)
+                total[i] -= force
+                if k:
+                    total[k - 1] += force
+        touch = []
+        for i, s in enumerate(strips):
+            x = 1.0 + s + SPEED * t
+            under = waves * DEPTH * (1.0 - np.cos(WAVE * x))
+            touch.append(max(STIFF * (z[low + i] - gap - under), 0.0))
+            total[low + i] -= touch[-1]
+        return total / mass, touch
+
+    gap = 0.0
+    carried = unit.static_force  # where the spring of the head has to push with the static force
+    elongation = 0.0
+    if low:
+        for _ in range(200):
+            elongation -= (between(1, elongation, 0.0, 1.0) + carried) / 8000.0
+    # at the start the lowest spring is relaxed with the strip on the new wire
+    first = np.zeros(len(mass))
+    if low:
+        first[low:] = elongation
+        gap = elongation - carried / STIFF
+    else:
+        gap = -carried / STIFF
+    settled = solve_ivp(
+        lambda _, y: np.concatenate([y[len(mass) :], forces(BEFORE, y)[0] - 60.0 * y[len(mass) :]]),
+        (0.0, 8.0),
+        np.concatenate([first, 0.0 * mass]),
+        method="Radau",
+        rtol=1e-9,
+        atol=1e-11,
+    ).y[: len(mass), -1]
+    begun = np.concatenate([settled, 0.0 * mass])
+    found = solve_ivp(
+        lambda t, y: np.concatenate([y[len(mass) :], forces(t, y)[0]]),
+        (0.0, t[-1]),
+        begun,
+        t_eval=t,
+        rtol=1e-9,
+        atol=1e-11,
+        max_step=2e-4,
+    )
+    return np.array([forces(time, y)[1] for time, y in zip(found.t, found.y.T, strict=True)])
+
+
+SOFT_THEN_HARD = ((-0.06, -500.0), (-0.02, -60.0), (0.0, 0.0), (0.05, 300.0))
+ONE_WAY = ((-0.5, -2.0), (0.0, 0.0), (0.5, 80.0))
+CASES = {
+    "curve of the head": replace(PLAIN, stiffness=(400.0, SOFT_THEN_HARD)),
+    "damper of one direction": replace(PLAIN, damping=(90.0, ONE_WAY)),
+    "friction": replace(PLAIN, friction=(4.0, 1.0)),
+    "stops": replace(PLAIN, stops=(None, (-0.0245, 0.01)), stop_stiffness=4e4),
+    "stops beside a curve": replace(
+        PLAIN, stiffness=(400.0, SOFT_THEN_HARD), stops=(None, (-0.026, 0.01)), stop_stiffness=4e4
+    ),
+    "two strips": replace(PLAIN, strip_distance=0.6),
+    "two strips on curves": replace(
+        PLAIN, strip_distance=0.6, stiffness=(400.0, SOFT_THEN_HARD), friction=(0.0, 2.0)
+    ),
+    "one mass": replace(PLAIN, masses=(9.0,), stiffness=(400.0,), damping=(60.0,)),
+}
+
+
+class TestAgainstScipy:
+    @pytest.mark.parametrize("name", CASES)
+    def test_waves_of_the_underside(self, name):
+        unit = CASES[name]
+        t, force = computed(unit, underside=True)
+        told = expected(unit, t, waves=1.0)
+        assert np.ptp(told) > 10.0
+        assert force == pytest.approx(told, abs=0.01 * np.ptp(told))
+
+    def test_each_case_is_another_one(self):
+        """The features matter at the size of these waves."""
+        t = np.linspace(0.0, SECONDS, 300)
+        plain = expected(PLAIN, t, waves=1.0).sum(axis=1)
+        for name, unit in CASES.items():
+            differs = np.abs(expected(unit, t, waves=1.0).sum(axis=1) - plain).max()
+            assert differs > 0.03 * np.ptp(plain), name
+
+    @pytest.mark.parametrize("given", ["0.01*sin(2*pi*2.2*t)", lambda t: 0.01 * np.sin(2 * np.pi * 2.2 * t)])
+    def test_roof(self, given):
+        t, force = computed(PLAIN, roof=given, seconds=0.3)
+        told = expected(PLAIN, t, roof=ROOF)
+        assert np.ptp(told) > 5.0
+        assert force == pytest.approx(told, abs=0.01 * np.ptp(told))
+
+    def test_roof_of_a_file(self, tmp_path):
+        """Millimetres by the head, and a sway, which does not change the force of a straight wire."""
+        t = np.linspace(0.0, 0.5, 251)
+        rows = np.column_stack([t, 1e3 * ROOF[0] * np.sin(ROOF[1] * t), 20.0 * np.sin(3.0 * t)])
+        path = tmp_path / "roof.csv"
+        np.savetxt(path, rows, delimiter=",", header="t [s],up [mm],side [mm]", comments="", fmt="%.9g")
+        _, of_file = computed(PLAIN, roof=path, seconds=0.1)
+        _, of_formula = computed(PLAIN, roof="0.01*sin(2*pi*2.2*t)", seconds=0.1)
+        assert of_file == pytest.approx(of_formula, abs=0.05)
+
+
+class TestPitch:
+    def test_strips_part_and_meet(self):
+        """Half a wave apart the strips swing against each other, a whole wave apart together."""
+        apart = replace(PLAIN, strip_distance=1.25)
+        with_pitch = computed(apart, underside=True)[1]
+        assert np.corrcoef(with_pitch[2000:].T)[0, 1] < -0.5
+
+
+class TestRefused:
+    @pytest.mark.parametrize(
+        ("changes", "where"),
+        [
+            ({"stiffness": (400.0, ((0.0, 0.0), (0.1, -5.0)))}, "pantograph.plain.stiffness[1][1][1]"),
+            ({"stiffness": (400.0, ((0.1, 0.0), (0.0, 5.0)))}, "pantograph.plain.stiffness[1][1][0]"),
+            ({"stops": (None, (0.02, 0.01))}, "pantograph.plain.stops[1]"),
+            ({"stops": (None,)}, "pantograph.plain.stops"),
+            ({"friction": (1.0, -1.0)}, "pantograph.plain.friction[1]"),
+            ({"strip_distance": 580.0}, "pantograph.plain.strip_distance"),
+        ],
+    )
+    def test_pantographs(self, changes, where):
+        with pytest.raises(ModelError) as caught:
+            replace(PLAIN, **changes)
+        assert caught.value.where == where
+
+    def test_file(self, tmp_path):
+        text = "masses = [15, 7.2]\nstiffness = [50, [[-0.1, -500], [0, 0], [0.1, 90]]]\ndamping = [90, 10]\n"
+        text += "static_force = 120\nfriction = [2, 0]\nstops = [[], [-0.05, 0.05]]\nstrip_distance = 0.5\n"
+        path = tmp_path / "mine.toml"
+        path.write_text(text)
+        unit = catenary.read_pantograph(path)
+        assert unit.stiffness[1] == ((-0.1, -500.0), (0.0, 0.0), (0.1, 90.0))
+        assert (unit.friction, unit.stops) == ((2.0, 0.0), (None, (-0.05, 0.05)))
+        assert unit.slopes() == pytest.approx((50.0, 5000.0))
+        path.write_text(text.replace("[0.1, 90]", "[0.1]"))
+        with pytest.raises(ModelError, match=r"stiffness\[1\]\[2\]: has 1 entries"):
+            catenary.read_pantograph(path)

@@ -1,0 +1,54 @@
+"""``ancf docs``: the list of pages, the page about a word, the copy."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from ancf.cli import docs
+from places import ROOT
+
+#: What users ask for, and the page on which they should land.
+ASKED = {
+    "winch": "howto/winch",
+    "joints": "howto/joints",
+    "mooring": "tutorials/mooring",
+    "howto/studies": "howto/studies",
+    "limits": "limits",
+    "Excel": "howto/export",
+    "seabed": "howto/water_wind_ground",
+}
+
+
+def test_the_list_has_all_pages_with_their_titles(call):
+    ran = call("docs")
+    assert ran.code == 0
+    there = {f.relative_to(ROOT / "docs").with_suffix("").as_posix() for f in (ROOT / "docs").rglob("*.md")}
+    there = {name for name in there if not name.startswith(("reference/", "_build/"))}
+    said = dict(re.split(r"\s{2,}", line, maxsplit=1) for line in ran.out.splitlines() if "  " in line)
+    assert set(said) == there
+    assert said["howto/joints"] == "Join bodies, let points slide"
+
+
+@pytest.mark.parametrize(("word", "page"), ASKED.items())
+def test_a_word_finds_its_page(call, word, page):
+    ran = call("docs", word)
+    assert ran.code == 0
+    assert docs.ranked(word)[0] == page or page in docs.ranked(word)[:4]
+    assert f"# {docs.title(docs.pages()[docs.ranked(word)[0]])}" in ran.out
+    assert "<!--" not in ran.out
+
+
+@pytest.mark.parametrize("word", ["warpdrive", "", "  "])
+def test_a_word_on_no_page(call, word):
+    ran = call("docs", word)
+    assert ran.code == 2
+    assert "is on no page" in ran.said
+
+
+def test_a_copy_and_what_was_changed(call):
+    assert call("docs", "--copy", "pages").code == 0
+    assert Path("pages/howto/joints.md").read_bytes() == (ROOT / "docs/howto/joints.md").read_bytes()
+    Path("pages/limits.md").write_text("mine", encoding="utf-8")
+    assert call("docs", "--copy", "pages").code == 2
+    assert Path("pages/limits.md").read_text(encoding="utf-8") == "mine"
