@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import inline_kernel
+from ..compiled import formula, inline_kernel
 from ..elements.registry import ELEMENTS
 from ..elements.shapes import gauss
 from ..model.beam import Beam
@@ -173,7 +173,7 @@ def _of_point(body: PointMass | RigidBody, locate: Callable[[Any], Any], points:
     return slots, np.ones((points, 1)), np.zeros((points, 1)), np.eye(points)[0], np.zeros(points)
 
 
-@inline_kernel
+@formula
 def place_at(batch, e, p, q):
     """Position of point p of row e, or its velocity or acceleration from v or a."""
     x, y, z = 0.0, 0.0, 0.0
@@ -186,7 +186,7 @@ def place_at(batch, e, p, q):
     return x, y, z
 
 
-@inline_kernel
+@formula
 def stretch_at(batch, e, q):
     """Length of the material in row e as a multiple of that of the mesh."""
     i = batch.winch[e]
@@ -206,7 +206,7 @@ def passed(base, factors, e, p, q):
     return x, y, z
 
 
-@inline_kernel
+@formula
 def velocity_at(batch, e, p, q, v):
     """Velocity of the material at point p of row e."""
     u, i = place_at(batch, e, p, v), batch.winch[e]
@@ -216,7 +216,7 @@ def velocity_at(batch, e, p, q, v):
     return u[0] - mu * d[0], u[1] - mu * d[1], u[2] - mu * d[2]
 
 
-@inline_kernel
+@formula
 def acceleration_at(batch, e, p, q, v, a):
     """Acceleration of the material at point p of row e."""
     b, i = place_at(batch, e, p, a), batch.winch[e]
@@ -247,7 +247,7 @@ def upstream(batch, e, p, comes):
     return batch.beside[e, comes], 0 if up else last
 
 
-@inline_kernel
+@formula
 def tangent_at(batch, e, p, q):
     """Unit tangent t and the length of r_x; zeros for a point without a slope."""
     x, y, z = 0.0, 0.0, 0.0
@@ -262,7 +262,7 @@ def tangent_at(batch, e, p, q):
     return (x * inverse, y * inverse, z * inverse), size
 
 
-@inline_kernel
+@formula
 def add_along(batch, e, p, fx, fy, fz, r):
     """Subtract a force on point p of row e, per reference length, from the residual r."""
     for k in range(batch.base.shape[1]):
@@ -274,7 +274,7 @@ def add_along(batch, e, p, fx, fy, fz, r):
             r[i + 2] -= w * fz
 
 
-@inline_kernel
+@formula
 def add_material(batch, e, p, fx, fy, fz, q, r):
     """Subtract a force on point p of row e, per length of the material; also what acts on its length."""
     lam, i = stretch_at(batch, e, q), batch.winch[e]
@@ -284,7 +284,7 @@ def add_material(batch, e, p, fx, fy, fz, q, r):
         r[i] += batch.weight[e, p] * batch.unwound[e] * (fx * d[0] + fy * d[1] + fz * d[2])
 
 
-@inline_kernel
+@formula
 def scaled(factor, rows):
     """A factor times a 3x3 matrix, of three tuples."""
     a, b, c = rows
@@ -295,7 +295,7 @@ def scaled(factor, rows):
     )
 
 
-@inline_kernel
+@formula
 def add_block_along(batch, e, p, rows, A):
     """Add a symmetric 3x3 matrix per reference length, minus the derivative of the force by r, to A."""
     size = batch.base.shape[1]

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, implements, inline_kernel
+from ..compiled import Role, formula, implements, inline_kernel
 from ..model.beam import Beam
 from ..model.fluids import STEP, require_section
 from . import gusts
@@ -157,7 +157,7 @@ def _data(body):
     return 0.25 * math.pi * d * d, d, 0.5 * d * normal, 0.5 * math.pi * d * tangential, *mass
 
 
-@inline_kernel
+@formula
 def below(z, rise, height):
     """Share of a piece around z with this rise that is below a height, and minus its derivative by z."""
     if z + 0.5 * rise <= height:
@@ -167,7 +167,7 @@ def below(z, rise, height):
     return 0.5 + (height - z) / rise, 1.0 / rise
 
 
-@inline_kernel
+@formula
 def wetted(batch, e, p, z, t, size, rise):
     """Share of the piece of point p inside its fluid, whose waves rise that high; the derivative by z."""
     k = batch.fluid[e]
@@ -243,7 +243,7 @@ def told(batch, e, p, k, time, at, u, v):
     )
 
 
-@inline_kernel
+@formula
 def flow(batch, e, p, k, at, v):
     """Velocity, acceleration and rise of the surface of fluid k at a point now; in load steps a share."""
     now, (x, y, z) = batch.value[k], at
@@ -275,7 +275,7 @@ def flow(batch, e, p, k, at, v):
     return (ux, uy, uz), (ax, ay, az), rise
 
 
-@inline_kernel
+@formula
 def apart(w, t):
     """Part of w along t, its normal part and the size of that."""
     wt = w[0] * t[0] + w[1] * t[1] + w[2] * t[2]
@@ -314,7 +314,7 @@ def fluid_force(batch, q, v, a, r, ws):
             add_material(batch, e, p, fx + lift * g[0], fy + lift * g[1], fz + lift * g[2], q, r)
 
 
-@inline_kernel
+@formula
 def dyadic(n, t, one, nn, tt, zz):
     """Rows of one 1 + nn n n^T + tt t t^T + zz e_z e_z^T."""
     xy, xz, yz = (

@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, implements, inline_kernel, kernel
+from ..compiled import Role, formula, implements, inline_kernel, kernel
 from ..errors import ModelError
 from ..model.beam import Beam
 from ..model.fluids import require_section
@@ -163,7 +163,7 @@ def interval(table, first, count, x):
     return a - first, (x - table[a]) / length, 1.0 / length
 
 
-@inline_kernel
+@formula
 def depth_at(batch, k, x, y, z):
     """Depth of a place below ground k and its normal there."""
     ground = batch.grounds[k]
@@ -181,7 +181,7 @@ def depth_at(batch, k, x, y, z):
     return (low + s * (high - low) - z) * c, (-zx * c, -zy * c, c)
 
 
-@inline_kernel
+@formula
 def pressure(ground, d, g, rate):
     """Normal force N per length and its derivatives by g and by the rate of g."""
     soft = SOFT * d
@@ -195,7 +195,7 @@ def pressure(ground, d, g, rate):
     return d * N, d * slope, d * ground[DAMPING] * on
 
 
-@inline_kernel
+@formula
 def touch_at(batch, e, p, q, v):
     """Place, velocity and normal at point p of row e; normal force with its derivatives."""
     k, d = batch.ground[e], batch.diameter[e]
@@ -209,7 +209,7 @@ def touch_at(batch, e, p, q, v):
     return at, u, n, N, by_g, by_rate
 
 
-@inline_kernel
+@formula
 def anchor_at(batch, e, p, q):
     """The anchor of the material that is at point p of row e."""
     x, y, z = batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2]
@@ -221,7 +221,7 @@ def anchor_at(batch, e, p, q):
     return x, y, z
 
 
-@inline_kernel
+@formula
 def drawn_at(batch, e, p, q, r, u, n):
     """The vector w of the friction, its size, and the factor f of the force -f w; whether it slips."""
     ground, anchor, d = batch.grounds[batch.ground[e]], anchor_at(batch, e, p, q), batch.diameter[e]

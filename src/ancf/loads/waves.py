@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from ..compiled import inline_kernel, kernel
+from ..compiled import formula, inline_kernel, kernel
 from ..errors import ModelError
 from ..simd import LANES, cos_and_sin, decay, every, load, store, total
 
@@ -142,7 +142,7 @@ def sea_at(sea, wave, first, last, angle, t, x, y, z, kept):
     kept[PLACE], kept[PLACE + 1], kept[PLACE + 2] = x, y, z
 
 
-@inline_kernel
+@formula
 def renew_waves(batch, e, p, k, t, at, v):
     """Let ``kept`` hold what the waves of fluid k do at point p of row e, at this place and velocity."""
     kept, sea = batch.kept[e, p], batch.sea[k]
