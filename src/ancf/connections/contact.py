@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..compiled import Role, implements, inline_kernel, kernel
+from ..compiled import Role, formula, implements, inline_kernel, kernel
 from ..vectors import dot
 from .curves import looked_up
 from .in_matrix import no_pairs, no_places
@@ -57,7 +57,7 @@ class ContactBatch(NamedTuple):
     found: FloatArray  # (n, 4) FORCE ... ASIDE where it was evaluated last; the next search starts at ARC
 
 
-@inline_kernel
+@formula
 def crossing(batch, j, q, p):
     """Whether the wire crosses the strip's plane, and s there; s is kept for the next search."""
     start, stop = batch.first[j], batch.first[j + 1] - 1
@@ -84,7 +84,7 @@ def crossing(batch, j, q, p):
     return False, s
 
 
-@inline_kernel
+@formula
 def touch(batch, j, q, v):
     """Whether contact j pushes, with the element, xi, m and the force; fills ``found``."""
     p = slider(batch, j, q, 1.0)
@@ -116,7 +116,7 @@ def touch(batch, j, q, v):
     return force > 0.0, e, xi, m, force
 
 
-@inline_kernel
+@formula
 def add_row(batch, j, e, xi, m, weight, r):
     """Add ``weight`` times the gradient of the overlap to r."""
     for k in range(COLUMNS):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..compiled import inline_kernel
+from ..compiled import formula
 
 
 def curves(given: Sequence[FloatArray | None]) -> dict[str, Any]:
@@ -39,7 +39,7 @@ def _area(x: FloatArray, f: FloatArray) -> FloatArray:
     return area
 
 
-@inline_kernel
+@formula
 def looked_up(batch, k, x):
     """Value, slope and integral from 0 of curve k at x; all zero where there is none."""
     low, high = batch.begins[k], batch.begins[k + 1] - 1

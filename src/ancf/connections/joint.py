@@ -15,7 +15,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ..arrays import FloatArray, IntArray
-from ..compiled import Role, implements, inline_kernel
+from ..compiled import Role, formula, implements, inline_kernel
 from ..vectors import dot
 from .in_matrix import bind_joints, joint_pairs
 
@@ -37,7 +37,7 @@ class JointBatch(NamedTuple):
     pair: IntArray  # (k,) places of the pieces (slot of one entry, slot of another), -1: above the diagonal
 
 
-@inline_kernel
+@formula
 def sums(batch, n, q, fixed):
     """d1 and d2 of row n (fixed = 1) or their rates (fixed = 0)."""
     x, y, z = fixed * batch.constant[n, 0], fixed * batch.constant[n, 1], fixed * batch.constant[n, 2]

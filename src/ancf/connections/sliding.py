@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..compiled import Role, implements, inline_kernel
+from ..compiled import Role, formula, implements, inline_kernel
 from ..vectors import dot
 from .in_matrix import bind_sliding, sliding_pairs
 
@@ -66,7 +66,7 @@ class SlidingBatch(NamedTuple):
     mode: IntArray  # (n,) SLIDES, FROZEN (s does not change) or FREE (no force at all)
 
 
-@inline_kernel
+@formula
 def element_at(batch, j, s):
     """Element of the carrier that holds s, the first or last one beyond the ends."""
     low, high = batch.first[j], batch.first[j + 1] - 1
@@ -79,7 +79,7 @@ def element_at(batch, j, s):
     return low
 
 
-@inline_kernel
+@formula
 def shape(batch, e, k, xi, derivative):
     """Factor of column k, or a derivative with respect to s."""
     c0, c1, c2, c3 = (
@@ -96,7 +96,7 @@ def shape(batch, e, k, xi, derivative):
     return il * il * (2.0 * c2 + 6.0 * xi * c3)
 
 
-@inline_kernel
+@formula
 def line(batch, e, xi, q, derivative):
     """Point of the carrier's line or a derivative with respect to s, from values q."""
     x, y, z = 0.0, 0.0, 0.0
@@ -110,7 +110,7 @@ def line(batch, e, xi, q, derivative):
     return x, y, z
 
 
-@inline_kernel
+@formula
 def slider(batch, j, q, fixed):
     """Position of the sliding point (fixed = 1) or its rate (fixed = 0)."""
     x, y, z = fixed * batch.offset[j, 0], fixed * batch.offset[j, 1], fixed * batch.offset[j, 2]
@@ -124,7 +124,7 @@ def slider(batch, j, q, fixed):
     return x, y, z
 
 
-@inline_kernel
+@formula
 def keep(batch, j, x):
     """Part of a vector in the directions that the joint holds now."""
     if batch.mode[j] == FREE:
@@ -139,7 +139,7 @@ def keep(batch, j, x):
     return x
 
 
-@inline_kernel
+@formula
 def gap_rates(batch, j, e, xi, q, v, a):
     """C weighted by level[0] plus its time derivatives weighted by level[1] and level[2]."""
     i = batch.unknown[j] + 3
@@ -162,7 +162,7 @@ def gap_rates(batch, j, e, xi, q, v, a):
     return gx, gy, gz
 
 
-@inline_kernel
+@formula
 def friction(batch, j, t, lam, rate):
     """Force against the motion of s and its derivative with respect to the rate of s."""
     c, mu = batch.data[j, VISCOUS], batch.data[j, MU]

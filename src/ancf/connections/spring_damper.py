@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, implements, inline_kernel
+from ..compiled import Role, formula, implements, inline_kernel
 from .curves import looked_up
 
 #: Columns of SpringBatch.data.
@@ -39,7 +39,7 @@ class SpringBatch(NamedTuple):
     area: FloatArray  # (m,)
 
 
-@inline_kernel
+@formula
 def spring_vector(batch, e, q, fixed):
     """Vector from the first to the second end (fixed = 1) or its rate (fixed = 0)."""
     x, y, z = fixed * batch.offset[e, 0], fixed * batch.offset[e, 1], fixed * batch.offset[e, 2]
@@ -53,7 +53,7 @@ def spring_vector(batch, e, q, fixed):
     return x, y, z
 
 
-@inline_kernel
+@formula
 def spring_state(batch, e, q, v):
     """Direction, length, rate, tension and whether the spring carries."""
     x, y, z = spring_vector(batch, e, q, 1.0)
@@ -72,7 +72,7 @@ def spring_state(batch, e, q, v):
     return n, length, rate, tension, True
 
 
-@inline_kernel
+@formula
 def spring_slopes(batch, e, length, rate):
     """Derivatives of the tension of a spring that carries by its length and by its rate."""
     k = batch.data[e, STIFFNESS] + looked_up(batch, 2 * e, length - batch.data[e, LENGTH])[1]
@@ -83,7 +83,7 @@ def spring_slopes(batch, e, length, rate):
     return k, c
 
 
-@inline_kernel
+@formula
 def spring_gradient(batch, e, q, b):
     """Add the gradient of the length of spring e to b."""
     x, y, z = spring_vector(batch, e, q, 1.0)

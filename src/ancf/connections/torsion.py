@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..compiled import Role, implements, inline_kernel
+from ..compiled import Role, formula, implements, inline_kernel
 
 SLOTS = 6  # three of what turns, three of the frame
 TURN = 2.0 * math.pi
@@ -35,7 +35,7 @@ class TorsionBatch(NamedTuple):
     last: FloatArray  # (n,) angle at the last step
 
 
-@inline_kernel
+@formula
 def components(batch, e, k, c, q):
     """Component c of p_k, a_k and b_k of spring e."""
     p, a, b = 0.0, batch.constant[e, k, 0, c], batch.constant[e, k, 1, c]
@@ -49,7 +49,7 @@ def components(batch, e, k, c, q):
     return p, a, b
 
 
-@inline_kernel
+@formula
 def angle_gradients(batch, e, q, ws):
     """S and C of spring e; their gradients by the slots in ws[3 i + c] and ws[18 + 3 i + c]."""
     for i in range(36):
@@ -68,14 +68,14 @@ def angle_gradients(batch, e, q, ws):
     return S, C
 
 
-@inline_kernel
+@formula
 def full_angle(batch, e, S, C):
     """The angle next to that of the last step."""
     angle = batch.data[e, 3] * math.atan2(S, C)
     return angle + TURN * math.floor((batch.last[e] - angle) / TURN + 0.5)
 
 
-@inline_kernel
+@formula
 def torsion_moment(batch, e, S, C, v, ws):
     """Moment against a growing angle."""
     rate = 0.0
@@ -99,7 +99,7 @@ def torsion_force(batch, q, v, a, r, ws):
                     r[batch.base[e, i] + c] += f * (C * ws[3 * i + c] - S * ws[18 + 3 * i + c])
 
 
-@inline_kernel
+@formula
 def turned_by(batch, e, i, m):
     """What S and C have of the product of slots i and m: their second derivatives."""
     s, c = 0.0, 0.0

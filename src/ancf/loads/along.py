@@ -233,7 +233,7 @@ def acceleration_at(batch, e, p, q, v, a):
     )
 
 
-@inline_kernel
+@formula
 def upstream(batch, e, p, comes):
     """Row and point next to point p of row e from which the material comes; row -1: there is none.
 
@@ -311,7 +311,7 @@ def add_block_along(batch, e, p, rows, A):
                     A[place + 6 * i + j] += w * rows[i][j]
 
 
-@inline_kernel
+@formula
 def add_slope_block_along(batch, e, p, rows, A):
     """Add the symmetric part of what a 3x3 matrix, minus the derivative of the force by r_x, gives to A."""
     size = batch.base.shape[1]

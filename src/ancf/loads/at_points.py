@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import inline_kernel
+from ..compiled import formula
 
 
 def at_points(points: Sequence[Any], locate: Callable[[Any], Any]) -> dict[str, NDArray[Any]]:
@@ -35,7 +35,7 @@ def at_points(points: Sequence[Any], locate: Callable[[Any], Any]) -> dict[str, 
     return {"base": base, "dest": np.full((n, width**2), -1, dtype=np.int64), "factor": factor}
 
 
-@inline_kernel
+@formula
 def at_point(batch, e, q):
     """Position of point e from the state vector, its velocity from the rates."""
     x, y, z = 0.0, 0.0, 0.0
@@ -48,7 +48,7 @@ def at_point(batch, e, q):
     return x, y, z
 
 
-@inline_kernel
+@formula
 def add_force_at(batch, e, force, r):
     """Subtract the force on point e from the residual r."""
     for k in range(batch.base.shape[1]):
@@ -58,7 +58,7 @@ def add_force_at(batch, e, force, r):
                 r[i + c] -= w * force[c]
 
 
-@inline_kernel
+@formula
 def add_tangent_at(batch, e, rows, A):
     """Add a symmetric 3x3 matrix, minus the derivative of the force on point e, three tuples, to A."""
     size = batch.base.shape[1]

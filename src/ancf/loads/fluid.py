@@ -194,7 +194,7 @@ def by_law(batch, k, time, x, y, z):
     return batch.numbers[6], batch.numbers[7], batch.numbers[8]
 
 
-@inline_kernel
+@formula
 def by_profile(batch, k, z):
     """Velocity of fluid k by its profile, and how it changes with the height."""
     a, b = batch.first[k], batch.first[k + 1] - 1

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, implements, inline_kernel
+from ..compiled import Role, formula, implements, inline_kernel
 from ..model.beam import Beam
 
 #: Step of the differences; slopes and directors are about 1.
@@ -61,7 +61,7 @@ def build(items, locate, value):
     )
 
 
-@inline_kernel
+@formula
 def put_axes(batch, e, q):
     """r_x, r_y and r_z of point e into the scratch memory."""
     for d in range(3):
@@ -80,7 +80,7 @@ def unit(x, y, z):
     return x * inverse, y * inverse, z * inverse
 
 
-@inline_kernel
+@formula
 def following(batch, e):
     """The force with the axes that have been put."""
     a, F = batch.axes[e], batch.value[e, 0]
@@ -114,7 +114,7 @@ def follower_force(batch, q, v, a, r, ws):
                     r[i + c] -= batch.factor[e, k] * force[c]
 
 
-@inline_kernel
+@formula
 def differentiate(batch, e):
     """Derivatives of the force by r_x, r_y and r_z."""
     for j in range(9):

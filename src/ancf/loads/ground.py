@@ -301,7 +301,7 @@ def ground_remember(batch, q, v):
             follow_material(batch, e, q, v)
 
 
-@inline_kernel
+@formula
 def follow_material(batch, e, q, v):
     """How the anchors of row e move with the length from here on."""
     i = batch.winch[e]

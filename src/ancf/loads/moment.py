@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, implements, inline_kernel
+from ..compiled import Role, formula, implements, inline_kernel
 
 
 class MomentBatch(NamedTuple):
@@ -25,7 +25,7 @@ class MomentBatch(NamedTuple):
     value: FloatArray  # (n, 3) moment now, N m
 
 
-@inline_kernel
+@formula
 def moment_slope(batch, e, q):
     """The slope r_x or its rate."""
     x, y, z = 0.0, 0.0, 0.0
@@ -37,7 +37,7 @@ def moment_slope(batch, e, q):
     return x, y, z
 
 
-@inline_kernel
+@formula
 def slope_force(batch, e, q):
     """Slope p, |p|^2 and the force f on it."""
     p = moment_slope(batch, e, q)

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, implements, inline_kernel
+from ..compiled import Role, formula, implements, inline_kernel
 from ..vectors import dot
 
 
@@ -39,7 +39,7 @@ class SectionMomentBatch(NamedTuple):
     value: FloatArray  # (n, 3) moment now, N m
 
 
-@inline_kernel
+@formula
 def section_vector(batch, e, q, first):
     """r_y (first = 0) or r_z (first = 3)."""
     x, y, z = 0.0, 0.0, 0.0
@@ -68,7 +68,7 @@ def sum3(x, a, y, b, z, c):
     )
 
 
-@inline_kernel
+@formula
 def turning(batch, e, ry, rz, M):
     """J^-1 M."""
     wy, wz = batch.share[e, 0], batch.share[e, 1]
@@ -78,7 +78,7 @@ def turning(batch, e, ry, rz, M):
     return sum3(s, c, dot(ry, M) / (wz * cc), ry, dot(rz, M) / (wy * cc), rz)
 
 
-@inline_kernel
+@formula
 def section_forces(batch, e, ry, rz):
     """f_y and f_z."""
     wy, wz = batch.share[e, 0], batch.share[e, 1]
@@ -106,7 +106,7 @@ def section_moment_force(batch, q, v, a, r, ws):
                     r[i + c] -= w * f[c]
 
 
-@inline_kernel
+@formula
 def derivative_of_force(batch, e, ry, rz, ws):
     """ws[6 i + j] = derivative of component i of (f_y, f_z) by component j of (r_y, r_z).
 

@@ -20,7 +20,7 @@ from numba.extending import intrinsic
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, implements, inline_kernel
+from ..compiled import Role, formula, implements, inline_kernel
 from ..elements.shapes import gauss
 from ..model.loads import DistributedLoad
 from .at_points import add_force_at, add_tangent_at, at_point, at_points
@@ -131,7 +131,7 @@ def call(typing_context, address, time, data):
     return types.float64(types.int64, types.float64, types.uintp), code
 
 
-@inline_kernel
+@formula
 def passing_at(batch, e, q):
     """D r at point e of a cable with a winch, of material that passes."""
     x, y, z = 0.0, 0.0, 0.0
@@ -144,7 +144,7 @@ def passing_at(batch, e, q):
     return x, y, z
 
 
-@inline_kernel
+@formula
 def put_state(batch, e, q, v):
     """Position and velocity of the material at point e to where its law looks for them; the length there."""
     batch.data[e, 0], batch.data[e, 1], batch.data[e, 2] = at_point(batch, e, q)
@@ -158,14 +158,14 @@ def put_state(batch, e, q, v):
     return size
 
 
-@inline_kernel
+@formula
 def law_force(batch, e, w):
     """Force of law e in the state that has been put, on the length w."""
     call(batch.law[e], batch.value[batch.item[e], 0, 0], batch.data[e].ctypes.data)
     return w * batch.data[e, FORCE], w * batch.data[e, FORCE + 1], w * batch.data[e, FORCE + 2]
 
 
-@inline_kernel
+@formula
 def force_now(batch, e, w):
     """The same, of a law that is called once a step what it gave first."""
     if not batch.once[e]:
@@ -190,7 +190,7 @@ def state_force(batch, q, v, a, r, ws):
             r[i] += (force[0] * d[0] + force[1] * d[1] + force[2] * d[2]) / q[i]
 
 
-@inline_kernel
+@formula
 def add_differences(batch, e, size, first, step, weight):
     """Subtract ``weight`` times the derivatives by the numbers from ``first`` on from the rows."""
     for j in range(3):
