@@ -21,6 +21,7 @@ from numba.core import event
 from numba.extending import overload
 
 from . import kernel_cache
+from .parts import PartCompiler
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -34,7 +35,9 @@ _OPTIONS: dict[str, Any] = {
     "no_cfunc_wrapper": True,
 }
 #: What only kernels call has no entry for Python, which saves a third of the time to compile.
-PART: Any = {**_OPTIONS, "no_cpython_wrapper": True}
+_CALLED: Any = {**_OPTIONS, "no_cpython_wrapper": True}
+#: And what they take in is translated with them.
+PART: Any = {**_CALLED, "pipeline_class": PartCompiler}
 
 
 #: Folders whose files hold kernels, or constants of kernels.
@@ -44,7 +47,13 @@ FOLDERS = ("simd", "elements", "bodies", "connections", "loads", "contact", "lin
 def stamped() -> list[Path]:
     """Sources that hold kernels: when anything in them has changed, all kernels are compiled anew."""
     root = Path(__file__).parent
-    kernels = root / "compiled.py", root / "records.py", root / "batches.py", root / "vectors.py"
+    kernels = (
+        root / "compiled.py",
+        root / "parts.py",
+        root / "records.py",
+        root / "batches.py",
+        root / "vectors.py",
+    )
     return [*kernels, *(f for folder in FOLDERS for f in sorted((root / folder).rglob("*.py")))]
 
 
@@ -71,23 +80,22 @@ def inlined_kernel(function: F) -> F:
 
 def separate_kernel(function: F) -> F:
     """Compile ``function`` for kernels that call it by its address, and cache it like :func:`kernel`."""
-    dispatcher = _inner(function)
+    dispatcher = _inner(function, _CALLED)
     kernel_cache.use(dispatcher, _STAMP)
     return dispatcher
 
 
 def inline_kernel(function: F) -> F:
     """Compile ``function`` as a part of the kernels that call it; Python cannot call it."""
-    return _inner(function)
+    return _inner(function, PART)
 
 
 def formula(function: F) -> F:
     """Put the code of a small kernel into the loops that call it, which can only then be vectorised."""
-    return _inner(function, forceinline=True)
+    return _inner(function, {**PART, "forceinline": True})
 
 
-def _inner(function: F, **options: bool) -> F:
-    settings: Any = {**PART, **options}
+def _inner(function: F, settings: Any) -> F:
     dispatcher: Any = numba.njit(**settings)(function)
 
     def refuse(*arguments: Any, **keywords: Any) -> None:

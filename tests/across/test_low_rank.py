@@ -69,6 +69,7 @@ def test_the_kept_factorisation_gives_the_same_motion(full):
     assert result.stats.factorizations < 10 < full[0].stats.factorizations / 40
 
 
+@pytest.mark.slow  # a time stepping of its own is compiled
 def test_the_correction_saves_iterations(full, monkeypatch):
     """Without it the motion is the same, and takes more iterations."""
     from ancf.solvers import stepping

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, implements, inline_kernel, kernel
+from ..compiled import Role, formula, implements, inline_kernel, kernel
 from ..vectors import dot
 from .profiles import profile_of
 from .strand import less
@@ -64,7 +64,7 @@ class BumpBatch(NamedTuple):
     rough: FloatArray  # (n, 10) memory: of friction, see :mod:`ancf.contact.roll`
 
 
-@inline_kernel
+@formula
 def body_of(batch, e, side, q, ground):
     """Place and directions of a body, or their rates; what stands for those of the ground."""
     i = 4 * side
@@ -78,14 +78,14 @@ def body_of(batch, e, side, q, ground):
     )
 
 
-@inline_kernel
+@formula
 def both(batch, e, q):
     """Places and directions of both bodies."""
     ground = (0.0, 0.0, 0.0), EX, EY, EZ
     return body_of(batch, e, 0, q, ground), body_of(batch, e, 1, q, ground)
 
 
-@inline_kernel
+@formula
 def both_rates(batch, e, v):
     """Their rates."""
     zero = 0.0, 0.0, 0.0
@@ -93,7 +93,7 @@ def both_rates(batch, e, v):
     return body_of(batch, e, 0, v, ground), body_of(batch, e, 1, v, ground)
 
 
-@inline_kernel
+@formula
 def end_of(batch, e, body, column):
     """Global place of an end."""
     x = batch.ends[e]
@@ -125,7 +125,7 @@ def nearest_two(p, u, r, w):
     return between(p, s, u), between(r, share(b * s + g, c), w)
 
 
-@inline_kernel
+@formula
 def weight_of(batch, e, one, two):
     """Weight of a row."""
     if batch.part[e] == WHOLE:
@@ -137,7 +137,7 @@ def weight_of(batch, e, one, two):
     return phi if batch.part[e] == CROSSING else 0.5 * (1.0 - phi)
 
 
-@inline_kernel
+@formula
 def meet(batch, e, one, two):
     """Depth, normal, place of contact and the way between the middles of what touches."""
     a, b = batch.ends[e, RADII], batch.ends[e, RADII + 1]
@@ -171,7 +171,7 @@ def apart_at(one, two, moving, other, c):
     return u, x, y
 
 
-@inline_kernel
+@formula
 def bumped(batch, e, q, v):
     """Place of contact in the axes of both bodies, normal, force, derivatives by depth and rate, depth."""
     one, two = both(batch, e, q)
@@ -194,7 +194,7 @@ def factor_in(k, x, y):
     return -1.0 if k == 4 else -y[k - 5]
 
 
-@inline_kernel
+@formula
 def add_bump(batch, e, x, y, f, r):
     """Subtract a force on the first body, and the opposite one on the second, from the residual r."""
     for k in range(8):
@@ -206,7 +206,7 @@ def add_bump(batch, e, x, y, f, r):
             r[i + 2] -= s * f[2]
 
 
-@inline_kernel
+@formula
 def add_bump_block(batch, e, x, y, n, along, across, A):
     """Add a stiffness along n and another one across it to A."""
     for k in range(8):

@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 
-from ..compiled import inline_kernel, kernel
+from ..compiled import formula, inline_kernel, kernel
 from ..vectors import dot
 from .near import LIVE, anything, keep, look, look_ahead, look_back, look_if_live
 from .strand import (
@@ -56,7 +56,7 @@ def factors(x, h):
     return y * y * (1.0 + 2.0 * x), h * x * y * y, x * x * (1.0 + 2.0 * y), -h * x * x * y
 
 
-@inline_kernel
+@formula
 def from_slots(batch, e, s, q):
     """Sum of the vectors of an element with these factors."""
     x, y, z = 0.0, 0.0, 0.0
@@ -68,7 +68,7 @@ def from_slots(batch, e, s, q):
     return x, y, z
 
 
-@inline_kernel
+@formula
 def add_force_on(batch, e, s, f, r):
     """Subtract a force on the place with these factors from the residual r."""
     for k in range(4):
@@ -78,7 +78,7 @@ def add_force_on(batch, e, s, f, r):
         r[i + 2] -= s[k] * f[2]
 
 
-@inline_kernel
+@formula
 def met(batch, z, p, q):
     """Point p of zone z: its xi, half of its length of cable, element and xi that it meets, depth, normal."""
     zone = batch.zone[z]
@@ -95,7 +95,7 @@ def met(batch, z, p, q):
     return x, 0.5 * GAUSS_W[p] * wide * batch.length[e], b, y, zone[REACH] - d, n
 
 
-@inline_kernel
+@formula
 def pressed_at(batch, z, p, q, v):
     """The same, with factors of both places, the force on the point and its derivatives by depth and rate."""
     e = int(batch.zone[z, ELEMENT])
@@ -106,7 +106,7 @@ def pressed_at(batch, z, p, q, v):
     return e, b, sa, sb, g, n, weight * N, weight * by_g, weight * by_rate
 
 
-@inline_kernel
+@formula
 def cross_force(batch, q, v, a, r, ws):
     """Subtract the normal forces from r."""
     look_if_live(batch, q)
@@ -118,12 +118,12 @@ def cross_force(batch, q, v, a, r, ws):
                 add_force_on(batch, b, sb, (-N * n[0], -N * n[1], -N * n[2]), r)
 
 
-@inline_kernel
+@formula
 def not_in_matrix(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """What cables do to each other stays out of the matrix, see :mod:`ancf.solvers.entwined`."""
 
 
-@inline_kernel
+@formula
 def cross_energy(batch, q, ws):
     """Energy of the depths, J."""
     look_if_live(batch, q)
@@ -136,7 +136,7 @@ def cross_energy(batch, q, ws):
     return energy
 
 
-@inline_kernel
+@formula
 def cross_measure(batch, q, v):
     """Fill ``found`` for the state (q, v)."""
     look(batch, q)
@@ -152,7 +152,7 @@ def cross_measure(batch, q, v):
             measure_gap(batch, e, q)
 
 
-@inline_kernel
+@formula
 def measure_gap(batch, e, q):
     """Largest depths of element e in cables that are near."""
     ca, half = cubic(batch, e, q), 0.5 / batch.cells[0]
@@ -175,7 +175,7 @@ def measure_gap(batch, e, q):
                 batch.found[j, DEPTH] = max(batch.found[j, DEPTH], depth)
 
 
-@inline_kernel
+@formula
 def cross_remember(batch, q, v):
     """Keep where everything is: from there the next step is judged."""
     look_ahead(batch, q)
@@ -183,7 +183,7 @@ def cross_remember(batch, q, v):
         keep(batch, q, batch.last)
 
 
-@inline_kernel
+@formula
 def cross_passed(batch, q, ws):
     """Slot of the first node of an element that may have gone through a cable since the last step, else -1.
 
@@ -207,7 +207,7 @@ def cross_passed(batch, q, ws):
     return -1
 
 
-@inline_kernel
+@formula
 def moved_past(batch, e, b, q):
     """Bound of how far two elements have moved against each other since the last step."""
     if not batch.last[e, 0] < np.inf:
@@ -224,7 +224,7 @@ def moved_past(batch, e, b, q):
     return math.sqrt(most)
 
 
-@inline_kernel
+@formula
 def came_near(batch, e, b, q, reach):
     """Whether some cell of element e is within reach of element b."""
     ca, half = cubic(batch, e, q), 0.5 / batch.cells[0]

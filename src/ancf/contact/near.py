@@ -55,7 +55,7 @@ def chord_turned(batch, e, q):
     return way / (TURNED * batch.length[e])
 
 
-@inline_kernel
+@formula
 def touches_itself(batch):
     """Whether some cable may."""
     own = False
@@ -64,7 +64,7 @@ def touches_itself(batch):
     return own
 
 
-@inline_kernel
+@formula
 def used_up(batch, q):
     """Share of what the list allows for that is used up; more than all without a list."""
     if batch.room[LEFT] < 0.0:
@@ -80,13 +80,13 @@ def used_up(batch, q):
     return most
 
 
-@inline_kernel
+@formula
 def anything(batch):
     """Whether anything is near."""
     return batch.first[batch.base.shape[0]] > 0
 
 
-@inline_kernel
+@formula
 def keep(batch, q, into):
     """Copy the unknowns of all elements."""
     for e in range(batch.base.shape[0]):
@@ -95,7 +95,7 @@ def keep(batch, q, into):
                 into[e, 3 * k + c] = q[batch.base[e, k] + c]
 
 
-@inline_kernel
+@formula
 def ball(batch, e, q):
     """Middle of an element, and the radius of a ball about it that holds its cable."""
     c = cubic(batch, e, q)
@@ -107,7 +107,7 @@ def ball(batch, e, q):
     return m, h + 0.3 * bent + batch.radius[e]
 
 
-@inline_kernel
+@formula
 def bucket(batch, x, y, z):
     """Where the elements of a cube of the grid are listed."""
     mixed = (x * FACTORS[0]) ^ (y * FACTORS[1]) ^ (z * FACTORS[2])
@@ -120,7 +120,7 @@ def cube(m, wide):
     return math.floor(m[0] / wide), math.floor(m[1] / wide), math.floor(m[2] / wide)
 
 
-@inline_kernel
+@formula
 def leads(batch, e, q, u):
     """Whether all tangents of element e are nearly along u."""
     c = cubic(batch, e, q)
@@ -136,7 +136,7 @@ def leads(batch, e, q, u):
     return along and dot(last, u) > least * math.sqrt(dot(last, last))
 
 
-@inline_kernel
+@formula
 def straight_to(batch, e, step, q, most):
     """The last element from e on, before (-1) or behind it (1), up to which its cable is nearly straight.
 
@@ -154,7 +154,7 @@ def straight_to(batch, e, step, q, most):
     return last
 
 
-@inline_kernel
+@formula
 def may_touch(batch, a, b, before, behind, margin):
     """Whether two elements belong into the list; a's cable is straight from ``before`` to ``behind``."""
     if a == b or batch.law[batch.cable[a], batch.cable[b]] < 0:
@@ -166,7 +166,7 @@ def may_touch(batch, a, b, before, behind, margin):
     return x * x + y * y + z * z < reach * reach
 
 
-@inline_kernel
+@formula
 def sort_in(batch, start, count, b):
     """Put element b into the ascending entries of one element; their number."""
     k = count
@@ -182,7 +182,7 @@ def sort_in(batch, start, count, b):
     return count + 1
 
 
-@inline_kernel
+@formula
 def sort_into_cubes(batch, wide):
     """Lists of the elements in each bucket."""
     for k in range(batch.head.shape[0]):
@@ -194,7 +194,7 @@ def sort_into_cubes(batch, wide):
         batch.head[k] = e
 
 
-@inline_kernel
+@formula
 def fill(batch, q, margin, wide):
     """Make the list with a margin; whether there is room for it."""
     n, count = batch.base.shape[0], 0
@@ -219,21 +219,21 @@ def fill(batch, q, margin, wide):
     return True
 
 
-@inline_kernel
+@formula
 def look(batch, q):
     """Make the list if it may be out of date."""
     if not used_up(batch, q) < 1.0:
         make(batch, q)
 
 
-@inline_kernel
+@formula
 def look_if_live(batch, q):
     """The same where steps are long."""
     if batch.room[LIVE] > 0.0:
         look(batch, q)
 
 
-@inline_kernel
+@formula
 def look_ahead(batch, q):
     """Make the list in time for the next step.
 
@@ -249,7 +249,7 @@ def look_ahead(batch, q):
     batch.room[MADE] = 1.0 if made else 0.0
 
 
-@inline_kernel
+@formula
 def look_back(batch, q):
     """Whether a step may have missed what is near: it went too far; the next attempt looks all the time."""
     batch.room[SEEN] = used_up(batch, q)
@@ -260,7 +260,7 @@ def look_back(batch, q):
     return anything(batch)
 
 
-@inline_kernel
+@formula
 def box_in(batch):
     """Boxes about the balls of all elements of each piece."""
     for i in range(batch.box.shape[0]):
@@ -272,7 +272,7 @@ def box_in(batch):
                 batch.box[i, 3 + c] = max(batch.box[i, 3 + c], batch.middle[e, c] + batch.middle[e, 3])
 
 
-@inline_kernel
+@formula
 def all_lead(batch, i, j, q):
     """Whether the cable is nearly straight from the start of piece i to the end of piece j."""
     first, last = cubic(batch, batch.piece[i], q), cubic(batch, batch.piece[j + 1] - 1, q)
@@ -282,7 +282,7 @@ def all_lead(batch, i, j, q):
     return straight
 
 
-@inline_kernel
+@formula
 def free_way(batch, q):
     """How far everything may go before pieces of cables meet that may touch, m; 0 where some may already.
 
@@ -310,13 +310,13 @@ def free_way(batch, q):
     return least
 
 
-@inline_kernel
+@formula
 def follows(batch, i):
     """Whether the next piece is of the same cable: then both are looked at together."""
     return i + 1 < batch.box.shape[0] and batch.cable[batch.piece[i]] == batch.cable[batch.piece[i + 1]]
 
 
-@inline_kernel
+@formula
 def make(batch, q):
     """Make the list with the widest margin for which there is room."""
     largest, sound = 0.0, True

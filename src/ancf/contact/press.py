@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, implements, inline_kernel, kernel
+from ..compiled import Role, formula, implements, inline_kernel, kernel
 from ..vectors import dot
 from .reel import stretched, swept
 from .touch import (
@@ -86,7 +86,7 @@ class PressBatch(NamedTuple):
     bond: NDArray[np.int64]  # (n, points) 1 where the surface holds a point while loads come on, else 0
 
 
-@inline_kernel
+@formula
 def pressed(batch, e, p, row):
     """Place of point p in body axes, normal force and its derivatives, normal and how it turns."""
     nodes, rates, body, moving, at, axis = row
@@ -121,7 +121,7 @@ def press_force(batch, q, v, a, r, ws):
         add_sums(batch, e, sums, row[0], more, q, r)
 
 
-@inline_kernel
+@formula
 def stored_less_work(batch, e, p, nodes, g, n):
     """Energy of a depth in a piece of the mesh less the work that its elastic force does along D r, N m/m."""
     if g <= 0.0 and batch.bond[e, p] == 0:

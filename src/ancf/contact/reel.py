@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import inline_kernel
+from ..compiled import formula, inline_kernel
 from ..model.beam import Beam
 from ..vectors import dot
 
@@ -48,13 +48,13 @@ def minus(a, s, b):
     return a[0] - s * b[0], a[1] - s * b[1], a[2] - s * b[2]
 
 
-@inline_kernel
+@formula
 def times(s, a):
     """s a."""
     return s * a[0], s * a[1], s * a[2]
 
 
-@inline_kernel
+@formula
 def swept(batch, e, nodes):
     """D r of a row, as vectors of its nodes."""
     f1, s1, f2, s2 = nodes
@@ -65,7 +65,7 @@ def swept(batch, e, nodes):
     return times(x1, s1), minus(s1, -x1, c1), times(x2, s2), minus(s2, -x2, c2)
 
 
-@inline_kernel
+@formula
 def rates_of_material(batch, e, nodes, rates, q, v):
     """Velocity of the material of a row, from that of its four vectors."""
     i = batch.winch[e]
@@ -76,14 +76,14 @@ def rates_of_material(batch, e, nodes, rates, q, v):
     return minus(a, mu, d[0]), minus(b, mu, d[1]), minus(c, mu, d[2]), minus(f, mu, d[3])
 
 
-@inline_kernel
+@formula
 def stretched(batch, e, q):
     """lam of a row."""
     i = batch.winch[e]
     return q[i] * batch.unwound[e] if i >= 0 else 1.0
 
 
-@inline_kernel
+@formula
 def add_on_length(batch, e, nodes, sums, more, r):
     """Add to the residual of L what forces with these sums, and stored energy of ``more`` N, leave there."""
     i = batch.winch[e]
@@ -93,7 +93,7 @@ def add_on_length(batch, e, nodes, sums, more, r):
         r[i] += batch.unwound[e] * (work + more)
 
 
-@inline_kernel
+@formula
 def grown(batch, e, q):
     """By which share the length has grown since the last accepted step."""
     i = batch.winch[e]

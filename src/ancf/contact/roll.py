@@ -16,7 +16,7 @@ import math
 
 import numpy as np
 
-from ..compiled import Role, implements, inline_kernel, kernel
+from ..compiled import Role, formula, implements, inline_kernel, kernel
 from ..vectors import dot
 from .bump import BumpBatch, add_bump, add_bump_block, apart_at, both, both_rates, bumped, meet
 from .strand import less
@@ -42,7 +42,7 @@ def turned(body, x):
     return less(carried(body, x[0], x[1], x[2]), body[0])
 
 
-@inline_kernel
+@formula
 def dragged(batch, e, q, v):
     """Place of contact in the axes of both bodies, w, its size, f, whether it slips, normal, stretch."""
     one, two = both(batch, e, q)

@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, implements, inline_kernel, kernel
+from ..compiled import Role, formula, implements, inline_kernel, kernel
 from ..loads.along import upstream
 from ..vectors import dot
 from .press import pressed
@@ -101,13 +101,13 @@ class RubBatch(NamedTuple):
     since: FloatArray  # (n,) memory: length at the last accepted step, m, 0: none; no rows as well
 
 
-@inline_kernel
+@formula
 def rubs(batch, e):
     """Whether a row may have friction in this step."""
     return batch.most[e] > 0.0
 
 
-@inline_kernel
+@formula
 def light(batch):
     """List the rows that may have friction."""
     count = 0
@@ -118,7 +118,7 @@ def light(batch):
     batch.lit[0] = count
 
 
-@inline_kernel
+@formula
 def anchor_at(batch, e, p, q):
     """The anchor of the material that is at point p of row e."""
     a = batch.anchor[e, p]
@@ -127,7 +127,7 @@ def anchor_at(batch, e, p, q):
     return plus((a[0], a[1], a[2]), grown(batch, e, q), batch.drift[e, p])
 
 
-@inline_kernel
+@formula
 def drawn(batch, e, p, r, u, n, body, q):
     """The vector w of the friction, its size, and the factor f of the force -f w; whether it slips."""
     data, anchor = batch.data[batch.contact[e]], anchor_at(batch, e, p, q)
@@ -144,7 +144,7 @@ def drawn(batch, e, p, r, u, n, body, q):
     return w, size, 1.0, False
 
 
-@inline_kernel
+@formula
 def rubbed(batch, e, p, row):
     """Place of point p, in body axes too, its velocity past the surface and the normal."""
     nodes, rates, body, moving, at, axis = row
@@ -218,7 +218,7 @@ def rub_remember(batch, q, v):
             follow_material(batch, e, q, v)
 
 
-@inline_kernel
+@formula
 def follow_material(batch, e, q, v):
     """How the anchors of row e move with the length from here on."""
     i = batch.winch[e]
@@ -240,7 +240,7 @@ def follow_material(batch, e, q, v):
             batch.drift[e, p, c] = slope[c] - X * (own[c] - there[c]) / way
 
 
-@inline_kernel
+@formula
 def behind(batch, e, p, nodes, body):
     """The way from the anchor to the place of a point, in the axes of what carries the surface."""
     if not rubs(batch, e):

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import inline_kernel
+from ..compiled import formula, inline_kernel
 from ..vectors import dot
 
 #: Columns of ``data``: as those of surfaces, see :mod:`ancf.contact.touch`; the radius is the smaller one.
@@ -69,7 +69,7 @@ class StrandBatch(NamedTuple):
     small: FloatArray  # (room, room) the same
 
 
-@inline_kernel
+@formula
 def cubic(batch, e, q):
     """Coefficients c0 ... c3 of element e."""
     i, j, k, m = batch.base[e, 0], batch.base[e, 1], batch.base[e, 2], batch.base[e, 3]
@@ -132,7 +132,7 @@ def on_element(c, r, x):
     return x, 0
 
 
-@inline_kernel
+@formula
 def nearest(batch, q, r, b):
     """Element and xi of a place on the cable through element b that is nearest to r, next to b."""
     c = cubic(batch, b, q)
@@ -152,7 +152,7 @@ def nearest(batch, q, r, b):
     return b, x
 
 
-@inline_kernel
+@formula
 def apart(batch, a, x, b, y):
     """Whether two places may touch: they are of two cables, or far from each other along one."""
     if batch.cable[a] != batch.cable[b]:
@@ -161,7 +161,7 @@ def apart(batch, a, x, b, y):
     return abs(way) > APART * 2.0 * batch.radius[a]
 
 
-@inline_kernel
+@formula
 def clearance(batch, q, e, ca, x, b, reach):
     """Square of the distance at xi = x from the cable through b, less that of ``reach``, and the place there.
 
@@ -175,7 +175,7 @@ def clearance(batch, q, e, ca, x, b, reach):
     return dot(way, way) - reach * reach, o, y
 
 
-@inline_kernel
+@formula
 def root(batch, q, e, ca, b, reach, middle, half, s, linear, square):
     """A root of the clearance near that of its parabola, in the cell's own coordinate from -1 to 1."""
     for _ in range(3):
@@ -209,7 +209,7 @@ def bounds(low, mean, high):
     return True, min(max(s, -1.0), 1.0), 1.0, linear, square
 
 
-@inline_kernel
+@formula
 def may_reach(batch, q, r, half, b, reach):
     """Whether a piece of half that length about r may come within reach of element b."""
     i, j, k, m = batch.base[b, 0], batch.base[b, 1], batch.base[b, 2], batch.base[b, 3]
@@ -222,7 +222,7 @@ def may_reach(batch, q, r, half, b, reach):
     return away < room * room
 
 
-@inline_kernel
+@formula
 def is_taken(batch, count, e, cell, b, met, reach):
     """Whether a place has been found for the cell already, from another element of its cable."""
     z = count - 1
@@ -234,7 +234,7 @@ def is_taken(batch, count, e, cell, b, met, reach):
     return False
 
 
-@inline_kernel
+@formula
 def find_zones(batch, q):
     """Fill ``zone`` with the pieces of cables that touch others; their number."""
     count, cells = 0, batch.cells[0]

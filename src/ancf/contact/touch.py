@@ -45,7 +45,7 @@ def at_slot(q, i):
     return q[i], q[i + ONE], q[i + TWO]
 
 
-@inline_kernel
+@formula
 def carrier(batch, e, q):
     """Place and directions of what carries the surface of a row."""
     b = batch.base[e]
@@ -70,7 +70,7 @@ def carried(body, x, y, z):
     )
 
 
-@inline_kernel
+@formula
 def lie(batch, e, body):
     """Global place and axis of the surface of a row."""
     s = batch.surfaces[batch.surface[e]]
@@ -90,7 +90,7 @@ def cylindrical(r, at, axis):
     return h, rho, (x * s, y * s, z * s)
 
 
-@inline_kernel
+@formula
 def outside(batch, e, p, body, at, axis, r):
     """Signed distance of a place from the surface of a row, the normal, and how it turns.
 
@@ -111,7 +111,7 @@ def outside(batch, e, p, body, at, axis, r):
     return d, n, cross(axis, away), bend, about
 
 
-@inline_kernel
+@formula
 def beside_mesh(batch, e, p, k, body, r):
     """The same of a mesh, which lies in body axes."""
     s = batch.surfaces[k]
@@ -133,7 +133,7 @@ def turned(body, n):
     )
 
 
-@inline_kernel
+@formula
 def nodes_of(batch, e, q):
     """The four vectors of a row, or their rates from v."""
     b = batch.base[e]
@@ -145,7 +145,7 @@ def nodes_of(batch, e, q):
     )
 
 
-@inline_kernel
+@formula
 def row_of(batch, e, q, v):
     """What all points of a row share: its vectors and their rates, what carries the surface, how it lies.
 
@@ -157,7 +157,7 @@ def row_of(batch, e, q, v):
     return nodes, rates, body, still_or(batch, e, v), at, axis
 
 
-@inline_kernel
+@formula
 def still_or(batch, e, v):
     """Rates of the place and the directions of what carries a surface; zero on the ground."""
     if batch.base[e, NODES] < 0:
@@ -165,7 +165,7 @@ def still_or(batch, e, v):
     return carrier(batch, e, v)
 
 
-@inline_kernel
+@formula
 def place_on(batch, e, p, nodes):
     """Position of point p of row e from its four vectors, or its velocity from their rates."""
     s, (a, b, c, d) = batch.shape[e, p], nodes
@@ -193,7 +193,7 @@ def first_node(batch, e, q):
     return in_body(carrier(batch, e, q), r)
 
 
-@inline_kernel
+@formula
 def reach_of(batch, e, q):
     """Radius of a ball about the first node of a row, with the radius of the beam, that holds all its points.
 
@@ -236,7 +236,7 @@ def look_around(batch, e, q):
     return renew_ball(batch, e, q, r, way)
 
 
-@inline_kernel
+@formula
 def renew_ball(batch, e, q, r, way):
     """Lay the ball of a row about its first node r, which went so far in the last step; whether it is far."""
     far, body = batch.far[e], carrier(batch, e, q)
@@ -268,7 +268,7 @@ def pressure(data, g, rate):
     return N, slope, data[DAMPING] * on
 
 
-@inline_kernel
+@formula
 def factor_of(batch, e, p, k, x):
     """Factor of slot k in the place of point p against the surface, which it meets at x in body axes."""
     if k < NODES:
@@ -288,7 +288,7 @@ def nothing():
     return ZERO, ZERO, ZERO, ZERO, ZERO, ZERO, ZERO, ZERO
 
 
-@inline_kernel
+@formula
 def with_force(batch, e, p, x, f, sums):
     """The sums with a force f per length of the material on point p, at x in body axes of the surface."""
     s, w = batch.shape[e, p], batch.weight[e, p]
@@ -313,7 +313,7 @@ def take(r, i, f):
     r[i + TWO] -= f[2]
 
 
-@inline_kernel
+@formula
 def add_sums(batch, e, sums, nodes, more, q, r):
     """Subtract the forces of a row, and the opposite ones on what it touches, from r.
 
@@ -345,7 +345,7 @@ def add_sums(batch, e, sums, nodes, more, q, r):
         take(r, np.uint64(b[NODES + 3]), sums[7])
 
 
-@inline_kernel
+@formula
 def add_pair_block(batch, e, p, x, lam, rows, A):
     """Add a symmetric 3x3 matrix per length, minus the derivative of that force by the way apart, to A.
 

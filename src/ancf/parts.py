@@ -1,0 +1,54 @@
+"""How functions that only kernels call are compiled: to what kernels take in, and no further.
+
+Numba brings every function to machine code by itself, with all that it calls, before a kernel takes it in
+and the same code is optimised and translated once more: a function three calls deep four times.  A part is
+left as it comes from numba, and is optimised with the kernel that has it: a third less time for a line.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from numba.core import codegen, compiler
+
+_Library: Any = codegen.JITCodeLibrary
+
+
+class PartLibrary(_Library):  # type: ignore[misc]
+    """A function as code for kernels, without a translation of its own."""
+
+    def _optimize_final_module(self) -> None:
+        """With the kernel."""
+
+    def _finalize_final_module(self) -> None:
+        self._finalize_dynamic_globals()
+        self._finalized = True
+
+    def get_pointer_to_function(self, name: str) -> int:
+        """There is no such function in machine code."""
+        self._ensure_finalized()
+        return 0
+
+    @property
+    def codegen(self) -> _Nowhere:
+        """What numba tells the surroundings of a function that it can call."""
+        return _Nowhere()
+
+
+class _Nowhere:
+    """Where the surroundings of a function would be kept."""
+
+    def set_env(self, name: str, env: Any) -> None:
+        """Parts raise nothing and need none."""
+
+
+class PartCompiler(compiler.Compiler):
+    """Numba's compiler with a :class:`PartLibrary`."""
+
+    def define_pipelines(self) -> list[Any]:
+        """Numba's own pipelines, which take the library that is there."""
+        state: Any = self.state
+        if state.library is None:
+            state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
+        pipelines: list[Any] = super().define_pipelines()  # type: ignore[no-untyped-call]
+        return pipelines
