@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 TITLE = "Overhead lines: states, geometry, hand-over, trains"
 EXAMPLE = ""
 CLAIM = (
-    "Not in the paper. Lines that are warm, blown aside, curved, on a gradient or hung with measured droppers, "
-    "pantographs that change wires or follow each other: beside formulas and an independent plane model."
+    "Not in the paper. Lines that are warm, blown aside, curved, on a gradient or hung with measured "
+    "droppers, pantographs that change wires or follow each other: beside formulas and an independent plane model."
 )
 COLUMNS = ("name", "value", "reference", "tolerance", "unit", "origin")
 SIZE = (170.0, 120.0)  # mm
@@ -30,11 +30,12 @@ NOTES = [
     "five spans of 40 m with weights, one of 60 m between fixed ends; designed for 10 degrees Celsius.",
     "Wind: that wire in spans of 50 m; two wires in spans of 48 m with twelve droppers each. Air of "
     "1.225 kg/m^3, drag coefficient 1.",
-    "Curve, gradient, droppers as built: contact wire of 20 kN, messenger of 16 kN, five spans of 30 to 38 m.",
-    "Overlap: two tension lengths of seven spans of 40 m that share four; a pantograph of 3 m/s for the force, "
-    "of 20 m/s for the momentum.",
-    "Trains: two pantographs on the reference models of EN 50318 with the default mesh and step, forces below "
-    "20 Hz with a filter of order 4.",
+    "Curve, gradient, droppers as built: contact wire of 20 kN, messenger of 16 kN, five spans of 30 to 38 "
+    "m.",
+    "Overlap: two tension lengths of seven spans of 40 m that share four; a pantograph of 3 m/s for the "
+    "force, of 20 m/s for the momentum.",
+    "Trains: two pantographs on the reference models of EN 50318 with the default mesh and step, forces "
+    "below 20 Hz with a filter of order 4.",
 ]
 
 

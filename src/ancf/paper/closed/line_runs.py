@@ -1,4 +1,4 @@
-"""Pantographs along overhead lines beside what is known: hand-over, frequency response, an independent model."""
+"""Pantographs along overhead lines beside what is known: hand-over, frequency response, another model."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ import ancf
 
 from ... import catenary
 from ...catenary.signals import Butterworth
+from ...model.bodies import PointMass
 from ..check import Check
 
 LENGTH, SPANS, SHARED = 40.0, 7, 4
@@ -88,7 +89,8 @@ def _momentum(found: catenary.RouteForm) -> Check:
     overhead, speed, step = catenary.assemble(found), 20.0, 5e-4
     unit = collector(stiffness=(0.0, 4200.0))
     one = overhead.add_pantograph(unit, speed, start=LEVEL - 60.0)
-    masses = [overhead.model.bodies[f"pantograph mass {k}"] for k in (1, 2)]
+    bodies = (overhead.model.bodies[f"pantograph mass {k}"] for k in (1, 2))
+    masses = [body for body in bodies if isinstance(body, PointMass)]
     duration = 120.0 / speed
     sensors = ancf.simulate(
         overhead.model,
@@ -103,7 +105,8 @@ def _momentum(found: catenary.RouteForm) -> Check:
     faint = 0.1 * (height - height[0])  # of the spring that stands for none
     net = FORCE - sum(sensors.contact_force(meter) for meter in one.meters) - faint
     pushed = np.sum(0.5 * step * (net[1:] + net[:-1])) - unit.damping[0] * (height[-1] - height[0])
-    gained = sum(m.mass * float(np.diff(sensors.velocity(m)[[0, -1], 2])[0]) for m in masses)
+    changes = [np.diff(sensors.velocity(mass)[[0, -1], 2])[0] for mass in masses]
+    gained = float(np.dot([mass.mass for mass in masses], changes))
     error = float(abs(gained - pushed)) / (FORCE * duration)
     name = "Overhead line, overlap: momentum gained less impulse of all forces, over that of the static force"
     return Check(name, error, 0.0, 1e-6, "", "balance of momentum")
@@ -142,12 +145,14 @@ def _trains() -> list[Check]:
 
 def _train(wanted: dict[str, Any], origin: str) -> list[Check]:
     """Fm and sigma of both pantographs on the default mesh."""
+    line = catenary.read_line(wanted["line"])
+    assert isinstance(line, catenary.Line)
     unit = catenary.find_pantograph(wanted["pantograph"])
     unit = replace(unit, static_force=wanted["force"], aerodynamic=0.0, relaxed_at="nominal")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # as short as the line can be
         done = catenary.run(
-            catenary.read_line(wanted["line"]).excerpt(0, wanted["spans"]),
+            line.excerpt(0, wanted["spans"]),
             speed=wanted["kmh"] / 3.6,
             pantograph=unit,
             spacing=wanted["spacing"],
