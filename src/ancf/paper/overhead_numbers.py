@@ -19,7 +19,8 @@ TITLE = "Overhead lines: states, geometry, hand-over, trains"
 EXAMPLE = ""
 CLAIM = (
     "Not in the paper. Lines that are warm, blown aside, curved, on a gradient or hung with measured "
-    "droppers, pantographs that change wires or follow each other: beside formulas and an independent plane model."
+    "droppers, pantographs that change wires or follow each other: beside formulas and an "
+    "independent plane model."
 )
 COLUMNS = ("name", "value", "reference", "tolerance", "unit", "origin")
 SIZE = (170.0, 120.0)  # mm
