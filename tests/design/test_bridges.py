@@ -1,6 +1,5 @@
 """Numbers of runs as functions of JAX and PyTorch: their gradients are those of the package, and right."""
 
-
 import numpy as np
 import pytest
 

@@ -47,7 +47,9 @@ class Numbers:
             for name in self.names:
                 value_of(model, name)
 
-    def at(self, text: str, values: Mapping[str, float], slope: bool = True) -> tuple[float, dict[str, float]]:
+    def at(
+        self, text: str, values: Mapping[str, float], slope: bool = True
+    ) -> tuple[float, dict[str, float]]:
         """A number with these values of the parameters and, if asked for, its derivatives by them.
 
         Raises

@@ -67,9 +67,7 @@ def jax_function(
     @jax.custom_vjp  # type: ignore[untyped-decorator]
     def number(x: Any) -> Any:
         made = jax.ShapeDtypeStruct((), x.dtype)
-        return jax.pure_callback(
-            lambda y: vector.value(y).astype(x.dtype), made, x, vmap_method="sequential"
-        )
+        return jax.pure_callback(lambda y: vector.value(y).astype(x.dtype), made, x, vmap_method="sequential")
 
     def forwards(x: Any) -> tuple[Any, Any]:
         def both(y: Any) -> tuple[Any, Any]:
