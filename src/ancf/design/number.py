@@ -80,7 +80,7 @@ class Numbers:
         return built
 
     def _parameters(self, model: Model, values: dict[str, float]) -> Any:
-        """As ``parameters`` of a gradient; a factor of a model that has it already is 1 again, and no name."""
+        """As ``parameters`` of a gradient; a factor that the model has already is 1 again."""
         known = isinstance(self.model, Model)
         return [
             name if known and value_of(model, name) == x else Parameter(name, x, self._along(name, values))
