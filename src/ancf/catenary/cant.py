@@ -1,17 +1,14 @@
-"""Cant: how far the track leans, and where what hangs plumb is in coordinates across it."""
+"""Cant: how far the track leans, and where what hangs plumb is across it. `line` is a Line."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
-
-if TYPE_CHECKING:
-    from .line import Line
 
 #: Distance of the rails' middles, and largest cant, m.
 RAILS, LARGEST = 1.5, 0.3
@@ -19,13 +16,13 @@ RAILS, LARGEST = 1.5, 0.3
 PIECES = 6
 
 
-def tilt(line: Line, track: Any) -> FloatArray:
+def tilt(line: Any, track: Any) -> FloatArray:
     """Angles of the track at track positions, rad, positive where it leans to the left."""
     angles: FloatArray = np.arcsin(np.interp(track, line.supports, line.cant) / RAILS)
     return angles
 
 
-def plumb_above(line: Line, height: Any) -> tuple[float, ...]:
+def plumb_above(line: Any, height: Any) -> tuple[float, ...]:
     """Sideways places (spans + 1,) in m at heights over the contact wire, plumb above it at the supports."""
     places: list[float] = (
         np.array(line.stagger) - np.asarray(height) * np.tan(tilt(line, line.supports))
@@ -33,7 +30,7 @@ def plumb_above(line: Line, height: Any) -> tuple[float, ...]:
     return tuple(places)
 
 
-def sideways_gravity(line: Line, cuts: Sequence[float]) -> Iterator[tuple[float, float, float]]:
+def sideways_gravity(line: Any, cuts: Sequence[float]) -> Iterator[tuple[float, float, float]]:
     """Pieces of the track between cuts, m, and gravity's part across it there, m/s^2.
 
     Where the cant grows it is that of the middle of each piece.
