@@ -37,6 +37,7 @@ html_theme = "furo"
 html_title = f"ancf {release}"
 html_static_path = ["_static"]
 html_css_files = ["custom.css"]
+html_js_files = ["reachable.js"]
 html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#14507a", "color-brand-content": "#14507a"},
     "dark_css_variables": {"color-brand-primary": "#7fbde6", "color-brand-content": "#7fbde6"},

@@ -30,7 +30,7 @@ FOLDER = ROOT / "docs" / "verification"
 
 #: Chapters of the checks, in their order: page, title, names of exhibits; the rest belongs to "paper".
 CHAPTERS = {
-    "closed_forms": ("Closed forms", ("closed-forms",)),
+    "closed_forms": ("Closed forms", ("closed-forms", "overhead")),
     "orders": ("Convergence orders", ("orders",)),
     "methods": ("Agreement across methods", ()),
     "peers": ("Independent programs", ()),
@@ -45,6 +45,8 @@ TESTS = {
     "table2": "paper/test_paper_sliding.py",
     "closed-forms": "closed_forms/test_closed_forms.py closed_forms/test_rigid_bodies.py",
     "orders": "orders/test_orders.py orders/test_radau.py orders/test_explicit.py",
+    "overhead": "catenary/test_overhead_states.py catenary/test_overhead_layout.py "
+    "catenary/test_overhead_route.py catenary/test_overhead_measured.py catenary/test_catenary_run.py",
     "en50318": "catenary/test_catenary_run.py catenary/test_catenary_references.py",
     **{f"fig{n}": "paper/test_paper.py" for n in range(2, 9)},
     **{f"fig{n}": "paper/test_paper_sliding.py" for n in range(9, 12)},

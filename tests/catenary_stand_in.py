@@ -41,6 +41,7 @@ def line(spans=SPANS):
         ),
         system_height=(1.2,) * (spans + 1),
         stagger=(0.0,) * (spans + 1),
+        cant=(0.0,) * (spans + 1),
         messenger_support=5e4,
         steady_arm=SimpleNamespace(
             vertical=300.0, lateral=None, length=None, mass=0.0, stiffness=1e6, hinged=False

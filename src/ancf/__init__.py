@@ -11,6 +11,8 @@ from .errors import Interrupted, ModelError, SolveError
 if TYPE_CHECKING:
     from .analysis import damped_modes, equilibrium, load, modes, simulate, stable_step
     from .control.stepper import Stepper, stepper
+    from .design.bridges.jax import jax_function
+    from .design.bridges.torch import torch_function
     from .design.calibrate import calibrate
     from .design.distributions import Discrete, LogNormal, Normal, Triangular, Uniform
     from .design.fit import Fit
@@ -63,6 +65,8 @@ _LATER = {
     "Newton": "model.integrators",
     "calibrate": "design.calibrate",
     "gradient": "design.gradient",
+    "jax_function": "design.bridges.jax",
+    "torch_function": "design.bridges.torch",
     "minimise": "design.minimise",
     "Optimum": "design.minimise",
     "Fit": "design.fit",
@@ -113,6 +117,7 @@ __all__ = [
     "damped_modes",
     "equilibrium",
     "gradient",
+    "jax_function",
     "load",
     "minimise",
     "modes",
@@ -122,6 +127,7 @@ __all__ = [
     "stable_step",
     "stepper",
     "study",
+    "torch_function",
     "verify",
 ]
 

@@ -35,6 +35,8 @@ PARTS = {
     "solvers": "time stepping",
     "system": "matrix and supports",
     "linalg": "factorisation",
+    "loads": "loads",
+    "contact": "contact",
     "records": "records",
 }
 
@@ -144,7 +146,10 @@ def _useful() -> bool:
 
 def _named(data: Any) -> str:
     """What a kernel is for, in words."""
-    module = (data["dispatcher"].py_func.__module__ or "a formula").removeprefix("ancf.")
+    origin = data["dispatcher"].py_func.__module__ or "a formula"
+    package, module = origin.split(".")[0], origin.removeprefix("ancf.")
+    if package not in ("ancf", "a formula"):
+        return "operations on arrays" if package == "numba" else "your functions"
     for argument in data["args"]:
         kind = getattr(argument, "batch", argument)
         batch = getattr(kind, "instance_class", None)

@@ -375,3 +375,55 @@ class TestTable:
             ModelError, match=f"has {len(text) - 3} rows, the line has {len(text) - 1} droppers"
         ):
             read_line(path)
+
+
+class TestCant:
+    """Coordinates lie across the canted track: weights pull aside, what hangs plumb leans."""
+
+    @pytest.mark.parametrize("cant", [0.15, -0.08])
+    @pytest.mark.parametrize("length", [30.0, 45.0])
+    def test_one_wire(self, cant, length):
+        """It sags plumb: w sin(phi) l^2/8T aside."""
+        wire = Wire(EA=12e6, EI=1.0, mass=0.95, tension=10e3)
+        line = Line(
+            spans=[Span(length=length, droppers=())] * 3,
+            contact_wire=wire,
+            steady_arm=SteadyArm(vertical=1e8),
+            anchors="tension",
+            cant=cant,
+        )
+        place = form(line, Mesh(contact_support=0.05)).contact.position
+        wanted = 0.95 * G * cant / 1.5 * length**2 / 8e4
+        assert np.interp(1.5 * length, place[:, 0], place[:, 1]) == pytest.approx(wanted, rel=0.01)
+
+    @pytest.mark.parametrize("cant", [0.16, -0.1])
+    def test_droppers_hang_plumb(self, cant):
+        found = form(short_line(cant=cant, stagger=0.0, anchors="tension"), COARSE)
+        places = [shape.position[shape.nodes.dropper] for shape in (found.messenger, found.contact)]
+        up = places[0] - places[1]
+        assert up[:, 1] / up[:, 2] == pytest.approx(-np.tan(np.arcsin(cant / 1.5)), rel=2e-3)
+        assert verify(assemble(found)).place < 1e-6
+
+    def test_transition(self):
+        """Cant that grows from support to support: the wire on its arm carries the weight of both halves."""
+        cant = (0.0, 0.0, 0.06, 0.12, 0.12, 0.12)
+        line = short_line(cant=cant, stagger=0.0, anchors="tension", **STRINGS)
+        found = form(line, FINE)
+        x = np.linspace(0.0, 166.0, 16601)
+        lean = 1.35 * G * np.interp(x, line.supports, cant) / 1.5
+        share = np.interp(x, line.supports, np.arange(6) == 3)
+        side = found.arm_force[3, 1] + found.support_side[3]
+        messenger = 1.07 / 1.35
+        kink = np.diff(np.diff(-1.2 * np.tan(np.arcsin(np.array(cant) / 1.5))) / LENGTHS)[2]
+        assert side == pytest.approx(-0.01 * np.sum(lean * share) * (1 + messenger) - 16e3 * kink, rel=0.02)
+
+    def test_in_files(self, tmp_path):
+        head = (
+            TABLE.replace("arm_vertical", "cant", 1)
+            .replace(",\n50", ",0\n50")
+            .replace("1200,0.02,\n", "1200,0.02,0.05\n")
+        )
+        text = head.replace(",350\n", ",0.1\n").replace("-0.2,,0,\n", "-0.2,,0,0\n")
+        assert read_line(table(tmp_path, text)).cant == (0.0, 0.05, 0.1, 0.0)
+        with pytest.raises(ModelError, match="row 3, column cant: must be between"):
+            read_line(table(tmp_path, text.replace(",0.1\n", ",100\n")))

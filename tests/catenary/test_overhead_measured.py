@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import catenary_stand_in as stand_in
 from ancf import ModelError
@@ -12,10 +13,12 @@ from ancf.catenary import (
     MeasuringHead,
     Pantograph,
     dynamic_stiffness,
+    find_pantograph,
     identify_pantograph,
     measure,
     pantographs,
 )
+from ancf.cli.app import app
 
 FREQUENCY = np.linspace(0.25, 20.0, 80)  # Hz
 
@@ -188,3 +191,46 @@ class TestMeasure:
     def test_wrong(self, run, head, said):
         with pytest.raises(ModelError, match=said):
             measure(run, head=MeasuringHead(**head))
+
+
+class TestCommand:
+    """ancf catenary identify: a table of a response becomes a pantograph file."""
+
+    def given(self, path, polar):
+        unit, frequency = pantographs()["benchmark-2015"], np.linspace(0.5, 20.0, 30)
+        response = by_matrices(unit, frequency)
+        head, columns = "frequency,real,imag", (response.real, response.imag)
+        if polar:
+            head = "frequency,magnitude,phase_deg"
+            columns = (np.abs(response), np.degrees(np.angle(response)))
+        rows = (",".join(f"{value:.9g}" for value in row) for row in zip(frequency, *columns, strict=True))
+        path.write_text("\n".join([head, *rows]) + "\n", encoding="utf-8")
+        return unit
+
+    @pytest.mark.parametrize("polar", [False, True])
+    def test_writes_what_was_measured(self, tmp_path, polar):
+        unit, file = self.given(tmp_path / "r.csv", polar), tmp_path / "mine.toml"
+        options = ["--kind", "dynamic_stiffness", "--static-force", "70", "-o", str(file)]
+        done = CliRunner().invoke(app, ["catenary", "identify", str(tmp_path / "r.csv"), *options])
+        assert done.exit_code == 0, done.output
+        assert "relative error of the response" in done.output
+        found = find_pantograph(file)
+        assert found.masses == pytest.approx(unit.masses, rel=1e-3)
+        assert found.stiffness == pytest.approx(unit.stiffness, rel=1e-3)
+        assert found.static_force == 70.0
+
+    @pytest.mark.parametrize(
+        ("old", "new", "said"),
+        [
+            ("frequency,", "f,", "column frequency: is missing"),
+            ("imag", "im", "column imag: is missing"),
+            ("\n0.5,", "\nhalf,", 'row 1, column frequency: is "half", must be a number'),
+        ],
+    )
+    def test_wrong(self, tmp_path, old, new, said):
+        path = tmp_path / "r.csv"
+        self.given(path, polar=False)
+        path.write_text(path.read_text().replace(old, new, 1))
+        done = CliRunner().invoke(app, ["catenary", "identify", str(path), "-o", str(tmp_path / "p.toml")])
+        assert done.exit_code == 2
+        assert said in " ".join(done.output.split())

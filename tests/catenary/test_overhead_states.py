@@ -11,14 +11,17 @@ import ancf
 from ancf import ModelError
 from ancf.catenary import (
     Conditions,
+    DropperErrors,
     Form,
     Line,
     Mesh,
+    Route,
     Span,
     SteadyArm,
     Tensioner,
     Wire,
     assemble,
+    dropper_errors,
     elasticity,
     form,
     read_line,
@@ -350,3 +353,38 @@ class TestWrong:
         with pytest.raises(ModelError) as caught:
             make()
         assert caught.value.where == where
+
+
+class TestDropperErrors:
+    def test_are_those_of_the_seed(self):
+        plain = found()
+        lengths = []
+        for seed in (3, 4, 3):
+            made = form(short_line(dropper_errors=DropperErrors(deviation=0.002, seed=seed)), COARSE)
+            lengths.append(made.dropper_natural - plain.dropper_natural)
+        assert np.array_equal(lengths[0], lengths[2])
+        assert np.std(lengths[0]) == pytest.approx(0.002, rel=0.4)
+        assert abs(lengths[0] - lengths[1]).max() > 1e-3
+        as_before = dropper_errors(plain, 0.002, seed=3).dropper_lengths
+        assert np.array(as_before) - plain.dropper_natural == pytest.approx(lengths[0], abs=1e-12)
+
+    def test_come_on_top_of_lengths_as_built(self):
+        own = found().dropper_natural + 0.01
+        errors = DropperErrors(deviation=0.001, seed=1)
+        made = form(short_line(dropper_lengths=own, dropper_errors=errors), COARSE)
+        assert np.mean(made.dropper_natural - found().dropper_natural) == pytest.approx(0.01, abs=1e-3)
+
+    def test_in_a_file(self):
+        """A study gives whole numbers as floats."""
+        line = read_line("en50318-2002", {"dropper_errors.deviation": 0.003, "dropper_errors.seed": 7.0})
+        assert line.dropper_errors == DropperErrors(deviation=0.003, seed=7)
+        for value in (7.5, -1.0):
+            with pytest.raises(ModelError, match=r"dropper_errors\.seed"):
+                read_line("en50318-2002", {"dropper_errors.deviation": 0.003, "dropper_errors.seed": value})
+        with pytest.raises(ModelError, match=r"dropper_errors\.deviation: .* leaves nothing of"):
+            form(short_line(dropper_errors=DropperErrors(deviation=9.0)), COARSE)
+
+    def test_tension_lengths_differ(self):
+        line = short_line(anchors="tension", dropper_errors=DropperErrors(deviation=0.003))
+        made = form(Route(lines=(line, line), starts=(0.0, 100.0)), COARSE)
+        assert abs(np.subtract(*(one.dropper_natural for one in made.forms))).max() > 1e-3

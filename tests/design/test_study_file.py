@@ -13,6 +13,7 @@ from ancf.design.file import read_study_file
 from ancf.design.lines import STATISTICS
 from ancf.model.file import read_study
 from commands import MODEL, SIMULATION
+from overhead_lines import TOML
 from places import EXAMPLES
 
 SHORT = SIMULATION.replace("0.4", "0.02")
@@ -269,3 +270,43 @@ def test_example():
     file = read_study_file(EXAMPLES / "study.toml")
     assert file.samples.shape == (96, 4)
     assert file.title == "Hanging cable in a gust"
+
+
+def test_tolerances():
+    """The example's lines differ by the errors of their droppers alone."""
+    file = read_study_file(EXAMPLES / "tolerances.toml")
+    assert len(file.samples) == 1000
+    case = file.case.inner
+    lines = [case.read({"deviation": 0.003, "seed": seed})[0] for seed in (1.0, 2.0)]
+    assert [line.dropper_errors.seed for line in lines] == [1, 2]
+
+
+def test_tension_lengths(here):
+    """Tables of supports lie beside the line file, wherever the study is; they are part of it."""
+    folder = here / "lines"
+    folder.mkdir()
+    tail = ""
+    for k, (heights, starts) in enumerate((("0,0,0,0.02,0.3", 0.0), ("0.3,0.02,0,0,0", 64.0)), start=1):
+        rows = [f"{32 * i},{h}" for i, h in enumerate(heights.split(","))]
+        (folder / f"{k}.csv").write_text("position,height\n" + "\n".join(rows), encoding="utf-8")
+        text = f'[[sections]]\nstart = {starts}\nsupports = "{k}.csv"\n'
+        tail += text
+    head = TOML.partition("[[spans]]")[0].replace("stagger = 0.2", 'anchors = "tension"\nstagger = 0.2')
+    rule = "dropper_rule = {first = 3.0, pitch_max = 7.0}\n"
+    (folder / "track.toml").write_text(rule + head + tail, encoding="utf-8")
+    study = (
+        'title = "Two"\nline = "lines/track.toml"\n[[parameters]]\npath = "dropper_errors.seed"\n'
+        "values = [1, 2]\n"
+        '[[parameters]]\npath = "dropper_errors.deviation"\nvalues = [0.004]\n[sampling]\nmethod = "grid"\n'
+        '[[outputs]]\nname = "least"\nformula = "min(dropper_load)"\n'
+        '[[outputs]]\nname = "held"\nformula = "max(support_load)"\n'
+    )
+    (here / "s.toml").write_text(study, encoding="utf-8")
+    file = read_study_file("s.toml")
+    plain = {"dropper_errors.deviation": 0.004}
+    found = [file.case(**plain, **{"dropper_errors.seed": seed}) for seed in (1, 2)]
+    assert found[0]["least"] != found[1]["least"]
+    assert found[0]["held"] > 300.0
+    before = file.case.identity()
+    (folder / "1.csv").write_text((folder / "1.csv").read_text().replace("0.02", "0.03"), encoding="utf-8")
+    assert read_study_file("s.toml").case.identity() != before

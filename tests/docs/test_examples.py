@@ -16,12 +16,13 @@ WITH_MAIN = ("cantilever", "pendulum", "spin_up", "coupled_wires", "sliding_beam
 CONTROLLED = ("active_pantograph", "crane", "crane_env")
 #: Scripts of tests/design/test_calibrate.py and test_measured_cable.py.
 CALIBRATED = ("calibrate", "measured_cable")
-#: Model files; three describe overhead lines, study.toml a study, calibrate.toml a calibration, and
-#: droppers.toml what ancf optimise looks for.
+#: Model files; three describe overhead lines, study.toml and tolerances.toml studies, calibrate.toml
+#: a calibration, and droppers.toml what ancf optimise looks for.
 OTHERS = {
     "line.toml",
     "tension_length.toml",
     "study.toml",
+    "tolerances.toml",
     "calibrate.toml",
     "droppers.toml",
     "droppers_line.toml",

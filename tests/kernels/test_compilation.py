@@ -90,8 +90,10 @@ class TestHelp:
         ran = python("\n".join(lines))
         assert ran.out == ""
         first, last = ran.err.splitlines()
-        assert first.startswith("ancf: compiling the numerical core, once on this machine: __main__ first")
-        assert re.fullmatch(r"ancf: compiled in \d+ s: __main__", last)
+        assert first.startswith(
+            "ancf: compiling the numerical core, once on this machine: your functions first"
+        )
+        assert re.fullmatch(r"ancf: compiled in \d+ s: your functions", last)
 
 
 def test_warmup_has_every_kind():

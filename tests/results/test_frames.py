@@ -63,6 +63,7 @@ class TestPandas:
         assert list(frame.columns[:3]) == ["tie force [N]", "tie length [m]", "bob position x [m]"]
         assert frame.columns[-1] == "hook force z [N]"
         assert run.to_pandas("bob").equals(run.to_pandas(["bob"]))
+        assert run.to_pandas("bob", "energy").equals(run.to_pandas(["bob", "energy"]))
 
     def test_sensors_at_every_step(self, run):
         frame = run.sensors.to_pandas()

@@ -10,7 +10,7 @@ from .conditions import Conditions
 from .cycles import Cycles, FatigueLine, rainflow
 from .derivatives import slopes
 from .elasticity import Elasticity, elasticity
-from .fittings import Droppers, Load, SteadyArm, Tensioner
+from .fittings import DropperErrors, Droppers, Load, SteadyArm, Tensioner
 from .form import Form
 from .identify import Identified, dynamic_stiffness, identify_pantograph
 from .irregular import dropper_errors, height_errors
@@ -45,6 +45,7 @@ __all__ = [
     "ClampStrain",
     "Conditions",
     "Cycles",
+    "DropperErrors",
     "DropperRule",
     "Droppers",
     "Elasticity",

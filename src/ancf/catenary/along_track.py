@@ -11,6 +11,7 @@ import numpy as np
 import ancf
 
 from ..arrays import FloatArray
+from .cant import sideways_gravity
 from .conditions import Conditions
 from .line import Line
 from .mesh import stitch_ends
@@ -23,12 +24,13 @@ Piece = tuple[float, float, float]
 
 
 def curve_pull(line: Line, shape: WireShape, name: str) -> list[Piece]:
-    """What a curve does to a wire, in coordinates that follow the track.
+    """What curve and cant do to a wire, in coordinates that follow the track.
 
     A straight wire under the tension T is bent in them by the curvature of the track 1/R, as by a load T/R
-    towards the inside of the curve. ``name`` is "contact", "messenger" or "stitch".
+    towards the inside of the curve. Across a canted track its weight has a part to the lower side. ``name``
+    is "contact", "messenger", "auxiliary" or "stitch".
     """
-    if not any(span.radius is not None for span in line.spans):
+    if not any(line.cant) and not any(span.radius is not None for span in line.spans):
         return []
     low, high = float(shape.nodes.x[0]), float(shape.nodes.x[-1])
     cuts = [x for x in line.supports.tolist() if low < x < high]
@@ -37,7 +39,7 @@ def curve_pull(line: Line, shape: WireShape, name: str) -> list[Piece]:
         for a, b in stitch_ends(line).tolist():
             parts = _curved(line, [a, 0.5 * (a + b), b])
             pieces += [(x0, x1, -line.stitch.wire.tension * c) for x0, x1, c in parts]
-    return pieces
+    return pieces + [(a, b, shape.wire.mass * c) for a, b, c in sideways_gravity(line, [low, *cuts, high])]
 
 
 def _curved(line: Line, cuts: list[float]) -> Iterator[Piece]:

@@ -4,10 +4,18 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import BeforeValidator, Discriminator, Field, Tag
 
 from ..model.file.fields import Curve, Entry, NonNegative, Parameters, Positive
 from .wire import EXPANSION
+
+
+def _whole(given: Any) -> Any:
+    return int(given) if isinstance(given, float) and given.is_integer() else given
+
+
+#: A study has it from a table, where all numbers are floats.
+Seed = Annotated[int, BeforeValidator(_whole), Field(ge=0)]
 
 
 class WireEntry(Entry):
@@ -134,6 +142,13 @@ class TensionerEntry(Entry):
     friction: NonNegative = Field(0.0, description="Share of the tension that wheels keep.")
 
 
+class DropperErrorsEntry(Entry):
+    """Random errors of the droppers' lengths."""
+
+    deviation: NonNegative = Field(description="Standard deviation of each length [m].")
+    seed: Seed = Field(1, description="The same seed gives the same errors.")
+
+
 class LoadEntry(Entry):
     """A mass on a wire."""
 
@@ -153,7 +168,7 @@ class ConditionsEntry(Entry):
     air_density: Positive = Field(1.225, description="Density of the air [kg/m^3].")
     turbulence: NonNegative = Field(0.0, description="Standard deviation of gusts over the wind.")
     gust_length: Positive = Field(100.0, description="Length of the turbulence [m].")
-    seed: int = Field(1, ge=0, description="Of the gusts.")
+    seed: Seed = Field(1, description="Of the gusts.")
     wear: NonNegative = Field(0.0, description="Share of the contact wire that is worn off.")
 
 
@@ -165,6 +180,7 @@ class SupportEntry(Entry):
     system_height: Positive | None = Field(None, description="Messenger over contact wire [m].")
     stagger: float | None = Field(None, description="Sideways place of the contact wire, left [m].")
     messenger_stagger: float | None = Field(None, description="Sideways place of the messenger [m].")
+    cant: float | None = Field(None, description="Right rail above the left one, at 1.5 m [m].")
     radius: float | None = Field(None, description="Of the track in the span, positive to the left [m].")
     droppers: list[float] | None = Field(None, description="Places in the span, default by the rule [m].")
     long_droppers: list[float] | None = Field(
@@ -242,6 +258,9 @@ class LineEntry(Entry):
     messenger_stagger: float | list[float] | None = Field(
         None, description="The same of the messenger, default that of the contact wire [m]."
     )
+    cant: float | list[float] = Field(
+        0.0, description="Right rail above the left one at the supports, at 1.5 m, one or one each [m]."
+    )
     contact_support: Literal["held", "free"] = Field(
         "held", description="Whether the contact wire is held at its height at the supports at rest."
     )
@@ -259,6 +278,7 @@ class LineEntry(Entry):
     dropper_lengths: str | list[float] | None = Field(
         None, description="Unstretched lengths as built, a CSV file like the schedule, or a list [m]."
     )
+    dropper_errors: DropperErrorsEntry | None = Field(None, description="By which the lengths are off.")
     gravity: Positive = Field(9.81, description="Gravity [m/s^2].")
 
 
@@ -277,5 +297,6 @@ TABLES: dict[str, type[Entry]] = {
     "dropper_rule": RuleEntry,
     "tensioner": TensionerEntry,
     "loads": LoadEntry,
+    "dropper_errors": DropperErrorsEntry,
     "conditions": ConditionsEntry,
 }

@@ -20,7 +20,7 @@ from .auxiliary import Auxiliary
 from .conditions import Conditions
 from .csv_table import Row
 from .entries import TABLES, LineEntry, RuleEntry, SpanEntry, StitchEntry, WireEntry
-from .fittings import Droppers, Load, SteadyArm, Tensioner
+from .fittings import DropperErrors, Droppers, Load, SteadyArm, Tensioner
 from .layout import OF_SUPPORTS, laid_out, lengths_of, supports_of
 from .line import Line, check_size
 from .route import Route
@@ -40,6 +40,7 @@ PLAIN = (
     "messenger_clamp",
     "stagger",
     "messenger_stagger",
+    "cant",
     "contact_support",
     "anchors",
     "gravity",
@@ -62,9 +63,10 @@ def read_file(path: str | Path, values: Mapping[str, Any] | None = None) -> Line
 
 
 def other_values(tables: dict[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
-    """Tables of a line file with other values at some paths; its conditions need not stand there."""
-    if any(path.startswith("conditions.") for path in values):
-        tables = {"conditions": {}} | tables
+    """Tables of a line file with other values at some paths; those of its states need not stand there."""
+    for key in ("conditions", "dropper_errors"):
+        if any(path.startswith(f"{key}.") for path in values):
+            tables = {key: {}} | tables
     return changed(tables, values)
 
 
@@ -166,6 +168,9 @@ def _line(entry: LineEntry, plain: dict[str, Any]) -> Line:
         auxiliary=_auxiliary(entry),
         tensioner=Tensioner() if tensioner is None else Tensioner(**tensioner.given()),
         conditions=Conditions() if conditions is None else Conditions(**conditions.given()),
+        dropper_errors=None
+        if entry.dropper_errors is None
+        else DropperErrors(**entry.dropper_errors.given()),
         loads=tuple(Load(**load.given()) for load in entry.loads),
         **given,
     )
@@ -257,6 +262,8 @@ def _in_file(entry: LineEntry, rows: list[tuple[str, Row]]) -> Iterator[None]:
         k = int(index.partition("]")[0]) if index else 0
         if key in OF_SUPPORTS and index and k < len(rows) and key in rows[k][1]:
             raise ModelError(f"{rows[k][0]}{key}", error.what, error.hint) from None
-        if key in ("system_height", "stagger", "height") and not isinstance(getattr(entry, key), list):
+        if key in ("system_height", "stagger", "height", "cant") and not isinstance(
+            getattr(entry, key), list
+        ):
             where = key
         raise ModelError(where, error.what, error.hint) from None

@@ -7,6 +7,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from .along_track import curve_pull, lumped_pull
+from .cant import plumb_above
 from .clamps import missing_give
 from .hang import Hung, masses
 from .line import Line
@@ -111,7 +112,7 @@ def _auxiliary(line: Line, mesh: Mesh, down: FloatArray) -> tuple[WireShape | No
     np.subtract.at(load, nodes.dropper, down)
     z = string_shape(nodes.x, held, load, wire.tension)
     force = string_loads(nodes.x, z, wire.tension, 0.0) - load
-    y = _sideways(line, nodes, line.stagger, wire, "auxiliary")
+    y = _sideways(line, nodes, plumb_above(line, line.auxiliary.height), wire, "auxiliary")
     lift = force[nodes.stitch] + line.auxiliary.droppers.clamp_contact * line.gravity
     return started(wire, nodes, y, z), lift
 

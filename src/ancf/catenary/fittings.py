@@ -8,6 +8,7 @@ from ..errors import ModelError
 from ..model import checks
 
 STEEPEST = 0.7  # rad, of a steady arm
+MOST_SEED = 2**32 - 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,6 +38,28 @@ class Tensioner:
             checks.positive(self.stiffness, f"{where}.stiffness")
         if checks.between(self.friction, f"{where}.friction", 0.0, 0.5) and anchors != "tension":
             raise ModelError(f"{where}.friction", f'has no effect with anchors = "{anchors}"', "leave it out")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DropperErrors:
+    """Random errors of the droppers' lengths, normally distributed.
+
+    Parameters
+    ----------
+    deviation : float, m
+        Standard deviation of each length.
+    seed : int
+        The same gives the same errors. Tension lengths of a route differ.
+
+    """
+
+    deviation: float
+    seed: int = 1
+
+    def check(self, where: str) -> None:
+        """Raise ModelError if a value is out of range."""
+        checks.non_negative(self.deviation, f"{where}.deviation")
+        checks.integer(self.seed, f"{where}.seed", 0, MOST_SEED)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

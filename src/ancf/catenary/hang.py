@@ -10,6 +10,7 @@ import ancf
 
 from ..arrays import FloatArray, IntArray
 from .along_track import add_sideways, curve_pull
+from .cant import plumb_above
 from .line import Line
 from .rods import add_leans, along
 from .shape import Strung, WireShape
@@ -195,7 +196,7 @@ def hang_auxiliary(now: Hung) -> Hung:
     above = now.messenger.position[now.messenger.nodes.dropper, 1]
     add_leans(model, points, target, above, long.lean)
     held = shape.position[nodes.support[inner]].copy()
-    held[:, 1] = line.stagger[inner]
+    held[:, 1] = plumb_above(line, line.auxiliary.height)[inner]
     arms = along(held, 1, now.auxiliary_side[inner])
     arms.add_to(model, [wire.point(i) for i in nodes.support[inner]])
     state = ancf.equilibrium(model)

@@ -11,6 +11,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
+from .fittings import DropperErrors
 from .form import Form
 from .line import Line
 
@@ -42,14 +43,25 @@ def dropper_errors(found: Form, deviation: float, seed: int) -> Line:
         A number is wrong, or an error is as long as its dropper.
 
     """
-    size = checks.non_negative(deviation, "dropper_errors.deviation")
-    random = np.random.default_rng(checks.integer(seed, "dropper_errors.seed", 0, MOST_SEED))
-    lengths = found.dropper_natural + size * random.standard_normal(found.dropper_natural.size)
+    errors = DropperErrors(deviation=deviation, seed=seed)
+    errors.check("dropper_errors")
+    return replace(found.line, dropper_lengths=tuple(with_errors(found, errors).tolist()))
+
+
+def with_errors(found: Form, errors: DropperErrors, section: int = 0) -> FloatArray:
+    """Natural lengths (n,) in m with errors; each tension length of a route, from 0, has its own.
+
+    They are those of ``dropper_lengths`` where the line has some, and of the design otherwise.
+    """
+    given = found.line.dropper_lengths
+    plain = found.dropper_natural if given is None else np.array(given)
+    random = np.random.default_rng(errors.seed if section == 0 else [errors.seed, section])
+    lengths: FloatArray = plain + errors.deviation * random.standard_normal(plain.size)
     if np.any(lengths <= 0.0):
         worst = int(np.argmin(lengths))
-        what = f"is {size:g} m, which leaves nothing of {found.line.dropper_label(worst)}"
+        what = f"is {errors.deviation:g} m, which leaves nothing of {found.line.dropper_label(worst)}"
         raise ModelError("dropper_errors.deviation", what, "units are m")
-    return replace(found.line, dropper_lengths=tuple(lengths.tolist()))
+    return lengths
 
 
 def height_errors(

@@ -13,7 +13,7 @@ from .fittings import SteadyArm
 from .span import DropperRule, Span
 
 #: Values of a support that become one value for each support of the line.
-OF_SUPPORTS = ("height", "system_height", "stagger", "messenger_stagger")
+OF_SUPPORTS = ("height", "system_height", "stagger", "messenger_stagger", "cant")
 #: Values of a support that change its steady arm, by their name there.
 OF_ARMS = {
     "arm_vertical": "vertical",

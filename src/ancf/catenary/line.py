@@ -12,8 +12,9 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
 from .auxiliary import Auxiliary
+from .cant import LARGEST, plumb_above
 from .conditions import Conditions
-from .fittings import NO_DROPPERS, Droppers, Load, SteadyArm, Tensioner
+from .fittings import NO_DROPPERS, DropperErrors, Droppers, Load, SteadyArm, Tensioner
 from .span import Span
 from .stitch import StitchWire
 from .wire import Rayleigh, Wire
@@ -64,7 +65,11 @@ class Line:
     stagger : float or (supports,) m
         Sideways place of the contact wire at the supports; one number changes its sign at each support.
     messenger_stagger : float or (supports,) m
-        The same of the messenger; default that of the contact wire.
+        The same of the messenger; default plumb above the contact wire.
+    cant : float or (supports,) m
+        Of the track at the supports, linear between them: how far the right rail is above the left one, at
+        1.5 m between their middles, positive as in a curve to the left. y then lies across the canted track,
+        z is normal to it, and staggers are those from the pantograph's axis.
     contact_support : "held" or "free"
         At rest the contact wire is held at z = 0 at the supports, or hangs there freely from the droppers
         beside it. In motion the steady arm acts about this place.
@@ -88,6 +93,8 @@ class Line:
     dropper_lengths : (n,) m
         Unstretched lengths of the droppers as they were built, from clamp to clamp; default those of the
         design. With them the contact wire hangs at other heights than the design wants.
+    dropper_errors : DropperErrors
+        By which the lengths are off; default none.
     gravity : float, m/s^2
     rows : sequence of str
         Where each support stands in a table, for messages: "supports.csv, row 2, column ".
@@ -109,6 +116,7 @@ class Line:
     messenger_clamp: str = "hinged"
     stagger: Any = 0.0
     messenger_stagger: Any = None
+    cant: Any = 0.0
     contact_support: str = "held"
     stitch: StitchWire | None = None
     auxiliary: Auxiliary | None = None
@@ -119,6 +127,7 @@ class Line:
     temperature: float = 10.0
     conditions: Conditions = field(default_factory=Conditions)
     dropper_lengths: Any = None
+    dropper_errors: DropperErrors | None = None
     gravity: float = 9.81
     rows: tuple[str, ...] = ()
     title: str = ""
@@ -141,6 +150,8 @@ class Line:
         for k, height in enumerate(self.heights):
             checks.between(height, f"line.height[{k}]", -HIGHEST, HIGHEST)
         self._per_support("stagger", alternating=True)
+        for k, cant in enumerate(self._per_support("cant", alternating=False)):
+            checks.between(cant, f"line.cant[{k}]", -LARGEST, LARGEST)
         if self.messenger_stagger is not None:
             self._per_support("messenger_stagger", alternating=True)
         if self.stitch is not None:
@@ -148,6 +159,8 @@ class Line:
         if self.auxiliary is not None:
             self._check_auxiliary(self.auxiliary)
         self._check_lengths()
+        if self.dropper_errors is not None:
+            self.dropper_errors.check("line.dropper_errors")
 
     def _check_parts(self) -> None:
         arms = self.steady_arm
@@ -276,8 +289,10 @@ class Line:
     @property
     def messenger_y(self) -> tuple[float, ...]:
         """Sideways places of the messenger at the supports (spans + 1,), m."""
-        places: tuple[float, ...] = self.stagger if self.messenger_stagger is None else self.messenger_stagger
-        return places
+        if self.messenger_stagger is not None:
+            given: tuple[float, ...] = self.messenger_stagger
+            return given
+        return plumb_above(self, self.system_height)
 
     @property
     def length(self) -> float:
@@ -366,7 +381,7 @@ class Line:
     def excerpt(self, first: int, count: int) -> Line:
         """The line of `count` spans from span `first` on, anchored at its own ends."""
         supports = slice(first, first + count + 1)
-        keys = ["system_height", "stagger"]
+        keys = ["system_height", "stagger", "cant"]
         keys += ["height"] if isinstance(self.height, tuple) else []
         keys += ["messenger_stagger"] if self.messenger_stagger is not None else []
         keys += ["steady_arm"] if isinstance(self.steady_arm, tuple) else []

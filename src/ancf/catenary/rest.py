@@ -9,6 +9,7 @@ from ..errors import ModelError
 from .assemble import Assembled, assembled
 from .conditions import Conditions
 from .form import Form, design
+from .irregular import with_errors
 from .line import Line
 from .mesh import Mesh
 from .route import Route
@@ -52,11 +53,14 @@ def form(line: Line | Route, mesh: Mesh | None = None) -> AnyForm:
     return _of_route(line, mesh) if isinstance(line, Route) else _of_line(line, mesh)
 
 
-def _of_line(line: Line, mesh: Mesh | None) -> Form:
-    plain = replace(line, conditions=Conditions(), dropper_lengths=None)
+def _of_line(line: Line, mesh: Mesh | None, section: int = 0) -> Form:
+    plain = replace(line, conditions=Conditions(), dropper_lengths=None, dropper_errors=None)
     found = replace(design(plain, mesh), line=line, made_for=None)
-    if line.dropper_lengths is not None:
-        found = as_built(found, line.dropper_lengths)
+    lengths = line.dropper_lengths
+    if line.dropper_errors is not None:
+        lengths = with_errors(found, line.dropper_errors, section)
+    if lengths is not None:
+        found = as_built(found, lengths)
     if line.conditions != Conditions():
         found = in_conditions(found)
     return found
@@ -67,7 +71,7 @@ def _of_route(route: Route, mesh: Mesh | None) -> RouteForm:
     forms = []
     for k, line in enumerate(route.lines):
         try:
-            forms.append(_of_line(line, mesh))
+            forms.append(_of_line(line, mesh, k))
         except ModelError as error:
             where = f"sections[{k}].{error.where.removeprefix('line.')}"
             raise ModelError(where, error.what, error.hint) from None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -41,7 +42,7 @@ class _Wires:
         return replace(shape, wire=wire)
 
 
-def as_built(designed: Form, lengths: tuple[float, ...]) -> Form:
+def as_built(designed: Form, lengths: Sequence[float] | FloatArray) -> Form:
     """The line with droppers of given natural lengths (n,) in m, its ends pulled as in the design."""
     droppers, natural = designed.line.droppers, np.array(lengths)
     stiffness = designed.dropper_stiffness

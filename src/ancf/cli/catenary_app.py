@@ -15,8 +15,12 @@ from .line_options import (
     Elements,
     Forces,
     LineName,
+    Masses,
     OutputStep,
+    PantographFile,
     Pantographs,
+    ResponseFile,
+    ResponseKind,
     Roof,
     Runs,
     Spacing,
@@ -24,6 +28,7 @@ from .line_options import (
     Speed,
     Speeds,
     Start,
+    StaticForce,
     Step,
     Underside,
     Until,
@@ -134,6 +139,25 @@ def catenary_compare(
         from .catenary_compare import compare_runs
 
         compare_runs(folders, output, to, quiet)
+
+
+@catenary.command("identify")
+def catenary_identify(
+    response: ResponseFile,
+    output: PantographFile = Path("pantograph.toml"),
+    kind: ResponseKind = "apparent_mass",
+    masses: Masses = None,
+    static_force: StaticForce = 70.0,
+    quiet: Quiet = False,
+) -> None:
+    """Fit a pantograph to the frequency response at its strip, and write it as a file for ancf catenary run.
+
+    RESPONSE.csv has the columns frequency in Hz, and real and imag, or magnitude and phase_deg.
+    """
+    with reported():
+        from .catenary_identify import identify
+
+        identify(response, output, kind, masses, static_force, quiet)
 
 
 @catenary.command("elasticity")

@@ -97,3 +97,21 @@ Underside = Annotated[
     Path | None,
     typer.Option(metavar="FILE", help="CSV with the underside of the wire: columns position and height_mm."),
 ]
+ResponseFile = Annotated[
+    Path, typer.Argument(metavar="RESPONSE.csv", help="Measured frequency response.", show_default=False)
+]
+PantographFile = Annotated[
+    Path, typer.Option("--output", "-o", metavar="FILE", help="Pantograph file to write.")
+]
+ResponseKind = Annotated[
+    str,
+    typer.Option(
+        "--kind",
+        metavar="KIND",
+        help='"apparent_mass", "impedance", "dynamic_stiffness", "accelerance", "mobility" or "receptance".',
+    ),
+]
+Masses = Annotated[
+    int | None, typer.Option(metavar="N", help="Masses of the chain.", show_default="as few as fit")
+]
+StaticForce = Annotated[float, typer.Option("--static-force", metavar="N", help="At standstill, N.")]

@@ -1,4 +1,4 @@
-"""What studies need beside the core: the extra ``study``, imported when it is used."""
+"""What the design loop needs beside the core: the extras, imported when they are used."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import Any
 from ..errors import ModelError
 
 
-def extra(name: str) -> Any:
-    """A module of the extra.
+def extra(name: str, group: str = "study") -> Any:
+    """A module of an extra.
 
     Raises
     ------
@@ -20,7 +20,7 @@ def extra(name: str) -> Any:
         return import_module(name)
     except ImportError:
         package = name.partition(".")[0]
-        raise ModelError("study", f"{package} is not installed", "pip install 'ancf[study]'") from None
+        raise ModelError(group, f"{package} is not installed", f"pip install 'ancf[{group}]'") from None
 
 
 def pandas() -> Any:

@@ -141,6 +141,9 @@ class FileCase:
         }
         if isinstance(self.inner, LineCase):
             made["run"] = dict(self.inner.run) if self.inner.run is not None else None
+            if ".csv" in plain:  # what its tables say counts too
+                line = repr(self.inner.read({})[0])
+                made["line"] = sha256(line.encode("utf-8")).hexdigest()[:16]
         return made
 
 
@@ -197,7 +200,7 @@ def _case(entry: StudyEntry, path: Path, paths: dict[str, str]) -> ModelCase | L
 
     line = entry.line or ""
     file = path_of(line) if line in line_names() else path.parent / line
-    return LineCase(read_toml(file, "line file"), outputs, entry.run, paths)
+    return LineCase(read_toml(file, "line file"), outputs, entry.run, paths, str(file))
 
 
 def _samples(entry: StudyEntry, names: list[str], path: Path) -> DataFrame:

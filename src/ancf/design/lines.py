@@ -11,12 +11,11 @@ import numpy as np
 
 from ..errors import ModelError
 from ..model import checks
-from ..model.file.paths import changed
 from .cases import check_paths
 from .formulas import Formula, Vocabulary
 
 if TYPE_CHECKING:
-    from ..catenary import Line, Statistics
+    from ..catenary import Line, Route, Statistics
     from ..catenary.route_form import AnyForm
     from ..catenary.run_data import Run
 
@@ -77,12 +76,15 @@ class LineCase:
         Settings of the run, speed in km/h; without it the line is at rest.
     paths : mapping
         Path by name of a parameter, where they differ.
+    source : str
+        Path of the line file, beside which its tables of supports lie.
     """
 
     tables: dict[str, Any]
     outputs: tuple[tuple[str, str], ...]
     run: Mapping[str, Any] | None = None
     paths: Mapping[str, str] = field(default_factory=dict)
+    source: str = "line"
 
     def __getstate__(self) -> dict[str, Any]:
         """Without the compiled formulas, which each process compiles for itself."""
@@ -101,9 +103,9 @@ class LineCase:
         words = Vocabulary(names)
         return [(name, Formula(text, f"outputs.{name}", words)) for name, text in self.outputs]
 
-    def read(self, values: Mapping[str, Any]) -> tuple[Line, dict[str, Any]]:
+    def read(self, values: Mapping[str, Any]) -> tuple[Line | Route, dict[str, Any]]:
         """The line with these values, by name, and the settings of its run."""
-        from ..catenary.file import parse_line
+        from ..catenary.file import other_values, parse_track
 
         given = {self.paths.get(name, name): value for name, value in values.items()}
         settings = dict(self.run or {})
@@ -113,7 +115,7 @@ class LineCase:
             if key not in SETTINGS:
                 what = f"unknown key, allowed: {checks.listed(SETTINGS)}"
                 raise ModelError(RUN + key, what, checks.nearest(key, SETTINGS))
-        return parse_line(changed(self.tables, given), "line"), settings
+        return parse_track(other_values(self.tables, given), self.source), settings
 
     def check(self, values: Mapping[str, Any]) -> None:
         """Find what is wrong with all cases, without computing; a wrong value is the matter of its case.
@@ -132,7 +134,8 @@ class LineCase:
             raise ModelError("run", "is missing: a parameter is one of a run")
         if self.run is not None:
             checks.positive(settings.get("speed"), "run.speed")
-        check(line)
+        for one in line.parts:
+            check(one)
         _ = self.formulas
 
     def __call__(self, **values: Any) -> dict[str, float]:
@@ -145,14 +148,15 @@ class LineCase:
 class _AtRest:
     """The form of a line."""
 
-    def __init__(self, line: Line) -> None:
+    def __init__(self, line: Line | Route) -> None:
         from .. import catenary
 
         self.form: AnyForm = catenary.form(line)
 
     def value(self, name: str) -> Any:
         """An array of the form, SI units."""
-        return getattr(self.form, OF_FORM[name])
+        forms = getattr(self.form, "forms", (self.form,))
+        return np.concatenate([getattr(one, OF_FORM[name]) for one in forms])
 
     def ask(self, quantity: str, item: str) -> Any:
         """Nothing is asked of items."""
@@ -162,7 +166,7 @@ class _AtRest:
 class _Passing(_AtRest):
     """A run along a line."""
 
-    def __init__(self, line: Line, settings: dict[str, Any]) -> None:
+    def __init__(self, line: Line | Route, settings: dict[str, Any]) -> None:
         from .. import catenary
 
         given = dict(settings)

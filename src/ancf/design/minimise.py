@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..errors import ModelError, SolveError
+from ..errors import ModelError
 from ..model import checks
 from ..model.model import Model
-from ..model.vary import varied
 from ..results.state import State
 from .calibration_data import bounds_of, start_of
-from .gradient import gradient
+from .number import Numbers
 
 WHERE = "minimise"
 
@@ -133,13 +132,11 @@ class _Problem:
     def __init__(
         self, model: Any, bounds: dict[str, tuple[float, float]], settings: dict[str, Any], begin: Any
     ) -> None:
-        self.model, self.bounds, self.settings, self.begin = model, bounds, settings, begin
+        self.numbers = Numbers(model, list(bounds), settings, begin, WHERE)
+        self.bounds = bounds
         self.widths = np.array([high - low for low, high in bounds.values()])
         self.gradients = 0
         self._known: dict[tuple[str, bytes], tuple[float, FloatArray]] = {}
-        if not isinstance(model, Model) and not callable(model):
-            what = f"must be a Model or a function that builds one, is {checks.shown(model)}"
-            raise ModelError(f"{WHERE}.model", what)
 
     def values(self, u: FloatArray) -> dict[str, float]:
         """Parameters."""
@@ -154,40 +151,10 @@ class _Problem:
         """A number and its derivatives by u; each is computed once."""
         key = text, np.asarray(u).tobytes()
         if key not in self._known:
-            values = self.values(np.clip(u, 0.0, 1.0))
-            model, parameters = self._model(values), self._parameters(values)
             self.gradients += 1
-            first = None if self.begin is None else self.begin(model, sensitivities=parameters)
-            try:
-                value, slope = gradient(model, text, parameters, start=first, **self.settings)
-            except SolveError as error:
-                error.advise("with " + ", ".join(f"{name} = {x:.6g}" for name, x in values.items()))
-                raise
+            value, slope = self.numbers.at(text, self.values(np.clip(u, 0.0, 1.0)))
             self._known[key] = value, np.array([slope[name] for name in self.bounds]) * self.widths
         return self._known[key]
-
-    def _model(self, values: Mapping[str, float]) -> Model:
-        if isinstance(self.model, Model):
-            made = self.model
-            for name, x in values.items():
-                made = varied(made, name, x)
-            return made
-        return _built(self.model, values)
-
-    def _parameters(self, values: dict[str, float]) -> Any:
-        if isinstance(self.model, Model):
-            return list(values)
-        return {name: (x, self._along(name, values)) for name, x in values.items()}
-
-    def _along(self, name: str, values: dict[str, float]) -> Callable[[float], Model]:
-        return lambda x: _built(self.model, values | {name: x})
-
-
-def _built(build: Callable[..., Any], values: Mapping[str, float]) -> Model:
-    made = build(**values)
-    if not isinstance(made, Model):
-        raise ModelError(f"{WHERE}.model", f"must return a Model, returned {checks.shown(made)}")
-    return made
 
 
 def _limit(problem: _Problem, text: str, given: Any) -> Sequence[dict[str, Any]]:

@@ -289,10 +289,11 @@ def _of_end(model: Model, beam: Beam, name: str, key: str, part: str | None) -> 
 def _of_item(model: Model, item: Any, name: str, key: str, part: str | None) -> tuple[float, Any]:
     if key not in _keys(item):
         raise _no_key(item, name, key)
-    value = getattr(item, key)
+    field = key if hasattr(item, key) else CALLED[key]
+    value = getattr(item, field)
 
     def use(changed: Any) -> Model:
-        return _exchanged(model, item, replace(item, **{key: changed}))
+        return _exchanged(model, item, _checked(replace(item, **{field: changed}), name))
 
     if isinstance(value, float) and part is None:
         return value, use
@@ -303,6 +304,16 @@ def _of_item(model: Model, item: Any, name: str, key: str, part: str | None) -> 
     if isinstance(value, TimeFunction):
         return _of_function(value, name, part, use)
     raise ModelError(name, f"is no number: {checks.shown(value)}", "a model file with [parameters]")
+
+
+def _checked(item: Any, name: str) -> Any:
+    """An item with another number; a load stays on its body."""
+    if isinstance(item, DistributedLoad):
+        x0, x1 = item.between
+        if not 0.0 <= x0 < x1 <= item.body.length:
+            what = f"must ascend within 0 and {item.body.length:g}, are {x0:.8g} and {x1:.8g}"
+            raise ModelError(name, what)
+    return item
 
 
 def _of_function(given: TimeFunction, name: str, part: str | None, use: Any) -> tuple[float, Any]:

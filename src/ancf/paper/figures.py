@@ -23,6 +23,7 @@ from . import (
     fig13,
     fig14,
     orders,
+    overhead_numbers,
     table2,
 )
 from .check import Check
@@ -74,6 +75,7 @@ FIGURES: Mapping[str, FigureModule] = {
         "table2": table2,
         "closed-forms": closed_forms,
         "orders": orders,
+        "overhead": overhead_numbers,
         "en50318": en50318,
     }.items()
 }

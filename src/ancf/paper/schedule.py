@@ -11,7 +11,7 @@ GROUPS: tuple[tuple[str, ...], ...] = (
     ("closed-forms",),
     ("fig14", "fig13"),
     ("fig2", "fig3", "fig6", "fig4", "fig5", "fig7", "fig8"),
-    ("en50318",),
+    ("en50318", "overhead"),
     ("orders",),
     ("fig1",),
     ("fig12",),

@@ -55,15 +55,15 @@ class Plotted:
 
         return plot(self, what, quantity=quantity, x=x, plane=plane, size=size)
 
-    def to_pandas(self, items: Sequence[Any] | None = None) -> Any:
+    def to_pandas(self, items: Any = None, *more: Any) -> Any:
         """Histories as a table: a DataFrame over the time, with units in the names and in ``attrs["units"]``.
 
         Parameters
         ----------
-        items : sequence, optional
-            Points, springs, joints and contacts, as objects of the model or by name, and "energy". Default of
-            sensors all that they recorded; of a result start, middle and end of its bodies, springs, joints
-            and energies.
+        items, *more : optional
+            Points, springs, joints and contacts, as objects of the model or by name, and "energy": one,
+            several, or a list. Default of sensors all that they recorded; of a result start, middle and end
+            of its bodies, springs, joints and energies.
 
         Returns
         -------
@@ -76,9 +76,9 @@ class Plotted:
         """
         from ..viz.export.frames import to_pandas
 
-        return to_pandas(self, items)
+        return to_pandas(self, [items, *more] if more else items)
 
-    def to_xarray(self, items: Sequence[Any] | None = None) -> Any:
+    def to_xarray(self, items: Any = None, *more: Any) -> Any:
         """Histories as arrays with names: a Dataset over time, points and axes, units as attributes.
 
         ``position`` and ``velocity`` have the dimensions (t, point, axis), ``tension`` and ``curvature`` (t,
@@ -87,7 +87,7 @@ class Plotted:
 
         Parameters
         ----------
-        items : sequence, optional
+        items, *more : optional
             As of :meth:`to_pandas`.
 
         Returns
@@ -101,7 +101,7 @@ class Plotted:
         """
         from ..viz.export.frames import to_xarray
 
-        return to_xarray(self, items)
+        return to_xarray(self, [items, *more] if more else items)
 
 
 class Filmed(Plotted):

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError
+from ..model import checks
 from ..model.describe import point as point_text
 from ..model.points import Point
 from ..results.momenta import Momenta
@@ -20,6 +21,7 @@ from ..system.probe import Probe
 from ..system.reactions import reaction, support_name
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
+from .branches import Change, changed, kinks_of
 from .family import Family
 
 #: Change of a state, in sizes of the model, of the differences of an answer, and of velocities per second.
@@ -131,6 +133,31 @@ class Sensitivity:
         """Of the state at a stored time of a history."""
         rows = (x[index] for x in (self._q, self._v, self.dq, self.dv))
         return Sensitivity(self._family, float(self.t[index]), *rows)
+
+    def branches(self, by: float) -> list[Change]:
+        """Slack springs and contacts that slacken or open at other stored times if the parameter changes.
+
+        The derivative is that of the branches on which the steps ended: beyond such a change it tells of
+        another motion. To the first order in the change, which may have either sign; in the order in which
+        they happen.
+
+        Parameters
+        ----------
+        by : float
+            Change of the parameter, in its unit.
+
+        Returns
+        -------
+        list of Change
+            Name, first time in s and the least change that does it; empty if the events keep their order.
+        """
+        size = checks.positive(abs(checks.number(by, "branches.by")), "branches.by")
+        t, found = np.atleast_1d(np.asarray(self.t, dtype=np.float64)), []
+        for name, kink in kinks_of(self._family.base.model).items():
+            here = kink(Face(self._family.base, self._q, self._v, float(t[-1])))
+            own = changed(name, t, np.atleast_1d(here), np.atleast_1d(self.of(kink)), size)
+            found += [own] if own is not None else []
+        return sorted(found, key=lambda one: (one.t, one.name))
 
     def of(self, question: Callable[[Face], Any]) -> FloatArray:
         """Derivative of a question, a function of what answers as a state or a result does.

@@ -41,14 +41,19 @@ def table(
         element("tr", *(element("td", text, **a) for text, a in zip(row, cells, strict=True))) for row in rows
     ]
     return element(
-        "div", element("table", element("thead", top), element("tbody", *body), **more), class_="scroll"
+        "div",
+        element("table", element("thead", top), element("tbody", *body), **more),
+        class_="scroll",
+        tabindex="0",
     )
 
 
 def pairs(rows: Iterable[tuple[str, str]]) -> Element:
     """Table of names and values without a head."""
     lines = [element("tr", element("th", name, scope="row"), element("td", value)) for name, value in rows]
-    return element("div", element("table", element("tbody", *lines), class_="pairs"), class_="scroll")
+    return element(
+        "div", element("table", element("tbody", *lines), class_="pairs"), class_="scroll", tabindex="0"
+    )
 
 
 def figure(name: str, title: str, caption: str, drawn: str | bytes) -> Element:

@@ -1,0 +1,49 @@
+"""``ancf catenary identify``: a pantograph from its measured frequency response."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from .screen import console, table
+
+
+def identify(
+    response: Path,
+    output: Path,
+    kind: str = "apparent_mass",
+    masses: int | None = None,
+    static_force: float = 70.0,
+    quiet: bool = False,
+) -> None:
+    """Fit, print and write.
+
+    Raises
+    ------
+    ModelError
+        The table is wrong, or an option.
+
+    """
+    from ..catenary.identify import KINDS, identify_pantograph
+    from ..catenary.response_file import read_response, write_pantograph
+    from ..model import checks
+
+    checks.choice(kind, "--kind", tuple(KINDS))
+    frequency, measured = read_response(response)
+    found = identify_pantograph(frequency, measured, kind=kind, masses=masses, static_force=static_force)
+    unit, error = found.pantograph, f"{100 * found.error:.2g} %"
+    worst = float(found.frequency[int(np.argmax(np.abs(found.errors)))])
+    largest = f"{100 * found.largest:.2g} % at {worst:g} Hz"
+    text = f"fitted to {response.name}, {found.frequency[0]:g} to {found.frequency[-1]:g} Hz: "
+    path = write_pantograph(unit, output, f"{text}error {error} in the mean, {largest}")
+    if quiet:
+        return
+    made = table("mass", "kg", "stiffness below [N/m]", "damping below [N s/m]")
+    rows = zip(unit.masses, unit.slopes(), unit.stages, strict=True)
+    for k, (mass, stiffness, stage) in enumerate(rows):
+        name = "head" if k == len(unit.masses) - 1 else str(k + 1)
+        made.add_row(name, f"{mass:.4g}", f"{stiffness:.4g}", f"{stage.damping_at_rest:.4g}")
+    console().print(made)
+    console().print(f"relative error of the response: {error} in the mean, {largest}", soft_wrap=True)
+    console().print(f"written: {path}", soft_wrap=True)

@@ -1,0 +1,1 @@
+"""Numbers of runs with their gradients as functions of other programs that differentiate."""
