@@ -1,8 +1,9 @@
 """Functions that only kernels call are translated with them and not by themselves."""
 
+import numba
 import pytest
 
-from ancf.compiled import formula, inline_kernel, kernel
+from ancf.compiled import formula, inline_kernel
 from ancf.parts import PartLibrary
 
 
@@ -19,7 +20,7 @@ def raised(x, n):
     return doubled(y)
 
 
-@kernel
+@numba.njit  # without the cache of kernels, which would give it without its parts
 def asked(x, n):
     return raised(x, n) + doubled(x)
 

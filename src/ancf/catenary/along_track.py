@@ -30,7 +30,7 @@ def curve_pull(line: Line, shape: WireShape, name: str) -> list[Piece]:
     towards the inside of the curve. Across a canted track its weight has a part to the lower side. ``name``
     is "contact", "messenger", "auxiliary" or "stitch".
     """
-    if not any(line.cant) and not any(span.radius is not None for span in line.spans):
+    if not any(line.cants) and not any(span.radius is not None for span in line.spans):
         return []
     low, high = float(shape.nodes.x[0]), float(shape.nodes.x[-1])
     cuts = [x for x in line.supports.tolist() if low < x < high]

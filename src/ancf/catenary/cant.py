@@ -18,7 +18,7 @@ PIECES = 6
 
 def tilt(line: Any, track: Any) -> FloatArray:
     """Angles of the track at track positions, rad, positive where it leans to the left."""
-    angles: FloatArray = np.arcsin(np.interp(track, line.supports, line.cant) / RAILS)
+    angles: FloatArray = np.arcsin(np.interp(track, line.supports, line.cants) / RAILS)
     return angles
 
 

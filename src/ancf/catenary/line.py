@@ -145,12 +145,13 @@ class Line:
             if self.messenger_wire is not None:
                 checks.positive(height, f"line.system_height[{k}]")
                 checks.between(height, f"line.system_height[{k}]", 0.0, HIGHEST)
-        if isinstance(self.height, Sequence | np.ndarray):
-            self._per_support("height", alternating=False)
+        for key in ("height", "cant"):  # one number stays one, so that it fits another count of spans
+            if isinstance(getattr(self, key), Sequence | np.ndarray):
+                self._per_support(key, alternating=False)
         for k, height in enumerate(self.heights):
             checks.between(height, f"line.height[{k}]", -HIGHEST, HIGHEST)
         self._per_support("stagger", alternating=True)
-        for k, cant in enumerate(self._per_support("cant", alternating=False)):
+        for k, cant in enumerate(self.cants):
             checks.between(cant, f"line.cant[{k}]", -LARGEST, LARGEST)
         if self.messenger_stagger is not None:
             self._per_support("messenger_stagger", alternating=True)
@@ -235,11 +236,8 @@ class Line:
     def _check_auxiliary(self, auxiliary: Auxiliary) -> None:
         auxiliary.check("line.auxiliary")
         if self.messenger_wire is None or self.stitch is not None:
-            what = (
-                "has no messenger to hang from"
-                if self.messenger_wire is None
-                else "and stitch are given both"
-            )
+            alone = self.messenger_wire is None
+            what = "has no messenger to hang from" if alone else "and stitch are given both"
             raise ModelError("line.auxiliary", what, "leave it out")
         lowest = min(self.system_height)
         if auxiliary.height >= lowest:
@@ -351,10 +349,16 @@ class Line:
     @property
     def heights(self) -> tuple[float, ...]:
         """Heights of the contact wire at the supports (spans + 1,), m."""
-        several = isinstance(self.height, tuple)
-        return (
-            self.height if several else (checks.number(self.height, "line.height"),) * (len(self.spans) + 1)
-        )
+        return self._at_supports("height")
+
+    @property
+    def cants(self) -> tuple[float, ...]:
+        """Cants of the track at the supports (spans + 1,), m."""
+        return self._at_supports("cant")
+
+    def _at_supports(self, key: str) -> tuple[float, ...]:
+        one = getattr(self, key)
+        return one if isinstance(one, tuple) else (checks.number(one, f"line.{key}"),) * len(self.supports)
 
     def place_of_support(self, key: str, k: int) -> str:
         """Where a value of a support stands in its table, or in this line."""
@@ -381,8 +385,8 @@ class Line:
     def excerpt(self, first: int, count: int) -> Line:
         """The line of `count` spans from span `first` on, anchored at its own ends."""
         supports = slice(first, first + count + 1)
-        keys = ["system_height", "stagger", "cant"]
-        keys += ["height"] if isinstance(self.height, tuple) else []
+        keys = ["system_height", "stagger"]
+        keys += [key for key in ("height", "cant") if isinstance(getattr(self, key), tuple)]
         keys += ["messenger_stagger"] if self.messenger_stagger is not None else []
         keys += ["steady_arm"] if isinstance(self.steady_arm, tuple) else []
         keys += ["rows"] if self.rows else []
