@@ -78,9 +78,11 @@ class TestNumbers:
 class TestMerge:
     """Some exhibits of another reproduction in the place of the stored ones."""
 
-    def made(self, commit, *names, passed=True):
+    def made(self, commit, *names, passed=True, seconds=1.0):
         return {
             "commit": commit,
+            "jobs": 2,
+            "seconds": seconds,
             "passed": passed,
             "checks": [{"name": f"{n} {k}", "figure": n, "passed": passed} for n in names for k in range(2)],
             "exhibits": [{"name": n, "commit": commit, "error": None} for n in names],
@@ -98,6 +100,11 @@ class TestMerge:
     def test_an_old_failure_stays_one(self):
         assert not book.merge(self.made("a", "fig1", passed=False), self.made("b", "fig2"))["passed"]
         assert book.merge(self.made("a", "fig1", passed=False), self.made("b", "fig1"))["passed"]
+
+    @pytest.mark.parametrize(("names", "expected"), [(("fig2",), 9.0), (("fig1", "fig2"), 3.0)])
+    def test_time_is_that_of_all(self, names, expected):
+        old = self.made("a", "fig1", "fig2", seconds=9.0)
+        assert book.merge(old, self.made("b", *names, seconds=3.0))["seconds"] == expected
 
 
 class TestTests:
