@@ -221,8 +221,8 @@ def _tension_length(line: Line) -> Iterator[tuple[str, str, str]]:
     yield "droppers", "droppers", _droppers(line.droppers)
     yield "system height [m]", "system_height", _few(line.system_height)
     yield "stagger [m]", "stagger", _few(line.stagger)
-    if any(line.cants):
-        yield "cant [m]", "cant", _few(line.cants)
+    if np.any(line.cant):
+        yield "cant [m]", "cant", _few(line.cant)
     stiffness = line.messenger_support
     yield "messenger support", "messenger_support", "rigid" if stiffness is None else f"{stiffness:g} N/m"
     arms = line.steady_arm if isinstance(line.steady_arm, tuple) else (line.steady_arm,)
