@@ -63,6 +63,8 @@ def pytest_addoption(parser):
 
 def pytest_configure(config):
     os.environ["ANCF_FUZZ"] = "slow" if config.getoption("--slow") else ""  # see fuzzing.py
+    if "PYTEST_XDIST_WORKER" in os.environ:  # all cores are busy: a process that helps to compile only costs
+        os.environ["ANCF_HELPS"] = "1"
 
 
 def pytest_collection_modifyitems(config, items):
