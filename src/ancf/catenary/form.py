@@ -136,6 +136,11 @@ class Form:
         return height
 
     @property
+    def shifted(self) -> tuple[Form, ...]:
+        """The forms of all tension lengths in their places on the track: itself."""
+        return (self,)
+
+    @property
     def contact_places(self) -> list[FloatArray]:
         """Places (n, 3) of the contact wire on the track, m: one wire."""
         return [self.contact.position]
