@@ -70,6 +70,9 @@ def form(spans=SPANS):
         **{name: SimpleNamespace(position=place, nodes=nodes) for name, place in wires.items()},
         auxiliary=None,
         stitches=(),
+        arm_force=np.column_stack(
+            [0 * line(spans).supports, 40.0 - line(spans).supports, 0 * line(spans).supports]
+        ),
         line=line(spans),
         wave_speed=np.sqrt(20e3 / 1.35),
         dropper_load=loads,

@@ -158,6 +158,14 @@ class TestReport:
         row = [c for c in cells[at + 1 :] if c.strip()][:8]
         assert row == ["100", "0.4000", "0.6000", "20.0", "200", "0.4400", "0.6600", "20.0"]
 
+    def test_loads_of_the_supports(self, text):
+        """What steady arms pull and carry at rest stands beside their uplift."""
+        cells = [c for c in Page(text).texts if c.strip()]
+        at = cells.index("carries [N]")
+        assert cells[at - 1] == "pulls to the left [N]"
+        assert cells[at + 2 : at + 6] == ["1", "0", "40", "0"]
+        assert cells[at + 7 : at + 11] == ["2", "60", "-20", "0"]
+
     def test_measured(self, text, run):
         """The table of the measuring pantograph: true, measured and what is between them."""
         cells, found = Page(text).texts, measure(run, head=MeasuringHead(corrected_mass=0.0))

@@ -196,7 +196,7 @@ def _line_tables(content: Content) -> Iterator[Element]:
     if content.elasticity is not None:
         title = f"Static elasticity of span {content.elasticity.span + 1}"
         yield section(title, "elasticity", tables.elasticity(content))
-    yield section("Uplift at the supports", "supports", tables.supports(content))
+    yield section("Loads and uplift at the supports", "supports", tables.supports(content))
     for k in range(len(content.found)):
         title = "Droppers in the window" + (f", {content.name(k)}" if content.several else "")
         yield section(title, f"droppers-{k + 1}", tables.droppers(content, k))
