@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 from ..errors import ModelError
 from ..model import checks
 from .wire import Wire
-
-if TYPE_CHECKING:
-    from .line import Line
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,8 +33,8 @@ class StitchWire:
         self.wire.check(where)
         checks.positive(self.reach, f"{where}.reach")
 
-    def check_in(self, line: Line) -> None:
-        """Raise ModelError if it does not fit a line."""
+    def check_in(self, line: Any) -> None:
+        """Raise ModelError if it does not fit a Line."""
         self.check("line.stitch")
         if line.messenger_wire is None:
             raise ModelError("line.stitch", "has no messenger to hang from", "leave it out")
