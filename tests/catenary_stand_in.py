@@ -51,6 +51,7 @@ def line(spans=SPANS):
         gravity=9.81,
     )
     made.parts = (made,)
+    made.height_at = np.zeros_like
     return made
 
 
@@ -58,7 +59,20 @@ def form(spans=SPANS):
     count = 9 * spans
     lengths = np.tile([0.998, 0.816, 0.660, 0.566, 0.534, 0.566, 0.660, 0.816, 0.998], spans)
     loads = np.tile(LOADS, spans)
-    return SimpleNamespace(
+    x = np.unique(np.concatenate([line(spans).supports, line(spans).dropper_x]))
+    level = np.zeros(x.size)
+    nodes = SimpleNamespace(dropper=np.searchsorted(x, line(spans).dropper_x))
+    wires = {
+        "contact": np.column_stack([x, level, level]),
+        "messenger": np.column_stack([x, level, np.interp(x, line(spans).dropper_x, lengths)]),
+    }
+    made = SimpleNamespace(
+        **{name: SimpleNamespace(position=place, nodes=nodes) for name, place in wires.items()},
+        auxiliary=None,
+        stitches=(),
+        arm_force=np.column_stack(
+            [0 * line(spans).supports, 40.0 - line(spans).supports, 0 * line(spans).supports]
+        ),
         line=line(spans),
         wave_speed=np.sqrt(20e3 / 1.35),
         dropper_load=loads,
@@ -67,6 +81,8 @@ def form(spans=SPANS):
         contact_height=np.zeros(count),
         messenger_height=lengths,
     )
+    made.shifted = (made,)
+    return made
 
 
 def pantograph(name="en50318-2002"):

@@ -13,13 +13,14 @@ from typer.testing import CliRunner
 
 import catenary_stand_in as stand_in
 from ancf import ModelError
-from ancf.catenary import Elasticity, validate
+from ancf.catenary import Elasticity, MeasuringHead, measure, validate
 from ancf.catenary.quantity import shown
 from ancf.catenary.references import reference_case
 from ancf.catenary.report import Content, write_report
 from ancf.catenary.report.figures import FIGURES, figure_names
 from ancf.catenary.statistics import statistics
 from ancf.cli.app import app
+from ancf.viz import style
 from commands import python
 
 ROW = ["quantity", "unit", "value", "low", "high", "inside", "tag"]
@@ -33,6 +34,8 @@ NAMES = (
     "uplift at support",
     "loss of contact",
 )
+#: Those that the table of the measuring pantograph has too.
+MEASURED = NAMES[:2]
 VOID = {"meta", "link", "img", "br", "hr"}
 
 
@@ -78,7 +81,8 @@ class Page(HTMLParser):
 @pytest.fixture(scope="module")
 def text(run, tmp_path_factory):
     path = tmp_path_factory.mktemp("report") / "deep" / "report.html"
-    write_report(run, path, reference=reference_case("en50318-2002"), elasticity=stand_in.elasticity())
+    given = {"reference": reference_case("en50318-2002"), "elasticity": stand_in.elasticity()}
+    write_report(run, path, measured=[measure(run, head=MeasuringHead(corrected_mass=0.0))], **given)
     return path.read_text(encoding="utf-8")
 
 
@@ -113,7 +117,7 @@ class TestReport:
             assert cells.count(q.name) >= 1, q.name
             assert shown(q.value, q.unit) in cells
         for name in NAMES:
-            assert cells.count(name) == 2, name
+            assert cells.count(name) == (2 if name not in MEASURED else 3), name
         assert {"inside", "outside", "V2", "190 to 210", "20 to 40"} <= set(cells)
         assert "Butterworth" in text
         assert "real-time factor" in text
@@ -145,7 +149,7 @@ class TestReport:
         assert "no accepted ranges at 260 km/h" in text
 
     def test_figures_without_elasticity(self, run):
-        assert set(FIGURES) - set(figure_names(Content.of(run))) == {"elasticity"}
+        assert set(FIGURES) - set(figure_names(Content.of(run))) == {"elasticity", "measured"}
 
     def test_elasticity(self, text):
         cells = Page(text).texts
@@ -153,6 +157,26 @@ class TestReport:
         at = cells.index("non-uniformity [%]")
         row = [c for c in cells[at + 1 :] if c.strip()][:8]
         assert row == ["100", "0.4000", "0.6000", "20.0", "200", "0.4400", "0.6600", "20.0"]
+
+    def test_loads_of_the_supports(self, text):
+        """What steady arms pull and carry at rest stands beside their uplift."""
+        cells = [c for c in Page(text).texts if c.strip()]
+        at = cells.index("carries [N]")
+        assert cells[at - 1] == "pulls to the left [N]"
+        assert cells[at + 2 : at + 6] == ["1", "0", "40", "0"]
+        assert cells[at + 7 : at + 11] == ["2", "60", "-20", "0"]
+
+    def test_measured(self, text, run):
+        """The table of the measuring pantograph: true, measured and what is between them."""
+        cells, found = Page(text).texts, measure(run, head=MeasuringHead(corrected_mass=0.0))
+        at = cells.index("measured [N]")
+        row = [c for c in cells[at + 1 :] if c.strip()][1:5]
+        true, force = (float(np.std(f[found.window])) for f in (found.true, found.force))
+        mean = float(np.mean(found.true[found.window]))
+        assert row[:2] == ["mean force Fm", f"{mean:.1f}"]
+        assert f"{true:.1f}" in cells
+        assert f"{force - true:+.2f}" in cells
+        assert f"{found.largest_error:.2f}" in cells
 
     def test_a_line_without_losses_and_slack(self, run, tmp_path):
         calm = [dataclasses.replace(r, force=np.full(run.t.size, 120.0)) for r in run.recordings]
@@ -260,3 +284,43 @@ except Exception as error:
     assert done.out == "figures: matplotlib is not installed (pip install 'ancf[plot]')\n"
     assert (tmp_path / "statistics.csv").exists()
     assert not (tmp_path / "report.html").exists()
+
+
+class TestShape:
+    """The picture of the line at rest has the places of wires and droppers."""
+
+    def drawn(self, content):
+        with style.new_figure(180, 150) as figure:
+            FIGURES["form"].draw(content, figure)
+            return figure.axes
+
+    def test_wires_droppers_and_strips(self, run):
+        form = run.form
+        side, sag, plan = self.drawn(Content.of(run))
+        assert [line.get_ydata().tolist() for line in side.lines[:2]] == [
+            shape.position[:, 2].tolist() for shape in (form.contact, form.messenger)
+        ]
+        ends = np.array([segment for c in side.collections for segment in c.get_segments()])
+        droppers = ends[np.isin(ends[:, 0, 0], form.line.dropper_x)][:, :, 1]
+        assert np.ptp(droppers, axis=1) == pytest.approx(form.dropper_length)
+        assert np.all(sag.lines[0].get_ydata() == 0.0)
+        strips = [line.get_ydata()[0] for line in plan.lines if line.get_linestyle() == "--"]
+        assert {-725.0, 725.0} <= set(strips)
+
+    def test_tension_lengths_in_their_places(self, run):
+        """Staggers and sag from the nominal height of a second tension length that begins at 540 m."""
+        line = stand_in.line()
+        line.height_at = lambda x: 5.0 + 0.001 * np.asarray(x)
+        form, move = stand_in.form(), np.array([540.0, 0.2, 5.0])
+        first, second = form.contact.position, form.contact.position + move
+        first[:, 2] = line.height_at(first[:, 0])
+        second[:, 2] = line.height_at(first[:, 0]) - 0.02
+        parts = [SimpleNamespace(**{**vars(form), "line": line}) for _ in range(2)]
+        parts[1].contact = SimpleNamespace(position=second, nodes=form.contact.nodes)
+        line.starts = (0.0, 540.0)
+        form.line, form.shifted = line, tuple(parts)
+        _, sag, plan = self.drawn(Content.of(dataclasses.replace(run, form=form)))
+        assert sag.lines[0].get_ydata() == pytest.approx(0.0, abs=1e-9)
+        assert sag.lines[1].get_ydata() == pytest.approx(-20.0)
+        assert [plan.lines[k].get_ydata().mean() for k in (0, 2)] == pytest.approx([0.0, 200.0])
+        assert plan.lines[2].get_xdata()[0] == 540.0

@@ -22,6 +22,7 @@ from ancf.catenary import (
     statistics,
     verify,
 )
+from ancf.catenary.form import check
 from overhead_lines import COARSE, LENGTHS, STAGGER, STEP, collector, droppers, short_line
 
 G = 9.81
@@ -324,7 +325,9 @@ class TestTable:
             ("0,350", "0,-350", "row 3, column arm_vertical"),
             ("50,5.3,-0.2,1200,0.02,", "50,5.3,-0.2,1200,0.02", "row 2: has 5 cells"),
             ("0,5.3,0.2,,0.02,", "0,inf,0.2,,0.02,", "row 1, column height: is inf"),
-            ("105,5.28", "105,5280", "row 3, column height: must be between"),
+            ("105,5.28", "105,5280", "row 3, column height: is 5280 m, at most 100 m either way"),
+            ("5.28,0.2,", "5.28,200,", "row 3, column stagger: is 200 m, at most 20 m either way"),
+            ("1200,0.02,", "1200,20,", "row 2, column pre_sag: is 20 m, at most 5 m"),
         ],
     )
     def test_wrong(self, tmp_path, old, new, said):
@@ -344,6 +347,25 @@ class TestTable:
         assert wires[1].EA == 2 * wires[0].EA
         forms = [form(line, COARSE) for line in (one, two)]
         assert forms[1].dropper_load == pytest.approx(2 * forms[0].dropper_load, rel=1e-3)
+
+    def test_messenger_too_low(self, tmp_path):
+        """The dropper that cannot reach is named by its row."""
+        path = table(tmp_path, head=HEAD.replace("system_height = 1.3", "system_height = 0.2"))
+        with pytest.raises(ModelError, match=r"supports.csv, row 2, dropper 4 of its span: .* hangs"):
+            form(read_line(path), COARSE)
+
+    @pytest.mark.parametrize("factor", [1e-3, 1e3])
+    def test_lengths_in_other_units(self, factor):
+        """Droppers a thousand times too short or too long are refused, in the check and in form finding."""
+        line = short_line()
+        wrong = tuple(0.9 * factor if j == 7 else 0.9 for j in range(line.dropper_x.size))
+        if factor > 1.0:
+            wrong = tuple(min(length, 99.0) for length in wrong)
+        for ask in (check, form):
+            with pytest.raises(
+                ModelError, match=r"dropper_lengths\[7\]: is .* mm, of line.spans\[1\].droppers\[2\]"
+            ):
+                ask(replace(line, dropper_lengths=wrong), COARSE)
 
     def test_missing_file(self, tmp_path):
         path = table(tmp_path)

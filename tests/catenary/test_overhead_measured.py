@@ -1,6 +1,7 @@
 """Pantographs from measured frequency responses, and measuring pantographs, against closed forms."""
 
 import dataclasses
+import importlib
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,9 +18,11 @@ from ancf.catenary import (
     identify_pantograph,
     measure,
     pantographs,
+    read_measuring_head,
 )
 from ancf.cli.app import app
 
+run_module = importlib.import_module("ancf.catenary.run")
 FREQUENCY = np.linspace(0.25, 20.0, 80)  # Hz
 
 
@@ -234,3 +237,55 @@ class TestCommand:
         done = CliRunner().invoke(app, ["catenary", "identify", str(path), "-o", str(tmp_path / "p.toml")])
         assert done.exit_code == 2
         assert said in " ".join(done.output.split())
+
+
+class TestFile:
+    """A measuring pantograph as a file, and ancf catenary run --measure."""
+
+    def test_keys(self, tmp_path):
+        file = tmp_path / "head.toml"
+        file.write_text("corrected_mass = 5.0\nacceleration_band = 50\nrate = 500.0\nseed = 3\n")
+        assert read_measuring_head(file) == MeasuringHead(
+            corrected_mass=5.0, acceleration_band=50.0, rate=500.0, seed=3
+        )
+
+    @pytest.mark.parametrize(
+        ("text", "said"),
+        [
+            ("corected_mass = 5.0", "corected_mass"),
+            ("force_noise = -1.0", "force_noise"),
+            ('rate = "fast"', "rate"),
+            ("seed = 5_000_000_000", "seed"),
+        ],
+    )
+    def test_wrong(self, tmp_path, text, said):
+        file = tmp_path / "head.toml"
+        file.write_text(text)
+        with pytest.raises(ModelError, match=rf"head.toml.*{said}"):
+            read_measuring_head(file)
+
+    def test_command(self, run, tmp_path, monkeypatch):
+        """What is written and shown is what measure says; the true force stands beside it."""
+        monkeypatch.setattr(run_module, "run", lambda line, **given: run)
+        file = tmp_path / "head.toml"
+        file.write_text("corrected_mass = 0.0\n")
+        options = ["--speed", "250", "--measure", str(file), "-o", str(tmp_path / "out")]
+        done = CliRunner().invoke(
+            app, ["catenary", "run", "en50318-2002", *options, "--no-states", "--no-report"]
+        )
+        assert done.exit_code == 0, done.output
+        found = measure(run, head=MeasuringHead(corrected_mass=0.0))
+        written = np.loadtxt(tmp_path / "out" / "measured_1.csv", delimiter=",", skiprows=1)
+        for column, wanted in zip(written.T, (found.t, found.position, found.force, found.true), strict=True):
+            assert column == pytest.approx(wanted, rel=1e-8, abs=1e-8)
+        deviation = float(np.std(found.force[found.window]))
+        assert f"measured: standard deviation 0-20 Hz {deviation:.1f} N" in done.output
+
+    def test_wrong_rate_is_said_before_the_run(self, tmp_path, monkeypatch):
+        monkeypatch.setattr(run_module, "run", None)
+        file = tmp_path / "head.toml"
+        file.write_text("rate = 2000.0\n")
+        options = ["--speed", "250", "--measure", str(file), "-o", str(tmp_path / "out")]
+        done = CliRunner().invoke(app, ["catenary", "run", "en50318-2002", *options])
+        assert done.exit_code == 2
+        assert "measuring.rate: is 2000 Hz, the run has 1000" in " ".join(done.output.split())

@@ -107,7 +107,7 @@ class TestDocx:
 
     def test_pictures_and_title(self, folder, content):
         document = Document(folder / "report.docx")
-        assert len(document.inline_shapes) == 9
+        assert len(document.inline_shapes) == 10
         assert document.core_properties.title == "EN 50318:2002 reference model, 250 km/h"
         wide = document.sections[0].page_width - document.sections[0].left_margin
         assert all(shape.width < wide for shape in document.inline_shapes)

@@ -66,6 +66,26 @@ class TestRoute:
             Route(lines=lines, starts=(0.0, start))
         assert caught.value.where == "sections[1].start"
 
+    @pytest.mark.parametrize(
+        ("first", "heights", "said"),
+        [
+            (True, (0.0,) * (SPANS + 1), r"sections\[0\].height\[7\]: is 0 m: the wire ends 0\.\d+ m below"),
+            (
+                False,
+                (*(-0.2,) * SPANS, 0.3),
+                r"sections\[1\].height\[0\]: is -0.2 m: the wire begins 0.2 m below",
+            ),
+        ],
+    )
+    def test_sections_whose_wires_do_not_meet(self, first, heights, said):
+        """A wire that begins or ends below the other one hands nothing over."""
+        lines = [section(True), section(False, height=tuple(np.add(section(False).heights, 0.0)))]
+        lines[0 if first else 1] = section(first, height=heights)
+        if first:
+            lines[1] = section(False, height=(0.35, 0.2, 0.1, 0.1, 0.1, 0.0, 0.0, 0.0))
+        with pytest.raises(ModelError, match=said):
+            Route(lines=tuple(lines), starts=(0.0, BEGIN))
+
     def test_other_conditions(self):
         with pytest.raises(ModelError, match=r"sections\[1\]\.conditions"):
             Route(lines=(section(True), section(False, conditions=Conditions(ice=1.0))), starts=(0.0, BEGIN))

@@ -17,6 +17,7 @@ from .irregular import dropper_errors, height_errors
 from .kept import Kept, read_run
 from .line import Line
 from .measuring import Measured, MeasuringHead, measure
+from .measuring_file import read_measuring_head
 from .mesh import Mesh
 from .opened import Overhead, assemble
 from .pantograph import Pantograph, find_pantograph, pantographs, read_pantograph
@@ -94,6 +95,7 @@ __all__ = [
     "rainflow",
     "random_underside",
     "read_line",
+    "read_measuring_head",
     "read_pantograph",
     "read_run",
     "read_underside",

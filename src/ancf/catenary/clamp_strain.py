@@ -59,8 +59,12 @@ class ClampStrain:
 
 
 def bends(line: Line | Route) -> bool:
-    """Whether the contact wire has a bending stiffness, without which its strain at a force is endless."""
-    return bool(line.parts[0].contact_wire.EI > 0.0)
+    """Whether the contact wire bends as a beam under tension: without stiffness its strain is endless.
+
+    That of a conductor rail is spread over its span instead.
+    """
+    wire = line.parts[0].contact_wire
+    return bool(wire.EI > 0.0 and not getattr(wire, "rail", False))
 
 
 def edge(wire: Any) -> float:

@@ -18,19 +18,31 @@ def _whole(given: Any) -> Any:
 Seed = Annotated[int, BeforeValidator(_whole), Field(ge=0)]
 
 
-class WireEntry(Entry):
-    """Contact wire or messenger, of the catalogue or with its own numbers."""
+class SectionEntry(Entry):
+    """A wire of the catalogue or with its own numbers."""
 
     count: int = Field(1, ge=1, le=4, description="Wires side by side that act as one.")
     type: str | None = Field(None, description="Name of the catalogue, instead of EA, EI and mass.")
     EA: Positive | None = Field(None, description="Axial stiffness [N].")
     EI: NonNegative | None = Field(None, description="Bending stiffness [N m^2].")
     mass: Positive | None = Field(None, description="Mass per length of the wire as it hangs [kg/m].")
-    tension: Positive = Field(description="Force at the anchors along the track [N].")
     damping: NonNegative = Field(0.0, description="Viscous force per length and velocity [N s/m^2].")
     diameter: Positive | None = Field(None, description="Outer diameter, which wind needs [m].")
     drag: NonNegative = Field(1.0, description="Drag coefficient across the wire.")
     expansion: NonNegative = Field(EXPANSION, description="Thermal expansion [1/K].")
+
+
+class WireEntry(SectionEntry):
+    """Messenger, stitch wire or auxiliary."""
+
+    tension: Positive = Field(description="Force at the anchors along the track [N].")
+
+
+class ContactWireEntry(SectionEntry):
+    """Contact wire, or a conductor rail."""
+
+    tension: Positive | None = Field(None, description="Force at the anchors along the track [N].")
+    rail: bool = Field(False, description="A conductor rail, which needs no tension.")
 
 
 def _of_number(given: Any) -> str:
@@ -226,7 +238,7 @@ class LineEntry(Entry):
         None, description="Instead of spans: a CSV file with a row for each support, or the rows."
     )
     dropper_rule: RuleEntry | None = Field(None, description="Where spans without a list have droppers.")
-    contact_wire: WireEntry = Field(description="The contact wire.")
+    contact_wire: ContactWireEntry = Field(description="The contact wire.")
     messenger_wire: WireEntry | None = Field(None, description="The messenger, default none.")
     droppers: DroppersEntry | None = Field(None, description="The droppers, needed with a messenger.")
     steady_arm: SteadyArmEntry = Field(description="The steady arms.")
@@ -284,7 +296,7 @@ class LineEntry(Entry):
 
 #: Tables of a line file by their key.
 TABLES: dict[str, type[Entry]] = {
-    "contact_wire": WireEntry,
+    "contact_wire": ContactWireEntry,
     "messenger_wire": WireEntry,
     "damping": RayleighEntry,
     "stitch": StitchEntry,

@@ -19,7 +19,16 @@ from ..model.file.paths import changed
 from .auxiliary import Auxiliary
 from .conditions import Conditions
 from .csv_table import Row
-from .entries import TABLES, LineEntry, RuleEntry, SpanEntry, StitchEntry, WireEntry
+from .entries import (
+    TABLES,
+    ContactWireEntry,
+    LineEntry,
+    RuleEntry,
+    SectionEntry,
+    SpanEntry,
+    StitchEntry,
+    WireEntry,
+)
 from .fittings import DropperErrors, Droppers, Load, SteadyArm, Tensioner
 from .layout import OF_SUPPORTS, laid_out, lengths_of, supports_of
 from .line import Line, check_size
@@ -210,14 +219,19 @@ def _auxiliary(entry: LineEntry) -> Auxiliary | None:
     return Auxiliary(wire=wire, height=given.height, droppers=Droppers(**droppers.given()), places=places)
 
 
-def _wire(given: WireEntry, where: str) -> Wire:
+def _wire(given: WireEntry | ContactWireEntry, where: str) -> Wire:
     """A wire of the catalogue with what else is given, or one of its own numbers."""
     own = given.given("reach", "count", "height", "places")
+    if own.get("tension") is None:
+        if not own.get("rail"):
+            what = ContactWireEntry.model_fields["tension"].description or ""
+            raise ModelError(f"{where}.tension", "is missing", what.rstrip("."))
+        own["tension"] = 0.0
     if given.type is not None:
         return Wire(**(wire_data(given.type, f"{where}.type") | own)).times(given.count)
     for key in ("EA", "EI", "mass"):
         if own.get(key) is None:
-            what = WireEntry.model_fields[key].description or ""
+            what = SectionEntry.model_fields[key].description or ""
             raise ModelError(f"{where}.{key}", "is missing", f'{what.rstrip(".")}; or a type, "CuAg AC-100"')
     return Wire(**own).times(given.count)
 

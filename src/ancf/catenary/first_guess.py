@@ -144,10 +144,11 @@ def _contact(line: Line, mesh: Mesh) -> tuple[WireShape, FloatArray]:
     weight = wire.mass * line.gravity
     load = lumped(nodes.x, weight)
     load[nodes.load] -= masses(line, "contact")
-    z = string_shape(nodes.x, held, load, wire.tension)
     marks = np.flatnonzero(~np.isnan(held))
+    pull = wire.pull_for_sag(float(np.max(np.diff(nodes.x[marks]))))
+    z = string_shape(nodes.x, held, load, pull)
     force = np.zeros(nodes.x.size)
-    force[marks] = string_loads(nodes.x, z, wire.tension, 0.0)[marks] - load[marks]
+    force[marks] = string_loads(nodes.x, z, pull, 0.0)[marks] - load[marks]
     steepest = float(np.max(np.abs(np.diff(z) / np.diff(nodes.x))))
     if not np.isfinite(steepest):
         raise _beyond()
@@ -205,4 +206,5 @@ def _sideways(line: Line, nodes: Nodes, stagger: tuple[float, ...], wire: Wire, 
     held[nodes.support] = stagger
     level = np.zeros(nodes.x.size)
     pull = curve_pull(line, started(wire, nodes, level, level), name)
-    return string_shape(nodes.x, held, lumped_pull(nodes.x, pull), wire.tension)
+    along = wire.pull_for_sag(float(np.max(np.diff(nodes.x[nodes.support]))))
+    return string_shape(nodes.x, held, lumped_pull(nodes.x, pull), along)

@@ -21,6 +21,8 @@ from .shape import WireShape
 
 TOLERANCE = 1e-8  # m
 MOST_ITERATIONS = 60
+#: How many times longer or shorter than designed droppers can be; more is a slip of units.
+UNLIKE = 10.0
 #: Parts of a line that may change without finding its form again: it rests alike.
 WITHOUT_WEIGHT = ("damping", "rows", "title", "source", "tags")
 
@@ -112,8 +114,8 @@ class Form:
 
     @property
     def wave_speed(self) -> float:
-        """Wave speed of the contact wire as it hangs, m/s."""
-        return self.contact.wire.wave_speed
+        """Wave speed of the contact wire as it hangs, m/s; of a rail its critical speed."""
+        return self.contact.wire.critical_speed(max(span.length for span in self.line.spans))
 
     @property
     def spring_stiffness(self) -> FloatArray:
@@ -134,6 +136,11 @@ class Form:
         """Heights of the contact wire at the supports, m."""
         height: FloatArray = self.contact.position[self.contact.nodes.support, 2]
         return height
+
+    @property
+    def shifted(self) -> tuple[Form, ...]:
+        """The forms of all tension lengths in their places on the track: itself."""
+        return (self,)
 
     @property
     def contact_places(self) -> list[FloatArray]:
@@ -199,7 +206,21 @@ def check(line: Line, mesh: Mesh | None = None) -> None:
         A wire hangs too steep, the messenger too low, or the mesh is too large.
 
     """
-    _check_reach(line, first_guess(line, Mesh() if mesh is None else mesh))
+    begun = first_guess(line, Mesh() if mesh is None else mesh)
+    _check_reach(line, begun)
+    if line.dropper_lengths is not None:
+        check_lengths(line, begun.short.length)
+
+
+def check_lengths(line: Line, designed: FloatArray) -> None:
+    """Raise ModelError where a dropper as built is so much longer or shorter that units must differ, in m."""
+    built = np.array(line.dropper_lengths)
+    factor = np.maximum(built / designed, designed / built)
+    worst = int(np.argmax(factor)) if factor.size else 0
+    if factor.size and factor[worst] > UNLIKE:
+        what = f"is {1e3 * built[worst]:g} mm, of {line.dropper_label(worst)}, "
+        what += f"which is designed {1e3 * designed[worst]:.0f} mm long"
+        raise ModelError(f"line.dropper_lengths[{worst}]", what, "in Python in m, in a table in mm")
 
 
 def _check_reach(line: Line, now: Hung) -> None:

@@ -15,7 +15,7 @@ from .auxiliary import Auxiliary
 from .cant import LARGEST, plumb_above
 from .conditions import Conditions
 from .fittings import NO_DROPPERS, DropperErrors, Droppers, Load, SteadyArm, Tensioner
-from .span import Span
+from .span import Span, within
 from .stitch import StitchWire
 from .wire import Rayleigh, Wire
 
@@ -23,6 +23,7 @@ SUPPORTS = ("held", "free")
 ANCHORS = ("fixed", "tension", "spring")
 CLAMPS = ("hinged", "continuous")
 HIGHEST = 100.0  # m, of wires; more is a slip of units
+WIDEST = 20.0  # m, of staggers, those of anchors aside included
 #: A line of some 600 km; more is a slip that would take all memory.
 MOST_SPANS, MOST_DROPPERS = 10_000, 200_000
 
@@ -149,14 +150,15 @@ class Line:
             if isinstance(getattr(self, key), Sequence | np.ndarray):
                 self._per_support(key, alternating=False)
         for k, height in enumerate(self.heights):
-            checks.between(height, f"line.height[{k}]", -HIGHEST, HIGHEST)
-        self._per_support("stagger", alternating=True)
+            within(height, HIGHEST, f"line.height[{k}]", "5.3")
+        for k, side in enumerate(self._per_support("stagger", alternating=True)):
+            within(side, WIDEST, f"line.stagger[{k}]", "0.2")
         for k, cant in enumerate(self.cants):
             checks.between(cant, f"line.cant[{k}]", -LARGEST, LARGEST)
         if self.messenger_stagger is not None:
             self._per_support("messenger_stagger", alternating=True)
         if self.stitch is not None:
-            self._check_stitch(self.stitch)
+            self.stitch.check_in(self)
         if self.auxiliary is not None:
             self._check_auxiliary(self.auxiliary)
         self._check_lengths()
@@ -178,6 +180,11 @@ class Line:
             getattr(self, key).check(f"line.{key}")
         if self.messenger_wire is not None:
             self.messenger_wire.check("line.messenger_wire")
+            if self.messenger_wire.rail:
+                raise ModelError("line.messenger_wire.rail", "a messenger is no rail", "leave it out")
+            if self.contact_wire.rail:
+                what = "is given beside a conductor rail, which its supports carry"
+                raise ModelError("line.messenger_wire", what, "leave it and the droppers out")
         for k, span in enumerate(self.spans):
             if span.droppers and (self.messenger_wire is None or self.droppers == NO_DROPPERS):
                 missing = "messenger_wire" if self.messenger_wire is None else "droppers"
@@ -220,18 +227,6 @@ class Line:
                 where = f"line.dropper_lengths[{j}]"
                 raise ModelError(where, f"is {length:g} m, of {self.dropper_label(j)}", "0 < length, in m")
         object.__setattr__(self, "dropper_lengths", tuple(lengths))
-
-    def _check_stitch(self, stitch: StitchWire) -> None:
-        stitch.check("line.stitch")
-        if self.messenger_wire is None:
-            raise ModelError("line.stitch", "has no messenger to hang from", "leave it out")
-        if stitch.wire.tension >= self.messenger_wire.tension:
-            what = f"is {stitch.wire.tension:g} N, the messenger has {self.messenger_wire.tension:g} N only"
-            raise ModelError("line.stitch.tension", what)
-        shortest = min(span.length for span in self.spans)
-        if stitch.reach >= 0.5 * shortest:
-            what = f"is {stitch.reach:g} m, must be less than half of the shortest span, {shortest:g} m"
-            raise ModelError("line.stitch.reach", what)
 
     def _check_auxiliary(self, auxiliary: Auxiliary) -> None:
         auxiliary.check("line.auxiliary")
@@ -375,12 +370,15 @@ class Line:
 
     @property
     def wave_speed(self) -> float:
-        """Wave speed of the contact wire, m/s."""
-        return self.contact_wire.wave_speed
+        """Wave speed of the contact wire, of a conductor rail the critical one of its longest span, m/s."""
+        return self.contact_wire.critical_speed(max(span.length for span in self.spans))
 
     def dropper_label(self, j: int) -> str:
         """Place of a dropper in the description: ``line.spans[2].droppers[3]``."""
-        return f"line.spans[{self.dropper_span[j]}].droppers[{self.dropper_number[j]}]"
+        span, number = int(self.dropper_span[j]), int(self.dropper_number[j])
+        if span < len(self.rows) and ".csv" in self.rows[span]:
+            return f"{self.rows[span].removesuffix('column ')}dropper {number + 1} of its span"
+        return f"line.spans[{span}].droppers[{number}]"
 
     def excerpt(self, first: int, count: int) -> Line:
         """The line of `count` spans from span `first` on, anchored at its own ends."""

@@ -68,6 +68,21 @@ class MeasuringHead:
             checks.non_negative(self.corrected_mass, "measuring.corrected_mass")
         checks.integer(self.seed, "measuring.seed", 0, 2**32 - 1)
 
+    def check(self, own: float, speed: float) -> None:
+        """Raise ModelError if a run of `own` samples per second, at most `speed` in m/s, is not measured."""
+        rate = own if self.rate is None else self.rate
+        apart = speed / rate
+        if rate > own * (1.0 + 1e-9):
+            raise ModelError("measuring.rate", f"is {rate:g} Hz, the run has {own:g}", "take a shorter step")
+        if rate <= 2.0 * CUT_OFF or apart > FARTHEST:
+            what = f"is {rate:g} Hz: samples are {apart:.3g} m apart, at most {FARTHEST:g} m may be"
+            raise ModelError("measuring.rate", what, f"and more than {2.0 * CUT_OFF:g} Hz for the filter")
+        for key in ("force_band", "acceleration_band"):
+            band = getattr(self, key)
+            if band is not None and band >= own / 2.0:
+                what = f"is {band:g} Hz, must be below {own / 2.0:g} Hz, half the run's rate"
+                raise ModelError(f"measuring.{key}", what)
+
 
 @dataclass(frozen=True)
 class Measured:
@@ -143,12 +158,14 @@ def measure(
     mass = unit.masses[-1] if sensors.mass is None else sensors.mass
     corrected = mass if sensors.corrected_mass is None else sensors.corrected_mass
     speed = np.gradient(recording.position, run.t)
+    sensors.check(rate, float(np.max(np.abs(speed))))
     wind = unit.aerodynamics[-1] * speed**2
     acceleration = np.gradient(np.gradient(recording.strip, run.t), run.t)
-    felt = _followed(recording.force + mass * acceleration - wind, rate, sensors.force_band, "force_band")
-    shaken = _followed(acceleration, rate, sensors.acceleration_band, "acceleration_band")
+    felt = _followed(recording.force + mass * acceleration - wind, rate, sensors.force_band)
+    shaken = _followed(acceleration, rate, sensors.acceleration_band)
     shaken = np.interp(run.t - sensors.delay, run.t, shaken)
-    t, samples = _samples(run, sensors, speed)
+    samples = rate if sensors.rate is None else sensors.rate
+    t = _samples(run, samples)
     rng = np.random.default_rng(sensors.seed)
     felt = np.interp(t, run.t, felt) + sensors.force_noise * rng.normal(size=t.size)
     shaken = np.interp(t, run.t, shaken) + sensors.acceleration_noise * rng.normal(size=t.size)
@@ -162,26 +179,15 @@ def measure(
     return Measured(t, position, chosen.low_pass(force, samples), chosen.low_pass(true, samples), window)
 
 
-def _samples(run: Run, sensors: MeasuringHead, speed: FloatArray) -> tuple[FloatArray, float]:
-    """Times (n,) of the samples, s, and how many there are in a second."""
-    own = sample_rate(run.t)
-    rate = own if sensors.rate is None else sensors.rate
-    apart = float(np.max(np.abs(speed))) / rate
-    if rate > own * (1.0 + 1e-9):
-        raise ModelError("measuring.rate", f"is {rate:g} Hz, the run has {own:g}", "take a shorter step")
-    if rate <= 2.0 * CUT_OFF or apart > FARTHEST:
-        what = f"is {rate:g} Hz: samples are {apart:.3g} m apart, at most {FARTHEST:g} m may be"
-        raise ModelError("measuring.rate", what, f"and more than {2.0 * CUT_OFF:g} Hz for the filter")
+def _samples(run: Run, rate: float) -> FloatArray:
+    """Times (n,) of the samples, s."""
     count = int(np.floor((run.t[-1] - run.t[0]) * rate + 1e-9))
     t: FloatArray = run.t[0] + np.arange(count + 1) / rate
-    return t, rate
+    return t
 
 
-def _followed(x: FloatArray, rate: float, band: float | None, name: str) -> FloatArray:
+def _followed(x: FloatArray, rate: float, band: float | None) -> FloatArray:
     """A signal as a sensor follows it."""
     if band is None:
         return x
-    if band >= rate / 2.0:
-        what = f"is {band:g} Hz, must be below {rate / 2.0:g} Hz, half the run's rate"
-        raise ModelError(f"measuring.{name}", what)
     return Butterworth(order=2, zero_phase=False).low_pass(x, rate, band)

@@ -15,7 +15,7 @@ from ..errors import ModelError
 from ..model import checks
 from ..model.checks import nearest
 from ..model.file import parameters, read_toml
-from ..model.file.messages import combined, of_validation
+from ..model.file.messages import beside, combined, of_validation
 from .stage import Stage, damper_of, spring_of, stops_of
 
 RELAXED = ("start", "nominal", "mean")
@@ -201,7 +201,8 @@ def read_pantograph(path: str | Path) -> Pantograph:
         with parameters.given(data, {}):
             entry = PantographEntry.model_validate(data)
     except ValidationError as error:
-        raise combined(of_validation(error, lambda parts: PantographEntry), str(path)) from None
+        problems = of_validation(error, lambda parts: PantographEntry)
+        raise beside(combined(problems, str(path)), str(path)) from None
     name = entry.name or Path(path).stem
     try:
         return Pantograph(**(entry.given("parameters") | {"name": name}))

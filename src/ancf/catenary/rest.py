@@ -8,7 +8,7 @@ from typing import overload
 from ..errors import ModelError
 from .assemble import Assembled, assembled
 from .conditions import Conditions
-from .form import Form, design
+from .form import Form, check, check_lengths, design
 from .irregular import with_errors
 from .line import Line
 from .mesh import Mesh
@@ -59,6 +59,8 @@ def _of_line(line: Line, mesh: Mesh | None, section: int = 0) -> Form:
     lengths = line.dropper_lengths
     if line.dropper_errors is not None:
         lengths = with_errors(found, line.dropper_errors, section)
+    elif lengths is not None:
+        check_lengths(line, found.dropper_natural)
     if lengths is not None:
         found = as_built(found, lengths)
     if line.conditions != Conditions():
@@ -73,9 +75,34 @@ def _of_route(route: Route, mesh: Mesh | None) -> RouteForm:
         try:
             forms.append(_of_line(line, mesh, k))
         except ModelError as error:
-            where = f"sections[{k}].{error.where.removeprefix('line.')}"
-            raise ModelError(where, error.what, error.hint) from None
+            raise _in_section(error, k) from None
     return RouteForm(route, Mesh() if mesh is None else mesh, tuple(forms))
+
+
+def _in_section(error: ModelError, k: int) -> ModelError:
+    """The error with the section before its place, unless that is in a table."""
+    if ".csv" in error.where:
+        return error
+    return ModelError(f"sections[{k}].{error.where.removeprefix('line.')}", error.what, error.hint)
+
+
+def check_track(line: Line | Route) -> None:
+    """Find what is wrong with a line, or with the sections of a route, without finding their forms.
+
+    Raises
+    ------
+    ModelError
+        A wire hangs too steep, the messenger too low, a dropper has other units than the design.
+
+    """
+    if isinstance(line, Line):
+        check(line)
+        return
+    for k, part in enumerate(line.lines):
+        try:
+            check(part)
+        except ModelError as error:
+            raise _in_section(error, k) from None
 
 
 def assemble(found: AnyForm, mesh: Mesh | None = None) -> Assembled:

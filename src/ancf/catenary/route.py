@@ -17,6 +17,9 @@ from .line import Line
 from .span import Span
 from .wire import Wire
 
+#: How far a wire may begin or end below the one beside it, m.
+LEVEL = 1e-3
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Route:
@@ -37,7 +40,7 @@ class Route:
     Raises
     ------
     ModelError
-        Two that follow each other do not overlap, or differ in gravity or conditions.
+        Two that follow each other do not overlap or do not meet, or differ in gravity or conditions.
 
     """
 
@@ -64,6 +67,19 @@ class Route:
             for key in ("gravity", "conditions", "temperature"):
                 if getattr(self.lines[k], key) != getattr(self.lines[0], key):
                     raise ModelError(f"sections[{k}].{key}", "differs from that of the first section")
+            self._check_meeting(k)
+
+    def _check_meeting(self, k: int) -> None:
+        """Where a section begins or ends its wire is not below the other one: there they hand over."""
+        one, other, away = self.lines[k - 1], self.lines[k], self.starts[k] - self.starts[k - 1]
+        first = sum(line.supports.size for line in self.lines[:k])
+        begins = float(one.height_at(away)) - other.heights[0]
+        ends = float(other.height_at(one.length - away)) - one.heights[-1]
+        for low, support, what in ((begins, first, "begins"), (ends, first - 1, "ends")):
+            if low > LEVEL:
+                text = f"is {self.heights[support]:g} m: the wire {what} {low:.3g} m below the one beside it"
+                hint = "raise it at its anchor, so that one wire hands pantographs over to the other"
+                raise ModelError(self.place_of_support("height", support), text, hint)
 
     def joined(self, values: Callable[[Line], Any]) -> Any:
         """Values of all lines one after the other."""

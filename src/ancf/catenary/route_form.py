@@ -98,6 +98,12 @@ class RouteForm:
         return height
 
     @property
+    def arm_force(self) -> FloatArray:
+        """Force (supports, 3) on the contact wires at the supports, zero at anchors, N."""
+        force: FloatArray = self.joined(lambda form: form.arm_force)
+        return force
+
+    @property
     def shifted(self) -> tuple[Form, ...]:
         """The forms in their places on the track."""
         return tuple(_shifted(form, x) for form, x in zip(self.forms, self.line.starts, strict=True))

@@ -16,6 +16,13 @@ CLOSEST = 0.05  # m, of droppers to each other and to the supports
 MOST = 1000  # droppers in a span
 SHARPEST = 10.0  # m, of a curve
 LONGEST = 1000.0  # m; spans of overhead lines have up to 80 m
+DEEPEST = 5.0  # m, of a pre-sag; usual is a thousandth of the span
+
+
+def within(value: float, most: float, where: str, usual: str) -> None:
+    """Raise ModelError for a length that can only be a slip of units."""
+    if abs(value) > most:
+        raise ModelError(where, f"is {value:g} m, at most {most:g} m either way", f"units are m: {usual}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -137,6 +144,8 @@ def _pre_sag(given: Any, x: np.ndarray[Any, np.dtype[np.float64]]) -> tuple[floa
     if isinstance(given, Sequence | np.ndarray) and not isinstance(given, str):
         return tuple(checks.array(given, "span.pre_sag", (x.size,)).tolist())
     depth = checks.non_negative(given, "span.pre_sag")
+    if depth > DEEPEST:
+        raise ModelError("span.pre_sag", f"is {depth:g} m, at most {DEEPEST:g} m", "units are m: 0.05")
     if x.size == 0:
         if depth:
             raise ModelError("span.pre_sag", "has no effect on a span without droppers", "leave it out")

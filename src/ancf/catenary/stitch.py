@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
+from ..errors import ModelError
 from ..model import checks
 from .wire import Wire
 
@@ -30,3 +32,16 @@ class StitchWire:
         """Raise ModelError if a value is out of range."""
         self.wire.check(where)
         checks.positive(self.reach, f"{where}.reach")
+
+    def check_in(self, line: Any) -> None:
+        """Raise ModelError if it does not fit a Line."""
+        self.check("line.stitch")
+        if line.messenger_wire is None:
+            raise ModelError("line.stitch", "has no messenger to hang from", "leave it out")
+        if self.wire.tension >= line.messenger_wire.tension:
+            what = f"is {self.wire.tension:g} N, the messenger has {line.messenger_wire.tension:g} N only"
+            raise ModelError("line.stitch.tension", what)
+        shortest = min(span.length for span in line.spans)
+        if self.reach >= 0.5 * shortest:
+            what = f"is {self.reach:g} m, must be less than half of the shortest span, {shortest:g} m"
+            raise ModelError("line.stitch.reach", what)

@@ -60,6 +60,9 @@ class Wire:
         Drag coefficient across the wire.
     expansion : float, 1/K
         Thermal, by default that of copper and its alloys, 17e-6.
+    rail : bool
+        A conductor rail: it carries itself from support to support by its bending stiffness and needs no
+        tension.
 
     """
 
@@ -71,11 +74,26 @@ class Wire:
     diameter: float | None = None
     drag: float = 1.0
     expansion: float = EXPANSION
+    rail: bool = False
 
     @property
     def wave_speed(self) -> float:
         """Speed of transverse waves, m/s: sqrt(T/rhoA)."""
         return math.sqrt(self.tension / self.mass)
+
+    def critical_speed(self, span: float) -> float:
+        """Speed at which a load resonates with spans of a length in m, m/s: of waves twice as long.
+
+        A wire's tension lets all waves run alike, and this is the wave speed. A rail bends:
+        sqrt((T + EI (pi/L)^2)/rhoA).
+        """
+        if not self.rail:
+            return self.wave_speed
+        return math.sqrt((self.tension + self.EI * (math.pi / span) ** 2) / self.mass)
+
+    def pull_for_sag(self, span: float) -> float:
+        """Tension of a string that sags as the wire does between clamped ends, N: of a rail T + 48 EI/L^2."""
+        return self.tension + (48.0 * self.EI / span**2 if self.rail else 0.0)
 
     def times(self, count: int) -> Wire:
         """Several such wires side by side that act as one, each under the tension of this one."""
@@ -88,13 +106,19 @@ class Wire:
 
     def check(self, where: str) -> None:
         """Raise ModelError if a value is out of range, or the wire would stretch by more than 5 %."""
-        for key in ("EA", "mass", "tension"):
+        for key in ("EA", "mass"):
             checks.positive(getattr(self, key), f"{where}.{key}")
+        checks.flag(self.rail, f"{where}.rail")
+        if self.rail:
+            checks.non_negative(self.tension, f"{where}.tension")
+            checks.positive(self.EI, f"{where}.EI")
+        else:
+            checks.positive(self.tension, f"{where}.tension")
         for key in ("EI", "damping", "drag", "expansion"):
             checks.non_negative(getattr(self, key), f"{where}.{key}")
         if self.diameter is not None and not 1e-3 <= checks.number(self.diameter, f"{where}.diameter") <= 0.1:
             raise ancf.ModelError(f"{where}.diameter", f"is {self.diameter:g} m", "units are m: 0.012")
-        if self.tension < LEAST_TENSION:
+        if self.tension < LEAST_TENSION and not self.rail:
             what = f"is {self.tension:g} N, which carries no wire"
             raise ancf.ModelError(f"{where}.tension", what, "units are N: 12e3 for 12 kN")
         if self.tension > 0.05 * self.EA:

@@ -89,4 +89,5 @@ def wire(name: str, tension: float, **changes: float) -> Wire:
         The catalogue has no such wire; near names are given.
 
     """
-    return Wire(**(wire_data(name) | {"tension": tension} | changes))
+    given: dict[str, Any] = wire_data(name) | {"tension": tension} | changes
+    return Wire(**given)

@@ -120,7 +120,7 @@ def write_force(run: Run, pantograph: int, found: Statistics, path: Path) -> Pat
         "stagger_m": recording.stagger,
         "strip_m": recording.strip,
     }
-    return _write_columns(path, columns)
+    return write_columns(path, columns)
 
 
 def write_uplift(run: Run, found: Sequence[Statistics], path: Path) -> Path:
@@ -166,7 +166,8 @@ def _slack(slack: Intervals) -> tuple[int, float, float]:
     return slack.number, slack.seconds, slack.longest
 
 
-def _write_columns(path: Path, columns: dict[str, Any]) -> Path:
+def write_columns(path: Path, columns: dict[str, Any]) -> Path:
+    """Write a CSV file with some arrays as its columns."""
     numbers = np.column_stack(list(columns.values()))
     lines = [",".join(f"{value:.{DIGITS}g}" for value in row) for row in numbers.tolist()]
     return write_text(path, "\n".join([",".join(columns), *lines]) + "\n")

@@ -16,6 +16,7 @@ from .line_options import (
     Forces,
     LineName,
     Masses,
+    Measure,
     OutputStep,
     PantographFile,
     Pantographs,
@@ -69,6 +70,7 @@ def catenary_run(
     mesh: Elements = None,
     roof: Roof = None,
     underside: Underside = None,
+    measure: Measure = None,
     output_step: OutputStep = None,
     states: States = True,
     report: Report = True,
@@ -93,7 +95,7 @@ def catenary_run(
         }
         options |= {"output_step": output_step, "until": until, "contact_stiffness": contact_stiffness}
         options |= {"mesh": mesh, "roof": roof, "underside": underside}
-        run_line(line, speed, pantograph, options, output, report, states, quiet, given, to)
+        run_line(line, speed, pantograph, options, output, report, states, quiet, given, to, measure)
 
 
 @catenary.command("sweep")

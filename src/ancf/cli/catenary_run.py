@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,7 +16,9 @@ from .screen import Screen, console
 OUTPUT_STEP = 0.02
 
 if TYPE_CHECKING:
+    from ..catenary.measuring import Measured, MeasuringHead
     from ..catenary.run_data import Run
+    from ..catenary.statistics import Statistics
 
 
 def run_line(
@@ -30,6 +32,7 @@ def run_line(
     quiet: bool = False,
     changes: list[str] | None = None,
     to: str | None = None,
+    measure: Path | None = None,
 ) -> None:
     """Run, write and print.
 
@@ -40,6 +43,7 @@ def run_line(
 
     """
     from ..catenary.catalogue import read_line
+    from ..catenary.measuring_file import read_measuring_head
     from ..catenary.mesh import Mesh
     from ..catenary.run import STEP, run
     from ..model.checks import positive
@@ -51,6 +55,9 @@ def run_line(
     formats = chosen(to) if report else ()
     speed = positive(speed_kmh, "--speed") / 3.6
     line = read_line(name, assignments(changes))
+    head = None if measure is None else read_measuring_head(measure)
+    if head is not None:
+        head.check(1.0 / positive(options["step"] or STEP, "--step"), speed)
     if report:
         require_matplotlib()
     given = {key: value for key, value in options.items() if value is not None and value != []}
@@ -70,11 +77,12 @@ def run_line(
             warnings.simplefilter("always")
             with screen.progress(1) as progress, _kept(given["file"]):
                 done = run(line, speed=speed, progress=progress, **given)
-        files = [*([output.results] if states else []), *_written(done, folder, formats)]
+        found, measured = _read(done, head)
+        files = [*([output.results] if states else []), *_written(done, folder, formats, found, measured)]
     if not quiet:
         for warning in caught:
             console().print(f"warning: {warning.message}", soft_wrap=True)
-        show(done)
+        show(done, found, measured)
         console().print("written: " + ", ".join(str(file) for file in files), soft_wrap=True)
 
 
@@ -90,33 +98,47 @@ def _kept(results: Path | None) -> Iterator[None]:
         raise
 
 
-def _written(done: Run, folder: Path, formats: tuple[str, ...]) -> list[Path]:
+def _read(done: Run, head: MeasuringHead | None) -> tuple[list[Statistics], list[Measured]]:
+    """Statistics of each pantograph, and what each would have measured."""
+    from ..catenary.measuring import measure
     from ..catenary.statistics import statistics
+
+    every = range(len(done.recordings))
+    measured = [] if head is None else [measure(done, k, head) for k in every]
+    return [statistics(done, k) for k in every], measured
+
+
+def _written(
+    done: Run, folder: Path, formats: tuple[str, ...], found: list[Statistics], measured: list[Measured]
+) -> list[Path]:
+    from ..catenary.measuring_file import write_measured
     from ..catenary.write import summary, write_json, write_run
 
-    found = [statistics(done, k) for k in range(len(done.recordings))]
     files = [write_json(summary(done, found), folder / "run.json"), *write_run(done, folder, found)]
+    files += [write_measured(one, folder / f"measured_{k + 1}.csv") for k, one in enumerate(measured)]
     if formats:
         from ..catenary.elasticity import elasticity_beside
         from ..catenary.report import write_reports
 
         gives = elasticity_beside(done.form.line)
         files.append(gives.save(folder / "elasticity.csv"))
-        files += write_reports(done, folder, formats, elasticity=gives)
+        files += write_reports(done, folder, formats, elasticity=gives, measured=measured)
     return files
 
 
-def show(done: Run) -> None:
-    """Print the statistics of each pantograph."""
-    from ..catenary.statistics import statistics
+def show(done: Run, found: Sequence[Statistics] = (), measured: Sequence[Measured] = ()) -> None:
+    """Print the statistics of each pantograph, and what it would have measured."""
+    from ..catenary.measuring_file import compared
     from ..catenary.table import table
 
     screen = console()
-    for k, recording in enumerate(done.recordings):
-        found = statistics(done, k)
-        title = f"{recording.name}, {found['speed'].value:.4g} km/h"
+    for k, one in enumerate(found or _read(done, None)[0]):
+        title = f"{done.recordings[k].name}, {one['speed'].value:.4g} km/h"
         screen.print(title, style="bold", soft_wrap=True)
-        screen.print(table(found.quantities))
+        screen.print(table(one.quantities))
+        for name, true, force in compared(measured[k]) if measured else ():
+            text = f"measured: {name} {force:.1f} N, {force - true:+.2f} N from the true one"
+            screen.print(text, soft_wrap=True)
     screen.print(
         f"real-time factor {done.real_time_factor:.3g}: {done.simulated_seconds:.3g} s simulated in "
         f"{done.cpu_seconds:.3g} s of CPU time",

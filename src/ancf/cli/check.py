@@ -57,11 +57,10 @@ def _check_model(path: Path, data: dict[str, Any]) -> None:
 def _check_line(path: Path, data: dict[str, Any]) -> None:
     """Read a line, divide its wires and hang them as strings; more is found with its form."""
     from ..catenary.file import parse_track
-    from ..catenary.form import check
+    from ..catenary.rest import check_track
 
     line = parse_track(data, str(path))
-    for part in line.parts:
-        check(part)
+    check_track(line)
     _print_right(path, size_of(line))
 
 

@@ -97,6 +97,12 @@ Underside = Annotated[
     Path | None,
     typer.Option(metavar="FILE", help="CSV with the underside of the wire: columns position and height_mm."),
 ]
+Measure = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE", help="TOML with the sensors of a measuring pantograph, beside the true force."
+    ),
+]
 ResponseFile = Annotated[
     Path, typer.Argument(metavar="RESPONSE.csv", help="Measured frequency response.", show_default=False)
 ]

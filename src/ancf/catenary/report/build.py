@@ -13,6 +13,7 @@ from ...viz import printed, style
 from ...viz.html import element, figure, page, section
 from ..acceptance import acceptance
 from ..clamp_strain import bends
+from . import measured as measuring
 from . import tables
 from .content import Content
 from .figures import FIGURES, Save, figure_names, picture
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
     from ..elasticity import Elasticity
+    from ..measuring import Measured
     from ..references import Reference
     from ..run_data import Run
 
@@ -31,6 +33,7 @@ def write_report(
     *,
     reference: Reference | None = None,
     elasticity: Elasticity | None = None,
+    measured: Sequence[Measured] = (),
 ) -> Path:
     """Write the report of a run as one file, in the format that its name ends with.
 
@@ -43,6 +46,8 @@ def write_report(
         Published ranges to compare the first table with.
     elasticity : Elasticity, optional
         Static elasticity of the line, shown when given.
+    measured : sequence of Measured
+        What measuring pantographs would have shown, one for each, see :func:`measure`; shown when given.
 
     Raises
     ------
@@ -53,7 +58,7 @@ def write_report(
     """
     kind = Path(path).suffix.removeprefix(".")
     formats = printed.chosen([kind], str(path)) if kind in printed.FORMATS else (printed.HTML,)
-    return _write(Content.of(run, reference, elasticity), [(formats[0], Path(path))])[0]
+    return _write(Content.of(run, reference, elasticity, measured), [(formats[0], Path(path))])[0]
 
 
 def write_reports(
@@ -63,9 +68,10 @@ def write_reports(
     *,
     reference: Reference | None = None,
     elasticity: Elasticity | None = None,
+    measured: Sequence[Measured] = (),
 ) -> list[Path]:
     """Write ``report.html``, ``report.pdf`` and ``report.docx``, those that are asked for, into a folder."""
-    content = Content.of(run, reference, elasticity)
+    content = Content.of(run, reference, elasticity, measured)
     return _write(content, [(kind, folder / f"report.{kind}") for kind in formats])
 
 
@@ -85,7 +91,7 @@ def _write(content: Content, files: Sequence[tuple[str, Path]]) -> list[Path]:
 def pieces(content: Content, title: str, save: Save = style.svg) -> list[Element]:
     """Elements of the report, its pictures as SVG or PNG."""
     judged = [] if content.reference is not None else [_acceptance(content)]
-    answers = [*_statistics(content), _figures(content, save), *_line_tables(content)]
+    answers = [*_statistics(content), *_measured(content), _figures(content, save), *_line_tables(content)]
     parts = [*judged, *answers, _computed(content)]
     links = [element("a", str(part[0].text), href=f"#{part.get('id')}") for part in parts]
     return [*_top(content, title), element("nav", *links), *parts, _foot()]
@@ -167,6 +173,16 @@ def _remarks(content: Content) -> str:
     )
 
 
+def _measured(content: Content) -> Iterator[Element]:
+    if content.measured:
+        text = (
+            "What sensors of a measuring pantograph after EN 50317 would have shown: forces below the strip, "
+            "corrected for the inertia of what is above them and for the wind on it."
+        )
+        title = "Measured beside the true force"
+        yield section(title, "measured", measuring.numbers(content), element("p", text, class_="faint"))
+
+
 def _figures(content: Content, save: Save) -> Element:
     made = [
         figure(n, FIGURES[n].title, FIGURES[n].caption, picture(n, content, save))
@@ -180,7 +196,7 @@ def _line_tables(content: Content) -> Iterator[Element]:
     if content.elasticity is not None:
         title = f"Static elasticity of span {content.elasticity.span + 1}"
         yield section(title, "elasticity", tables.elasticity(content))
-    yield section("Uplift at the supports", "supports", tables.supports(content))
+    yield section("Loads and uplift at the supports", "supports", tables.supports(content))
     for k in range(len(content.found)):
         title = "Droppers in the window" + (f", {content.name(k)}" if content.several else "")
         yield section(title, f"droppers-{k + 1}", tables.droppers(content, k))

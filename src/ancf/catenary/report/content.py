@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,7 @@ from ..statistics import Statistics, statistics
 
 if TYPE_CHECKING:
     from ..elasticity import Elasticity
+    from ..measuring import Measured
     from ..quantity import Quantity
     from ..references import Reference
     from ..run_data import Run
@@ -28,6 +30,8 @@ class Content:
         The published ranges to compare with.
     elasticity : Elasticity, optional
         Static elasticity along one span.
+    measured : sequence of Measured
+        What a measuring pantograph would have shown, one for each pantograph; default nothing.
 
     """
 
@@ -35,14 +39,19 @@ class Content:
     found: tuple[Statistics, ...]
     reference: Reference | None = None
     elasticity: Elasticity | None = None
+    measured: tuple[Measured, ...] = ()
 
     @classmethod
     def of(
-        cls, run: Run, reference: Reference | None = None, elasticity: Elasticity | None = None
+        cls,
+        run: Run,
+        reference: Reference | None = None,
+        elasticity: Elasticity | None = None,
+        measured: Sequence[Measured] = (),
     ) -> Content:
         """Content of a report on a run, with the statistics of all its pantographs."""
         found = tuple(statistics(run, k) for k in range(len(run.recordings)))
-        return cls(run, found, reference, elasticity)
+        return cls(run, found, reference, elasticity, tuple(measured))
 
     @property
     def several(self) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ...viz import style
-from . import droppers, force, frequency, line_answer
+from . import droppers, force, frequency, line_answer, line_shape, measured
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -40,6 +40,12 @@ class FigureKind:
 
 
 FIGURES = {
+    "form": FigureKind(
+        "The line at rest",
+        "From the side, sag of the contact wire, and from above; the evaluated window is shaded.",
+        line_shape.size,
+        line_shape.draw,
+    ),
     "force": FigureKind(
         "Contact force over the track",
         "Unfiltered and below 20 Hz; the evaluated window is shaded.",
@@ -51,6 +57,12 @@ FIGURES = {
         "Mean force and three standard deviations to each side are those of the force below 20 Hz.",
         force.size,
         force.draw_window,
+    ),
+    "measured": FigureKind(
+        "The force as it would be measured",
+        "True contact force and that of a measuring pantograph, below 20 Hz, in the evaluated window.",
+        measured.size,
+        measured.draw,
     ),
     "histogram": FigureKind(
         "Histogram of the contact force",
@@ -98,8 +110,9 @@ FIGURES = {
 
 
 def figure_names(content: Content) -> list[str]:
-    """Names of the figures that a content has: all of them, elasticity only when it is given."""
-    return [name for name in FIGURES if name != "elasticity" or content.elasticity is not None]
+    """Names of the figures that a content has: all, elasticity and measurement when they are given."""
+    given = {"elasticity": content.elasticity is not None, "measured": bool(content.measured)}
+    return [name for name in FIGURES if given.get(name, True)]
 
 
 def picture(name: str, content: Content, save: Save) -> str | bytes:

@@ -105,16 +105,18 @@ def tags(rows: Iterable[Quantity]) -> Element:
 
 
 def supports(content: Content) -> Element:
-    """Largest uplift at each support, one column for each pantograph."""
+    """Loads of each support on the contact wire at rest, and its largest uplift by each pantograph."""
     passed = [{s.number: shown(MM * s.uplift, "mm") for s in found.supports} for found in content.found]
     heads = [
         f"uplift [mm], {content.name(k)}" if content.several else "uplift [mm]" for k in range(len(passed))
     ]
+    loads = [(f"{side:.0f}", f"{up:.0f}") for _, side, up in (content.run.form.arm_force + 0.0).tolist()]
     rows = [
-        (str(j + 1), f"{x:g}", *(p.get(j + 1, "not passed") for p in passed))
+        (str(j + 1), f"{x:g}", *loads[j], *(p.get(j + 1, "not passed") for p in passed))
         for j, x in enumerate(content.run.form.line.supports)
     ]
-    return table(("support", "position [m]", *heads), rows, numbers=range(2 + len(heads)))
+    head = ("support", "position [m]", "pulls to the left [N]", "carries [N]", *heads)
+    return table(head, rows, numbers=range(len(head)))
 
 
 def droppers(content: Content, k: int) -> Element:

@@ -39,6 +39,13 @@ def combined(problems: list[ModelError], source: str) -> ModelError:
     return ModelError(source, f"{len(problems)} problems:" + "".join(lines))
 
 
+def beside(problem: ModelError, source: str) -> ModelError:
+    """The error with its file before its place: that of a file which stands beside another one."""
+    if problem.where == source:
+        return problem
+    return ModelError(f"{source}: {problem.where}", problem.what, problem.hint)
+
+
 def of_validation(error: ValidationError, tables: Tables | None = None) -> list[ModelError]:
     """ModelErrors out of what pydantic found; `tables` gives the table at a place, default a model file's."""
     entry_at = _entry if tables is None else tables

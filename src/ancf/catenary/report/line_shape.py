@@ -1,0 +1,80 @@
+"""Figure of the line at rest: from the side with droppers, sag of the contact wire, staggers in plan."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...viz import style
+from . import marks
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from ..form import Form
+    from ..shape import WireShape
+    from .content import Content
+
+MM = 1e3
+#: Looks of the wires, from the lowest up.
+CONTACT, MESSENGER, AUXILIARY = (style.line(k) | {"linewidth": 1.0} for k in range(3))
+FINE: dict[str, Any] = {"color": style.GREY, "linewidth": 0.5}
+
+
+def size(content: Content) -> tuple[float, float]:
+    """Width and height, mm."""
+    return marks.WIDTH, 150.0
+
+
+def draw(content: Content, figure: Figure) -> None:
+    """The line at rest over the whole track: from the side, the contact wire alone, from above."""
+    side, sag, plan = figure.subplots(3, sharex=True, height_ratios=(1.2, 1.0, 1.0))
+    line = content.run.form.line
+    starts = getattr(line, "starts", (0.0,))
+    for form, start in zip(content.run.form.shifted, starts, strict=True):
+        _from_the_side(side, form)
+        x, _, z = form.contact.position.T
+        sag.plot(x, MM * (z - form.line.height_at(x - start)), **CONTACT)
+        for name, shape, look in _wires(form):
+            plan.plot(shape.position[:, 0], MM * shape.position[:, 1], label=name, **look)
+    _strips(plan, content)
+    for axes in (side, sag, plan):
+        marks.shade_window(axes, content.run)
+        axes.set_xlim(float(np.min(line.supports)), float(np.max(line.supports)))
+        marks.mark_line(axes, content.run)
+    side.set_ylabel("height at rest [m]")
+    sag.set_ylabel("contact wire over\nits nominal height [mm]")
+    plan.set(xlabel="track position [m]", ylabel="to the left of the axis [mm]")
+    marks.legend(figure, plan)
+
+
+def _wires(form: Form) -> Iterator[tuple[str, WireShape, dict[str, Any]]]:
+    """Name, shape and look of each wire of a tension length."""
+    yield "contact wire", form.contact, CONTACT
+    if form.auxiliary is not None:
+        yield "auxiliary", form.auxiliary, AUXILIARY
+    if form.messenger is not None:
+        yield "messenger", form.messenger, MESSENGER
+    for stitch in form.stitches:
+        yield "stitch wire", stitch, AUXILIARY
+
+
+def _from_the_side(axes: Axes, form: Form) -> None:
+    for _, shape, look in _wires(form):
+        axes.plot(shape.position[:, 0], shape.position[:, 2], **look)
+    places = form.contact.position[form.contact.nodes.dropper, 0]
+    axes.vlines(places, form.contact_height, form.messenger_height, **FINE)
+    upper, lower = form.messenger, form.auxiliary
+    if upper is not None and lower is not None:
+        low, high = lower.position[lower.nodes.stitch], upper.position[upper.nodes.dropper]
+        axes.vlines(low[:, 0], low[:, 2], high[:, 2], **FINE)
+
+
+def _strips(axes: Axes, content: Content) -> None:
+    """Where the shortest strip ends on both sides."""
+    reach = 0.5 * MM * min(unit.strip_length for unit in content.run.pantographs)
+    for k, y in enumerate((-reach, reach)):
+        axes.axhline(y, linestyle="--", label="ends of the strip" if k == 0 else None, **marks.FINE)
