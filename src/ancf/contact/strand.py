@@ -27,6 +27,8 @@ RADIUS, STIFFNESS, DAMPING, FRICTION, STICK, DRAG = range(6)
 #: Columns of ``zone``: element, cell, xi from and to, element where the search begins, sum of radii, contact,
 #: arc length on the other cable.
 ELEMENT, CELL, FROM, TO, START, REACH, CONTACT, MET = range(8)
+#: Place of ``room``: how many zones are held as they are, -1: they are found anew in each state.
+HELD = 6
 #: Gauss points of a zone and their weights: with three the energy of a crossing is 1e-3 off its force.
 POINTS = 5
 GAUSS_X = tuple((0.5 + 0.5 * np.polynomial.legendre.leggauss(POINTS)[0]).tolist())
@@ -53,7 +55,7 @@ class StrandBatch(NamedTuple):
     found: FloatArray  # (contacts, 4) what was measured last
     cells: NDArray[np.int64]  # (1,) of an element
     seen: FloatArray  # (n, 12) the unknowns of base when the list was made
-    room: FloatArray  # (6,) when it is to be made again, see :mod:`ancf.contact.near`
+    room: FloatArray  # (7,) when it is to be made again, see :mod:`ancf.contact.near`, and HELD
     first: NDArray[np.int64]  # (n + 1,) first entry of ``near`` of each element
     near: NDArray[np.int64]  # (room,) elements that are near, ascending for each element
     piece: NDArray[np.int64]  # (pieces + 1,) first element of each piece of a cable, and the end
@@ -311,6 +313,8 @@ def find_zones(batch, q):
     Where a cell passes the end of a cable, the distance has a kink: it is cut there.
     """
     count, cells = 0, batch.cells[0]
+    if batch.room[HELD] >= 0.0:
+        return int(batch.room[HELD])
     if batch.first[batch.base.shape[0]] == 0:
         return 0
     for e in range(batch.base.shape[0]):
