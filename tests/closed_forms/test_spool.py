@@ -71,5 +71,7 @@ def test_the_second_layer(radius, d, turn, until, elements):
     weight = (MASS - 0.3 * np.mean(z[late])) * G
     assert work / swept == pytest.approx(weight * layer, rel=0.02)
     assert np.abs(run.energy.drift).max() < 3e-4 * np.ptp(run.energy.supplied)
-    aside = [np.abs(run.position(model.beams["rope"].at(x))[:, 1]).max() for x in np.linspace(0.0, 2.2, 45)]
-    assert max(aside) < 0.1 * d  # between the flanges
+    for x in np.linspace(0.0, 2.2, 45):  # between the flanges; what hangs below may swing
+        place = run.position(model.beams["rope"].at(x))
+        between = np.hypot(place[:, 0], place[:, 2]) < radius + 2.0 * d
+        assert np.abs(place[between, 1]).max(initial=0.0) < 0.1 * d
