@@ -72,7 +72,7 @@ class TestRoute:
             (True, (0.0,) * (SPANS + 1), r"sections\[0\].height\[7\]: is 0 m: the wire ends 0\.\d+ m below"),
             (
                 False,
-                (-0.2,) * (SPANS + 1),
+                (*(-0.2,) * SPANS, 0.3),
                 r"sections\[1\].height\[0\]: is -0.2 m: the wire begins 0.2 m below",
             ),
         ],

@@ -142,7 +142,10 @@ def put_pantograph(
     add_stages(model, chain, above, level, label)
     if active:
         actuator = model.add_input(force_input(label))
-        model.add_force(chain.masses[0], (0.0, 0.0, actuator), name=f"{label} actuator")
+        lowest = chain.masses[:1] or chain.heads
+        for mass, number in numbered(lowest):
+            push = actuator if len(lowest) == 1 else actuator / len(lowest)
+            model.add_force(mass, (0.0, 0.0, push), name=f"{label} actuator{number}")
     heads = chain.heads
     if sprung:
         share = pantograph.force(float(travel.speed(0.0))) / len(heads)

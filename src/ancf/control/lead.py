@@ -10,6 +10,7 @@ from ..model import checks
 from ..model.settings import FITS, MOST_STEPS
 from ..preparation import Prepared
 from ..solvers.control import Control
+from .foreseen import Foreseen
 from .live import Live
 from .stepper import refuse_adaptive
 
@@ -40,6 +41,7 @@ def led(made: Prepared, controller: Controller, every: int, where: str) -> Prepa
     """Let a controller be called every so many steps of a simulation; its header says so."""
     settings = made.header["settings"]
     refuse_adaptive(made.method, where)
+    made.system.inputs = Foreseen(made.system.inputs)
     live = Live(made)
     name = getattr(controller, "__name__", type(controller).__name__)
 

@@ -22,6 +22,7 @@ from ..results.state import State
 from ..results.store import FileStore, MemoryStore
 from ..solvers.stepping import Run
 from .ahead import Ahead
+from .foreseen import Foreseen
 from .live import Live
 
 
@@ -32,6 +33,7 @@ class Stepper(Live):
     """
 
     def __init__(self, made: Prepared) -> None:
+        made.system.inputs = Foreseen(made.system.inputs)
         self._made = made
         self._store = MemoryStore(made.system)
         super().__init__(made)
