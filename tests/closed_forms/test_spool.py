@@ -43,10 +43,22 @@ def spool(radius, d, *, length, elements, turn, until, stiffness=5e6):
     return model, run
 
 
-@pytest.mark.parametrize(("radius", "d", "turn", "until"), [(0.1, 0.02, 3.0, 2.6), (0.12, 0.016, 4.0, 1.9)])
-def test_the_second_layer(radius, d, turn, until):
+#: Steps had no solution with 56 elements, where the second layer passes the end of the first, and with 64,
+#: where a rope that waves on the other leaves it in two places.
+CASES = [
+    (0.1, 0.02, 3.0, 2.6, 64),
+    (0.12, 0.016, 4.0, 1.9, 44),
+    *(
+        pytest.param(0.1, 0.02, 3.0, 2.6, elements, marks=pytest.mark.slow)
+        for elements in (36, 40, 44, 56, 70)
+    ),
+]
+
+
+@pytest.mark.parametrize(("radius", "d", "turn", "until", "elements"), CASES)
+def test_the_second_layer(radius, d, turn, until, elements):
     """Its axis runs at R + 3 d/2 less the depths of the contacts: so the load rises, so the torque is."""
-    model, run = spool(radius, d, length=2.2, elements=44, turn=turn, until=until)
+    model, run = spool(radius, d, length=2.2, elements=elements, turn=turn, until=until)
     z, t = run.position("load")[:, 2], run.t
     angle = turn * (t - 0.2)
     late = angle > 0.5 * math.pi + 1.2  # the clip is passed, and the ramp over the end of the rope
@@ -59,5 +71,7 @@ def test_the_second_layer(radius, d, turn, until):
     weight = (MASS - 0.3 * np.mean(z[late])) * G
     assert work / swept == pytest.approx(weight * layer, rel=0.02)
     assert np.abs(run.energy.drift).max() < 3e-4 * np.ptp(run.energy.supplied)
-    aside = [np.abs(run.position(model.beams["rope"].at(x))[:, 1]).max() for x in np.linspace(0.0, 2.2, 45)]
-    assert max(aside) < 0.1 * d  # between the flanges
+    for x in np.linspace(0.0, 2.2, 45):  # between the flanges; what hangs below may swing
+        place = run.position(model.beams["rope"].at(x))
+        between = np.hypot(place[:, 0], place[:, 2]) < radius + 2.0 * d
+        assert np.abs(place[between, 1]).max(initial=0.0) < 0.1 * d

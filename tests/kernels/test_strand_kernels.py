@@ -93,6 +93,33 @@ class TestCrossing:
         assert np.allclose(moment, 0.0, atol=1e-12 * total[0, 2])
 
 
+class TestAlongArcs:
+    """Curved cables one on the other, one of them past the end of the other."""
+
+    @pytest.mark.parametrize("elements", [(6, 9), (8, 13), (10, 7), (21, 20)])
+    @pytest.mark.parametrize("radius", [0.08, 0.11, 0.3])
+    def test_no_force_jumps(self, elements, radius):
+        """While one is turned on the other the forces change evenly: else some steps have no solution."""
+        section, model = ancf.Section(EA=1e5, EI=0.1, rhoA=0.3, diameter=D), ancf.Model()
+        paths = [(radius, (0.0, 1.5), 0.0), (radius + D - 2e-4, (-1.0, 1.2), 3e-4)]
+        for name, count, (size, ends, aside) in zip("ab", elements, paths, strict=True):
+            a = np.linspace(*ends, 80)
+            arc = [size * np.cos(a) + aside * math.cos(0.7), 0 * a, size * np.sin(a) + aside * math.sin(0.7)]
+            model.add_beam(name, path=np.transpose(arc), elements=count, section=section)
+        model.add_contact(*model.beams.values(), stiffness=K, name="touch")
+        system = System(model)
+        q, _ = system.initial_state()
+        moving, resting, found = system.slots["b"].ravel(), system.slots["a"][:, 0], []
+        for angle in np.linspace(0.0, 0.3, 201):
+            turned, c, s = q.copy(), math.cos(angle), math.sin(angle)
+            turned[moving] = c * q[moving] - s * q[moving + 2]
+            turned[moving + 2] = s * q[moving] + c * q[moving + 2]
+            f = forces(system, turned)
+            found.append([f[resting + i] for i in range(3)])
+        assert np.abs(found).max() > 1.0
+        assert np.abs(np.diff(found, 2, axis=0)).max() < 3e-3 * np.abs(found).max()
+
+
 class TestBalance:
     @pytest.mark.parametrize("angle", [0.5 * math.pi, 0.9, 0.3, 0.02, 3.0])
     @pytest.mark.parametrize("seed", [0, 1])

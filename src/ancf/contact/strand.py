@@ -27,12 +27,16 @@ RADIUS, STIFFNESS, DAMPING, FRICTION, STICK, DRAG = range(6)
 #: Columns of ``zone``: element, cell, xi from and to, element where the search begins, sum of radii, contact,
 #: arc length on the other cable.
 ELEMENT, CELL, FROM, TO, START, REACH, CONTACT, MET = range(8)
+#: Place of ``room``: how many zones are held as they are, -1: they are found anew in each state.
+HELD = 6
 #: Gauss points of a zone and their weights: with three the energy of a crossing is 1e-3 off its force.
 POINTS = 5
 GAUSS_X = tuple((0.5 + 0.5 * np.polynomial.legendre.leggauss(POINTS)[0]).tolist())
 GAUSS_W = tuple((0.5 * np.polynomial.legendre.leggauss(POINTS)[1]).tolist())
 #: Elements that a search walks along a cable, its iterations in each, and the change of xi that is none.
 WALK, ITERATIONS, STILL = 12, 25, 1e-13
+#: Iterations for the end of a zone, and the share of the square of the radii that counts as none.
+SEARCH, CLOSE = 20, 1e-10
 #: Factor of the reference length by which an element may be longer; diameters of arc that never touch itself.
 STRETCHED, APART = 1.3, 2.0
 
@@ -51,7 +55,7 @@ class StrandBatch(NamedTuple):
     found: FloatArray  # (contacts, 4) what was measured last
     cells: NDArray[np.int64]  # (1,) of an element
     seen: FloatArray  # (n, 12) the unknowns of base when the list was made
-    room: FloatArray  # (6,) when it is to be made again, see :mod:`ancf.contact.near`
+    room: FloatArray  # (7,) when it is to be made again, see :mod:`ancf.contact.near`, and HELD
     first: NDArray[np.int64]  # (n + 1,) first entry of ``near`` of each element
     near: NDArray[np.int64]  # (room,) elements that are near, ascending for each element
     piece: NDArray[np.int64]  # (pieces + 1,) first element of each piece of a cable, and the end
@@ -176,37 +180,50 @@ def clearance(batch, q, e, ca, x, b, reach):
 
 
 @formula
-def root(batch, q, e, ca, b, reach, middle, half, s, linear, square):
-    """A root of the clearance near that of its parabola, in the cell's own coordinate from -1 to 1."""
-    for _ in range(3):
+def root(batch, q, e, ca, b, reach, middle, half, s, inside, f_in, outside, f_out):
+    """Where the clearance vanishes between a place where it is negative and one where it is not.
+
+    All in the cell's own coordinate from -1 to 1; s is a guess. False position with the Illinois rule stays
+    between the two, also where cables are so curved that the parabola of the guess is wrong: a root that is
+    missed would be a force that jumps, and a step without a solution.
+    """
+    came = 0
+    for _ in range(SEARCH):
         f, _, _ = clearance(batch, q, e, ca, middle + half * s, b, reach)
-        slope = linear + 2.0 * square * s
-        if slope == 0.0:
+        if abs(f) <= CLOSE * reach * reach:
             return s
-        s = min(max(s - f / slope, -1.0), 1.0)
+        side = -1 if f < 0.0 else 1
+        if side < 0:
+            inside, f_in = s, f
+            f_out *= 0.5 if came == side else 1.0
+        else:
+            outside, f_out = s, f
+            f_in *= 0.5 if came == side else 1.0
+        came = side
+        s = inside + (outside - inside) * f_in / (f_in - f_out)
     return s
 
 
 @inline_kernel
 def bounds(low, mean, high):
-    """Where a parabola through values at -1, 0 and 1 is negative: whether, from, to, its two coefficients."""
+    """Where a parabola through values at -1, 0 and 1 is negative: whether, from, to, and a place between."""
     linear, square = 0.5 * (high - low), 0.5 * (high + low) - mean
     if low <= 0.0 and high <= 0.0:
-        return True, -1.0, 1.0, linear, square
+        return True, -1.0, 1.0, 0.0
     if low > 0.0 and high > 0.0:
         if square <= 0.0:
-            return False, 0.0, 0.0, linear, square
+            return False, 0.0, 0.0, 0.0
         rest = linear * linear - 4.0 * square * mean
         if rest <= 0.0 or abs(linear) >= 2.0 * square:
-            return False, 0.0, 0.0, linear, square
-        wide = math.sqrt(rest)
-        return True, (-linear - wide) / (2.0 * square), (-linear + wide) / (2.0 * square), linear, square
+            return False, 0.0, 0.0, 0.0
+        least, wide = -0.5 * linear / square, 0.5 * math.sqrt(rest) / square
+        return True, least - wide, least + wide, least
     rest = math.sqrt(max(linear * linear - 4.0 * square * mean, 0.0))
     # the root between the ends, in the form that does not cancel
-    s = -2.0 * mean / (linear + (rest if linear > 0.0 else -rest))
+    s = min(max(-2.0 * mean / (linear + (rest if linear > 0.0 else -rest)), -1.0), 1.0)
     if low <= 0.0:
-        return True, -1.0, min(max(s, -1.0), 1.0), linear, square
-    return True, min(max(s, -1.0), 1.0), 1.0, linear, square
+        return True, -1.0, s, 0.0 if mean < 0.0 else -1.0
+    return True, s, 1.0, 0.0 if mean < 0.0 else 1.0
 
 
 @formula
@@ -226,7 +243,7 @@ def may_reach(batch, q, r, half, b, reach):
 def is_taken(batch, count, e, cell, b, met, reach):
     """Whether a place has been found for the cell already, from another element of its cable."""
     z = count - 1
-    while z >= 0 and batch.zone[z, ELEMENT] == e and batch.zone[z, CELL] == cell:
+    while z >= 0 and batch.zone[z, ELEMENT] == e and int(batch.zone[z, CELL]) == cell:
         same = batch.cable[int(batch.zone[z, START])] == batch.cable[b]
         if same and abs(batch.zone[z, MET] - met) < reach:
             return True
@@ -234,10 +251,70 @@ def is_taken(batch, count, e, cell, b, met, reach):
     return False
 
 
+@inline_kernel
+def beyond(batch, b, y):
+    """What of a cable a place is: none of its ends, its start, or its end, as a part of a cell's number."""
+    if y == 0.0 and batch.beside[b, 0] < 0:
+        return 0.25
+    return 0.5 if y == 1.0 and batch.beside[b, 1] < 0 else 0.0
+
+
+@formula
+def past_end(batch, q, ca, left, right, b, y):
+    """Where an element passes the end of a cable, between two xi of which one is nearest to that end."""
+    cb = cubic(batch, b, q)
+    end, t = on_cubic(cb, y), along_cubic(cb, y)
+    f0, f1 = dot(less(on_cubic(ca, left), end), t), dot(less(on_cubic(ca, right), end), t)
+    came = 0
+    for _ in range(SEARCH):
+        if f0 == f1:
+            break
+        x = left + (right - left) * f0 / (f0 - f1)
+        f = dot(less(on_cubic(ca, x), end), t)
+        side = 1 if (f > 0.0) == (f1 > 0.0) else -1
+        if side > 0:
+            done, right, f1 = abs(right - x) < STILL, x, f
+            f0 *= 0.5 if came == side else 1.0
+        else:
+            done, left, f0 = abs(left - x) < STILL, x, f
+            f1 *= 0.5 if came == side else 1.0
+        came = side
+        if done or f == 0.0:
+            return x
+    return 0.5 * (left + right)
+
+
+@formula
+def add_zone(batch, q, e, ca, cell, o, reach, met, left, right, low, mean, high, count):
+    """Add the zone of a piece of a cell with these clearances, if there is one; the number of all zones."""
+    there, s0, s1, s = bounds(low, mean, high)
+    if not there or count == batch.zone.shape[0]:
+        return count
+    middle, half, least = 0.5 * (left + right), 0.5 * (right - left), mean
+    if s != 0.0:
+        least, _, _ = clearance(batch, q, e, ca, middle + half * s, o, reach)
+    if s0 > -1.0 and least < 0.0:
+        s0 = root(batch, q, e, ca, o, reach, middle, half, s0, s, least, -1.0, low)
+    if s1 < 1.0 and least < 0.0:
+        s1 = root(batch, q, e, ca, o, reach, middle, half, s1, s, least, 1.0, high)
+    if s1 <= s0 or (least >= 0.0 and s0 > -1.0 and s1 < 1.0):
+        return count
+    z = batch.zone[count]
+    z[ELEMENT], z[CELL], z[START], z[REACH] = e, cell, o, reach
+    z[FROM], z[TO] = middle + half * s0, middle + half * s1
+    z[CONTACT], z[MET] = batch.law[batch.cable[e], batch.cable[o]], met
+    return count + 1
+
+
 @formula
 def find_zones(batch, q):
-    """Fill ``zone`` with the pieces of cables that touch others; their number."""
+    """Fill ``zone`` with the pieces of cables that touch others; their number.
+
+    Where a cell passes the end of a cable, the distance has a kink: it is cut there.
+    """
     count, cells = 0, batch.cells[0]
+    if batch.room[HELD] >= 0.0:
+        return int(batch.room[HELD])
     if batch.first[batch.base.shape[0]] == 0:
         return 0
     for e in range(batch.base.shape[0]):
@@ -245,31 +322,40 @@ def find_zones(batch, q):
             continue
         ca, half = cubic(batch, e, q), 0.5 / cells
         for cell in range(cells):
-            middle = (2 * cell + 1) * half
-            r = on_cubic(ca, middle)
+            x = (2 * cell + 1) * half
+            r = on_cubic(ca, x)
             for k in range(batch.first[e], batch.first[e + 1]):
                 b = batch.near[k]
                 reach = batch.radius[e] + batch.radius[b]
                 if not may_reach(batch, q, r, half * batch.length[e], b, reach):
                     continue
-                mean, o, y = clearance(batch, q, e, ca, middle, b, reach)
+                mean, o, y = clearance(batch, q, e, ca, x, b, reach)
                 met = batch.place[o] + y * batch.length[o]
-                if not apart(batch, e, middle, o, y) or is_taken(batch, count, e, cell, o, met, reach):
+                if not apart(batch, e, x, o, y) or is_taken(batch, count, e, cell, o, met, reach):
                     continue
-                low, _, _ = clearance(batch, q, e, ca, middle - half, o, reach)
-                high, _, _ = clearance(batch, q, e, ca, middle + half, o, reach)
-                there, s0, s1, linear, square = bounds(low, mean, high)
-                if not there or count == batch.zone.shape[0]:
-                    continue
-                if s0 > -1.0:
-                    s0 = root(batch, q, e, ca, o, reach, middle, half, s0, linear, square)
-                if s1 < 1.0:
-                    s1 = root(batch, q, e, ca, o, reach, middle, half, s1, linear, square)
-                if s1 <= s0:
-                    continue
-                z = batch.zone[count]
-                z[ELEMENT], z[CELL], z[START], z[REACH] = e, cell, o, reach
-                z[FROM], z[TO] = middle + half * s0, middle + half * s1
-                z[CONTACT], z[MET] = batch.law[batch.cable[e], batch.cable[b]], met
-                count += 1
+                left, right = x - half, x + half
+                low, ol, yl = clearance(batch, q, e, ca, left, o, reach)
+                high, oh, yh = clearance(batch, q, e, ca, right, o, reach)
+                part, start, stop = beyond(batch, o, y), beyond(batch, ol, yl), beyond(batch, oh, yh)
+                if start != part:
+                    cut = past_end(batch, q, ca, left, x, ol if start > 0.0 else o, yl if start > 0.0 else y)
+                    f, _, _ = clearance(batch, q, e, ca, cut, o, reach)
+                    m, _, _ = clearance(batch, q, e, ca, 0.5 * (left + cut), o, reach)
+                    count = add_zone(
+                        batch, q, e, ca, cell + start, o, reach, met, left, cut, low, m, f, count
+                    )
+                    left, low = cut, f
+                if stop != part:
+                    cut = past_end(batch, q, ca, x, right, oh if stop > 0.0 else o, yh if stop > 0.0 else y)
+                    f, _, _ = clearance(batch, q, e, ca, cut, o, reach)
+                    m, _, _ = clearance(batch, q, e, ca, 0.5 * (cut + right), o, reach)
+                    count = add_zone(
+                        batch, q, e, ca, cell + stop, o, reach, met, cut, right, f, m, high, count
+                    )
+                    right, high = cut, f
+                if start != part or stop != part:
+                    mean, _, _ = clearance(batch, q, e, ca, 0.5 * (left + right), o, reach)
+                count = add_zone(
+                    batch, q, e, ca, cell + part, o, reach, met, left, right, low, mean, high, count
+                )
     return count

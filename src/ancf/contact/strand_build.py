@@ -78,7 +78,7 @@ def strands(
         found=measured,
         cells=np.array([cells], dtype=np.int64),
         seen=np.zeros((n, 12)),
-        room=np.array([-1.0, margin, 1.0, 0.0, -1.0, float(length.max())]),
+        room=np.array([-1.0, margin, 1.0, 0.0, -1.0, float(length.max()), -1.0]),
         first=np.zeros(n + 1, dtype=np.int64),
         near=np.zeros(n * min(n, NEAR + int(MORE_NEAR * reach)) + 2, dtype=np.int64),
         piece=pieces,

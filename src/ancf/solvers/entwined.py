@@ -14,6 +14,7 @@ import numpy as np
 
 from ..compiled import formula, inline_kernel, optional
 from ..contact.rows import find_rows
+from ..contact.strand import HELD, find_zones
 from ..system.core import solve_kept, to_local
 from .corotation import turn_back, turn_forth
 from .low_rank import correct
@@ -171,5 +172,19 @@ def _solve_entwined(entwined, core, s, rule, gb):
     clear(batch, k + 1, rows)
 
 
+def _hold(entwined, q):
+    room = entwined[0].room
+    room[HELD] = find_zones(entwined[0], q)
+
+
+def _let_go(entwined):
+    entwined[0].room[HELD] = -1.0
+
+
+#: ``hold(entwined, q)``: where cables press on each other remains what it is in this state. Pieces that come
+#: and go make forces jump, by little, but a step that ends at a jump has no solution.
+hold = optional(_hold)
+#: ``let_go(entwined)``: it is found in each state again.
+let_go = optional(_let_go)
 #: ``solve_entwined(entwined, core, s, rule, gb)``: the correction s.r of the factorised matrix, corrected.
 solve_entwined = optional(_solve_entwined)

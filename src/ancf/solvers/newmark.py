@@ -43,7 +43,7 @@ from ..system.core import (
 from .balance import balance
 from .carry import carry, unbalanced
 from .corotation import remember, turn, turn_forth, turn_rows
-from .entwined import solve_apart, solve_entwined
+from .entwined import hold, let_go, solve_apart, solve_entwined
 from .low_rank import forget, move_on
 from .memory import ETA, H_FACTOR, NOISE, NORM, WORST
 from .near import iterate, take_all
@@ -79,6 +79,8 @@ FLOWN, GROWN, TRIED = 1e3, 2.0, 3
 #: Iterations with one matrix after which it is renewed at the latest, and the first that may tell so.
 LONGEST, FIRST_TOLD = 7, 2
 
+#: Iterations after which the zones in which cables touch are held.
+PATIENT = 12
 #: Attempts at a step: 0 with the matrix that is kept, 1 with a new one, 2 with one for every iteration.
 LAST = 2
 
@@ -239,6 +241,8 @@ def newton(core, s, h, rule, modified, B, G):
             if not new_matrix(core, s, h, B, G):
                 return SINGULAR
             renew, fresh, older, old, eta, since, whole = False, True, -1.0, -1.0, 1.0, 0, True
+        if iteration == PATIENT:
+            hold(core.entwined, s.q)
         if whole:
             unbalanced(core, s, h)
             solve_apart(core, s, rule, G / B)
@@ -325,6 +329,7 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out):
             predict(s, h, scheme, 1.0 if attempt == 0 else 0.0)
             drive(core.supports, core.loads.value, tables, n, s.q, s.v, s.a)
             status = newton(core, s, h, rule, rule.modified and attempt < LAST, B, G)
+            let_go(core.entwined)
             if status == OK:
                 status = check_sections(core, s)
             if status == OK and rule.furthest < UNLIMITED:
