@@ -16,6 +16,7 @@ from .fittings import Droppers
 from .hang import Hung, hang_auxiliary, hang_contact, hang_messenger, hang_stitches
 from .line import Line
 from .mesh import Mesh
+from .reach import cautions, check_aside
 from .schedule import Row, rows, write
 from .shape import WireShape
 
@@ -183,6 +184,7 @@ def design(line: Line, mesh: Mesh | None = None) -> Form:
     """
     mesh = Mesh() if mesh is None else mesh
     now = first_guess(line, mesh)
+    check_aside(line, now.contact)
     for iteration in range(1, MOST_ITERATIONS + 1):
         _check_reach(line, now)
         before = now
@@ -197,19 +199,26 @@ def design(line: Line, mesh: Mesh | None = None) -> Form:
     raise SolveError("catenary.form", what, "wires that sag much, or droppers very close to each other")
 
 
-def check(line: Line, mesh: Mesh | None = None) -> None:
+def check(line: Line, mesh: Mesh | None = None) -> list[str]:
     """Find what is wrong with a line without finding its form: its wires as strings must fit.
+
+    Returns
+    -------
+    list of str
+        Warnings: spans in which the contact wire leaves strips of the usual length.
 
     Raises
     ------
     ModelError
-        A wire hangs too steep, the messenger too low, or the mesh is too large.
+        A wire hangs too steep or too far beside the track, the messenger too low, or the mesh is too large.
 
     """
     begun = first_guess(line, Mesh() if mesh is None else mesh)
+    check_aside(line, begun.contact)
     _check_reach(line, begun)
     if line.dropper_lengths is not None:
         check_lengths(line, begun.short.length)
+    return cautions(line, begun.contact)
 
 
 def check_lengths(line: Line, designed: FloatArray) -> None:

@@ -86,23 +86,33 @@ def _in_section(error: ModelError, k: int) -> ModelError:
     return ModelError(f"sections[{k}].{error.where.removeprefix('line.')}", error.what, error.hint)
 
 
-def check_track(line: Line | Route) -> None:
+def check_track(line: Line | Route) -> list[str]:
     """Find what is wrong with a line, or with the sections of a route, without finding their forms.
+
+    Returns
+    -------
+    list of str
+        Warnings, see :func:`ancf.catenary.form.check`.
 
     Raises
     ------
     ModelError
-        A wire hangs too steep, the messenger too low, a dropper has other units than the design.
+        A wire hangs too steep or too far beside the track, the messenger too low, a dropper has other units than the design.
 
     """
     if isinstance(line, Line):
-        check(line)
-        return
+        return check(line)
+    said: list[str] = []
     for k, part in enumerate(line.lines):
         try:
-            check(part)
+            said += [_caution_in_section(text, k) for text in check(part)]
         except ModelError as error:
             raise _in_section(error, k) from None
+    return said
+
+
+def _caution_in_section(text: str, k: int) -> str:
+    return text if ".csv" in text else f"sections[{k}].{text.removeprefix('line.')}"
 
 
 def assemble(found: AnyForm, mesh: Mesh | None = None) -> Assembled:
