@@ -56,8 +56,8 @@ def check_aside(line: Line, contact: WireShape) -> None:
 def cautions(line: Line, contact: WireShape) -> list[str]:
     """What is to be said of spans in which the wire leaves strips of the usual length."""
     return [
-        f"{_place(line, found.span)}: {_said(line, found)}, strips of {2.0 * STRIP:g} m reach to {STRIP:g} m; "
-        f"{_hint(line, found.span)}"
+        f"{_place(line, found.span)}: {_said(line, found)}, strips of {2.0 * STRIP:g} m reach to "
+        f"{STRIP:g} m; {_hint(line, found.span)}"
         for found in asides(line, contact, STRIP)
     ]
 
@@ -67,12 +67,12 @@ def _said(line: Line, found: Aside) -> str:
     text = f"the contact wire lies {abs(found.side):.2f} m beside the track at {found.track:.1f} m"
     if span.radius is None:
         return text
-    versine = span.length**2 / (8.0 * abs(span.radius))
-    return f"{text}: a curve of {abs(span.radius):g} m has a versine of {versine:.2f} m over {span.length:g} m"
+    radius, versine = abs(span.radius), span.length**2 / (8.0 * abs(span.radius))
+    return f"{text}: a curve of {radius:g} m has a versine of {versine:.2f} m over {span.length:g} m"
 
 
 def _hint(line: Line, span: int) -> str:
-    """The longest span in this curve that staggers at the ends of a strip allow: their versine is its length."""
+    """The longest span in this curve that staggers at the ends of a strip allow."""
     radius = line.spans[span].radius
     if radius is None:
         return "other staggers, or shorter spans"

@@ -97,7 +97,8 @@ def check_track(line: Line | Route) -> list[str]:
     Raises
     ------
     ModelError
-        A wire hangs too steep or too far beside the track, the messenger too low, a dropper has other units than the design.
+        A wire hangs too steep or too far beside the track, the messenger too low, a dropper has other units
+        than the design.
 
     """
     if isinstance(line, Line):

@@ -7,6 +7,8 @@ import numpy as np
 import ancf
 
 from ... import catenary
+from ...arrays import FloatArray
+from ...model.bodies import RigidBody
 from ...model.contact import Contact
 from ..check import Check
 
@@ -104,7 +106,7 @@ def _runs() -> list[Check]:
     return [Check(name, deviation, wanted, 2e-3 * wanted, "N", "the same run with a chain of two masses")]
 
 
-def _force(overhead: catenary.Overhead, contact: Contact) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+def _force(overhead: catenary.Overhead, contact: Contact) -> FloatArray:
     result = ancf.simulate(
         overhead.model,
         t_end=2.0,
@@ -134,12 +136,11 @@ def _add_lever(overhead: catenary.Overhead) -> Contact:
     model.add_force(rod.at(0.0, 0.0, 0.0), (0.0, 0.0, ROD * G), name="balance")
     model.add_force(end, (0.0, 0.0, FORCE), name="lift")
     model.add_force(head, (0.0, 0.0, HEAD * G), name="balance of the head")
-    return model.add_contact(head, overhead.contact_wire, stiffness=CONTACT, name="strip on wire")
+    touch: Contact = model.add_contact(head, overhead.contact_wire, stiffness=CONTACT, name="strip on wire")
+    return touch
 
 
-def _add_rod(
-    model: ancf.Model, tip: np.ndarray[tuple[int, ...], np.dtype[np.float64]], way: tuple[object, ...] | None
-) -> ancf.RigidBody:
+def _add_rod(model: ancf.Model, tip: FloatArray, way: tuple[str, float, float] | None) -> RigidBody:
     """A level rod behind its tip on two bearings, which stand still or go along the track."""
     inertia = ROD * REACH**2 / 12.0
     rod = model.add_rigid_body(
