@@ -16,6 +16,7 @@ from .route import Route
 from .route_form import AnyForm, RouteForm
 from .route_model import assembled_route
 from .settle import as_built, in_conditions
+from .twin import design_twin
 
 
 @overload
@@ -55,7 +56,8 @@ def form(line: Line | Route, mesh: Mesh | None = None) -> AnyForm:
 
 def _of_line(line: Line, mesh: Mesh | None, section: int = 0) -> Form:
     plain = replace(line, conditions=Conditions(), dropper_lengths=None, dropper_errors=None)
-    found = replace(design(plain, mesh), line=line, made_for=None)
+    designed = design_twin(plain, mesh) if line.twin else design(plain, mesh)
+    found = replace(designed, line=line, made_for=None)
     lengths = line.dropper_lengths
     if line.dropper_errors is not None:
         lengths = with_errors(found, line.dropper_errors, section)
