@@ -36,7 +36,8 @@ def draw(content: Content, figure: Figure) -> None:
     starts = getattr(line, "starts", (0.0,))
     for form, start in zip(content.run.form.shifted, starts, strict=True):
         _from_the_side(side, form)
-        for x, _, z in (place.T for place in form.contact_places):
+        contacts = [shape for shape in (form.contact, form.twin) if shape is not None]
+        for x, _, z in (shape.position.T for shape in contacts):
             sag.plot(x, MM * (z - form.line.height_at(x - start)), **CONTACT)
         for name, shape, look in _wires(form):
             plan.plot(shape.position[:, 0], MM * shape.position[:, 1], label=name, **look)
