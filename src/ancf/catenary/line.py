@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from ..model import checks
 from .auxiliary import Auxiliary
 from .cant import LARGEST, plumb_above
 from .conditions import Conditions
+from .excerpt import excerpt
 from .fittings import NO_DROPPERS, DropperErrors, Droppers, Load, SteadyArm, Tensioner
 from .span import Span, within
 from .stitch import StitchWire
@@ -165,7 +166,7 @@ class Line:
         if self.stitch is not None:
             self.stitch.check_in(self)
         if self.auxiliary is not None:
-            self._check_auxiliary(self.auxiliary)
+            self.auxiliary.check_in(self)
         self._check_lengths()
         if self.dropper_errors is not None:
             self.dropper_errors.check("line.dropper_errors")
@@ -236,23 +237,6 @@ class Line:
                 where = f"line.dropper_lengths[{j}]"
                 raise ModelError(where, f"is {length:g} m, of {self.dropper_label(j)}", "0 < length, in m")
         object.__setattr__(self, "dropper_lengths", tuple(lengths))
-
-    def _check_auxiliary(self, auxiliary: Auxiliary) -> None:
-        auxiliary.check("line.auxiliary")
-        if self.messenger_wire is None or self.stitch is not None:
-            alone = self.messenger_wire is None
-            what = "has no messenger to hang from" if alone else "and stitch are given both"
-            raise ModelError("line.auxiliary", what, "leave it out")
-        lowest = min(self.system_height)
-        if auxiliary.height >= lowest:
-            what = f"is {auxiliary.height:g} m, the messenger is {lowest:g} m over the contact wire"
-            raise ModelError("line.auxiliary.height", what)
-        for k, span in enumerate(self.spans):
-            if span.long_droppers is None and auxiliary.places is None:
-                what = "is missing, nothing carries the auxiliary"
-                raise ModelError(
-                    f"line.spans[{k}].long_droppers", what, "or give a rule, first and pitch_max"
-                )
 
     def _per_support(self, key: str, alternating: bool) -> tuple[float, ...]:
         """Set a value to one number for each support."""
@@ -408,17 +392,4 @@ class Line:
 
     def excerpt(self, first: int, count: int) -> Line:
         """The line of `count` spans from span `first` on, anchored at its own ends."""
-        supports = slice(first, first + count + 1)
-        keys = ["system_height", "stagger"]
-        keys += [key for key in ("height", "cant") if isinstance(getattr(self, key), tuple)]
-        keys += ["messenger_stagger"] if self.messenger_stagger is not None else []
-        keys += ["steady_arm"] if isinstance(self.steady_arm, tuple) else []
-        keys += ["rows"] if self.rows else []
-        cut: dict[str, Any] = {key: getattr(self, key)[supports] for key in keys}
-        if self.dropper_lengths is not None:
-            own = (self.dropper_span >= first) & (self.dropper_span < first + count)
-            cut["dropper_lengths"] = tuple(np.array(self.dropper_lengths)[own].tolist())
-        start, end = self.supports[first], self.supports[first + count]
-        inside = [load for load in self.loads if start < load.position < end]
-        cut["loads"] = tuple(replace(load, position=load.position - float(start)) for load in inside)
-        return replace(self, spans=self.spans[first : first + count], **cut)
+        return excerpt(self, first, count)

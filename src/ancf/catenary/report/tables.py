@@ -110,7 +110,9 @@ def supports(content: Content) -> Element:
     heads = [
         f"uplift [mm], {content.name(k)}" if content.several else "uplift [mm]" for k in range(len(passed))
     ]
-    loads = [(f"{side:.0f}", f"{up:.0f}") for _, side, up in (content.run.form.arm_load + 0.0).tolist()]
+    loads = [
+        (f"{side:.0f}", f"{up:.0f}") for _, side, up in (np.round(content.run.form.arm_load) + 0.0).tolist()
+    ]
     rows = [
         (str(j + 1), f"{x:g}", *loads[j], *(p.get(j + 1, "not passed") for p in passed))
         for j, x in enumerate(content.run.form.line.supports)
