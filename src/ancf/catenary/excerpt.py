@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from .line import Line
 
-
-def excerpt(line: Line, first: int, count: int) -> Line:
-    """The line of `count` spans from span `first` on, anchored at its own ends."""
+def excerpt(line: Any, first: int, count: int) -> Any:
+    """Of a Line the `count` spans from span `first` on, anchored at their own ends."""
     supports = slice(first, first + count + 1)
     keys = ["system_height", "stagger"]
     keys += [key for key in ("height", "cant") if isinstance(getattr(line, key), tuple)]

@@ -392,4 +392,5 @@ class Line:
 
     def excerpt(self, first: int, count: int) -> Line:
         """The line of `count` spans from span `first` on, anchored at its own ends."""
-        return excerpt(self, first, count)
+        cut: Line = excerpt(self, first, count)
+        return cut
