@@ -43,6 +43,9 @@ class ContactWireEntry(SectionEntry):
 
     tension: Positive | None = Field(None, description="Force at the anchors along the track [N].")
     rail: bool = Field(False, description="A conductor rail, which needs no tension.")
+    spacing: Positive | None = Field(
+        None, description="Between two wires (count = 2) that are each computed, across the track [m]."
+    )
 
 
 def _of_number(given: Any) -> str:
