@@ -96,8 +96,8 @@ def add_long_spring(
 def _add_hinged_arm(
     model: ancf.Model, line: Line, k: int, point: Point, force: FloatArray, name: str
 ) -> Spring:
-    """A bar to a pivot on the mast, in the direction in which it has to pull at rest, N."""
-    size = float(np.linalg.norm(force))
+    """A bar to a pivot on the mast, in the direction of the force (3,) in N on the wire, or against it."""
+    size, sense = float(np.linalg.norm(force)), line.arm(k).sense(float(force[1]))
     arm = line.arm(k)
     assert arm.length is not None
     if abs(force[1]) < 1.0 or abs(force[2]) > abs(force[1]):
@@ -105,8 +105,8 @@ def _add_hinged_arm(
         what += f"{force[2]:.0f} N: a hinged arm would hang down"
         hint = 'give more stagger, contact_support = "free", or vertical instead of length'
         raise ModelError("line.steady_arm.length", what, hint)
-    pivot = point.initial_position + arm.length * force / size
+    pivot = point.initial_position + sense * arm.length * force / size
     made: Spring = model.add_spring(
-        point, pivot, stiffness=arm.stiffness, length=arm.length - size / arm.stiffness, name=name
+        point, pivot, stiffness=arm.stiffness, length=arm.length - sense * size / arm.stiffness, name=name
     )
     return made

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
+from .arm_loads import check_arms, check_roughly
 from .auxiliary import LongDroppers
 from .first_guess import first_guess
 from .fittings import Droppers
@@ -251,6 +252,7 @@ def check(line: Line, mesh: Mesh | None = None) -> list[str]:
     """
     begun = first_guess(line, Mesh() if mesh is None else mesh)
     check_aside(line, begun.contact)
+    check_roughly(line)
     _check_reach(line, begun)
     if line.dropper_lengths is not None:
         check_lengths(line, begun.short.length)
@@ -289,6 +291,7 @@ def _finished(line: Line, mesh: Mesh, now: Hung, iterations: int) -> Form:
     own = line.droppers.mass * length * line.gravity
     load = force - 0.5 * own
     least = float(np.min(load, initial=np.inf))
+    check_arms(line, now.arm)
     if least <= 0.0:
         worst = int(np.argmax(load <= least + 1e-3 * abs(least)))  # the first of those that are alike
         what = f"would carry {load[worst]:.1f} N at rest: it has to push the contact wire down"

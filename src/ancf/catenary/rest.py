@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 from typing import overload
 
 from ..errors import ModelError
+from .arm_loads import pushed
 from .assemble import Assembled, assembled
 from .conditions import Conditions
 from .form import Form, check, check_lengths, design
@@ -67,6 +69,8 @@ def _of_line(line: Line, mesh: Mesh | None, section: int = 0) -> Form:
         found = as_built(found, lengths)
     if line.conditions != Conditions():
         found = in_conditions(found)
+        for text in pushed(line, found.arm_force):
+            warnings.warn(f"line.conditions: in them at {text}: it can only pull", UserWarning, stacklevel=4)
     return found
 
 

@@ -266,10 +266,10 @@ def _arms(built: Form, wire: int, contact: WireShape, overhead: Assembled, state
         weight = np.array([0.0, 0.0, 0.5 * arm.mass * line.gravity])
         first = given[k] + weight
         if arm.length is not None:
-            size = float(np.linalg.norm(first))
-            rod = rest + arm.length * first / size - here
+            size, sense = float(np.linalg.norm(first)), arm.sense(float(first[1]))
+            rod = rest + sense * arm.length * first / size - here
             rod[0] = 0.0  # the cantilever follows the wire along the track
-            natural, reach = arm.length - size / arm.stiffness, float(np.linalg.norm(rod))
+            natural, reach = arm.length - sense * size / arm.stiffness, float(np.linalg.norm(rod))
             force[k] = arm.stiffness * (reach - natural) * rod / reach - weight
             continue
         force[k, 2] = first[2] - (arm.vertical or 0.0) * (here - rest)[2] - weight[2]

@@ -25,7 +25,7 @@ SPEED, START = 40.0, 12.0  # m/s, m
 
 def checks(short: bool = False) -> list[Check]:
     """Rails at rest, a lever's frequencies; the short form runs no lever along a line."""
-    return [*_rail(), *_frequencies(), *([] if short else _runs())]
+    return [*_rail(), *_frequencies(), *([] if short else [*_arms(), *_runs()])]
 
 
 def rail() -> catenary.Line:
@@ -59,6 +59,50 @@ def _rail() -> list[Check]:
         Check(f"Overhead line, conductor rail: {name}", value, exact, 3e-3 * exact, unit, origin)
         for name, value, exact, unit, origin in found
     ]
+
+
+def _arms() -> list[Check]:
+    """A bar that is pulled stiffens the wire upwards by force over length, a strut softens it."""
+    found, length, sides = [], 1.1, ("right", "left")
+    free = _hung((catenary.SteadyArm(vertical=0.0),) * 6)
+    for name, shift, push in (("that pulls", 0, False), ("that pushes", 1, True)):
+        arms = tuple(
+            catenary.SteadyArm(length=length, side=sides[(k + 1 + shift) % 2], push=push) for k in range(6)
+        )
+        made = _hung(arms)
+        exact = (-1.0 if push else 1.0) * abs(float(made.arm_force[2, 1])) / length
+        added = _upwards(made) - _upwards(free)
+        whole = f"Overhead line, arm {name}: what it adds to the stiffness upwards"
+        found.append(Check(whole, added, exact, 0.02 * abs(exact), "N/m", "force over length"))
+        if not push:
+            for part, value in (("left", made.arm_force[2, 1]), ("right", made.arm_force[1, 1])):
+                pull = (1.0 if part == "left" else -1.0) * 4.0 * 0.2 * 20e3 / 32.0
+                whole = f"Overhead line, arm at a stagger to the {part}: pull to the left"
+                found.append(Check(whole, float(value), pull, 0.01 * abs(pull), "N", "4 T a/l"))
+    return found
+
+
+def _hung(arms: tuple[catenary.SteadyArm, ...]) -> catenary.Form:
+    spans = (catenary.Span(length=32.0, droppers=tuple(32.0 * np.array([0.1, 0.3, 0.5, 0.7, 0.9]))),) * 5
+    line = catenary.Line(
+        spans=spans,
+        contact_wire=catenary.Wire(EA=15e6, EI=1.0, mass=1.35, tension=20e3),
+        messenger_wire=catenary.Wire(EA=11.6e6, EI=131.7, mass=1.07, tension=16e3),
+        droppers=catenary.Droppers(stiffness=1e5),
+        steady_arm=arms,
+        system_height=1.2,
+        stagger=0.2,
+        contact_support="free",
+    )
+    return catenary.form(line, catenary.Mesh(contact=2.0, messenger=3.0, contact_support=0.1))
+
+
+def _upwards(found: catenary.Form) -> float:
+    """Stiffness of the contact wire at the third support, N/m."""
+    overhead = catenary.assemble(found)
+    point, rest = overhead.supports[2], ancf.equilibrium(overhead.model)
+    overhead.model.add_force(point, (0.0, 0.0, 1.0))
+    return 1.0 / float(ancf.equilibrium(overhead.model).position(point)[2] - rest.position(point)[2])
 
 
 def _frequencies() -> list[Check]:
