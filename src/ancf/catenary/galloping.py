@@ -132,9 +132,10 @@ def has_lift(line: Any) -> bool:
 
 def slope_at(rows: Any, angle: float = 0.0) -> float:
     """dCL/da of a table at an angle, 1/rad: of the rows around it, at a row the mean of both sides."""
-    table, step = np.asarray(rows), 1e-7
-    low, high = np.interp([angle - step, angle + step], *table.T)
-    return float(high - low) / (2.0 * step)
+    angles, values = np.asarray(rows, dtype=np.float64).T
+    slopes = np.concatenate([[0.0], np.diff(values) / np.diff(angles), [0.0]])  # flat beyond the table
+    sides = (np.searchsorted(angles, angle, side=side) for side in ("left", "right"))
+    return 0.5 * float(sum(slopes[k] for k in sides))
 
 
 @lru_cache(maxsize=64)  # a law that is the same function again is not compiled again

@@ -39,8 +39,8 @@ NOTES = [
     "2.2 m and 45 kg, 7.2 kg on 4200 N/m at its tip, 40 m/s, beside 15 kg below that head.",
     "Twin contact wires: two of 0.675 kg/m and 10 kN, 40 mm apart, in three spans of 48 m with 12 droppers "
     "each; alone in spans of 45 m.",
-    "Galloping: one wire of 40 m, 15 kN, 12.2 mm, drag coefficient 1.1, lift straight over the angle of attack, "
-    "alpha 0.05 1/s; its second mode after a push.",
+    "Galloping: one wire of 40 m, 15 kN, 12.2 mm, drag coefficient 1.1, lift straight over the angle of "
+    "attack, alpha 0.05 1/s; its second mode after a push.",
     "Trains: two pantographs on the reference models of EN 50318 with the default mesh and step, forces "
     "below 20 Hz with a filter of order 4.",
 ]
