@@ -240,8 +240,9 @@ def greatest_of(X, weight, lane):
 
 @inline_kernel
 def is_done(norm, size, before):
-    """Whether corrections of a sensitivity may end with one of this size."""
-    if norm <= ENOUGH * size or norm < LEAST or (norm <= NOISY * size and norm >= 0.5 * before):
+    """Whether corrections of a sensitivity may end with one of this size: the next would be as much smaller."""
+    rate = min(norm / before, 1.0) if before < np.inf else 1.0
+    if rate * norm <= ENOUGH * size or norm < LEAST or (norm <= NOISY * size and norm >= 0.5 * before):
         return True
     return norm <= ROUGH * size and norm >= 0.9 * before
 
