@@ -17,7 +17,21 @@ from ..simd import LANES, every, load, store
 from ..system.core import constraint_rows, drive, solve_sparse, to_local
 from .ahead import look_ahead
 from .scheme import coefficients
-from .sensitivity import ABAR, ENOUGH, LEAST, MOST, NOISY, ROUGH, A, Q, V, add_lossy, add_rough, extent
+from .sensitivity import (
+    ABAR,
+    DIFFERENCED,
+    ENOUGH,
+    LEAST,
+    MOST,
+    NOISY,
+    ROUGH,
+    A,
+    Q,
+    V,
+    add_lossy,
+    add_rough,
+    extent,
+)
 from .status import OK, SINGULAR, SLOW
 
 
@@ -239,10 +253,10 @@ def greatest_of(X, weight, lane):
 
 
 @inline_kernel
-def is_done(norm, size, before):
-    """Whether corrections of a sensitivity may end with one of this size: the next would be as much smaller."""
+def is_done(norm, size, before, enough):
+    """Whether corrections of a sensitivity may end with one of this size."""
     rate = min(norm / before, 1.0) if before < np.inf else 1.0
-    if rate * norm <= ENOUGH * size or norm < LEAST or (norm <= NOISY * size and norm >= 0.5 * before):
+    if rate * norm <= enough * size or norm < LEAST or (norm <= NOISY * size and norm >= 0.5 * before):
         return True
     return norm <= ROUGH * size and norm >= 0.9 * before
 
@@ -254,6 +268,7 @@ def solved(core, m, factor, matrices, x, push, gap, n, first, joined, room, B, G
     joints, count = core.joints, min(LANES, push.shape[0] - first)
     exact = m.rough.table.shape[0] + m.lossy.table.shape[0] == 0
     projects = joined.projects and joints.multipliers.shape[0] > 0
+    enough = DIFFERENCED if m.rough.table.shape[0] > 0 else ENOUGH
     for k in range(count):
         room.before[k], room.open[k] = np.inf, 1.0
     for _ in range(MOST):
@@ -268,7 +283,8 @@ def solved(core, m, factor, matrices, x, push, gap, n, first, joined, room, B, G
                 norm = greatest_of(room.r, core.weight, k)
                 if projects:
                     norm = max(norm, shifted(core, m, factor, x, gap[first + k, n], joined, room, k))
-                if exact or is_done(norm, greatest_of(room.d[0], core.weight, k), room.before[k]):
+                size = greatest_of(room.d[0], core.weight, k)
+                if exact or is_done(norm, size, room.before[k], enough):
                     room.open[k] = 0.0
                 else:
                     room.before[k] = norm
