@@ -46,7 +46,9 @@ TESTS = {
     "closed-forms": "closed_forms/test_closed_forms.py closed_forms/test_rigid_bodies.py",
     "orders": "orders/test_orders.py orders/test_radau.py orders/test_explicit.py",
     "overhead": "catenary/test_overhead_states.py catenary/test_overhead_layout.py "
-    "catenary/test_overhead_route.py catenary/test_overhead_measured.py catenary/test_catenary_run.py",
+    "catenary/test_overhead_route.py catenary/test_overhead_measured.py catenary/test_overhead_rail.py "
+    "catenary/test_overhead_bodies.py catenary/test_overhead_twin.py catenary/test_overhead_arms.py "
+    "catenary/test_catenary_run.py",
     "en50318": "catenary/test_catenary_run.py catenary/test_catenary_references.py",
     **{f"fig{n}": "paper/test_paper.py" for n in range(2, 9)},
     **{f"fig{n}": "paper/test_paper_sliding.py" for n in range(9, 12)},

@@ -32,6 +32,10 @@ def line(spans=SPANS):
         dropper_span=np.repeat(np.arange(spans), 9),
         dropper_number=np.tile(np.arange(9), spans),
         dropper_x=np.concatenate([x0 + np.array(DROPPERS) for x0 in supports[:-1]]),
+        twin=False,
+        contact_wires=1,
+        contact_spacing=None,
+        dropper_wire=np.zeros(9 * spans, dtype=int),
         wave_speed=np.sqrt(20e3 / 1.35),
         contact_wire=wire(15e6, 195.0, 1.35, 20e3),
         messenger_wire=wire(10e6, 131.7, 1.07, 16e3),
@@ -69,6 +73,7 @@ def form(spans=SPANS):
     made = SimpleNamespace(
         **{name: SimpleNamespace(position=place, nodes=nodes) for name, place in wires.items()},
         auxiliary=None,
+        twin=None,
         stitches=(),
         arm_force=np.column_stack(
             [0 * line(spans).supports, 40.0 - line(spans).supports, 0 * line(spans).supports]
@@ -81,6 +86,7 @@ def form(spans=SPANS):
         contact_height=np.zeros(count),
         messenger_height=lengths,
     )
+    made.arm_load = made.arm_force
     made.shifted = (made,)
     return made
 

@@ -76,10 +76,33 @@ class TestCurve:
         assert swept.max() == pytest.approx(-0.2 + 36**2 / 8 / 900, abs=0.01)
 
     def test_beyond_the_strip(self):
-        found = form(curved(150.0, stagger=0.0), COARSE)
+        found = form(curved(200.0, stagger=0.0), COARSE)
         with pytest.raises(ModelError, match="beside the track") as caught:
             run(found, speed=40.0, pantograph=collector(), step=STEP)
         assert caught.value.where == "line.contact_wire"
+
+    @pytest.mark.parametrize("sign", [1.0, -1.0])
+    @pytest.mark.parametrize(("share", "said"), [(1.02, "refused"), (0.98, "warned"), (0.73, "warned")])
+    def test_versine_beside_the_heads(self, share, said, sign):
+        """L^2/8R of the longest span beyond 0.975 m, half of the widest head, and beyond strips of 1.45 m."""
+        radius = sign * 38.0**2 / 8.0 / (0.975 * share)
+        line = curved(radius, stagger=0.0)
+        if said == "refused":
+            for find in (check, form):
+                with pytest.raises(ModelError, match=r"has a versine of 0\.99 m over 38 m") as caught:
+                    find(line)
+                assert caught.value.where == "line.spans[3].radius"
+                assert "spans of at most 45 m" in caught.value.hint
+        else:
+            told = check(line)
+            over = [k for k, length in enumerate(LENGTHS) if length**2 / 8.0 / abs(radius) > 0.725]
+            assert [text.partition(":")[0] for text in told] == [f"line.spans[{k}].radius" for k in over]
+
+    def test_staggers_to_the_outside_bring_it_back(self):
+        """A wire of one sign of the curve: half of the versine to either side; anchors may be aside."""
+        assert check(curved(150.0, stagger=0.0 * np.array(STAGGER) - 0.55)) == []
+        aside = (2.5, -0.2, 0.2, -0.2, 0.2, 2.5)
+        assert check(short_line(stagger=aside)) == []
 
     @pytest.mark.parametrize("radius", [0.0, 3.0, float("nan")])
     def test_wrong(self, radius):
@@ -298,6 +321,15 @@ class TestTable:
             == Span(length=55.0, droppers=DropperRule(first=5.0, pitch_max=8.0)).droppers
         )
         assert max(line.spans[0].pre_sag) == pytest.approx(0.02, rel=0.05)
+
+    @pytest.mark.parametrize(("radius", "row"), [("100", 2), ("-95", 1)])
+    def test_beside_the_track(self, tmp_path, radius, row):
+        rows = TABLE.splitlines()
+        cells = rows[row].split(",")
+        rows[row] = ",".join([*cells[:3], radius, *cells[4:]])
+        line = read_line(table(tmp_path, "\n".join(rows)))
+        with pytest.raises(ModelError, match=rf"supports.csv, row {row}, column radius: .* versine of"):
+            check(line)
 
     def test_rows_in_the_file(self, tmp_path):
         rows = (

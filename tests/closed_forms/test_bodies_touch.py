@@ -216,3 +216,143 @@ def test_does_not_go_through(speed):
             run = ancf.simulate(model, t_end=0.03, step=2e-4)
             assert run.position(body.centre)[:, 2].min() > 0.0
             assert run.velocity(body.centre)[-1, 2] > 0.9 * speed
+
+
+class TestCapsuleOnOthers:
+    """Capsules on drums, rings and sheaves, at rest and in motion."""
+
+    STIFF = 1e4
+
+    def lay(self, other, at, axis, **law):
+        """A capsule of 1 kg at rest above a surface on the ground, held in nothing; its contact."""
+        model = ancf.Model(gravity=(0, 0, -G))
+        body, skin = capsule(model, "rod", at, axis, radius=0.03, length=0.4)
+        ground = model.add_surface("ground", other)
+        law = {"stiffness": self.STIFF, "damping": 40.0, "friction": 0.5} | law
+        return model, body, model.add_contact(skin, ground, **law)
+
+    @pytest.mark.parametrize("angle", [0.4, 1.0, math.pi / 2])
+    def test_lies_across_a_drum(self, angle):
+        """In one place, m g/k deep, whatever the angle is; friction holds it in balance."""
+        across = (math.cos(angle), math.sin(angle), 0.0)
+        drum = ancf.Cylinder(0.1, axis=(1, 0, 0))
+        depth = G / self.STIFF
+        model, body, contact = self.lay(drum, (0, 0, 0.13 - depth), across)
+        run = ancf.simulate(model, t_end=0.3, step=1e-3)
+        assert -run.contact_gap(contact)[-1] == pytest.approx(depth, rel=1e-6)
+        assert run.contact_force(contact)[-1] == pytest.approx(G, rel=1e-6)
+        assert np.abs(run.velocity(body.centre)).max() < 1e-6
+
+    @pytest.mark.parametrize("other", ["ring", "sheave", "drum along", "can along"])
+    def test_lies_on_two_places(self, other):
+        """On both sides of a ring and on both rims, and flat with both ends: each place bears its part."""
+        shape, height, springs = {
+            "ring": (ancf.Torus(0.12, 0.02), 0.05, 2),
+            "sheave": (ancf.Sheave(0.1, 0.02, 0.05, 0.8, axis=(1, 0, 0)), 0.18, 4),
+            "drum along": (ancf.Cylinder(0.1, axis=(1, 0, 0)), 0.13, 2),
+            "can along": (ancf.Cylinder(0.1, axis=(1, 0, 0), length=0.2), 0.13, 2),
+        }[other]
+        depth = G / (springs * self.STIFF)
+        model, body, contact = self.lay(shape, (0, 0, height - depth), (1, 0, 0))
+        run = ancf.simulate(model, t_end=0.2, step=1e-3)
+        assert -run.contact_gap(contact)[-1] == pytest.approx(depth, rel=1e-6)
+        assert run.contact_force(contact)[-1] == pytest.approx(G, rel=1e-6)
+        assert np.abs(run.position(body.centre)[-1] - (0, 0, height - depth)).max() < 1e-9
+
+    @pytest.mark.parametrize("radius", [0.1, 0.25])
+    def test_rocks_across_a_drum(self, radius):
+        """omega^2 = m g (R - a)/(J + m a^2), small and without sliding, where the axis is a above the drum.
+
+        The place of contact goes by R phi along it for the angle phi: m g ((R + a) cos phi + R phi sin phi).
+        """
+        R, a, k = radius, 0.03, 1e6
+        model, body, contact = self.lay(
+            ancf.Cylinder(R, axis=(0, 1, 0)), (0, 0, R + a - G / k), (1, 0, 0), stiffness=k, friction=2.0
+        )
+        body.set_motion(velocity=(0.02 * a, 0, 0), angular_velocity=(0, 0.02, 0))
+        model.hold(body, position="y")
+        omega = math.sqrt(G * (R - a) / (0.02 + a**2))
+        t_end = 3.5 * 2 * math.pi / omega
+        run = ancf.simulate(model, t_end=t_end, step=t_end / 2000, sensors=[contact])
+        spin = run.angular_velocity(body)[:, 1]
+        zero = np.flatnonzero(np.diff(np.sign(spin)))
+        crossings = run.t[zero] - spin[zero] * np.diff(run.t)[zero] / np.diff(spin)[zero]
+        assert math.pi / np.diff(crossings).mean() == pytest.approx(omega, rel=1e-3)
+        assert abs(run.energy.drift).max() < 1e-3 * run.energy.kinetic[0]
+
+    @pytest.mark.parametrize("friction", [0.0, 0.2])
+    def test_slides_down_along_a_drum(self, friction):
+        """g (sin - mu cos) along a sloping drum, flat on it."""
+        slope, k = 0.5, 1e5
+        model = ancf.Model(gravity=(G * math.sin(slope), 0, -G * math.cos(slope)))
+        depth = G * math.cos(slope) / (2 * k)
+        body, skin = capsule(model, "rod", (0, 0, 0.13 - depth), radius=0.03)
+        ground = model.add_surface("ground", ancf.Cylinder(0.1, axis=(1, 0, 0)))
+        model.hold(body, position="y")
+        contact = model.add_contact(skin, ground, stiffness=k, damping=300.0, friction=friction)
+        run = ancf.simulate(model, t_end=0.3, step=5e-4, sensors=[contact])
+        a = G * (math.sin(slope) - friction * math.cos(slope))
+        assert run.velocity(body.centre)[-1, 0] == pytest.approx(0.3 * a, rel=3e-3)
+        lost = friction * G * math.cos(slope) * (run.position(body.centre)[-1, 0])
+        assert run.energy.dissipated[-1] == pytest.approx(lost, rel=1e-2, abs=1e-6)
+
+    @pytest.mark.parametrize("other", ["cylinder", "torus", "sheave"])
+    def test_collisions_keep_momenta(self, other):
+        """Two free bodies, off the middle, with friction; what is lost is booked."""
+        shape = {
+            "cylinder": ancf.Cylinder(0.1, axis=(0.1, 1, 0.2), length=0.3),
+            "torus": ancf.Torus(0.12, 0.02, axis=(0.1, 1, 0.2)),
+            "sheave": ancf.Sheave(0.1, 0.02, 0.05, 0.8, axis=(0.1, 1, 0.2)),
+        }[other]
+        left, drift = [], []
+        for step in (2e-4, 1e-4):
+            model = ancf.Model()
+            rod, skin = capsule(model, "rod", (0.02, 0.03, 0.25), (1, 0.4, 0.1), radius=0.03)
+            rod.set_motion(velocity=(0.3, 0, -2.0), angular_velocity=(2.0, 5.0, 1.0))
+            wheel = model.add_rigid_body("wheel", at=(0, 0, 0), mass=2.0, inertia=(0.01, 0.02, 0.01))
+            around = model.add_surface("around", shape, on=wheel)
+            contact = model.add_contact(skin, around, stiffness=1e4, damping=5.0, friction=0.3)
+            run = ancf.simulate(model, t_end=0.2, step=step, sensors=[contact])
+            p, L = run.momentum, run.angular_momentum()
+            assert run.sensors.contact_force(contact).max() > 10.0
+            assert np.abs(p - p[0]).max() < 1e-11
+            left.append(np.abs(L[-1] - L[0]).max() / np.abs(L[0]).max())
+            drift.append(abs(run.energy.drift).max() / run.energy.kinetic[0])
+            assert run.energy.dissipated[-1] > 1e-3 * run.energy.kinetic[0]
+        assert left[1] < 1e-5
+        assert drift[1] < 1e-3
+        assert drift[0] > 1.5 * drift[1]
+
+
+@pytest.mark.parametrize("rod", [False, True])
+def test_falls_through_a_ring(rod):
+    """Past its axis, where the nearest place changes sides: nothing has gone through anything."""
+    model = ancf.Model(gravity=(0, 0, -G))
+    if rod:
+        body, skin = capsule(model, "rod", (0.02, 0, 0.05), (0.1, 0, 1), radius=0.03, length=0.1)
+    else:
+        body, skin = ball(model, "ball", (0.02, 0, 0.05), radius=0.03)
+    body.set_motion(velocity=(-0.4, 0, -0.5))
+    ring = model.add_surface("ring", ancf.Torus(radius=0.1, tube=0.01))
+    contact = model.add_contact(skin, ring, stiffness=1e4)
+    run = ancf.simulate(model, t_end=0.15, step=1e-3, sensors=[contact])
+    x, z = run.position(body.centre)[-1, [0, 2]]
+    assert run.sensors.contact_force(contact).max() == 0.0
+    assert (x, z) == pytest.approx((0.02 - 0.06, 0.05 - 0.075 - G * 0.15**2 / 2), abs=1e-6)
+
+
+@pytest.mark.parametrize("speed", [10.0, 2000.0])
+def test_a_rod_does_not_go_through_a_drum(speed):
+    """Smaller steps, or a message."""
+    model = ancf.Model()
+    body, skin = capsule(model, "rod", (0, 0, 0.2), radius=0.02)
+    body.set_motion(velocity=(0, 0, -speed))
+    post = model.add_surface("post", ancf.Cylinder(radius=0.01, axis=(0, 1, 0)))
+    model.add_contact(skin, post, stiffness=1e6)
+    if speed > 1000.0:
+        with pytest.raises(ancf.SolveError, match="goes through a surface"):
+            ancf.simulate(model, t_end=0.01, step=1e-3)
+    else:
+        run = ancf.simulate(model, t_end=0.03, step=2e-4)
+        assert run.position(body.centre)[:, 2].min() > 0.0
+        assert run.velocity(body.centre)[-1, 2] > 0.9 * speed

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .acceptance import acceptance, time_above
+from .arm_loads import ArmLoad, arm_loads
 from .auxiliary import Auxiliary, LongDroppers
 from .catalogue import line_file, line_names, read_line
 from .clamp_strain import ClampStrain, clamp_strains
@@ -41,6 +42,7 @@ from .wires import WireType, wire, wires
 from .write import write_run
 
 __all__ = [
+    "ArmLoad",
     "Auxiliary",
     "Butterworth",
     "ClampStrain",
@@ -79,6 +81,7 @@ __all__ = [
     "WireType",
     "acceptance",
     "add_pantograph",
+    "arm_loads",
     "assemble",
     "clamp_strains",
     "dropper_errors",

@@ -13,6 +13,7 @@ from ..errors import ModelError
 from ..model.bodies import PointMass
 from ..model.connections import Spring
 from ..model.points import Point
+from ..model.supports import Hold
 from .form import Form
 from .line import Line
 
@@ -32,27 +33,38 @@ def add_mass(model: ancf.Model, name: str, point: Point, mass: float) -> PointMa
 
 
 def add_arms(overhead: Any, found: Form) -> None:
-    """The steady arms of all supports but the first and the last."""
-    line, model = found.line, overhead.model
+    """The steady arms of all supports but the first and the last; of twin wires each has its own."""
     nodes = found.contact.nodes.support
     overhead.supports = [overhead.contact.point(node) for node in nodes]
-    overhead.arms = [None] * nodes.size
-    overhead.arm_holds = [None] * nodes.size
-    for k in range(1, nodes.size - 1):
-        point, arm = overhead.supports[k], line.arm(k)
-        force = found.arm_force[k] + np.array([0.0, 0.0, 0.5 * arm.mass * line.gravity])
-        add_mass(model, f"{overhead.prefix}arm {k + 1} mass", point, 0.5 * arm.mass)
-        name = f"{overhead.prefix}steady arm {k + 1}"
+    overhead.arms, overhead.arm_holds = _arms_of(overhead, found.line, overhead.supports, found.arm_force)
+    if overhead.twin is not None:
+        points = [overhead.twin.point(node) for node in nodes]
+        made = _arms_of(overhead, found.line, points, found.twin_arm_force, " of the second wire")
+        overhead.twin_arms, overhead.twin_arm_holds = made
+
+
+def _arms_of(
+    overhead: Any, line: Line, points: list[Point], forces: Any, which: str = ""
+) -> tuple[list[Spring | None], list[Hold | None]]:
+    """The arms of one contact wire, with forces (supports, 3) in N at rest: springs, and what holds it."""
+    model, before = overhead.model, overhead.prefix
+    arms: list[Spring | None] = [None] * len(points)
+    holds: list[Hold | None] = [None] * len(points)
+    for k in range(1, len(points) - 1):
+        point, arm, name = points[k], line.arm(k), f"{before}steady arm {k + 1}{which}"
+        force = forces[k] + np.array([0.0, 0.0, 0.5 * arm.mass * line.gravity])
+        add_mass(model, f"{before}arm {k + 1}{which} mass", point, 0.5 * arm.mass)
         if arm.uplift_stop is not None:
-            _add_stop(model, point, arm.uplift_stop, f"{overhead.prefix}uplift stop {k + 1}")
+            _add_stop(model, point, arm.uplift_stop, f"{before}uplift stop {k + 1}{which}")
         if arm.hinged:
-            overhead.arms[k] = _add_hinged_arm(overhead, line, k, force, name)
+            arms[k] = _add_hinged_arm(model, line, k, point, force, name)
             continue
-        overhead.arms[k] = _add_vertical_arm(model, point, arm.vertical, force[2], name)
+        arms[k] = _add_vertical_arm(model, point, arm.vertical, force[2], name)
         if arm.lateral is None:
-            overhead.arm_holds[k] = model.hold(point, position="y")
+            holds[k] = model.hold(point, position="y")
         else:
             add_long_spring(model, point, 1, arm.lateral, force[1], f"{name} sideways")
+    return arms, holds
 
 
 def _add_stop(model: ancf.Model, point: Point, height: float, name: str) -> None:
@@ -81,9 +93,11 @@ def add_long_spring(
     return model.add_spring(point, fixed, stiffness=stiffness, length=distance - load / stiffness, name=name)
 
 
-def _add_hinged_arm(overhead: Any, line: Line, k: int, force: FloatArray, name: str) -> Spring:
-    """A bar to a pivot on the mast, in the direction in which it has to pull at rest, N."""
-    size = float(np.linalg.norm(force))
+def _add_hinged_arm(
+    model: ancf.Model, line: Line, k: int, point: Point, force: FloatArray, name: str
+) -> Spring:
+    """A bar to a pivot on the mast, in the direction of the force (3,) in N on the wire, or against it."""
+    size, sense = float(np.linalg.norm(force)), line.arm(k).sense(float(force[1]))
     arm = line.arm(k)
     assert arm.length is not None
     if abs(force[1]) < 1.0 or abs(force[2]) > abs(force[1]):
@@ -91,9 +105,8 @@ def _add_hinged_arm(overhead: Any, line: Line, k: int, force: FloatArray, name: 
         what += f"{force[2]:.0f} N: a hinged arm would hang down"
         hint = 'give more stagger, contact_support = "free", or vertical instead of length'
         raise ModelError("line.steady_arm.length", what, hint)
-    point = overhead.supports[k]
-    pivot = point.initial_position + arm.length * force / size
-    made: Spring = overhead.model.add_spring(
-        point, pivot, stiffness=arm.stiffness, length=arm.length - size / arm.stiffness, name=name
+    pivot = point.initial_position + sense * arm.length * force / size
+    made: Spring = model.add_spring(
+        point, pivot, stiffness=arm.stiffness, length=arm.length - sense * size / arm.stiffness, name=name
     )
     return made

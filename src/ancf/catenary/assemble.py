@@ -43,8 +43,12 @@ class Assembled:
         Vertical spring or hinged arm of the contact wire, and spring of the messenger, at the supports.
     arm_holds, hanger_holds : list of Hold or None
         What holds contact wire and messenger sideways there.
-    ends : (3, 2) of Pin, Spring or None
-        What keeps the ends of contact wire, messenger and auxiliary, None for a force.
+    ends : (4, 2) of Pin, Spring or None
+        What keeps the ends of contact wire, messenger, auxiliary and second contact wire, None for a force.
+    twin : Strung or None
+        The second of two contact wires side by side, with its arms at the supports and what holds it there:
+    twin_arms : list of Spring or None
+    twin_arm_holds : list of Hold or None
     auxiliary : Strung or None
         Of a compound catenary, with what holds it sideways at the supports and what carries it:
     auxiliary_holds : list of Hold or None
@@ -68,7 +72,10 @@ class Assembled:
     hangers: list[Spring | None] = field(default_factory=list)
     arm_holds: list[Hold | None] = field(default_factory=list)
     hanger_holds: list[Hold | None] = field(default_factory=list)
-    ends: list[list[Pin | Spring | None]] = field(default_factory=lambda: [[None, None] for _ in range(3)])
+    ends: list[list[Pin | Spring | None]] = field(default_factory=lambda: [[None, None] for _ in range(4)])
+    twin: Strung | None = None
+    twin_arms: list[Spring | None] = field(default_factory=list)
+    twin_arm_holds: list[Hold | None] = field(default_factory=list)
     auxiliary: Strung | None = None
     auxiliary_holds: list[Hold | None] = field(default_factory=list)
     long_droppers: list[Spring] = field(default_factory=list)
@@ -82,13 +89,19 @@ class Assembled:
 
     @property
     def contact_wires(self) -> list[ancf.model.Beam]:
-        """The contact wires of all tension lengths."""
-        return [part.contact_wire for part in self.parts or [self]]
+        """The contact wires of all tension lengths, of twin ones both."""
+        return [wire.beams[0] for wire in self.strung_contacts]
 
     @property
     def strung_contacts(self) -> list[Strung]:
         """The contact wires of all tension lengths with their shapes."""
-        return [part.contact for part in self.parts or [self]]
+        pairs = [(part.contact, part.twin) for part in self.parts or [self]]
+        return [wire for pair in pairs for wire in pair if wire is not None]
+
+    @property
+    def wires(self) -> tuple[Strung | None, ...]:
+        """Contact wire, messenger, auxiliary and second contact wire, as the rows of ``form.pull``."""
+        return self.contact, self.messenger, self.auxiliary, self.twin
 
     @property
     def messengers(self) -> list[Strung]:
@@ -108,6 +121,12 @@ class Assembled:
         """Point of the contact wire that is at a track position at rest, of several the lowest."""
         part = self._part(track)
         return part.contact_wire.at(part.contact.arc_at(track))
+
+    def contacts_at(self, track: float) -> list[Point]:
+        """The same of both of twin contact wires; of one wire its point alone."""
+        part = self._part(track)
+        wires = [wire for wire in (part.contact, part.twin) if wire is not None]
+        return [wire.at(wire.arc_at(track)) for wire in wires]
 
     def messenger_at(self, track: float) -> Point:
         """Point of the messenger that is at a track position at rest, m."""
@@ -169,13 +188,13 @@ def assembled(
 ) -> Assembled:
     """The model of a form, or its part of a `model` with names that begin with `prefix`.
 
-    Ends (3, 2) of contact wire, messenger and auxiliary that are `held` keep their places; default all of a
-    line with fixed ends, and no others. While it is mounted, one end is pulled, or both, by what `found` has
-    there.
+    Ends (4, 2) of the wires in the order of ``Assembled.wires`` that are `held` keep their places; default
+    all of a line with fixed ends, and no others. While it is mounted, one end is pulled, or both, by what
+    `found` has there.
     """
     line = found.line
     if held is None:
-        held = np.full((3, 2), line.anchors == "fixed")
+        held = np.full((4, 2), line.anchors == "fixed")
         if mounting:
             held[:, 1] = False
     own = model is None
@@ -188,11 +207,13 @@ def assembled(
     overhead = Assembled(found, model, contact, messenger, prefix=prefix)
     if found.auxiliary is not None:
         overhead.auxiliary = found.auxiliary.add_to(model, f"{prefix}auxiliary", line.damping)
-    for k, wire in enumerate((contact, messenger, overhead.auxiliary)):
+    if found.twin is not None:
+        overhead.twin = found.twin.add_to(model, f"{prefix}second contact", line.damping)
+    for k, wire in enumerate(overhead.wires):
         if wire is not None:
             sprung = line.anchors == "spring" and not mounting
             overhead.ends[k] = _anchor(overhead, line, wire, found.pull[k], held[k], sprung)
-            _load(overhead, line, wire, ("contact", "messenger", "auxiliary")[k])
+            _load(overhead, line, wire, ("contact", "messenger", "auxiliary", "contact")[k])
     _add_stitches(overhead, found)
     _add_auxiliary(overhead, found)
     _add_droppers(overhead, found)
@@ -207,8 +228,10 @@ def _load(overhead: Assembled, line: Line, wire: Strung, name: str) -> None:
     """The pull of curves, and masses that hang on the wire."""
     shape = wire.shape
     add_sideways(overhead.model, wire, curve_pull(line, shape, name))
+    share = 1.0 / line.contact_wires if name == "contact" else 1.0
+    on = f"on {'second ' if wire is overhead.twin else ''}{name}"
     for k, (load, node) in enumerate(zip(line.loads_on(name), shape.nodes.load.tolist(), strict=True)):
-        add_mass(overhead.model, f"{overhead.prefix}load {k + 1} on {name}", wire.point(node), load.mass)
+        add_mass(overhead.model, f"{overhead.prefix}load {k + 1} {on}", wire.point(node), share * load.mass)
 
 
 def _anchor(
@@ -309,12 +332,13 @@ def _uppers(overhead: Assembled, found: Form) -> list[Point]:
 def _add_droppers(overhead: Assembled, found: Form) -> None:
     line, model = found.line, overhead.model
     lower, upper = found.contact.nodes.dropper, _uppers(overhead, found)
+    wires = [wire for wire in (overhead.contact, overhead.twin) if wire is not None]
     half = 0.5 * line.droppers.mass * found.dropper_length
     stiffness, damping = found.spring_stiffness, found.spring_damping
     for j in range(line.dropper_x.size):
         label = f"{line.dropper_span[j] + 1}-{line.dropper_number[j] + 1}"
         before = overhead.prefix
-        below, above = overhead.contact.point(lower[j]), upper[j]
+        below, above = wires[line.dropper_wire[j]].point(lower[j]), upper[j]
         overhead.droppers.append(
             model.add_spring(
                 below,

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from ..arrays import FloatArray
+from ..errors import ModelError
 from ..model import checks
 from .fittings import Droppers
 from .span import DropperRule
@@ -40,6 +42,22 @@ class Auxiliary:
         self.wire.check(where)
         checks.positive(self.height, f"{where}.height")
         self.droppers.check(f"{where}.droppers")
+
+    def check_in(self, line: Any) -> None:
+        """Raise ModelError if it does not fit a Line."""
+        self.check("line.auxiliary")
+        if line.messenger_wire is None or line.stitch is not None:
+            alone = line.messenger_wire is None
+            what = "has no messenger to hang from" if alone else "and stitch are given both"
+            raise ModelError("line.auxiliary", what, "leave it out")
+        lowest = min(line.system_height)
+        if self.height >= lowest:
+            what = f"is {self.height:g} m, the messenger is {lowest:g} m over the contact wire"
+            raise ModelError("line.auxiliary.height", what)
+        for k, span in enumerate(line.spans):
+            if span.long_droppers is None and self.places is None:
+                where, what = f"line.spans[{k}].long_droppers", "is missing, nothing carries the auxiliary"
+                raise ModelError(where, what, "or give a rule, first and pitch_max")
 
 
 @dataclass(frozen=True, slots=True)

@@ -89,9 +89,10 @@ def strain_below_strip(run: Run, pantograph: int) -> FloatArray:
     """
     recording, rate, butterworth = run.recordings[pantograph], sample_rate(run.t), Butterworth()
     speed = _speed(run, pantograph)
+    wires = [part.contact_wire for part in run.form.line.parts for _ in range(part.contact_wires)]
     strains = [
-        strain_of_force(part.contact_wire, speed) * butterworth.low_pass(recording.force_on(k), rate)
-        for k, part in enumerate(run.form.line.parts)
+        strain_of_force(wire, speed) * butterworth.low_pass(recording.force_on(k), rate)
+        for k, wire in enumerate(wires)
     ]
     return np.asarray(np.max(strains, axis=0), dtype=np.float64)
 
@@ -104,12 +105,17 @@ def clamp_strains(run: Run, over: tuple[float, float] | None = None) -> list[Cla
     accelerates the clamp, whose inertia is left out, as is that of the wire.
     """
     low, high = run.window if over is None else over
-    rate, butterworth, found, first = sample_rate(run.t), Butterworth(), [], 0
-    for k, part in enumerate(run.form.line.parts):
-        contact = [butterworth.low_pass(one.force_on(k), rate) for one in run.recordings]
+    rate, butterworth, found, first, before = sample_rate(run.t), Butterworth(), [], 0, 0
+    for part in run.form.line.parts:
+        on_wires = [
+            [butterworth.low_pass(one.force_on(before + wire), rate) for one in run.recordings]
+            for wire in range(part.contact_wires)
+        ]
+        before += part.contact_wires
         places = dropper_places(run)[first : first + len(part.dropper_x)]
         for j, (span, number, x) in enumerate(places, start=first):
             if low <= x <= high:
+                contact = on_wires[int(part.dropper_wire[j - first])]
                 history, rest = _history(run, part, contact, j, x)
                 extremes = float(np.max(history)), float(np.min(history))
                 found.append(ClampStrain(span, number, x, rest, *extremes, rainflow(history)))

@@ -4,20 +4,26 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ..errors import ModelError
-from ..model.checks import listed, nearest
+from ..model.checks import choice, listed, nearest
 
 MOST_ROWS = 200_000
 #: A cell with several numbers, such as places of droppers.
 BETWEEN = ";"
-Row = dict[str, float | list[float]]
+Value = float | list[float] | str | bool
+Row = dict[str, Value]
 
 
 def read_table(
-    path: Path, needed: Sequence[str], known: Sequence[str], lists: Sequence[str] = (), others: bool = False
+    path: Path,
+    needed: Sequence[str],
+    known: Sequence[str],
+    lists: Sequence[str] = (),
+    others: bool = False,
+    words: Mapping[str, Mapping[str, str | bool]] | None = None,
 ) -> list[Row]:
     """Rows of a CSV file as numbers; empty cells are left out.
 
@@ -30,6 +36,8 @@ def read_table(
         Columns whose cells hold numbers with ";" between them.
     others : bool
         Columns that nobody asks for are let pass.
+    words : mapping
+        Columns whose cells hold one of some words, each with its meaning.
 
     Raises
     ------
@@ -60,7 +68,9 @@ def read_table(
                 raise ModelError(f"{path}, row {number}, column {key}", "is empty")
         rows.append(
             {
-                key: _value(cell, key in lists, f"{path}, row {number}, column {key}")
+                key: _word(cell, words[key], f"{path}, row {number}, column {key}")
+                if words and key in words
+                else _value(cell, key in lists, f"{path}, row {number}, column {key}")
                 for key, cell in cells.items()
                 if key in known
             }
@@ -90,6 +100,10 @@ def _value(cell: str, several: bool, where: str) -> float | list[float]:
     if several:
         return [_number(part, where) for part in cell.split(BETWEEN)]
     return _number(cell, where)
+
+
+def _word(cell: str, known: Mapping[str, str | bool], where: str) -> str | bool:
+    return known[choice(cell, where, list(known))]
 
 
 def _number(text: str, where: str) -> float:

@@ -128,8 +128,11 @@ def elasticity_beside(line: Line | Route) -> Elasticity:
 def _lifts(overhead: Assembled, track: FloatArray, force: FloatArray) -> FloatArray:
     """Displacements (k, n) at track positions (n,) under forces (k,), each alone: at times 1, 2, ..."""
     model, sample = overhead.model, [overhead.contact_at(float(x)) for x in track]
-    for k, point in enumerate(sample):
-        model.add_force(point, _only_at([1 + k + len(sample) * i for i in range(force.size)], force))
+    for k, x in enumerate(track):
+        points = overhead.contacts_at(float(x))
+        for point in points:
+            times = [1 + k + len(sample) * i for i in range(force.size)]
+            model.add_force(point, _only_at(times, force / len(points)))
     rest = ancf.equilibrium(model)
     lift = np.empty((force.size, track.size))
     for i in range(force.size):

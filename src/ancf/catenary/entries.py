@@ -43,6 +43,9 @@ class ContactWireEntry(SectionEntry):
 
     tension: Positive | None = Field(None, description="Force at the anchors along the track [N].")
     rail: bool = Field(False, description="A conductor rail, which needs no tension.")
+    spacing: Positive | None = Field(
+        None, description="Between two wires (count = 2) that are each computed, across the track [m]."
+    )
 
 
 def _of_number(given: Any) -> str:
@@ -126,6 +129,9 @@ class DroppersEntry(Entry):
     clamp_messenger: NonNegative = Field(0.0, description="Clamp on the messenger [kg].")
 
 
+Side = Literal["left", "right"]
+
+
 class SteadyArmEntry(Entry):
     """Springs at the supports (vertical), or a hinged arm (length)."""
 
@@ -136,6 +142,8 @@ class SteadyArmEntry(Entry):
     stiffness: Positive = Field(1e6, description="Stiffness of a hinged arm along itself [N/m].")
     angle: float | None = Field(None, description="Of a hinged arm at rest, up from the wire [rad].")
     uplift_stop: Positive | None = Field(None, description="Uplift at which a stop meets the wire [m].")
+    side: Side | None = Field(None, description="Of the wire on which its hinge is; it only pulls there.")
+    push: bool = Field(False, description="It can push too, as a strut.")
 
 
 def _of_droppers(given: Any) -> str:
@@ -204,6 +212,8 @@ class SupportEntry(Entry):
     arm_length: Positive | None = Field(None, description="Length of its hinged arm [m].")
     arm_angle: float | None = Field(None, description="Angle of its hinged arm [rad].")
     arm_mass: NonNegative | None = Field(None, description="Mass of its arm [kg].")
+    arm_side: Side | None = Field(None, description="Side of the wire on which its hinge is.")
+    arm_push: bool | None = Field(None, description="Its arm can push too.")
     uplift_stop: Positive | None = Field(None, description="Uplift at which a stop meets the wire [m].")
 
 

@@ -142,7 +142,8 @@ def parse_line(data: dict[str, Any], source: str = "line") -> Line:
         raise ModelError("spans", what, "give spans, or supports")
     rows = [] if entry.supports is None else supports_of(entry, folder)
     laid = _laid(entry, rows)
-    count = sum(len(span.droppers) for span in laid["spans"])
+    wires = 1 if own_spacing(entry.contact_wire) is None else 2
+    count = wires * sum(len(span.droppers) for span in laid["spans"])
     plain = {key: getattr(entry, key) for key in PLAIN}
     plain["system_height"] = 0.0 if entry.system_height is None else entry.system_height
     with _in_file(entry, rows):
@@ -172,6 +173,7 @@ def _line(entry: LineEntry, plain: dict[str, Any]) -> Line:
         messenger_wire=None
         if entry.messenger_wire is None
         else _wire(entry.messenger_wire, "messenger_wire"),
+        contact_spacing=own_spacing(entry.contact_wire),
         damping=Rayleigh(**entry.damping.given()),
         stitch=_stitch(entry.stitch),
         auxiliary=_auxiliary(entry),
@@ -221,19 +223,29 @@ def _auxiliary(entry: LineEntry) -> Auxiliary | None:
 
 def _wire(given: WireEntry | ContactWireEntry, where: str) -> Wire:
     """A wire of the catalogue with what else is given, or one of its own numbers."""
-    own = given.given("reach", "count", "height", "places")
+    own = given.given("reach", "count", "height", "places", "spacing")
+    count = 1 if own_spacing(given, where) is not None else given.count
     if own.get("tension") is None:
         if not own.get("rail"):
             what = ContactWireEntry.model_fields["tension"].description or ""
             raise ModelError(f"{where}.tension", "is missing", what.rstrip("."))
         own["tension"] = 0.0
     if given.type is not None:
-        return Wire(**(wire_data(given.type, f"{where}.type") | own)).times(given.count)
+        return Wire(**(wire_data(given.type, f"{where}.type") | own)).times(count)
     for key in ("EA", "EI", "mass"):
         if own.get(key) is None:
             what = SectionEntry.model_fields[key].description or ""
             raise ModelError(f"{where}.{key}", "is missing", f'{what.rstrip(".")}; or a type, "CuAg AC-100"')
-    return Wire(**own).times(given.count)
+    return Wire(**own).times(count)
+
+
+def own_spacing(given: WireEntry | ContactWireEntry, where: str = "contact_wire") -> float | None:
+    """Distance of two contact wires that are each computed, m; None for one, or several as one."""
+    spacing: float | None = getattr(given, "spacing", None)
+    if spacing is not None and given.count != 2:
+        what = f"is given with count = {given.count}"
+        raise ModelError(f"{where}.spacing", what, "it belongs to count = 2, two wires side by side")
+    return spacing
 
 
 def _spans(entry: LineEntry, given: SpanEntry, index: int) -> list[Span]:
@@ -272,6 +284,7 @@ def _in_file(entry: LineEntry, rows: list[tuple[str, Row]]) -> Iterator[None]:
     except ModelError as error:
         where = error.where.removeprefix("line.").replace("auxiliary.droppers", "long_droppers")
         where = where.replace("auxiliary.", "auxiliary_wire.").replace("_wire.wire.", "_wire.")
+        where = where.replace("contact_spacing", "contact_wire.spacing")
         key, _, index = where.partition("[")
         k = int(index.partition("]")[0]) if index else 0
         if key in OF_SUPPORTS and index and k < len(rows) and key in rows[k][1]:

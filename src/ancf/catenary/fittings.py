@@ -8,6 +8,7 @@ from ..errors import ModelError
 from ..model import checks
 
 STEEPEST = 0.7  # rad, of a steady arm
+FAINT = 1.0  # N, of forces on arms that are taken for none
 MOST_SEED = 2**32 - 1
 
 
@@ -154,6 +155,11 @@ class SteadyArm:
         this angle of its pull, where the wire hangs free otherwise. Default as its own weight makes it.
     uplift_stop : float, m
         Height above rest at which a stop meets the wire; default none.
+    side : "left" or "right"
+        Of the wire on which its hinge is. It can then only pull to this side, unless it can push. Default
+        where it has to pull to.
+    push : bool
+        It can push too, as a strut: it pushes where curve and stagger draw the wire away from its side.
 
     """
 
@@ -164,6 +170,22 @@ class SteadyArm:
     stiffness: float = 1e6
     angle: float | None = None
     uplift_stop: float | None = None
+    side: str | None = None
+    push: bool = False
+
+    def sense(self, sideways: float) -> float:
+        """1 if it pulls where it has to give the wire a force to the left, N, -1 if it pushes."""
+        if self.side is None or abs(sideways) < FAINT:
+            return 1.0
+        return 1.0 if (sideways > 0.0) == (self.side == "left") else -1.0
+
+    def stands(self, sideways: float) -> str:
+        """The side of the wire on which its hinge is where it has to give this force to the left, N."""
+        return self.side or ("left" if sideways > 0.0 else "right")
+
+    def refuses(self, sideways: float) -> bool:
+        """Whether it would be pushed, which it cannot stand."""
+        return not self.push and self.sense(sideways) < 0.0
 
     @property
     def hinged(self) -> bool:
@@ -186,6 +208,11 @@ class SteadyArm:
                 raise ModelError(f"{where}.lateral", "has no effect on a hinged arm", "leave it out")
         checks.non_negative(self.mass, f"{where}.mass")
         checks.positive(self.stiffness, f"{where}.stiffness")
+        if self.side is not None:
+            checks.choice(self.side, f"{where}.side", ("left", "right"))
+        if checks.flag(self.push, f"{where}.push") and self.side is None:
+            what = "has no effect without side"
+            raise ModelError(f"{where}.push", what, 'an arm that pushes stands at a side, "left" or "right"')
         if self.uplift_stop is not None:
             checks.positive(self.uplift_stop, f"{where}.uplift_stop")
         if self.angle is not None:

@@ -10,12 +10,14 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
+from .arm_loads import check_arms, check_roughly
 from .auxiliary import LongDroppers
 from .first_guess import first_guess
 from .fittings import Droppers
 from .hang import Hung, hang_auxiliary, hang_contact, hang_messenger, hang_stitches
 from .line import Line
 from .mesh import Mesh
+from .reach import cautions, check_aside
 from .schedule import Row, rows, write
 from .shape import WireShape
 
@@ -58,13 +60,18 @@ class Form:
     arm_force : (supports, 3) N
         Force on the contact wire at the supports; zero at the two anchors.
     iterations : int
-    pull : (2, 2) or (3, 2) N
-        Component along the track of the forces at both ends of contact wire, messenger and auxiliary.
+    pull : (2, 2), (3, 2) or (4, 2) N
+        Component along the track of the forces at both ends of contact wire, messenger, auxiliary and second
+        contact wire.
     settled : bool
         Whether it is the state of the line's conditions or of lengths that were given, not of the design.
     auxiliary : WireShape or None
         Of a compound catenary; the droppers hang from it then, and it from the messenger by
     long_droppers : LongDroppers or None
+    twin : WireShape or None
+        The second of two contact wires side by side, and
+    twin_arm_force : (supports, 3) N or None
+        the force on it at the supports.
     made_for : (Line, Mesh)
         What it was found for.
 
@@ -97,6 +104,8 @@ class Form:
     settled: bool = False
     auxiliary: WireShape | None = None
     long_droppers: LongDroppers | None = None
+    twin: WireShape | None = None
+    twin_arm_force: FloatArray | None = None
     made_for: tuple[Line, Mesh] | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -138,14 +147,43 @@ class Form:
         return height
 
     @property
+    def arm_load(self) -> FloatArray:
+        """Force (supports, 3) on all contact wires at the supports, N."""
+        return self.arm_force if self.twin_arm_force is None else self.arm_force + self.twin_arm_force
+
+    @property
     def shifted(self) -> tuple[Form, ...]:
         """The forms of all tension lengths in their places on the track: itself."""
         return (self,)
 
     @property
+    def contacts(self) -> tuple[WireShape, ...]:
+        """The contact wire, or both of twin ones."""
+        return (self.contact,) if self.twin is None else (self.contact, self.twin)
+
+    @property
     def contact_places(self) -> list[FloatArray]:
-        """Places (n, 3) of the contact wire on the track, m: one wire."""
-        return [self.contact.position]
+        """Places (n, 3) of each contact wire on the track, m."""
+        return [shape.position for shape in self.contacts]
+
+    @property
+    def lower(self) -> FloatArray:
+        """Nodes (n, 3) of the contact wires at the droppers, m."""
+        every = np.stack([shape.position[shape.nodes.dropper] for shape in self.contacts])
+        made: FloatArray = every[self.line.dropper_wire, np.arange(every.shape[1])]
+        return made
+
+    @property
+    def upper(self) -> FloatArray:
+        """Nodes (n, 3) from which the droppers hang, m."""
+        if self.auxiliary is not None:
+            return self.auxiliary.position[self.auxiliary.nodes.dropper]
+        if self.messenger is None:
+            return np.zeros((0, 3))
+        position = self.messenger.position[self.messenger.nodes.dropper]
+        for k, shape in enumerate(self.stitches):
+            position[self.line.dropper_stitch == k + 1] = shape.position[shape.nodes.dropper]
+        return position
 
     def with_loads(self, load: FloatArray) -> Form:
         """The same with other loads of the droppers at rest, N."""
@@ -183,6 +221,7 @@ def design(line: Line, mesh: Mesh | None = None) -> Form:
     """
     mesh = Mesh() if mesh is None else mesh
     now = first_guess(line, mesh)
+    check_aside(line, now.contact)
     for iteration in range(1, MOST_ITERATIONS + 1):
         _check_reach(line, now)
         before = now
@@ -197,19 +236,27 @@ def design(line: Line, mesh: Mesh | None = None) -> Form:
     raise SolveError("catenary.form", what, "wires that sag much, or droppers very close to each other")
 
 
-def check(line: Line, mesh: Mesh | None = None) -> None:
+def check(line: Line, mesh: Mesh | None = None) -> list[str]:
     """Find what is wrong with a line without finding its form: its wires as strings must fit.
+
+    Returns
+    -------
+    list of str
+        Warnings: spans in which the contact wire leaves strips of the usual length.
 
     Raises
     ------
     ModelError
-        A wire hangs too steep, the messenger too low, or the mesh is too large.
+        A wire hangs too steep or too far beside the track, the messenger too low, or the mesh is too large.
 
     """
     begun = first_guess(line, Mesh() if mesh is None else mesh)
+    check_aside(line, begun.contact)
+    check_roughly(line)
     _check_reach(line, begun)
     if line.dropper_lengths is not None:
         check_lengths(line, begun.short.length)
+    return cautions(line, begun.contact)
 
 
 def check_lengths(line: Line, designed: FloatArray) -> None:
@@ -244,11 +291,12 @@ def _finished(line: Line, mesh: Mesh, now: Hung, iterations: int) -> Form:
     own = line.droppers.mass * length * line.gravity
     load = force - 0.5 * own
     least = float(np.min(load, initial=np.inf))
+    check_arms(line, now.arm)
     if least <= 0.0:
         worst = int(np.argmax(load <= least + 1e-3 * abs(least)))  # the first of those that are alike
         what = f"would carry {load[worst]:.1f} N at rest: it has to push the contact wire down"
         raise ModelError(line.dropper_label(worst), what, "change its place or the pre_sag around it")
-    natural, stiffness = _unstretched(line.droppers, length, force, line.dropper_label)
+    natural, stiffness = unstretched(line.droppers, length, force, line.dropper_label)
     tensions = [line.contact_wire.tension, messenger_tension(line)]
     if line.auxiliary is not None:
         tensions.append(line.auxiliary.wire.tension)
@@ -291,7 +339,7 @@ def _long(line: Line, now: Hung) -> LongDroppers | None:
     def label(j: int) -> str:
         return f"line.auxiliary: long dropper at {line.long_x[j]:g} m"
 
-    natural, stiffness = _unstretched(given, ties.length, ties.force, label)
+    natural, stiffness = unstretched(given, ties.length, ties.force, label)
     give: FloatArray = now.long_give.sum(axis=0)
     return LongDroppers(ties.force, ties.length, natural, stiffness, give, now.auxiliary_side)
 
@@ -301,7 +349,7 @@ def messenger_tension(line: Line) -> float:
     return 0.0 if line.messenger_wire is None else line.messenger_wire.tension
 
 
-def _unstretched(
+def unstretched(
     droppers: Droppers, length: FloatArray, force: FloatArray, label: Callable[[int], str]
 ) -> tuple[FloatArray, FloatArray]:
     """Natural lengths, m, and stiffnesses, N/m, of droppers."""

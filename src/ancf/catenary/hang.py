@@ -254,7 +254,8 @@ def carried(line: Line, arm: FloatArray) -> FloatArray:
     for k in range(1, len(arm) - 1):
         angle = line.arm(k).angle
         if angle is not None:
-            force[k, 2] = abs(arm[k, 1]) * np.tan(angle) - 0.5 * line.arm(k).mass * line.gravity
+            pull = line.arm(k).sense(arm[k, 1]) * abs(arm[k, 1])  # an arm that pushes drives the wire down
+            force[k, 2] = pull * np.tan(angle) - 0.5 * line.arm(k).mass * line.gravity
     return force
 
 

@@ -89,7 +89,8 @@ def height_errors(
         A number is wrong, or the spectrum has values that are no finite numbers >= 0.
 
     """
-    error = random_waves(spectrum, wavelengths, seed, line.dropper_x, "height_errors")
+    places = line.dropper_x[:: line.contact_wires]
+    error = random_waves(spectrum, wavelengths, seed, places, "height_errors")
     first = 0
     spans = []
     for span in line.spans:

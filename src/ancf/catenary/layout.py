@@ -21,7 +21,14 @@ OF_ARMS = {
     "arm_length": "length",
     "arm_angle": "angle",
     "arm_mass": "mass",
+    "arm_side": "side",
+    "arm_push": "push",
     "uplift_stop": "uplift_stop",
+}
+#: Columns of words, and what they mean.
+WORDS: dict[str, dict[str, str | bool]] = {
+    "arm_side": {"left": "left", "right": "right"},
+    "arm_push": {"yes": True, "no": False},
 }
 LENGTHS = ("natural_length_mm",)
 
@@ -30,9 +37,8 @@ def supports_of(entry: LineEntry, folder: Path) -> list[tuple[str, Row]]:
     """Rows of the supports with their places for messages, from the file or from a table of its own."""
     if isinstance(entry.supports, str):
         path = folder / entry.supports
-        rows = read_table(
-            path, ("position",), tuple(SupportEntry.model_fields), lists=("droppers", "long_droppers")
-        )
+        known, lists = tuple(SupportEntry.model_fields), ("droppers", "long_droppers")
+        rows = read_table(path, ("position",), known, lists=lists, words=WORDS)
         return [(f"{path}, row {k + 1}, column ", row) for k, row in enumerate(rows)]
     given = [support.given() for support in entry.supports or ()]
     return [(f"supports[{k}].", row) for k, row in enumerate(given)]
@@ -66,7 +72,7 @@ def _span(entry: LineEntry, begin: tuple[str, Row], end: tuple[str, Row]) -> Spa
     start, stop, radius = row["position"], following["position"], row.get("radius")
     assert isinstance(start, float)
     assert isinstance(stop, float)
-    assert not isinstance(radius, list)
+    assert radius is None or isinstance(radius, float)
     if stop <= start:
         raise ModelError(
             f"{behind}position", f"is {stop:g} m, behind one at {start:g} m", "sort the supports"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from ..model import checks
 from .auxiliary import Auxiliary
 from .cant import LARGEST, plumb_above
 from .conditions import Conditions
+from .excerpt import excerpt
 from .fittings import NO_DROPPERS, DropperErrors, Droppers, Load, SteadyArm, Tensioner
 from .span import Span, within
 from .stitch import StitchWire
@@ -24,6 +25,7 @@ ANCHORS = ("fixed", "tension", "spring")
 CLAMPS = ("hinged", "continuous")
 HIGHEST = 100.0  # m, of wires; more is a slip of units
 WIDEST = 20.0  # m, of staggers, those of anchors aside included
+SPACINGS = (0.01, 0.5)  # m, of twin contact wires
 #: A line of some 600 km; more is a slip that would take all memory.
 MOST_SPANS, MOST_DROPPERS = 10_000, 200_000
 
@@ -63,6 +65,9 @@ class Line:
     messenger_clamp : "hinged" or "continuous"
         Whether the messenger turns freely in its supports, or bends over them; it then hangs some
         millimetres higher, its slope at the support times sqrt(EI/T).
+    contact_spacing : float, m
+        Of twin contact wires the distance across the track between both, each of which is a `contact_wire`
+        with its own droppers and arms. Staggers are those of the middle. Default one wire.
     stagger : float or (supports,) m
         Sideways place of the contact wire at the supports; one number changes its sign at each support.
     messenger_stagger : float or (supports,) m
@@ -110,6 +115,7 @@ class Line:
     steady_arm: Any
     messenger_wire: Wire | None = None
     droppers: Droppers = NO_DROPPERS
+    contact_spacing: float | None = None
     system_height: Any = 0.0
     height: Any = 0.0
     damping: Rayleigh = field(default_factory=Rayleigh)
@@ -160,7 +166,7 @@ class Line:
         if self.stitch is not None:
             self.stitch.check_in(self)
         if self.auxiliary is not None:
-            self._check_auxiliary(self.auxiliary)
+            self.auxiliary.check_in(self)
         self._check_lengths()
         if self.dropper_errors is not None:
             self.dropper_errors.check("line.dropper_errors")
@@ -190,6 +196,10 @@ class Line:
                 missing = "messenger_wire" if self.messenger_wire is None else "droppers"
                 hint = "a line without messenger has spans without droppers"
                 raise ModelError(f"line.{missing}", f"is missing, span {k + 1} has droppers", hint)
+        if self.contact_spacing is not None:
+            checks.between(self.contact_spacing, "line.contact_spacing", *SPACINGS)
+            if self.contact_wire.rail:
+                raise ModelError("line.contact_spacing", "has no effect on a conductor rail", "leave it out")
         if self.messenger_support is not None:
             checks.positive(self.messenger_support, "line.messenger_support")
         checks.non_negative(self.messenger_support_mass, "line.messenger_support_mass")
@@ -227,23 +237,6 @@ class Line:
                 where = f"line.dropper_lengths[{j}]"
                 raise ModelError(where, f"is {length:g} m, of {self.dropper_label(j)}", "0 < length, in m")
         object.__setattr__(self, "dropper_lengths", tuple(lengths))
-
-    def _check_auxiliary(self, auxiliary: Auxiliary) -> None:
-        auxiliary.check("line.auxiliary")
-        if self.messenger_wire is None or self.stitch is not None:
-            alone = self.messenger_wire is None
-            what = "has no messenger to hang from" if alone else "and stitch are given both"
-            raise ModelError("line.auxiliary", what, "leave it out")
-        lowest = min(self.system_height)
-        if auxiliary.height >= lowest:
-            what = f"is {auxiliary.height:g} m, the messenger is {lowest:g} m over the contact wire"
-            raise ModelError("line.auxiliary.height", what)
-        for k, span in enumerate(self.spans):
-            if span.long_droppers is None and auxiliary.places is None:
-                what = "is missing, nothing carries the auxiliary"
-                raise ModelError(
-                    f"line.spans[{k}].long_droppers", what, "or give a rule, first and pitch_max"
-                )
 
     def _per_support(self, key: str, alternating: bool) -> tuple[float, ...]:
         """Set a value to one number for each support."""
@@ -293,21 +286,38 @@ class Line:
         return float(self.supports[-1])
 
     @property
+    def twin(self) -> bool:
+        """Whether there are two contact wires side by side."""
+        return self.contact_spacing is not None
+
+    @property
+    def contact_wires(self) -> int:
+        """How many contact wires a strip touches on this line."""
+        return 2 if self.twin else 1
+
+    @property
     def dropper_x(self) -> FloatArray:
-        """Track positions of all droppers (n,), m."""
+        """Track positions of all droppers (n,), m; of twin wires each place twice, the first wire's first."""
         starts = self.supports[:-1]
         places = [x0 + np.array(s.droppers) for x0, s in zip(starts, self.spans, strict=True)]
-        return np.concatenate(places).astype(np.float64)
+        return np.repeat(np.concatenate(places).astype(np.float64), self.contact_wires)
 
     @property
     def dropper_span(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Index of the span of each dropper (n,)."""
-        return np.repeat(np.arange(len(self.spans)), [len(s.droppers) for s in self.spans])
+        count = [self.contact_wires * len(s.droppers) for s in self.spans]
+        return np.repeat(np.arange(len(self.spans)), count)
 
     @property
     def dropper_number(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Index of each dropper in its span (n,)."""
-        return np.concatenate([np.arange(len(s.droppers)) for s in self.spans]).astype(np.int64)
+        count = [np.arange(self.contact_wires * len(s.droppers)) for s in self.spans]
+        return np.concatenate(count).astype(np.int64)
+
+    @property
+    def dropper_wire(self) -> np.ndarray[Any, np.dtype[np.int64]]:
+        """Index of the contact wire that each dropper carries (n,): 0, or 1 for the second of twin wires."""
+        return np.arange(self.dropper_x.size) % self.contact_wires
 
     @property
     def dropper_stitch(self) -> np.ndarray[Any, np.dtype[np.int64]]:
@@ -334,7 +344,7 @@ class Line:
     def dropper_height(self) -> FloatArray:
         """Prescribed heights of the contact wire at the droppers (n,), m, less the pre-sag."""
         sag = np.concatenate([np.array(s.pre_sag, dtype=np.float64) for s in self.spans])
-        level: FloatArray = self.height_at(self.dropper_x) - sag
+        level: FloatArray = self.height_at(self.dropper_x) - np.repeat(sag, self.contact_wires)
         return level
 
     def height_at(self, track: Any) -> Any:
@@ -378,21 +388,9 @@ class Line:
         span, number = int(self.dropper_span[j]), int(self.dropper_number[j])
         if span < len(self.rows) and ".csv" in self.rows[span]:
             return f"{self.rows[span].removesuffix('column ')}dropper {number + 1} of its span"
-        return f"line.spans[{span}].droppers[{number}]"
+        return f"line.spans[{span}].droppers[{number // self.contact_wires}]"
 
     def excerpt(self, first: int, count: int) -> Line:
         """The line of `count` spans from span `first` on, anchored at its own ends."""
-        supports = slice(first, first + count + 1)
-        keys = ["system_height", "stagger"]
-        keys += [key for key in ("height", "cant") if isinstance(getattr(self, key), tuple)]
-        keys += ["messenger_stagger"] if self.messenger_stagger is not None else []
-        keys += ["steady_arm"] if isinstance(self.steady_arm, tuple) else []
-        keys += ["rows"] if self.rows else []
-        cut: dict[str, Any] = {key: getattr(self, key)[supports] for key in keys}
-        if self.dropper_lengths is not None:
-            own = (self.dropper_span >= first) & (self.dropper_span < first + count)
-            cut["dropper_lengths"] = tuple(np.array(self.dropper_lengths)[own].tolist())
-        start, end = self.supports[first], self.supports[first + count]
-        inside = [load for load in self.loads if start < load.position < end]
-        cut["loads"] = tuple(replace(load, position=load.position - float(start)) for load in inside)
-        return replace(self, spans=self.spans[first : first + count], **cut)
+        cut: Line = excerpt(self, first, count)
+        return cut

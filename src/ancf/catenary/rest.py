@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 from typing import overload
 
 from ..errors import ModelError
+from .arm_loads import pushed
 from .assemble import Assembled, assembled
 from .conditions import Conditions
 from .form import Form, check, check_lengths, design
@@ -16,6 +18,7 @@ from .route import Route
 from .route_form import AnyForm, RouteForm
 from .route_model import assembled_route
 from .settle import as_built, in_conditions
+from .twin import design_twin
 
 
 @overload
@@ -55,7 +58,8 @@ def form(line: Line | Route, mesh: Mesh | None = None) -> AnyForm:
 
 def _of_line(line: Line, mesh: Mesh | None, section: int = 0) -> Form:
     plain = replace(line, conditions=Conditions(), dropper_lengths=None, dropper_errors=None)
-    found = replace(design(plain, mesh), line=line, made_for=None)
+    designed = design_twin(plain, mesh) if line.twin else design(plain, mesh)
+    found = replace(designed, line=line, made_for=None)
     lengths = line.dropper_lengths
     if line.dropper_errors is not None:
         lengths = with_errors(found, line.dropper_errors, section)
@@ -65,6 +69,8 @@ def _of_line(line: Line, mesh: Mesh | None, section: int = 0) -> Form:
         found = as_built(found, lengths)
     if line.conditions != Conditions():
         found = in_conditions(found)
+        for text in pushed(line, found.arm_force):
+            warnings.warn(f"line.conditions: in them at {text}: it can only pull", UserWarning, stacklevel=4)
     return found
 
 
@@ -86,23 +92,34 @@ def _in_section(error: ModelError, k: int) -> ModelError:
     return ModelError(f"sections[{k}].{error.where.removeprefix('line.')}", error.what, error.hint)
 
 
-def check_track(line: Line | Route) -> None:
+def check_track(line: Line | Route) -> list[str]:
     """Find what is wrong with a line, or with the sections of a route, without finding their forms.
+
+    Returns
+    -------
+    list of str
+        Warnings, see :func:`ancf.catenary.form.check`.
 
     Raises
     ------
     ModelError
-        A wire hangs too steep, the messenger too low, a dropper has other units than the design.
+        A wire hangs too steep or too far beside the track, the messenger too low, a dropper has other units
+        than the design.
 
     """
     if isinstance(line, Line):
-        check(line)
-        return
+        return check(line)
+    said: list[str] = []
     for k, part in enumerate(line.lines):
         try:
-            check(part)
+            said += [_caution_in_section(text, k) for text in check(part)]
         except ModelError as error:
             raise _in_section(error, k) from None
+    return said
+
+
+def _caution_in_section(text: str, k: int) -> str:
+    return text if ".csv" in text else f"sections[{k}].{text.removeprefix('line.')}"
 
 
 def assemble(found: AnyForm, mesh: Mesh | None = None) -> Assembled:

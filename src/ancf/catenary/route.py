@@ -175,6 +175,12 @@ class Route:
         return numbers
 
     @property
+    def dropper_wire(self) -> IntArray:
+        """Index of the contact wire of its section that each dropper carries."""
+        wires: IntArray = self.joined(lambda line: line.dropper_wire)
+        return wires
+
+    @property
     def droppers(self) -> Droppers:
         """Droppers of the first section."""
         return self.lines[0].droppers

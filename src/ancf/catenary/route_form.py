@@ -104,6 +104,12 @@ class RouteForm:
         return force
 
     @property
+    def arm_load(self) -> FloatArray:
+        """The same of both of twin contact wires together."""
+        force: FloatArray = self.joined(lambda form: form.arm_load)
+        return force
+
+    @property
     def shifted(self) -> tuple[Form, ...]:
         """The forms in their places on the track."""
         return tuple(_shifted(form, x) for form, x in zip(self.forms, self.line.starts, strict=True))
@@ -111,7 +117,7 @@ class RouteForm:
     @property
     def contact_places(self) -> list[FloatArray]:
         """Places (n, 3) of each contact wire on the track, m."""
-        return [form.contact.position for form in self.shifted]
+        return [place for form in self.shifted for place in form.contact_places]
 
     def with_loads(self, load: FloatArray) -> RouteForm:
         """The same with other loads of the droppers at rest, N."""
@@ -136,7 +142,12 @@ def _shifted(form: Form, x: float) -> Form:
     stitches = tuple(moved(shape) for shape in form.stitches)
     auxiliary = None if form.auxiliary is None else moved(form.auxiliary)
     return replace(
-        form, contact=moved(form.contact), messenger=messenger, stitches=stitches, auxiliary=auxiliary
+        form,
+        contact=moved(form.contact),
+        messenger=messenger,
+        stitches=stitches,
+        auxiliary=auxiliary,
+        twin=None if form.twin is None else moved(form.twin),
     )
 
 

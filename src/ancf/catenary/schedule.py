@@ -99,7 +99,7 @@ class Formed(Protocol):
 def rows(form: Formed) -> list[Row]:
     """Rows in the order of the droppers along the track."""
     line = form.line
-    places = [x for span in line.spans for x in span.droppers]
+    places = [x for part in line.parts for span in part.spans for x in span.droppers for _ in _wires(part)]
     return [
         Row(
             span=int(line.dropper_span[j]) + 1,
@@ -114,6 +114,11 @@ def rows(form: Formed) -> list[Row]:
         )
         for j in range(line.dropper_x.size)
     ]
+
+
+def _wires(part: Line) -> range:
+    """The contact wires of a tension length."""
+    return range(part.contact_wires)
 
 
 def texts(row: Row) -> list[str]:

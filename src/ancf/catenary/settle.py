@@ -24,7 +24,7 @@ MOST_ITERATIONS = 30
 #: Share of its tension below which a wire is slack.
 SLACK = 0.1
 ENDS = np.array([-1.0, 1.0])
-NAMES = ("contact wire", "messenger", "auxiliary")
+NAMES = ("contact wire", "messenger", "auxiliary", "second contact wire")
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +50,11 @@ def as_built(designed: Form, lengths: Sequence[float] | FloatArray) -> Form:
         stiffness = droppers.EA / natural
     begun = replace(designed, dropper_natural=natural, dropper_stiffness=stiffness)
     return _at_rest(designed, begun, None, mounting=True)
+
+
+def mounted(begun: Form) -> Form:
+    """The line where it comes to rest with what it is made of, its ends pulled as in the design."""
+    return _at_rest(begun, begun, None, mounting=True)
 
 
 def in_conditions(built: Form) -> Form:
@@ -82,8 +87,8 @@ def _changed(built: Form) -> Form:
     messenger = None if built.messenger is None else _stretched(built.messenger, warmer)
     auxiliary = None if built.auxiliary is None else _stretched(built.auxiliary, warmer)
     pull = built.pull.copy()
-    given = air.contact_tension, air.messenger_tension
-    for k, tension in enumerate(given):
+    given = air.contact_tension, air.messenger_tension, None, air.contact_tension
+    for k, tension in enumerate(given[: len(pull)]):
         if tension is not None:
             pull[k] *= tension / built.pull[k].mean()
     kinds = _wires(line, air, warmer)
@@ -92,6 +97,9 @@ def _changed(built: Form) -> Form:
         contact=kinds[0].under(contact, float(pull[0].mean())),
         messenger=None if messenger is None else kinds[1].under(messenger, float(pull[1].mean())),
         auxiliary=None if auxiliary is None else kinds[2].under(auxiliary, float(pull[2].mean())),
+        twin=None
+        if built.twin is None
+        else kinds[0].under(_stretched(built.twin, warmer), float(pull[3].mean())),
         long_droppers=_longer(built.long_droppers, 1.0 + _expansion(line) * warmer),
         stitches=tuple(_stitch(line, shape, air, warmer) for shape in built.stitches),
         dropper_natural=built.dropper_natural * (1.0 + _expansion(line) * warmer),
@@ -171,45 +179,44 @@ def _at_rest(built: Form, begun: Form, held: BoolArray | None, mounting: bool = 
 
 
 def _all(form: Form) -> list[WireShape]:
-    return [
-        shape for shape in (form.contact, form.messenger, form.auxiliary, *form.stitches) if shape is not None
-    ]
+    every = (*form.contacts, form.messenger, form.auxiliary, *form.stitches)
+    return [shape for shape in every if shape is not None]
 
 
 def _rested(built: Form, now: Form, overhead: Assembled, state: ancf.State) -> Form:
     """Places and forces of an equilibrium as a form."""
-    line, wires = now.line, (overhead.contact, overhead.messenger, overhead.auxiliary)[: len(now.pull)]
+    line, wires = now.line, overhead.wires[: len(now.pull)]
     pull = np.array([_pull(now, k, wire, overhead, state) for k, wire in enumerate(wires)])
     shapes = [
         None if wire is None else _moved(wire, state, float(pull[k].mean())) for k, wire in enumerate(wires)
     ]
-    contact, messenger, auxiliary = (*shapes, None)[:3]
+    contact, messenger, auxiliary, twin = (*shapes, None, None)[:4]
     assert contact is not None
     stitches = tuple(replace(wire.shape, position=wire.positions(state)) for wire in overhead.stitches)
     force = np.array([float(state.spring_force(d)) for d in overhead.droppers if d is not None])
     length = now.dropper_natural + force / now.dropper_stiffness
-    upper = _uppers(messenger, stitches, line, auxiliary)
-    lower = contact.position[contact.nodes.dropper]
+    moved = replace(
+        now, contact=contact, messenger=messenger, auxiliary=auxiliary, twin=twin, stitches=stitches
+    )
+    upper, lower = moved.upper, moved.lower
     distance = np.linalg.norm(upper - lower, axis=1)
     lift = force * (upper - lower)[:, 2] / np.where(distance > 0.0, distance, 1.0)
     give = now.clamp_give
     load, side = _hangers(built, messenger, overhead, state)
+    arms = [_arms(built, k, shape, overhead, state) for k, shape in enumerate(moved.contacts)]
     return replace(
-        now,
-        contact=contact,
-        messenger=messenger,
-        stitches=stitches,
+        moved,
         dropper_force=force,
         dropper_length=length,
         dropper_load=force - 0.5 * line.droppers.mass * length * line.gravity,
         contact_height=lower[:, 2] + now.contact_give * lift,
         messenger_height=upper[:, 2] - (give - now.contact_give) * lift,
-        arm_force=_arms(built, contact, overhead, state),
+        arm_force=arms[0],
+        twin_arm_force=arms[1] if twin is not None else None,
         support_load=load,
         support_side=side,
         pull=pull,
         settled=True,
-        auxiliary=auxiliary,
         long_droppers=_long(now, overhead, state),
     )
 
@@ -233,19 +240,6 @@ def _moved(wire: Strung, state: ancf.State, tension: float) -> WireShape:
     return _Wires(rhoA, old.EA, old.EI).under(replace(shape, position=wire.positions(state)), tension)
 
 
-def _uppers(
-    messenger: WireShape | None, stitches: tuple[WireShape, ...], line: Line, auxiliary: WireShape | None
-) -> FloatArray:
-    if messenger is None:
-        return np.zeros((0, 3))
-    if auxiliary is not None:
-        return auxiliary.position[auxiliary.nodes.dropper]
-    position = messenger.position[messenger.nodes.dropper]
-    for k, shape in enumerate(stitches):
-        position[line.dropper_stitch == k + 1] = shape.position[shape.nodes.dropper]
-    return position
-
-
 def _pull(now: Form, k: int, wire: Strung | None, overhead: Assembled, state: ancf.State) -> FloatArray:
     """Forces (2,) along the track at the ends of a wire, N: as given, or what held ends give."""
     force: FloatArray = now.pull[k].copy()
@@ -259,23 +253,27 @@ def _pull(now: Form, k: int, wire: Strung | None, overhead: Assembled, state: an
     return force
 
 
-def _arms(built: Form, contact: WireShape, overhead: Assembled, state: ancf.State) -> FloatArray:
-    """Forces (supports, 3) of the steady arms on the contact wire, N, by their laws about the design."""
+def _arms(built: Form, wire: int, contact: WireShape, overhead: Assembled, state: ancf.State) -> FloatArray:
+    """Forces (supports, 3) of the steady arms on a contact wire, N, by their laws about the design."""
     line, force = built.line, np.zeros_like(built.arm_force)
+    rests = built.contacts[wire].position
+    given = built.arm_force if wire == 0 else built.twin_arm_force
+    assert given is not None
+    holds = (overhead.arm_holds, overhead.twin_arm_holds)[wire]
     for k in range(1, len(force) - 1):
         arm, node = line.arm(k), contact.nodes.support[k]
-        rest, here = built.contact.position[node], contact.position[node]
+        rest, here = rests[node], contact.position[node]
         weight = np.array([0.0, 0.0, 0.5 * arm.mass * line.gravity])
-        first = built.arm_force[k] + weight
+        first = given[k] + weight
         if arm.length is not None:
-            size = float(np.linalg.norm(first))
-            rod = rest + arm.length * first / size - here
+            size, sense = float(np.linalg.norm(first)), arm.sense(float(first[1]))
+            rod = rest + sense * arm.length * first / size - here
             rod[0] = 0.0  # the cantilever follows the wire along the track
-            natural, reach = arm.length - size / arm.stiffness, float(np.linalg.norm(rod))
+            natural, reach = arm.length - sense * size / arm.stiffness, float(np.linalg.norm(rod))
             force[k] = arm.stiffness * (reach - natural) * rod / reach - weight
             continue
         force[k, 2] = first[2] - (arm.vertical or 0.0) * (here - rest)[2] - weight[2]
-        hold = overhead.arm_holds[k]
+        hold = holds[k]
         if hold is not None:
             force[k, 1] = float(state.reaction(hold)[1])
         else:

@@ -105,7 +105,10 @@ def lifted_heights(overhead: Assembled, places: list[float], lifts: list[float])
     The model is as before afterwards.
     """
     model, points = overhead.model, [overhead.contact_at(place) for place in places]
-    forces = [model.add_force(point, (0.0, 0.0, lift)) for point, lift in zip(points, lifts, strict=True)]
+    forces = []
+    for place, lift in zip(places, lifts, strict=True):
+        under = overhead.contacts_at(place)
+        forces += [model.add_force(point, (0.0, 0.0, lift / len(under))) for point in under]
     state = ancf.equilibrium(model)
     for force in forces:
         model.loads.remove(force)

@@ -45,21 +45,22 @@ def verify(overhead: Assembled) -> Verified:
     found = overhead.form
     if isinstance(found, RouteForm):
         raise ModelError("verify", "is for one tension length", "verify the form of each")
-    every = (overhead.contact, overhead.messenger, overhead.auxiliary, *overhead.stitches)
+    every = (*overhead.wires, *overhead.stitches)
     wires = [wire for wire in every if wire is not None]
     state = ancf.equilibrium(overhead.model)
-    low = overhead.contact.positions(state)[found.contact.nodes.dropper]
+    placed = np.stack([wire.positions(state)[wire.shape.nodes.dropper] for wire in overhead.strung_contacts])
+    low = placed[found.line.dropper_wire, np.arange(placed.shape[1])]
     droppers = [d for d in overhead.droppers if d is not None]
     ends = np.array([[state.position(p) for p in (d.a, d.b) if isinstance(p, Point)] for d in droppers])
     stretch = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) - found.dropper_natural
-    clamps = low[:, 2] - found.contact.position[found.contact.nodes.dropper, 2] + found.contact_height
+    clamps = low[:, 2] - found.lower[:, 2] + found.contact_height
     force = found.spring_stiffness * stretch
     if found.line.droppers.slack:
         force = np.maximum(force, 0.0)
     tensions = [
         end_force(state, wire, last) - wire.shape.wire.tension
         for wire in wires
-        if wire not in overhead.stitches
+        if not any(wire is stitch for stitch in overhead.stitches)
         for last in (False, True)
     ]
     return Verified(

@@ -15,8 +15,9 @@ if TYPE_CHECKING:
 
 
 def show_form(name: str, output: Path | None, quiet: bool = False, given: list[str] | None = None) -> None:
-    """Find the form of a line and print its dropper schedule; with a folder also ``schedule.csv`` there."""
+    """Find the form of a line and print its droppers and arms; with a folder also write both there."""
     from .. import catenary
+    from ..catenary.arm_loads import write
 
     line = catenary.read_line(name, assignments(given))
     folder = None if output is None else OutputFolder(output)
@@ -24,8 +25,10 @@ def show_form(name: str, output: Path | None, quiet: bool = False, given: list[s
     found = catenary.form(line)
     if not quiet:
         _print_schedule(line, found)
+        _print_arms(found)
     if folder is not None:
         _written(found.save_schedule(folder.path / "schedule.csv"), quiet)
+        _written(write(catenary.arm_loads(found), folder.path / "arms.csv"), quiet)
 
 
 def show_elasticity(
@@ -66,6 +69,16 @@ def _print_schedule(line: Line | Route, found: AnyForm) -> None:
         f"contact wire {line.parts[0].contact_support} at the supports",
         soft_wrap=True,
     )
+
+
+def _print_arms(found: AnyForm) -> None:
+    from ..catenary.arm_loads import arm_loads, texts
+
+    heads = ("support", "track [m]", "by the curve [N]", "by the stagger [N]", "to the left [N]", "up [N]")
+    shown = table(*heads, "hinge", "arm")
+    for row in arm_loads(found):
+        shown.add_row(*texts(row))
+    console().print(shown)
 
 
 def _print_elasticity(line: Line | Route, found: Elasticity) -> None:

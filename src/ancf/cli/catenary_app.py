@@ -44,9 +44,9 @@ catenary = typer.Typer(help="Overhead lines.", no_args_is_help=True, rich_markup
 def catenary_form(
     line: LineName, output: OptionalFolder = None, quiet: Quiet = False, given: Set = None
 ) -> None:
-    """Find the form of an overhead line and print its dropper schedule.
+    """Find the form of an overhead line and print its dropper schedule and the loads of its arms.
 
-    With -o writes OUT/schedule.csv, lengths in mm.
+    With -o writes OUT/schedule.csv, lengths in mm, and OUT/arms.csv.
     """
     with reported():
         from .catenary import show_form

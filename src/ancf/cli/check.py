@@ -13,6 +13,8 @@ from .summary import plural
 
 #: Numbers of a results file that are looked at together.
 AT_ONCE = 4_000_000
+#: Warnings about a line that are printed.
+MOST_SAID = 8
 
 
 def check_file(path: Path, given: list[str] | None = None) -> None:
@@ -60,8 +62,12 @@ def _check_line(path: Path, data: dict[str, Any]) -> None:
     from ..catenary.rest import check_track
 
     line = parse_track(data, str(path))
-    check_track(line)
+    said = check_track(line)
     _print_right(path, size_of(line))
+    for text in said[:MOST_SAID]:
+        console().print(f"  warning: {text}", soft_wrap=True)
+    if len(said) > MOST_SAID:
+        console().print(f"  and {plural(len(said) - MOST_SAID, 'more warning')}", soft_wrap=True)
 
 
 def _check_results(path: Path) -> None:

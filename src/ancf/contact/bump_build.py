@@ -13,9 +13,11 @@ from ..errors import ModelError
 from ..model.bodies import RigidBody
 from ..model.body_contact import BodyContact
 from ..model.shape import Shape
-from ..model.surface_shapes import Capsule, Sphere
+from ..model.surface_shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
 from .build import MOST_NUMBERS
-from .bump import BESIDE, CROSSING, PROFILE, SEGMENTS, WHOLE, BumpBatch, bump_values
+from .bump import bump_values
+from .lay import DEEPEST, FIRST, LAST, OTHER, SHALLOW
+from .meeting import ALONG, PROFILE, SEGMENTS, BumpBatch
 from .profiles import NUMBER
 from .roll import RollBatch
 
@@ -39,13 +41,12 @@ def bumps(items: Sequence[BodyContact], slots: dict[str, IntArray], measured: Fl
         kind=np.array([row["kind"] for row in rows], dtype=np.int64),
         part=np.array([row["part"] for row in rows], dtype=np.int64),
         ends=np.array([row["ends"] for row in rows]),
-        lines=np.array([row["lines"] for row in rows]),
         contact=np.array([row["contact"] for row in rows], dtype=np.int64),
         surface=np.array([row["surface"] for row in rows]),
         shape_of=np.array([row["shape"] for row in rows], dtype=np.int64),
         data=np.array([_numbers(item) for item in items]),
         found=measured,
-        last=np.full((n, 3), np.inf),
+        last=np.full((n, 9), np.inf),
         rough=np.zeros((n, 10)),
     )
     _refuse_sunk(items, batch, slots)
@@ -84,17 +85,22 @@ def _rows(k: int, item: BodyContact, slots: dict[str, IntArray]) -> list[dict[st
         return _rows(k, BodyContact(item.name, second, first, *_law(item)), slots)
     a = slots_of(first.on, slots)
     b = slots_of(second.on, slots)
-    if two is None:
-        places = [one[0]] if isinstance(first.shape, Sphere) else [one[0], one[1]]
-        return [_row(k, a, b, (p, p, one[2]), None, second.shape) for p in places]
-    if isinstance(first.shape, Sphere) or isinstance(second.shape, Sphere):
-        return [_row(k, a, b, one, two)]
-    lines = np.concatenate([first.shape.direction, second.shape.direction])
-    crossing = _row(k, a, b, one, two, part=CROSSING, lines=lines)
-    ends = [_row(k, a, b, (p, p, one[2]), two, part=BESIDE, lines=lines) for p in one[:2]]
-    swapped = np.roll(lines, 3)
-    others = [_row(k, b, a, (p, p, two[2]), one, part=BESIDE, lines=swapped) for p in two[:2]]
-    return [crossing, *ends, *others]
+    if isinstance(first.shape, Sphere) and two is None:
+        return [_row(k, a, b, one, None, PROFILE, second.shape)]
+    if isinstance(first.shape, Sphere) or (isinstance(second.shape, Sphere) and two is not None):
+        return [_row(k, a, b, one, two, SEGMENTS)]
+    if isinstance(second.shape, Plane):
+        return [_row(k, a, b, (p, p, one[2]), None, PROFILE, second.shape) for p in one[:2]]
+    return [_row(k, a, b, one, None, ALONG, second.shape, part) for part in _places(second.shape)]
+
+
+def _places(shape: Shape) -> list[int]:
+    """Places along a capsule that may touch this shape."""
+    if isinstance(shape, Torus):
+        return [DEEPEST, OTHER + DEEPEST, SHALLOW]
+    if isinstance(shape, Cylinder) and shape.length is None:
+        return [DEEPEST, FIRST, LAST]
+    return [*range(SHALLOW + 1)] if isinstance(shape, Sheave) else [*range(OTHER)]
 
 
 def _law(item: BodyContact) -> tuple[float, float, float, float | None]:
@@ -107,18 +113,17 @@ def _row(
     b: IntArray,
     one: Ends,
     two: Ends | None,
+    kind: int,
     shape: Shape | None = None,
-    part: int = WHOLE,
-    lines: FloatArray | None = None,
+    part: int = DEEPEST,
 ) -> dict[str, Any]:
     numbers = [] if shape is None else [*shape.numbers, *[0.0] * (MOST_NUMBERS - len(shape.numbers))]
     other = (np.zeros(3), np.zeros(3), 0.0) if two is None else two
     return {
         "base": np.concatenate([a, b]),
-        "kind": SEGMENTS if shape is None else PROFILE,
+        "kind": kind,
         "part": part,
         "ends": np.concatenate([one[0], one[1], other[0], other[1], [one[2], other[2]]]),
-        "lines": np.zeros(6) if lines is None else lines,
         "contact": k,
         "surface": np.zeros(6 + MOST_NUMBERS)
         if shape is None

@@ -18,7 +18,8 @@ import numpy as np
 
 from ..compiled import Role, formula, implements, inline_kernel, kernel
 from ..vectors import dot
-from .bump import BumpBatch, add_bump, add_bump_block, apart_at, both, both_rates, bumped, meet
+from .bump import add_bump, add_bump_block, bumped
+from .meeting import BumpBatch, apart_at, both, both_rates, meet
 from .strand import less
 from .touch import DRAG, FRICTION, STICK, carried, in_body
 
@@ -47,7 +48,7 @@ def dragged(batch, e, q, v):
     """Place of contact in the axes of both bodies, w, its size, f, whether it slips, normal, stretch."""
     one, two = both(batch, e, q)
     moving, other = both_rates(batch, e, v)
-    _, n, c, _ = meet(batch, e, one, two)
+    _, n, c, _, _, _, _ = meet(batch, e, one, two)
     u, x, y = apart_at(one, two, moving, other, c)
     m, data = batch.rough[e], batch.data[batch.contact[e]]
     rho = less(carried(one, m[0], m[1], m[2]), carried(two, m[3], m[4], m[5]))
@@ -88,9 +89,9 @@ def roll_remember(batch, q, v):
     """Bring places, stretches and limits up to the state of an accepted step."""
     for e in range(batch.base.shape[0]):
         data, m = batch.data[batch.contact[e]], batch.rough[e]
-        _, _, _, N, _, _, _ = bumped(batch, e, q, v)
+        _, _, _, _, _, _, _, N = bumped(batch, e, q, v)
         one, two = both(batch, e, q)
-        _, _, c, _ = meet(batch, e, one, two)
+        _, _, c, _, _, _, _ = meet(batch, e, one, two)
         keep = 0.0, 0.0, 0.0
         if m[LIMIT] > 0.0 and N > 0.0:
             _, _, w, _, f, slips, _, way = dragged(batch, e, q, v)
@@ -130,7 +131,7 @@ def roll_limits(batch, q, v):
     """Limits in an equilibrium; returns their largest change and the largest of them."""
     change, most = 0.0, 0.0
     for e in range(batch.base.shape[0]):
-        _, _, _, N, _, _, _ = bumped(batch, e, q, v)
+        _, _, _, _, _, _, _, N = bumped(batch, e, q, v)
         wanted, limit = batch.data[batch.contact[e], FRICTION] * N, batch.rough[e, LIMIT]
         change, most = max(change, abs(wanted - limit)), max(most, wanted)
         batch.rough[e, LIMIT] = limit + TAKEN * (wanted - limit)

@@ -8,7 +8,7 @@ from typing import Any
 from ..errors import ModelError
 from . import checks
 from .mesh import Mesh
-from .surface_shapes import Capsule, Plane, Sphere
+from .surface_shapes import Capsule, Sphere
 from .surfaces import Surface
 from .tables import with_units
 
@@ -60,7 +60,7 @@ def make_body_contact(
         )
     if not can_touch(surface, other):
         words = f"a {surface.shape.word} and a {other.shape.word}"
-        hint = "a sphere touches every shape but a mesh, a capsule touches spheres, capsules and planes"
+        hint = "spheres and capsules touch every shape but a mesh: give one of the two bodies some of them"
         raise ModelError(f"{where}.other", f"{words} cannot touch", hint)
     return BodyContact(
         name,
@@ -78,10 +78,7 @@ def can_touch(one: Surface, two: Surface) -> bool:
     shapes = one.shape, two.shape
     if any(isinstance(shape, Mesh) for shape in shapes):
         return False
-    if any(isinstance(shape, Sphere) for shape in shapes):
-        return True
-    capsules = [isinstance(shape, Capsule) for shape in shapes]
-    return all(capsules) or (any(capsules) and any(isinstance(shape, Plane) for shape in shapes))
+    return any(isinstance(shape, Sphere | Capsule) for shape in shapes)
 
 
 def between(item: BodyContact) -> str:

@@ -293,7 +293,7 @@ class WithSurfaces(Connecting):
     ) -> BodyContact:
         """Let two rigid bodies, or one and the ground, touch with surfaces that they carry.
 
-        A sphere touches every shape but a mesh, a capsule touches spheres, capsules and planes.
+        Spheres and capsules touch every shape but a mesh.
 
         Parameters
         ----------

@@ -36,8 +36,9 @@ def draw(content: Content, figure: Figure) -> None:
     starts = getattr(line, "starts", (0.0,))
     for form, start in zip(content.run.form.shifted, starts, strict=True):
         _from_the_side(side, form)
-        x, _, z = form.contact.position.T
-        sag.plot(x, MM * (z - form.line.height_at(x - start)), **CONTACT)
+        contacts = [shape for shape in (form.contact, form.twin) if shape is not None]
+        for x, _, z in (shape.position.T for shape in contacts):
+            sag.plot(x, MM * (z - form.line.height_at(x - start)), **CONTACT)
         for name, shape, look in _wires(form):
             plan.plot(shape.position[:, 0], MM * shape.position[:, 1], label=name, **look)
     _strips(plan, content)
@@ -54,6 +55,8 @@ def draw(content: Content, figure: Figure) -> None:
 def _wires(form: Form) -> Iterator[tuple[str, WireShape, dict[str, Any]]]:
     """Name, shape and look of each wire of a tension length."""
     yield "contact wire", form.contact, CONTACT
+    if form.twin is not None:
+        yield "second contact wire", form.twin, CONTACT | {"linestyle": ":"}
     if form.auxiliary is not None:
         yield "auxiliary", form.auxiliary, AUXILIARY
     if form.messenger is not None:

@@ -110,7 +110,9 @@ def supports(content: Content) -> Element:
     heads = [
         f"uplift [mm], {content.name(k)}" if content.several else "uplift [mm]" for k in range(len(passed))
     ]
-    loads = [(f"{side:.0f}", f"{up:.0f}") for _, side, up in (content.run.form.arm_force + 0.0).tolist()]
+    loads = [
+        (f"{side:.0f}", f"{up:.0f}") for _, side, up in (np.round(content.run.form.arm_load) + 0.0).tolist()
+    ]
     rows = [
         (str(j + 1), f"{x:g}", *loads[j], *(p.get(j + 1, "not passed") for p in passed))
         for j, x in enumerate(content.run.form.line.supports)
@@ -212,6 +214,8 @@ def _tension_length(line: Line) -> Iterator[tuple[str, str, str]]:
             continue
         values = f"{wire.mass:g} kg/m, tension {wire.tension:g} N, EA {wire.EA:g} N, EI {wire.EI:g} N m²"
         yield name, key, values + (f", damping {wire.damping:g} N s/m²" if wire.damping else "")
+    if line.contact_spacing is not None:
+        yield "two contact wires, apart [m]", "contact_spacing", f"{line.contact_spacing:g}"
     if getattr(line, "auxiliary", None) is not None:
         auxiliary = line.auxiliary
         assert auxiliary is not None
