@@ -29,9 +29,9 @@ from ..system.core import follow, to_local
 MOVED, FURTHEST = 3e-6, 2e-5
 #: The same of damping forces, which are smooth, by differences of order four, and their weights.
 LOSSY, NEAR, FAR = 3e-4, 8.0 / 12.0, -1.0 / 12.0
-#: Corrections of a sensitivity: how many at most; the part of it below which the next one would be where they
-#: end, and the same where central differences have more round-off; the part below which they end when the next
-#: one is not smaller, which is round-off; of long lines, whose places have more of it, when it is as large.
+#: Corrections of a sensitivity: how many at most; the part of it below which they end when the next one would
+#: be smaller, and the same where central differences have more round-off; the part below which they end when
+#: the next one is not smaller; of long lines, whose places have more round-off, when it is as large.
 MOST, ENOUGH, DIFFERENCED, NOISY, ROUGH = 60, 1e-13, 1e-10, 1e-8, 1e-6
 #: A correction that is none, whatever its units.
 LEAST = 1e-200
