@@ -45,10 +45,12 @@ def axis_of(at, turn, count=4001):
     return at + np.linspace(-0.5, 0.5, count)[:, None] * LENGTH * turn.apply([1.0, 0.0, 0.0])
 
 
-def laid(shape, reach, rng, depth):
-    """A place and a turn of the rod in which it is this deep in a shape on a body at the origin."""
+def laid(shape, reach, rng, depth, along=False):
+    """A place and a turn of the rod in which it is this deep in a shape at the origin, or nearly along it."""
+    line, _ = Rotation.align_vectors([shape.direction], [[1.0, 0.0, 0.0]])
     while True:
         turn, way = Rotation.random(rng=rng), rng.standard_normal(3)
+        turn = Rotation.from_rotvec(0.05 * rng.standard_normal(3)) * line if along else turn
         middle, way = rng.uniform(-reach, reach, 3), way / np.linalg.norm(way)
         far, near = middle + 2.0 * way, middle
         if distances(shape, axis_of(near, turn, 201)).min() > RADIUS - depth:
@@ -92,20 +94,39 @@ def test_forces_are_the_gradient_of_the_energy(name):
     """By moves and turns of both, from all sides; no force and no moment is left over."""
     shape, reach = SHAPES[name]
     system, rng = stage(shape), np.random.default_rng(7)
-    for depth in rng.uniform(1e-4, 0.015, 40):
-        q, v = system.initial_state()
-        put(system, q, "rod", *laid(shape, reach, rng, depth))
-        put(system, q, "other", np.zeros(3), Rotation.identity())
-        r, _ = force_and_matrix(system, "bumping", q, v)
-        size = np.abs(r).max()
-        assert size > 0.1 * K * depth
-        for body in ("rod", "other"):
-            move = rigid(system, q, body, *rng.standard_normal((2, 3)))
-            slope = (energy(system, q + 1e-7 * move) - energy(system, q - 1e-7 * move)) / 2e-7
-            assert r @ move == pytest.approx(slope, abs=2e-4 * size)
-        for move in (np.eye(6)).reshape(6, 2, 3):
-            both = sum(rigid(system, q, body, *move) for body in ("rod", "other"))
-            assert r @ both == pytest.approx(0.0, abs=1e-9 * size)
+    for along, depth in zip([False, True] * 20, rng.uniform(1e-4, 0.015, 40), strict=True):
+        check_gradient(system, *laid(shape, reach, rng, depth, along), rng)
+
+
+def check_gradient(system, at, turn, rng):
+    """Of the energy by moves and turns of both bodies, the second one at the origin."""
+    q, v = system.initial_state()
+    put(system, q, "rod", at, turn)
+    put(system, q, "other", np.zeros(3), Rotation.identity())
+    r, _ = force_and_matrix(system, "bumping", q, v)
+    size = np.abs(r).max()
+    assert size > 0.0
+    for body in ("rod", "other"):
+        move = rigid(system, q, body, *rng.standard_normal((2, 3)))
+        slope = (energy(system, q + 1e-7 * move) - energy(system, q - 1e-7 * move)) / 2e-7
+        assert r @ move == pytest.approx(slope, abs=2e-4 * size)
+    for move in (np.eye(6)).reshape(6, 2, 3):
+        both = sum(rigid(system, q, body, *move) for body in ("rod", "other"))
+        assert r @ both == pytest.approx(0.0, abs=1e-9 * size)
+
+
+@pytest.mark.parametrize(("name", "end"), [("can", 0.125), ("capsule", 0.1)])
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_forces_where_it_slides_off_the_end(name, end, side):
+    """The gradient too, with less than a radius side by side: there the share of the two springs changes."""
+    shape, up = SHAPES[name][0], 0.1 if name == "can" else 0.08
+    system, rng = stage(shape), np.random.default_rng(11)
+    line, _ = Rotation.align_vectors([shape.direction], [[1.0, 0.0, 0.0]])
+    for shared in RADIUS * np.array([0.2, 0.5, 0.8]):
+        along = side * (end + 0.5 * LENGTH - shared) * shape.direction
+        across = line.apply([0.0, 0.0, up + RADIUS - 2e-3])
+        tilt = Rotation.from_rotvec(3e-3 * rng.standard_normal(3))
+        check_gradient(system, np.asarray(shape.at) + along + across, tilt * line, rng)
 
 
 def lying(name):

@@ -14,6 +14,8 @@ from .screen import console
 PLACES = (Path(__file__).parent.parent / "docs", Path(__file__).parents[3] / "docs")
 #: Pages shown when so many or fewer have a word, in full the first one.
 SHOWN = 8
+#: Words of the index at the head of a page.
+INDEX = re.compile(r"^:::\{index\}(?P<words>[^\n]*)\n:::\n+", re.MULTILINE)
 
 
 def folder() -> Path:
@@ -45,14 +47,17 @@ def title(file: Path) -> str:
 
 
 def ranked(word: str) -> list[str]:
-    """Pages about a word: with it in their names, then in their titles, then those that have it most."""
+    """Pages about a word: of that name, with it in their names or index, in titles, then by count."""
     wanted, found = word.casefold(), []
     for name, file in pages().items():
         text = file.read_text(encoding="utf-8").casefold()
         count = len(re.findall(re.escape(wanted), text))
-        place = (wanted in name.rpartition("/")[2].replace("_", " "), wanted in title(file).casefold())
-        if count or any(place) or wanted == name:
-            found.append((name != wanted, not place[0], not place[1], -count, name))
+        index = [one.strip() for words in INDEX.findall(text) for one in words.split(",")]
+        named = wanted in name.rpartition("/")[2].replace("_", " ") or wanted in index
+        titled = wanted in title(file).casefold()
+        if count or named or titled or wanted == name:
+            theory = name.startswith("theory/")  # behind what is to be done
+            found.append((name != wanted, not named, theory, not titled, -count, name))
     return [name for *_, name in sorted(found)]
 
 
@@ -90,6 +95,7 @@ def _listed(names: list[str]) -> None:
 def _printed(file: Path) -> None:
     """A page as it is in a file or a pipe, with its headings and tables drawn in a terminal."""
     text = re.sub(r"<!--.*?-->\n?", "", file.read_text(encoding="utf-8"), flags=re.DOTALL)
+    text = INDEX.sub("", text)
     out = console()
     if not out.is_terminal:
         out.print(text, soft_wrap=True, markup=False, highlight=False)
