@@ -58,6 +58,21 @@ def test_adjoint_is_the_forward_derivative(objective, method):
         assert slope[name] == pytest.approx(wanted, rel=1e-7, abs=1e-9 * max(map(abs, slope.values()))), name
 
 
+@pytest.mark.parametrize("steps", [1, 7, 8, 9])
+def test_any_number_of_steps_and_of_parameters(steps):
+    """Matrices are made for eight steps at once, and parameters go eight abreast: rests are no others."""
+    model, given = swinging(), {"t_end": 1e-3 * steps, "step": 1e-3}
+    names = NAMES + [f"beam.{end}[{k}]" for end in ("start", "end") for k in (0, 2)]
+    result = ancf.simulate(model, sensitivities=names, **given)
+    _, slope = ancf.gradient(model, OBJECTIVES[0], names, **given)
+    for name in names:
+        alone = ancf.simulate(model, sensitivities=[name], **given).sensitivity(name)
+        wanted = alone.position("beam.end")
+        scale = 1e-8 * np.abs(wanted).max()  # what a difference of residuals leaves of round-off
+        assert result.sensitivity(name).position("beam.end") == pytest.approx(wanted, abs=scale)
+        assert ancf.gradient(model, OBJECTIVES[0], [name], **given)[1][name] == pytest.approx(slope[name])
+
+
 @pytest.mark.parametrize("objective", OBJECTIVES[:3])
 def test_against_differences(objective):
     model = swinging()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from ..model import checks
 from ..model.model import Model
 from ..preparation import method_of, prepared
 from ..results.state import State
-from ..sensitivity.adjoint import Adjoint, reversible
+from ..sensitivity.adjoint import Adjoint, Key, reversible
 from ..sensitivity.answers import Face
 from ..sensitivity.parameters import Parameter, parameters_of
 from ..system.sensors import listing
@@ -25,7 +26,6 @@ from .formulas import Formula, Vocabulary
 #: What an objective may name.
 OF_RUN = Vocabulary(("t",), tuple(QUANTITIES))
 WHERE = "gradient.objective"
-Key = tuple[str, str]
 
 
 def gradient(
@@ -133,10 +133,10 @@ def _backward(
     items = [made.system.model.sensor(item) for _, item in pairs]
     unknowns = listing(made.system, items, False).index
 
-    def asked(face: Face) -> dict[Any, FloatArray]:
+    def asked(face: Face, pairs: Iterable[Key]) -> dict[Key, FloatArray]:
         return {pair: np.asarray(ask(face, *pair)) for pair in pairs}
 
-    run = Adjoint(made, parameters, start, asked, unknowns, "gradient")
+    run = Adjoint(made, parameters, start, asked, pairs, unknowns, "gradient")
     t, found = run.forwards()
     value, slopes = gradient_of(formula, Histories(t, found))
     total = run.backwards({pair: slopes[pair] for pair in pairs})

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
-from ..simd import every, gather, gather_nodes, load, scatter, scatter_nodes, total, zero
+from ..simd import LANES, every, gather, gather_nodes, load, scatter, scatter_nodes, store, total, zero
 from .cable_damping import axial_damping, bending_damping, bending_damping_tangent, slope_damping
 from .cable_strain import (
     WEIGHT,
@@ -40,7 +40,19 @@ from .cable_strain import (
     products,
     slope,
 )
-from .cable_tangent import BLOCKS, KDD, PLACES, add_block, spread, spread_slope, spread_slope_damping
+from .cable_tangent import (
+    BLOCKS,
+    KDD,
+    MASSES,
+    PLACES,
+    add_block,
+    add_chunk,
+    spread,
+    spread_slope,
+    spread_slope_damping,
+    whole_blocks,
+)
+from .chunks import in_lanes
 from .workspace import clear
 
 # rows of the elements' constants: L, 1/L, EA L, EI L, damping D_a L and D_b L, rhoA L/420, damping/rhoA
@@ -70,6 +82,8 @@ class CableBatch(NamedTuple):
     lane_reference: FloatArray  # (chunks, 20, LANES) strain at the axial gp, from CURVATURE on curvature
     groups: NDArray[np.int64]  # (k, 8) columns BEGIN ... CURVED
     gp: FloatArray  # (m, 20) coefficients of the Gauss points
+    lane_block: NDArray[np.int64]  # (chunks, 3, LANES) places of the 6x6 blocks of the nodes in the matrix
+    order: NDArray[np.int64]  # (chunks,) how these lie, see cable_tangent.whole_blocks, 0: dest has to do
 
 
 @formula
@@ -241,31 +255,29 @@ def cable_inertia(batch, a, r, ws):
 @inline_kernel
 def mass_entry(x, y, length):
     """420/(rhoA L) times the integral of S_x S_y of eq. 23."""
-    if x > y:
-        x, y = y, x
-    if x == y:
-        return 156.0 if x % 2 == 0 else 4.0 * length * length
-    if x == 0:
-        return 22.0 * length if y == 1 else (54.0 if y == 2 else -13.0 * length)
-    if x == 1:
-        return 13.0 * length if y == 2 else -3.0 * length * length
-    return -22.0 * length
+    power = x % 2 + y % 2
+    return MASSES[x, y] * (1.0 if power == 0 else (length if power == 1 else length * length))
 
 
 @inline_kernel
-def store_tangent(batch, A, ws, chunk, c_mass, c_damping):
-    """Add stiffness blocks and mass of a chunk to the block values A."""
+def store_tangent(batch, A, ws, chunk, mass):
+    """Add stiffness blocks of a chunk, and its mass by the factors rhoA L/420, to the block values A."""
     data = batch.lane_data
+    inv_l, length, one = load(data, chunk, INV_L), load(data, chunk, LENGTH), every(1.0)
+    if batch.order[chunk] > 0:
+        scale, masses = (-inv_l, one, inv_l, one), (mass, mass * length, mass * length * length)
+        add_chunk(A, batch.lane_block, batch.order[chunk], chunk, ws, scale, masses)
+        return
+    store(mass, ws, BLOCKS * LANES)
     for m in range(batch.first[chunk + 1] - batch.first[chunk]):
-        e = batch.first[chunk] + m
-        length, il = data[chunk, LENGTH, m], data[chunk, INV_L, m]
-        mass = (c_mass + c_damping * data[chunk, VISCOUS, m]) * data[chunk, MASS, m]
+        e, il, h = batch.first[chunk] + m, data[chunk, INV_L, m], data[chunk, LENGTH, m]
         for x in range(4):
             for y in range(4):
                 place = batch.dest[e, 4 * x + y]
                 if place >= 0:
                     scale = (il * (x - 1.0) if x % 2 == 0 else 1.0) * (il * (y - 1.0) if y % 2 == 0 else 1.0)
-                    add_block(A, place, ws, PLACES[4 * x + y], m, scale, mass * mass_entry(x, y, length))
+                    own = ws[BLOCKS * LANES + m] * mass_entry(x, y, h)
+                    add_block(A, place, ws, PLACES[4 * x + y], m, scale, own)
 
 
 @inline_kernel
@@ -305,7 +317,8 @@ def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
         for chunk in range(group[BEGIN], group[END]):
             clear(ws, KDD, BLOCKS)
             stiffness(batch, group, chunk, shape(batch, q, chunk), ws, c_damping, c_stiffness, 1.0, 1.0)
-            store_tangent(batch, A, ws, chunk, c_mass, c_damping)
+            factor = c_mass + c_damping * load(batch.lane_data, chunk, VISCOUS)
+            store_tangent(batch, A, ws, chunk, factor * load(batch.lane_data, chunk, MASS))
 
 
 @inline_kernel
@@ -331,10 +344,14 @@ def cable_energy(batch, q, ws):
 
 
 def bind(plain, seen, places):
-    """See :class:`ancf.compiled.Traits`; shadows may part r_x from r."""
-    base = seen.lane_base
+    """See :class:`ancf.compiled.Traits`; shadows may part r_x from r, and nodes be blocks of the matrix."""
+    base, dest = seen.lane_base, places.dest(plain.base)
     nodal = np.all(base[:, 1::2] == base[:, ::2] + 3, axis=(1, 2))
-    return seen._replace(dest=places.dest(plain.base), nodal=nodal)
+    blocks, order = whole_blocks(dest)
+    lanes = in_lanes(np.column_stack([blocks, order]), plain.first)
+    alike = np.all(lanes[:, 3] == lanes[:, 3, :1], axis=1)
+    order, lane_block = np.where(alike, lanes[:, 3, 0], 0), np.ascontiguousarray(lanes[:, :3])
+    return seen._replace(dest=dest, nodal=nodal, lane_block=lane_block, order=order)
 
 
 implements(

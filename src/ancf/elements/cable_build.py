@@ -58,6 +58,8 @@ def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> CableBatch:
         lane_reference=in_lanes(reference, bounds),
         groups=np.array(groups, dtype=np.int64).reshape(-1, 8),
         gp=np.ascontiguousarray(np.concatenate(tables)),
+        lane_block=np.zeros((len(bounds) - 1, 3, LANES), dtype=np.int64),
+        order=np.zeros(len(bounds) - 1, dtype=np.int64),
     )
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compiled import formula, inline_kernel
-from ..simd import LANES
+from ..simd import LANES, load, scatter_nodes, vector
 from .cable_damping import SLOPES
 from .workspace import add_row, add_rows
 
@@ -77,3 +77,79 @@ def _places() -> NDArray[np.int64]:
 
 
 PLACES = _places()
+
+#: 420/(rhoA L) times the consistent mass (eq. 23) between the slots, times L for each slope.
+MASSES = np.array(
+    [
+        [156.0, 22.0, 54.0, -13.0],
+        [22.0, 4.0, 13.0, -3.0],
+        [54.0, 13.0, 156.0, -22.0],
+        [-13.0, -3.0, -22.0, 4.0],
+    ]
+)
+UNIT = np.eye(3)
+
+
+@formula
+def block_row(ws, x, y, i, scale, mass):
+    """Row i of the 3x3 block between two slots: scale times the tangent, and mass times the unit matrix."""
+    origin = PLACES[4 * x + y]
+    k, c = (origin[0] + i * origin[1]) * LANES, origin[2] * LANES
+    return vector(
+        scale * load(ws, k) + UNIT[i, 0] * mass,
+        scale * load(ws, k + c) + UNIT[i, 1] * mass,
+        scale * load(ws, k + 2 * c) + UNIT[i, 2] * mass,
+    )
+
+
+@inline_kernel
+def add_nodes(A, place, chunk, row, ws, a, b, scale, mass):
+    """Add the 6x6 blocks between the nodes a and b of eight elements to A, row by row.
+
+    ``scale`` are the factors of the four slots, ``mass`` that of the mass and its products by L and L^2.
+    """
+    for half in range(2):
+        x, y = 2 * a + half, 2 * b
+        for i in range(3):
+            first = block_row(ws, x, y, i, scale[x] * scale[y], MASSES[x, y] * mass[half])
+            second = block_row(ws, x, y + 1, i, scale[x] * scale[y + 1], MASSES[x, y + 1] * mass[half + 1])
+            scatter_nodes(first, second, A[18 * half + 6 * i :], place, chunk, row)
+
+
+@inline_kernel
+def add_chunk(A, place, order, chunk, ws, scale, mass):
+    """Add stiffness blocks and mass of eight elements, whose nodes are blocks of the matrix, to A.
+
+    Rows of ``place`` are those of the first and the second node, and that between them, the rows of which
+    belong to the second node where ``order`` is 1.
+    """
+    add_nodes(A, place, chunk, 0, ws, 0, 0, scale, mass)
+    add_nodes(A, place, chunk, 1, ws, 1, 1, scale, mass)
+    if order == 1:
+        add_nodes(A, place, chunk, 2, ws, 1, 0, scale, mass)
+    else:
+        add_nodes(A, place, chunk, 2, ws, 0, 1, scale, mass)
+
+
+def whole_blocks(dest: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Where the nodes of elements are blocks of the matrix.
+
+    Parameters
+    ----------
+    dest : (n, 16)
+        Places of the 3x3 blocks between the slots.
+
+    Returns
+    -------
+    place : (n, 3)
+        Of the 6x6 blocks of both nodes and between them.
+    order : (n,)
+        1 where the rows of the last one belong to the second node, 2 where to the first, 0 where nodes are
+        no blocks.
+    """
+    d = dest.reshape(-1, 2, 2, 2, 2).transpose(0, 1, 3, 2, 4).reshape(-1, 2, 2, 4)  # by node and node
+    whole = (d >= 0).all(axis=3) & (d - d[..., :1] == (0, 3, 18, 21)).all(axis=3)
+    both = whole[:, 0, 0] & whole[:, 1, 1]
+    order = np.where(both & whole[:, 1, 0], 1, np.where(both & whole[:, 0, 1], 2, 0))
+    between = np.where(order == 1, d[:, 1, 0, 0], d[:, 0, 1, 0])
+    return np.stack([d[:, 0, 0, 0], d[:, 1, 1, 0], between], axis=1), order

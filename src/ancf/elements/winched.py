@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
-from ..simd import LANES, every, gather, load, scatter, store, total, vector
+from ..simd import every, gather, load, scatter, total, vector
 from ..vectors import dot
 from .cable import (
     AXIAL,
@@ -52,14 +52,14 @@ from .cable import (
     damped_force,
     differences,
     elastic,
-    mass_entry,
     nodes,
     on_nodes,
     reference,
     stiffness,
+    store_tangent,
 )
 from .cable_strain import WEIGHT, a_of, axial_energy, b_of, bending_energy, c_of, forces, products
-from .cable_tangent import BLOCKS, KDD, PLACES, add_block
+from .cable_tangent import BLOCKS, KDD
 from .workspace import clear
 
 # rows of ``lane_run``: X of both nodes, 1/L0, rhoA/2 at the node that is the winch, gravity
@@ -81,6 +81,8 @@ class WinchedBatch(NamedTuple):
     lane_reference: FloatArray  # (chunks, 20, LANES)
     groups: NDArray[np.int64]  # (k, 8)
     gp: FloatArray  # (m, 20)
+    lane_block: NDArray[np.int64]  # (chunks, 3, LANES)
+    order: NDArray[np.int64]  # (chunks,)
     lane_winch: NDArray[np.int64]  # (chunks, 1, LANES) unknown of the length L
     lane_run: FloatArray  # (chunks, 8, LANES) rows X1 ... GZ
 
@@ -228,21 +230,6 @@ def winched_force(batch, q, v, a, r, ws):
 
 
 @inline_kernel
-def store_winched(batch, A, ws, chunk):
-    """Add stiffness blocks and the mass, whose factors are behind them in the workspace, to A."""
-    data = batch.lane_data
-    for m in range(batch.first[chunk + 1] - batch.first[chunk]):
-        e, il = batch.first[chunk] + m, data[chunk, INV_L, m]
-        for x in range(4):
-            for y in range(4):
-                place = batch.dest[e, 4 * x + y]
-                if place >= 0:
-                    scale = (il * (x - 1.0) if x % 2 == 0 else 1.0) * (il * (y - 1.0) if y % 2 == 0 else 1.0)
-                    mass = ws[BLOCKS * LANES + m] * mass_entry(x, y, data[chunk, LENGTH, m])
-                    add_block(A, place, ws, PLACES[4 * x + y], m, scale, mass)
-
-
-@inline_kernel
 def winched_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add c_mass M + c_damping C + c_stiffness K to the block values A.
 
@@ -258,8 +245,7 @@ def winched_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
             stiffness(batch, group, chunk, x, ws, c_damping, c_stiffness, il, il * il * il)
             mu = length(batch, v, chunk) / length(batch, q, chunk)
             mass = c_mass + c_damping * (load(batch.lane_data, chunk, VISCOUS) + mu)
-            store(lam * mass * load(batch.lane_data, chunk, MASS), ws, BLOCKS * LANES)
-            store_winched(batch, A, ws, chunk)
+            store_tangent(batch, A, ws, chunk, lam * mass * load(batch.lane_data, chunk, MASS))
 
 
 @inline_kernel

@@ -7,7 +7,7 @@ bit, and the adjoint goes back through them (:mod:`ancf.solvers.adjoint`).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,12 +18,13 @@ from ..errors import SolveError
 from ..preparation import Prepared
 from ..results.state import State
 from ..solvers.adjoint import back_steps
+from ..solvers.ahead import ahead_of
 from ..solvers.checkpoint import Snapshot
 from ..solvers.record import Stats
 from ..solvers.sensitivity import Way
 from ..solvers.status import OK
 from ..system.system import System
-from .answers import Face
+from .answers import LINEAR, Face
 from .base import check_differentiable, matrices_of
 from .family import Family
 from .follow import Trail, check_method, given_start, refuse_breaks, when_cut
@@ -32,13 +33,15 @@ from .parameters import Parameter
 from .start import Start, at_level
 
 #: Bytes of states up to which all are kept and no step is taken again, and those of a block.
-KEPT, BLOCK = 64e6, 16e6
+KEPT, BLOCK = 320e6, 16e6
 #: Change of an unknown, in its own size, of the differences of what is asked.
 MOVED = 1e-4
 PLACES = ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12))
 
-#: ``asked(face)``: the histories on which the number depends, by key, of states (n, size).
-Asked = Callable[[Face], dict[Any, FloatArray]]
+#: A question: a quantity and of what.
+Key = tuple[str, str]
+#: ``asked(face, keys)``: the histories of these questions, by key, of states (n, size).
+Asked = Callable[[Face, Iterable[Key]], dict[Key, FloatArray]]
 
 
 class Collector:
@@ -96,7 +99,9 @@ class Adjoint:
     parameters : list of Parameter
     start : State or None
     asked : function
-        What the number depends on, see ``Asked``.
+        How histories are found, see ``Asked``.
+    keys : list of (str, str)
+        On which the number depends.
     unknowns : (k,) array
         Entries of the state vectors on which that depends.
     """
@@ -107,6 +112,7 @@ class Adjoint:
         parameters: list[Parameter],
         start: State | None,
         asked: Asked,
+        keys: list[Key],
         unknowns: Any,
         where: str,
     ) -> None:
@@ -117,8 +123,10 @@ class Adjoint:
         self.families = [Family(parameter, self.system) for parameter in parameters]
         self.nearby = Nearby(self.families, self.system)
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
+        self.ahead = ahead_of(self.system.core)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
-        self.asked, self.unknowns = asked, np.asarray(unknowns)
+        self.asked, self.keys, self.unknowns = asked, keys, np.asarray(unknowns)
+        self._linear = self._of_units([key for key in keys if key[0] in LINEAR])
         self.blocks: list[Block] = []
         refuse_breaks(self.run)
 
@@ -162,8 +170,9 @@ class Adjoint:
             tables = system.inputs.tables(*when[:2], block.count, *when[2:])
             found = self.nearby.at_steps(Way(*(x.copy() for x in way)), when, tables, gaps=False)
             states = Way(*(x.copy() for x in way))
-            scheme = run.scheme
-            _, status = back_steps(system.core, self.m, tables, states, wanted, block.h, scheme, mu, lam)
+            _, status = back_steps(
+                system.core, self.m, self.ahead, tables, states, wanted, block.h, run.scheme, mu, lam
+            )
             if status != OK:
                 raise SolveError("gradient", "the equations of the adjoint cannot be solved", "smaller steps")
             total -= np.einsum("ni,pni->p", lam, found.push)
@@ -206,14 +215,24 @@ class Adjoint:
         return Way(q, v, trail.accelerations(v, block.h, last=True))
 
     def _asked(self, q: FloatArray, v: FloatArray) -> dict[Any, FloatArray]:
-        return self.asked(Face(self.system, q, v, 0.0))
+        return self.asked(Face(self.system, q, v, 0.0), self.keys)
+
+    def _of_units(self, keys: list[Key]) -> dict[Key, FloatArray]:
+        """Answers that are linear in the state, of each unknown as q and as v on its own, (2, k, ...)."""
+        k, size = len(self.unknowns), self.system.size
+        units = np.zeros((2, 2, k, size))
+        for i in range(2):
+            units[i, i, np.arange(k), self.unknowns] = 1.0
+        q, v = units.reshape(2, 2 * k, size)
+        found = self.asked(Face(self.system, q, v, 0.0), keys)
+        return {key: made.reshape(2, k, -1) for key, made in found.items()}
 
     def _explicit(self, q: FloatArray, v: FloatArray, slopes: dict[Any, FloatArray]) -> FloatArray:
         """What parameters do to the answers of fixed states."""
         total, here = np.zeros(len(self.families)), self._asked(q, v)
         for k, family in enumerate(self.families):
             for system, weight in zip(family.systems, family.weights, strict=True):
-                found = self.asked(Face(system, q, v, 0.0))
+                found = self.asked(Face(system, q, v, 0.0), self.keys)
                 changes = (np.sum(slope * (found[key] - here[key])) for key, slope in slopes.items())
                 total[k] += weight * float(sum(changes))
         return total
@@ -221,6 +240,12 @@ class Adjoint:
     def _wanted(self, q: FloatArray, v: FloatArray, slopes: dict[Any, FloatArray]) -> FloatArray:
         """Derivatives of the number by the states (n, size), (n, 2, size), from those by the answers."""
         made = np.zeros((len(q), 2, q.shape[1]))
+        for key, units in self._linear.items():
+            slope = slopes[key].reshape(len(q), -1)
+            made[:, :, self.unknowns] += np.einsum("nc,kic->nki", slope, units)
+        others = [key for key in slopes if key not in self._linear]
+        if not others:
+            return made
         weight = np.ones(q.shape[1])
         weight[: self.system.n] = self.system.core.weight
         for k, x in enumerate((q, v)):
@@ -228,9 +253,9 @@ class Adjoint:
                 e, before = MOVED / (weight[i] if weight[i] > 0.0 else 1.0), x[:, i].copy()
                 for place, w in PLACES:
                     x[:, i] = before + place * e
-                    found = self._asked(q, v)
-                    for key, slope in slopes.items():
-                        change = (w / e * slope * found[key]).reshape(len(q), -1)
+                    found = self.asked(Face(self.system, q, v, 0.0), others)
+                    for key in others:
+                        change = (w / e * slopes[key] * found[key]).reshape(len(q), -1)
                         made[:, k, i] += change.sum(axis=1)
                 x[:, i] = before
         return made

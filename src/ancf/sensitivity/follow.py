@@ -11,9 +11,12 @@ from ..errors import ModelError, SolveError
 from ..model.integrators.base import NewmarkFamily
 from ..preparation import Prepared, adopted
 from ..results.state import State
+from ..simd import LANES
+from ..solvers.abreast import follow_steps, room_for
+from ..solvers.ahead import ahead_of
 from ..solvers.checkpoint import Snapshot
 from ..solvers.record import Stats
-from ..solvers.sensitivity import Constraining, Way, accelerations, follow_steps
+from ..solvers.sensitivity import Constraining, Way, accelerations
 from ..solvers.status import OK
 from ..system.system import System
 from .base import check_differentiable, matrices_of
@@ -89,6 +92,7 @@ class Following:
         self.families = [Family(parameter, self.system) for parameter in parameters]
         self.nearby = Nearby(self.families, self.system)
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
+        self.ahead, self.room = ahead_of(self.system.core), room_for(self.system.size)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
         self.done, self.stored = 0, 0
         run: Any = self.run
@@ -137,14 +141,15 @@ class Following:
         when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
         states = run.memory.q.copy(), run.memory.v.copy(), run.memory.a.copy()
         begin = Start(system, self.m, *states, when)
-        self.s = np.zeros((len(self.families), 4, system.size))
+        self.s = np.zeros((-(-len(self.families) // LANES), 4, system.size, LANES))
         first = np.zeros((len(self.families), 1, 3, system.size))
         for k, (family, given) in enumerate(zip(self.families, self.given, strict=True)):
             family.know(system)
-            self.s[k] = begin.sensitivity(*given, *at_level(system, self.families, k, states, when))
+            s = begin.sensitivity(*given, *at_level(system, self.families, k, states, when))
+            self.s[k // LANES, :, :, k % LANES] = s
             q, v, a = (x[None].copy() for x in states)
             held = family.at_steps(q, v, a, when, gaps=False).held
-            first[k, 0] = self.s[k, :3] + held[:, 0]
+            first[k, 0] = s[:3] + held[:, 0]
         self._keep(first[:, :, :2])
         self.samples.take(states[0][None], states[1][None], first)
         self.trail = Trail(run)
@@ -182,9 +187,8 @@ class Following:
         if wanted > self._kept.size:
             self._kept = np.zeros(wanted)
         out = self._kept[:wanted].reshape(len(self.families), count, 3, size)
-        n, status = follow_steps(
-            system.core, self.m, tables, way, found.push, found.gap, h, run.scheme, joined, self.s, out
-        )
+        rooms, pushes = (system.core, self.m, self.ahead, self.room), (found.push, found.gap)
+        n, status = follow_steps(*rooms, tables, way, *pushes, h, run.scheme, joined, self.s, out)
         if status != OK:
             t = run.time(done + int(n) + 1)
             what = "the equations of the sensitivities cannot be solved"

@@ -81,7 +81,7 @@ class Nearby:
                 push[self.plain] = rows
         gap = np.zeros_like(push) if gaps else push
         held = {}
-        for k in self.others if not gaps else range(len(self.families)):
+        for k in self.others:  # plain ones leave the rows of joints as they are
             found = self.families[k].at_steps(*way, when, gaps=gaps)
             push[k], held[k] = found.push, found.held
             if gaps:

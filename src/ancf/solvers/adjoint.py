@@ -12,9 +12,12 @@ through q~ and v~ to the start of the step.  For models whose matrices are all e
 from __future__ import annotations
 
 from ..compiled import inline_kernel, kernel
+from ..linalg.eight import factor_of
+from ..simd import LANES
 from ..system.core import drive, solve_matrix
+from .ahead import look_ahead
 from .scheme import coefficients
-from .sensitivity import matrices_at, product
+from .sensitivity import product
 from .status import OK, SINGULAR
 
 
@@ -48,14 +51,14 @@ def take_wanted(supports, wanted, mu, x, moved):
 
 
 @inline_kernel
-def factors(core, mu, c1, B, G, lam):
+def factors(core, factor, mu, c1, B, G, lam):
     """Fill lambda at the unknowns and, as forces of the residual, at the shadows."""
     supports, n = core.supports, core.weight.shape[0]
     for i in range(n):
         lam[i] = mu[0, i] + (G * mu[1, i] + c1 * mu[3, i] + mu[2, i]) / B
     for k in range(supports.held.shape[0]):
         lam[supports.held[k]] = 0.0
-    solve_matrix(core.factor, lam)
+    solve_matrix(factor, lam)
     for i in range(n, lam.shape[0]):
         lam[i] = 0.0
     for k in range(supports.rot_slot.shape[0]):
@@ -68,13 +71,13 @@ def factors(core, mu, c1, B, G, lam):
 
 
 @kernel
-def back_steps(core, m, tables, way, wanted, h, scheme, mu, out):
+def back_steps(core, m, ahead, tables, way, wanted, h, scheme, mu, out):
     """Carry the adjoint back through the steps of a block.
 
     Parameters
     ----------
-    core, m, tables, way : Core, Matrices, Tables, Way
-        See :func:`ancf.solvers.sensitivity.follow_steps`.
+    core, m, ahead, tables, way : Core, Matrices, Ahead, Tables, Way
+        See :func:`ancf.solvers.abreast.follow_steps`.
     wanted : (steps, 2, size)
         Derivatives of the number by q and v at the ends of the steps.
     mu : (4, size)
@@ -93,18 +96,20 @@ def back_steps(core, m, tables, way, wanted, h, scheme, mu, out):
     back, w, x = m.work[1:3], m.work[3:5], m.work[5:8]
     for step in range(way.q.shape[0]):
         at = way.q.shape[0] - 1 - step
-        drive(core.supports, core.loads.value, tables, at, way.q[at], way.v[at], way.a[at])
-        if not matrices_at(core, m, way.q[at], way.v[at], B, G):
+        k = at % LANES
+        fresh = step == 0 or k == LANES - 1
+        if fresh and look_ahead(core, m, ahead, tables, way, at - k, B, G, True) >= 0:
             return step, SINGULAR
+        drive(core.supports, core.loads.value, tables, at, way.q[at], way.v[at], way.a[at])
         lam = out[at]
         take_wanted(core.supports, wanted[at], mu, x, back)
-        factors(core, mu, c1, B, G, lam)
+        factors(core, factor_of(core.factor, ahead.eight, k), mu, c1, B, G, lam)
         for i in range(size):
             x[0, i] = x[1, i] = x[2, i] = 0.0
-        product(core, m.K, lam, x[0], w)
+        product(core, ahead.K[k], lam, x[0], w)
         product(core, m.M, lam, x[2], w)
         if m.damped:
-            product(core, m.C, lam, x[1], w)
+            product(core, ahead.C[k], lam, x[1], w)
         for i in range(size):
             back[0, i], back[1, i] = x[0, i], x[1, i]
         folded(core.supports, x, back)

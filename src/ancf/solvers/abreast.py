@@ -1,0 +1,368 @@
+"""Sensitivities by eight parameters abreast: one in each lane of every unknown.
+
+See :mod:`ancf.solvers.sensitivity` for the equations.  All parameters of a step share its matrices, whose
+numbers are read once for eight of them.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..compiled import formula, inline_kernel, kernel
+from ..linalg.eight import factor_of, six
+from ..simd import LANES, every, load, store
+from ..system.core import constraint_rows, drive, solve_sparse, to_local
+from .ahead import look_ahead
+from .scheme import coefficients
+from .sensitivity import (
+    ABAR,
+    DIFFERENCED,
+    ENOUGH,
+    LEAST,
+    MOST,
+    NOISY,
+    ROUGH,
+    A,
+    Q,
+    V,
+    add_lossy,
+    add_rough,
+    extent,
+)
+from .status import OK, SINGULAR, SLOW
+
+
+class Abreast(NamedTuple):
+    """Room for eight sensitivities."""
+
+    d: FloatArray  # (3, size, 8) s_q, s_v, s_a
+    r: FloatArray  # (size, 8)
+    seen: FloatArray  # (size, 8)
+    before: FloatArray  # (8,) sizes of the last corrections
+    open: FloatArray  # (8,) 1 while corrections go on, else 0
+
+
+def room_for(size: int) -> Abreast:
+    """Room for the unknowns of a model."""
+    return Abreast(
+        *(np.zeros((*shape, LANES)) for shape in ((3, size), (size,), (size,))), *np.zeros((2, LANES))
+    )
+
+
+@formula
+def row_times(block, i, step, x):
+    """Product of six numbers of a block, ``step`` apart from the i-th on, and six lanes."""
+    one = block[i] * x[0] + block[i + step] * x[1] + block[i + 2 * step] * x[2]
+    return one + (block[i + 3 * step] * x[3] + block[i + 4 * step] * x[4] + block[i + 5 * step] * x[5])
+
+
+@formula
+def add_times(block, first, step, x, sign, X, i):
+    """Add the product of a block, or its transpose, and six lanes to six rows of X."""
+    for c in range(6):
+        store(load(X, i + c) + sign * row_times(block, first * c, step, x), X, i + c)
+
+
+@kernel
+def multiply_abreast(factor, values, X, Y):
+    """Add the product of the symmetric matrix of these block values and X to Y."""
+    n = factor.row_start.shape[0] - 1
+    for i in range(n):
+        x = six(X, 6 * i)
+        add_times(values[36 * i : 36 * i + 36], 6, 1, x, 1.0, Y, 6 * i)
+        for k in range(factor.row_start[i], factor.row_start[i + 1]):
+            j, block = 6 * factor.column[k], values[36 * (n + k) : 36 * (n + k) + 36]
+            add_times(block, 6, 1, six(X, j), 1.0, Y, 6 * i)
+            add_times(block, 1, 6, x, 1.0, Y, j)
+
+
+@kernel
+def solve_abreast(factor, X):
+    """Replace right-hand sides by the solutions."""
+    row_start, column, L, D_inv = factor.row_start, factor.column, factor.L, factor.D_inv
+    n = row_start.shape[0] - 1
+    for i in range(n):
+        for k in range(row_start[i], row_start[i + 1]):
+            add_times(L[36 * k : 36 * k + 36], 6, 1, six(X, 6 * column[k]), -1.0, X, 6 * i)
+    for i in range(n - 1, -1, -1):
+        x, block = six(X, 6 * i), D_inv[36 * i : 36 * i + 36]
+        for c in range(6):
+            store(row_times(block, 6 * c, 1, x), X, 6 * i + c)
+    for i in range(n - 1, -1, -1):
+        x = six(X, 6 * i)
+        for k in range(row_start[i], row_start[i + 1]):
+            add_times(L[36 * k : 36 * k + 36], 1, 6, x, -1.0, X, 6 * column[k])
+
+
+@formula
+def follow_abreast(supports, d):
+    """Shadows from the unknowns, as :func:`ancf.system.core.follow`."""
+    for k in range(supports.rot_slot.shape[0]):
+        i, j = supports.rot_slot[k], supports.rot_shadow[k]
+        for c in range(3):
+            x, dx, ddx = every(0.0), every(0.0), every(0.0)
+            for m in range(3):
+                R, dR, ddR = (
+                    supports.rot_R[k, 0, c, m],
+                    supports.rot_R[k, 1, c, m],
+                    supports.rot_R[k, 2, c, m],
+                )
+                q, v, a = load(d, 0, i + m), load(d, 1, i + m), load(d, 2, i + m)
+                x = x + R * q
+                dx = dx + R * v + dR * q
+                ddx = ddx + R * a + (2.0 * dR) * v + ddR * q
+            store(x, d, 0, j + c)
+            store(dx, d, 1, j + c)
+            store(ddx, d, 2, j + c)
+
+
+@formula
+def add_product(core, values, x, room):
+    """Add a matrix times x to r, the rows of shadows where the matrix has them."""
+    supports = core.supports
+    for i in range(x.shape[0]):
+        store(load(x, i), room.seen, i)
+    for k in range(supports.rot_slot.shape[0]):
+        for c in range(3):
+            store(load(x, supports.rot_shadow[k] + c), room.seen, supports.rot_slot[k] + c)
+    multiply_abreast(core.factor, values, room.seen, room.r)
+
+
+@formula
+def products(core, m, K, C, room):
+    """r = M s_a + C s_v + K s_q of the exact batches."""
+    d, r, supports = room.d, room.r, core.supports
+    for i in range(r.shape[0]):
+        store(every(0.0), r, i)
+    add_product(core, K, d[0], room)
+    add_product(core, m.M, d[2], room)
+    if m.damped:
+        add_product(core, C, d[1], room)
+    for k in range(supports.rot_slot.shape[0]):
+        for c in range(3):
+            i, j = supports.rot_slot[k] + c, supports.rot_shadow[k] + c
+            store(load(r, j) + load(r, i), r, j)
+            store(every(0.0), r, i)
+
+
+@inline_kernel
+def taken(room, lane, d):
+    """The sensitivity in a lane as vectors (3, size)."""
+    for k in range(3):
+        for i in range(d.shape[1]):
+            d[k, i] = room.d[k, i, lane]
+
+
+@inline_kernel
+def add_others(core, m, x, room, lane):
+    """Add what the batches that are not exact do to r, of one lane."""
+    r, d = m.work[0], m.work[1:4]
+    taken(room, lane, d)
+    for i in range(r.shape[0]):
+        r[i] = 0.0
+    if m.lossy.table.shape[0] > 0:
+        add_lossy(core, m, x, d, r)
+    if m.rough.table.shape[0] > 0:
+        add_rough(core, m, x, d, r)
+        for k in range(core.joints.multipliers.shape[0]):
+            room.r[core.joints.multipliers[k], lane] = 0.0
+    for i in range(r.shape[0]):
+        room.r[i, lane] += r[i]
+
+
+@formula
+def to_local_abreast(supports, r):
+    """Components along local axes, as :func:`ancf.system.core.to_local`."""
+    for k in range(supports.rot_slot.shape[0]):
+        i, j = supports.rot_slot[k], supports.rot_shadow[k]
+        for c in range(3):
+            R = supports.rot_R[k, 0]
+            store(R[0, c] * load(r, j) + R[1, c] * load(r, j + 1) + R[2, c] * load(r, j + 2), r, i + c)
+
+
+@inline_kernel
+def out_of_balance(core, m, K, C, x, push, n, first, room):
+    """r = M s_a + C s_v + K s_q + R_p as the solve wants it, of step n and parameters from ``first`` on."""
+    r, count = room.r, min(LANES, push.shape[0] - first)
+    follow_abreast(core.supports, room.d)
+    products(core, m, K, C, room)
+    if m.lossy.table.shape[0] + m.rough.table.shape[0] > 0:
+        for k in range(count):
+            if room.open[k] > 0.0:
+                add_others(core, m, x, room, k)
+    to_local_abreast(core.supports, r)
+    for k in range(count):
+        own = push[first + k, n]
+        for i in range(r.shape[0]):
+            r[i, k] = room.open[k] * (r[i, k] + own[i])
+    for k in range(core.supports.held.shape[0]):
+        store(every(0.0), r, core.supports.held[k])
+
+
+@inline_kernel
+def shifted(core, m, factor, x, gap, joined, room, lane):
+    """Shift s_q of a lane onto the derivative of C = 0; the size of the shift."""
+    joints, w, r, d = core.joints, m.work, m.work[0], m.work[1:4]
+    taken(room, lane, d)
+    joints.level[0], joints.level[1], joints.level[2] = 1.0, 0.0, 0.0
+    size = extent(d[0], core.weight)
+    e = m.moved / size if size > 0.0 else 1.0
+    for i in range(r.shape[0]):
+        r[i] = gap[i]
+    for side in (1.0, -1.0):
+        for i in range(r.shape[0]):
+            w[4][i] = x[0][i] + side * e * d[0][i]
+        constraint_rows(joints, w[4], x[1], x[2], w[5], core.ws)
+        for i in range(r.shape[0]):
+            r[i] += side * w[5][i] / (2.0 * e)
+    joints.level[0], joints.level[1], joints.level[2] = joined.w0, joined.w1, joined.w2
+    to_local(core.supports, r)
+    solve_sparse(factor, r, joints.lowest)
+    norm = 0.0
+    for i in range(core.weight.shape[0]):
+        c = r[i] * (1.0 - joints.mask[i])
+        room.d[0, i, lane] -= c
+        norm = max(norm, abs(c) * core.weight[i])
+    return norm
+
+
+@formula
+def correct(core, room, B, G):
+    """Subtract the corrections in r; multipliers have no rates."""
+    d, multipliers = room.d, core.joints.multipliers
+    for i in range(core.weight.shape[0]):
+        c = load(room.r, i)
+        store(load(d, 0, i) - c, d, 0, i)
+        store(load(d, 1, i) - (G / B) * c, d, 1, i)
+        store(load(d, 2, i) - (1.0 / B) * c, d, 2, i)
+    for k in range(multipliers.shape[0]):
+        store(every(0.0), d, 1, multipliers[k])
+        store(every(0.0), d, 2, multipliers[k])
+
+
+@inline_kernel
+def greatest_of(X, weight, lane):
+    """Largest entry of a lane by size, weighted."""
+    size = 0.0
+    for i in range(weight.shape[0]):
+        size = max(size, abs(X[i, lane]) * weight[i])
+    return size
+
+
+@inline_kernel
+def is_done(norm, size, before, enough):
+    """Whether corrections of a sensitivity may end with one of this size."""
+    rate = min(norm / before, 1.0) if before < np.inf else 1.0
+    if rate * norm <= enough * size or norm < LEAST or (norm <= NOISY * size and norm >= 0.5 * before):
+        return True
+    return norm <= ROUGH * size and norm >= 0.9 * before
+
+
+@inline_kernel
+def solved(core, m, factor, matrices, x, push, gap, n, first, joined, room, B, G):
+    """Corrections of predicted sensitivities; a status."""
+    K, C = matrices
+    joints, count = core.joints, min(LANES, push.shape[0] - first)
+    exact = m.rough.table.shape[0] + m.lossy.table.shape[0] == 0
+    projects = joined.projects and joints.multipliers.shape[0] > 0
+    enough = DIFFERENCED if m.rough.table.shape[0] > 0 else ENOUGH
+    for k in range(count):
+        room.before[k], room.open[k] = np.inf, 1.0
+    for _ in range(MOST):
+        out_of_balance(core, m, K, C, x, push, n, first, room)
+        solve_abreast(factor, room.r)
+        correct(core, room, B, G)
+        if exact and not projects:
+            return OK
+        left = 0
+        for k in range(count):
+            if room.open[k] > 0.0:
+                norm = greatest_of(room.r, core.weight, k)
+                if projects:
+                    norm = max(norm, shifted(core, m, factor, x, gap[first + k, n], joined, room, k))
+                size = greatest_of(room.d[0], core.weight, k)
+                if exact or is_done(norm, size, room.before[k], enough):
+                    room.open[k] = 0.0
+                else:
+                    room.before[k] = norm
+                    left += 1
+        if left == 0:
+            return OK
+    return SLOW
+
+
+@formula
+def predicted(s, d, h, scheme):
+    """d = (s_q, s_v, s_a) at the end of a step from the sensitivities s at its start, with the same s_a."""
+    am, af = scheme.alpha_m, scheme.alpha_f
+    c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
+    for i in range(s.shape[1]):
+        q, v, a, bar = load(s, Q, i), load(s, V, i), load(s, A, i), load(s, ABAR, i)
+        new = (c1 + c2) * a + c3 * bar
+        store(q + h * v + (h * h) * ((0.5 - scheme.beta) * bar + scheme.beta * new), d, 0, i)
+        store(v + h * ((1.0 - scheme.gamma) * bar + scheme.gamma * new), d, 1, i)
+        store(a, d, 2, i)
+
+
+@inline_kernel
+def kept(room, s, scheme, out, n, first):
+    """Write s_q, s_v, s_a of step n to where they are kept, and to the start of the next step."""
+    am, af = scheme.alpha_m, scheme.alpha_f
+    c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
+    for i in range(s.shape[1]):
+        q, v, a = load(room.d, 0, i), load(room.d, 1, i), load(room.d, 2, i)
+        store(c1 * a + c2 * load(s, A, i) + c3 * load(s, ABAR, i), s, ABAR, i)
+        store(q, s, Q, i)
+        store(v, s, V, i)
+        store(a, s, A, i)
+    for p in range(first, min(first + LANES, out.shape[0])):
+        for k in range(3):
+            for i in range(s.shape[1]):
+                out[p, n, k, i] = room.d[k, i, p - first]
+
+
+@kernel
+def follow_steps(core, m, ahead, room, tables, way, push, gap, h, scheme, joined, s, out):
+    """Carry sensitivities through the steps of a block.
+
+    Parameters
+    ----------
+    core, m, ahead, room : Core, Matrices, Ahead, Abreast
+    tables : Tables
+        At the ends of the steps.
+    way : Way
+    push, gap : (p, steps, size)
+        Derivatives of the residual and of the constraints' positions, at fixed free unknowns.
+    h, scheme, joined : float, Scheme, Constraining
+    s : (p/8 rounded up, 4, size, 8)
+        At the start; changed to the end.
+    out : (p, steps, 3, size)
+        s_q, s_v, s_a at the ends of the steps.
+
+    Returns
+    -------
+    Steps done and the status of the last one.
+    """
+    B, G = coefficients(h, scheme)
+    level = core.joints.level
+    level[0], level[1], level[2] = joined.w0, joined.w1, joined.w2
+    for n in range(way.q.shape[0]):
+        lane = n % LANES
+        if lane == 0:
+            bad = look_ahead(core, m, ahead, tables, way, n, B, G, core.joints.multipliers.shape[0] > 0)
+            if bad >= 0:
+                return n + bad, SINGULAR
+        factor, matrices = factor_of(core.factor, ahead.eight, lane), (ahead.K[lane], ahead.C[lane])
+        x = (way.q[n], way.v[n], way.a[n])
+        drive(core.supports, core.loads.value, tables, n, x[0], x[1], x[2])
+        for g in range(s.shape[0]):
+            predicted(s[g], room.d, h, scheme)
+            status = solved(core, m, factor, matrices, x, push, gap, n, LANES * g, joined, room, B, G)
+            if status != OK:
+                return n, status
+            follow_abreast(core.supports, room.d)
+            kept(room, s[g], scheme, out, n, LANES * g)
+    return way.q.shape[0], OK

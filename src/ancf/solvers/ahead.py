@@ -1,0 +1,67 @@
+"""The matrices of the steps of a block whose states are known: eight of them are factorised at once."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..batches import add_tangents
+from ..compiled import inline_kernel
+from ..linalg.eight import Eight, allocate_eight, factorise_eight
+from ..simd import LANES
+from ..system.core import Core, drive, restrict
+
+
+class Ahead(NamedTuple):
+    """Matrices and factors of eight steps."""
+
+    K: FloatArray  # (8, values) of the exact batches, at rest
+    C: FloatArray  # (8, values)
+    eight: Eight  # all of M/B + (G/B) C + K
+
+
+def ahead_of(core: Core) -> Ahead:
+    """Room for the matrices of a model."""
+    K, C = np.zeros((2, LANES, core.A.size))
+    return Ahead(K, C, allocate_eight(core.factor))
+
+
+@inline_kernel
+def matrices_at(core, m, K, C, A, q, v, B, G):
+    """Exact parts of the matrix of a step, and all of it.
+
+    K is that at rest: a damped spring has the tension of its damping in it otherwise, see ``add_lossy``.
+    """
+    still = m.work[4]
+    for i in range(still.shape[0]):
+        still[i] = 0.0
+    for i in range(K.shape[0]):
+        K[i] = 0.0
+    add_tangents(m.exact, q, still, K, 0.0, 0.0, 1.0, core.ws)
+    for i in range(K.shape[0]):
+        A[i] = K[i] + m.M[i] / B
+    if m.damped:
+        for i in range(K.shape[0]):
+            C[i] = 0.0
+        add_tangents(m.exact, q, v, C, 0.0, 1.0, 0.0, core.ws)
+        for i in range(K.shape[0]):
+            A[i] += C[i] * (G / B)
+    add_tangents(m.rough, q, v, A, 1.0 / B, G / B, 1.0, core.ws)
+    restrict(core.supports, A)
+
+
+@inline_kernel
+def look_ahead(core, m, ahead, tables, way, first, B, G, both):
+    """Fill the matrices of the steps from ``first`` on; the number of the first singular one, or -1.
+
+    ``both``: vectors are to be solved for, not parameters abreast.
+    """
+    count = min(LANES, way.q.shape[0] - first)
+    for k in range(count):
+        n = first + k
+        drive(core.supports, core.loads.value, tables, n, way.q[n], way.v[n], way.a[n])
+        matrices_at(core, m, ahead.K[k], ahead.C[k], ahead.eight.A[k], way.q[n], way.v[n], B, G)
+    definite = core.joints.multipliers.shape[0] == 0
+    return factorise_eight(core.factor, ahead.eight, count, definite, both)
