@@ -48,6 +48,7 @@ TESTS = {
     "overhead": "catenary/test_overhead_states.py catenary/test_overhead_layout.py "
     "catenary/test_overhead_route.py catenary/test_overhead_measured.py catenary/test_overhead_rail.py "
     "catenary/test_overhead_bodies.py catenary/test_overhead_twin.py catenary/test_overhead_arms.py "
+    "catenary/test_overhead_galloping.py "
     "catenary/test_catenary_run.py",
     "en50318": "catenary/test_catenary_run.py catenary/test_catenary_references.py",
     **{f"fig{n}": "paper/test_paper.py" for n in range(2, 9)},

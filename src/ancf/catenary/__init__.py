@@ -13,6 +13,7 @@ from .derivatives import slopes
 from .elasticity import Elasticity, elasticity
 from .fittings import DropperErrors, Droppers, Load, SteadyArm, Tensioner
 from .form import Form
+from .galloping import Galloping, galloping
 from .identify import Identified, dynamic_stiffness, identify_pantograph
 from .irregular import dropper_errors, height_errors
 from .kept import Kept, read_run
@@ -54,6 +55,7 @@ __all__ = [
     "Elasticity",
     "FatigueLine",
     "Form",
+    "Galloping",
     "Identified",
     "Kept",
     "Line",
@@ -89,6 +91,7 @@ __all__ = [
     "elasticity",
     "find_pantograph",
     "form",
+    "galloping",
     "height_errors",
     "identify_pantograph",
     "line_file",

@@ -18,6 +18,7 @@ from ..model.supports import Hold, Pin
 from .along_track import add_sideways, add_wind, curve_pull
 from .arms import LONG, add_arms, add_long_spring, add_mass
 from .form import Form
+from .galloping import add_lift
 from .line import Line
 from .route_form import AnyForm
 from .shape import Strung
@@ -214,6 +215,8 @@ def assembled(
             sprung = line.anchors == "spring" and not mounting
             overhead.ends[k] = _anchor(overhead, line, wire, found.pull[k], held[k], sprung)
             _load(overhead, line, wire, ("contact", "messenger", "auxiliary", "contact")[k])
+            if found.settled:
+                add_lift(model, wire, line.conditions)
     _add_stitches(overhead, found)
     _add_auxiliary(overhead, found)
     _add_droppers(overhead, found)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .galloping import said as galloping
 from .plan import RUN_IN, Plan
 from .signals import CUT_OFF, at_zero
 
@@ -34,6 +35,8 @@ def before(plan: Plan) -> Iterator[str]:
         yield (
             text + f"deviations change by some percent; take {1e3 * LONGEST:g} ms or less, 1 ms by default"
         )
+    for text in galloping(plan.form.line):
+        yield f"line.conditions.wind: {text}"
     run_in = plan.window[0] - plan.places[0]
     if run_in < RUN_IN - 1e-6:
         text = (

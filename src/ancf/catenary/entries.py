@@ -30,6 +30,10 @@ class SectionEntry(Entry):
     diameter: Positive | None = Field(None, description="Outer diameter, which wind needs [m].")
     drag: NonNegative = Field(1.0, description="Drag coefficient across the wire.")
     expansion: NonNegative = Field(EXPANSION, description="Thermal expansion [1/K].")
+    lift: str | Curve | None = Field(
+        None,
+        description="Rows of angle of attack [rad] and lift coefficient; or a CSV file, angle_deg and lift.",
+    )
 
 
 class WireEntry(SectionEntry):

@@ -30,6 +30,7 @@ from .entries import (
     WireEntry,
 )
 from .fittings import DropperErrors, Droppers, Load, SteadyArm, Tensioner
+from .galloping import read_lift
 from .layout import OF_SUPPORTS, laid_out, lengths_of, supports_of
 from .line import Line, check_size
 from .route import Route
@@ -137,6 +138,7 @@ def parse_line(data: dict[str, Any], source: str = "line") -> Line:
     except ValidationError as error:
         raise combined(of_validation(error, _entry), source) from None
     folder = Path(source).parent
+    entry = _with_lift(entry, folder)
     if (entry.spans is None) == (entry.supports is None):
         what = "is missing" if entry.spans is None else "and supports are given both"
         raise ModelError("spans", what, "give spans, or supports")
@@ -195,6 +197,20 @@ def _laid(entry: LineEntry, rows: list[tuple[str, Row]]) -> dict[str, Any]:
     spans = [span for i, given in enumerate(entry.spans) for span in _spans(entry, given, i)]
     check_size(0, sum(len(span.droppers) for span in spans), "spans")
     return {"spans": tuple(spans)}
+
+
+def _with_lift(entry: LineEntry, folder: Path) -> LineEntry:
+    """The tables of lift that its wires name, read."""
+    for key in ("contact_wire", "messenger_wire"):
+        wire = getattr(entry, key)
+        if wire is not None and isinstance(wire.lift, str):
+            read = wire.model_copy(update={"lift": read_lift(folder / wire.lift)})
+            entry = entry.model_copy(update={key: read})
+    for key in ("stitch", "auxiliary_wire"):
+        wire = getattr(entry, key)
+        if wire is not None and wire.lift is not None:
+            raise ModelError(f"{key}.lift", "is not known of this wire", "contact_wire or messenger_wire")
+    return entry
 
 
 def _entry(parts: tuple[int | str, ...]) -> type[Entry]:

@@ -9,6 +9,7 @@ from typing import Any
 import ancf
 
 from ..model import checks
+from .galloping import checked_lift
 
 #: Thermal expansion of copper and its alloys, 1/K.
 EXPANSION = 17e-6
@@ -58,6 +59,9 @@ class Wire:
         Outer, what wind takes hold of; wind needs it.
     drag : float
         Drag coefficient across the wire.
+    lift : (n, 2), rad and -
+        Rows of the angle at which the wind meets the wire, from below positive, and its lift coefficient: of
+        an iced or worn wire, which may gallop in wind. Default none.
     expansion : float, 1/K
         Thermal, by default that of copper and its alloys, 17e-6.
     rail : bool
@@ -75,6 +79,12 @@ class Wire:
     drag: float = 1.0
     expansion: float = EXPANSION
     rail: bool = False
+    lift: Any = None
+
+    def __post_init__(self) -> None:
+        """Keep rows as they can be compared."""
+        if self.lift is not None and not isinstance(self.lift, tuple):
+            object.__setattr__(self, "lift", tuple(tuple(row) for row in self.lift))
 
     @property
     def wave_speed(self) -> float:
@@ -99,9 +109,11 @@ class Wire:
         """Several such wires side by side that act as one, each under the tension of this one."""
         if count == 1:
             return self
-        added = {
+        added: dict[str, Any] = {
             key: count * getattr(self, key) for key in ("EA", "EI", "mass", "tension", "damping", "drag")
         }
+        if self.lift is not None:
+            added["lift"] = tuple((angle, count * value) for angle, value in self.lift)
         return replace(self, **added)
 
     def check(self, where: str) -> None:
@@ -118,6 +130,11 @@ class Wire:
             checks.non_negative(getattr(self, key), f"{where}.{key}")
         if self.diameter is not None and not 1e-3 <= checks.number(self.diameter, f"{where}.diameter") <= 0.1:
             raise ancf.ModelError(f"{where}.diameter", f"is {self.diameter:g} m", "units are m: 0.012")
+        if self.lift is not None:
+            checked_lift(self.lift, f"{where}.lift")
+            if self.diameter is None:
+                what = "is missing, the lift of wind needs it"
+                raise ancf.ModelError(f"{where}.diameter", what, "m, or a type")
         if self.tension < LEAST_TENSION and not self.rail:
             what = f"is {self.tension:g} N, which carries no wire"
             raise ancf.ModelError(f"{where}.tension", what, "units are N: 12e3 for 12 kN")

@@ -18,6 +18,7 @@ def show_form(name: str, output: Path | None, quiet: bool = False, given: list[s
     """Find the form of a line and print its droppers and arms; with a folder also write both there."""
     from .. import catenary
     from ..catenary.arm_loads import write
+    from ..catenary.galloping import said
 
     line = catenary.read_line(name, assignments(given))
     folder = None if output is None else OutputFolder(output)
@@ -26,6 +27,8 @@ def show_form(name: str, output: Path | None, quiet: bool = False, given: list[s
     if not quiet:
         _print_schedule(line, found)
         _print_arms(found)
+        for text in said(line):
+            console().print(f"warning: {text}", soft_wrap=True)
     if folder is not None:
         _written(found.save_schedule(folder.path / "schedule.csv"), quiet)
         _written(write(catenary.arm_loads(found), folder.path / "arms.csv"), quiet)

@@ -56,6 +56,9 @@ COUNT, WATCHED, FIRST = range(3)
 FORCE, DEPTH = range(2)
 #: Gap in radii up to which a surface holds a point while the loads of an equilibrium come on.
 BONDED = 0.01
+#: Radii of a surface from which an element counts as long against it, most places looked at along it, and
+#: the part of its length that is between a place on it and the next of its points.
+LONG, MOST_PLACES, BETWEEN = 2.0, 40.0, 0.3
 #: Share of the depth at which a surface has no sides that a beam may reach.
 PASSED = 0.5
 
@@ -199,6 +202,33 @@ def press_remember(batch, q, v):
 
 
 @inline_kernel
+def deepest_between(batch, e, nodes, body, at, axis, narrow, least):
+    """Least distance from a surface that is thinner than an element is long, at places all along it.
+
+    Such a surface finds its way between the points of the element; infinite of others, and where the
+    distance of all points shows that none can be inside.
+    """
+    middle = batch.weight.shape[1] // 2
+    h = 8.0 * batch.shape[e, middle, 1]
+    if h < LONG * narrow or least > BETWEEN * h:
+        return math.inf
+    a, b, c, d = nodes
+    count = int(min(3.0 * h / narrow, MOST_PLACES))
+    found = math.inf
+    for k in range(count + 1):
+        x = k / count
+        s, u = (1.0 - x) * (1.0 - x), x * x
+        f, g, i, j = s * (1.0 + 2.0 * x), h * x * s, u * (3.0 - 2.0 * x), h * u * (x - 1.0)
+        r = (
+            f * a[0] + g * b[0] + i * c[0] + j * d[0],
+            f * a[1] + g * b[1] + i * c[1] + j * d[1],
+            f * a[2] + g * b[2] + i * c[2] + j * d[2],
+        )
+        found = min(found, outside(batch, e, middle, body, at, axis, r)[0])
+    return found
+
+
+@inline_kernel
 def press_passed(batch, q, ws):
     """Slot of the first node of an element that may have gone through a surface since the last step, else -1.
 
@@ -224,10 +254,12 @@ def press_passed(batch, q, ws):
             return batch.base[e, 0]
         body, nodes = carrier(batch, e, q), nodes_of(batch, e, q)
         at, axis = lie(batch, e, body)
+        least = math.inf
         for p in range(batch.weight.shape[1]):
             d, _, _, _, _ = outside(batch, e, p, body, at, axis, place_on(batch, e, p, nodes))
-            if d < -PASSED * narrow:
-                return batch.base[e, 0]
+            least = min(least, d)
+        if min(least, deepest_between(batch, e, nodes, body, at, axis, narrow, least)) < -PASSED * narrow:
+            return batch.base[e, 0]
     return -1
 
 

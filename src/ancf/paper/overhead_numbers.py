@@ -8,7 +8,7 @@ import numpy as np
 
 from ..viz import style
 from .check import Check
-from .closed import line_parts, line_runs, line_states, line_twin
+from .closed import line_gallop, line_parts, line_runs, line_states, line_twin
 from .table import Table
 
 if TYPE_CHECKING:
@@ -39,6 +39,8 @@ NOTES = [
     "2.2 m and 45 kg, 7.2 kg on 4200 N/m at its tip, 40 m/s, beside 15 kg below that head.",
     "Twin contact wires: two of 0.675 kg/m and 10 kN, 40 mm apart, in three spans of 48 m with 12 droppers "
     "each; alone in spans of 45 m.",
+    "Galloping: one wire of 40 m, 15 kN, 12.2 mm, drag coefficient 1.1, lift straight over the angle of "
+    "attack, alpha 0.05 1/s; its second mode after a push.",
     "Trains: two pantographs on the reference models of EN 50318 with the default mesh and step, forces "
     "below 20 Hz with a filter of order 4.",
 ]
@@ -48,7 +50,7 @@ def data(short: bool = False) -> Table:
     """All numbers; the short form has some lines at rest alone."""
     found = [*line_states.checks(short), *line_parts.checks(short)]
     if not short:
-        found += [*line_twin.checks(), *line_runs.checks()]
+        found += [*line_twin.checks(), *line_gallop.checks(), *line_runs.checks()]
     rows = [(c.name, c.value, c.reference, c.tolerance, c.unit, c.origin) for c in found]
     return Table("overhead", COLUMNS, [*rows], [*NOTES])
 
