@@ -33,6 +33,7 @@ RENEWED, MOST_RENEWED = 1e-9, 240  # change of what comes last that is none, and
 UNMOVED = 1e-10  # correction after it that is round-off, positions in sizes of the model
 MOST_RELEASES = 30  # rounds in which surfaces let go what they pull
 MOST_EVENTS = 4  # openings and closings of a contact
+FINER = 1, 7, 31  # times as many steps of the loads where something touches and no equilibrium was found
 
 
 def equilibrium(
@@ -99,11 +100,11 @@ def attempt(it: Iteration, slack: Slack, load_steps: int) -> int:
     together until it buckles.
     """
     first, q = None, it.q.copy()
-    for holds in _attempts(it.core, q):
+    for finer, holds in _attempts(it.core, q):
         it.q, it.mu, it.held = q.copy(), 0.0, holds
         grips(it.core, it.q, holds)
         try:
-            halvings = bring_on(it, slack, load_steps)
+            halvings = bring_on(it, slack, finer * load_steps)
             if holds:
                 let_go(it)
             return halvings
@@ -115,11 +116,19 @@ def attempt(it: Iteration, slack: Slack, load_steps: int) -> int:
     raise first
 
 
-def _attempts(core: Core, q: FloatArray) -> tuple[bool, ...]:
-    """Whether the loads come on with what they touch holding, one attempt after the other."""
+def _attempts(core: Core, q: FloatArray) -> list[tuple[int, bool]]:
+    """How much finer the loads come on, and whether what they touch holds, one attempt after the other.
+
+    Contact with friction has kinks, at which the iteration may go to and fro for ever: from another side, as
+    after other steps, it goes past them.
+    """
     if grips(core, q, False):
-        return True, False
-    return (False, True) if _holding(core) else (False,)
+        ways: tuple[bool, ...] = True, False
+    elif _holding(core):
+        ways = False, True
+    else:
+        return [(1, False)]
+    return [(finer, holds) for finer in FINER for holds in ways]
 
 
 def _holding(core: Core) -> list[tuple[Any, Any]]:
