@@ -44,7 +44,7 @@ def shown(model, folder, **settings):
     found = {"printed": [str(model), str(run)], "described": json.loads(json.dumps(model.to_dict()))}
     found["settings"] = run.provenance["settings"]
     found["sensors"] = run.sensors.names if "sensors" in settings else []
-    figure = run.plot_shape().figure
+    figure = run.plot_shape(times=2).figure
     figure.savefig(folder / "shape.png")
     assert plt.imread(folder / "shape.png")[..., :3].std() > 0.01  # something is drawn
     found["legend"] = [text.get_text() for legend in figure.legends for text in legend.get_texts()]

@@ -289,14 +289,16 @@ class TestKilled:
             import ancf
             from design_functions import napping
             two = {{"a": ancf.Uniform(1.0, 3.0), "b": ancf.Uniform(0.0, 1.0)}}
-            rows = ancf.sample(two, method="sobol", count=400, seed=2)
+            rows = ancf.sample(two, method="sobol", count=int(sys.argv[2]), seed=2)
             ancf.study(napping, rows, folder=sys.argv[1], workers=2, report=False)
             """)
-        draw, kills = random.Random(5), 20 if request.config.getoption("--slow") else 2
+        draw = random.Random(5)
+        kills, count = (20, 400) if request.config.getoption("--slow") else (2, 100)
+        command = [sys.executable, "-c", code, tmp_path / "a", str(count)]
         reached = [0]
         for _ in range(kills):
-            process = subprocess.Popen([sys.executable, "-c", code, tmp_path / "a"], start_new_session=True)
-            wanted = reached[-1] + draw.randrange(1, 360 // kills)
+            process = subprocess.Popen(command, start_new_session=True)
+            wanted = reached[-1] + draw.randrange(1, 9 * count // (10 * kills))
             while process.poll() is None and done_in(tmp_path / "a") < wanted:
                 time.sleep(draw.uniform(0.001, 0.02))
             process.kill()
@@ -304,10 +306,10 @@ class TestKilled:
             reached.append(done_in(tmp_path / "a"))
             assert gone(process.pid)
         assert reached == sorted(reached)
-        assert 0 < reached[1] <= reached[-1] < 400
-        ran = python(code, tmp_path / "a")
+        assert 0 < reached[1] <= reached[-1] < count
+        ran = python(code, tmp_path / "a", str(count))
         assert ran.code == 0, ran.err
-        quiet(napping, samples(400), folder=tmp_path / "b", workers=0)
+        quiet(napping, samples(count), folder=tmp_path / "b", workers=0)
         assert bytes_of(tmp_path / "a") == bytes_of(tmp_path / "b")
 
     def test_interrupt(self, tmp_path):

@@ -24,7 +24,7 @@ from runs_to_continue import RUNS, adaptive, rope
 pytestmark = pytest.mark.filterwarnings("ignore:energies of the run do not add up")
 
 #: Places at which each run is left, and fewer of them in the short form of the tests.
-PLACES, FEW = 20, 4
+PLACES, FEW = 20, 2
 
 
 @pytest.fixture
