@@ -182,13 +182,17 @@ def test_a_finer_run_that_fails_says_which():
     assert beam.elements == 2
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize(
+    "name",
+    # the equilibria of the tackle take 12 s; the hoist has rope on sheaves as well
+    [pytest.param(name, marks=pytest.mark.slow) if name == "tackle.toml" else name for name in FILES],
+)
 def test_every_example_file_verifies_itself(name, call, tmp_path):
     """A few steps of each; table, file, and nothing left of the finer runs."""
     text = (EXAMPLES / name).read_text(encoding="utf-8")
     step = float(re.search(r"^step = (\S+)", text, re.MULTILINE)[1])
     every = float((re.search(r"^output_step = (\S+)", text, re.MULTILINE) or [0, step])[1])
-    short = re.sub(r"^t_end = \S+", f"t_end = {5 * every}", text, flags=re.MULTILINE)
+    short = re.sub(r"^t_end = \S+", f"t_end = {2 * every}", text, flags=re.MULTILINE)
     (tmp_path / name).write_text(short, encoding="utf-8")
     ran = call("run", name, "--verify")
     assert ran.code == 0, ran.err

@@ -104,6 +104,20 @@ class TestDamagedFiles:
                 ancf.load(path)
             assert time.perf_counter() - begin < 300
 
+    def test_data_beyond_the_end_of_a_killed_run(self, tmp_path):
+        """All metadata are there, so HDF5 opens the file; only the last data are not."""
+        path = tmp_path / "r.h5"
+        stored(path)
+        with h5py.File(path, "r+", libver="latest") as file:
+            file.create_dataset("more", data=np.ones(20_000), chunks=(5000,))
+        hostile_files.mark(path)
+        assert ancf.load(path).status == "complete"
+        whole = path.read_bytes()
+        last = whole.rfind(np.ones(1000).tobytes())
+        path.write_bytes(whole[: last + 4000])
+        with pytest.raises(ancf.ModelError, match="damaged: it is cut off"):
+            ancf.load(path)
+
     def test_flipped_metadata_of_a_killed_run(self, tmp_path):
         path = tmp_path / "r.h5"
         stored(path)

@@ -312,7 +312,7 @@ class TestCapsuleOnOthers:
             wheel = model.add_rigid_body("wheel", at=(0, 0, 0), mass=2.0, inertia=(0.01, 0.02, 0.01))
             around = model.add_surface("around", shape, on=wheel)
             contact = model.add_contact(skin, around, stiffness=1e4, damping=5.0, friction=0.3)
-            run = ancf.simulate(model, t_end=0.2, step=step, sensors=[contact])
+            run = ancf.simulate(model, t_end=0.12, step=step, sensors=[contact])
             p, L = run.momentum, run.angular_momentum()
             assert run.sensors.contact_force(contact).max() > 10.0
             assert np.abs(p - p[0]).max() < 1e-11
