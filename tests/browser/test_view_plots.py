@@ -239,8 +239,17 @@ def test_in_a_notebook(browser, runs, tmp_path):  # noqa: F811
     tab.close()
 
 
-@pytest.mark.parametrize("size", [(1400, 900), (400, 800)], ids=["wide", "narrow"])
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+WIDE, NARROW = (1400, 900), (400, 800)
+
+
+@pytest.mark.parametrize(
+    ("scheme", "size"),
+    [
+        ("light", NARROW),
+        ("dark", WIDE),
+        *(pytest.param(*case, marks=pytest.mark.slow) for case in (("light", WIDE), ("dark", NARROW))),
+    ],
+)
 def test_everybody_can_read_it(browser, runs, tmp_path, size, scheme):  # noqa: F811
     """No finding of axe, nothing beside the screen, a background as the screen's."""
     path = write_view(runs, tmp_path / "view.html", frames=5)

@@ -36,7 +36,7 @@ def recorded(kmh):
     return RECORDED[f"en50318-2018.{kmh}"]["zero_phase_4"]
 
 
-@pytest.mark.parametrize("kmh", [275, 320])
+@pytest.mark.parametrize("kmh", [pytest.param(275, marks=pytest.mark.slow), 320])
 class TestCase2018:
     @pytest.mark.parametrize("key", NEAR)
     def test_as_the_independent_model_has_it(self, kmh, key):

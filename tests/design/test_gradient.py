@@ -65,7 +65,7 @@ def test_any_number_of_steps_and_of_parameters(steps):
     names = NAMES + [f"beam.{end}[{k}]" for end in ("start", "end") for k in (0, 2)]
     result = ancf.simulate(model, sensitivities=names, **given)
     _, slope = ancf.gradient(model, OBJECTIVES[0], names, **given)
-    for name in names:
+    for name in names[steps % 3 :: 3]:  # other ones with each number of steps
         alone = ancf.simulate(model, sensitivities=[name], **given).sensitivity(name)
         wanted = alone.position("beam.end")
         scale = 1e-8 * np.abs(wanted).max()  # what a difference of residuals leaves of round-off
