@@ -65,7 +65,8 @@ def test_case_that_ends_every_process(tmp_path):
     assert messages == "['the process that computed it ended: KilledWorker']"
 
 
-def test_scheduler_that_does_not_answer():
+def test_scheduler_that_does_not_answer(monkeypatch):
+    monkeypatch.setattr("ancf.design.cluster.PATIENCE", 1.0)  # nobody listens there, however long one waits
     rows = ancf.sample({"a": [1.0], "b": [2.0]}, method="grid")
     with pytest.raises(ancf.ModelError, match=r"scheduler 'tcp://127.0.0.1:9': does not answer") as caught:
         ancf.study(product, rows, scheduler="tcp://127.0.0.1:9", report=False)
