@@ -49,7 +49,7 @@ class TestOscillator:
         """More than two turns and back: the moment grows on, and the energy is that of the whole angle."""
         model, body, item = wheel(space, stiffness=2.0)
         body.set_motion(angular_velocity=space.apply((0, 0, 40.0)))
-        run = ancf.simulate(model, t_end=2.0, step=5e-4, output_step=0.01)
+        run = ancf.simulate(model, t_end=0.9, step=1e-3, output_step=0.01)
         omega = np.sqrt(2.0 / 0.3)
         wanted = 40.0 / omega * np.sin(omega * run.t)
         assert wanted.max() > 4 * np.pi

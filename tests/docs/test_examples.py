@@ -97,6 +97,16 @@ class TestFiles:
         for label in settings.outputs:
             assert np.all(np.isfinite(result.position(label)))
 
+    @pytest.mark.slow
+    @pytest.mark.parametrize("name", FILES)
+    def test_runs_to_its_end(self, name, call):
+        """As its page has it; what is drawn from it is finite."""
+        ran = call("run", EXAMPLES / name, "-o", "out")
+        assert ran.code == 0, ran.err
+        result = ancf.load("out/results.h5")
+        assert result.status == "complete"
+        assert np.all(np.isfinite(result.energy.total))
+
     @pytest.mark.parametrize("name", WITH_MAIN)
     def test_describes_the_model_of_the_script(self, name):
         from_file, from_script = (

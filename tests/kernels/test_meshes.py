@@ -123,7 +123,25 @@ class TestFile:
         )
         return f"solid thing\n{facets}endsolid thing\n".encode()
 
-    @pytest.mark.parametrize("write", ["binary", "text"])
+    @classmethod
+    def loud(cls, corners):
+        """In capitals, as old programs write, after a name of the words of a file."""
+        return b"SOLID FACET VERTEX 1 2" + cls.text(corners).upper().removeprefix(b"SOLID THING")
+
+    @classmethod
+    def returns(cls, corners):
+        return cls.text(corners).replace(b"\n", b"\r\n")
+
+    @classmethod
+    def one_line(cls, corners):
+        return cls.text(corners).replace(b"\n", b" ")
+
+    @classmethod
+    def solid(cls, corners):
+        """Binary, with the word that text begins with."""
+        return b"solid" + cls.binary(corners)[5:]
+
+    @pytest.mark.parametrize("write", ["binary", "text", "loud", "returns", "one_line", "solid"])
     def test_stl(self, write, tmp_path):
         points, rows = prism(12)
         path = tmp_path / "drum.stl"
@@ -208,6 +226,16 @@ class TestBad:
         path = tmp_path / "bad.stl"
         path.write_bytes(data)
         with pytest.raises(ancf.ModelError, match=r"Mesh.file: .*bad.stl"):
+            ancf.Mesh(path)
+
+    @pytest.mark.parametrize("lost", [1, 50, 900])
+    @pytest.mark.parametrize("head", [b"made by a test", b"solid"])
+    def test_cut_off(self, head, lost, tmp_path):
+        points, rows = prism(12)
+        path = tmp_path / "bad.stl"
+        path.write_bytes(head.ljust(80) + TestFile.binary(points[rows])[80:-lost])
+        there = (2400 - lost) // 50
+        with pytest.raises(ancf.ModelError, match=rf"cut off.*48 triangles are announced, .* for {there}$"):
             ancf.Mesh(path)
 
     def test_inside_a_rope_at_the_start(self):

@@ -16,6 +16,7 @@ def main() -> int:
     parser.add_argument("--only", metavar="FOLDER", choices=folders(), help="one folder of src/ancf alone")
     parser.add_argument("--file", metavar="PART", help="files alone whose path holds this")
     parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--anew", action="store_true", help="repeat what earlier runs found out")
     given = parser.parse_args()
     mutants = [
         m
@@ -34,7 +35,9 @@ def main() -> int:
         if verdict.outcome != KILLED:
             print(f"{'':18}{verdict.said or ' '.join(verdict.mutant.tests)}", flush=True)
 
-    verdicts = run_all(mutants, given.workers, report)
+    verdicts = run_all(mutants, given.workers, report, given.anew)
+    if earlier := sum(not v.seconds for v in verdicts if v.outcome == KILLED):
+        print(f"{earlier} of them noticed in earlier runs of the same sources and tests")
     bad = [v for v in verdicts if v.outcome != KILLED]
     survived = sum(v.outcome == SURVIVED for v in bad)
     took = time.perf_counter() - start

@@ -16,7 +16,9 @@ from queue import Queue
 
 if sys.platform != "win32":
     import fcntl
+    import resource
 
+from .journal import Journal
 from .listing import PACKAGE, ROOT, Mutant
 
 KILLED, SURVIVED, WRONG = "killed", "survived", "error"
@@ -26,8 +28,11 @@ _TOUCHED_BY_NONE = (
     "numpy scipy.linalg scipy.sparse.linalg scipy.signal scipy.interpolate numba.extending h5py"
 )
 _SERVER.set_forkserver_preload([*_TOUCHED_BY_NONE.split(), "pydantic", "pytest", "typer", "rich.console"])
-#: A mutant that makes its tests hang is noticed too; s.
-LONGEST = 900.0
+#: A mutant that makes its tests hang is noticed too: after so many seconds of processor time, on a busy
+#: machine as on a quiet one, or of waiting.
+LONGEST, LONGEST_WAIT = 300, 3600.0
+#: Test files after which those that passed are put down.
+_FILES_AT_ONCE = 6
 
 
 @dataclass(frozen=True)
@@ -88,7 +93,7 @@ class Copies:
                 target=run_pytest, args=(arguments, str(copy), how, cache, str(said), copy == self.base)
             )
             child.start()
-            child.join(LONGEST)
+            child.join(LONGEST_WAIT)
             code = child.exitcode
             if code is None:
                 child.kill()
@@ -96,16 +101,19 @@ class Copies:
             return code, said.read_text(encoding="utf-8") if said.exists() else ""
 
 
-def run_pytest(
-    arguments: list[str], package: str, how: str, cache: str, said: str, keeps_bytecode: bool
-) -> None:
-    """What a child does: pytest with this package; what it prints goes to the file ``said``."""
+def run_pytest(arguments: list[str], package: str, how: str, cache: str, said: str, is_base: bool) -> None:
+    """What a child does: pytest with this package; what it prints goes to the file ``said``.
+
+    The base, which no change makes hang, takes the time it takes: it runs many tests at once and compiles.
+    """
+    if sys.platform != "win32" and not is_base:
+        resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST))
     file = os.open(said, os.O_CREAT | os.O_WRONLY)
     for stream in (1, 2):
         os.dup2(file, stream)
     os.chdir(ROOT)
     sys.path[:] = [package, str(ROOT), *(p for p in sys.path if p not in (str(ROOT), str(PACKAGE.parent)))]
-    sys.dont_write_bytecode = not keeps_bytecode
+    sys.dont_write_bytecode = not is_base
     environment = {"PYTHONPATH": package, "ANCF_MUTANTS": how, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
     os.environ.update(environment | {"MPLBACKEND": "Agg"})
     import numba
@@ -127,30 +135,32 @@ def _stamp(copy: Path) -> str:
     return done.stdout.strip()
 
 
-def unchanged(mutants: list[Mutant], copies: Copies) -> set[str]:
+def unchanged(mutants: list[Mutant], copies: Copies, journal: Journal) -> set[str]:
     """Tests that fail without a change, or that are not there; this compiles what the others need."""
     failing: set[str] = set()
     for how in ("interpreted", copies.stamp):
         chosen = [m for m in mutants if m.interprets == (how == "interpreted")]
-        tests = sorted({test for m in chosen for test in m.tests})
+        tests = sorted({t for m in chosen for t in m.tests if not journal.passed(t, how)})
         missing = _missing(tests, copies, how)
         failing |= missing
-        parts = _parts([t for t in tests if t not in missing], len(copies.workers))
+        parts = _parts([t for t in tests if t not in missing])
         with ThreadPoolExecutor(len(copies.workers)) as pool:
-            done = list(pool.map(copies.run, parts, repeat(copies.base), repeat(how)))
-        for part, (code, said) in zip(parts, done, strict=True):
-            failed = re.findall(r"^(?:FAILED|ERROR) tests/(\S+)", said, re.MULTILINE)
-            failing |= {t for t in part for f in failed if f == t or f.startswith((f"{t}[", f"{t}::"))}
-            if code not in (0, 1):
-                raise RuntimeError(said)
+            done = pool.map(copies.run, parts, repeat(copies.base), repeat(how))
+            for part, (code, said) in zip(parts, done, strict=True):
+                failed = re.findall(r"^(?:FAILED|ERROR) tests/(\S+)", said, re.MULTILINE)
+                bad = {t for t in part for f in failed if f == t or f.startswith((f"{t}[", f"{t}::"))}
+                if code not in (0, 1):
+                    raise RuntimeError(said)
+                failing |= bad
+                journal.keep_passed([t for t in part if t not in bad], how)
     return failing
 
 
-def _parts(tests: list[str], count: int) -> list[list[str]]:
-    """Shares of the workers; tests of a file stay together, for they compile the same kernels."""
+def _parts(tests: list[str]) -> list[list[str]]:
+    """Tests of a few files; those of a file stay together, for they compile the same kernels."""
     files = sorted({t.split("::")[0] for t in tests})
-    shares = [[t for t in tests if files.index(t.split("::")[0]) % count == k] for k in range(count)]
-    return [share for share in shares if share]
+    parts = [files[k : k + _FILES_AT_ONCE] for k in range(0, len(files), _FILES_AT_ONCE)]
+    return [[t for t in tests if t.split("::")[0] in part] for part in parts]
 
 
 def _missing(tests: list[str], copies: Copies, how: str) -> set[str]:
@@ -162,10 +172,13 @@ def _missing(tests: list[str], copies: Copies, how: str) -> set[str]:
     return {t for t in tests if not any(x == t or x.startswith((f"{t}[", f"{t}::")) for x in there)}
 
 
-def run_all(mutants: list[Mutant], workers: int, report) -> list[Verdict]:
-    """Verdict of each mutant; ``report`` is called with each as it comes."""
+def run_all(mutants: list[Mutant], workers: int, report, anew: bool = False) -> list[Verdict]:
+    """Verdict of each mutant; ``report`` is called with each as it comes, ``anew`` repeats earlier runs."""
     copies = Copies(workers)
-    failing = unchanged(mutants, copies)
+    journal = Journal(copies.place / "journal.jsonl", anew)
+    known = [Verdict(m, KILLED, said, 0.0) for m in mutants if (said := journal.noticed(m)) is not None]
+    open_ = [m for m in mutants if journal.noticed(m) is None]
+    failing = unchanged(open_, copies, journal)
     copies.spread()
     free: Queue[Path] = Queue()
     for copy in copies.workers:
@@ -177,11 +190,13 @@ def run_all(mutants: list[Mutant], workers: int, report) -> list[Verdict]:
             verdict = _judge(mutant, copies, copy, failing)
         finally:
             free.put(copy)
+        if verdict.outcome == KILLED:
+            journal.keep_noticed(mutant, verdict.said)
         report(verdict)
         return verdict
 
     with ThreadPoolExecutor(workers) as pool:
-        return list(pool.map(judge, mutants))
+        return [*known, *pool.map(judge, open_)]
 
 
 def _judge(mutant: Mutant, copies: Copies, copy: Path, failing: set[str]) -> Verdict:

@@ -153,8 +153,12 @@ def read_stl(path: Path) -> FloatArray:
     if count >= 0 and len(data) == HEAD + count * RECORD.itemsize:
         found = np.frombuffer(data, RECORD, offset=HEAD)["numbers"][:, 1:].astype(np.float64)
     else:
-        words = data.split()
+        words = [word for line in data.lower().splitlines() if not _is_name(line) for word in line.split()]
         at = [k for k, word in enumerate(words) if word == b"vertex"]
+        there = (len(data) - HEAD) // RECORD.itemsize
+        if not at and count > there:
+            what = f"{count} triangles are announced, and there are bytes for {there}"
+            raise ModelError("Mesh.file", f'"{path}" is cut off, or no STL file: {what}')
         try:
             found = np.array([[float(x) for x in words[k + 1 : k + 4]] for k in at], dtype=np.float64)
             found = found.reshape(-1, 3, 3)
@@ -163,3 +167,9 @@ def read_stl(path: Path) -> FloatArray:
     if not len(found) or not np.all(np.isfinite(found)):
         raise ModelError("Mesh.file", f'"{path}" holds no triangles, or numbers that are not finite')
     return found
+
+
+def _is_name(line: bytes) -> bool:
+    """Whether a line of a text file names a solid, with any words whatever."""
+    start = line.split(maxsplit=1)[:1]
+    return start in ([b"solid"], [b"endsolid"]) and b"facet normal" not in line
