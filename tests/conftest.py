@@ -41,6 +41,17 @@ def made(fakes, tmp_path):
     return verify(["all"], tmp_path / "out", short=True)
 
 
+@pytest.fixture(scope="module")
+def browser():
+    """A browser without a screen that the tests of a file share."""
+    import browsing
+
+    with browsing.started() as found:
+        if found is None:
+            pytest.skip("no Chromium or Chrome on this machine")
+        yield found
+
+
 @pytest.fixture(params=("index1", "index2", "ggl", "alpha"))
 def method(request):
     """A way to keep joints, with Newton's method to round-off."""

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-import html
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ._version import __version__
 from .catenary.quantity import Quantity, shown_limits, verdict
 from .files import to_json, write_text
+from .viz.html import element, figure, section, table
+from .viz.html import page as whole_page
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
 
 Progress = Callable[[int, int], None]
+#: What the columns of a table are.
+HEAD = ("quantity", "computed", "reference", "unit", "off by", "accepted", "verdict")
+CAPTION = "Lines are computed, dots are what they are compared with."
 
 
 @dataclass(frozen=True)
@@ -72,22 +79,20 @@ def write(case: str, title: str, groups: list[Group], folder: Path, report: bool
 
 def page(title: str, groups: list[Group]) -> str:
     """The report: a table of each group with its source, and what it draws."""
-    parts = [
-        "<!doctype html>",
-        f'<html lang="en"><head><meta charset="utf-8"><title>{title}</title>',
-        f"<style>{STYLE}</style></head><body>",
-        f"<h1>{title}</h1><p>ancf {__version__}: {_count(groups)}</p>",
-    ]
-    for group in groups:
-        cells = "".join(_cells(q, wanted) for q, wanted in group.pairs)
-        head = "".join(f"<th>{name}</th>" for name in HEAD)
-        parts.append(
-            f"<h2>{html.escape(group.title)}</h2><p>{html.escape(group.source)}</p>"
-            f"<table><thead><tr>{head}</tr></thead><tbody>{cells}</tbody></table>"
-        )
-        if group.picture is not None:
-            parts.append(f"<figure>{group.picture()}</figure>")
-    return "\n".join([*parts, "</body></html>", ""])
+    head = element("p", f"{_count(groups)}.", class_="verdict")
+    parts = [_section(k, group) for k, group in enumerate(groups)]
+    links = [element("a", group.title, href=f"#group-{k}") for k, group in enumerate(groups)]
+    foot = element("p", f"ancf {__version__}", class_="faint")
+    return whole_page(title, element("h1", title), head, element("nav", *links), *parts, foot)
+
+
+def _section(k: int, group: Group) -> Element:
+    made = table(HEAD, [_cells(q, wanted) for q, wanted in group.pairs], numbers=(1, 2, 4, 5))
+    for cell in made.iter("td"):
+        if cell.text in ("inside", "outside"):
+            cell.set("class", str(cell.text))
+    drawn = [figure(f"{k}", group.title, CAPTION, group.picture())] if group.picture is not None else []
+    return section(group.title, f"group-{k}", element("p", group.source, class_="faint"), made, *drawn)
 
 
 def _middle(q: Quantity) -> float:
@@ -99,11 +104,9 @@ def _count(groups: list[Group]) -> str:
     return f"{sum(judged)} of {len(judged)} inside the accepted ranges"
 
 
-def _cells(q: Quantity, wanted: float | None) -> str:
+def _cells(q: Quantity, wanted: float | None) -> tuple[str, ...]:
     off = f"{100.0 * (q.value / wanted - 1.0):+.2g} %".replace("-", "\N{MINUS SIGN}") if wanted else ""
-    texts = (q.name, _number(q.value), _number(wanted), q.unit, off, _limits(q), verdict(q))
-    kind = {True: "inside", False: "outside", None: ""}[q.inside]
-    return f'<tr class="{kind}">' + "".join(f"<td>{html.escape(text)}</td>" for text in texts) + "</tr>"
+    return q.name, _number(q.value), _number(wanted), q.unit, off, _limits(q), verdict(q)
 
 
 def _number(x: float | None) -> str:
@@ -119,14 +122,3 @@ def _limits(q: Quantity) -> str:
     if q.low is None or q.high is None:
         return shown_limits(q)
     return f"{_number(q.low)} to {_number(q.high)}"
-
-
-#: What the columns of a table are.
-HEAD = ("quantity", "computed", "reference", "unit", "off by", "accepted", "verdict")
-STYLE = (
-    "body{font:15px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem}"
-    "table{border-collapse:collapse}td,th{padding:.2rem .8rem .2rem 0;text-align:left}"
-    "td:nth-child(2),td:nth-child(3),td:nth-child(5){text-align:right}figure{margin:1rem 0}"
-    ".inside td:last-child{color:#1a7f37}"
-    ".outside td:last-child{color:#c1121f;font-weight:bold}"
-)

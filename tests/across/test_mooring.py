@@ -81,7 +81,7 @@ class TestReport:
         page = written[1].read_text()
         assert page.count("<table>") == len(groups)
         assert "outside" in page
-        assert page.count("<svg") == 1
+        assert page.count("data:image/svg+xml") == 1
         assert "+0.2 %" in page
         assert "9 of 13 inside the accepted ranges" in page
         assert "10.3390/jmse4010005" in page

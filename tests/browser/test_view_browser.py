@@ -2,27 +2,17 @@
 
 import io
 import re
-import shutil
 
 import numpy as np
 import pytest
 from PIL import Image
-from playwright.sync_api import sync_playwright
 
+import browsing
 import viewed
 from ancf.viz.scene import Link, Marker, Scene, Strip, Thread, Triad
 from ancf.viz.view import Curve, Part, page, write_view
 from helpers import rotation
 
-CHROMIUM = next(
-    (
-        found
-        for name in ("chromium", "chromium-browser", "google-chrome", "chrome")
-        if (found := shutil.which(name))
-    ),
-    None,
-)
-FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 NO_WEBGL = """
 const original = HTMLCanvasElement.prototype.getContext;
 HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
@@ -41,26 +31,13 @@ def bead():
     return viewed.bead()
 
 
-@pytest.fixture(scope="module")
-def browser():
-    if CHROMIUM is None:
-        pytest.skip("no Chromium or Chrome on this machine")
-    with sync_playwright() as driver:
-        started = driver.chromium.launch(executable_path=CHROMIUM, args=FLAGS, timeout=300_000)
-        yield started
-        started.close()
-
-
 class Opened:
     """A page in the browser, with all that it complained about and asked for."""
 
     def __init__(self, browser, path, script=None):
         self.tab = browser.new_page(viewport={"width": 900, "height": 560})
-        self.tab.set_default_timeout(300_000)
-        self.wrong, self.asked = [], []
-        self.tab.on("console", lambda said: self.wrong.append(said.text) if said.type == "error" else None)
-        self.tab.on("pageerror", lambda error: self.wrong.append(str(error)))
-        self.tab.on("request", lambda request: self.asked.append(request.url))
+        self.tab.set_default_timeout(browsing.PATIENCE)
+        self.wrong, self.asked = browsing.listen(self.tab)
         if script:
             self.tab.add_init_script(script)
         self.tab.goto(path if isinstance(path, str) else path.as_uri())

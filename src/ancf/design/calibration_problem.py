@@ -21,6 +21,14 @@ from .formulas import Formula
 
 #: Singular values of the derivatives below this part of the largest tell nothing.
 NOTHING = 1e-9
+#: How a search of SciPy ends, by its number.
+ENDS = {
+    0: "the largest number of computations is reached",
+    1: "no direction improves it",
+    2: "another step does not improve it",
+    3: "the parameters do not change any more",
+    4: "neither the parameters change any more nor does another step improve it",
+}
 
 
 @dataclass
@@ -178,6 +186,6 @@ class Problem:
             scales=self.scales,
             evaluations=evaluations + 2,
             converged=bool(found.success),
-            message=str(found.message),
+            message=ENDS[found.status],
             priors=self.priors,
         )

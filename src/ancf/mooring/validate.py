@@ -92,7 +92,7 @@ def _picture(given: dict[str, Any], peaks: list[float], printed: list[float]) ->
         axes.set_ylabel("mean of the peaks of the force [N]")
         style.legend_above(figure, axes)
         text = style.svg(figure)
-    return text[text.index("<svg") :]
+    return text
 
 
 def write(groups: list[Group], folder: Path, report: bool = True) -> list[Path]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from collections.abc import Iterable, Sequence
 from importlib.resources import files
 from xml.etree import ElementTree
@@ -10,6 +11,8 @@ from xml.etree.ElementTree import Element
 
 #: What an element holds.
 Piece = Element | str
+#: Width of an SVG, and pixels of the page for one of its points: a figure over two columns fills the page.
+DRAWN_WIDTH, POINT = re.compile(r'<svg\b[^>]*?\bwidth="([\d.]+)pt"'), 1.65
 
 
 def element(tag: str, *pieces: Piece, **attributes: str) -> Element:
@@ -36,7 +39,7 @@ def table(
     """Table of texts; columns whose place is in `numbers` are aligned to the right."""
     right = set(numbers)
     cells = [{"class_": "number"} if i in right else {} for i in range(len(head))]
-    top = element("tr", *(element("th", text, scope="col", **a) for text, a in zip(head, cells, strict=True)))
+    top = element("tr", *(_head(text, a) for text, a in zip(head, cells, strict=True)))
     body = [
         element("tr", *(element("td", text, **a) for text, a in zip(row, cells, strict=True))) for row in rows
     ]
@@ -48,6 +51,11 @@ def table(
     )
 
 
+def _head(text: str, look: dict[str, str]) -> Element:
+    """Head of a column; where there is nothing to read, a screen reader finds no head."""
+    return element("th", text, scope="col", **look) if text else element("td", **look)
+
+
 def pairs(rows: Iterable[tuple[str, str]]) -> Element:
     """Table of names and values without a head."""
     lines = [element("tr", element("th", name, scope="row"), element("td", value)) for name, value in rows]
@@ -57,9 +65,14 @@ def pairs(rows: Iterable[tuple[str, str]]) -> Element:
 
 
 def figure(name: str, title: str, caption: str, drawn: str | bytes) -> Element:
-    """Figure with its picture inside the page, SVG as text or PNG as bytes; ids stay apart."""
+    """Figure with its picture inside the page, SVG as text or PNG as bytes; ids stay apart.
+
+    An SVG is as large as its letters ask for, however narrow it is drawn.
+    """
     content, kind = (drawn, "png") if isinstance(drawn, bytes) else (drawn.encode("utf-8"), "svg+xml")
-    image = picture(content, kind, f"{title}. {caption}")
+    width = DRAWN_WIDTH.search(drawn) if isinstance(drawn, str) else None
+    look = {"style": f"max-width: {POINT * float(width[1]):.0f}px"} if width else {}
+    image = picture(content, kind, f"{title}. {caption}", **look)
     text = element("figcaption", element("strong", f"{title}. "), caption)
     return element("figure", image, text, id=f"figure-{name}")
 

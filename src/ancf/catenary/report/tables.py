@@ -29,7 +29,7 @@ MM = 1e3
 def quantities(rows: Iterable[Quantity]) -> Element:
     """Each quantity against its range."""
     made = table(
-        ("quantity", "value", "unit", "accepted", "", "tag"), [texts(q) for q in rows], numbers=(1, 3)
+        ("quantity", "value", "unit", "accepted", "verdict", "tag"), [texts(q) for q in rows], numbers=(1, 3)
     )
     _colour(made)
     return made
@@ -45,7 +45,7 @@ def beside(names: Sequence[str], lists: Sequence[Sequence[Quantity]]) -> Element
     by_key = [{q.key: q for q in one} for one in lists]
     keys = dict.fromkeys(q.key for one in lists for q in one)
     rows = [_side_by_side([one.get(key) for one in by_key]) for key in keys]
-    heads = [text for name in names for text in (name, "")]
+    heads = [text for name in names for text in (name, "verdict")]
     made = table(
         ("quantity", *heads, "unit", "accepted", "tag"),
         rows,

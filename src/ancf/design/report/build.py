@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..._version import __version__
 from ...files import write_text
+from ...model.tables import plural
 from ...viz import style
 from ...viz.html import element, figure, folded, page, pairs, section
 from ..statistics import is_drawn, outputs_of, parameters_of
@@ -59,7 +60,8 @@ def write_report(path: Path, table: DataFrame, found: dict[str, Any], about: dic
 def _head(table: DataFrame, about: dict[str, Any]) -> str:
     design = about.get("design") or {}
     method = design.get("method", "a table of its own")
-    return f"{len(table)} cases of {len(parameters_of(table))} parameters, sampling: {method}."
+    cases, varied = plural(len(table), "case"), plural(len(parameters_of(table)), "parameter")
+    return f"{cases} of {varied}, sampling: {method}."
 
 
 def _outputs(found: dict[str, Any], names: list[str]) -> Iterator[Element]:

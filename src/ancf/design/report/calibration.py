@@ -10,6 +10,7 @@ import numpy as np
 
 from ..._version import __version__
 from ...files import write_text
+from ...model.tables import plural
 from ...viz import style
 from ...viz.html import element, figure, page, pairs, section, table
 
@@ -40,7 +41,8 @@ def write_calibration(path: Path, fit: Fit, title: str = "") -> Path:
         section("Data", "data", pairs(_data(fit))),
     ]
     notes = [element("p", f"{note}.", class_="verdict") for note in fit.notes()]
-    head = f"{fit.count} numbers in {len(fit.measured)} columns, {len(fit.values)} parameters."
+    columns, parameters = plural(len(fit.measured), "column"), plural(len(fit.values), "parameter")
+    head = f"{plural(fit.count, 'number')} in {columns}, {parameters}."
     day = datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%d %H:%M UTC")
     foot = element("p", f"ancf {__version__}, {day}", class_="faint")
     top = [element("h1", title), element("p", head, class_="faint"), *notes]

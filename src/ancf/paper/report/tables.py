@@ -77,7 +77,7 @@ def checks(entry: Entry) -> list[Element]:
 def misprints() -> Element:
     """Misprints and gaps of the paper, and what was taken."""
     rows = [(e.where, e.kind, e.printed, e.taken) for e in errata()]
-    return table(("where", "", "in the paper", "taken, and why"), rows, class_="errata")
+    return table(("where", "kind", "in the paper", "taken, and why"), rows, class_="errata")
 
 
 def computed(made: Reproduction) -> Element:

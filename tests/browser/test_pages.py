@@ -1,0 +1,45 @@
+"""Every kind of page that the package writes, in a browser: for everybody, narrow, in the dark, on paper."""
+
+import numpy as np
+import pytest
+
+import browsing
+import html_pages
+
+WIDE, NARROW = (1200, 900), (400, 800)
+#: Those that have what others have too.
+SLOW = ("train", "indices")
+#: Grey of the page's ground in the dark, 0 to 255.
+GROUND = 23
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in html_pages.PAGES],
+)
+def test_everybody_can_read_it(browser, tmp_path, name):
+    """No finding of axe, no error, nothing asked of a network, nothing beside the screen.
+
+    The ground is the screen's, that of pictures too; paper is white.
+    """
+    page = html_pages.written(name, tmp_path)
+    tab = browser.new_page(viewport={"width": NARROW[0], "height": NARROW[1]}, color_scheme="light")
+    tab.set_default_timeout(browsing.PATIENCE)
+    wrong, asked = browsing.listen(tab)
+    tab.goto(page.as_uri())
+    for size, scheme in ((NARROW, "light"), (WIDE, "dark")):
+        tab.set_viewport_size({"width": size[0], "height": size[1]})
+        tab.emulate_media(color_scheme=scheme)
+        assert browsing.findings(tab) == []
+        assert tab.evaluate("document.documentElement.scrollWidth") <= size[0]
+        light = browsing.brightness(tab)
+        assert light > 200 if scheme == "light" else light == pytest.approx(GROUND, abs=1)
+    for picture in tab.locator("figure img").all()[:1]:
+        seen = browsing.greys(picture)
+        assert np.median(seen) == pytest.approx(GROUND, abs=6)
+        assert seen.max() > 140  # its lines
+    tab.emulate_media(media="print", color_scheme="dark")
+    assert browsing.brightness(tab) > 200
+    assert wrong == []
+    assert all(url.startswith(("file:", "data:")) for url in asked), asked
+    tab.close()
