@@ -30,7 +30,7 @@ FOLDER = ROOT / "docs" / "verification"
 
 #: Chapters of the checks, in their order: page, title, names of exhibits; the rest belongs to "paper".
 CHAPTERS = {
-    "closed_forms": ("Closed forms", ("closed-forms", "overhead")),
+    "closed_forms": ("Closed forms", ("closed-forms", "connections", "overhead")),
     "orders": ("Convergence orders", ("orders",)),
     "methods": ("Agreement across methods", ()),
     "peers": ("Independent programs", ()),
@@ -44,6 +44,10 @@ TESTS = {
     "fig1": "kernels/test_elements.py",
     "table2": "paper/test_paper_sliding.py",
     "closed-forms": "closed_forms/test_closed_forms.py closed_forms/test_rigid_bodies.py",
+    "connections": "closed_forms/test_rigid_joints.py closed_forms/test_guides.py "
+    "closed_forms/test_rotary_inertia.py closed_forms/test_torsion_springs.py "
+    "closed_forms/test_redundant_joints.py closed_forms/test_damped_modes.py closed_forms/test_followers.py "
+    "closed_forms/test_initial_velocities.py orders/test_auto_elements.py",
     "orders": "orders/test_orders.py orders/test_radau.py orders/test_explicit.py",
     "overhead": "catenary/test_overhead_states.py catenary/test_overhead_layout.py "
     "catenary/test_overhead_route.py catenary/test_overhead_measured.py catenary/test_overhead_rail.py "

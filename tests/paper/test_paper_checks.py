@@ -32,6 +32,7 @@ JUDGED = {
     "fig14": [("force_raw", "add", -10.0), ("penalty_20hz", "times", 1.2), ("force_20hz", "add", 1.0)],
     "table2": [("tip_x", "add", 1e-4), ("jacobians", "times", 1e4)],
     "closed-forms": [("value", "times", 1.001), ("reference", "times", 1.001)],
+    "connections": [("value", "times", 1.001), ("reference", "times", 1.001)],
     "orders": [("rate", "add", 0.3)],
     "overhead": [("value", "times", 1.05), ("reference", "add", 40.0)],
     "en50318": [("value", "times", 1.5)],
@@ -60,6 +61,7 @@ COLUMNS = {
     "fig14": ["speed", "t", "position", "force_raw", "force_20hz", "penalty_20hz"],
     "table2": [*PARTS, "t", *COUNTERS, "cpu_seconds", "paper_seconds", "tip_x", "tip_y", "tip_z"],
     "closed-forms": [*NUMBER, "deviation", "tolerance", "unit", "origin"],
+    "connections": [*NUMBER, "deviation", "tolerance", "unit", "origin"],
     "orders": ["study", "over", "element", "order", "size", "error", "rate"],
     "overhead": ["name", "value", "reference", "tolerance", "unit", "origin"],
     "en50318": ["case", "speed_kmh", "quantity", "unit", "value", "low", "high", "verdict", "tag"],
@@ -285,7 +287,7 @@ class TestReproduce:
         assert full["rows"]
         assert all(len(row) == len(full["columns"]) for row in full["rows"])
         kinds = {"cable", "original", "nonlocking"}
-        if name not in ("closed-forms", "orders", "overhead"):  # many names
+        if name not in ("closed-forms", "connections", "orders", "overhead"):  # many names
             assert {row[0] for row in full["rows"]} == KINDS.get(name, kinds)
         assert len(full["notes"]) >= 4
         assert all(isinstance(note, str) for note in full["notes"])

@@ -13,8 +13,12 @@ from .curves import LOOKS
 from .table import Table
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from .closed.case import Case
 
 TITLE = "Closed forms: statics, vibration, rigid bodies"
 EXAMPLE = ""
@@ -24,7 +28,7 @@ CLAIM = (
 )
 COLUMNS = ("name", "element", "value", "reference", "deviation", "tolerance", "unit", "origin")
 SIZE = (170.0, 158.0)  # mm
-LOWEST = 1e-12  # the axis starts there: smaller deviations are round-off
+LOWEST, HIGHEST = 1e-12, 3e-2  # of the axis: smaller deviations are round-off
 #: Marker and colour of numbers without an element.
 BODY = {"color": style.GREY, "marker": "D"}
 
@@ -41,11 +45,16 @@ NOTES = [
 def data(short: bool = False) -> Table:
     """All cases; the short form leaves out the rigid bodies, which take the longest to compile."""
     found = [*statics.cases(), *vibration.cases(), *([] if short else rigid.cases())]
+    return table_of("closed-forms", found, NOTES)
+
+
+def table_of(name: str, found: Sequence[Case], notes: Sequence[str]) -> Table:
+    """Cases as the table of an exhibit."""
     rows = [
         (c.name, c.element, c.value, c.reference, c.value / c.reference - 1.0, c.tolerance, c.unit, c.origin)
         for c in found
     ]
-    return Table("closed-forms", COLUMNS, [*rows], [*NOTES])
+    return Table(name, COLUMNS, [*rows], [*notes])
 
 
 def checks(table: Table) -> list[Check]:
@@ -61,7 +70,7 @@ def draw(table: Table, figure: Figure) -> None:
     axes.vlines(table.values("tolerance"), y - 0.35, y + 0.35, color="black", linewidth=1.2, label="accepted")
     for element in table.kinds():
         _dots(axes, table, element)
-    axes.set(xscale="log", xlim=(LOWEST, 2e-3), xlabel="relative deviation from the closed form")
+    axes.set(xscale="log", xlim=(LOWEST, HIGHEST), xlabel="relative deviation from the closed form")
     axes.set_yticks(y, [str(row[0]) for row in table.rows], fontsize=6.5)
     axes.set_ylim(len(y) - 0.4, -0.6)
     style.legend_above(figure, axes)

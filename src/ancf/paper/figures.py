@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol, cast
 
 from . import (
     closed_forms,
+    connections,
     en50318,
     fig1,
     fig2,
@@ -74,6 +75,7 @@ FIGURES: Mapping[str, FigureModule] = {
         "fig14": fig14,
         "table2": table2,
         "closed-forms": closed_forms,
+        "connections": connections,
         "orders": orders,
         "overhead": overhead_numbers,
         "en50318": en50318,
