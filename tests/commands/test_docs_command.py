@@ -41,7 +41,8 @@ def test_a_word_finds_its_page(call, word, page):
     assert docs.ranked(word)[0] == page
     assert ran.out.startswith(f"# {docs.title(docs.pages()[page])}")
     assert "<!--" not in ran.out
-    assert "{index}" not in ran.out
+    for mark in ("{index}", "{figure}", "[](", "\n% "):
+        assert mark not in ran.out
 
 
 @pytest.mark.parametrize("word", ["warpdrive", "", "  "])
@@ -49,6 +50,22 @@ def test_a_word_on_no_page(call, word):
     ran = call("docs", word)
     assert ran.code == 2
     assert "is on no page" in ran.said
+
+
+def test_a_link_without_words_has_the_title_of_its_page(tmp_path, monkeypatch):
+    (tmp_path / "limits.md").write_text("# What it cannot do\n", encoding="utf-8")
+    (tmp_path / "howto").mkdir()
+    page = tmp_path / "howto" / "one.md"
+    page.write_text(
+        "% a note\n# One\n\nsee [](../limits.md#torsion) and [](gone.md), [words](../limits.md).\n\n"
+        "```{figure} ../a.png\n:alt: What is seen\n\nA caption.\n```\nend\n",
+        encoding="utf-8",
+    )
+    monkeypatch.setattr(docs, "PLACES", (tmp_path,))
+    assert docs.plain(page) == (
+        '# One\n\nsee "What it cannot do" (`ancf docs limits`) and gone.md, [words](../limits.md).\n\n'
+        "A caption.\nend\n"
+    )
 
 
 def test_a_copy_and_what_was_changed(call):

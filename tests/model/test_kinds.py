@@ -184,6 +184,12 @@ class TestEverything:
         assert end == pytest.approx([0.0, 0.0, -0.5 * 9.81 * 0.02**2], rel=1e-9)
 
 
+def test_each_kind_has_a_method_that_editors_see():
+    """Completion and type checkers read the class, not what a name is looked up in while a program runs."""
+    for kind in all_kinds():
+        assert callable(getattr(ancf.Model, kind.method)), kind.word
+
+
 def test_unknown_methods_are_refused():
     model = model_of("supports", "pin")
     with pytest.raises(AttributeError, match="add_foce"):

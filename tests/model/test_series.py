@@ -193,7 +193,7 @@ BAD = [
     (wrong('column = "x", cutoff = 3.0, interpolation = "linear"'), "displacement[0].cutoff", "spline"),
     (wrong('column = "words"'), 'displacement[0].csv: column "words"', "holds 'b' in row 3"),
     (wrong('column = ["x", "x", "x"]'), "displacement[0].value", ""),
-    ('{ csv = "a.csv", column = "x" }', "displacement.value", ""),
+    ('{ csv = "a.csv", column = "x" }', "displacement.value", "where three are wanted"),
     ('[{ csv = "none.csv", column = "x" }, 0, 0]', "displacement[0].csv", "no such file"),
     ('[{ t = [0, 1], values = [1, 2] }, 0, 0]', "displacement[0]", "a table has the keys"),
 ]  # fmt: skip

@@ -370,6 +370,19 @@ class TestTables:
         wanted = ["wire.start", "wire.at(1.00125)", "wire.end", "tail.start", "tail.at(0.502494)", "tail.end"]
         assert default_points(model) == [*wanted, "bob", "bead", "hub.centre"]
 
+    def test_methods_of_a_result(self, run, tables, tmp_path):
+        """Points as objects or by name; what is written is what ``ancf export`` writes."""
+        result = run[0]
+        point = result.model.bodies["wire"].at(0.7)
+        files = result.to_csv(tmp_path / "tables", points=[point, result.model.bodies["bob"]])
+        assert [path.stem for path in files] == list(tables)
+        for path in files:
+            found = table(path)
+            assert list(found) == list(tables[path.stem])
+            assert all(np.array_equal(found[head], tables[path.stem][head]) for head in found)
+        book = openpyxl.load_workbook(result.to_excel(tmp_path / "run.xlsx", points="bob"))
+        assert book.sheetnames == ["about", *tables]
+
     def test_wrong_point_writes_nothing(self, run, tmp_path):
         for wrong, what in (("wier.end", 'did you mean "wire"'), ("wire.at(7)", "outside the beam")):
             with pytest.raises(ancf.ModelError, match=what):
@@ -418,7 +431,8 @@ class TestCommand:
 
     def test_workbook(self, call, file):
         """Read by a program for spreadsheets: the tables of CSV, number by number, and a sheet about them."""
-        assert call(file, "--to", "xlsx", "--points", "bob").out == "written: out/results.xlsx\n"
+        for word in ("excel", "xlsx"):
+            assert call(file, "--to", word, "--points", "bob").out == "written: out/results.xlsx\n"
         call(file, "--to", "csv", "--points", "bob", "-o", "tables")
         book = openpyxl.load_workbook("out/results.xlsx")
         assert book.sheetnames == ["about", "sensors", "points", "springs", "joints", "energies"]

@@ -17,6 +17,10 @@ SHOWN = 8
 #: Words of the index at the head of a page.
 INDEX = re.compile(r"^:::\{index\}(?P<words>[^\n]*)\n:::\n+", re.MULTILINE)
 
+#: A picture with its options and its caption, and a link whose words are the title of its page.
+FIGURE = re.compile(r"^```\{figure\}[^\n]*\n(?::[^\n]*\n)*(?P<caption>.*?)^```\n", re.MULTILINE | re.DOTALL)
+LINK = re.compile(r"\[\]\((?P<path>[^)#\s]+\.md)(?:#[^)\s]*)?\)")
+
 
 def folder() -> Path:
     """Where the pages are.
@@ -94,8 +98,7 @@ def _listed(names: list[str]) -> None:
 
 def _printed(file: Path) -> None:
     """A page as it is in a file or a pipe, with its headings and tables drawn in a terminal."""
-    text = re.sub(r"<!--.*?-->\n?", "", file.read_text(encoding="utf-8"), flags=re.DOTALL)
-    text = INDEX.sub("", text)
+    text = plain(file)
     out = console()
     if not out.is_terminal:
         out.print(text, soft_wrap=True, markup=False, highlight=False)
@@ -103,6 +106,26 @@ def _printed(file: Path) -> None:
     from rich.markdown import Markdown
 
     out.print(Markdown(text))
+
+
+def plain(file: Path) -> str:
+    """Text of a page without the marks that only its site understands.
+
+    A link without words has the title and the name of its page; a picture is left out, its caption stays.
+    """
+    text = re.sub(r"<!--.*?-->\n?", "", file.read_text(encoding="utf-8"), flags=re.DOTALL)
+    text = FIGURE.sub(lambda found: found["caption"].strip() + "\n", INDEX.sub("", text))
+    text = re.sub(r"^% .*\n", "", text, flags=re.MULTILINE)
+    return LINK.sub(lambda found: _named(file, found["path"]), text)
+
+
+def _named(file: Path, path: str) -> str:
+    """What a link without words leads to."""
+    target = (file.parent / path).resolve()
+    if not exists(target):
+        return path
+    name = target.relative_to(folder().resolve()).with_suffix("").as_posix()
+    return f'"{title(target)}" (`ancf docs {name}`)'
 
 
 def _copied(copy: Path) -> None:

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 #: Suffix of what is written, by the word after --to; tables go to a folder.
 SUFFIXES = {"vtk": ".vtkhdf", "csv": "", "parquet": "", "xlsx": ".xlsx", "mp4": ".mp4", "gif": ".gif"}
+#: Words by which a kind is called elsewhere.
+ALSO = {"excel": "xlsx", "paraview": "vtk", "vtkhdf": "vtk"}
 TIMES, PICTURES = ("frames", "start", "end"), ("color", "fps", "view")
 #: Options that mean something, by the word after --to.
 OPTIONS = {
@@ -52,7 +54,7 @@ def export_file(
         Something is wrong with what was given; nothing was written.
 
     """
-    checks.choice(to, "--to", tuple(SUFFIXES))
+    to = checks.choice(ALSO.get(to, to), "--to", tuple(SUFFIXES))
     given = _given(to, options)
     result = open_result(file)
     screen = Screen(quiet)

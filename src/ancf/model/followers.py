@@ -48,6 +48,9 @@ FOLLOWER_FORCE = law(
 )
 
 
+add_follower_force: Any = FOLLOWER_FORCE.add
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Pressure:
     """Load normal to a beam and to a fixed direction, that turns with the beam.

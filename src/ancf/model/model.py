@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from ..arrays import FloatArray
-from . import auto_elements, checks, describe, rebuild
+from . import auto_elements, checks, describe, followers, rebuild
 from .beam import Beam
 from .connecting import PointLike
 from .functions import check_inputs
@@ -197,6 +197,23 @@ class Model(Supporting, Readable):
         clean = self._body(body, f"{where}.body")
         label = self._names.of_item(name, f"load on {clean.name}", where)
         return self.add_load(make_distributed(where, label, clean, load, between, self.size))
+
+    def add_follower_force(self, point: PointLike, force: Any, *, name: str | None = None) -> Any:
+        """Add a force (3,) in N that turns with a cable's tangent, a beam's section or a rigid body.
+
+        Its parts are those in the axes of the body: along the tangent or the section's normal, then along
+        the section's y and z; a cable has a tangent alone.
+        """
+        return followers.add_follower_force(self, point, force, name=name)
+
+    def add_pressure(
+        self, body: Beam | str, pressure: Any, axis: Any, name: str | None = None
+    ) -> followers.Pressure:
+        """Add a pressure in N per m of present length on a beam or cable, which turns with it.
+
+        It acts in the direction tangent x `axis` (3,), normal to both.
+        """
+        return followers.add_pressure(self, body, pressure, axis, name)
 
     def add_load(self, item: LoadT) -> LoadT:
         """Add a checked load; every method that makes one ends here."""

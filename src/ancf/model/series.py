@@ -249,6 +249,9 @@ def factor(unit: Any, where: str) -> float:
 def _values(value: Any, where: str, size: int | None) -> FloatArray:
     first = value[0] if isinstance(value, list | tuple) and len(value) else value
     rows = np.ndim(first) > (0 if first is not value else 1)
+    if size == 3 and not rows and len(np.atleast_1d(value)):
+        hint = "give one for each component, [series, 0, 0], or three columns"
+        raise ModelError(where, "has one number at each time, where three are wanted", hint)
     shape: tuple[int | None, ...] = (None, 3) if size == 3 or (size is None and rows) else (None,)
     return checks.array(value, where, shape)
 

@@ -15,7 +15,10 @@ from ..system.system import System
 from . import remembered
 from .remembered import Remembered
 
-_FRICTION = "sensors record it at every step, and the last state of a simulation knows it"
+_FRICTION = (
+    "sensors record it at every step: simulate(..., sensors=[...]), or sensors = [...] in [simulation] of a "
+    "file; the last state of a simulation knows it"
+)
 
 
 class Motions:

@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # names for annotations; at run time only the methods import from above
     from ..viz.pictures.animation import Animation
     from ..viz.pictures.picture import Picture
     from ..viz.view.frame import Framed
+
+
+def _labels(points: Sequence[Any] | None) -> list[str] | None:
+    """Points, objects or labels, one or several, as labels."""
+    if points is None:
+        return None
+    several = points if isinstance(points, list | tuple) else [points]
+    return [str(getattr(point, "label", None) or getattr(point, "name", point)) for point in several]
 
 
 class Plotted:
@@ -106,6 +115,51 @@ class Plotted:
 
 class Filmed(Plotted):
     """What moves: a Result."""
+
+    def to_csv(self, folder: str | Path, points: Sequence[Any] | None = None) -> list[Path]:
+        """Write tables with names and units in the first row: the files of ``ancf export --to csv``.
+
+        Parameters
+        ----------
+        folder : path
+            Made when it does not exist.
+        points : sequence of Point or str, optional
+            Points of ``points.csv``. Without them, and without sensors: start, middle and end of the first
+            beams, and the first masses.
+
+        Returns
+        -------
+        list of Path
+            The files written.
+
+        Raises
+        ------
+        ModelError
+            There is no such point, nothing was stored, or a file cannot be written.
+        """
+        from ..viz.export import write_csv
+
+        return write_csv(self, folder, _labels(points))  # type: ignore[arg-type]
+
+    def to_excel(self, path: str | Path, points: Sequence[Any] | None = None) -> Path:
+        """Write the same tables as the sheets of one workbook, ``.xlsx``, as ``ancf export --to xlsx`` does.
+
+        Its first sheet names the run, and of every column its unit and what it is.
+
+        Parameters
+        ----------
+        path : path
+        points : sequence of Point or str, optional
+            As of :meth:`to_csv`.
+
+        Raises
+        ------
+        ModelError
+            As of :meth:`to_csv`; openpyxl is missing, or a table has more rows than a sheet.
+        """
+        from ..viz.export import write_xlsx
+
+        return write_xlsx(self, path, _labels(points))  # type: ignore[arg-type]
 
     def view(self, *, height: int = 600, **options: Any) -> Framed:
         """The page of ``ancf view``: the moving model with its plots.

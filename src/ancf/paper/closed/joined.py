@@ -32,8 +32,8 @@ def motions() -> list[Case]:
 def _frame() -> Case:
     """A column and a girder at a right angle, welded, with a force down at the tip."""
     model, column = cable(8, end=(0.0, 0.0, LENGTH))
-    ends = {"start": (0.0, 0.0, LENGTH), "end": (LENGTH, 0.0, LENGTH)}
-    girder = model.add_beam("girder", **ends, elements=8, section=column.section)
+    corner, tip = (0.0, 0.0, LENGTH), (LENGTH, 0.0, LENGTH)
+    girder = model.add_beam("girder", start=corner, end=tip, elements=8, section=column.section)
     model.clamp(column.start)
     model.weld(column.end, girder.start)
     model.add_force(girder.end, (0.0, 0.0, -FORCE))

@@ -17,7 +17,7 @@ def cases() -> list[Case]:
 
 
 def turning() -> list[Case]:
-    """A shaft that whirls and a body that is pushed in its own direction, which take the longest to compile."""
+    """A shaft that whirls and a body pushed in its own direction: they take the longest to compile."""
     return [*_whirl(), _pushed()]
 
 
@@ -122,8 +122,8 @@ def _whirl() -> list[Case]:
     model.hold(shaft.end, position="yz")
     shaft.set_motion(angular_velocity=(rate, 0, 0))
     modes = ancf.damped_modes(model, count=16)
-    inertia = section.I_y
-    equation = [section.A + inertia * k**2, -2 * rate * inertia * k**2, -modulus * inertia * k**4 / density]
+    area, inertia = 0.25 * math.pi * 0.1**2, math.pi * 0.1**4 / 64.0
+    equation = [area + inertia * k**2, -2 * rate * inertia * k**2, -modulus * inertia * k**4 / density]
     back, ahead = sorted(np.roots(equation).real.tolist())
     circles = np.abs(modes.whirl) > 0.9
     found = (rate + modes.whirl.round() * modes.eigenvalues.imag)[circles]
