@@ -19,7 +19,7 @@ INDEX = re.compile(r"^:::\{index\}(?P<words>[^\n]*)\n:::\n+", re.MULTILINE)
 
 #: A picture with its options and its caption, and a link whose words are the title of its page.
 FIGURE = re.compile(r"^```\{figure\}[^\n]*\n(?::[^\n]*\n)*(?P<caption>.*?)^```\n", re.MULTILINE | re.DOTALL)
-LINK = re.compile(r"\[\]\((?P<path>[^)#\s]+\.md)(?:#[^)\s]*)?\)")
+LINK = re.compile(r"\[\]\((?P<path>[^)#\s]+\.md)?(?:#(?P<place>[^)\s]*))?\)")
 
 
 def folder() -> Path:
@@ -116,11 +116,13 @@ def plain(file: Path) -> str:
     text = re.sub(r"<!--.*?-->\n?", "", file.read_text(encoding="utf-8"), flags=re.DOTALL)
     text = FIGURE.sub(lambda found: found["caption"].strip() + "\n", INDEX.sub("", text))
     text = re.sub(r"^% .*\n", "", text, flags=re.MULTILINE)
-    return LINK.sub(lambda found: _named(file, found["path"]), text)
+    return LINK.sub(lambda found: _named(file, found["path"], found["place"]), text)
 
 
-def _named(file: Path, path: str) -> str:
-    """What a link without words leads to."""
+def _named(file: Path, path: str | None, place: str | None) -> str:
+    """What a link without words leads to: a page, or a section of the same one."""
+    if path is None:
+        return f'"{(place or "").replace("-", " ").capitalize()}"'
     target = (file.parent / path).resolve()
     if not exists(target):
         return path
