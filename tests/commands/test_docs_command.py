@@ -57,14 +57,16 @@ def test_a_link_without_words_has_the_title_of_its_page(tmp_path, monkeypatch):
     (tmp_path / "howto").mkdir()
     page = tmp_path / "howto" / "one.md"
     page.write_text(
-        "% a note\n# One\n\nsee [](../limits.md#torsion) and [](gone.md), [words](../limits.md), [](#two-words).\n"
+        "% a note\n# One\n\nsee [](../limits.md#torsion) and [](gone.md),\n"
+        "[words](../limits.md), [](#two-words).\n"
         "\n"
         "```{figure} ../a.png\n:alt: What is seen\n\nA caption.\n```\nend\n",
         encoding="utf-8",
     )
     monkeypatch.setattr(docs, "PLACES", (tmp_path,))
     assert docs.plain(page) == (
-        '# One\n\nsee "What it cannot do" (`ancf docs limits`) and gone.md, [words](../limits.md), "Two words".\n'
+        '# One\n\nsee "What it cannot do" (`ancf docs limits`) and gone.md,\n'
+        '[words](../limits.md), "Two words".\n'
         "\n"
         "A caption.\nend\n"
     )
