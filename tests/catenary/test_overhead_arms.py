@@ -146,7 +146,11 @@ class TestPush:
         line = short_line(steady_arm=sided(opposite, push=True), contact_support="free", anchors="tension")
         hot = form(replace(line, conditions=Conditions(temperature=40.0)), COARSE)
         assert verify(assemble(hot)).place < 2e-6
-        assert hot.arm_force == pytest.approx(form(line, COARSE).arm_force, rel=0.02, abs=1.0)
+        wanted = form(line, COARSE).arm_force
+        assert hot.arm_force == pytest.approx(wanted, rel=0.02, abs=1.0)
+        assert hot.arm_force[1:-1, 1] == pytest.approx(
+            wanted[1:-1, 1], rel=1e-3
+        )  # the kinks are where they were
 
 
 def test_command(tmp_path):

@@ -416,3 +416,34 @@ class TestBad:
         model.connect(body.at(0, 0, 1), (0, 0, 1), name="bolt")
         with pytest.raises(ancf.ModelError, match='"bolt" joins what supports hold already'):
             ancf.simulate(model, t_end=1.0, step=0.01)
+
+
+class TestSize:
+    """What a body is made of, and what else is in the model, changes nothing of how it turns."""
+
+    @staticmethod
+    def turned(mass, radius, beside):
+        """Place of a point at the radius after 1 s of 1 rad/s about z, in radii, and counts of the run."""
+        model = ancf.Model()
+        if beside:
+            steel = ancf.Section(EA=1e8, EI=1e3, rhoA=10.0)
+            rope = model.add_beam("rope", start=(3, 0, 0), end=(8, 0, 0), elements=4, section=steel)
+            model.pin(rope.start)
+            ship = model.add_rigid_body("ship", at=(9, 0, 0), mass=1e5, inertia=(1e5, 1e5, 1e5))
+            model.connect(rope.end, ship.at(-1, 0, 0))
+        own = 0.5 * mass * radius**2
+        body = model.add_rigid_body("body", at=(0, 0, 0), mass=mass, inertia=(own, own, 2 * own))
+        body.set_motion(angular_velocity=(0, 0, 1.0))
+        run = ancf.simulate(model, t_end=1.0, step=1e-2)
+        assert not run.notes
+        arm = run.position(body.at(radius, 0, 0))[-1] - run.position(body.centre)[-1]
+        return arm / radius, run.stats
+
+    @pytest.mark.parametrize("beside", [False, True], ids=["alone", "beside a ship on a rope"])
+    @pytest.mark.parametrize(
+        ("mass", "radius"), [(1e-9, 1e-3), (1e-15, 1e-5), (1.0, 1e-6), (1e-18, 1.0), (1e9, 1e3)]
+    )
+    def test_a_body_of_any_mass_and_size_turns_alike(self, mass, radius, beside):
+        arm, stats = self.turned(mass, radius, beside)
+        np.testing.assert_allclose(arm, (np.cos(1.0), np.sin(1.0), 0.0), atol=2e-5)
+        assert stats.jacobians < 10

@@ -7,7 +7,7 @@ import pytest
 
 import ancf
 from ancf.batches import Batches
-from ancf.contact.press import COUNT, WATCHED
+from ancf.contact.press import BONDED, COUNT, WATCHED, press_free, press_lost
 from ancf.contact.profiles import distances
 from ancf.linalg.sparse import to_sparse
 from ancf.model.surface_shapes import SHAPES
@@ -282,3 +282,40 @@ class TestFar:
         for _ in range(2):
             keep_memory(system.core.remembering, away, v)
             assert batch.near[COUNT] == len(batch.base)
+
+
+class TestHeld:
+    """Points that just touch are held while the loads of an equilibrium come on."""
+
+    @staticmethod
+    def above_a_plane(low, high, stiffness=1e6):
+        """A straight rope of radius 1 cm whose gap grows evenly along it, m."""
+        model = ancf.Model()
+        section = ancf.Section(EA=1e5, EI=1e-2, rhoA=0.3, diameter=0.02)
+        ends = {"start": (0, 0, 0.01 + low), "end": (1, 0, 0.01 + high)}
+        rope = model.add_beam("rope", **ends, elements=8, section=section)
+        model.add_contact(rope, model.add_surface("floor", ancf.Plane()), stiffness=stiffness)
+        system = System(model)
+        return system, system.parts["pressing"], system.initial_shape()
+
+    def test_those_in_reach_are_pulled_until_they_are_let_go(self):
+        system, batch, q = self.above_a_plane(0.0, 4.0 * BONDED * 0.01)
+        press_lost(batch, q, True)
+        count = batch.bond.size // 4
+        assert batch.bond.ravel().tolist() == [1] * count + [0] * (3 * count)  # of eight elements, two
+        force, _ = force_and_matrix(system, "pressing", q, 0.0 * q)
+        down = force[system.slots["rope"][:, 0] + 2].sum()
+        assert down == pytest.approx(1e6 * 0.25 * 0.5 * BONDED * 0.01, rel=1e-6)  # the mean gap of a quarter
+        assert press_free(batch, q, False) == count
+        assert not batch.bond.any()
+        assert not force_and_matrix(system, "pressing", q, 0.0 * q)[0].any()
+
+    def test_those_that_are_pressed_stay_until_all_are_let_go(self):
+        _, batch, q = self.above_a_plane(-1e-5, -1e-5)
+        press_lost(batch, q, True)
+        assert press_free(batch, q, False) == 0
+        assert batch.bond.all()
+        assert press_free(batch, q, True) == 0
+        assert not batch.bond.any()
+        press_lost(batch, q, False)
+        assert not batch.bond.any()

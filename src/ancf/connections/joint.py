@@ -26,7 +26,7 @@ class JointBatch(NamedTuple):
     unknown: IntArray  # (n,) multiplier of the row
     level: FloatArray  # (3,) weights of C, dC/dt, d2C/dt2 in the residual, shared with the System
     constant: FloatArray  # (n, 7) constant parts of d1 and of d2, and c
-    scale: FloatArray  # (n, 2) mass and stiffness that alpha is made of
+    scale: FloatArray  # (n, 3) mass, stiffness, and stiffness where no mass helps, of which alpha is made
     alpha: FloatArray  # (n,) now
     start: IntArray  # (n + 1,) entries of each row
     slot: IntArray  # (m,)
@@ -81,7 +81,7 @@ def joint_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     weight = batch.level[0] * c_stiffness + batch.level[1] * c_damping + batch.level[2] * c_mass
     for n in range(batch.unknown.shape[0]):
         d1, d2 = sums(batch, n, q, 1.0)
-        alpha = c_mass * batch.scale[n, 0] + c_stiffness * batch.scale[n, 1]
+        alpha = c_mass * batch.scale[n, 0] + c_stiffness * batch.scale[n, 1 if c_mass > 0.0 else 2]
         batch.alpha[n] = alpha
         lam = c_stiffness * q[batch.unknown[n]]
         first, p = batch.start[n], batch.pair_start[n]

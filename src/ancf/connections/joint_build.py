@@ -127,7 +127,7 @@ def batch(rows: Iterable[Row], unknowns: Iterable[int], level: FloatArray) -> Jo
         unknown=np.array(list(unknowns), dtype=np.int64),
         level=level,
         constant=np.array([[*r.first.constant, *r.second.constant, r.value] for r in rows]).reshape(n, 7),
-        scale=np.zeros((n, 2)),
+        scale=np.zeros((n, 3)),
         alpha=np.zeros(n),
         start=np.concatenate([[0], np.cumsum(counts)]).astype(np.int64),
         slot=np.array([e[0] for e in entries], dtype=np.int64),

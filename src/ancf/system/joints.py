@@ -72,7 +72,12 @@ def tail_supports(supports: Supports, places: Places, first: int) -> Supports:
 
 
 def set_scales(system: Any) -> None:
-    """Give each row the mass and the stiffness of what it holds, to be multiplied with C_q^T C_q."""
+    """Give each row the mass and the stiffness of what it holds, to be multiplied with C_q^T C_q.
+
+    Rows that hold nothing stiff, such as those that keep a rigid body rigid, have masses to be solved with in
+    motion. A stiffness from elsewhere, or one of 1, would leave of the inertia of a small body nothing but
+    round-off: they take it at rest alone.
+    """
     batch = system.parts.get("joints")
     if batch is None:
         return
@@ -80,9 +85,10 @@ def set_scales(system: Any) -> None:
     entries, columns = np.arange(system.n // 6)[:, None], 7 * np.arange(6)
     row = np.repeat(np.arange(len(batch.unknown)), np.diff(batch.start))
     slot = np.where(batch.slot < system.n, batch.slot, 0)
-    for k, (mass, stiffness) in enumerate(((1.0, 0.0), (0.0, 1.0))):
+    largest: list[float] = []
+    for k, (c_mass, c_stiffness) in enumerate(((1.0, 0.0), (0.0, 1.0))):
         system.level[:] = 0.0
-        assemble(core.batches, core.ws, q, np.zeros_like(q), core.A, mass, 0.0, stiffness)
+        assemble(core.batches, core.ws, q, np.zeros_like(q), core.A, c_mass, 0.0, c_stiffness)
         diagonal = np.abs(core.A[36 * entries + columns].ravel())
         found = batch.factor**2 * diagonal[slot[:, None] + np.arange(3)].max(axis=1)
         np.maximum.at(batch.scale[:, k], row, found)
@@ -91,6 +97,8 @@ def set_scales(system: Any) -> None:
             if mine.any():
                 least = FLOOR * float(batch.scale[mine, k].max())
                 batch.scale[mine, k] = np.maximum(batch.scale[mine, k], least)
-        whole = float(batch.scale[:, k].max()) or float(diagonal.max()) or 1.0
-        batch.scale[:, k] = np.where(batch.scale[:, k] > 0.0, batch.scale[:, k], whole)
+        largest.append(float(batch.scale[:, k].max()) or float(diagonal.max()))
+    mass, held, at_rest = batch.scale.T
+    mass[mass == 0.0] = largest[0] or 1.0
+    at_rest[:] = np.where(held > 0.0, held, largest[1] or mass)
     system.level[:] = 1.0, 0.0, 0.0
