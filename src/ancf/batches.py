@@ -16,10 +16,11 @@ import numpy as np
 from numba import literal_unroll, typeof, types
 from numba.core import cgutils
 from numba.core.errors import TypingError
-from numba.core.registry import cpu_target
 from numba.extending import intrinsic, overload, typeof_impl
 from numpy.typing import NDArray
 
+from . import addresses
+from .addresses import call_at
 from .compiled import (
     PART,
     add_force,
@@ -34,7 +35,7 @@ from .compiled import (
     separate_kernel,
     strain_energy,
 )
-from .records import RecordType, keep, read
+from .records import RecordType, read, words_of
 
 VECTOR = types.Array(types.float64, 1, "C")
 
@@ -145,7 +146,6 @@ class Batches(_Table):
 
 
 _TYPE = types.NamedTuple((types.Array(types.int64, 2, "C"),), Batches)
-_compiled: dict[Any, tuple[int, tuple[int, ...]]] = {}
 
 
 @typeof_impl.register(Batches)
@@ -158,25 +158,18 @@ def _row(batch: Any) -> tuple[NDArray[np.int64], tuple[int, ...]]:
     if len(batch[0]) == 0:
         return np.zeros(1, dtype=np.int64), (0,) * len(OPERATIONS)
     key = type(batch), *((x.dtype, x.ndim, x.flags.num) for x in batch)
-    if key not in _compiled:
-        kind, context = typeof(batch), cpu_target.target_context
-        size = context.get_abi_sizeof(context.get_data_type(kind))
-        _compiled[key] = -(-size // 8), tuple(_address(type(batch), kind, stub) for stub in OPERATIONS)
-    length, found = _compiled[key]
-    words = np.empty(length, dtype=np.int64)
-    keep(batch, words)
-    return words, found
+    if key not in addresses.found:
+        kind = typeof(batch)
+        addresses.found[key] = tuple(_address(type(batch), kind, stub) for stub in OPERATIONS)
+    return words_of(batch), addresses.found[key]
 
 
 def _address(batch_type: type, kind: Any, stub: Any) -> int:
-    """Address of an operation of a kind of batch, which is compiled, or taken from the cache; 0 for none."""
+    """Address of an operation of a kind of batch; 0 for none."""
     if not does_something(batch_type, stub):
         return 0
-    dispatcher, given, _ = OPERATIONS[stub]
-    signature = (RecordType(kind), *given)
-    dispatcher.compile(signature)
-    compiled = dispatcher.overloads[signature]
-    return int(compiled.library.get_pointer_to_function(compiled.fndesc.llvm_func_name))
+    dispatcher, given, result = OPERATIONS[stub]
+    return addresses.address_of(dispatcher, (RecordType(kind), *given), result)
 
 
 def _caller(stub: Any, nothing: Any = None) -> Any:
@@ -200,7 +193,8 @@ def _caller(stub: Any, nothing: Any = None) -> Any:
             if nothing is not None:
                 out = cgutils.alloca_once_value(builder, context.get_constant(result, nothing))
             with builder.if_then(cgutils.is_not_null(builder, place)):
-                value = _call(context, builder, place, record, items, given, result)
+                pointer = builder.inttoptr(record, context.get_value_type(types.voidptr))
+                value = call_at(context, builder, place, [pointer, *items], (types.voidptr, *given), result)
                 if out is not None:
                     builder.store(value, out)
             return context.get_dummy_value() if out is None else builder.load(out)
@@ -219,18 +213,6 @@ def _fits(have: Any, want: Any) -> bool:
             want.layout,
         )
     return isinstance(have, types.Number)
-
-
-def _call(context, builder, place, record, items, given, result):
-    """Call the kernel at an address with a record and other arguments."""
-    signature = types.voidptr, *given
-    function = builder.inttoptr(place, context.call_conv.get_function_type(result, signature).as_pointer())
-    record = builder.inttoptr(record, context.get_value_type(types.voidptr))
-    call = context.call_conv.call_function
-    status, value = call(builder, function, result, signature, [record, *items])
-    with cgutils.if_unlikely(builder, status.is_error):
-        context.call_conv.return_status_propagate(builder, status)
-    return value
 
 
 _force, _inertia, _tangent = _caller(add_force), _caller(add_inertia), _caller(add_tangent)

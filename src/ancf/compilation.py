@@ -176,67 +176,55 @@ def stepping(method: Integrator | None, model: Model | None = None) -> tuple[Any
     model : Model, optional
         Default a point mass.
     """
-    import numpy as np
-
-    from .solvers.explicit import advance_explicit
-    from .solvers.newmark import advance
+    from .solvers.block import stepping as found
     from .solvers.runs import run_of
     from .system.system import System
 
     if model is None:
         model = Model()
         model.add_point_mass("m", at=(0, 0, 0), mass=1.0)
+    used = method if isinstance(method, NewmarkFamily | Explicit) else Trapezoidal()
     with _in_place_of_compiling(lambda *_: 0):
         system = System(model)
-    explicit = isinstance(method, Explicit)
-    used = method if isinstance(method, NewmarkFamily | Explicit) else Trapezoidal()
-    run: Any = run_of(used, system, 0.0, 1.0, 0.5, 1)
-    tables = system.inputs.tables(0.0, 0.5, 1, 0.0, 1.0)
-    kept, room = np.zeros(0, dtype=np.int64), run.room(0, 0)
-    if explicit:
-        given: tuple[Any, ...] = (run.turning,)
-    else:
-        given = (run.scheme, run.rule(run.h))
-    values = (system.core, run.memory, tables, run.h, *given, kept, run.sampling, room)
-    return (advance_explicit if explicit else advance), tuple(map(_type_of, values))
+        run: Any = run_of(used, system, 0.0, 1.0, 0.5, 1)
+    return found(system.core, run.memory, run.sampling, run.explicit)
 
 
-def _type_of(value: Any) -> Any:
-    return numba.typeof(value)  # type: ignore[no-untyped-call]
+def operations(model: Model, method: Integrator | None = None) -> list[tuple[Any, tuple[Any, ...]]]:
+    """Kernels that a model needs at an address, with the types of what they take; none is compiled.
 
-
-def operations(model: Model) -> list[tuple[Any, tuple[Any, ...]]]:
-    """Kernels of the operations of a model's kinds with the types of what they take; none is compiled."""
-    from . import batches
-    from .compiled import does_something
-    from .records import RecordType
+    The operations of its kinds and, for a method, what is apart from its steps.
+    """
+    from .solvers.block import kernels_of
+    from .solvers.runs import run_of
     from .system.system import System
 
     found: list[tuple[Any, tuple[Any, ...]]] = []
 
-    def note(batch_type: type, kind: Any, stub: Any) -> int:
-        if does_something(batch_type, stub):
-            dispatcher, given, _ = batches.OPERATIONS[stub]
-            found.append((dispatcher, (RecordType(kind), *given)))
+    def note(dispatcher: Any, signature: tuple[Any, ...], result: Any) -> int:
+        found.append((dispatcher, signature))
         return 0
 
     with _in_place_of_compiling(note):
-        System(model)
+        system = System(model)
+        if isinstance(method, NewmarkFamily | Explicit):
+            run: Any = run_of(method, system, 0.0, 1.0, 0.5, 1)
+            kernels_of(system.core, run.memory, run.sampling, run.explicit)
     return found
 
 
 @contextmanager
-def _in_place_of_compiling(note: Callable[[type, Any, Any], int]) -> Iterator[None]:
-    """Here operations of batches are not compiled: what gives their addresses is `note`."""
-    from . import batches
+def _in_place_of_compiling(note: Callable[..., int]) -> Iterator[None]:
+    """Here kernels that are called by an address are not compiled: what gives their addresses is `note`."""
+    from . import addresses
 
-    given: Any = batches
-    address, given._address = given._address, note
-    known, given._compiled = given._compiled, {}
+    there = cast(Any, addresses)
+    address, there.address_of = there.address_of, note
+    found, there.found = there.found, {}
     try:
         yield
     finally:
-        given._address, given._compiled = address, known
+        there.address_of, there.found = address, found
 
 
 def main() -> None:
@@ -246,7 +234,7 @@ def main() -> None:
     jobs: list[tuple[Any, tuple[Any, ...]]] = []
     try:
         model = Model.from_dict(given["model"])
-        steps, jobs = stepping(method, model), operations(model)[::-1]
+        steps, jobs = stepping(method, model), operations(model, method)[::-1]
     except Exception:  # a model with Python functions, of which a description keeps the names only
         steps = stepping(method)
     jobs = [steps, *jobs] if method is not None else [*jobs, steps]

@@ -51,6 +51,7 @@ def stamped() -> list[Path]:
         root / "compiled.py",
         root / "parts.py",
         root / "records.py",
+        root / "addresses.py",
         root / "batches.py",
         root / "vectors.py",
     )

@@ -18,7 +18,7 @@ ROOT = Path(ancf.__file__).parent
 LAYERS = (
     {"errors", "_version", "kernel_cache", "arrays", "interrupts"},
     {"files", "worker", "columns"},
-    {"parts"},
+    {"parts", "addresses"},
     {"compiled"},
     {"vectors"},
     {"records"},

@@ -44,7 +44,7 @@ class Bordered:
         head = self.whole.copy()
         head[6 * HEAD :, :] = head[:, 6 * HEAD :] = np.nan  # not read
         assert factorise_head(self.values(head), self.factor, HEAD) == 0
-        forget_columns(self.border)
+        forget_columns.py_func(self.border)
 
     def new_rows(self, at):
         """Rows with entries under these blocks, one list of blocks for each row."""
@@ -134,7 +134,7 @@ def test_rows_are_cleared_where_they_were(reach):
     system.new_rows([[2, 3, 7], [5, 6]])
     A = system.values(system.whole)
     make_border(system.border, A, system.factor)
-    clear_rows(system.border, A, HEAD)
+    clear_rows.py_func(system.border, A, HEAD)
     left = system.whole.copy()
     left[6 * HEAD :, :] = left[:, 6 * HEAD :] = 0.0
     assert np.array_equal(A, system.values(left))
@@ -173,7 +173,7 @@ def test_springs_beside_the_border(slack):
     assemble(core.batches, core.ws, q, v, core.A, 1e4, gb, 1.0)
     restrict(core.supports, core.A)
     assert factorise_head(core.A, core.factor, core.joints.first) == 0
-    forget_columns(core.joints.border)
+    forget_columns.py_func(core.joints.border)
     assert make_border(core.joints.border, core.A, core.factor) >= 0
     now = q.copy()
     for k in slack:  # up, so that they carry nothing

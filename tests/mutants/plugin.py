@@ -66,8 +66,13 @@ def _interpret() -> None:
     for name, operation in _OPERATIONS.items():
         setattr(compiled, operation, chosen(name))
     compiled.implements, compiled.optional = implements, optional
-    from ancf import batches
+    from ancf import addresses, batches, records
 
+    addresses.address_of = lambda function, given, result: function
+    addresses.caller = lambda result, given=None, nothing=None: lambda function, arguments: (
+        function(*arguments) if function else nothing
+    )
+    addresses.pointer = records.place = records.type_of = lambda value: value
     batches.Batches = type("Batches", (tuple,), {})
     for operation, of_tuple in _ALL.items():
         setattr(batches, operation, getattr(batches, of_tuple))

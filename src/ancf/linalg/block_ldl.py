@@ -21,12 +21,14 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import formula, inline_kernel
+from ..records import recorded
 from ..simd import every, load_six, store_six
 
 #: A pivot below this fraction of its original diagonal entry counts as zero.
 SINGULAR = 1e-14
 
 
+@recorded
 class Factor(NamedTuple):
     """Pattern and values of a factorisation; ``n`` diagonal blocks, ``m`` blocks below the diagonal."""
 
@@ -142,7 +144,8 @@ def factorise(A, factor, last):
 
     Rows from block ``last`` on are left out: see :mod:`ancf.linalg.border`.
     """
-    row_start, column, L, LT, D_inv, T, place = factor
+    row_start, column, place = factor.row_start, factor.column, factor.place
+    L, LT, D_inv, T = factor.L, factor.LT, factor.D_inv, factor.T
     n = row_start.shape[0] - 1
     negative = 0
     for i in range(last):
@@ -183,7 +186,7 @@ def factorise(A, factor, last):
 @formula
 def solve_rows(factor, x, first, n):
     """Replace the first n blocks of the right-hand side x, which is zero before block ``first``."""
-    row_start, column, L, LT, D_inv, _, _ = factor
+    row_start, column, L, LT, D_inv = factor.row_start, factor.column, factor.L, factor.LT, factor.D_inv
     for i in range(first, n):
         if row_start[i] < row_start[i + 1]:
             s = load_six(x, 6 * i)

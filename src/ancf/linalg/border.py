@@ -13,12 +13,17 @@ only where a joint comes to another element.
 
 from __future__ import annotations
 
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+from numba import types
 
+from .. import addresses
+from ..addresses import caller
 from ..arrays import FloatArray, IntArray
-from ..compiled import inline_kernel, kernel
+from ..compiled import formula, inline_kernel, kernel
+from ..records import recorded, type_of
 from ..simd import every, load_six, store_six
 from .block_ldl import Factor, allocate, columns, factorise, is_zero, solve_rows, subtract_product, times
 
@@ -26,6 +31,7 @@ from .block_ldl import Factor, allocate, columns, factorise, is_zero, solve_rows
 SPARE = 2
 
 
+@recorded
 class Border(NamedTuple):
     """t rows of blocks behind the n blocks of K, with at most w blocks each; room for m blocks of columns."""
 
@@ -40,14 +46,25 @@ class Border(NamedTuple):
     small: Factor  # of it
     y: FloatArray  # (6 t,) workspace
     part: FloatArray  # (36,) workspace
+    make: int  # addresses of make_border and solve_border, 0 without rows
+    solve: int
 
 
 def room_for_border(head: int, rows: int, widest: int) -> Border:
     """Border of ``rows`` blocks behind ``head`` ones; each row has at most ``widest`` blocks at a time."""
+    return _room(head, rows, widest) if rows else _nothing()
+
+
+@cache
+def _nothing() -> Border:
+    return _room(0, 0, 0)
+
+
+def _room(head: int, rows: int, widest: int) -> Border:
     kept = rows * (widest + SPARE)
     start = np.arange(rows + 1) * (np.arange(rows + 1) - 1) // 2
     column = np.concatenate([np.zeros(0, dtype=np.int64), *(np.arange(t) for t in range(rows))])
-    return Border(
+    border = Border(
         block=np.full(kept, -1, dtype=np.int64),
         inverse=np.zeros((kept, 36 * head if rows else 0)),
         number=np.zeros(rows, dtype=np.int64),
@@ -59,13 +76,22 @@ def room_for_border(head: int, rows: int, widest: int) -> Border:
         small=allocate(start.astype(np.int64), column.astype(np.int64)),
         y=np.zeros(6 * rows),
         part=np.zeros(36),
+        make=0,
+        solve=0,
+    )
+    if rows == 0:
+        return border
+    mine, vector = type_of(border), types.Array(types.float64, 1, "C")
+    return border._replace(
+        make=addresses.address_of(make_border, (mine, vector, type_of(border.small)), types.int64),
+        solve=addresses.address_of(solve_border, (mine, vector), types.none),
     )
 
 
 @inline_kernel
 def unit_columns(factor, n, block, Z):
     """Z = K^-1 times the unit vectors of a block of the n blocks of K."""
-    row_start, column, L, LT, D_inv, _, _ = factor
+    row_start, column, L, LT, D_inv = factor.row_start, factor.column, factor.L, factor.LT, factor.D_inv
     for i in range(36 * n):
         Z[i] = 0.0
     for c in range(6):
@@ -138,14 +164,14 @@ def subtract_inverse(border, t, h, o):
             subtract_product(border.S, o, part, 0, border.RT, b)
 
 
-@kernel
+@formula
 def forget_columns(border):
     """The factors are new."""
     for m in range(border.block.shape[0]):
         border.block[m] = -1
 
 
-@kernel
+@inline_kernel
 def clear_rows(border, A, n):
     """Set what the rows have in the matrix, of which K has n blocks, to zero."""
     for t in range(border.number.shape[0]):
@@ -219,3 +245,18 @@ def solve_border(border, x):
     spread(border, y, x)
     for i in range(y.shape[0]):
         x[n + i] = y[i]
+
+
+_make, _solve = caller(types.int64), caller(types.none)
+
+
+@formula
+def renew_border(border, A, factor):
+    """:func:`make_border` by its address; 0 without rows."""
+    return _make(border.make, (border, A, factor))
+
+
+@formula
+def apply_border(border, x):
+    """:func:`solve_border` by its address."""
+    _solve(border.solve, (border, x))

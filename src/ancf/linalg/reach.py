@@ -35,7 +35,7 @@ def clear(x, first, last):
 @inline_kernel
 def forward(factor, n, x, low, high, count, spread):
     """The forward pass; the ranges grow and join, their number is returned."""
-    row_start, column, _, LT, _, _, _ = factor
+    row_start, column, LT = factor.row_start, factor.column, factor.LT
     pieces, end, largest = 0, 0, 0.0
     for k in range(count):
         i, last = low[k], high[k]
@@ -63,7 +63,7 @@ def forward(factor, n, x, low, high, count, spread):
 @inline_kernel
 def backward(factor, x, low, high, pieces, spread):
     """The backward pass; the ranges grow."""
-    row_start, column, L, _, _, _, _ = factor
+    row_start, column, L = factor.row_start, factor.column, factor.L
     largest = 0.0
     for p in range(pieces - 1, -1, -1):
         bottom = high[p - 1] if p > 0 else 0

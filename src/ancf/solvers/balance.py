@@ -6,6 +6,8 @@ the kinetic energy, so that the account misses nothing but what potentials do wi
 
 from __future__ import annotations
 
+from typing import Any
+
 from ..compiled import kernel
 from ..system.powers import powers
 
@@ -21,3 +23,9 @@ def balance(core, s, h):
             s.work[0] += (s.loss[i] + loss[i]) * way
             s.work[1] += (s.push[i] + push[i]) * way
         s.push[i], s.loss[i] = push[i], loss[i]
+
+
+def begin_account(core: Any, memory: Any) -> None:
+    """At the start of an account, of the forces as they are now."""
+    if core.damped or core.loaded:
+        balance(core, memory, 0.0)

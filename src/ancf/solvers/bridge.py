@@ -6,13 +6,13 @@ from typing import Any, NoReturn, Protocol
 
 import numpy as np
 
-from ..arrays import FloatArray
+from ..arrays import FloatArray, IntArray
 from ..system.core import Core, Tables, apply_load
 from ..system.energy import energies
 from ..system.system import System
-from .balance import balance
+from .balance import begin_account
 from .memory import H_FACTOR, KNOWN, VECTORS, Memory
-from .newmark import FURTHEST, LAST, UNLIMITED, Rule, advance
+from .newmark import FURTHEST, LAST, UNLIMITED, Rule
 from .rescue import Rescue
 from .sampling import Output, Sampling
 from .scheme import Scheme
@@ -47,6 +47,12 @@ class Stepping(Protocol):
 
     def rule(self, h: float, first: int = ..., last: int = ..., furthest: float = ...) -> Rule:
         """Newton's rule for a step h and which attempts to make."""
+        ...
+
+    def block(
+        self, core: Core, tables: Tables, h: float, rule: Rule, row: IntArray, out: Output
+    ) -> tuple[int, int]:
+        """Steps of a length h: how many were done, and the status of the last one."""
         ...
 
     def room(self, stored: int, steps: int) -> Output:
@@ -95,7 +101,7 @@ class Bridge:
         now = run.system.inputs.tables(t - h, h, 1, run.t_start, run.t_end, (m.q, m.v), still=True)
         if not run.system.core.accounted:  # what is judged here must not depend on what is recorded
             apply_load(core.loads, now.value[0], m.f)
-            balance(core, m, 0.0)
+            begin_account(core, m)
         units = 2**MOST_HALVINGS
         started = m.memo[KNOWN] == 0.0 and not core.damped  # damping ends what shorter steps begin with
         done, part, calm = 0, units, 0
@@ -142,7 +148,7 @@ class Bridge:
         tables = run.system.inputs.tables(t, part, 1, run.t_start, run.t_end, (m.q, m.v))
         before, energy = self._save(), self._energy()[0]
         row, room = np.full(1, -1), run.room(0, 0)
-        status = int(advance(core, m, tables, part, run.scheme, rule, row, run.sampling, room)[1])
+        status = run.block(core, tables, part, rule, row, room)[1]
         if core.damped and status not in (OK, SINGULAR) and status < EVENT:
             other = self.rescue.take(core, tables, part, run.scheme, rule)
             status = other if other in (OK, INVERTED) or other >= EVENT else status

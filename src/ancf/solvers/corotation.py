@@ -19,11 +19,13 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..compiled import formula, inline_kernel
+from ..records import recorded
 from ..simd import LANES, gather, gather_nodes, greatest, load, put, put_nodes, sqrt, store, vector
 from ..system.system import System
 from ..vectors import dot
 
 
+@recorded
 class Frames(NamedTuple):
     """Nodes that turn, in chunks of LANES with as many vectors; a chunk that is not full repeats its last."""
 
@@ -102,6 +104,18 @@ def turning_nodes(system: System) -> Frames:
 
     slots = [system.numbering.each(name) for name in system.numbering.slots]
     return allocate(slots, system.core.supports.held, attached, tail)
+
+
+def flies(system: System) -> bool:
+    """Whether nothing ties a system to the ground.
+
+    A kept matrix that turns with the nodes mixes their motions: the momentum is then lost by what Newton's
+    method leaves, where the plain one keeps it to the last digit.
+    """
+    model = system.model
+    ends = [getattr(c, name, None) for c in model.connections for name in ("a", "b", "point")]
+    held = any(support.held for support in model.supports)
+    return not held and not any(isinstance(end, np.ndarray) for end in ends)
 
 
 @formula

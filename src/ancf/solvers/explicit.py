@@ -13,7 +13,7 @@ order 2.
 from __future__ import annotations
 
 from ..batches import remember_all
-from ..compiled import kernel
+from ..compiled import kernel, separate_kernel
 from ..system.core import (
     assemble,
     drive,
@@ -25,9 +25,8 @@ from ..system.core import (
     solve_matrix,
     to_local,
 )
-from .balance import balance
+from .apart import book, take_note, take_sample
 from .memory import NORM, WORST
-from .sampling import note, sample
 from .status import DIVERGED, NOT_FINITE, OK, SINGULAR, STEPS
 
 #: A step in which something moves by more than this many sizes of the model is no motion.
@@ -42,8 +41,8 @@ def mass_factor(core, q, v):
     return factorise_matrix(core.A, core.factor)
 
 
-@kernel
-def advance_explicit(core, s, tables, h, turning, keep, sampling, out):
+@separate_kernel
+def advance_explicit(core, s, tables, h, turning, keep, sampling, out, apart):
     """Take the steps of one block; see :func:`ancf.solvers.newmark.advance` for the arguments.
 
     ``turning`` says that local axes, or an added mass, turn, and the mass matrix with them.  ``s.a1`` holds
@@ -91,15 +90,14 @@ def advance_explicit(core, s, tables, h, turning, keep, sampling, out):
             s.v[core.supports.prescribed[k]] = tables.motion[n, k, 1]
         follow(core.supports, s.q, s.v, s.a)
         s.counts[STEPS] += 1
-        if core.accounted and (core.damped or core.loaded):
-            balance(core, s, h)
+        book(apart, core, s, h)
         if n < out.samples.shape[0]:
-            note(core, s, sampling)
+            take_note(apart, core, s, sampling)
         remember_all(core.remembering, s.q, s.v)
         if keep[n] >= 0:
             for i in range(s.q.shape[0]):
                 out.q[keep[n], i], out.v[keep[n], i] = s.q[i], s.v[i]
             out.work[keep[n], 0], out.work[keep[n], 1] = s.work[0], s.work[1]
         if n < out.samples.shape[0]:
-            sample(sampling, s.q, s.v, out.samples[n])
+            take_sample(apart, sampling, s, out.samples[n])
     return keep.shape[0], OK

@@ -9,12 +9,13 @@ from ..arrays import FloatArray
 from ..compiled import traits
 from ..errors import ModelError, SolveError
 from ..model.integrators import Explicit
+from ..records import place
 from ..system.core import Tables, apply_load
 from ..system.energy import energies
 from ..system.system import System
 from . import failures
-from .balance import balance
-from .explicit import advance_explicit
+from .balance import begin_account
+from .block import explicit_block
 from .memory import NORM, WORST
 from .quick import Direct, shared
 from .sampling import Output
@@ -46,6 +47,8 @@ class ExplicitRun(Run):
         super().__init__(system, method, t_start, t_end, step, every)
         masses = (own(batch) for batch in system.core.batches if (own := traits(batch).turning_mass))
         self.turning = bool(np.any(system.core.supports.rot_moving >= 0)) or any(masses)
+
+    explicit = True
 
     def use(self, integrator: Explicit) -> None:
         """Keep the settings: there are no iterations and no constraints."""
@@ -81,15 +84,20 @@ class ExplicitRun(Run):
             hint = "take that and store less often (output_step), or use an implicit method"
             raise ModelError("simulate.step", what, hint)
         apply_load(system.core.loads, first.value[0], m.f)
-        balance(system.core, m, 0.0)
+        begin_account(system.core, m)
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         self.estimated = 0  # steps done at the last estimate
         self._compile(first)
 
     def _compile(self, tables: Tables) -> None:
         none, nothing = np.zeros(0, dtype=np.int64), self.room(0, 0)
-        core = self.system.core
-        advance_explicit(core, self.memory, tables, self.h, self.turning, none, self.sampling, nothing)
+        self._take(tables, self.h, none, nothing)
+
+    def _take(self, tables: Tables, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
+        steps, apart = self.kernels
+        where, rest = (place(self.system.core), place(self.memory)), (row, place(self.sampling), out, apart)
+        n, status = explicit_block(steps, *where, tables, h, self.turning, *rest)
+        return n, status
 
     @property
     def hesitates(self) -> bool:
@@ -101,12 +109,10 @@ class ExplicitRun(Run):
         return Direct(**shared(self, rows), turning=self.turning)
 
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
-        core, here = self.system.core, (self.memory.q, self.memory.v)
+        here = self.memory.q, self.memory.v
         tables = self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end, here)
-        n, self._status = advance_explicit(
-            core, self.memory, tables, h, self.turning, row, self.sampling, out
-        )
-        return int(n), int(self._status)
+        n, self._status = self._take(tables, h, row, out)
+        return n, self._status
 
     def bridged(self, t: float, h: float, number: int) -> None:
         """Nothing helps a step that has failed."""

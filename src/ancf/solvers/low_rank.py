@@ -25,6 +25,7 @@ from ..connections.contact_build import no_contacts
 from ..connections.spring_damper import spring_gradient, spring_state
 from ..linalg.border import across, solve_small, spread
 from ..linalg.reach import clear, solve_near, spread_of
+from ..records import recorded
 from ..system.core import has_rows, to_local
 from ..system.system import System
 
@@ -36,6 +37,7 @@ KEPT = 1
 WIDEST, RANGES = 60, 4
 
 
+@recorded
 class Patches(NamedTuple):
     """Rows b_j, z_j and products b_i . z_j of all contacts, then of springs that differ from the matrix."""
 

@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
+from ..records import recorded
 from .corotation import Frames
 from .low_rank import Patches
 from .status import COUNTS
 
 
+@recorded
 class Memory(NamedTuple):
     """State and workspace of a run; all arrays of length n unless said otherwise."""
 

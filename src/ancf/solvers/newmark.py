@@ -24,40 +24,30 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..batches import add_tangents, find_events, remember_all
-from ..compiled import formula, inline_kernel, kernel
-from ..linalg.border import clear_rows, forget_columns, make_border
+from ..batches import find_events, remember_all
+from ..compiled import formula, inline_kernel, separate_kernel
 from ..system.core import (
-    assemble,
-    constraint_rows,
     drive,
     external_force,
-    factorise_head,
     follow,
     has_rows,
     inverted_section,
-    restrict,
-    solve_kept,
-    to_local,
 )
-from .balance import balance
+from .apart import book, matrix_anew, projected, tail_anew, take_note, take_sample
 from .carry import carry, unbalanced
-from .corotation import remember, turn, turn_forth, turn_rows
+from .corotation import turn
 from .entwined import hold, let_go, solve_apart, solve_entwined
-from .low_rank import forget, move_on
+from .low_rank import move_on
 from .memory import ETA, H_FACTOR, NOISE, NORM, WORST
 from .near import iterate, take_all
-from .renewal import count, renewed
-from .sampling import note, sample
+from .renewal import count
 from .scheme import coefficients, finish, predict, restore
 from .status import (
     DIVERGED,
     EVENT,
-    FACTORIZATIONS,
     FAR,
     INVERTED,
     ITERATIONS,
-    JACOBIANS,
     NOT_FINITE,
     OK,
     SINGULAR,
@@ -86,9 +76,6 @@ LAST = 2
 
 #: Largest change of a slope, or of a position in sizes of the model, in a step that is looked at closely.
 FURTHEST, UNLIMITED = 0.5, 1e300
-
-#: Share of the tolerance up to which constraints need no shift.
-HELD = 0.1
 
 #: Error of the accelerations that is left in a step with constraints: what is left in q returns divided
 #: by B, with one sign, where a joint keeps it from being felt as a displacement.  And the least tolerance.
@@ -135,42 +122,6 @@ def still(joints, v, a):
         a[joints.multipliers[k]] = 0.0
 
 
-@inline_kernel
-def renew_tail(tail, core, s, rule, B, G):
-    """Renew the rows of the sliding joints alone; whether that is possible."""
-    joints, A = core.joints, core.A
-    clear_rows(joints.border, A, joints.first)
-    add_tangents(tail, s.q, s.v, A, 1.0 / B, G / B, 1.0, core.ws)
-    restrict(joints.supports, A)
-    if rule.corotate:
-        turn_rows(s.frames, A)
-    return make_border(joints.border, A, core.factor) >= 0
-
-
-@inline_kernel
-def project(batches, core, s, rule):
-    """Shift the positions onto C = 0; the norm of the shift."""
-    joints = core.joints
-    joints.level[0], joints.level[1], joints.level[2] = 1.0, 0.0, 0.0
-    constraint_rows(joints, s.q, s.v, s.a, s.r, core.ws)
-    joints.level[0], joints.level[1], joints.level[2] = rule.w0, rule.w1, rule.w2
-    norm = 0.0
-    for k in range(joints.multipliers.shape[0]):
-        norm = max(norm, abs(s.r[joints.multipliers[k]]))
-    if norm <= HELD * rule.tolerance:
-        return 0.0
-    to_local(core.supports, s.r)  # as in solve_turned, but there is nothing to turn back
-    solve_kept(core, s.r, min(joints.lowest, joints.first))
-    if rule.corotate:
-        turn_forth(s.frames, s.r)
-    norm = 0.0
-    for i in range(core.weight.shape[0]):
-        d = s.r[i] * (1.0 - joints.mask[i])
-        s.q[i] -= d
-        norm = max(norm, abs(d) * core.weight[i])
-    return norm
-
-
 @formula
 def largest(x, weight):
     """Largest entry by size, weighted."""
@@ -193,30 +144,8 @@ def worst_unknown(s, weight):
     return worst
 
 
-@inline_kernel
-def new_matrix(core, s, h, B, G):
-    """Make and factorise the matrix of a step h in the present state; whether that is possible."""
-    assemble(core.batches, core.ws, s.q, s.v, core.A, 1.0 / B, G / B, 1.0)
-    restrict(core.supports, core.A)
-    remember(s.frames, s.q)
-    s.counts[JACOBIANS] += 1
-    s.counts[FACTORIZATIONS] += 1
-    bad = factorise_head(core.A, core.factor, core.joints.first)
-    if bad >= 0 and has_rows(core.joints):
-        forget_columns(core.joints.border)
-        bad = min(make_border(core.joints.border, core.A, core.factor), 0)
-        bad -= core.joints.first if bad < 0 else 0
-    if bad < 0:
-        s.memo[WORST] = 6.0 * (-bad - 1)
-        return False
-    s.memo[H_FACTOR] = h
-    forget(s.patches)
-    renewed(s)
-    return True
-
-
 @formula
-def newton(core, s, h, rule, modified, B, G):
+def newton(core, s, h, rule, modified, B, G, apart):
     """Solve the equations of one step from the prediction in s; returns a status."""
     renew, fresh = s.memo[H_FACTOR] != h, False  # fresh: the matrix was renewed in this step
     has_joints = core.joints.multipliers.shape[0] > 0
@@ -224,7 +153,7 @@ def newton(core, s, h, rule, modified, B, G):
     if rule.corotate and not renew:
         turn(s.frames, s.q)
     if not renew and has_rows(core.joints):
-        renew = not renew_tail(core.joints.tail, core, s, rule, B, G)
+        renew = not tail_anew(apart, core, s, rule, B, G)
     move_on(s.patches)
     eta = max(s.memo[ETA] ** AGED, STALE)
     tolerance = rule.tolerance
@@ -238,7 +167,7 @@ def newton(core, s, h, rule, modified, B, G):
     nearby = modified and len(core.near) > 0 and not rule.corotate  # a part of it may iterate by itself
     for iteration in range(rule.max_iterations):
         if renew:
-            if not new_matrix(core, s, h, B, G):
+            if not matrix_anew(apart, core, s, h, B, G):
                 return SINGULAR
             renew, fresh, older, old, eta, since, whole = False, True, -1.0, -1.0, 1.0, 0, True
         if iteration == PATIENT:
@@ -257,7 +186,7 @@ def newton(core, s, h, rule, modified, B, G):
         if has_joints:
             still(core.joints, s.v, s.a)
             if rule.projects:  # the shift leaves the accelerations alone: its own tolerance is the rule's
-                shift = project(core.joints.batches, core, s, rule)
+                shift = projected(apart, core, s, rule)
                 size, norm = max(norm, shift), max(norm, shift * min(tolerance / rule.tolerance, 1.0))
         follow(core.supports, s.q, s.v, s.a)
         s.counts[ITERATIONS] += 1
@@ -310,14 +239,15 @@ def check_sections(core, s):
     return INVERTED
 
 
-@kernel
-def advance(core, s, tables, h, scheme, rule, keep, sampling, out):
+@separate_kernel
+def advance(core, s, tables, h, scheme, rule, keep, sampling, out, apart):
     """Take the steps of one block.
 
     ``keep[n]`` is the row of the outputs that takes the state at the end of step n, or -1; its samples
     are row n of theirs, if there is one.  A step that fails is tried again with a new matrix, and then
     with one for every iteration.  Returns the number of steps done and the status of the last one; a
-    failed step leaves the state at its start, an event ends the block after a step.
+    failed step leaves the state at its start, an event ends the block after a step.  ``apart`` are the
+    addresses of what is not part of this kernel.
     """
     B, G = coefficients(h, scheme)
     level = core.joints.level
@@ -328,7 +258,7 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out):
         for attempt in range(rule.first, rule.last + 1):
             predict(s, h, scheme, 1.0 if attempt == 0 else 0.0)
             drive(core.supports, core.loads.value, tables, n, s.q, s.v, s.a)
-            status = newton(core, s, h, rule, rule.modified and attempt < LAST, B, G)
+            status = newton(core, s, h, rule, rule.modified and attempt < LAST, B, G, apart)
             let_go(core.entwined)
             if status == OK:
                 status = check_sections(core, s)
@@ -344,17 +274,16 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out):
             return n, status
         carry(core, s, h)
         finish(s, h, scheme)
-        if core.accounted and (core.damped or core.loaded):
-            balance(core, s, h)
+        book(apart, core, s, h)
         if n < out.samples.shape[0]:
-            note(core, s, sampling)
+            take_note(apart, core, s, sampling)
         remember_all(core.remembering, s.q, s.v)
         if keep[n] >= 0:
             for i in range(s.q.shape[0]):
                 out.q[keep[n], i], out.v[keep[n], i] = s.q[i], s.v[i]
             out.work[keep[n], 0], out.work[keep[n], 1] = s.work[0], s.work[1]
         if n < out.samples.shape[0]:
-            sample(sampling, s.q, s.v, out.samples[n])
+            take_sample(apart, sampling, s, out.samples[n])
         event = find_events(core.joints.tail, s.q)
         if event >= 0:
             return n + 1, EVENT + event

@@ -11,18 +11,17 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import typeof, types
-from numba.core import cgutils
-from numba.core.registry import cpu_target
-from numba.extending import intrinsic
+from numba import types
 from numpy.typing import NDArray
 
+from ..addresses import address_of, caller, pointer
 from ..compiled import kernel, separate_kernel
-from ..records import RecordType, keep, read
+from ..records import recorded, type_of
 from ..system.core import Core, Tables
-from .explicit import advance_explicit
+from .apart import Apart
+from .block import take_explicit, take_implicit
 from .memory import Memory
-from .newmark import Rule, advance
+from .newmark import Rule
 from .sampling import Output, Sampling
 from .scheme import Scheme
 from .status import OK
@@ -32,9 +31,11 @@ PACKED = 1 << 32
 DONE = PACKED + OK
 
 
+@recorded
 class Implicit(NamedTuple):
     """All that :func:`ancf.solvers.newmark.advance` takes."""
 
+    steps: int  # address
     core: Core
     memory: Memory
     tables: Tables
@@ -44,11 +45,14 @@ class Implicit(NamedTuple):
     row: NDArray[np.int64]  # (rows,) -1: no states are kept
     sampling: Sampling
     out: Output
+    apart: Apart
 
 
+@recorded
 class Direct(NamedTuple):
     """The same of :func:`ancf.solvers.explicit.advance_explicit`."""
 
+    steps: int  # address
     core: Core
     memory: Memory
     tables: Tables
@@ -57,52 +61,40 @@ class Direct(NamedTuple):
     row: NDArray[np.int64]
     sampling: Sampling
     out: Output
+    apart: Apart
 
 
 @separate_kernel
 def implicit_at(record, first, count):
     """Steps from ``first`` on, of the tables; how many were done and the status of the last one, packed."""
-    b, last = read(record), first + count
+    b, last = record, first + count
     tables = Tables(b.tables.value[first:last], b.tables.motion[first:last], b.tables.rotation[first:last])
     out = Output(b.out.q, b.out.v, b.out.work, b.out.samples[first:last])
     row = b.row[first:last]
-    done, status = advance(b.core, b.memory, tables, b.step, b.scheme, b.rule, row, b.sampling, out)
+    given = b.core, b.memory, tables, b.step, b.scheme, b.rule, row, b.sampling, out, b.apart
+    done, status = take_implicit(b.steps, given)
     return done * PACKED + status
 
 
 @separate_kernel
 def direct_at(record, first, count):
     """See :func:`implicit_at`."""
-    b, last = read(record), first + count
+    b, last = record, first + count
     tables = Tables(b.tables.value[first:last], b.tables.motion[first:last], b.tables.rotation[first:last])
     out = Output(b.out.q, b.out.v, b.out.work, b.out.samples[first:last])
     row = b.row[first:last]
-    done, status = advance_explicit(b.core, b.memory, tables, b.step, b.turning, row, b.sampling, out)
+    given = b.core, b.memory, tables, b.step, b.turning, row, b.sampling, out, b.apart
+    done, status = take_explicit(b.steps, given)
     return done * PACKED + status
 
 
-@intrinsic
-def call_at(typing, function, record, first, count):
-    """Call the kernel at an address with a record and two numbers."""
-
-    def generate(context, builder, signature, values):
-        given = types.voidptr, types.int64, types.int64
-        kind = context.call_conv.get_function_type(types.int64, given).as_pointer()
-        place = builder.inttoptr(values[0], kind)
-        record = builder.inttoptr(values[1], context.get_value_type(types.voidptr))
-        call = context.call_conv.call_function
-        status, value = call(builder, place, types.int64, given, [record, values[2], values[3]])
-        with cgutils.if_unlikely(builder, status.is_error):
-            context.call_conv.return_status_propagate(builder, status)
-        return value
-
-    return types.int64(types.int64, types.int64, types.int64, types.int64), generate
+_steps = caller(types.int64, (types.voidptr, types.int64, types.int64))
 
 
 @kernel
 def steps_at(function, record, first, count):
     """The kernel at an address, one for all models: Python calls what takes numbers alone much faster."""
-    return call_at(function, record, first, count)
+    return _steps(function, (pointer(record), first, count))
 
 
 class Quick:
@@ -116,18 +108,10 @@ class Quick:
 
     def __init__(self, bundle: Any) -> None:
         self.bundle = bundle
-        kind, context = typeof(bundle), cpu_target.target_context
-        size = context.get_abi_sizeof(context.get_data_type(kind))
-        self._words = np.zeros(-(-size // 8), dtype=np.int64)
-        keep(bundle, self._words)
         dispatcher: Any = implicit_at if isinstance(bundle, Implicit) else direct_at
-        signature = (RecordType(kind), types.int64, types.int64)
-        dispatcher.compile(signature)
-        compiled = dispatcher.overloads[signature]
-        address = compiled.library.get_pointer_to_function(compiled.fndesc.llvm_func_name)
-        self._function, self._record = int(address), int(self._words.ctypes.data)
+        function = address_of(dispatcher, (type_of(bundle), types.int64, types.int64), types.int64)
         #: As :meth:`take`, which divides what it returns by PACKED.
-        self.step: Any = partial(steps_at, self._function, self._record)
+        self.step: Any = partial(steps_at, function, bundle.address)
 
     def take(self, first: int, count: int) -> tuple[int, int]:
         """Take ``count`` steps from row ``first`` on; how many were done, and the status of the last one."""
@@ -140,6 +124,7 @@ def shared(run: Any, rows: int) -> dict[str, Any]:
     system = run.system
     now = system.inputs.tables(run.t_start, run.h, 1, run.t_start, run.t_end)
     return {
+        "steps": run.kernels[0],
         "core": system.core,
         "memory": run.memory,
         "tables": Tables(*(np.zeros((rows, *x.shape[1:])) for x in now)),
@@ -147,4 +132,5 @@ def shared(run: Any, rows: int) -> dict[str, Any]:
         "row": np.full(rows, -1, dtype=np.int64),
         "sampling": run.sampling,
         "out": run.room(0, rows),
+        "apart": run.kernels[1],
     }

@@ -14,10 +14,12 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..batches import Batches, measure_all
 from ..compiled import formula, kernel
+from ..records import recorded
 from ..system.core import residual
 from ..system.system import System
 
 
+@recorded
 class Sampling(NamedTuple):
     """Where the samples come from; all is empty without sensors."""
 

@@ -13,21 +13,24 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
 from ..model.integrators import Integrator
+from ..records import place
 from ..system.consistency import open_contacts
-from ..system.core import Tables, apply_load, first_event, residual
+from ..system.core import Core, Tables, apply_load, first_event, residual
 from ..system.energy import energies
 from ..system.system import System
 from . import failures
-from .balance import balance
+from .apart import Apart
+from .balance import begin_account
+from .block import implicit_block, kernels_of
 from .bridge import Bridge
 from .checkpoint import Snapshot, Watched, copies, refill
 from .control import Control
-from .corotation import turning_nodes
+from .corotation import flies, turning_nodes
 from .events import happen
 from .formulations import FORMULATIONS
 from .low_rank import room_for_patches
 from .memory import H_FACTOR, H_PREV, KNOWN, WORST, Memory, allocate
-from .newmark import UNLIMITED, Rule, advance
+from .newmark import UNLIMITED, Rule
 from .quick import Direct, Implicit, shared
 from .record import Progress, Recorder, Stats
 from .sampling import Output, note_now, sample, sampling_of
@@ -53,6 +56,8 @@ class Run:
 
     #: Numbers of which a snapshot has the values, besides the arrays of the memory and of the system.
     KEPT: tuple[str, ...] = ("done", "look", "apart", "seconds", "astray", "exchanged")
+
+    explicit = False
 
     def __init__(
         self,
@@ -85,7 +90,7 @@ class Run:
         """Take what the steps need from the settings of a method of the Newmark family."""
         self.scheme = Scheme(*integrator.coefficients())
         n = integrator.newton
-        corotate = n.corotate and not _flies(self.system)
+        corotate = n.corotate and not flies(self.system)
         self.newton = (n.tolerance, n.contraction, n.max_iterations, n.modified, corotate)
         self.formulation = FORMULATIONS[integrator.formulation]
 
@@ -118,8 +123,16 @@ class Run:
     def _compile(self, tables: Tables) -> None:
         """No steps yet: this compiles, outside the CPU time of the run."""
         none, nothing = np.zeros(0, dtype=np.int64), self.room(0, 0)
-        rule, core = self.rule(self.h), self.system.core
-        advance(core, self.memory, tables, self.h, self.scheme, rule, none, self.sampling, nothing)
+        self.block(self.system.core, tables, self.h, self.rule(self.h), none, nothing)
+
+    def block(
+        self, core: Core, tables: Tables, h: float, rule: Rule, row: NDArray[np.int64], out: Output
+    ) -> tuple[int, int]:
+        """Steps of a length h with a rule of Newton's: how many were done, and the status of the last one."""
+        steps, apart = self.kernels
+        where, rest = (place(core), place(self.memory)), (row, place(self.sampling), out, apart)
+        n, status = implicit_block(steps, *where, tables, h, self.scheme, rule, *rest)
+        return n, status
 
     def snapshot(self) -> Snapshot:
         """All that decides how the run goes on, copied."""
@@ -159,7 +172,7 @@ class Run:
         m.abar[:] = m.a
         m.memo[H_FACTOR] = m.memo[H_PREV] = m.memo[KNOWN] = 0.0
         apply_load(system.core.loads, now.value[0], m.f)
-        balance(system.core, m, 0.0)
+        begin_account(system.core, m)
         return now
 
     def go(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
@@ -275,10 +288,14 @@ class Run:
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
         if self.hesitates:
             return 0, SLOW
-        core, here = self.system.core, (self.memory.q, self.memory.v)
+        here = self.memory.q, self.memory.v
         tables = self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end, here)
-        n, status = advance(core, self.memory, tables, h, self.scheme, self.rule(h), row, self.sampling, out)
-        return int(n), int(status)
+        return self.block(self.system.core, tables, h, self.rule(h), row, out)
+
+    @cached_property
+    def kernels(self) -> tuple[int, Apart]:
+        """Addresses of what takes the steps, and of what these call."""
+        return kernels_of(self.system.core, self.memory, self.sampling, self.explicit)
 
     @property
     def hesitates(self) -> bool:
@@ -379,15 +396,3 @@ class Run:
 
     def _failure(self, t: float, number: int, reason: str, h: float) -> SolveError:
         return failures.failed(self.system, self.memory.memo, t, number, reason, h)
-
-
-def _flies(system: System) -> bool:
-    """Whether nothing ties a system to the ground.
-
-    A kept matrix that turns with the nodes mixes their motions: the momentum is then lost by what Newton's
-    method leaves, where the plain one keeps it to the last digit.
-    """
-    model = system.model
-    ends = [getattr(c, name, None) for c in model.connections for name in ("a", "b", "point")]
-    held = any(support.held for support in model.supports)
-    return not held and not any(isinstance(end, np.ndarray) for end in ends)

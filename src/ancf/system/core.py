@@ -19,9 +19,11 @@ from ..batches import (
 )
 from ..compiled import formula, inline_kernel, inlined_kernel, kernel
 from ..linalg.block_ldl import Factor, factorise, solve_rows
-from ..linalg.border import Border, solve_border
+from ..linalg.border import Border, apply_border
+from ..records import recorded
 
 
+@recorded
 class Supports(NamedTuple):
     """Held unknowns, local axes and given motions."""
 
@@ -40,6 +42,7 @@ class Supports(NamedTuple):
     driven: IntArray  # slots that a support moves: their reactions do work
 
 
+@recorded
 class Loads(NamedTuple):
     """Dead loads as patterns of nodal forces, and the moments now."""
 
@@ -56,6 +59,7 @@ class Loads(NamedTuple):
     value: FloatArray  # (m, 3) inputs now: those of the k patterns, slices that batches share, lengths
 
 
+@recorded
 class Joints(NamedTuple):
     """Constraints with multipliers.
 
@@ -75,6 +79,7 @@ class Joints(NamedTuple):
     border: Border  # these rows, beside the factors of those before
 
 
+@recorded
 class Core(NamedTuple):
     """All arrays that the kernels need.
 
@@ -283,7 +288,7 @@ def solve_kept(core, x, first):
     if first < core.joints.first:
         solve_rows(core.factor, x, first, core.joints.first)
     if has_rows(core.joints):
-        solve_border(core.joints.border, x)
+        apply_border(core.joints.border, x)
 
 
 @kernel

@@ -33,7 +33,7 @@ def core_joints(batches: list[Any], system: Any, supports: Supports) -> Joints:
         tail=Batches(tail),
         first=first,
         lowest=int(np.min(system.multipliers, initial=system.n)) // 6,
-        supports=tail_supports(supports, system.places, first),
+        supports=tail_supports(supports, system.places, first) if tail else supports,
         border=room_for_border(first, system.numbering.blocks - first, widest_row(tail, system.n)),
     )
 

@@ -16,11 +16,13 @@ from ..compiled import inline_kernel
 from ..elements.cable import BEGIN, END, CableBatch
 from ..linalg.block_ldl import Factor
 from ..linalg.reach import clear, spread_of
+from ..records import recorded
 
 #: Blocks whose largest correction is kept together.
 SEGMENT = 16
 
 
+@recorded
 class Near(NamedTuple):
     """Room for ranges of blocks, and batches that are evaluated near them."""
 

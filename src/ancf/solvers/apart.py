@@ -1,0 +1,176 @@
+"""What a step needs rarely, or few models need: kernels of their own, which steps call by their addresses."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from numba import types
+
+from .. import addresses
+from ..addresses import caller
+from ..batches import add_tangents
+from ..compiled import formula, separate_kernel
+from ..linalg.border import clear_rows, forget_columns, renew_border
+from ..system.core import (
+    Core,
+    assemble,
+    constraint_rows,
+    factorise_head,
+    has_rows,
+    restrict,
+    solve_kept,
+    to_local,
+)
+from .balance import balance
+from .corotation import remember, turn_forth, turn_rows
+from .low_rank import forget
+from .memory import H_FACTOR, WORST
+from .renewal import renewed
+from .sampling import Sampling, note_now, sample
+from .status import FACTORIZATIONS, JACOBIANS
+
+#: Share of the tolerance up to which constraints need no shift.
+HELD = 0.1
+
+
+class Apart(NamedTuple):
+    """Addresses; 0 where a model does not need it."""
+
+    new_matrix: int
+    renew_tail: int  # of sliding joints
+    project: int  # of joints
+    balance: int  # something dissipates, or loads do work
+    note: int  # sensors that take accelerations or reactions
+    sample: int  # sensors
+
+
+@separate_kernel
+def new_matrix(core, s, h, B, G):
+    """Make and factorise the matrix of a step h in the present state; whether that is possible."""
+    assemble(core.batches, core.ws, s.q, s.v, core.A, 1.0 / B, G / B, 1.0)
+    restrict(core.supports, core.A)
+    remember(s.frames, s.q)
+    s.counts[JACOBIANS] += 1
+    s.counts[FACTORIZATIONS] += 1
+    bad = factorise_head(core.A, core.factor, core.joints.first)
+    if bad >= 0 and has_rows(core.joints):
+        forget_columns(core.joints.border)
+        bad = min(renew_border(core.joints.border, core.A, core.factor), 0)
+        bad -= core.joints.first if bad < 0 else 0
+    if bad < 0:
+        s.memo[WORST] = 6.0 * (-bad - 1)
+        return False
+    s.memo[H_FACTOR] = h
+    forget(s.patches)
+    renewed(s)
+    return True
+
+
+@separate_kernel
+def renew_tail(core, s, corotate, B, G):
+    """Renew the rows of the sliding joints alone; whether that is possible."""
+    joints, A = core.joints, core.A
+    clear_rows(joints.border, A, joints.first)
+    add_tangents(joints.tail, s.q, s.v, A, 1.0 / B, G / B, 1.0, core.ws)
+    restrict(joints.supports, A)
+    if corotate:
+        turn_rows(s.frames, A)
+    return renew_border(joints.border, A, core.factor) >= 0
+
+
+@separate_kernel
+def project(core, s, tolerance, corotate, w0, w1, w2):
+    """Shift the positions onto C = 0; the norm of the shift. The weights are those of the rows otherwise."""
+    joints = core.joints
+    joints.level[0], joints.level[1], joints.level[2] = 1.0, 0.0, 0.0
+    constraint_rows(joints, s.q, s.v, s.a, s.r, core.ws)
+    joints.level[0], joints.level[1], joints.level[2] = w0, w1, w2
+    norm = 0.0
+    for k in range(joints.multipliers.shape[0]):
+        norm = max(norm, abs(s.r[joints.multipliers[k]]))
+    if norm <= HELD * tolerance:
+        return 0.0
+    to_local(core.supports, s.r)  # as in solve_turned, but there is nothing to turn back
+    solve_kept(core, s.r, min(joints.lowest, joints.first))
+    if corotate:
+        turn_forth(s.frames, s.r)
+    norm = 0.0
+    for i in range(core.weight.shape[0]):
+        d = s.r[i] * (1.0 - joints.mask[i])
+        s.q[i] -= d
+        norm = max(norm, abs(d) * core.weight[i])
+    return norm
+
+
+_new_matrix, _renew_tail, _project = caller(types.boolean), caller(types.boolean), caller(types.float64)
+_balance, _note, _sample = caller(types.none), caller(types.none), caller(types.none)
+
+
+@formula
+def matrix_anew(apart, core, s, h, B, G):
+    """See :func:`new_matrix`."""
+    return _new_matrix(apart.new_matrix, (core, s, h, B, G))
+
+
+@formula
+def tail_anew(apart, core, s, rule, B, G):
+    """See :func:`renew_tail`."""
+    return _renew_tail(apart.renew_tail, (core, s, rule.corotate, B, G))
+
+
+@formula
+def projected(apart, core, s, rule):
+    """See :func:`project`."""
+    return _project(apart.project, (core, s, rule.tolerance, rule.corotate, rule.w0, rule.w1, rule.w2))
+
+
+@formula
+def book(apart, core, s, h):
+    """See :func:`ancf.solvers.balance.balance`."""
+    if core.accounted:
+        _balance(apart.balance, (core, s, h))
+
+
+@formula
+def take_note(apart, core, s, sampling):
+    """See :func:`ancf.solvers.sampling.note`."""
+    _note(apart.note, (core, s, sampling))
+
+
+@formula
+def take_sample(apart, sampling, s, row):
+    """See :func:`ancf.solvers.sampling.sample`; nothing happens without sensors."""
+    if apart.sample != 0:
+        _sample(apart.sample, (sampling, s.q, s.v, row))
+
+
+def needed(core: Core, sampling: Sampling, explicit: bool) -> tuple[bool, ...]:
+    """Which of :class:`Apart` a model needs."""
+    joints, implicit = core.joints, not explicit
+    return (
+        implicit,
+        implicit and len(joints.border.number) > 0,
+        implicit and len(joints.multipliers) > 0,
+        bool(core.damped or core.loaded),
+        len(sampling.moved) > 0 or len(sampling.pushed) > 0,
+        sampling.width > 0,
+    )
+
+
+def apart_of(core: Any, memory: Any, sampling: Any, wanted: tuple[bool, ...]) -> Apart:
+    """Those that are wanted, for arrays of these types; they are compiled if they were not."""
+    flag, number, vector = types.boolean, types.float64, types.Array(types.float64, 1, "C")
+    both = core, memory
+    kernels: list[tuple[Any, Any, tuple[Any, ...]]] = [
+        (new_matrix, flag, (*both, number, number, number)),
+        (renew_tail, flag, (*both, flag, number, number)),
+        (project, number, (*both, number, flag, number, number, number)),
+        (balance, types.none, (*both, number)),
+        (note_now, types.none, (*both, sampling)),
+        (sample, types.none, (sampling, vector, vector, vector)),
+    ]
+    found = [
+        addresses.address_of(kernel, given, result) if needs else 0
+        for (kernel, result, given), needs in zip(kernels, wanted, strict=True)
+    ]
+    return Apart(*found)

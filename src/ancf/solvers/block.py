@@ -1,0 +1,79 @@
+"""Blocks of steps as Python asks for them: by addresses, as handing over hundreds of arrays takes longer."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import types
+
+from .. import addresses
+from ..addresses import caller, pointer
+from ..compiled import kernel
+from ..records import type_of
+from ..system.core import Core, Tables
+from .apart import Apart, apart_of, needed
+from .explicit import advance_explicit
+from .memory import Memory
+from .newmark import Rule, advance
+from .sampling import Output, Sampling
+from .scheme import Scheme
+
+#: What a block of steps returns: how many were done, and the status of the last one.
+BLOCK = types.UniTuple(types.int64, 2)
+_TABLES = Tables(np.zeros((0, 0, 3)), np.zeros((0, 0, 3)), np.zeros((0, 0, 3, 3, 3)))
+_RULE = Rule(0.0, 0.0, 0, True, True, 0.0, 0.0, 0.0, True, 0.0, 0, 0)
+_BEGIN = type_of(_TABLES), types.float64
+_END = type_of(Output.of(0, 0, 0, 0)), type_of(Apart(0, 0, 0, 0, 0, 0))
+_KEPT = types.Array(types.int64, 1, "C")
+
+
+def implicit_types(core: Any, memory: Any, sampling: Any) -> tuple[Any, ...]:
+    """Of what :func:`ancf.solvers.newmark.advance` takes, with these of the records."""
+    settings = type_of(Scheme(0.0, 0.0, 0.0, 0.0)), type_of(_RULE)
+    return core, memory, *_BEGIN, *settings, _KEPT, sampling, *_END
+
+
+def explicit_types(core: Any, memory: Any, sampling: Any) -> tuple[Any, ...]:
+    """The same of :func:`ancf.solvers.explicit.advance_explicit`."""
+    return core, memory, *_BEGIN, types.boolean, _KEPT, sampling, *_END
+
+
+_ANY = (types.voidptr,) * 3
+#: Call steps by their address.
+take_implicit = caller(BLOCK, implicit_types(*_ANY))
+take_explicit = caller(BLOCK, explicit_types(*_ANY))
+
+
+@kernel
+def implicit_block(steps, core, memory, tables, h, scheme, rule, keep, sampling, out, apart):
+    """Call :func:`ancf.solvers.newmark.advance`; numbers are addresses, of core, memory and sampling too."""
+    core, memory, sampling = pointer(core), pointer(memory), pointer(sampling)
+    return take_implicit(steps, (core, memory, tables, h, scheme, rule, keep, sampling, out, apart))
+
+
+@kernel
+def explicit_block(steps, core, memory, tables, h, turning, keep, sampling, out, apart):
+    """The same for :func:`ancf.solvers.explicit.advance_explicit`."""
+    core, memory, sampling = pointer(core), pointer(memory), pointer(sampling)
+    return take_explicit(steps, (core, memory, tables, h, turning, keep, sampling, out, apart))
+
+
+def stepping(core: Core, memory: Memory, sampling: Sampling, explicit: bool) -> tuple[Any, tuple[Any, ...]]:
+    """The kernel that takes steps, and the types of what it takes."""
+    return _stepping((type_of(core), type_of(memory), type_of(sampling)), explicit)
+
+
+def _stepping(given: tuple[Any, ...], explicit: bool) -> tuple[Any, tuple[Any, ...]]:
+    return (advance_explicit, explicit_types(*given)) if explicit else (advance, implicit_types(*given))
+
+
+def kernels_of(core: Core, memory: Memory, sampling: Sampling, explicit: bool) -> tuple[int, Apart]:
+    """Addresses of the kernel that takes steps and of those that it calls; what is missing is compiled."""
+    given, wanted = (type_of(core), type_of(memory), type_of(sampling)), needed(core, sampling, explicit)
+    key = given, wanted
+    if key not in addresses.found:
+        apart = apart_of(*given, wanted)
+        addresses.found[key] = addresses.address_of(*_stepping(given, explicit), BLOCK), apart
+    steps, apart = addresses.found[key]
+    return steps, apart
