@@ -41,7 +41,7 @@ FLOORS = (
     ("records", "batches at an address"),
     ("vectors", "arithmetic of three numbers in kernels"),
     ("compiled", "kernels, and operations by type of batch"),
-    ("parts", "code that kernels take in"),
+    ("parts  addresses", "code that kernels take in, or call by its address"),
     ("files  worker  columns", "files that are complete or absent, processes"),
     ("errors  arrays  interrupts", "messages, types of arrays, signals kept until heeded"),
 )

@@ -85,8 +85,7 @@ def _fits(have: Any, want: Any) -> bool:
     """Whether an argument can be given: any number for a number, any address for a record."""
     if isinstance(want, types.Number):
         return isinstance(have, types.Number)
-    address = isinstance(want, types.RawPointer) or want == types.voidptr
-    return have == want or (address and isinstance(have, types.Opaque))
+    return have == want or (want == types.voidptr and hasattr(have, "batch"))
 
 
 @intrinsic

@@ -8,6 +8,7 @@ list; what one works on the other waits for (:mod:`ancf.kernel_cache`), and both
 from __future__ import annotations
 
 import atexit
+import gc
 import json
 import multiprocessing
 import os
@@ -53,6 +54,7 @@ class _Listener(event.Listener):
     def __init__(self) -> None:
         self.say: Callable[[str], None] = _to_stderr
         self.depth = 0
+        self.collects = True
         self.began = 0.0
         self.names: list[str] = []
         self.work: tuple[Model, Integrator | None] | None = None
@@ -60,7 +62,11 @@ class _Listener(event.Listener):
 
     def on_start(self, event: Any) -> None:
         self.depth += 1
-        if self.depth > 1 or self.work is None:
+        if self.depth > 1:
+            return
+        self.collects = gc.isenabled()
+        gc.disable()  # what a compiler makes lives as long as it works: looking through it takes an eighth
+        if self.work is None:
             return
         name = _named(event.data)
         if not self.names:
@@ -73,6 +79,8 @@ class _Listener(event.Listener):
 
     def on_end(self, event: Any) -> None:
         self.depth -= 1
+        if self.depth == 0 and self.collects:
+            gc.enable()
 
     def help(self) -> None:
         """Start a process that compiles from the other end, if there is a core and a cache for it."""

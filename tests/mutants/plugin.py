@@ -69,8 +69,8 @@ def _interpret() -> None:
     from ancf import addresses, batches, records
 
     addresses.address_of = lambda function, given, result: function
-    addresses.caller = lambda result, given=None, nothing=None: lambda function, arguments: (
-        function(*arguments) if function else nothing
+    addresses.caller = lambda result, given=None, nothing=None: (
+        lambda function, arguments: function(*arguments) if function else nothing
     )
     addresses.pointer = records.place = records.type_of = lambda value: value
     batches.Batches = type("Batches", (tuple,), {})
