@@ -169,6 +169,7 @@ def simulate(
         output_step=None if sensitivities else output_step,
         sensors=sensors,
         energy=energy,
+        ends=bool(sensitivities),
     )
     parameters = parameters_of(model, sensitivities, SENSITIVITIES[1]) if sensitivities else []
     if parameters and controller is not None:

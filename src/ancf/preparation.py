@@ -57,8 +57,11 @@ def prepared(
     sensors: Sequence[Any] | None,
     energy: bool,
     where: str = "simulate",
+    ends: bool = False,
 ) -> Prepared:
     """A simulation at its start, see :func:`simulate`; ``where`` stands in messages.
+
+    ``ends``: sensors record the ends of springs, see :func:`ancf.system.sensors.listing`.
 
     Raises
     ------
@@ -67,7 +70,7 @@ def prepared(
     """
     t0 = 0.0 if start is None else start.t
     with expected(model, method):
-        made = compiled(model, method, t0, t_end, step, output_step, sensors, energy, where)
+        made = compiled(model, method, t0, t_end, step, output_step, sensors, energy, where, ends)
         system = made.system
         q, v = system.initial_state(t0) if start is None else adopted(start, system, f"{where}.start")
         remembered.begin(system, q, v, None if start is None else start.known)
@@ -88,6 +91,7 @@ def compiled(
     sensors: Sequence[Any] | None,
     energy: bool,
     where: str,
+    ends: bool = False,
 ) -> Prepared:
     """A simulation that has no state yet; it is given one by ``run.start`` or ``run.restore``."""
     every = steps_between(where, t_end, step, output_step, t_start)
@@ -96,7 +100,7 @@ def compiled(
         what = f'does not know "{system.inputs.drives[0].winch.name}", whose length follows from step to step'
         hint = "take Trapezoidal, GeneralizedAlpha or Explicit, or give its length as a function of time"
         raise ModelError(f"{where}.integrator", what, hint)
-    system.sensors = _sensors(system, sensors, not isinstance(method, Radau))
+    system.sensors = _sensors(system, sensors, not isinstance(method, Radau), ends)
     if not checks.flag(energy, f"{where}.energy"):
         system.skip_energies()
     for text in noises(model):
@@ -183,7 +187,7 @@ def given_state(system: System, about: Any, where: str) -> tuple[Any, Any]:
     return adopted(about, system, where)
 
 
-def _sensors(system: System, given: Any, accelerations: bool) -> Listing:
+def _sensors(system: System, given: Any, accelerations: bool, ends: bool) -> Listing:
     """What ``sensors`` lists."""
     where = "simulate.sensors"
     if given is None:
@@ -196,7 +200,7 @@ def _sensors(system: System, given: Any, accelerations: bool) -> Listing:
     if held is not None and not accelerations:
         what = f'"{held.name}" is a support, and with Radau the steps have no accelerations'
         raise ModelError(where, what, "ask the result for its reaction at the stored times")
-    return listing(system, items, accelerations)
+    return listing(system, items, accelerations, ends)
 
 
 def adopted(state: State, system: System, where: str) -> tuple[Any, Any]:

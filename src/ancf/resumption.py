@@ -27,6 +27,7 @@ from .results.result import Result, load
 from .results.store import FileStore
 from .solvers.checkpoint import Snapshot
 from .solvers.record import Progress, Stats
+from .system.sensors import by_ends
 
 __all__ = ["resume"]
 
@@ -93,7 +94,7 @@ def resume(
     if checkpoint is None:
         return _anew(old, given, settings, end, path, progress, controller)
     times = settings["t_start"], end, settings["step"], settings["output_step"]
-    made = compiled(*given, *times, _sensors(old), settings["energy"], "resume")
+    made = compiled(*given, *times, _sensors(old), settings["energy"], "resume", _by_ends(old))
     try:
         made.run.restore(checkpoint.snapshot)
     except (ModelError, LookupError, TypeError, ValueError) as error:
@@ -130,6 +131,7 @@ def _anew(
         sensors=_sensors(old),
         energy=settings["energy"],
         where="resume",
+        ends=_by_ends(old),
     )
     if controller is not None:
         made = led(made, controller, round(settings["control_step"] / settings["step"]), "resume")
@@ -226,6 +228,13 @@ def _sensors(old: Result) -> list[Any] | None:
     return [*(point(item) for item in listing.points), *listing.connections]
 
 
+def _by_ends(old: Result) -> bool:
+    """Whether springs were recorded by their ends: a file goes on with the columns that it has."""
+    if not old.provenance["settings"]["sensors"]:
+        return False
+    return by_ends(old.sensors.listing, old.model.connections)
+
+
 def _header(old: Result, new: dict[str, Any], last: float) -> dict[str, Any]:
     """The header of the history: that of its first run, with the new end and where and when it went on."""
     before = old.provenance
@@ -249,7 +258,7 @@ def _copy(
         file.copy(*(np.asarray(arrays[name][part]) for name in ("time", "q", "v", "work", "energy")))
     if samples:
         recorded = old._store.samples
-        rows = max(1, AT_ONCE // max(1, recorded["q"].shape[1]))
+        rows = max(1, AT_ONCE // sum(max(1, recorded[name].shape[1]) for name in ("q", "v", "measured")))
         for k in range(0, samples, rows):
             part = slice(k, min(k + rows, samples))
             values = np.concatenate([recorded[name][part] for name in ("q", "v", "measured")], axis=1)

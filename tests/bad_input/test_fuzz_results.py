@@ -114,6 +114,18 @@ def listed(key, value):
     return change
 
 
+def unlisted(spring):
+    """A spring of which nothing was recorded."""
+
+    def change(file):
+        plain = json.loads(file["sensors"].attrs["listed"])
+        plain["springs"].remove(spring)
+        del plain["columns"][spring]
+        file["sensors"].attrs["listed"] = json.dumps(plain)
+
+    return change
+
+
 def attribute(name, key, value):
     return lambda file: file[name].attrs.__setitem__(key, value)
 
@@ -176,6 +188,14 @@ FOUND = {
     "names of lists": (listed(("connections",), [["dropper"]]), "sensors.connections must be text"),
     "too few columns": (listed(("columns", "touch"), [0, 1, 2]), 'sensors "touch" has shape'),
     "columns elsewhere": (listed(("columns", "touch"), [0, 1, 2, 9]), 'sensors "touch" lies outside'),
+    "too few columns of a spring": (listed(("columns", "dropper"), [0]), 'sensors "dropper" has shape'),
+    "a spring's columns elsewhere": (
+        listed(("columns", "dropper"), [0, 99]),
+        'sensors "dropper" lies outside',
+    ),
+    "a spring that is a contact": (listed(("springs",), []), 'sensors "dropper" has shape'),
+    "a spring of another name": (listed(("springs",), ["droper"]), "or damaged: .droper"),
+    "a spring that is nowhere": (unlisted("dropper"), "is damaged: sensors lack dropper"),
     "index that goes back": (data("sensors/index", lambda x: x[::-1]), "sensors/index does not ascend"),
     "narrow samples": (data("sensors/q", lambda x: x[:, :-1]), "sensors has data of widths"),
     "sensors' times": (data("sensors/time", lambda t: 0 * t), "sensors/time does not ascend"),

@@ -18,6 +18,7 @@ from ancf.system.contacts import touching
 from ancf.system.core import apply_load
 from ancf.system.energy import energies
 from ancf.system.joints import FLOOR
+from ancf.system.sensors import listing
 from ancf.system.supports import Rotation, axes
 from ancf.system.system import System
 from helpers import SOFT, cable, derivative, forces, matrix, shaken
@@ -367,12 +368,9 @@ class TestContacts:
     def test_samples_of_the_second_of_two_contacts(self):
         system = two_contacts()
         q, v = system.initial_state()
-        entries = system.measures["touch 1"]
-        none = np.zeros(0, dtype=np.int64)
-        row = np.empty(len(entries))
-        felt = np.zeros((2, system.size))
-        where = sampling.Sampling(none, system.measuring, system.measured, entries, none, none, felt)
-        sampling.sample(where, q, v, row)
+        system.sensors = listing(system, [system.model.sensor("touch 1")], True)
+        row = np.empty(4)
+        sampling.sample(sampling.sampling_of(system), q, v, row)
         assert row[:2] == pytest.approx([200.0 * 0.05, 0.05])
 
 

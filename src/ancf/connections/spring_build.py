@@ -37,7 +37,17 @@ def springs(model: Model, locate: Callable[[Point], Any]) -> SpringBatch:
                 offset[e] = end
     dest, inside = np.full((n, 4 * k * k), -1, dtype=np.int64), np.zeros(n, dtype=np.int64)
     given = [curve for item in items for curve in (item.law, item.damper)]
-    return SpringBatch(base, dest, factor, offset, data, inside, **curves(given))
+    return SpringBatch(
+        base,
+        dest,
+        factor,
+        offset,
+        data,
+        inside,
+        **curves(given),
+        wanted=np.zeros(0, dtype=np.int64),
+        found=np.zeros((0, 2)),
+    )
 
 
 def _slots(spring: Spring) -> int:

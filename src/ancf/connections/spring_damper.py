@@ -20,6 +20,8 @@ from .curves import looked_up
 
 #: Columns of SpringBatch.data.
 STIFFNESS, DAMPING, LENGTH, SLACK, FRICTION, CREEP = range(6)
+#: Columns of SpringBatch.found.
+FORCE, DISTANCE = range(2)
 
 
 class SpringBatch(NamedTuple):
@@ -37,6 +39,8 @@ class SpringBatch(NamedTuple):
     place: FloatArray  # (m,) see connections/curves.py
     height: FloatArray  # (m,)
     area: FloatArray  # (m,)
+    wanted: NDArray[np.int64]  # (k,) springs that sensors record; none in a System, see :func:`gauges`
+    found: FloatArray  # (n, 2) FORCE, DISTANCE where those were measured last
 
 
 @formula
@@ -146,6 +150,20 @@ def spring_energy(batch, q, ws):
     return energy
 
 
+@inline_kernel
+def spring_measure(batch, q, v):
+    """Fill ``found`` of the springs that are wanted for the state (q, v)."""
+    for k in range(batch.wanted.shape[0]):
+        e = batch.wanted[k]
+        _, length, _, tension, _ = spring_state(batch, e, q, v)
+        batch.found[e, FORCE], batch.found[e, DISTANCE] = tension, length
+
+
+def gauges(batch: SpringBatch, wanted: NDArray[np.int64], measured: FloatArray) -> SpringBatch:
+    """The same springs, of which these are measured; they leave what they find in ``measured``, (n, 2)."""
+    return batch._replace(wanted=wanted, found=measured)
+
+
 def _damped(batch):
     """Whether a spring takes energy."""
     return bool(np.any(batch.data[:, (DAMPING, FRICTION)])) or bool(np.any(np.diff(batch.begins)[1::2]))
@@ -156,7 +174,8 @@ implements(
     force=spring_force,
     tangent=spring_tangent,
     energy=spring_energy,
-    role=Role.DISSIPATES,
+    measure=spring_measure,
+    role=Role.DISSIPATES | Role.MEASURES,
     damped=_damped,
     exact=lambda batch, moving: not (moving and _damped(batch)),
 )

@@ -21,6 +21,7 @@ from ..results.sensors import Sensors
 from ..results.state import State
 from ..results.store import FileStore, MemoryStore
 from ..solvers.stepping import Run
+from ..system.sensors import by_ends
 from .ahead import Ahead
 from .foreseen import Foreseen
 from .live import Live
@@ -228,8 +229,8 @@ def _gone_on(model: Model, file: str | Path) -> Stepper:
     method = integrator_from(settings["integrator"], settings["method"])
     refuse_adaptive(method, "stepper")
     t0, step, listed = settings["t_start"], settings["step"], settings["sensors"]
-    t_end = t0 + MOST_STEPS * step
-    made = compiled(model, method, t0, t_end, step, None, listed or None, settings["energy"], "stepper")
+    t_end, ends = t0 + MOST_STEPS * step, by_ends(old.listing(model.bodies), model.connections)
+    made = compiled(model, method, t0, t_end, step, None, listed or None, settings["energy"], "stepper", ends)
     made.run.restore(found.snapshot)
     run = Stepper(made)
     if listed:

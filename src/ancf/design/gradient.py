@@ -131,7 +131,7 @@ def _backward(
 ) -> tuple[float, dict[str, float]]:
     pairs = list(dict.fromkeys(formula.asked))
     items = [made.system.model.sensor(item) for _, item in pairs]
-    unknowns = listing(made.system, items, False).index
+    unknowns = listing(made.system, items, False, ends=True).index
 
     def asked(face: Face, pairs: Iterable[Key]) -> dict[Key, FloatArray]:
         return {pair: np.asarray(ask(face, *pair)) for pair in pairs}

@@ -23,9 +23,11 @@ def write_listing(file: Any, listing: Listing) -> None:
         return
     group = file.create_group("sensors")
     points = [{"body": p.body.name, "label": p.label, "place": (p.x, p.y, p.z)} for p in listing.points]
-    columns = {name: places.tolist() for name, places in listing.columns.items()}
+    # springs stand among the columns as well: versions that knew contacts alone refuse the file
+    columns = {name: places.tolist() for name, places in (listing.columns | listing.springs).items()}
     held = {name: places.tolist() for name, places in listing.held.items()}
     listed = {"points": points, "connections": listing.connections, "columns": columns, "held": held}
+    listed["springs"] = [*listing.springs]
     group.attrs["listed"] = json.dumps(listed)
     group["index"], group["entries"] = listing.index, listing.entries
     group["moved"], group["pushed"] = listing.moved, listing.pushed
@@ -44,9 +46,9 @@ def read_listing(group: Any, bodies: dict[str, Body]) -> Listing:
         x, y, z = item["place"]
         points.append(Point(bodies[item["body"]], x, item["label"], y, z))
     columns = {name: np.array(places, dtype=np.int64) for name, places in listed["columns"].items()}
+    springs = {name: columns.pop(name) for name in listed.get("springs", [])}
     connections = tuple(listed["connections"])
     held = {name: np.array(places, dtype=np.int64) for name, places in listed.get("held", {}).items()}
     moved, pushed = (group[key][:] if key in group else np.zeros(0, np.int64) for key in ("moved", "pushed"))
-    return Listing(
-        tuple(points), connections, group["index"][:], group["entries"][:], columns, moved, pushed, held
-    )
+    index, entries = group["index"][:], group["entries"][:]
+    return Listing(tuple(points), connections, index, entries, columns, moved, pushed, held, springs)

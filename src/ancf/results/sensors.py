@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
+from ..connections.spring_damper import DISTANCE, FORCE
 from ..errors import ModelError, named
 from ..model.bodies import PointMass, RigidBody
+from ..model.connections import Spring
 from ..model.points import Point
 from ..system.contact_fields import ContactFields
 from ..system.probe import BeamProbe, Probe, R, locate
@@ -47,9 +49,9 @@ class Sensors(SpringFields, ContactFields, Plotted):
         self._springs = {name: item for name, item in whole.springs.items() if name in mine}
         self._joints = {name: listing.places(u) for name, u in whole.joints.items() if name in mine}
         self._arcs = {name: int(self._joints[name][-1]) for name in whole.arcs if name in mine}
-        ends = [end for s in self._springs.values() for end in (s.a, s.b) if isinstance(end, Point)]
+        by_ends = [item for name, item in self._springs.items() if name not in listing.springs]
         self._listed = frozenset(listing.points)
-        self._placed = self._listed.union(ends)
+        self._placed = self._listed.union(end for item in by_ends for end in _ends(item))
         self.derivatives: dict[str, Any] = {}  # by the name of a parameter
 
     @property
@@ -133,10 +135,34 @@ class Sensors(SpringFields, ContactFields, Plotted):
         place = Point(probe.body, probe.x, "", probe.y, probe.z)
         return locate(place, self._whole_slots[probe.body.name])
 
+    def spring_length(self, spring: Spring | str) -> FloatArray:
+        """See :meth:`ancf.Result.spring_length`."""
+        measured = self._gauged(spring, DISTANCE)
+        return super().spring_length(spring) if measured is None else measured
+
+    def spring_force(self, spring: Spring | str) -> FloatArray:
+        """See :meth:`ancf.Result.spring_force`."""
+        measured = self._gauged(spring, FORCE)
+        return super().spring_force(spring) if measured is None else measured
+
+    def _gauged(self, spring: Spring | str, column: int) -> FloatArray | None:
+        """What a spring has measured; None where it follows from the unknowns of its ends."""
+        places = self.listing.springs.get(self._spring(spring).name)
+        if places is None:
+            return None
+        measured: FloatArray = self._arrays()["measured"][..., int(places[column])]
+        return measured
+
     def missing(self) -> str:
-        """The first listed point of which not all was recorded, as in a damaged file; "" for none."""
-        points = (point for point in self.listing.points if np.any(self._probe(point).slots < 0))
-        return str(next(points, ""))
+        """The first point or spring of which not all was recorded, as in a damaged file; "" for none."""
+        for point in self.listing.points:
+            if np.any(self._probe(point).slots < 0):
+                return str(point)
+        for name, spring in self._springs.items():
+            probes = [] if name in self.listing.springs else [self._probe(end) for end in _ends(spring)]
+            if any(np.any(probe.slots[probe.S[R] != 0.0] < 0) for probe in probes):
+                return name
+        return ""
 
     def _contacts(self) -> list[str]:
         return [*self.listing.columns]
@@ -164,7 +190,15 @@ class Sensors(SpringFields, ContactFields, Plotted):
             name = (
                 str(point) if isinstance(point, str) or str(point) else f"{probe.body.name}.at({probe.x:g})"
             )
-            raise ModelError(named(name), "was not recorded by the sensors", self._recorded())
+            hint, gauged = self._recorded(), self.listing.springs
+            if any(place in _ends(item) for key, item in self._springs.items() if key in gauged):
+                hint = f"a spring records its force and length alone, list its end as well; {hint}"
+            raise ModelError(named(name), "was not recorded by the sensors", hint)
 
     def _recorded(self) -> str:
         return "recorded are: " + ", ".join(self.names)
+
+
+def _ends(spring: Spring) -> list[Point]:
+    """Ends of a spring that are points of bodies."""
+    return [end for end in (spring.a, spring.b) if isinstance(end, Point)]

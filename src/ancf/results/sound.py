@@ -84,8 +84,9 @@ def check_listing(listing: Listing, width: int, widths: dict[str, int]) -> None:
     wanted = {"q": len(listing.index), "v": len(listing.index), "measured": listing.width}
     if widths != wanted:
         raise ModelError("sensors", f"has data of widths {widths}, wanted {wanted}")
-    for name, places in listing.columns.items():
-        _unknowns(places, f'sensors "{name}"', (4,), len(listing.entries))
+    for known, count in ((listing.columns, 4), (listing.springs, 2)):
+        for name, places in known.items():
+            _unknowns(places, f'sensors "{name}"', (count,), len(listing.entries))
     for key in ("moved", "pushed"):
         _unknowns(getattr(listing, key), f"sensors/{key}", (None,), width)
     if np.any(np.diff(listing.moved) <= 0):

@@ -107,7 +107,6 @@ class Watched:
         self._roots = {
             "parts": system.parts,
             "level": system.level,
-            "measured": system.measured,
             "core": system.core._replace(batches=Batches(), external=Batches()),
         }
         self._arrays = distinct(self._roots)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -37,13 +37,16 @@ class Listing:
     entries : ndarray, shape (j,)
         Entries of ``System.measured``.
     columns : dict of str to ndarray
-        Places in ``entries`` of what was measured at a connection, by name.
+        Places in ``entries`` of what was measured at a contact, shape (4,), by name.
     moved : ndarray, shape (m,)
         Entries of the accelerations, ascending.
     pushed : ndarray, shape (p,)
         Held unknowns whose reactions are recorded.
     held : dict of str to ndarray
         Place in ``pushed`` and component of what a support holds, shape (c, 2), by its name.
+    springs : dict of str to ndarray
+        Places in ``entries`` of force and length of a spring, shape (2,), by its name; those of others
+        follow from the unknowns of their ends.
     """
 
     points: tuple[Point, ...] = ()
@@ -54,6 +57,7 @@ class Listing:
     moved: IntArray = field(default_factory=_none)
     pushed: IntArray = field(default_factory=_none)
     held: dict[str, IntArray] = field(default_factory=dict)
+    springs: dict[str, IntArray] = field(default_factory=dict)
 
     @property
     def width(self) -> int:
@@ -98,15 +102,23 @@ class Probed(Protocol):
         ...
 
 
-def listing(system: Probed, items: Sequence[Point | Connection | Support], accelerations: bool) -> Listing:
+def listing(
+    system: Probed,
+    items: Sequence[Point | Connection | Support],
+    accelerations: bool,
+    ends: bool = False,
+) -> Listing:
     """Entries that a system needs to record these points, connections and supports.
 
-    ``accelerations`` says whether the run has them, and reactions.
+    ``accelerations`` says whether the run has them, and reactions. ``ends``: of springs the unknowns of their
+    ends are recorded, which have derivatives, in place of force and length.
     """
     points = tuple(dict.fromkeys(item for item in items if isinstance(item, Point)))
     joined = {item.name: item for item in items if not isinstance(item, Point)}
-    wanted, entries, columns = [_none()], [_none()], {}
-    moved, pushed, held = [_none()], [_none()], {}
+    wanted, entries, moved, pushed = [_none()], [_none()], [_none()], [_none()]
+    columns: dict[str, IntArray] = {}
+    springs: dict[str, IntArray] = {}
+    held: dict[str, IntArray] = {}
     for point in points:
         probe = system.probe(point)
         wanted.append(_triples(probe.slots))
@@ -114,17 +126,11 @@ def listing(system: Probed, items: Sequence[Point | Connection | Support], accel
         if point.body.name in system.lengths:
             wanted.append(np.array(system.lengths[point.body.name][:1]))
     for name, item in joined.items():
-        if isinstance(item, Spring):
-            ends = [end for end in (item.a, item.b) if isinstance(end, Point)]
-            wanted += [_triples(_position_slots(system.probe(end))) for end in ends]
-        if isinstance(item, TorsionSpring):
-            slots = torsion_springs([item], system.slots).base
-            wanted.append(_triples(slots[slots >= 0]))
-        if name in system.joints:
-            wanted.append(system.joints[name])
-        if name in system.measures:
+        wanted += _moving(system, item, ends)
+        if name in system.measures and not (ends and isinstance(item, Spring)):
             first = sum(map(len, entries))
-            columns[name] = np.arange(first, first + len(system.measures[name]))
+            own = springs if isinstance(item, Spring) else columns
+            own[name] = np.arange(first, first + len(system.measures[name]))
             entries.append(system.measures[name])
         if isinstance(item, Support):
             unknowns = np.array(system.constraints.positions[name], dtype=np.int64)
@@ -133,9 +139,28 @@ def listing(system: Probed, items: Sequence[Point | Connection | Support], accel
             pushed.append(unknowns)
     index = np.unique(np.concatenate(wanted)).astype(np.int64)
     rates = np.unique(np.concatenate(moved)).astype(np.int64) if accelerations else _none()
-    return Listing(
-        points, tuple(joined), index, np.concatenate(entries), columns, rates, np.concatenate(pushed), held
-    )
+    measured, reactions = np.concatenate(entries), np.concatenate(pushed)
+    return Listing(points, tuple(joined), index, measured, columns, rates, reactions, held, springs)
+
+
+def _moving(system: Probed, item: Connection | Support, ends: bool) -> list[IntArray]:
+    """Entries of the state vectors that a connection needs."""
+    found = []
+    if isinstance(item, Spring) and ends:
+        points = [end for end in (item.a, item.b) if isinstance(end, Point)]
+        found += [_triples(_position_slots(system.probe(end))) for end in points]
+    if isinstance(item, TorsionSpring):
+        slots = torsion_springs([item], system.slots).base
+        found.append(_triples(slots[slots >= 0]))
+    if item.name in system.joints:
+        found.append(system.joints[item.name])
+    return found
+
+
+def by_ends(listed: Listing, connections: Iterable[Connection]) -> bool:
+    """Whether springs were recorded by the unknowns of their ends, as in files of earlier versions."""
+    springs = {item.name for item in connections if isinstance(item, Spring)}
+    return not springs.isdisjoint(listed.connections) and not listed.springs
 
 
 def _triples(slots: IntArray) -> IntArray:

@@ -10,12 +10,14 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..compiled import Role, traits, with_role
+from ..connections.spring_damper import gauges
 from ..errors import ModelError
 from ..linalg.ordering import fill_pattern
 from ..model.beam import Beam
 from ..model.bodies import PointMass, RigidBody
 from ..model.body_contact import BodyContact
 from ..model.cable_contact import CableContact
+from ..model.connections import Spring
 from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
@@ -67,12 +69,10 @@ class System:
         Of the matrix, in unknowns.
     sensors : Listing
         What a run records at every step.
-    measuring : tuple
-        Batches with an operation ``measure``.
     measured : ndarray, shape (m,)
-        What these leave beside the state, for sensors; shared with them.
+        What contacts and springs leave beside the state, for sensors: shared with their batches.
     measures : dict of str to ndarray
-        Entries of ``measured`` by connection.
+        Entries of ``measured`` by connection: four of a contact, force and length of a spring.
     """
 
     def __init__(self, model: Model, spare: IntArray | None = None, like: System | None = None) -> None:
@@ -85,11 +85,14 @@ class System:
         self.sensors = Listing()
         kinds = Contact, SurfaceContact, CableContact, BodyContact
         contacts = [c.name for kind in kinds for c in model.connections if isinstance(c, kind)]
-        self.measured = np.zeros(4 * len(contacts))
+        springs = [c.name for c in model.connections if isinstance(c, Spring)]
+        touched = 4 * len(contacts)
+        self.measured = np.zeros(touched + 2 * len(springs))
         self.measures = {name: 4 * k + np.arange(4) for k, name in enumerate(contacts)}
+        self.measures |= {name: touched + 2 * k + np.arange(2) for k, name in enumerate(springs)}
         functions = loads.functions(model)
         value = np.zeros((len(functions), 3))
-        parts = build_parts(model, self.numbering, self.level, value, self.measured.reshape(-1, 4))
+        parts = build_parts(model, self.numbering, self.level, value, self.measured[:touched].reshape(-1, 4))
         self._order(parts, like)
         self.constraints = collect(model, self.numbering)
         self.spare = np.zeros(0, dtype=np.int64) if spare is None else spare
@@ -106,7 +109,6 @@ class System:
         joints = core_joints(list(self.parts.values()), self, supports)
         self.core = make_core(self.parts, self.places, self._weight(), supports, joints, self._loads(value))
         set_scales(self)
-        self.measuring = with_role(self.core.batches, Role.MEASURES)
 
     def _order(self, parts: Any, like: System | None) -> None:
         """Order of the nodes and pattern of the matrix."""
@@ -139,6 +141,22 @@ class System:
             for key in traits(batch).memory
             if getattr(batch, key).size
         }
+
+    @property
+    def measuring(self) -> tuple[Any, ...]:
+        """Batches with an operation ``measure`` that renew what the sensors have listed.
+
+        All contacts if there is one among it, and of the springs those alone.
+        """
+        listed, springs = self.sensors, self.parts["springs"]
+        batches = with_role(self.core.batches, Role.MEASURES) if listed.columns else ()
+        found = tuple(batch for batch in batches if batch is not springs)
+        if not listed.springs:
+            return found
+        gauged = self.measured[-2 * len(springs.base) :].reshape(-1, 2)
+        entries = np.concatenate([self.measures[name][:1] for name in listed.springs])
+        wanted = (entries - (len(self.measured) - gauged.size)) // 2
+        return *found, gauges(springs, wanted, gauged)
 
     def skip_energies(self) -> None:
         """Do not account for what is dissipated and supplied in a run."""
