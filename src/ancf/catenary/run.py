@@ -15,7 +15,7 @@ import ancf
 from ..arrays import FloatArray
 from ..control.delay import Delayed
 from ..model import checks
-from . import cautions
+from . import cautions, sleeping
 from .assemble import Assembled
 from .collectors import Collector, Touch, put_pantograph
 from .derivatives import check_run, parameters, records
@@ -65,6 +65,7 @@ def run(
     sensitivities: Mapping[str, Sequence[str]] | None = None,
     roof: Any = None,
     underside: Any = None,
+    reduce: bool = False,
 ) -> Run:
     """Run pantographs along a line from its equilibrium.
 
@@ -122,6 +123,10 @@ def run(
         Track positions and heights of the underside of the contact wires above that of a new wire: what is
         worn off is positive, so are the crests of waves; see :func:`random_underside`. A file has the columns
         ``position`` in m and ``height_mm``.
+    reduce : bool
+        Whether spans move by their modes up to 60 Hz while no pantograph is near and their droppers are taut
+        (Craig and Bampton 1968), which long lines gain time by. Not with a `controller`, `sensitivities`,
+        sliding joints, or an `integrator` that makes a matrix in each iteration or lets it turn.
 
     Returns
     -------
@@ -157,6 +162,9 @@ def run(
         roof,
         underside,
     )
+    sleeps = sleeping.allowed(
+        reduce, integrator, touch=plan.touch.kind, led=controller is not None, derived=bool(sensitivities)
+    )
     _warn(cautions.before(plan))
     if any(unit.relaxed_at == "mean" for unit in plan.pantographs):
         plan = _relaxed(plan)
@@ -168,7 +176,7 @@ def run(
         {} if controller is None else {"controller": controller, "control_step": control_step}
     )
     stored: dict[str, Any] = {"output_step": output_step, "file": file}
-    done = _simulated(plan, integrator, progress, sensitivities=sensitivities, **stored, **led)
+    done = _simulated(plan, integrator, progress, sensitivities=sensitivities, sleeps=sleeps, **stored, **led)
     _warn(cautions.after(done))
     return done
 
@@ -205,30 +213,34 @@ def _simulated(
     output_step: float | None = None,
     file: str | Path | None = None,
     sensitivities: Mapping[str, Sequence[str]] | None = None,
+    sleeps: bool = False,
     **led: Any,
 ) -> Run:
     overhead = plan.door.overhead(plan.form)
     rest = _rest(plan)
     alone = _alone(overhead, sensitivities or {})
+    sleep = sleeping.Sleep(ancf.equilibrium(overhead.model)) if sleeps else None
     collectors = _collectors(overhead, plan, bool(led))
     model, duration = overhead.model, plan.duration
     wanted = parameters(overhead, model, sensitivities or {})
     droppers = [dropper for dropper in overhead.droppers if dropper is not None]
-    result = ancf.simulate(
-        model,
-        t_end=duration,
-        step=plan.step,
-        start=ancf.equilibrium(model, sensitivities=wanted),
-        integrator=_integrator(plan) if integrator is None else integrator,
-        output_step=duration if output_step is None else output_step,
-        sensors=[*droppers, *overhead.supports, *(s for c in collectors for s in c.sensors())],
-        energy=False,
-        file=file,
-        progress=progress,
-        sensitivities=wanted,
-        **led,
-    )
-    made = _recorded(result, overhead, collectors, plan, rest)
+    given: dict[str, Any] = {
+        "t_end": duration,
+        "step": plan.step,
+        "start": ancf.equilibrium(model, sensitivities=wanted),
+        "integrator": _integrator(plan) if integrator is None else integrator,
+        "output_step": duration if output_step is None else output_step,
+        "sensors": [*droppers, *overhead.supports, *(s for c in collectors for s in c.sensors())],
+        "energy": False,
+        "file": file,
+        "progress": progress,
+    }
+    spans = None
+    if sleep is None:
+        result = ancf.simulate(model, **given, sensitivities=wanted, **led)
+    else:
+        result, spans = sleeping.simulated(overhead, sleep, **given)
+    made = _recorded(result, overhead, collectors, plan, rest, sleeping.said(spans))
     if alone is None:
         return made
     names = [parameter.name for parameter in wanted]
@@ -315,7 +327,12 @@ def _dropper_forces(sensors: Any, overhead: Assembled) -> FloatArray:
 
 
 def _recorded(
-    result: ancf.Result, overhead: Assembled, collectors: list[Collector], plan: Plan, rest: _Rest
+    result: ancf.Result,
+    overhead: Assembled,
+    collectors: list[Collector],
+    plan: Plan,
+    rest: _Rest,
+    said: dict[str, Any],
 ) -> Run:
     sensors, line = result.sensors, overhead.form.line
     t: FloatArray = sensors.t
@@ -350,6 +367,7 @@ def _recorded(
             "contact": plan.touch.kind,
             "contact stiffness [N/m]": plan.touch.stiffness,
             "integrator": result.provenance["settings"]["integrator"],
+            **said,
         },
     )
 

@@ -20,6 +20,7 @@ from .line_options import (
     OutputStep,
     PantographFile,
     Pantographs,
+    Reduce,
     ResponseFile,
     ResponseKind,
     Roof,
@@ -71,6 +72,7 @@ def catenary_run(
     roof: Roof = None,
     underside: Underside = None,
     measure: Measure = None,
+    reduce: Reduce = False,
     output_step: OutputStep = None,
     states: States = True,
     report: Report = True,
@@ -94,7 +96,7 @@ def catenary_run(
             "step": step,
         }
         options |= {"output_step": output_step, "until": until, "contact_stiffness": contact_stiffness}
-        options |= {"mesh": mesh, "roof": roof, "underside": underside}
+        options |= {"mesh": mesh, "roof": roof, "underside": underside, "reduce": reduce or None}
         run_line(line, speed, pantograph, options, output, report, states, quiet, given, to, measure)
 
 

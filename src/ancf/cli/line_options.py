@@ -103,6 +103,10 @@ Measure = Annotated[
         metavar="FILE", help="TOML with the sensors of a measuring pantograph, beside the true force."
     ),
 ]
+Reduce = Annotated[
+    bool,
+    typer.Option("--reduce", help="Let spans that no pantograph is near move by their modes: long lines."),
+]
 ResponseFile = Annotated[
     Path, typer.Argument(metavar="RESPONSE.csv", help="Measured frequency response.", show_default=False)
 ]

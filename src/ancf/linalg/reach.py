@@ -119,6 +119,29 @@ def solve_near(factor, n, x, low, high, count, spread):
     return pieces
 
 
+@inline_kernel
+def solve_ranges(factor, x, low, high, count):
+    """The same where the rows between the ranges are coupled to nothing; the ranges stay as they are."""
+    row_start, column, L = factor.row_start, factor.column, factor.L
+    LT, D_inv = factor.LT, factor.D_inv
+    for k in range(count):
+        for i in range(low[k], high[k]):
+            s = load_six(x, 6 * i)
+            for m in range(row_start[i], row_start[i + 1]):
+                s = s - times(LT, 36 * m, x, 6 * column[m])
+            store_six(s, x, 6 * i)
+    for k in range(count):
+        for i in range(low[k], high[k]):
+            store_six(times(D_inv, 36 * i, x, 6 * i), x, 6 * i)
+    for k in range(count - 1, -1, -1):
+        for i in range(high[k] - 1, low[k] - 1, -1):
+            f0, f1, f2 = every(x[6 * i]), every(x[6 * i + 1]), every(x[6 * i + 2])
+            f3, f4, f5 = every(x[6 * i + 3]), every(x[6 * i + 4]), every(x[6 * i + 5])
+            for m in range(row_start[i], row_start[i + 1]):
+                j = 6 * column[m]
+                store_six(load_six(x, j) - columns(L, 36 * m, f0, f1, f2, f3, f4, f5), x, j)
+
+
 def spread_of(factor: Factor, n: int | None = None) -> int:
     """Largest distance of a block of L from the diagonal, at least 1; of its first n rows alone if given."""
     rows = range(len(factor.row_start) - 1 if n is None else n)

@@ -11,6 +11,7 @@ from ..addresses import caller
 from ..batches import add_tangents
 from ..compiled import formula, separate_kernel
 from ..linalg.border import clear_rows, forget_columns, renew_border
+from ..records import type_of
 from ..system.core import (
     Core,
     assemble,
@@ -23,10 +24,12 @@ from ..system.core import (
 )
 from .balance import balance
 from .corotation import remember, turn_forth, turn_rows
+from .far import begin_far, end_far, isolate, show_far
 from .low_rank import forget
 from .memory import H_FACTOR, WORST
 from .renewal import renewed
 from .sampling import Sampling, note_now, sample
+from .scheme import Scheme
 from .status import FACTORIZATIONS, JACOBIANS
 
 #: Share of the tolerance up to which constraints need no shift.
@@ -42,6 +45,9 @@ class Apart(NamedTuple):
     balance: int  # something dissipates, or loads do work
     note: int  # sensors that take accelerations or reactions
     sample: int  # sensors
+    begin_far: int  # of a line parts that can sleep
+    end_far: int
+    show_far: int
 
 
 @separate_kernel
@@ -49,6 +55,7 @@ def new_matrix(core, s, h, B, G):
     """Make and factorise the matrix of a step h in the present state; whether that is possible."""
     assemble(core.batches, core.ws, s.q, s.v, core.A, 1.0 / B, G / B, 1.0)
     restrict(core.supports, core.A)
+    isolate(core.far, core.factor, core.A)
     remember(s.frames, s.q)
     s.counts[JACOBIANS] += 1
     s.counts[FACTORIZATIONS] += 1
@@ -104,6 +111,7 @@ def project(core, s, tolerance, corotate, w0, w1, w2):
 
 _new_matrix, _renew_tail, _project = caller(types.boolean), caller(types.boolean), caller(types.float64)
 _balance, _note, _sample = caller(types.none), caller(types.none), caller(types.none)
+_begin_far, _end_far, _show_far = caller(types.none), caller(types.boolean), caller(types.none)
 
 
 @formula
@@ -144,6 +152,26 @@ def take_sample(apart, sampling, s, row):
         _sample(apart.sample, (sampling, s.q, s.v, row))
 
 
+@formula
+def begin_parts(apart, core, s, h, scheme, gb, ib):
+    """See :func:`ancf.solvers.far.begin_far`; nothing happens where nothing can sleep."""
+    if apart.begin_far != 0:
+        _begin_far(apart.begin_far, (core, s, h, scheme, gb, ib))
+
+
+@formula
+def end_parts(apart, core, s, scheme, gb, ib):
+    """See :func:`ancf.solvers.far.end_far`."""
+    return apart.end_far != 0 and _end_far(apart.end_far, (core, s, scheme, gb, ib))
+
+
+@formula
+def show_parts(apart, core, s, whole):
+    """See :func:`ancf.solvers.far.show_far`."""
+    if apart.show_far != 0:
+        _show_far(apart.show_far, (core, s, whole))
+
+
 def needed(core: Core, sampling: Sampling, explicit: bool) -> tuple[bool, ...]:
     """Which of :class:`Apart` a model needs."""
     joints, implicit = core.joints, not explicit
@@ -154,13 +182,14 @@ def needed(core: Core, sampling: Sampling, explicit: bool) -> tuple[bool, ...]:
         bool(core.damped or core.loaded),
         len(sampling.moved) > 0 or len(sampling.pushed) > 0,
         sampling.width > 0,
+        *(3 * (implicit and bool(core.far) and len(core.far[0].part) > 0,)),
     )
 
 
 def apart_of(core: Any, memory: Any, sampling: Any, wanted: tuple[bool, ...]) -> Apart:
     """Those that are wanted, for arrays of these types; they are compiled if they were not."""
     flag, number, vector = types.boolean, types.float64, types.Array(types.float64, 1, "C")
-    both = core, memory
+    both, scheme = (core, memory), type_of(Scheme(0.0, 0.0, 0.0, 0.0))
     kernels: list[tuple[Any, Any, tuple[Any, ...]]] = [
         (new_matrix, flag, (*both, number, number, number)),
         (renew_tail, flag, (*both, flag, number, number)),
@@ -168,6 +197,9 @@ def apart_of(core: Any, memory: Any, sampling: Any, wanted: tuple[bool, ...]) ->
         (balance, types.none, (*both, number)),
         (note_now, types.none, (*both, sampling)),
         (sample, types.none, (sampling, vector, vector, vector)),
+        (begin_far, types.none, (*both, number, scheme, number, number)),
+        (end_far, flag, (*both, scheme, number, number)),
+        (show_far, types.none, (*both, flag)),
     ]
     found = [
         addresses.address_of(kernel, given, result) if needs else 0

@@ -24,7 +24,7 @@ BLOCK = types.UniTuple(types.int64, 2)
 _TABLES = Tables(np.zeros((0, 0, 3)), np.zeros((0, 0, 3)), np.zeros((0, 0, 3, 3, 3)))
 _RULE = Rule(0.0, 0.0, 0, True, True, 0.0, 0.0, 0.0, True, 0.0, 0, 0)
 _BEGIN = type_of(_TABLES), types.float64
-_END = type_of(Output.of(0, 0, 0, 0)), type_of(Apart(0, 0, 0, 0, 0, 0))
+_END = type_of(Output.of(0, 0, 0, 0)), type_of(Apart(*[0] * len(Apart._fields)))
 _KEPT = types.Array(types.int64, 1, "C")
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from ..compiled import inline_kernel, optional
 from ..linalg.reach import solve_near
 from ..system.core import to_local
+from ..system.far import add_far, hush
 from ..system.near import SEGMENT, clear_beyond, residual_near
 from .low_rank import correct
 
@@ -92,6 +93,8 @@ def _iterate(nearby, core, s, limit, gb, ib):
     near, n = nearby[0], core.weight.shape[0]
     count = unsettled(near, SETTLED * limit, n // 6)
     residual_near(near, count, n, core.ws, s.q, s.v, s.a, s.f, s.r)
+    add_far(core.far[0], s)
+    hush(core.far[0], near.low, near.high, count, s.r)
     to_local(core.supports, s.r)
     clear_beyond(near, count, n // 6, s.r)
     count = solve_near(core.factor, core.joints.first, s.r, near.low, near.high, count, near.spread)

@@ -33,10 +33,21 @@ from ..system.core import (
     has_rows,
     inverted_section,
 )
-from .apart import book, matrix_anew, projected, tail_anew, take_note, take_sample
+from .apart import (
+    begin_parts,
+    book,
+    end_parts,
+    matrix_anew,
+    projected,
+    show_parts,
+    tail_anew,
+    take_note,
+    take_sample,
+)
 from .carry import carry, unbalanced
 from .corotation import turn
 from .entwined import hold, let_go, solve_apart, solve_entwined
+from .far import asleep, finish_awake, iterate_awake, predict_awake, restore_awake
 from .low_rank import move_on
 from .memory import ETA, H_FACTOR, NOISE, NORM, WORST
 from .near import iterate, take_all
@@ -52,6 +63,7 @@ from .status import (
     OK,
     SINGULAR,
     SLOW,
+    TURN,
 )
 
 #: Least theta/(1 - theta) that is believed before a step has shown its own contraction, and the power that
@@ -172,7 +184,9 @@ def newton(core, s, h, rule, modified, B, G, apart):
             renew, fresh, older, old, eta, since, whole = False, True, -1.0, -1.0, 1.0, 0, True
         if iteration == PATIENT:
             hold(core.entwined, s.q)
-        if whole:
+        if whole and asleep(core.far):
+            norm = iterate_awake(core.far, core.near, core, s, G / B, 1.0 / B)
+        elif whole:
             unbalanced(core, s, h)
             solve_apart(core, s, rule, G / B)
             solve_entwined(core.entwined, core, s, rule, G / B)
@@ -256,8 +270,11 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out, apart):
     for n in range(keep.shape[0]):
         external_force(core.loads, tables.value[n], s.f)
         for attempt in range(rule.first, rule.last + 1):
-            predict(s, h, scheme, 1.0 if attempt == 0 else 0.0)
+            keeps = 1.0 if attempt == 0 else 0.0
+            if not predict_awake(core.far, s, h, scheme, keeps, core.weight.shape[0]):
+                predict(s, h, scheme, keeps)
             drive(core.supports, core.loads.value, tables, n, s.q, s.v, s.a)
+            begin_parts(apart, core, s, h, scheme, G / B, 1.0 / B)
             status = newton(core, s, h, rule, rule.modified and attempt < LAST, B, G, apart)
             let_go(core.entwined)
             if status == OK:
@@ -268,23 +285,30 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out, apart):
                 break
             if status != SINGULAR and status != INVERTED and status != FAR:  # else it says where already
                 s.memo[WORST] = worst_unknown(s, core.weight)
-            restore(s)
+            if not restore_awake(core.far, s, core.weight.shape[0]):
+                restore(s)
             s.memo[H_FACTOR], s.memo[ETA] = 0.0, 1.0
         if status != OK:
             return n, status
         carry(core, s, h)
-        finish(s, h, scheme)
+        if not finish_awake(core.far, s, h, scheme, core.weight.shape[0]):
+            finish(s, h, scheme)
+        turn = end_parts(apart, core, s, scheme, G / B, 1.0 / B)
         book(apart, core, s, h)
         if n < out.samples.shape[0]:
             take_note(apart, core, s, sampling)
         remember_all(core.remembering, s.q, s.v)
         if keep[n] >= 0:
+            show_parts(apart, core, s, True)
             for i in range(s.q.shape[0]):
                 out.q[keep[n], i], out.v[keep[n], i] = s.q[i], s.v[i]
+            show_parts(apart, core, s, False)
             out.work[keep[n], 0], out.work[keep[n], 1] = s.work[0], s.work[1]
         if n < out.samples.shape[0]:
             take_sample(apart, sampling, s, out.samples[n])
         event = find_events(core.joints.tail, s.q)
         if event >= 0:
             return n + 1, EVENT + event
+        if turn:
+            return n + 1, TURN
     return keep.shape[0], status

@@ -37,6 +37,12 @@ def predict(s, h, scheme, keep):
     alone would triple them.  With fewer steps known it is a_n + a_n-1 - a_n-2, or a_n-1.  keep = 0 is the
     cautious guess of no acceleration.
     """
+    predict_rows(s, h, scheme, keep, 0, s.q.shape[0])
+
+
+@formula
+def predict_rows(s, h, scheme, keep, first, last):
+    """The same for some of the unknowns alone."""
     am, af = scheme.alpha_m, scheme.alpha_f
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
     hh, be, ga = h * h, scheme.beta, scheme.gamma
@@ -48,7 +54,7 @@ def predict(s, h, scheme, keep):
         w1, w2 = keep, -keep
     elif known >= 1.0:
         w0, w1 = 0.0, keep
-    for i in range(s.q.shape[0]):
+    for i in range(first, last):
         q, v, a = s.q[i], s.v[i], s.a[i]
         s.q0[i], s.v0[i], s.a0[i] = q, v, a
         guess = w0 * a + w1 * s.a1[i] + w2 * s.a2[i] + w3 * s.a3[i]
@@ -62,20 +68,38 @@ def predict(s, h, scheme, keep):
 @formula
 def restore(s):
     """Back to the start of the step."""
-    for i in range(s.q.shape[0]):
+    restore_rows(s, 0, s.q.shape[0])
+
+
+@formula
+def restore_rows(s, first, last):
+    """The same for some of the unknowns alone."""
+    for i in range(first, last):
         s.q[i], s.v[i], s.a[i] = s.q0[i], s.v0[i], s.a0[i]
 
 
 @formula
 def finish(s, h, scheme):
     """Accept the step: algorithmic acceleration and memory of the predictor."""
+    finish_rows(s, scheme, 0, s.a.shape[0])
+    note_step(s, h)
+
+
+@formula
+def finish_rows(s, scheme, first, last):
+    """The same for some of the unknowns alone, without counting the step."""
     am, af = scheme.alpha_m, scheme.alpha_f
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
-    for i in range(s.a.shape[0]):
+    for i in range(first, last):
         s.abar[i] = c1 * s.a[i] + c2 * s.a0[i] + c3 * s.abar[i]
         s.a3[i] = s.a2[i]
         s.a2[i] = s.a1[i]
         s.a1[i] = s.a0[i]
+
+
+@formula
+def note_step(s, h):
+    """Count a step of this length."""
     s.memo[KNOWN] = s.memo[KNOWN] + 1.0 if s.memo[H_PREV] == h else 1.0
     s.memo[H_PREV] = h
     s.counts[STEPS] += 1

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Callable
+from contextlib import nullcontext
 from functools import cached_property
 from typing import Any, NoReturn
 
@@ -27,6 +28,8 @@ from .checkpoint import Snapshot, Watched, copies, refill
 from .control import Control
 from .corotation import flies, turning_nodes
 from .events import happen
+from .far_arrays import FarPlan
+from .far_spans import FarSpans
 from .formulations import FORMULATIONS
 from .low_rank import room_for_patches
 from .memory import H_FACTOR, H_PREV, KNOWN, WORST, Memory, allocate
@@ -37,7 +40,7 @@ from .sampling import Output, note_now, sample, sampling_of
 from .scheme import Scheme
 from .span import Span
 from .start import consistent_start
-from .status import EVENT, INVERTED, OK, SLOW
+from .status import EVENT, INVERTED, OK, SLOW, TURN
 
 BLOCK_SECONDS = 0.1  # between two looks at the keyboard, the progress and the file
 BLOCK_BYTES = 32e6  # of stored states, and of samples
@@ -80,6 +83,7 @@ class Run:
         self.memory: Memory = allocate(system.size, turning_nodes(system), room_for_patches(system))
         self.sampling = sampling_of(system)
         self.bridge = Bridge(self)
+        self.far: FarSpans | None = None
         self.seconds = 0.0
         self.astray, self.exchanged = (
             0.0,
@@ -120,6 +124,16 @@ class Run:
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         self._compile(first)
 
+    def reduce(self, plan: FarPlan) -> FarSpans:
+        """Let parts of a line sleep that nothing touches; after :meth:`start`."""
+        begin = clock.process_time()
+        self.far = FarSpans(self.system, self.memory, plan, self.sampling.unknowns, self.h)
+        self.far.begin()
+        self.seconds += clock.process_time() - begin
+        self.__dict__.pop("kernels", None)
+        _ = self.kernels  # there are more now: they are compiled outside the CPU time of the run
+        return self.far
+
     def _compile(self, tables: Tables) -> None:
         """No steps yet: this compiles, outside the CPU time of the run."""
         none, nothing = np.zeros(0, dtype=np.int64), self.room(0, 0)
@@ -135,7 +149,11 @@ class Run:
         return n, status
 
     def snapshot(self) -> Snapshot:
-        """All that decides how the run goes on, copied."""
+        """All that decides how the run goes on, copied; of a line as if no part of it slept."""
+        with nullcontext() if self.far is None else self.far.woken():
+            return self._snapshot()
+
+    def _snapshot(self) -> Snapshot:
         values = {name: getattr(self, name) for name in self.KEPT}
         values |= {"parts": self.bridge.parts, "inputs": dict(self.system.inputs.given)}
         own = copies({"memory": self.memory, "energy0": self.energy0})
@@ -263,6 +281,8 @@ class Run:
                 if status >= EVENT:
                     self.happened(status - EVENT, self.time(done + first), done + first)
                     self.store(row[first - 1], first - 1, out)
+                elif status == TURN:
+                    self.turn()
                 elif status != OK:
                     self.bridged(self.time(done + first), h, done + first + 1)
                     self.store(row[first], first, out)
@@ -317,8 +337,15 @@ class Run:
         """All that steps one by one take, with room for so many of them."""
         return Implicit(**shared(self, rows), scheme=self.scheme, rule=self.rule(self.h))
 
+    def turn(self) -> None:
+        """Parts of a line wake or fall asleep."""
+        if self.far is not None:
+            self.far.turn()
+
     def bridged(self, t: float, h: float, number: int) -> None:
-        """Step ``number`` from t to t + h, which has failed."""
+        """Step ``number`` from t to t + h, which has failed; no part sleeps in it."""
+        if self.far is not None:
+            self.far.wake_all()
         self.bridge.cross(t, h, number)
 
     def stop(self, t: float, number: int, status: int, h: float) -> NoReturn:

@@ -44,6 +44,7 @@ from ..model.torsion import TorsionSpring
 from ..model.winches import by_body
 from . import loads
 from .core import Core, Joints, Loads, Supports
+from .far import no_far
 from .matrix import Places, block_pairs
 from .near import near_of
 from .numbering import Numbering
@@ -199,6 +200,7 @@ def make_core(
     factor = allocate(places.row_start, places.column)
     external, rubbing = with_role(batches, Role.EXTERNAL), with_role(batches, Role.RUBS)
     losing = [b for b in batches if _damped(b) and Role.RUBS not in traits(b).role]
+    near = near_of(batches, factor, supports.rot_slot, len(weight)) if _is_line(parts) else ()
     return Core(
         batches=Batches(batches),
         external=Batches(external),
@@ -207,7 +209,8 @@ def make_core(
         inertial=Batches(alone(b) for b in losing if (alone := traits(b).inertial)),
         remembering=Batches(b for b in batches if traits(b).memory),
         entwined=tuple(b for b in batches if isinstance(b, StrandBatch) and not isinstance(b, GripBatch)),
-        near=near_of(batches, factor, supports.rot_slot, len(weight)) if _is_line(parts) else (),
+        near=near,
+        far=(no_far(),) if near else (),
         ws=workspace(),
         A=np.zeros(places.size),
         factor=factor,

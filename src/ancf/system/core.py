@@ -96,6 +96,7 @@ class Core(NamedTuple):
     remembering: Batches  # of them those with a memory
     entwined: tuple[Any, ...]  # contacts between cables, which are not in the matrix: one batch or none
     near: tuple[Any, ...]  # of a line what evaluates a part of them, see near: one or none
+    far: tuple[Any, ...]  # of a line what of it may be reduced, see far: one or none
     ws: FloatArray  # workspace of the element kernels
     A: FloatArray  # values of the iteration matrix in 6x6 blocks
     factor: Factor

@@ -30,7 +30,7 @@ class Near(NamedTuple):
     every: IntArray  # (k, 8) groups of all cable elements
     groups: IntArray  # (runs, 8) runs of chunks that touch a range
     touched: IntArray  # (chunks, 2) first block that a chunk touches, and the one behind the last
-    low: IntArray  # (segments,) the ranges
+    low: IntArray  # (blocks/2 + 2,) the ranges
     high: IntArray
     peak: FloatArray  # (segments,) largest correction in the last iteration
     spread: int  # largest distance of a block of L from the diagonal
@@ -58,7 +58,8 @@ def near_of(batches: tuple[Any, ...], factor: Factor, shadows: IntArray, n: int)
     groups = np.zeros((len(batch.groups) + len(touched) // 2 + 1, batch.groups.shape[1]), dtype=np.int64)
     some = list(batches)
     some[cables[0]] = batch._replace(groups=groups)
-    low, high, peak = (np.zeros(-(-n // (6 * SEGMENT)), dtype=kind) for kind in (int, int, float))
+    low, high = (np.zeros(n // 12 + 2, dtype=np.int64) for _ in range(2))  # as many as blocks let there be
+    peak = np.zeros(-(-n // (6 * SEGMENT)))
     near = Near(
         Batches(some), batch.groups, groups, np.ascontiguousarray(touched), low, high, peak, spread_of(factor)
     )
@@ -67,11 +68,15 @@ def near_of(batches: tuple[Any, ...], factor: Factor, shadows: IntArray, n: int)
 
 @inline_kernel
 def is_touched(near, chunk, count):
-    """Whether a chunk touches one of the ranges."""
-    for k in range(count):
-        if near.touched[chunk, 0] < near.high[k] and near.touched[chunk, 1] > near.low[k]:
-            return True
-    return False
+    """Whether a chunk touches one of the ranges, which ascend."""
+    low, high = 0, count
+    while low < high:  # the first range that ends behind where the chunk begins
+        k = (low + high) // 2
+        if near.high[k] > near.touched[chunk, 0]:
+            high = k
+        else:
+            low = k + 1
+    return low < count and near.low[low] < near.touched[chunk, 1]
 
 
 @inline_kernel

@@ -1,0 +1,326 @@
+"""What of a line can sleep: parts between given boundaries, their matrices and their modes.
+
+Craig and Bampton's substructures, Coupling of substructures for dynamic analyses, AIAA Journal 6 (1968) 1313.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve, eigh
+from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import connected_components
+
+from ..arrays import BoolArray, FloatArray, IntArray
+from ..compiled import traits
+from ..elements.cable import DA_L, DB_L, EA_L, EI_L, MASS, CableBatch
+from ..system.core import apply_load, assemble, residual
+from ..system.matrix import Places
+from ..system.system import System
+
+#: Blocks of which a part consists at least: smaller ones are not worth it.
+FEWEST = 24
+#: Share of the largest entries up to which the matrices of two parts are alike.
+ALIKE = 1e-4
+#: Rows of the cables' constants that are zero in sleep.
+ASLEEP_ROWS = (EA_L, EI_L, DA_L, DB_L, MASS)
+#: Batches that a line with parts may have.
+KNOWN = ("springs", "bodies", "contacts")
+
+
+class Part(NamedTuple):
+    """A part of a line: unknowns, cable elements and springs of its own."""
+
+    inner: IntArray  # unknowns inside that move
+    edge: IntArray  # unknowns of its boundary that move
+    blocks: IntArray
+    elements: IntArray  # of the cables' batch
+    springs: IntArray
+
+
+class Kind(NamedTuple):
+    """Parts that are alike: modes with a boundary that is fixed, and the boundary itself.
+
+    ``inside`` are the columns [Psi Phi] of the unknowns inside, (inner, edge + modes), ``project`` gives the
+    modes of displacements with x = 0, (modes, inner).
+    """
+
+    square: FloatArray
+    loss: FloatArray
+    drag: FloatArray
+    coupling: FloatArray
+    inside: FloatArray
+    project: FloatArray
+    mass: FloatArray
+    damping: FloatArray
+    stiffness: FloatArray
+
+
+def cables_of(system: System) -> CableBatch | None:
+    """The cables of a system in which nothing keeps parts from sleeping; None in others."""
+    found = [b for b in system.parts.values() if isinstance(b, CableBatch) and len(b.base)]
+    others = [n for n, b in system.parts.items() if len(b[0]) and n not in KNOWN and b not in found]
+    plain = not system.core.accounted and not system.constraints.rotations and not len(system.multipliers)
+    return found[0] if len(found) == 1 and not others and plain and system.core.near else None
+
+
+def parts_of(system: System, cables: CableBatch, cuts: IntArray) -> list[Part]:
+    """The parts between blocks that cut a line, with nothing but cables between those and what is inside."""
+    n, pairs = system.numbering.blocks, system.pairs
+    cut = np.zeros(n, dtype=bool)
+    cut[cuts] = True
+    inside = pairs[~cut[pairs].any(axis=1)]
+    graph = coo_array((np.ones(len(inside)), (inside[:, 0], inside[:, 1])), shape=(n, n))
+    number = connected_components(graph, directed=False)[1]
+    number[cut] = -1
+    free = np.zeros(system.size, dtype=bool)
+    free[system.free] = True
+    reached = [_blocks_of(batch, n) for batch in (cables, system.parts["springs"])]
+    driven = set((system.inputs.prescribed // 6).tolist())
+    parts = []
+    for k in np.flatnonzero(np.bincount(number[~cut], minlength=1) >= FEWEST):
+        mine = number == k
+        blocks = np.flatnonzero(mine)
+        touching = pairs[mine[pairs].any(axis=1)]
+        edge = np.setdiff1d(touching, blocks)
+        of_cables, of_springs = (_touching(table, mine) for table in reached)
+        if driven & {*blocks.tolist(), *edge.tolist()} or not _is_closed(
+            system, mine, of_springs, reached[1]
+        ):
+            continue
+        if len(edge):
+            parts.append(Part(_free(free, blocks), _free(free, edge), blocks, of_cables, of_springs))
+    return parts
+
+
+def _free(free: BoolArray, blocks: IntArray) -> IntArray:
+    """Unknowns of blocks that move."""
+    unknowns: IntArray = (6 * blocks[:, None] + np.arange(6)).ravel()
+    return unknowns[free[unknowns]]
+
+
+def _blocks_of(batch: Any, none: int) -> IntArray:
+    """Blocks of the unknowns of each part of a batch, ``none`` where there is none."""
+    base: IntArray = getattr(batch, traits(batch).slots[0])
+    blocks: IntArray = np.where(base >= 0, base // 6, none)
+    return blocks
+
+
+def _touching(table: IntArray, mine: BoolArray) -> IntArray:
+    return np.flatnonzero(np.append(mine, False)[table].any(axis=1))
+
+
+def _is_closed(system: System, mine: BoolArray, springs: IntArray, table: IntArray) -> bool:
+    """Whether springs and bodies are inside altogether, and the springs carry at rest by their stiffness."""
+    within = np.append(mine, True)[table[springs]].all()
+    batch = system.parts["springs"]
+    plain = (
+        not batch.data[springs, 4].any()
+        and not np.diff(batch.begins)[np.r_[2 * springs, 2 * springs + 1]].any()
+    )
+    return bool(within and plain)
+
+
+def in_order(system: System, parts: list[Part]) -> list[Part]:
+    """The same parts with their unknowns sorted along their wires, so that parts that are alike show it."""
+    key = np.zeros(system.numbering.blocks, dtype=np.int64)
+    begin = 0
+    for slots in reversed(system.numbering.slots.values()):
+        blocks = slots // 6
+        key[blocks] = begin - np.arange(len(blocks), 0, -1)[:, None]
+        begin -= len(blocks)
+
+    def sort(unknowns: IntArray) -> IntArray:
+        return unknowns[np.lexsort((unknowns % 6, unknowns // 6, key[unknowns // 6]))]
+
+    return [part._replace(inner=sort(part.inner), edge=sort(part.edge)) for part in parts]
+
+
+class Blocks(NamedTuple):
+    """A symmetric matrix of a part: inside, between inside and boundary, and on the boundary."""
+
+    inner: Any  # sparse (inner, inner)
+    mixed: Any  # sparse (inner, edge)
+    edge: FloatArray  # (edge, edge), of the part alone
+
+
+class Matrices:
+    """Mass, damping and stiffness of a line at rest, and of parts of it alone.
+
+    Parameters
+    ----------
+    system : System
+    cables : CableBatch
+    parts : list of Part
+    q : ndarray, shape (size,)
+        The line at rest without strips.
+    """
+
+    def __init__(self, system: System, cables: CableBatch, parts: list[Part], q: FloatArray) -> None:
+        self.system, self.q = system, q
+        self._pattern = _pattern(system.places)
+        self.whole, self.force = self._all(), self._residual()
+        self.others = []
+        for number in range(2):  # neighbours share a boundary: every other part is taken away at a time
+            mine = [(part, sleep(cables, part)) for part in parts[number::2]]
+            self.others.append((self._all(), self._residual()))
+            for part, kept in mine:
+                wake(cables, part, kept)
+
+    def of_part(self, k: int, part: Part) -> tuple[list[Blocks], FloatArray]:
+        """M, C and K of part k, and its forces on its boundary at rest, N."""
+        others, force = self.others[k % 2]
+        i, b = part.inner, part.edge
+        found = []
+        for matrix, other in zip(self.whole, others, strict=True):
+            rows = matrix[i]
+            on_edge = matrix[b][:, b] - other[b][:, b]
+            found.append(Blocks(rows[:, i], rows[:, b], on_edge.toarray()))
+        return found, self.force[b] - force[b]
+
+    def _all(self) -> list[csr_array]:
+        return [self._one(*which) for which in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
+
+    def _one(self, mass: float, damping: float, stiffness: float) -> csr_array:
+        core = self.system.core
+        assemble(core.batches, core.ws, self.q, np.zeros_like(self.q), core.A, mass, damping, stiffness)
+        pattern, place = self._pattern
+        return csr_array((core.A[place], pattern.indices, pattern.indptr), shape=pattern.shape)
+
+    def _residual(self) -> FloatArray:
+        core, zero = self.system.core, np.zeros(self.system.size)
+        f, r = np.zeros_like(zero), np.zeros_like(zero)
+        now = self.system.inputs.tables(-1e-3, 1e-3, 1, 0.0, np.inf, (self.q, zero), still=True)
+        apply_load(core.loads, now.value[0], f)
+        residual(core.batches, core.ws, self.q, zero, zero, f, r)
+        return r
+
+
+def _pattern(places: Places) -> tuple[csr_array, IntArray]:
+    """Where the entries of the symmetric matrix stand, and their places in the values of its lower half."""
+    n, at = places.n, np.arange(6)
+    inside = 6 * np.maximum(at[:, None], at) + np.minimum(at[:, None], at)
+    below = 36 * (n + np.arange(len(places.column)))[:, None, None] + 6 * at[:, None] + at
+    place = np.concatenate([36 * np.arange(n)[:, None, None] + inside, below, below.transpose(0, 2, 1)])
+    i = np.concatenate([np.arange(n), places.rows, places.column])
+    j = np.concatenate([np.arange(n), places.column, places.rows])
+    rows = np.broadcast_to((6 * i)[:, None, None] + at[:, None], place.shape)
+    columns = np.broadcast_to((6 * j)[:, None, None] + at, place.shape)
+    numbers = np.arange(place.size) + 1  # not 0: a place that is none
+    made = csr_array((numbers, (rows.ravel(), columns.ravel())), shape=(6 * n, 6 * n))
+    return made, place.ravel()[made.data - 1]
+
+
+def sleep(cables: CableBatch, part: Part) -> list[FloatArray]:
+    """Take stiffness and mass from the cables of a part; what was taken."""
+    chunk, lane = _lanes(cables, part)
+    kept = [cables.lane_data[chunk, row, lane].copy() for row in ASLEEP_ROWS]
+    kept.append(cables.lane_slope[chunk, 0, lane].copy())
+    for row in ASLEEP_ROWS:
+        cables.lane_data[chunk, row, lane] = 0.0
+    cables.lane_slope[chunk, 0, lane] = 0.0
+    return kept
+
+
+def wake(cables: CableBatch, part: Part, kept: list[FloatArray]) -> None:
+    """Give it back."""
+    chunk, lane = _lanes(cables, part)
+    for row, values in zip(ASLEEP_ROWS, kept[:-1], strict=True):
+        cables.lane_data[chunk, row, lane] = values
+    cables.lane_slope[chunk, 0, lane] = kept[-1]
+
+
+def _lanes(cables: CableBatch, part: Part) -> tuple[IntArray, IntArray]:
+    chunk = np.searchsorted(cables.first, part.elements, side="right") - 1
+    return chunk, part.elements - cables.first[chunk]
+
+
+class Shapes(NamedTuple):
+    """Modes of a part whose boundary is fixed, up to a frequency."""
+
+    inner: tuple[Any, Any]  # mass and stiffness that have them, sparse
+    square: FloatArray  # (modes,)
+    modes: FloatArray  # (inner, modes)
+
+
+def shapes_of(blocks: list[Blocks], frequency: float, aside: BoolArray, known: list[Shapes]) -> Shapes:
+    """Modes of a part, taken from a ``known`` one that it is like, or whose mirror image it is like.
+
+    Modes are left out in which hardly anything moves but what is ``aside``, (inner,): in these directions
+    nothing acts on a part.
+    """
+    mass, _, stiffness = (one.inner for one in blocks)
+    for other in known:
+        for sign in (np.ones(len(aside)), np.where(aside, -1.0, 1.0)):
+            turned = [_turned(x, sign) for x in (mass, stiffness)]
+            if alike(other.inner, turned):
+                return Shapes((mass, stiffness), other.square, sign[:, None] * other.modes)
+    M, omega = mass.toarray(), 2.0 * np.pi * frequency
+    square, modes = eigh(stiffness.toarray(), M, subset_by_value=(-np.inf, omega * omega))
+    wanted = np.einsum("ik,ik->k", modes[~aside], (M @ modes)[~aside]) > LEAST
+    return Shapes((mass, stiffness), square[wanted], modes[:, wanted])
+
+
+def _turned(matrix: Any, sign: FloatArray) -> Any:
+    """A sparse matrix whose rows and columns have these signs."""
+    rows = np.repeat(np.arange(len(sign)), np.diff(matrix.indptr))
+    data = matrix.data * sign[rows] * sign[matrix.indices]
+    return csr_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
+
+
+def reduced(blocks: list[Blocks], shapes: Shapes, shift: float) -> Kind:
+    """A part by its modes and its boundary."""
+    mass, damping, stiffness = blocks
+    modes = shapes.modes
+    dynamic = (stiffness.inner + shift * mass.inner).toarray()
+    psi = -cho_solve(cho_factor(dynamic), (stiffness.mixed + shift * mass.mixed).toarray())
+    moved = (mass.inner @ modes).T
+    coupling = modes.T @ mass.mixed + moved @ psi
+    slowed = (damping.inner @ modes).T
+    lost = modes.T @ damping.mixed + slowed @ psi
+    size = np.sum(coupling * coupling, axis=1)
+    drag = np.sum(lost * coupling, axis=1) / np.where(size > 0.0, size, 1.0)
+    return Kind(
+        shapes.square,
+        np.einsum("ki,ik->k", slowed, modes),
+        drag,
+        coupling,
+        np.hstack([psi, modes]),
+        moved,
+        *(_condensed(psi, one) for one in blocks),
+    )
+
+
+#: Share of the highest frequency of the modes from which the shift is made: with a higher one static
+#: deflections would be made of ever more modes, with a lower one the ends of a part get a common mass.
+SHIFTED = 1.0 / 8.0
+#: Least share of the kinetic energy of a mode that is not aside.
+LEAST = 1e-2
+
+
+def shift_of(frequency: float) -> float:
+    """The shift for modes up to a frequency, 1/s^2; see :mod:`ancf.system.far`."""
+    return float((2.0 * np.pi * SHIFTED * frequency) ** 2)
+
+
+def _condensed(psi: FloatArray, blocks: Blocks) -> FloatArray:
+    """A matrix of the boundary with Psi^T of what is inside."""
+    half = psi.T @ blocks.mixed
+    return np.ascontiguousarray(blocks.edge + half + half.T + psi.T @ (blocks.inner @ psi))
+
+
+def alike(one: Iterable[Any], other: Iterable[Any]) -> bool:
+    """Whether matrices, sparse ones of one pattern or others, are the same but for little."""
+    for x, y in zip(one, other, strict=True):
+        if x.shape != y.shape:
+            return False
+        a, b = x, y
+        if not isinstance(x, np.ndarray):
+            if not np.array_equal(x.indices, y.indices):
+                return False
+            a, b = x.data, y.data
+        if np.abs(a - b).max(initial=0.0) > ALIKE * np.abs(a).max(initial=0.0):
+            return False
+    return True

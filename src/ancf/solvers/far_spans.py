@@ -1,0 +1,228 @@
+"""FarSpans: which parts of a line sleep, and how they fall asleep and wake."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray, IntArray
+from ..connections.spring_damper import SLACK
+from ..simd import LANES
+from ..system.far import (
+    ASLEEP,
+    AWAY,
+    BAR,
+    CALM,
+    CALMED,
+    DROPPERS,
+    EDGE,
+    HUNG,
+    INNER,
+    NEAR,
+    PLACE,
+    POSITION,
+    RANGES,
+    RATE,
+    SECOND,
+    SHIFT,
+    SLEEPING,
+    WATCHED,
+)
+from ..system.system import System
+from .far_arrays import FarPlan, arrays_of, kinds_of
+from .far_parts import Matrices, Part, cables_of, in_order, parts_of, shift_of, sleep, wake
+from .memory import H_FACTOR, Memory
+
+#: Distance, m, by which a part that may sleep is further from all strips than one that has to wake.
+BETWEEN = 2.0
+#: Time for which droppers have to be taut before a part sleeps, s.
+CALM_TIME = 0.05
+
+
+class FarSpans:
+    """The parts of a line that sleep in a run.
+
+    Parameters
+    ----------
+    system : System
+        Its core gets the parts, and is to be taken anew.
+    memory : Memory
+    plan : FarPlan
+    watched : ndarray of int
+        Unknowns that are recorded in every step.
+    step : float, s
+    """
+
+    def __init__(self, system: System, memory: Memory, plan: FarPlan, watched: IntArray, step: float) -> None:
+        self.system, self.memory = system, memory
+        self.parts: list[Part] = []
+        self.left_out = 0.0  # largest displacement that the modes could not take over, m
+        cables = cables_of(system)
+        if cables is None:
+            return
+        self.cables = cables
+        watched = watched[watched % 6 == plan.acts]
+        parts = in_order(system, parts_of(system, cables, plan.cuts))
+        self.parts = [_watched_first(part, watched) for part in parts if _is_still(system, part)]
+        if not self.parts:
+            return
+        matrices = Matrices(system, cables, self.parts, plan.rest)
+        self.kinds, self.kind_of, forces = kinds_of(matrices, self.parts, plan)
+        self.far = arrays_of(system, self.parts, self.kinds, self.kind_of, forces, plan, watched)
+        self.far.memo[NEAR], self.far.memo[AWAY] = plan.near, plan.near + BETWEEN
+        self.far.memo[SHIFT] = shift_of(plan.frequency)
+        self.far.memo[CALMED] = np.ceil(CALM_TIME / step)
+        self.kept: list[Any] = [None] * len(self.parts)
+        self.touched = system.core.near[0].touched.copy()
+        system.core = system.core._replace(far=(self.far,))
+
+    def begin(self) -> None:
+        """Let sleep what may at the start."""
+        if self.parts:
+            self.far.part[:, CALM] = int(self.far.memo[CALMED])
+            self.turn()
+
+    def turn(self) -> None:
+        """Wake what has to, and let sleep what may."""
+        near = self._distances()
+        taut = self.far.part[:, CALM] > 0
+        calm = self.far.part[:, CALM] >= self.far.memo[CALMED]
+        for k in range(len(self.parts)):
+            if self.far.part[k, ASLEEP]:
+                if near[k] < self.far.memo[NEAR] or not taut[k]:
+                    self._wake(k)
+            elif near[k] > self.far.memo[AWAY] and calm[k]:
+                self._sleep(k)
+        self._ranges()
+
+    def wake_all(self) -> None:
+        """Go on with the whole line."""
+        if self.parts:
+            for k in np.flatnonzero(self.far.part[:, ASLEEP]).tolist():
+                self._wake(k)
+            self._ranges()
+
+    @contextmanager
+    def woken(self) -> Iterator[None]:
+        """The whole line awake for a while; what was asleep sleeps on as if nothing had been."""
+        asleep = np.flatnonzero(self.far.part[:, ASLEEP]).tolist() if self.parts else []
+        if not asleep:
+            yield
+            return
+        kept = [x.copy() for x in self._changed()]
+        self.wake_all()
+        yield
+        for k in asleep:
+            self._still(k)
+        for x, old in zip(self._changed(), kept, strict=True):
+            x[:] = old
+
+    def _changed(self) -> list[Any]:
+        """All that :meth:`wake_all` changes but the constants of cables and springs."""
+        m, far = self.memory, self.far
+        own = [far.part, far.sleeps, far.range, far.counts, self.system.core.near[0].touched]
+        return [m.q, m.v, m.a, m.abar, m.a1, m.a2, m.a3, m.memo, *own]
+
+    def _distances(self) -> FloatArray:
+        """Distances (k,) of the nearest strip, m."""
+        contacts, q = self.system.parts["contacts"], self.memory.q
+        value = np.where(contacts.slot >= 0, contacts.factor * q[np.maximum(contacts.slot, 0)], 0.0)
+        x = value.sum(axis=1) + contacts.offset[:, 0]
+        low, high = self.far.place.T
+        found: FloatArray = np.maximum(np.maximum(low[:, None] - x, x - high[:, None]), 0.0).min(axis=1)
+        return found
+
+    def _sleep(self, k: int) -> None:
+        part, kind, m = self.parts[k], self.kinds[self.kind_of[k]], self.memory
+        psi = kind.inside[:, : len(part.edge)]
+        far, first = self.far, self.far.part[k, EDGE]
+        still = far.still[first : first + len(part.edge)]
+        rest = far.rest[far.part[k, INNER] :][: len(part.inner)]
+        own = m.q[part.inner] - rest - psi @ (m.q[part.edge] - still)
+        y = kind.project @ own
+        left = own - kind.inside[:, len(part.edge) :] @ y
+        self.left_out = max(self.left_out, float(np.abs(left[part.inner % 6 < 3]).max()))
+        v, bar = (kind.project @ (x[part.inner] - psi @ x[part.edge]) for x in (m.v, m.abar))
+        along = m.a[part.edge] - far.memo[SHIFT] * (m.q[part.edge] - still)
+        a = -kind.loss * v - kind.square * y - kind.coupling @ along
+        a -= kind.drag * (kind.coupling @ m.v[part.edge])
+        for row, values in ((POSITION, y), (RATE, v), (SECOND, a), (BAR, bar)):
+            self._put(k, row, values)
+        hidden = self.far.part[k, INNER] + np.arange(far.kind[self.kind_of[k], WATCHED], len(part.inner))
+        m.q[far.inner[hidden]], m.v[far.inner[hidden]] = far.rest[hidden], 0.0
+        self._still(k)
+        far.part[k, ASLEEP] = 1
+
+    def _still(self, k: int) -> None:
+        """Take stiffness and mass from the cables of a part, and let its droppers push."""
+        self.kept[k] = sleep(self.cables, self.parts[k])
+        self.system.parts["springs"].data[self.parts[k].springs, SLACK] = 0.0
+
+    def _wake(self, k: int) -> None:
+        part, kind, m = self.parts[k], self.kinds[self.kind_of[k]], self.memory
+        far, first = self.far, self.far.part[k, EDGE]
+        still = far.still[first : first + len(part.edge)]
+        rest = far.rest[far.part[k, INNER] :][: len(part.inner)]
+        y, v, a, bar = (self._get(k, row) for row in (POSITION, RATE, SECOND, BAR))
+        m.q[part.inner] = rest + kind.inside @ np.append(m.q[part.edge] - still, y)
+        m.v[part.inner] = kind.inside @ np.append(m.v[part.edge], v)
+        m.a[part.inner] = kind.inside @ np.append(m.a[part.edge], a)
+        m.abar[part.inner] = kind.inside @ np.append(m.abar[part.edge], bar)
+        for vector in (m.a1, m.a2, m.a3):
+            vector[part.inner] = m.a[part.inner]
+        wake(self.cables, part, self.kept[k])
+        first = far.part[k, HUNG]
+        self.system.parts["springs"].data[far.hung[first : first + far.part[k, DROPPERS]], SLACK] = 1.0
+        far.part[k, ASLEEP] = far.part[k, CALM] = 0
+
+    def _put(self, k: int, row: int, values: FloatArray) -> None:
+        lanes = self.far.state[row].reshape(-1)
+        first = LANES * self.far.part[k, PLACE]
+        lanes[first : first + len(values)] = values
+
+    def _get(self, k: int, row: int) -> FloatArray:
+        lanes = self.far.state[row].reshape(-1)
+        first = LANES * self.far.part[k, PLACE]
+        found: FloatArray = lanes[first : first + len(self.kinds[self.kind_of[k]].square)]
+        return found
+
+    def _ranges(self) -> None:
+        """Ranges of blocks that are awake; the matrix is another one."""
+        far = self.far
+        far.sleeps[:] = 0
+        for part, row in zip(self.parts, far.part, strict=True):
+            far.sleeps[part.blocks] = row[ASLEEP]
+        change = np.diff(np.concatenate([[1], far.sleeps, [1]]))
+        begin, end = np.flatnonzero(change < 0), np.flatnonzero(change > 0)
+        far.counts[RANGES], far.counts[SLEEPING] = len(begin), int(far.part[:, ASLEEP].sum())
+        far.range[: len(begin), 0], far.range[: len(begin), 1] = begin, end
+        self._chunks()
+        self.memory.memo[H_FACTOR] = 0.0
+
+    def _chunks(self) -> None:
+        """Chunks of cable elements that sleep altogether are not touched by anything."""
+        idle = np.zeros(len(self.cables.base), dtype=bool)
+        for part, row in zip(self.parts, self.far.part, strict=True):
+            idle[part.elements] = row[ASLEEP] != 0
+        first = self.cables.first
+        whole = np.add.reduceat(idle, first[:-1]) == np.diff(first)
+        self.system.core.near[0].touched[:] = np.where(whole[:, None], 0, self.touched)
+
+
+def _is_still(system: System, part: Part) -> bool:
+    """Whether the loads on it are the same at all times."""
+    mine = set(part.inner.tolist())
+    for (slots, _), function in zip(system.patterns, system.inputs.loads, strict=False):
+        timely = not function.constant or function.inputs
+        if timely and mine & set((slots[:, None] + np.arange(3)).ravel().tolist()):
+            return False
+    return True
+
+
+def _watched_first(part: Part, watched: IntArray) -> Part:
+    """Its unknowns with those that are recorded before all others."""
+    seen = np.isin(part.inner, watched)
+    return part._replace(inner=np.concatenate([part.inner[seen], part.inner[~seen]]))

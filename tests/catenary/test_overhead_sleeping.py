@@ -1,0 +1,175 @@
+"""Spans that are reduced to their modes while no pantograph is near, beside the whole line."""
+
+import numpy as np
+import pytest
+from tests.overhead_lines import COARSE, STEP, collector, droppers, short_line
+
+import ancf
+from ancf import catenary
+from ancf.catenary import sleeping
+from ancf.catenary.rest import assemble, form
+from ancf.catenary.stitch import StitchWire
+from ancf.solvers import far_parts
+from ancf.solvers.far_parts import Matrices, cables_of, in_order, parts_of, reduced, shapes_of, shift_of
+from ancf.system.system import System
+
+LINES = {
+    "unequal spans": {},
+    "equal spans": {"spans": [catenary.Span(length=36.0, droppers=droppers(36.0))] * 6, "stagger": 0.2},
+    "a gradient": {"height": (0.0, 0.0, 0.03, 0.06, 0.06, 0.06)},
+}
+
+
+def run(line, reduce, speed=60.0, **given):
+    return catenary.run(
+        line, speed=speed, pantograph=collector(), mesh=COARSE, step=STEP, reduce=reduce, **given
+    )
+
+
+@pytest.mark.parametrize("name", LINES)
+def test_the_whole_line_moves_alike(name):
+    line = short_line(**LINES[name])
+    whole, less = run(line, False), run(line, True)
+    assert less.settings["spans that are reduced while no pantograph is near"] == len(line.spans)
+    force, other = whole.recordings[0].force, less.recordings[0].force
+    late = whole.t > 0.3
+    assert np.std(other[late]) == pytest.approx(np.std(force[late]), rel=5e-3)
+    assert np.mean(other) == pytest.approx(np.mean(force), rel=1e-3)
+    assert np.sqrt(np.mean((other - force) ** 2)) < 0.03 * np.std(force)
+    assert np.abs(less.uplift - whole.uplift).max() < 0.01 * np.abs(whole.uplift).max()
+
+
+def test_two_pantographs_and_finer_modes():
+    """What is left of the difference falls with the modes that are taken."""
+    line, apart = short_line(**LINES["equal spans"]), []
+    given = {"spacing": 30.0, "start": 12.0, "window": (100.0, 140.0)}
+    whole = run(line, False, **given)
+    for frequency in (1.0, 4.0):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(sleeping, "BEYOND", frequency)
+            less = run(line, True, **given)
+        difference = [a.force - b.force for a, b in zip(less.recordings, whole.recordings, strict=True)]
+        apart.append(np.sqrt(np.mean(np.square(difference))))
+    assert apart[1] < 0.5 * apart[0]
+
+
+def test_states_that_are_stored_change_nothing(tmp_path):
+    line = short_line()
+    plain, stored = run(line, True), run(line, True, output_step=0.05, file=tmp_path / "results.h5")
+    assert np.array_equal(plain.recordings[0].force, stored.recordings[0].force)
+    assert np.array_equal(plain.dropper_force, stored.dropper_force)
+    whole = run(line, False, output_step=0.05)
+    wire = whole.result.bodies["contact"]
+    for share in (0.1, 0.45, 0.93):
+        mine, wanted = (r.result.position(f"contact.at({share * wire.length})") for r in (stored, whole))
+        assert np.abs(mine - wanted).max() < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"contact": "joint"}, 'contact="joint"'),
+        ({"controller": lambda run: None}, "a controller"),
+        ({"sensitivities": {"first": ["2-1"]}}, "sensitivities"),
+        ({"integrator": ancf.Trapezoidal()}, "an integrator"),
+        ({"integrator": ancf.GeneralizedAlpha(0.9, newton=ancf.Newton(modified=False))}, "an integrator"),
+    ],
+)
+def test_what_does_not_go_together(given, said):
+    with pytest.raises(ancf.ModelError, match=r"run\.reduce.*" + said.replace("(", r"\(")):
+        run(short_line(), True, **given)
+
+
+def test_no_flag():
+    with pytest.raises(ancf.ModelError, match=r"run\.reduce"):
+        run(short_line(), "yes")
+
+
+def parted(line):
+    """System of a line with a pantograph, its cables, its parts and their matrices at rest."""
+    found = form(line, COARSE)
+    overhead = assemble(found)
+    rest = sleeping.Sleep(ancf.equilibrium(overhead.model))
+    catenary.add_pantograph(overhead, collector(), speed=50.0, start=10.0, label="pantograph")
+    system = System(overhead.model)
+    system.skip_energies()
+    plan, cables = rest.plan(system, overhead), cables_of(system)
+    parts = in_order(system, parts_of(system, cables, plan.cuts))
+    return system, cables, parts, Matrices(system, cables, parts, plan.rest)
+
+
+STITCHED = {"stitch": StitchWire(reach=5.0, wire=catenary.Wire(EA=4e6, EI=10.0, mass=0.3, tension=2e3))}
+
+
+@pytest.mark.parametrize("changes", [*LINES.values(), STITCHED], ids=[*LINES, "stitch wires"])
+def test_a_boundary_feels_what_it_should(changes):
+    """The dynamic stiffness across the wires of each part against that of all its unknowns."""
+    line = short_line(**changes)
+    system, _, parts, matrices = parted(line)
+    assert len(parts) == len(line.spans)
+    known = []
+    for k, part in enumerate(parts):
+        blocks, _ = matrices.of_part(k, part)
+        shapes = shapes_of(blocks, 60.0, part.inner % 3 == 1, known)
+        known.append(shapes)
+        kind = reduced(blocks, shapes, shift_of(60.0))
+        up = part.edge % 6 == 2
+        for hertz in (0.0, 2.3, 7.1, 15.4):
+            s = 2j * np.pi * hertz + (0.5 if hertz else 0.0)  # a little decay: between the resonances
+            whole = [b.edge * f for b, f in zip(blocks, (s * s, s, 1.0), strict=True)]
+            inner, mixed = (
+                sum(getattr(b, name).toarray() * f for b, f in zip(blocks, (s * s, s, 1.0), strict=True))
+                for name in ("inner", "mixed")
+            )
+            wanted = sum(whole) - mixed.T @ np.linalg.solve(inner, mixed)
+            coupling = (s * s + s * kind.drag - shift_of(60.0))[:, None] * kind.coupling
+            D = s * s + s * kind.loss + kind.square
+            found = (
+                s * s * kind.mass + s * kind.damping + kind.stiffness - coupling.T @ (coupling / D[:, None])
+            )
+            size = np.sqrt(np.abs(np.diag(wanted)[up]))
+            left = np.abs(found - wanted)[np.ix_(up, up)] / np.outer(size, size)
+            assert left.max() < 2e-2, (k, hertz)
+
+
+def test_modes_are_shared_by_spans_that_are_alike_or_mirrored():
+    system, _, parts, matrices = parted(short_line(**LINES["equal spans"]))
+    known, solved = [], []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(
+            far_parts, "eigh", lambda *a, real=far_parts.eigh, **b: solved.append(1) or real(*a, **b)
+        )
+        for k, part in enumerate(parts):
+            known.append(shapes_of(matrices.of_part(k, part)[0], 60.0, part.inner % 3 == 1, known))
+    assert len(parts) == 6
+    assert len(solved) <= 3  # the first span, the last one, and all between
+    for k, (part, shapes) in enumerate(zip(parts, known, strict=True)):
+        (mass, _, stiffness), _ = matrices.of_part(k, part)
+        left = stiffness.inner @ shapes.modes - (mass.inner @ shapes.modes) * shapes.square
+        assert np.abs(left).max() < 1e-3 * np.abs(stiffness.inner @ shapes.modes).max()
+
+
+def test_asleep_and_awake_again():
+    """A part that sleeps and wakes at once is where it was, but for what its modes leave out."""
+    found = form(short_line(), COARSE)
+    overhead = assemble(found)
+    rest = sleeping.Sleep(ancf.equilibrium(overhead.model))
+    catenary.add_pantograph(overhead, collector(), speed=50.0, start=10.0, label="pantograph")
+    start = ancf.equilibrium(overhead.model)
+    integrator = ancf.GeneralizedAlpha(0.9, newton=ancf.Newton(tolerance=1e-8, corotate=False))
+    live = ancf.stepper(overhead.model, step=STEP, start=start, integrator=integrator, energy=False)
+    live.advance(400)
+    run = live._run
+    q, v = run.memory.q.copy(), run.memory.v.copy()
+    spans = run.reduce(rest.plan(run.system, overhead))
+    assert spans.far.part[:, -2].sum() >= 3
+    with spans.woken():
+        assert np.abs(run.memory.q - q)[: run.system.n].max() < 2e-3
+    before = [x.copy() for x in spans._changed()]
+    with spans.woken():
+        assert not np.array_equal(before[0], run.memory.q)
+    assert all(np.array_equal(a, b) for a, b in zip(before, spans._changed(), strict=True))
+    spans.wake_all()
+    positions = np.flatnonzero(np.arange(run.system.n) % 6 < 3)
+    assert np.abs(run.memory.q - q)[positions].max() <= spans.left_out + 1e-12
+    assert np.abs(run.memory.v - v)[positions].max() < 0.05 * np.abs(v[positions]).max()
