@@ -187,7 +187,7 @@ BAD_VECTORS = [
     ((1, True, 2), "load[1]", "must be a number"),
     ((1, "s", 2), "load[1]", "unknown name"),
     ((0, 0, lambda t: t), "load[2]", "must be a number"),
-    ({"t": [0, 1], "value": [0, 1]}, "load.value[0]", "list of numbers"),
+    ({"t": [0, 1], "value": [0, 1]}, "load.value", "three are wanted"),
 ]
 
 

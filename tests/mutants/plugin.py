@@ -72,7 +72,8 @@ def _interpret() -> None:
     addresses.caller = lambda result, given=None, nothing=None: (
         lambda function, arguments: function(*arguments) if function else nothing
     )
-    addresses.pointer = records.place = records.type_of = lambda value: value
+    addresses.pointer = records.place = lambda value: value
+    records.type_of = type
     batches.Batches = type("Batches", (tuple,), {})
     for operation, of_tuple in _ALL.items():
         setattr(batches, operation, getattr(batches, of_tuple))
