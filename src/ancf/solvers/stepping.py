@@ -20,6 +20,7 @@ from ..system.core import Core, Tables, apply_load, first_event, residual
 from ..system.energy import energies
 from ..system.system import System
 from . import failures
+from .account import Account
 from .apart import Apart
 from .balance import begin_account
 from .block import implicit_block, kernels_of
@@ -48,13 +49,9 @@ BLOCK_BYTES = 32e6  # of stored states, and of samples
 #: far at most: so many steps, and so many unknowns times steps.  A look costs as much as a few steps.
 FIRST_LOOK, NEXT_LOOK, FAR_LOOK, WIDE_LOOK = 8, 4, 64, 2**17
 MOST_MADE = 0.5  # energy from nowhere, as a share of the energy exchanged
-WORTHLESS = 0.2  # energy that does not add up, as the same share, of which a run that ends warns
-#: Energy that may come from round-off: shares of the energies at the start, and of what strain 1 and the
-#: loads would take; and an energy, J, that is none.
-ROUNDED, ROUNDED_FORCES, NOTHING = 1e-9, 1e-10, 1e-15
 
 
-class Run:
+class Run(Account):
     """One simulation of a System from t_start to t_end with output every ``every`` steps."""
 
     #: Numbers of which a snapshot has the values, besides the arrays of the memory and of the system.
@@ -395,31 +392,6 @@ class Run:
     def keeps_energy(self) -> bool:
         """Whether the method itself takes nothing out."""
         return self.scheme.gamma <= 0.5
-
-    @property
-    def caution(self) -> str:
-        """What to tell who did not ask: energies that do not add up by far."""
-        floor = ROUNDED * float(np.sum(np.abs(self.energy0))) + NOTHING
-        if self.astray <= WORTHLESS * self.exchanged + floor:
-            return ""
-        share = 100.0 * self.astray / self.exchanged
-        return (
-            f"energies of the run do not add up: {self.astray:.2g} J came from nowhere or were lost, "
-            f"{share:.2g} % of what was exchanged; its result may be worthless, print(result) says why"
-        )
-
-    def round_off(self) -> float:
-        """Energy that may come from round-off, J."""
-        stiff, size = self._extent
-        loads = np.sum(np.abs(self.system.core.loads.gravity)) + np.sum(np.abs(self.memory.f))
-        weight = float(loads) * size
-        return ROUNDED * float(np.sum(np.abs(self.energy0))) + ROUNDED_FORCES * (stiff + weight)
-
-    @cached_property
-    def _extent(self) -> tuple[float, float]:
-        """Energy of strain 1 in all beams, J, and the size of the model, m."""
-        model = self.system.model
-        return sum(b.section.EA * b.length for b in model.beams.values()), model.size
 
     def _failure(self, t: float, number: int, reason: str, h: float) -> SolveError:
         return failures.failed(self.system, self.memory.memo, t, number, reason, h)
