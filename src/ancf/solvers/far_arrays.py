@@ -33,6 +33,9 @@ from ..system.far import (
 from ..system.system import System
 from .far_parts import Kind, Matrices, Part, Shapes, alike, reduced, shapes_of, shift_of
 
+#: Components in which strips and droppers act, and in which nothing does: z and y.
+ACTS, ASIDE = 2, 1
+
 
 @dataclass(frozen=True)
 class FarPlan:
@@ -48,16 +51,12 @@ class FarPlan:
         Up to which the modes are taken.
     near : float, m
         Distance of a strip at which a part wakes.
-    acts, aside : int
-        Components in which strips and droppers act, and in which nothing does: z and y.
     """
 
     cuts: IntArray
     rest: FloatArray
     frequency: float
     near: float
-    acts: int = 2
-    aside: int = 1
 
 
 def kinds_of(
@@ -75,7 +74,7 @@ def kinds_of(
         if found is None:
             found = len(kinds)
             known.append(flat)
-            shapes.append(shapes_of(blocks, plan.frequency, part.inner % 3 == plan.aside, shapes))
+            shapes.append(shapes_of(blocks, plan.frequency, part.inner % 3 == ASIDE, shapes))
             kinds.append(reduced(blocks, shapes[-1], shift_of(plan.frequency)))
         kind_of.append(found)
         forces.append(force)

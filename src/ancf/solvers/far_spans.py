@@ -32,7 +32,7 @@ from ..system.far import (
     WATCHED,
 )
 from ..system.system import System
-from .far_arrays import FarPlan, arrays_of, kinds_of
+from .far_arrays import ACTS, FarPlan, arrays_of, kinds_of
 from .far_parts import Matrices, Part, cables_of, in_order, parts_of, shift_of, sleep, wake
 from .memory import H_FACTOR, Memory
 
@@ -64,7 +64,7 @@ class FarSpans:
         if cables is None:
             return
         self.cables = cables
-        watched = watched[watched % 6 == plan.acts]
+        watched = watched[watched % 6 == ACTS]
         parts = in_order(system, parts_of(system, cables, plan.cuts))
         self.parts = [_watched_first(part, watched) for part in parts if _is_still(system, part)]
         if not self.parts:
@@ -114,11 +114,13 @@ class FarSpans:
             return
         kept = [x.copy() for x in self._changed()]
         self.wake_all()
-        yield
-        for k in asleep:
-            self._still(k)
-        for x, old in zip(self._changed(), kept, strict=True):
-            x[:] = old
+        try:
+            yield
+        finally:
+            for k in asleep:
+                self._still(k)
+            for x, old in zip(self._changed(), kept, strict=True):
+                x[:] = old
 
     def _changed(self) -> list[Any]:
         """All that :meth:`wake_all` changes but the constants of cables and springs."""
