@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from tests.overhead_lines import COARSE, STEP, collector, droppers, short_line
 
 import ancf
 from ancf import catenary
@@ -12,6 +11,7 @@ from ancf.catenary.stitch import StitchWire
 from ancf.solvers import far_parts
 from ancf.solvers.far_parts import Matrices, cables_of, in_order, parts_of, reduced, shapes_of, shift_of
 from ancf.system.system import System
+from overhead_lines import COARSE, STEP, collector, droppers, short_line
 
 LINES = {
     "unequal spans": {},

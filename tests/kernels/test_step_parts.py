@@ -17,7 +17,7 @@ from ancf.solvers.low_rank import eliminate
 from ancf.solvers.memory import FIRST_LIMIT, H_FACTOR, H_PREV, KNOWN, LIMIT, allocate
 from ancf.solvers.newmark import worst_unknown
 from ancf.solvers.renewal import count, renewed
-from ancf.solvers.scheme import Scheme, predict
+from ancf.solvers.scheme import Scheme, predict_rows
 from ancf.system.core import inertia
 from ancf.system.inputs import differences
 from ancf.system.system import System
@@ -34,7 +34,7 @@ def guess(history, h=0.1, keep=1.0):
     memory.a[:], memory.a1[:], memory.a2[:], memory.a3[:] = past[:4]
     memory.abar[:] = memory.a
     memory.memo[H_PREV], memory.memo[KNOWN] = h, len(history) - 1
-    predict.py_func(memory, h, TRAPEZOIDAL, keep)
+    predict_rows.py_func(memory, h, TRAPEZOIDAL, keep, 0, len(memory.q))
     return float(memory.a[0]), float(memory.q[0]), float(memory.v[0])
 
 
@@ -54,7 +54,7 @@ class TestPredictor:
         memory = allocate(1, turning.allocate([], np.zeros(0, dtype=np.int64)), ())
         memory.a[:], memory.a1[:], memory.a2[:], memory.a3[:] = 1.0, 5.0, -3.0, 2.0
         memory.memo[H_PREV], memory.memo[KNOWN] = 0.1, 3.0
-        predict.py_func(memory, 0.05, TRAPEZOIDAL, 1.0)
+        predict_rows.py_func(memory, 0.05, TRAPEZOIDAL, 1.0, 0, len(memory.q))
         assert memory.a[0] == 1.0
 
     def test_cautious_guess_is_no_acceleration(self):
