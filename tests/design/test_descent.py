@@ -28,11 +28,16 @@ class Runs:
     def at(self, u):
         return self.predicted(u, u)
 
+    def known(self):
+        places = [*self._seen.values()]
+        found = [self.at(u) for u in places]
+        return np.stack(places), np.stack([x for x, _ in found]), np.stack([rows for _, rows in found])
+
     def predicted(self, u, near):
         near = np.asarray(near)
         x = -2.0 + 4.0 * near
         if near.tobytes() not in self._seen:
-            self._seen[near.tobytes()] = True
+            self._seen[near.tobytes()] = near.copy()
             self.tried.append(Tried(self.values(near), float(np.linalg.norm(self.history(x))), {}))
         J = self.slopes(x)
         f = self.history(x) + J @ (4.0 * (u - near))
@@ -78,6 +83,25 @@ def test_of_a_linear_history_takes_steps_of_newton():
     assert [*found.values.values()] == pytest.approx(solution, abs=1e-3)
     assert found.converged
     assert len(runs.tried) <= 5
+
+
+@pytest.mark.parametrize("ripple", [0.02, 0.05])
+def test_ripples_do_not_stop_it(ripple):
+    """A valley with ripples whose slopes are many times its own: the search ends near the valley's floor."""
+
+    def rippled(x):
+        return np.append(x - 0.7, [1.0 + ripple * np.sin(40.0 * x[0]) * np.sin(37.0 * x[1]), 0.5])
+
+    def slopes(x):
+        s, c = np.sin([40.0 * x[0], 37.0 * x[1]]), np.cos([40.0 * x[0], 37.0 * x[1]])
+        row = ripple * np.array([40.0 * c[0] * s[1], 37.0 * s[0] * c[1]])
+        return np.vstack([np.eye(2), row, np.zeros(2)])
+
+    runs = Runs(rippled, slopes, (-1.3, -0.9))
+    found = least(runs)
+    floor = float(np.sqrt((1.0 - ripple) ** 2 + 0.25))
+    assert found.objective < floor + 1.2 * ripple
+    assert len(runs.tried) <= 30
 
 
 def test_bounds_hold():

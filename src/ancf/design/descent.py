@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
 from .droppers import LineOptimum, LineRuns
+from .surface import Surface
 
 #: First radius within which the linearised run is believed; parameters go from 0 to 1.
 RADIUS = 0.25
 #: Radius below which the search ends: what is left are kinks, where droppers slacken at another step.
 SHORTEST = 2e-3
+#: Radius with which surfaces begin, and the part to which it shrinks where they promise too much; the
+#: promised relative decrease of a linear force that, if it fails, tells of kinks: it would be right without.
+WIDE, SHRINK, LITTLE = 0.25, 0.7, 5e-3
 #: Relative decrease which, once promised, is not worth another run.
 WORTH = 2e-4
 #: Weight of limits that are not kept, in units of the objective at the start.
@@ -33,6 +37,9 @@ def least(runs: LineRuns, limits: Limits | None = None, most: int = 30) -> LineO
     of Gauss and Newton, as its square is a sum of squares. The radius grows and shrinks with what the next
     run says of that (Levenberg, Marquardt; here as a trust region, Nocedal and Wright, *Numerical
     Optimization*, 2nd edition, chapters 4 and 10).
+
+    Where that promises little and still more than is gained, kinks are the cause: from there on a smooth
+    surface through all runs, :class:`ancf.design.surface.Surface`, says what is near.
 
     Parameters
     ----------
@@ -53,7 +60,7 @@ def least(runs: LineRuns, limits: Limits | None = None, most: int = 30) -> LineO
     radius, converged, message = RADIUS, False, f"the limit of {most} steps was reached"
     for _ in range(most):
         there = task.step(here, radius)
-        promised = task.merit(runs.at(here)[0]) - task.merit(runs.predicted(there, here)[0])
+        promised = task.merit(runs.at(here)[0]) - task.merit(task.near(there, here)[0])
         worth = WORTH * abs(task.merit(runs.at(here)[0]))
         if promised < worth or radius < SHORTEST:
             converged = True
@@ -65,22 +72,38 @@ def least(runs: LineRuns, limits: Limits | None = None, most: int = 30) -> LineO
             break
         gained = task.merit(runs.at(here)[0]) - task.merit(runs.at(there)[0])
         length = float(np.linalg.norm(there - here))
-        if gained < POOR * promised:
+        kinked = promised < LITTLE * abs(task.merit(runs.at(here)[0])) and not task.surfaces
+        poor = gained < POOR * promised
+        if poor and kinked:
+            task.believe_all()
+            radius = max(radius, WIDE)
+        elif poor and task.surfaces:
+            radius = SHRINK * min(radius, length)
+        elif poor:
             radius = 0.5 * min(radius, length) if gained > 0.0 else 0.35 * min(radius, length)
         elif gained > GOOD * promised and length > 0.9 * radius:
             radius = 2.0 * radius
         if gained > 0.0:
             here = there
+        if task.surfaces:
+            task.believe_all()
     return _optimum(runs, here, limits or {}, converged, message)
 
 
-@dataclass(frozen=True)
+@dataclass
 class _Task:
     """What shall be least, and what has to be kept."""
 
     runs: LineRuns
     bounds: list[tuple[float | None, float | None]]
     first: float
+    surfaces: list[Surface] = field(default_factory=list)
+
+    def believe_all(self) -> None:
+        """Let surfaces through the numbers of all runs say what is near, no longer a force that is linear."""
+        places, numbers, slopes = self.runs.known()
+        each = range(numbers.shape[1])
+        self.surfaces = [Surface(places, numbers[:, k], slopes[:, k]) for k in each]
 
     def rows(self) -> list[tuple[int, float, float, float]]:
         """Number of the formula, bound, sign and scale of each limit: sign (x - bound)/scale >= 0."""
@@ -110,13 +133,13 @@ class _Task:
             conditions.append(
                 {
                     "type": "ineq",
-                    "fun": lambda u, k=k, b=bound, s=sign / scale: s * (self._near(u, here)[0][k] - b),
-                    "jac": lambda u, k=k, s=sign / scale: s * self._near(u, here)[1][k],
+                    "fun": lambda u, k=k, b=bound, s=sign / scale: s * (self.near(u, here)[0][k] - b),
+                    "jac": lambda u, k=k, s=sign / scale: s * self.near(u, here)[1][k],
                 }
             )
         search: Any = optimize.minimize
         found = search(
-            lambda u: (self._near(u, here)[0][0] / self.first, self._near(u, here)[1][0] / self.first),
+            lambda u: (self.near(u, here)[0][0] / self.first, self.near(u, here)[1][0] / self.first),
             here,
             jac=True,
             method="SLSQP",
@@ -127,8 +150,13 @@ class _Task:
         step: FloatArray = np.clip(found.x, 0.0, 1.0)
         return step
 
-    def _near(self, u: FloatArray, here: FloatArray) -> tuple[FloatArray, FloatArray]:
-        return self.runs.predicted(u, here)
+    def near(self, u: FloatArray, here: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Numbers at u and their derivatives, as the search believes: at ``here`` what the run has given."""
+        if not self.surfaces:
+            return self.runs.predicted(u, here)
+        found = [surface.at(u) for surface in self.surfaces]
+        numbers = np.array([x for x, _ in found]) - np.array([s.at(here)[0] for s in self.surfaces])
+        return numbers + self.runs.at(here)[0], np.stack([slope for _, slope in found])
 
 
 def _optimum(runs: LineRuns, here: FloatArray, limits: Limits, converged: bool, message: str) -> LineOptimum:

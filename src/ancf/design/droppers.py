@@ -147,6 +147,12 @@ class LineRuns:
         """Numbers by formula, (m,), and their derivatives by u, (m, n); each run is taken once."""
         return self.predicted(u, u)
 
+    def known(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Places (r, n) of all runs, their numbers (r, m) and the derivatives of these, (r, m, n)."""
+        places = [np.frombuffer(key) for key in self._known]
+        found = [self.at(u) for u in places]
+        return np.stack(places), np.stack([x for x, _ in found]), np.stack([slope for _, slope in found])
+
     def predicted(self, u: FloatArray, near: FloatArray) -> tuple[FloatArray, FloatArray]:
         """What the run with the parameters ``near`` tells of those at u: its force changes linearly."""
         made = self._linearised(np.clip(near, 0.0, 1.0))
