@@ -1,0 +1,111 @@
+"""What sensitivities and gradients cost, in runs: ``python benchmarks/sensitivities.py [CASE...]``.
+
+Processor time of ``ancf.simulate`` with sensitivities by 1, 8 and 16 numbers of a model, and of
+``ancf.gradient`` by as many, from the model to the last number, next to that of the run alone: medians of some
+rounds.  The last columns are what a further parameter costs, from the first to the 16th.  Printed, nothing is
+stored.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from statistics import median
+from typing import Any
+
+import ancf
+from ancf.paper import cantilever, pendulum, sliding
+
+COUNTS = 1, 8, 16
+ROUNDS = 3
+#: Of a beam, in this order.
+NUMBERS = ["EI", "rhoA", "EA", "length", "bending_damping", "axial_damping", "damping"]
+
+
+def in_space(elements: int = 32, stays: int = 0, **damping: float) -> ancf.Model:
+    """The pendulum of example 7.2, perhaps with dampings, on springs."""
+    square = pendulum.section()
+    section = ancf.Section(EA=square.EA, EI=square.EI, rhoA=square.rhoA, **damping)
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    rope = model.add_beam("rope", start=(0, 0, 0), end=(1, 0, 0), elements=elements, section=section)
+    rope.set_motion(angular_velocity=pendulum.READINGS["spatial"])
+    model.pin(rope.start)
+    for k in range(stays):
+        place = (k + 0.5) / stays
+        model.add_spring(
+            rope.at(place), (place, 0, 0.3), stiffness=2.0, damping=0.01, length=0.3, name=f"stay{k}"
+        )
+    return model
+
+
+def falling() -> ancf.Model:
+    """The cantilever of example 7.1."""
+    square = cantilever.section()
+    section = ancf.Section(EA=square.EA, EI=square.EI, rhoA=square.rhoA)
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    rope = model.add_beam("rope", start=(0, 0, 0), end=(1, 0, 0), elements=4, section=section)
+    model.clamp(rope.start)
+    return model
+
+
+def of_rope() -> list[str]:
+    """Sixteen numbers of a model with one rope."""
+    ends = [f"rope.{end}[{k}]" for end in ("start", "end") for k in range(3)]
+    return [f"rope.{name}" for name in NUMBERS] + [f"gravity[{k}]" for k in range(3)] + ends
+
+
+def cases() -> dict[str, tuple[ancf.Model, list[str], str, dict[str, Any]]]:
+    """By name the model, the parameters, what gradients are of, and the settings."""
+    square = {"axial_damping": 0.5, "bending_damping": 1e-4, "damping": 0.01}
+    tip = "integral(norm(velocity({}))**2)"
+    stays = [f"stay{k}.length" for k in range(16)]
+    own = [f"{body}.{name}" for body in ("carrier", "slider") for name in ("E", "rho", "length")]
+    own += ["tip.mass", "gravity[0]", "gravity[1]", "gravity[2]"]
+    end = tip.format("rope.end")
+    return {
+        "7.1, 4 elements, 1600 steps": (falling(), of_rope(), end, _set(1600, 2.5e-4)),
+        "7.2, 32 elements, 1000 steps": (in_space(), of_rope(), end, _set(1000, 1e-4)),
+        "7.2, 32 elements, 8000 steps": (in_space(), of_rope(), end, _set(8000, 1e-4)),
+        "damped, 32 elements, 1000 steps": (in_space(**square), of_rope(), end, _set(1000, 1e-4)),
+        "damped, 32 elements, 8000 steps": (in_space(**square), of_rope(), end, _set(8000, 1e-4)),
+        "16 springs, 32 elements, 2000 steps": (in_space(32, 16), stays, end, _set(2000, 1e-4)),
+        "7.4, 6+2 elements, 2000 steps": (sliding.build(), own, tip.format("slider.end"), _set(2000, 2e-4)),
+    }
+
+
+def _set(steps: int, step: float) -> dict[str, Any]:
+    return {"t_end": steps * step, "step": step}
+
+
+def seconds(work: Any) -> float:
+    """Processor time of a call."""
+    begin = time.process_time()
+    work()
+    return time.process_time() - begin
+
+
+def measured(model: ancf.Model, names: list[str], objective: str, settings: dict[str, Any]) -> list[float]:
+    """Of a run s, of sensitivities and gradients by some parameters runs each."""
+    works = [lambda: ancf.simulate(model, **settings)]
+    for count in COUNTS:
+        works.append(lambda n=count: ancf.simulate(model, sensitivities=names[:n], **settings))
+    for count in COUNTS:
+        works.append(lambda n=count: ancf.gradient(model, objective, names[:n], **settings))
+    for work in works:
+        work()
+    times = [
+        median(row) for row in zip(*([seconds(work) for work in works] for _ in range(ROUNDS)), strict=True)
+    ]
+    return [times[0], *(t / times[0] for t in times[1:])]
+
+
+if __name__ == "__main__":
+    heads = [*map(str, COUNTS), "each", *(f"g {n}" for n in COUNTS), "g each"]
+    print(f"{'runs':36}{'run, s':>8}", *(f"{head:>6}" for head in heads))
+    for name, case in cases().items():
+        if not sys.argv[1:] or any(word in name for word in sys.argv[1:]):
+            run, *found = measured(*case)
+            k, n = len(COUNTS), len(case[1]) - COUNTS[0]
+            forward, back = found[:k], found[k:]
+            row = [*forward, (forward[-1] - forward[0]) / n, *back, (back[-1] - back[0]) / n]
+            print(f"{name:36}{run:8.3f}", *(f"{x:6.2f}" for x in row), flush=True)
