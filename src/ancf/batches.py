@@ -25,6 +25,7 @@ from .compiled import (
     PART,
     add_force,
     add_inertia,
+    add_rate_stiffness,
     add_tangent,
     does_something,
     find_event,
@@ -34,6 +35,7 @@ from .compiled import (
     remember,
     separate_kernel,
     strain_energy,
+    touched,
 )
 from .records import RecordType, read, words_of
 
@@ -88,6 +90,18 @@ def remember_at(record, q, v):
     remember(read(record), q, v)
 
 
+@separate_kernel
+def rate_stiffness_at(record, q, v, S, W, ws):
+    """``add_rate_stiffness`` of the batch at an address."""
+    add_rate_stiffness(read(record), q, v, S, W, ws)
+
+
+@separate_kernel
+def touched_at(record, q, out):
+    """``touched`` of the batch at an address."""
+    return touched(read(record), q, out)
+
+
 _V, _x = VECTOR, types.float64
 #: Kernels of the operations on a record, the types of what they take besides it, and what they return.
 OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
@@ -99,9 +113,13 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     inverted: (inverted_at, (_V, _V), types.int64),
     measure: (measure_at, (_V, _V), types.none),
     remember: (remember_at, (_V, _V), types.none),
+    add_rate_stiffness: (rate_stiffness_at, (_V, _V, _V, _V, _V), types.none),
+    touched: (touched_at, (_V, _V), types.int64),
 }
 _COLUMNS = 1 + len(OPERATIONS)
-FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, _COLUMNS)
+FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER, RATES, TOUCHED = range(1, _COLUMNS)
+#: Operations compiled for those who ask for them, see :mod:`ancf.solvers.rare`, and their columns.
+RARE = {add_rate_stiffness: RATES, touched: TOUCHED}
 
 
 class _Table(NamedTuple):
@@ -160,19 +178,20 @@ def _row(batch: Any) -> tuple[NDArray[np.int64], tuple[int, ...]]:
     key = type(batch), *((x.dtype, x.ndim, x.flags.num) for x in batch)
     if key not in addresses.found:
         kind = typeof(batch)
-        addresses.found[key] = tuple(_address(type(batch), kind, stub) for stub in OPERATIONS)
+        places = tuple(0 if stub in RARE else address_of(type(batch), kind, stub) for stub in OPERATIONS)
+        addresses.found[key] = places
     return words_of(batch), addresses.found[key]
 
 
-def _address(batch_type: type, kind: Any, stub: Any) -> int:
-    """Address of an operation of a kind of batch; 0 for none."""
+def address_of(batch_type: type, kind: Any, stub: Any) -> int:
+    """Address of an operation of a kind of batch, which is compiled, or taken from the cache; 0 for none."""
     if not does_something(batch_type, stub):
         return 0
     dispatcher, given, result = OPERATIONS[stub]
     return addresses.address_of(dispatcher, (RecordType(kind), *given), result)
 
 
-def _caller(stub: Any, nothing: Any = None) -> Any:
+def caller_of(stub: Any, nothing: Any = None) -> Any:
     """Intrinsic ``call(place, record, arguments)`` of an operation; `nothing` where its address is 0."""
     _, given, result = OPERATIONS[stub]
 
@@ -215,9 +234,9 @@ def _fits(have: Any, want: Any) -> bool:
     return isinstance(have, types.Number)
 
 
-_force, _inertia, _tangent = _caller(add_force), _caller(add_inertia), _caller(add_tangent)
-_energy, _event, _inverted = _caller(strain_energy, 0.0), _caller(find_event, -1), _caller(inverted, -1)
-_measure, _remember = _caller(measure), _caller(remember)
+_force, _inertia, _tangent = caller_of(add_force), caller_of(add_inertia), caller_of(add_tangent)
+_energy, _event, _inverted = caller_of(strain_energy, 0.0), caller_of(find_event, -1), caller_of(inverted, -1)
+_measure, _remember = caller_of(measure), caller_of(remember)
 
 
 def _each(of_tuple: Callable[..., Any], of_batches: Callable[..., Any], default: Any = None) -> Any:

@@ -17,7 +17,6 @@ from typing import Any, TypeVar, cast
 
 import numba
 from numba import types
-from numba.core import event
 from numba.extending import overload
 
 from . import kernel_cache
@@ -39,6 +38,9 @@ _CALLED: Any = {**_OPTIONS, "no_cpython_wrapper": True}
 #: And what they take in is translated with them.
 PART: Any = {**_CALLED, "pipeline_class": PartCompiler}
 
+
+#: Unknowns that a part touches, see :func:`touched`.
+MOST_TOUCHED = 120
 
 #: Folders whose files hold kernels, or constants of kernels.
 FOLDERS = ("simd", "elements", "bodies", "connections", "loads", "contact", "linalg", "system", "solvers")
@@ -148,6 +150,22 @@ def measure(batch, q, v):
 def remember(batch, q, v):
     """Bring the memory of the batch up to the state q, v of an accepted step."""
     raise TypeError(f"{type(batch).__name__} remembers nothing")
+
+
+def add_rate_stiffness(batch, q, v, S, W, ws):
+    """Add what the derivative of the batch's forces by q has because of v, and the tangent at v has not.
+
+    Its symmetric half goes to the block values ``S``, the antisymmetric one to ``W``, of which the blocks on
+    the other side of the diagonal are the transposed ones with the other sign.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know how velocities change its stiffness")
+
+
+def touched(batch, q, out):
+    """Write the unknowns and shadows on which the batch's forces depend in and near the state q, and on which
+    alone they act, to ``out``, some perhaps twice; their number, up to MOST_TOUCHED for each part.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know what it touches")
 
 
 def inverted(batch, q, ws):
@@ -280,6 +298,8 @@ def implements(
     inverted: Callable[..., Any] = never_inverted,
     measure: Callable[..., Any] | None = None,
     remember: Callable[..., Any] | None = None,
+    rate_stiffness: Callable[..., Any] | None = None,
+    touches: Callable[..., Any] | None = None,
     **given: Any,
 ) -> None:
     """Register the operations of a kind of batch (see the functions above) and its :class:`Traits`.
@@ -314,11 +334,15 @@ def implements(
         bind(_measure, measure)
     if remember is not None:
         bind(_remember, remember)
+    if rate_stiffness is not None:
+        bind(add_rate_stiffness, rate_stiffness)
+    if touches is not None:
+        bind(touched, touches)
 
 
 def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
-    """Whether an operation of a kind of batch does anything; all kinds have all but :func:`measure` and
-    :func:`remember`.
+    """Whether an operation of a kind of batch does anything; all kinds have all but :func:`measure`,
+    :func:`remember`, :func:`add_rate_stiffness` and :func:`touched`.
     """
     if (batch_type, add_force) not in _DOES:
         raise TypeError(f"no operations for {batch_type.__name__}")
@@ -329,44 +353,6 @@ def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
 _NOTHING = {no_inertia, no_energy, no_event, never_inverted}
 _DOES: dict[tuple[type, Any], bool] = {}
 _inverted, _measure, _remember = inverted, measure, remember  # the parameters of implements hide the names
-
-
-class _Announcer(event.Listener):
-    def __init__(self, say: Callable[[], None]) -> None:
-        self.say: Callable[[], None] | None = say
-
-    def on_start(self, event: Any) -> None:
-        if self.say is not None:
-            self.say()
-            self.say = None
-
-    def on_end(self, event: Any) -> None:
-        pass
-
-
-def announce_compilation(say: Callable[[], None]) -> None:
-    """Call ``say`` once, before the first kernel that is not in the cache gets compiled."""
-    event.register("numba:compile", _Announcer(say))
-
-
-class _Watcher(event.Listener):
-    def __init__(self, tell: Callable[[int], None]) -> None:
-        self.tell, self.depth = tell, 0
-
-    def on_start(self, event: Any) -> None:
-        self.depth += 1
-        if self.depth == 1:
-            self.tell(1)
-
-    def on_end(self, event: Any) -> None:
-        self.depth -= 1
-        if self.depth == 0:
-            self.tell(0)
-
-
-def watch_compilation(tell: Callable[[int], None]) -> None:
-    """Call ``tell(1)`` whenever a kernel begins to be compiled and ``tell(0)`` when none is any more."""
-    event.register("numba:compile", _Watcher(tell))
 
 
 def optional(function: Callable[..., Any], default: Any = None) -> Any:

@@ -31,6 +31,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import Any, cast
 
+from numba.core import event
 from numba.core.caching import Cache, IndexDataCacheFile
 
 if sys.platform != "win32":
@@ -227,3 +228,41 @@ def _lock(file: int, patience: float) -> None:
             if time.monotonic() > end:
                 raise TimeoutError(f"another process holds the lock for {patience:g} s") from None
         time.sleep(0.01)
+
+
+class _Announcer(event.Listener):
+    def __init__(self, say: Callable[[], None]) -> None:
+        self.say: Callable[[], None] | None = say
+
+    def on_start(self, event: Any) -> None:
+        if self.say is not None:
+            self.say()
+            self.say = None
+
+    def on_end(self, event: Any) -> None:
+        pass
+
+
+def announce_compilation(say: Callable[[], None]) -> None:
+    """Call ``say`` once, before the first kernel that is not in the cache gets compiled."""
+    event.register("numba:compile", _Announcer(say))  # type: ignore[no-untyped-call]
+
+
+class _Watcher(event.Listener):
+    def __init__(self, tell: Callable[[int], None]) -> None:
+        self.tell, self.depth = tell, 0
+
+    def on_start(self, event: Any) -> None:
+        self.depth += 1
+        if self.depth == 1:
+            self.tell(1)
+
+    def on_end(self, event: Any) -> None:
+        self.depth -= 1
+        if self.depth == 0:
+            self.tell(0)
+
+
+def watch_compilation(tell: Callable[[int], None]) -> None:
+    """Call ``tell(1)`` whenever a kernel begins to be compiled and ``tell(0)`` when none is any more."""
+    event.register("numba:compile", _Watcher(tell))  # type: ignore[no-untyped-call]

@@ -9,6 +9,7 @@ from ancf.design.formulas import Formula, Vocabulary
 from ancf.design.gradient import OF_RUN, Histories, slopes_of
 from ancf.paper import cantilever
 from ancf.sensitivity import adjoint
+from ancf.system.system import System
 from ancf.viz.pictures.questions import ask
 from slopes import extrapolated
 
@@ -56,6 +57,31 @@ def test_adjoint_is_the_forward_derivative(objective, method):
         own = result.sensitivity(name)
         wanted = sum(np.sum(x * own.of(lambda f, p=pair: ask(f, *p))) for pair, x in slopes.items())
         assert slope[name] == pytest.approx(wanted, rel=1e-7, abs=1e-9 * max(map(abs, slope.values()))), name
+
+
+def damped():
+    """A cable with damping of strains on a clamp that turns about fixed axes, and a damped spring."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section(
+        EA=500.0, EI=0.5, rhoA=0.2, axial_damping=0.5, bending_damping=0.01, slope_damping=0.1
+    )
+    beam = model.add_beam("beam", start=(0, 0, 0), end=(0.8, 0.6, 0), elements=3, section=section)
+    model.clamp(beam.start, displacement=("0.02*sin(9*t)", 0, 0))
+    model.add_spring(beam.at(0.4), (1.0, 0.1, 0.8), stiffness=5.0, damping=0.4, length=0.7, name="stay")
+    beam.set_motion(velocity=(0.1, 0.0, 0.3))
+    return model
+
+
+@pytest.mark.filterwarnings("ignore:.*the support wins")
+def test_damped_models_go_backwards():
+    """The adjoint, whose matrix has the antisymmetric half with the other sign, against differences."""
+    model, objective = damped(), OBJECTIVES[1]
+    names = ["beam.EI", "beam.bending_damping", "beam.axial_damping", "stay.damping"]
+    assert adjoint.reversible(System(model))
+    _, slope = ancf.gradient(model, objective, names, **settings())
+    for name in slope:
+        wanted = extrapolated(lambda m: ancf.gradient(m, objective, [], **settings())[0], model, name, 2e-2)
+        assert abs(slope[name] - wanted) < 1e-7 * abs(wanted), name
 
 
 @pytest.mark.parametrize("steps", [1, 7, 8, 9])

@@ -300,3 +300,14 @@ class TestBadInput:
             result.sensitivity("gravitation")
         with pytest.raises(ancf.ModelError, match="no sensitivities were asked for"):
             ancf.simulate(model, t_end=0.01, step=1e-3).sensitivity("gravity")
+
+
+@pytest.mark.filterwarnings("ignore:.*the support wins")
+def test_a_number_without_effect_has_the_sensitivity_zero():
+    """The hinge takes the spin about its other axes away: what is left are numbers too small to divide by."""
+    model = swinging_hub()
+    model.bodies["arm"].set_motion(velocity=(0.0, 0.02, 0.1))
+    result = motion(model, 0.02, 1e-3, exact(), sensitivities=["hub.angular_velocity[2]", "hub.velocity[2]"])
+    found = result.sensitivity("hub.angular_velocity[2]").position("arm.end")
+    assert np.max(np.abs(found)) < 1e-12
+    assert np.all(np.isfinite(result.sensitivity("hub.velocity[2]").position("arm.end")))

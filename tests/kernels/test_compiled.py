@@ -5,7 +5,8 @@ from collections import namedtuple
 import numba
 import pytest
 
-from ancf.compiled import announce_compilation, formula, inline_kernel, kernel, optional
+from ancf.compiled import formula, inline_kernel, kernel, optional
+from ancf.kernel_cache import announce_compilation
 
 Batch = namedtuple("Batch", "factor")
 

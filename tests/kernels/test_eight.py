@@ -5,8 +5,8 @@ import pytest
 
 from ancf.linalg.block_ldl import allocate
 from ancf.linalg.eight import LANES, allocate_eight, factor_of, factorise_eight
+from ancf.linalg.lanes import multiply_abreast, solve_abreast
 from ancf.linalg.ordering import fill_pattern
-from ancf.solvers.abreast import multiply_abreast, solve_abreast
 from ancf.system.core import factorise_matrix, solve_matrix
 from ancf.system.matrix import Places
 from block_matrices import PATTERNS, definite, random_symmetric, values

@@ -98,7 +98,7 @@ class Screen:
     def announce_compilation(self) -> None:
         """Say it once when kernels must be compiled."""
         from ..compilation import announce
-        from ..compiled import announce_compilation
+        from ..kernel_cache import announce_compilation
 
         announce_compilation(lambda: self.say(COMPILING))
         announce(self.say)

@@ -35,6 +35,8 @@ STIFFNESS, DAMPING = range(2)
 FORCE, OVERLAP, ARC, ASIDE = range(4)
 #: Iterations for the crossing; a nearly straight wire takes two.
 MOST = 20
+#: Part of an element's length within which a neighbour counts as touched, too.
+BESIDE = 0.01
 
 
 class ContactBatch(NamedTuple):
@@ -146,6 +148,33 @@ def contact_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 
 
 @inline_kernel
+def contact_touches(batch, q, out):
+    """See :func:`ancf.compiled.touched`: the strip's point and the element at it, near its end the next."""
+    count = 0
+    for j in range(batch.slot.shape[0]):
+        s = crossing(batch, j, q, slider(batch, j, q, 1.0))[1]
+        e, begin, end = element_at(batch, j, s), batch.first[j], batch.first[j + 1] - 1
+        near = BESIDE * batch.x[e, 1]
+        low = max(e - 1, begin) if s - batch.x[e, 0] < near else e
+        high = min(e + 1, end) if batch.x[e, 0] + batch.x[e, 1] - s < near else e
+        for k in range(COLUMNS):
+            count = write_slot(batch.slot[j, k], out, count)
+            for n in range(low, high + 1):
+                count = write_slot(batch.line_slot[n, k], out, count)
+    return count
+
+
+@formula
+def write_slot(i, out, count):
+    """Write the three unknowns of a slot, if it is one; the number of unknowns then."""
+    if i < 0:
+        return count
+    for c in range(3):
+        out[count + c] = i + c
+    return count + 3
+
+
+@inline_kernel
 def contact_energy(batch, q, ws):
     """Energy of the overlaps, J.
 
@@ -189,6 +218,7 @@ implements(
     force=contact_force,
     tangent=contact_tangent,
     energy=contact_energy,
+    touches=contact_touches,
     measure=contact_measure,
     role=Role.DISSIPATES | Role.MEASURES,
     slots=("slot", "line_slot"),

@@ -139,6 +139,35 @@ def spring_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 
 
 @inline_kernel
+def spring_rate_stiffness(batch, q, v, S, W, ws):
+    """See :func:`ancf.compiled.add_rate_stiffness`: where a spring turns, its rate changes.
+
+    With the velocity d' of one end against the other, (d' - (n.d') n)/length is the derivative of the rate.
+    """
+    size = batch.base.shape[1]
+    for e in range(batch.base.shape[0]):
+        n, length, rate, _, carries = spring_state(batch, e, q, v)
+        if not carries:
+            continue
+        c = spring_slopes(batch, e, length, rate)[1]
+        if c == 0.0:
+            continue
+        x, y, z = spring_vector(batch, e, v, 0.0)
+        c *= 0.5 / length
+        t = (c * (x - rate * n[0]), c * (y - rate * n[1]), c * (z - rate * n[2]))
+        for k in range(size):
+            for m in range(size):
+                place = batch.dest[e, size * k + m]
+                if place < 0:
+                    continue
+                w = batch.factor[e, k] * batch.factor[e, m]
+                for i in range(3):
+                    for j in range(3):
+                        S[place + 6 * i + j] += w * (n[i] * t[j] + t[i] * n[j])
+                        W[place + 6 * i + j] += w * (n[i] * t[j] - t[i] * n[j])
+
+
+@inline_kernel
 def spring_energy(batch, q, ws):
     """Elastic energy of the springs, J."""
     energy = 0.0
@@ -175,6 +204,7 @@ implements(
     tangent=spring_tangent,
     energy=spring_energy,
     measure=spring_measure,
+    rate_stiffness=spring_rate_stiffness,
     role=Role.DISSIPATES | Role.MEASURES,
     damped=_damped,
     exact=lambda batch, moving: not (moving and _damped(batch)),

@@ -40,10 +40,10 @@ def gradient(
 ) -> tuple[float, dict[str, float]]:
     """A number of a simulation and its exact derivatives by parameters of the model.
 
-    Models of undamped elements, springs and masses, with loads and supports as functions of time, have an
-    adjoint: the derivatives by all parameters together take about as much as a few runs, and memory that
-    does not grow with their number, nor much with that of the steps. Others, with joints or contacts or
-    damping of strains, take the sensitivities of :func:`ancf.simulate`, whose cost grows with the number of
+    Models of cables, undamped solid beams, springs and masses, with loads and supports as functions of time,
+    have an adjoint: the derivatives by all parameters together take about as much as a few runs, and memory
+    that does not grow with their number, nor much with that of the steps. Others, with joints or contacts or
+    damped solid beams, take the sensitivities of :func:`ancf.simulate`, whose cost grows with the number of
     parameters. The numbers are the same.
 
     Parameters

@@ -154,6 +154,6 @@ def _end_with_parent() -> None:
 
 def _tell_compiling(pipe: Connection) -> None:
     """Send how deep it is in compiling whenever that begins or ends."""
-    from ..compiled import watch_compilation
+    from ..kernel_cache import watch_compilation
 
     watch_compilation(lambda depth: pipe.send(("compiling", depth)))

@@ -21,6 +21,7 @@ from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
 from ..simd import LANES, every, gather, gather_nodes, load, scatter, scatter_nodes, store, total, zero
 from .cable_damping import axial_damping, bending_damping, bending_damping_tangent, slope_damping
+from .cable_rates import TWIST, rate_blocks, store_twists
 from .cable_strain import (
     WEIGHT,
     a_of,
@@ -322,6 +323,27 @@ def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 
 
 @inline_kernel
+def cable_rate_stiffness(batch, q, v, S, W, ws):
+    """See :func:`ancf.compiled.add_rate_stiffness`: damping of strains alone changes with the shape."""
+    data = batch.lane_data
+    for n in range(batch.groups.shape[0]):
+        group = batch.groups[n]
+        damped, middle = group[DAMPED], group[FIRST] + group[AXIAL]
+        if damped & (AXIALLY | IN_BENDING) == 0:
+            continue
+        axial = (group[FIRST], middle if damped & AXIALLY else group[FIRST])
+        bending = (middle, middle + group[BENDING] if damped & IN_BENDING else middle)
+        for chunk in range(group[BEGIN], group[END]):
+            clear(ws, KDD, BLOCKS)
+            clear(ws, TWIST, BLOCKS)
+            x, rates, inv_l = shape(batch, q, chunk), shape(batch, v, chunk), load(data, chunk, INV_L)
+            da, db = load(data, chunk, DA_L), load(data, chunk, DB_L)
+            rate_blocks(ws, batch.gp, x, rates, da, db, inv_l, group[PAPER] != 0, axial, bending)
+            store_twists(batch, W, ws, chunk, inv_l)
+            store_tangent(batch, S, ws, chunk, every(0.0))
+
+
+@inline_kernel
 def cable_energy(batch, q, ws):
     """Strain energy, J (the integral behind eq. 27)."""
     energy, gp, data = 0.0, batch.gp, batch.lane_data
@@ -360,6 +382,7 @@ implements(
     inertia=cable_inertia,
     tangent=cable_tangent,
     energy=cable_energy,
+    rate_stiffness=cable_rate_stiffness,
     role=Role.DISSIPATES,
     slots=("base", "lane_base"),
     bind=bind,

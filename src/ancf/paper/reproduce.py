@@ -9,9 +9,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..compiled import announce_compilation
 from ..errors import ModelError, SolveError
 from ..files import writable
+from ..kernel_cache import announce_compilation
 from ..model.checks import listed, nearest
 from ..viz import style
 from . import exhibit, schedule

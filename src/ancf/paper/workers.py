@@ -54,7 +54,7 @@ def _heard(worker: Worker[str], watch: Watch) -> bool:
 
 def _serve(pipe: Connection, make: Callable[[str], Any]) -> None:
     """What a worker does: it waits for groups until it gets an empty one."""
-    from ..compiled import announce_compilation
+    from ..kernel_cache import announce_compilation
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process answers Ctrl-C and ends this one
     announce_compilation(lambda: pipe.send(("compiling", "", None)))

@@ -123,7 +123,7 @@ class Adjoint:
         self.families = [Family(parameter, self.system) for parameter in parameters]
         self.nearby = Nearby(self.families, self.system)
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
-        self.ahead = ahead_of(self.system.core)
+        self.ahead = ahead_of(self.system.core, self.m)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
         self.asked, self.keys, self.unknowns = asked, keys, np.asarray(unknowns)
         self._linear = self._of_units([key for key in keys if key[0] in LINEAR])
@@ -264,4 +264,4 @@ class Adjoint:
 def reversible(system: System) -> bool:
     """Whether a model has an adjoint: its matrices are all exact, and no joint has multipliers."""
     m = matrices_of(system.core, system.size, moving=True)
-    return not len(m.rough) and not len(m.lossy) and not len(system.multipliers)
+    return not len(m.rough) and not len(m.lossy) and not m.turning and not len(system.multipliers)

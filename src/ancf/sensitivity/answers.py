@@ -15,6 +15,7 @@ from ..model.describe import point as point_text
 from ..model.points import Point
 from ..results.momenta import Momenta
 from ..results.state import Energy
+from ..solvers.sensitivity import LEAST
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.probe import Probe
@@ -190,8 +191,8 @@ class Sensitivity:
         found = []
         for dq, dv, x in ((self.dq, 0 * self.dv, self.dq), (0 * self.dq, self.dv, self.dv)):
             most = float(np.max(np.abs(x[..., :n]) * weight, initial=0.0))
-            most = most if most > 0.0 else float(np.max(np.abs(x), initial=0.0))
-            if most > 0.0:
+            most = most if most > LEAST else float(np.max(np.abs(x), initial=0.0))
+            if most > LEAST:
                 found.append((MOVED / most, dq, dv))
         return found
 

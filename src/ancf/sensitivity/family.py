@@ -131,6 +131,8 @@ class Family:
         self._few = [Batches(b for name, b in s.parts.items() if name in changed) for s in self.systems]
         self.plain = all(self._is_plain(s, few) for s, few in zip(self.systems, self._few, strict=True))
         self._loads = any(not _same_loads(base, s) for s in self.systems)
+        self._steady: list[FloatArray] | None = None
+        self._constant = all(f.constant for s in self.systems for f in s.inputs.loads)
         self._fed = all(_same_values(base, s) for s in self.systems)
 
     def _is_plain(self, system: System, few: Batches) -> bool:
@@ -168,14 +170,20 @@ class Family:
         """
         if not self._loads:
             return
-        start, step, first, last = when
-        for system, weight in zip(self.systems, self.weights, strict=True):
+        if self._steady is None:
+            self._steady = (
+                [self._value(k, when, 1) for k in range(len(self.systems))] if self._constant else []
+            )
+        for k, (system, weight) in enumerate(zip(self.systems, self.weights, strict=True)):
             value = tables.value
             if not self._fed:
-                constant = all(function.constant for function in system.inputs.loads)
-                count = 1 if constant else len(value)
-                value = system.inputs.tables(start, step, count, first, last).value
+                value = self._steady[k] if self._constant else self._value(k, when, len(value))
             yield weight, system.core.loads, value
+
+    def _value(self, k: int, when: tuple[float, float, float, float], count: int) -> FloatArray:
+        """Inputs of the loads at value k of the parameter at the ends of steps, (count, n, 3)."""
+        value: FloatArray = self.systems[k].inputs.tables(*when[:2], count, *when[2:]).value
+        return value
 
     @property
     def name(self) -> str:

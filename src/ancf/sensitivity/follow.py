@@ -92,9 +92,10 @@ class Following:
         self.families = [Family(parameter, self.system) for parameter in parameters]
         self.nearby = Nearby(self.families, self.system)
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
-        self.ahead, self.room = ahead_of(self.system.core), room_for(self.system.size)
+        self.ahead, self.room = ahead_of(self.system.core, self.m), room_for(self.system.size)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
-        self.done, self.stored = 0, 0
+        self.taken, self.done, self.stored = 0, 0, 0  # steps taken in and followed, states stored
+        self.waiting: list[tuple[FloatArray, FloatArray, FloatArray]] = []  # q, v, a of steps to be followed
         run: Any = self.run
         count = 2 + (run.steps - 1) // every
         self.rows = np.empty((len(self.families), count, 2, self.system.size))  # at stored times
@@ -109,10 +110,8 @@ class Following:
             self.store.append(t, q, v, work)
             return
         if len(t):
-            numbers = np.arange(self.done + 1, self.done + len(t) + 1)
-            keep = (numbers % self.every == 0) | (numbers == self.run.steps)
-            self._follow(q, v, keep)
-            self.done += len(t)
+            self._take(q, v)
+            keep = self._kept_of(self.taken, len(t))
             t, q, v, work = t[keep], q[keep], v[keep], work[keep]
         self.store.append(t, q, v, work)
 
@@ -159,19 +158,37 @@ class Following:
         self.rows[:, self.stored : self.stored + made.shape[1]] = made
         self.stored += made.shape[1]
 
-    def _follow(self, q: FloatArray, v: FloatArray, keep: BoolArray) -> None:
-        """Carry on over the steps of a block, all of one length, and store those to keep."""
-        run, count = self.run, len(q)
-        when_cut(run, self.done + count)
-        h = run.h if self.done < run.full else run.rest
-        a = self.trail.accelerations(v, h, last=True)
-        most = max(1, int(ROOM / (8 * self.system.size * (4 * len(self.families) + 3))))
+    def _kept_of(self, done: int, count: int) -> BoolArray:
+        """Which of the last steps are stored."""
+        numbers = np.arange(done - count + 1, done + 1)
+        kept: BoolArray = (numbers % self.every == 0) | (numbers == self.run.steps)
+        return kept
+
+    def _take(self, q: FloatArray, v: FloatArray) -> None:
+        """Take in the steps of a block, all of one length; follow them when eight matrices can be made."""
+        run, h = self.run, self.run.h if self.taken < self.run.full else self.run.rest
+        self.taken += len(q)
+        when_cut(run, self.taken)
+        self.waiting.append((q.copy(), v.copy(), self.trail.accelerations(v, h, last=True)))
+        ready = sum(len(one[0]) for one in self.waiting)
+        if ready >= LANES or self.taken in (run.full, run.steps):
+            q, v, a = (np.concatenate(parts) for parts in zip(*self.waiting, strict=True))
+            self.waiting.clear()
+            self._follow(q, v, a, h)
+
+    def _follow(self, q: FloatArray, v: FloatArray, a: FloatArray, h: float) -> None:
+        """Carry on over steps of a length, and store those to keep."""
+        count = len(q)
+        keep = self._kept_of(self.done + count, count)
+        most = int(ROOM / (8 * self.system.size * (4 * len(self.families) + 3)))
+        most = max(most // LANES, 1) * LANES
         for begin in range(0, count, most):
             rows = slice(begin, min(begin + most, count))
             way = Way(q[rows].copy(), v[rows].copy(), a[rows])
             made = self._block(way, h, self.done + begin)
             self._keep(made[:, keep[rows], :2])
             self.samples.take(way.q, way.v, made)
+        self.done += count
 
     def _block(self, way: Way, h: float, done: int) -> FloatArray:
         run, system = self.run, self.system

@@ -11,6 +11,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..results.sensors import Sensors
 from ..solvers.sampling import sample_rows, sampling_of
+from ..solvers.sensitivity import LEAST
 from ..system.sensors import Listing
 from ..system.system import System
 from .answers import LINEAR, MOVED, PLACES, Face, text_of
@@ -66,7 +67,7 @@ class Samples:
         still = np.zeros_like(q)
         for dq, dv, d in ((made[:, 0], still, made[:, 0]), (still, made[:, 1], made[:, 1])):
             size = np.max(np.abs(d[:, : len(self.weight)]), axis=1, keepdims=True)
-            e = NEAR / np.where(size > 0.0, size, 1.0)
+            e = NEAR / np.where(size > LEAST, size, 1.0)
             for x, w in PLACES:
                 total += w / e * self._rows(self.sampling, q + x * e * dq, v + x * e * dv)
         return total
@@ -145,7 +146,7 @@ class SensorSensitivity:
             return np.asarray(total + question(self._with(self._family.base, now | d)))
         for key in d:
             size = float(np.max(np.abs(d[key]), initial=0.0))
-            for x, w in PLACES if size > 0.0 else ():
+            for x, w in PLACES if size > LEAST else ():
                 e = MOVED / size
                 moved = now | {key: now[key] + x * e * d[key]}
                 total = total + w / e * np.asarray(question(self._with(self._family.base, moved)))

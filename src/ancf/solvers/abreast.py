@@ -12,10 +12,12 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..compiled import formula, inline_kernel, kernel
-from ..linalg.eight import factor_of, six
-from ..simd import LANES, every, load, store
+from ..linalg.eight import factor_of
+from ..linalg.lanes import multiply_abreast, multiply_twisted_abreast, solve_abreast
+from ..simd import LANES, absolute, every, load, store
 from ..system.core import constraint_rows, drive, solve_sparse, to_local
 from .ahead import look_ahead
+from .local import add_local, add_locals, look_near
 from .scheme import coefficients
 from .sensitivity import (
     ABAR,
@@ -23,14 +25,13 @@ from .sensitivity import (
     ENOUGH,
     LEAST,
     MOST,
-    NOISY,
-    ROUGH,
     A,
     Q,
     V,
     add_lossy,
     add_rough,
     extent,
+    is_done,
 )
 from .status import OK, SINGULAR, SLOW
 
@@ -43,58 +44,16 @@ class Abreast(NamedTuple):
     seen: FloatArray  # (size, 8)
     before: FloatArray  # (8,) sizes of the last corrections
     open: FloatArray  # (8,) 1 while corrections go on, else 0
+    norm: FloatArray  # (8,) sizes of corrections, and of what they correct
+    size: FloatArray  # (8,)
+    shift: FloatArray  # (8,) sizes of shifts onto the constraints
 
 
 def room_for(size: int) -> Abreast:
     """Room for the unknowns of a model."""
     return Abreast(
-        *(np.zeros((*shape, LANES)) for shape in ((3, size), (size,), (size,))), *np.zeros((2, LANES))
+        *(np.zeros((*shape, LANES)) for shape in ((3, size), (size,), (size,))), *np.zeros((5, LANES))
     )
-
-
-@formula
-def row_times(block, i, step, x):
-    """Product of six numbers of a block, ``step`` apart from the i-th on, and six lanes."""
-    one = block[i] * x[0] + block[i + step] * x[1] + block[i + 2 * step] * x[2]
-    return one + (block[i + 3 * step] * x[3] + block[i + 4 * step] * x[4] + block[i + 5 * step] * x[5])
-
-
-@formula
-def add_times(block, first, step, x, sign, X, i):
-    """Add the product of a block, or its transpose, and six lanes to six rows of X."""
-    for c in range(6):
-        store(load(X, i + c) + sign * row_times(block, first * c, step, x), X, i + c)
-
-
-@kernel
-def multiply_abreast(factor, values, X, Y):
-    """Add the product of the symmetric matrix of these block values and X to Y."""
-    n = factor.row_start.shape[0] - 1
-    for i in range(n):
-        x = six(X, 6 * i)
-        add_times(values[36 * i : 36 * i + 36], 6, 1, x, 1.0, Y, 6 * i)
-        for k in range(factor.row_start[i], factor.row_start[i + 1]):
-            j, block = 6 * factor.column[k], values[36 * (n + k) : 36 * (n + k) + 36]
-            add_times(block, 6, 1, six(X, j), 1.0, Y, 6 * i)
-            add_times(block, 1, 6, x, 1.0, Y, j)
-
-
-@kernel
-def solve_abreast(factor, X):
-    """Replace right-hand sides by the solutions."""
-    row_start, column, L, D_inv = factor.row_start, factor.column, factor.L, factor.D_inv
-    n = row_start.shape[0] - 1
-    for i in range(n):
-        for k in range(row_start[i], row_start[i + 1]):
-            add_times(L[36 * k : 36 * k + 36], 6, 1, six(X, 6 * column[k]), -1.0, X, 6 * i)
-    for i in range(n - 1, -1, -1):
-        x, block = six(X, 6 * i), D_inv[36 * i : 36 * i + 36]
-        for c in range(6):
-            store(row_times(block, 6 * c, 1, x), X, 6 * i + c)
-    for i in range(n - 1, -1, -1):
-        x = six(X, 6 * i)
-        for k in range(row_start[i], row_start[i + 1]):
-            add_times(L[36 * k : 36 * k + 36], 1, 6, x, -1.0, X, 6 * column[k])
 
 
 @formula
@@ -120,24 +79,32 @@ def follow_abreast(supports, d):
 
 
 @formula
-def add_product(core, values, x, room):
-    """Add a matrix times x to r, the rows of shadows where the matrix has them."""
+def see(core, x, room):
+    """Keep x as the matrices take it, the values of shadows at the unknowns where they have their rows."""
     supports = core.supports
     for i in range(x.shape[0]):
         store(load(x, i), room.seen, i)
     for k in range(supports.rot_slot.shape[0]):
         for c in range(3):
             store(load(x, supports.rot_shadow[k] + c), room.seen, supports.rot_slot[k] + c)
+
+
+@formula
+def add_product(core, values, x, room):
+    """Add a matrix times x to r, the rows of shadows where the matrix has them."""
+    see(core, x, room)
     multiply_abreast(core.factor, values, room.seen, room.r)
 
 
 @formula
-def products(core, m, K, C, room):
+def products(core, m, K, C, W, room):
     """r = M s_a + C s_v + K s_q of the exact batches."""
     d, r, supports = room.d, room.r, core.supports
     for i in range(r.shape[0]):
         store(every(0.0), r, i)
     add_product(core, K, d[0], room)
+    if W.shape[0] > 0:
+        multiply_twisted_abreast(core.factor, W, room.seen, room.r)
     add_product(core, m.M, d[2], room)
     if m.damped:
         add_product(core, C, d[1], room)
@@ -165,7 +132,7 @@ def add_others(core, m, x, room, lane):
         r[i] = 0.0
     if m.lossy.table.shape[0] > 0:
         add_lossy(core, m, x, d, r)
-    if m.rough.table.shape[0] > 0:
+    if m.rough.table.shape[0] > 0 and not m.local:
         add_rough(core, m, x, d, r)
         for k in range(core.joints.multipliers.shape[0]):
             room.r[core.joints.multipliers[k], lane] = 0.0
@@ -184,15 +151,16 @@ def to_local_abreast(supports, r):
 
 
 @inline_kernel
-def out_of_balance(core, m, K, C, x, push, n, first, room):
+def out_of_balance(core, m, matrices, x, push, n, first, room):
     """r = M s_a + C s_v + K s_q + R_p as the solve wants it, of step n and parameters from ``first`` on."""
     r, count = room.r, min(LANES, push.shape[0] - first)
     follow_abreast(core.supports, room.d)
-    products(core, m, K, C, room)
-    if m.lossy.table.shape[0] + m.rough.table.shape[0] > 0:
+    products(core, m, matrices[0], matrices[1], matrices[2], room)
+    if m.lossy.table.shape[0] > 0 or (m.rough.table.shape[0] > 0 and not m.local):
         for k in range(count):
             if room.open[k] > 0.0:
                 add_others(core, m, x, room, k)
+    add_locals(core, m, x, room, count)
     to_local_abreast(core.supports, r)
     for k in range(count):
         own = push[first + k, n]
@@ -209,7 +177,7 @@ def shifted(core, m, factor, x, gap, joined, room, lane):
     taken(room, lane, d)
     joints.level[0], joints.level[1], joints.level[2] = 1.0, 0.0, 0.0
     size = extent(d[0], core.weight)
-    e = m.moved / size if size > 0.0 else 1.0
+    e = m.moved / size if size > LEAST else 1.0
     for i in range(r.shape[0]):
         r[i] = gap[i]
     for side in (1.0, -1.0):
@@ -243,53 +211,99 @@ def correct(core, room, B, G):
         store(every(0.0), d, 2, multipliers[k])
 
 
-@inline_kernel
-def greatest_of(X, weight, lane):
-    """Largest entry of a lane by size, weighted."""
-    size = 0.0
+@formula
+def sizes_of(X, weight, out):
+    """Largest entry of each lane by size, weighted."""
+    found = every(0.0)
     for i in range(weight.shape[0]):
-        size = max(size, abs(X[i, lane]) * weight[i])
-    return size
+        size = weight[i] * absolute(load(X, i))
+        found = 0.5 * (found + size + absolute(found - size))
+    store(found, out, 0)
 
 
 @inline_kernel
-def is_done(norm, size, before, enough):
-    """Whether corrections of a sensitivity may end with one of this size."""
-    rate = min(norm / before, 1.0) if before < np.inf else 1.0
-    if rate * norm <= enough * size or norm < LEAST or (norm <= NOISY * size and norm >= 0.5 * before):
-        return True
-    return norm <= ROUGH * size and norm >= 0.9 * before
+def out_again(core, m, W, x, room, lanes, B, G):
+    """r = what is out of balance after the corrections in r: what these do that is not in the factors."""
+    r, seen, supports = room.r, room.seen, core.supports
+    for i in range(r.shape[0]):
+        store(load(r, i), seen, i)
+        store(every(0.0), r, i)
+    for k in range(supports.rot_slot.shape[0]):
+        i, j, R = supports.rot_slot[k], supports.rot_shadow[k], supports.rot_R[k, 0]
+        x0, x1, x2 = load(seen, i), load(seen, i + 1), load(seen, i + 2)
+        for c in range(3):
+            y = R[c, 0] * x0 + R[c, 1] * x1 + R[c, 2] * x2
+            store(y, seen, i + c)
+            store(y, seen, j + c)
+    if W.shape[0] > 0:
+        multiply_twisted_abreast(core.factor, W, seen, r)
+    for k in range(supports.rot_slot.shape[0]):
+        i, j = supports.rot_slot[k], supports.rot_shadow[k]
+        for c in range(3):
+            store(load(r, i + c), r, j + c)
+    if m.rough.table.shape[0] > 0:
+        count = look_near(m, x)
+        for lane in range(lanes):
+            if room.open[lane] > 0.0:
+                for t in range(count):
+                    change = seen[int(m.near[0, t]), lane]
+                    m.near[1, t], m.near[2, t], m.near[3, t] = change, (G / B) * change, change / B
+                add_local(core, m, x, count, r, lane)
+    to_local_abreast(supports, r)
+    turned_back(core, r)
+
+
+@formula
+def turned_back(core, r):
+    """Change the sign of r; zero at held unknowns."""
+    supports = core.supports
+    for i in range(core.weight.shape[0]):
+        store(-1.0 * load(r, i), r, i)
+    for k in range(supports.held.shape[0]):
+        store(every(0.0), r, supports.held[k])
+
+
+@inline_kernel
+def not_done(room, weight, count, enough):
+    """Number of lanes whose corrections, in r, go on; these stay open."""
+    left = 0
+    sizes_of(room.r, weight, room.norm)
+    sizes_of(room.d[0], weight, room.size)
+    for k in range(count):
+        if room.open[k] > 0.0:
+            norm = max(room.norm[k], room.shift[k])
+            if is_done(norm, room.size[k], room.before[k], enough):
+                room.open[k] = 0.0
+            else:
+                room.before[k] = norm
+                left += 1
+    return left
 
 
 @inline_kernel
 def solved(core, m, factor, matrices, x, push, gap, n, first, joined, room, B, G):
     """Corrections of predicted sensitivities; a status."""
-    K, C = matrices
     joints, count = core.joints, min(LANES, push.shape[0] - first)
-    exact = m.rough.table.shape[0] + m.lossy.table.shape[0] == 0
+    rough = m.rough.table.shape[0] > 0
+    known = m.lossy.table.shape[0] == 0 and not m.turning and (m.local or not rough)
     projects = joined.projects and joints.multipliers.shape[0] > 0
-    enough = DIFFERENCED if m.rough.table.shape[0] > 0 else ENOUGH
+    again, enough = matrices[2].shape[0] > 0 or rough, DIFFERENCED if rough else ENOUGH
     for k in range(count):
-        room.before[k], room.open[k] = np.inf, 1.0
-    for _ in range(MOST):
-        out_of_balance(core, m, K, C, x, push, n, first, room)
+        room.before[k], room.open[k], room.shift[k] = np.inf, 1.0, 0.0
+    for round in range(MOST):
+        if round > 0 and known and not projects:
+            out_again(core, m, matrices[2], x, room, count, B, G)
+        else:
+            out_of_balance(core, m, matrices, x, push, n, first, room)
         solve_abreast(factor, room.r)
         correct(core, room, B, G)
-        if exact and not projects:
+        if known and not projects and not again:
             return OK
-        left = 0
-        for k in range(count):
-            if room.open[k] > 0.0:
-                norm = greatest_of(room.r, core.weight, k)
-                if projects:
-                    norm = max(norm, shifted(core, m, factor, x, gap[first + k, n], joined, room, k))
-                size = greatest_of(room.d[0], core.weight, k)
-                if exact or is_done(norm, size, room.before[k], enough):
-                    room.open[k] = 0.0
-                else:
-                    room.before[k] = norm
-                    left += 1
-        if left == 0:
+        if projects:
+            for k in range(count):
+                if room.open[k] > 0.0:
+                    room.shift[k] = shifted(core, m, factor, x, gap[first + k, n], joined, room, k)
+        if not_done(room, core.weight, count, enough) == 0 or (known and not again):
             return OK
     return SLOW
 
@@ -355,7 +369,8 @@ def follow_steps(core, m, ahead, room, tables, way, push, gap, h, scheme, joined
             bad = look_ahead(core, m, ahead, tables, way, n, B, G, core.joints.multipliers.shape[0] > 0)
             if bad >= 0:
                 return n + bad, SINGULAR
-        factor, matrices = factor_of(core.factor, ahead.eight, lane), (ahead.K[lane], ahead.C[lane])
+        factor = factor_of(core.factor, ahead.eight, lane)
+        matrices = (ahead.K[lane], ahead.C[lane], ahead.W[lane])
         x = (way.q[n], way.v[n], way.a[n])
         drive(core.supports, core.loads.value, tables, n, x[0], x[1], x[2])
         for g in range(s.shape[0]):

@@ -6,19 +6,22 @@ end of a step, by what comes later, and J = M/B + (G/B) C + K,
     J^T lambda = mu_q + (G mu_v + c_1 mu_b + mu_a)/B
 
 at the free unknowns; the number changes by -lambda . R_p, and mu_q - K^T lambda and mu_v - C^T lambda go back
-through q~ and v~ to the start of the step.  For models whose matrices are all exact, which are symmetric.
+through q~ and v~ to the start of the step.  For models whose matrices are all exact: they are symmetric but
+for a part of K, W = -W^T, which is not in the factors and is made up for by iteration.
 """
 
 from __future__ import annotations
 
-from ..compiled import inline_kernel, kernel
+import numpy as np
+
+from ..compiled import formula, inline_kernel, kernel
 from ..linalg.eight import factor_of
 from ..simd import LANES
-from ..system.core import drive, solve_matrix
+from ..system.core import drive, solve_matrix, to_local
 from .ahead import look_ahead
 from .scheme import coefficients
-from .sensitivity import product
-from .status import OK, SINGULAR
+from .sensitivity import ENOUGH, MOST, is_done, product, twisted_product
+from .status import OK, SINGULAR, SLOW
 
 
 @inline_kernel
@@ -50,24 +53,60 @@ def take_wanted(supports, wanted, mu, x, moved):
         mu[1, i] += moved[1, i]
 
 
-@inline_kernel
-def factors(core, factor, mu, c1, B, G, lam):
-    """Fill lambda at the unknowns and, as forces of the residual, at the shadows."""
-    supports, n = core.supports, core.weight.shape[0]
-    for i in range(n):
-        lam[i] = mu[0, i] + (G * mu[1, i] + c1 * mu[3, i] + mu[2, i]) / B
-    for k in range(supports.held.shape[0]):
-        lam[supports.held[k]] = 0.0
-    solve_matrix(factor, lam)
-    for i in range(n, lam.shape[0]):
-        lam[i] = 0.0
+@formula
+def onto_shadows(supports, x):
+    """Vectors at the unknowns of local axes as those of the shadows."""
     for k in range(supports.rot_slot.shape[0]):
         i, j = supports.rot_slot[k], supports.rot_shadow[k]
         for c in range(3):
             total = 0.0
             for r in range(3):
-                total += supports.rot_R[k, 0, c, r] * lam[i + r]
-            lam[j + c] = total
+                total += supports.rot_R[k, 0, c, r] * x[i + r]
+            x[j + c] = total
+
+
+@inline_kernel
+def solve_twisted(core, factor, W, lam, d, r, w):
+    """Solve with the transposed matrix, whose antisymmetric half W is not in the factors; a status."""
+    n, before = core.weight.shape[0], np.inf
+    solve_matrix(factor, lam)
+    if W.shape[0] == 0:
+        return OK
+    for i in range(n):
+        d[i] = lam[i]
+    for _ in range(MOST):
+        onto_shadows(core.supports, d)
+        for i in range(r.shape[0]):
+            r[i] = 0.0
+        twisted_product(core, W, 1.0, d, r, w)
+        to_local(core.supports, r)
+        for k in range(core.supports.held.shape[0]):
+            r[core.supports.held[k]] = 0.0
+        solve_matrix(factor, r)
+        norm, size = 0.0, 0.0
+        for i in range(n):
+            lam[i] += r[i]
+            d[i] = r[i]
+            norm, size = max(norm, abs(r[i])), max(size, abs(lam[i]))
+        if is_done(norm, size, before, ENOUGH):
+            return OK
+        before = norm
+    return SLOW
+
+
+@inline_kernel
+def factors(core, factor, W, mu, c1, B, G, lam, work):
+    """Fill lambda at the unknowns and, as forces of the residual, at the shadows; a status."""
+    supports, n = core.supports, core.weight.shape[0]
+    for i in range(n):
+        lam[i] = mu[0, i] + (G * mu[1, i] + c1 * mu[3, i] + mu[2, i]) / B
+    for k in range(supports.held.shape[0]):
+        lam[supports.held[k]] = 0.0
+    status = solve_twisted(core, factor, W, lam, work[0], work[8], work[3:5])
+    for i in range(n, lam.shape[0]):
+        lam[i] = 0.0
+    onto_shadows(supports, lam)
+    return status
 
 
 @kernel
@@ -103,10 +142,14 @@ def back_steps(core, m, ahead, tables, way, wanted, h, scheme, mu, out):
         drive(core.supports, core.loads.value, tables, at, way.q[at], way.v[at], way.a[at])
         lam = out[at]
         take_wanted(core.supports, wanted[at], mu, x, back)
-        factors(core, factor_of(core.factor, ahead.eight, k), mu, c1, B, G, lam)
+        factor, W = factor_of(core.factor, ahead.eight, k), ahead.W[k]
+        status = factors(core, factor, W, mu, c1, B, G, lam, m.work)
+        if status != OK:
+            return step, status
         for i in range(size):
             x[0, i] = x[1, i] = x[2, i] = 0.0
         product(core, ahead.K[k], lam, x[0], w)
+        twisted_product(core, W, -1.0, lam, x[0], w)
         product(core, m.M, lam, x[2], w)
         if m.damped:
             product(core, ahead.C[k], lam, x[1], w)

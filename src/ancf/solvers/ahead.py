@@ -12,6 +12,7 @@ from ..compiled import inline_kernel
 from ..linalg.eight import Eight, allocate_eight, factorise_eight
 from ..simd import LANES
 from ..system.core import Core, drive, restrict
+from .sensitivity import Matrices, stiffnesses
 
 
 class Ahead(NamedTuple):
@@ -19,27 +20,23 @@ class Ahead(NamedTuple):
 
     K: FloatArray  # (8, values) of the exact batches, at rest
     C: FloatArray  # (8, values)
+    W: FloatArray  # (8, values or none), see Matrices
     eight: Eight  # all of M/B + (G/B) C + K
 
 
-def ahead_of(core: Core) -> Ahead:
+def ahead_of(core: Core, m: Matrices) -> Ahead:
     """Room for the matrices of a model."""
     K, C = np.zeros((2, LANES, core.A.size))
-    return Ahead(K, C, allocate_eight(core.factor))
+    return Ahead(K, C, np.zeros((LANES, m.W.size)), allocate_eight(core.factor))
 
 
 @inline_kernel
-def matrices_at(core, m, K, C, A, q, v, B, G):
-    """Exact parts of the matrix of a step, and all of it.
-
-    K is that at rest: a damped spring has the tension of its damping in it otherwise, see ``add_lossy``.
-    """
+def matrices_at(core, m, K, C, W, A, q, v, B, G):
+    """Exact parts of the matrix of a step, and all of it that is symmetric."""
     still = m.work[4]
     for i in range(still.shape[0]):
         still[i] = 0.0
-    for i in range(K.shape[0]):
-        K[i] = 0.0
-    add_tangents(m.exact, q, still, K, 0.0, 0.0, 1.0, core.ws)
+    stiffnesses(core, m, K, W, q, v, still)
     for i in range(K.shape[0]):
         A[i] = K[i] + m.M[i] / B
     if m.damped:
@@ -62,6 +59,7 @@ def look_ahead(core, m, ahead, tables, way, first, B, G, both):
     for k in range(count):
         n = first + k
         drive(core.supports, core.loads.value, tables, n, way.q[n], way.v[n], way.a[n])
-        matrices_at(core, m, ahead.K[k], ahead.C[k], ahead.eight.A[k], way.q[n], way.v[n], B, G)
+        x = (way.q[n], way.v[n])
+        matrices_at(core, m, ahead.K[k], ahead.C[k], ahead.W[k], ahead.eight.A[k], x[0], x[1], B, G)
     definite = core.joints.multipliers.shape[0] == 0
     return factorise_eight(core.factor, ahead.eight, count, definite, both)

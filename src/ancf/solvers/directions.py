@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..batches import add_tangents
 from ..compiled import kernel
 from ..system.core import constraint_rows, follow
-from .sensitivity import out_of_balance
+from .sensitivity import LEAST, out_of_balance, stiffnesses
 
 
 @kernel
@@ -15,9 +15,8 @@ def products_along(core, m, q, v, a, d, still, r):
     ``still`` is a vector of zeros.
     """
     for i in range(m.K.shape[0]):
-        m.K[i] = 0.0
         m.C[i] = 0.0
-    add_tangents(m.exact, q, still, m.K, 0.0, 0.0, 1.0, core.ws)
+    stiffnesses(core, m, m.K, m.W, q, v, still)
     add_tangents(m.exact, q, v, m.C, 0.0, 1.0, 0.0, core.ws)
     out_of_balance(core, m, (q, v, a), d, still, r)
 
@@ -33,7 +32,7 @@ def rows_along(core, m, q, v, a, d, r):
     for k in range(3):
         for i in range(r.shape[0]):
             most = max(most, abs(d[k, i]))
-    e = m.moved / most if most > 0.0 else 1.0
+    e = m.moved / most if most > LEAST else 1.0
     for side in (1.0, -1.0):
         for i in range(r.shape[0]):
             w[1, i] = q[i] + side * e * d[0, i]

@@ -7,7 +7,8 @@ derivative by a parameter p is linear,
 
 with the exact mass M, damping C and stiffness K of the step.  Batches that say so (``Traits.exact``) have
 them in the matrix.  Of those that are exact at rest alone, as damped elements are, the change of the damping
-forces with q is missing there: it is taken by differences along s, and so is all of other batches.  All
+forces with q is missing there: kinds that know it (``add_rate_stiffness``) give it as a symmetric and an
+antisymmetric matrix, of others it is taken by differences along s, and so is all of other batches.  All
 parameters share the factors of a step, see :mod:`ancf.solvers.abreast`.
 
 All vectors are derivatives at the free unknowns, zero at held ones; what a parameter does to these is in R_p.
@@ -17,12 +18,15 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
 from ..arrays import FloatArray
-from ..batches import Batches, add_forces
+from ..batches import Batches, add_forces, add_tangents
 from ..compiled import formula, inline_kernel, kernel
 from ..linalg.block_ldl import times
 from ..simd import load_six, store_six, total
 from ..system.core import follow, to_local
+from .rare import add_rate_stiffnesses
 
 #: Change of a state, in sizes of the model, and of its velocities, in these per second, of the differences;
 #: and its most in m: a contact is pressed by a millimetre, whatever the length of its line.
@@ -33,7 +37,7 @@ LOSSY, NEAR, FAR = 3e-4, 8.0 / 12.0, -1.0 / 12.0
 #: be smaller, and the same where central differences have more round-off; the part below which they end when
 #: the next one is not smaller; of long lines, whose places have more round-off, when it is as large.
 MOST, ENOUGH, DIFFERENCED, NOISY, ROUGH = 60, 1e-13, 1e-10, 1e-8, 1e-6
-#: A correction that is none, whatever its units.
+#: A correction, or a sensitivity, that is none, whatever its units.
 LEAST = 1e-200
 #: Places of the vectors of a sensitivity.
 Q, V, A, ABAR = range(4)
@@ -43,14 +47,20 @@ class Matrices(NamedTuple):
     """What sensitivities have of the matrix."""
 
     exact: Batches  # whose matrices are derivatives, at least at rest
-    lossy: Batches  # of them, those with damping forces that change with q
+    resting: Batches  # of them, those whose stiffness is taken at rest
+    stirred: Batches  # of them, those that know what velocities add to their stiffness
+    lossy: Batches  # of them, those with damping forces that change with q in another way
     rough: Batches  # all others
     K: FloatArray  # values of the blocks of the exact ones
     C: FloatArray
     M: FloatArray
+    W: FloatArray  # what is antisymmetric of the stiffness; no values if there is none
+    local: bool  # rough batches know what they touch
+    turning: bool  # axes of supports turn, which the factors of a step do not know
     damped: bool  # C is not zero
     moved: float  # change of a state, in sizes of the model, of differences
     work: FloatArray  # (9, size)
+    near: FloatArray  # (4, unknowns) of what rough batches touch: unknown, s_q, s_v, s_a
 
 
 class Way(NamedTuple):
@@ -84,6 +94,21 @@ def multiply(factor, values, x, y):
             store_six(load_six(y, j) + times(values, o, x, 6 * i), y, j)
 
 
+@inline_kernel
+def multiply_twisted(factor, values, sign, x, y):
+    """Add the product of the antisymmetric matrix of these block values, times a sign, and x to y."""
+    n = factor.row_start.shape[0] - 1
+    for i in range(n):
+        for r in range(6):
+            y[6 * i + r] += sign * total(load_six(values, 36 * i + 6 * r) * load_six(x, 6 * i))
+        for k in range(factor.row_start[i], factor.row_start[i + 1]):
+            j, o = 6 * factor.column[k], 36 * (n + k)
+            other = load_six(x, j)
+            for r in range(6):
+                y[6 * i + r] += sign * total(load_six(values, o + 6 * r) * other)
+            store_six(load_six(y, j) - sign * times(values, o, x, 6 * i), y, j)
+
+
 @formula
 def seen(supports, x, y):
     """y = x with the values of the shadows at the unknowns where the matrix has their rows."""
@@ -96,12 +121,29 @@ def seen(supports, x, y):
 
 @inline_kernel
 def product(core, values, x, r, w):
-    """Add a matrix times x to r, both in physical components."""
-    supports = core.supports
-    seen(supports, x, w[0])
+    """Add a symmetric matrix times x to r, both in physical components."""
+    seen(core.supports, x, w[0])
     for i in range(r.shape[0]):
         w[1][i] = 0.0
     multiply(core.factor, values, w[0], w[1])
+    to_shadows(core.supports, r, w)
+
+
+@inline_kernel
+def twisted_product(core, values, sign, x, r, w):
+    """The same of an antisymmetric matrix, times a sign; one without values is none."""
+    if values.shape[0] == 0:
+        return
+    seen(core.supports, x, w[0])
+    for i in range(r.shape[0]):
+        w[1][i] = 0.0
+    multiply_twisted(core.factor, values, sign, w[0], w[1])
+    to_shadows(core.supports, r, w)
+
+
+@formula
+def to_shadows(supports, r, w):
+    """Add the product w[1] to r, the rows of shadows where these are."""
     for k in range(supports.rot_slot.shape[0]):
         for c in range(3):
             i = supports.rot_slot[k] + c
@@ -141,12 +183,12 @@ def both_along(batches, core, m, x, d, r):
     size, most = extent(d[0], core.weight), 0.0
     for i in range(r.shape[0]):
         most = max(most, abs(d[0][i]))
-    if most > 0.0:
-        e = m.moved / size if size > 0.0 else m.moved / most
+    if most > LEAST:
+        e = m.moved / size if size > LEAST else m.moved / most
         along(batches, ws, x, d, (e, 0.0), r, w)
     size = extent(d[1], core.weight)
-    size = size if size > 0.0 else extent(d[2], core.weight)
-    if size > 0.0:
+    size = size if size > LEAST else extent(d[2], core.weight)
+    if size > LEAST:
         along(batches, ws, x, d, (0.0, m.moved / size), r, w)
 
 
@@ -176,7 +218,7 @@ def add_rough(core, m, x, d, r):
 def add_lossy(core, m, x, d, r):
     """Add the derivative along s_q of what forces of lossy batches do because of velocities."""
     w, size = m.work[4:8], extent(d[0], core.weight)
-    if not size > 0.0:
+    if not size > LEAST:
         return
     e = LOSSY / size
     for i in range(r.shape[0]):
@@ -205,6 +247,7 @@ def out_of_balance(core, m, x, d, push, r):
     for i in range(r.shape[0]):
         r[i] = 0.0
     product(core, m.K, d[0], r, m.work[4:6])
+    twisted_product(core, m.W, 1.0, d[0], r, m.work[4:6])
     product(core, m.M, d[2], r, m.work[4:6])
     if m.damped:
         product(core, m.C, d[1], r, m.work[4:6])
@@ -217,6 +260,27 @@ def out_of_balance(core, m, x, d, push, r):
         r[i] += push[i]
     for k in range(core.supports.held.shape[0]):
         r[core.supports.held[k]] = 0.0
+
+
+@inline_kernel
+def is_done(norm, size, before, enough):
+    """Whether corrections of a sensitivity may end with one of this size."""
+    rate = min(norm / before, 1.0) if before < np.inf else 1.0
+    if rate * norm <= enough * size or norm < LEAST or (norm <= NOISY * size and norm >= 0.5 * before):
+        return True
+    return norm <= ROUGH * size and norm >= 0.9 * before
+
+
+@inline_kernel
+def stiffnesses(core, m, K, W, q, v, still):
+    """Fill K and W of the exact batches; ``still`` is a vector of zeros."""
+    for i in range(K.shape[0]):
+        K[i] = 0.0
+    for i in range(W.shape[0]):
+        W[i] = 0.0
+    add_tangents(m.resting, q, still, K, 0.0, 0.0, 1.0, core.ws)
+    add_tangents(m.stirred, q, v, K, 0.0, 0.0, 1.0, core.ws)
+    add_rate_stiffnesses(m.stirred, q, v, K, W, core.ws)
 
 
 @kernel

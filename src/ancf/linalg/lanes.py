@@ -1,0 +1,65 @@
+"""Products and solutions of eight vectors abreast: one in each lane of every unknown."""
+
+from __future__ import annotations
+
+from ..compiled import formula, kernel
+from ..simd import load, store
+from .eight import six
+
+
+@formula
+def row_times(block, i, step, x):
+    """Product of six numbers of a block, ``step`` apart from the i-th on, and six lanes."""
+    one = block[i] * x[0] + block[i + step] * x[1] + block[i + 2 * step] * x[2]
+    return one + (block[i + 3 * step] * x[3] + block[i + 4 * step] * x[4] + block[i + 5 * step] * x[5])
+
+
+@formula
+def add_times(block, first, step, x, sign, X, i):
+    """Add the product of a block, or its transpose, and six lanes to six rows of X."""
+    for c in range(6):
+        store(load(X, i + c) + sign * row_times(block, first * c, step, x), X, i + c)
+
+
+@kernel
+def multiply_abreast(factor, values, X, Y):
+    """Add the product of the symmetric matrix of these block values and X to Y."""
+    n = factor.row_start.shape[0] - 1
+    for i in range(n):
+        x = six(X, 6 * i)
+        add_times(values[36 * i : 36 * i + 36], 6, 1, x, 1.0, Y, 6 * i)
+        for k in range(factor.row_start[i], factor.row_start[i + 1]):
+            j, block = 6 * factor.column[k], values[36 * (n + k) : 36 * (n + k) + 36]
+            add_times(block, 6, 1, six(X, j), 1.0, Y, 6 * i)
+            add_times(block, 1, 6, x, 1.0, Y, j)
+
+
+@kernel
+def multiply_twisted_abreast(factor, values, X, Y):
+    """Add the product of the antisymmetric matrix of these block values and X to Y."""
+    n = factor.row_start.shape[0] - 1
+    for i in range(n):
+        x = six(X, 6 * i)
+        add_times(values[36 * i : 36 * i + 36], 6, 1, x, 1.0, Y, 6 * i)
+        for k in range(factor.row_start[i], factor.row_start[i + 1]):
+            j, block = 6 * factor.column[k], values[36 * (n + k) : 36 * (n + k) + 36]
+            add_times(block, 6, 1, six(X, j), 1.0, Y, 6 * i)
+            add_times(block, 1, 6, x, -1.0, Y, j)
+
+
+@kernel
+def solve_abreast(factor, X):
+    """Replace right-hand sides by the solutions."""
+    row_start, column, L, D_inv = factor.row_start, factor.column, factor.L, factor.D_inv
+    n = row_start.shape[0] - 1
+    for i in range(n):
+        for k in range(row_start[i], row_start[i + 1]):
+            add_times(L[36 * k : 36 * k + 36], 6, 1, six(X, 6 * column[k]), -1.0, X, 6 * i)
+    for i in range(n - 1, -1, -1):
+        x, block = six(X, 6 * i), D_inv[36 * i : 36 * i + 36]
+        for c in range(6):
+            store(row_times(block, 6 * c, 1, x), X, 6 * i + c)
+    for i in range(n - 1, -1, -1):
+        x = six(X, 6 * i)
+        for k in range(row_start[i], row_start[i + 1]):
+            add_times(L[36 * k : 36 * k + 36], 1, 6, x, -1.0, X, 6 * column[k])

@@ -1,0 +1,80 @@
+"""Derivatives of the forces of batches that know what they touch: only that is moved for differences.
+
+A contact of a strip with a wire touches a dozen of the unknowns of a long line.  See
+:func:`ancf.compiled.touched`; ``near`` has what is touched and, in the rows behind, the direction there.
+"""
+
+from __future__ import annotations
+
+from ..batches import add_forces
+from ..compiled import inline_kernel
+from .rare import all_touched
+from .sensitivity import LEAST
+
+
+@inline_kernel
+def look_near(m, x):
+    """Keep the state x where :func:`add_local` moves it; the number of unknowns that rough batches touch."""
+    w = m.work
+    for i in range(w.shape[1]):
+        w[4, i], w[5, i], w[6, i], w[7, i] = x[0][i], x[1][i], x[2][i], 0.0
+    return all_touched(m.rough, x[0], m.near[0])
+
+
+@inline_kernel
+def largest_near(row, index, weight):
+    """Largest entry by size, weighted; shadows count as they are."""
+    size = 0.0
+    for t in range(row.shape[0]):
+        i = int(index[t])
+        size = max(size, abs(row[t]) * (weight[i] if i < weight.shape[0] else 1.0))
+    return size
+
+
+@inline_kernel
+def add_moved(core, m, x, count, e, f, r, lane):
+    """Add the difference of the forces of rough batches, q moved by e and rates by f times ``near``, to r."""
+    near, w = m.near, m.work
+    for side in (1.0, -1.0):
+        for t in range(count):
+            i = int(near[0, t])
+            w[4, i] = x[0][i] + side * e * near[1, t]
+            w[5, i] = x[1][i] + side * f * near[2, t]
+            w[6, i] = x[2][i] + side * f * near[3, t]
+        add_forces(m.rough, w[4], w[5], w[6], w[7], core.ws)
+        for t in range(count):
+            i = int(near[0, t])
+            r[i, lane] += side * w[7, i] / (2.0 * (e + f))
+            w[7, i] = 0.0  # it may stand there twice
+    for t in range(count):
+        i = int(near[0, t])
+        w[4, i], w[5, i], w[6, i] = x[0][i], x[1][i], x[2][i]
+
+
+@inline_kernel
+def add_local(core, m, x, count, r, lane):
+    """Add what rough batches do along ``near`` to r, of one lane: only what they touch is moved."""
+    near = m.near
+    index = near[0, :count]
+    size = largest_near(near[1, :count], index, core.weight)
+    if size > LEAST:
+        add_moved(core, m, x, count, m.moved / size, 0.0, r, lane)
+    size = largest_near(near[2, :count], index, core.weight)
+    size = size if size > LEAST else largest_near(near[3, :count], index, core.weight)
+    if size > LEAST:
+        add_moved(core, m, x, count, 0.0, m.moved / size, r, lane)
+
+
+@inline_kernel
+def add_locals(core, m, x, room, lanes):
+    """The same of the sensitivities in all lanes that are open."""
+    if m.rough.table.shape[0] == 0 or not m.local:
+        return
+    count = look_near(m, x)
+    for lane in range(lanes):
+        if room.open[lane] > 0.0:
+            for t in range(count):
+                i = int(m.near[0, t])
+                for k in range(3):
+                    m.near[1 + k, t] = room.d[k, i, lane]
+            add_local(core, m, x, count, room.r, lane)

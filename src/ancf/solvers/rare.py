@@ -1,0 +1,38 @@
+"""Operations of batches that only sensitivities ask for; they are compiled when somebody does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from numba import typeof
+
+from ..batches import RARE, RATES, TOUCHED, Batches, address_of, caller_of
+from ..compiled import add_rate_stiffness, inline_kernel, touched
+
+_rate, _touched = caller_of(add_rate_stiffness), caller_of(touched, 0)
+
+
+def knowing(stub: Any, batches: Iterable[Any]) -> Batches:
+    """Batches whose kinds have an operation that only sensitivities ask for."""
+    made = Batches(batches)
+    for k, batch in enumerate(made):
+        made.table[k, RARE[stub]] = address_of(type(batch), typeof(batch), stub)
+    return made
+
+
+@inline_kernel
+def add_rate_stiffnesses(batches, q, v, S, W, ws):
+    """What velocities do to the stiffness of all of the batches, see ``add_rate_stiffness``."""
+    table = batches.table
+    for k in range(table.shape[0]):
+        _rate(table[k, RATES], table[k, 0], (q, v, S, W, ws))
+
+
+@inline_kernel
+def all_touched(batches, q, out):
+    """What all of the :class:`Batches` touch, see :func:`ancf.compiled.touched`."""
+    table, count = batches.table, 0
+    for k in range(table.shape[0]):
+        count += _touched(table[k, TOUCHED], table[k, 0], (q, out[count:]))
+    return count
