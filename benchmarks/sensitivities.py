@@ -1,9 +1,9 @@
 """What sensitivities and gradients cost, in runs: ``python benchmarks/sensitivities.py [CASE...]``.
 
 Processor time of ``ancf.simulate`` with sensitivities by 1, 8 and 16 numbers of a model, and of
-``ancf.gradient`` by as many, from the model to the last number, next to that of the run alone: medians of some
-rounds.  The last columns are what a further parameter costs, from the first to the 16th.  Printed, nothing is
-stored.
+``ancf.gradient`` by as many, from the model to the last number, next to that of the run alone: medians of
+some rounds.  The last columns are what a further parameter costs, from the first to the 16th.  Printed,
+nothing is stored.
 """
 
 from __future__ import annotations
