@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -33,6 +33,7 @@ from .solvers.modal import natural_modes
 from .solvers.record import Progress
 from .solvers.stability import stable_limit
 from .system.redundancy import independent
+from .system.system import System
 
 __all__ = ["damped_modes", "equilibrium", "load", "modes", "simulate", "stable_step"]
 
@@ -79,13 +80,23 @@ def equilibrium(
     time = checks.number(time, "equilibrium.time")
     names = None if of is None else _names(model, of)
     with expected(model):
-        system = independent(model)
-        q, stats = statics.equilibrium(system, names, load_steps, time)
-    known = remembered.Remembered(memory=remembered.memory_of(system), balanced=True)
-    state = State(system, float(time), q, system.motion(q, time), stats, known)
+        state = _at_rest(independent(model), names, load_steps, time)
     if sensitivities:
         state.derivatives = of_state(state, names, parameters_of(model, sensitivities, SENSITIVITIES[0]))
     return state
+
+
+def equilibria(model: Model, times: Iterable[float]) -> list[State]:
+    """The equilibria at several times, each as :func:`equilibrium` finds it; the model is compiled once."""
+    with expected(model):
+        system = independent(model)
+        return [_at_rest(system, None, 1, time) for time in times]
+
+
+def _at_rest(system: System, names: list[str] | None, load_steps: int, time: float) -> State:
+    q, stats = statics.equilibrium(system, names, load_steps, time)
+    known = remembered.Remembered(memory=remembered.memory_of(system), balanced=True)
+    return State(system, float(time), q, system.motion(q, time), stats, known)
 
 
 def simulate(

@@ -307,37 +307,33 @@ def implements(
     The first array of a batch has a row for each of its parts: nothing is compiled for one without rows.
     """
     describe(batch_type, **given)
+    operations = {
+        add_force: force,
+        add_inertia: inertia,
+        add_tangent: tangent,
+        strain_energy: energy,
+        find_event: event,
+        _inverted: inverted,
+        _measure: measure,
+        _remember: remember,
+        add_rate_stiffness: rate_stiffness,
+        touched: touches,
+    }
+    for stub, function in operations.items():
+        if function is not None:
+            _DOES[batch_type, stub] = function.py_func if hasattr(function, "py_func") else function
 
-    def matches(batch: Any) -> bool:
-        return (
-            isinstance(batch, types.BaseNamedTuple) and getattr(batch, "instance_class", None) is batch_type
-        )
 
-    def bind(stub: Callable[..., Any], function: Callable[..., Any]) -> None:
-        body = function.py_func if hasattr(function, "py_func") else function
-        _DOES[batch_type, stub] = body not in _NOTHING
+def _choose_by_kind(stub: Callable[..., Any]) -> None:
+    """Let kernels that call an operation take the one of the kind of batch.
 
-        @overload(stub, jit_options=PART, strict=False)
-        def _choose(batch, *arguments):
-            return body if matches(batch) else None
+    One choice for all kinds: numba tries all that there are, at every call that it compiles.
+    """
 
-    for stub, function in (
-        (add_force, force),
-        (add_inertia, inertia),
-        (add_tangent, tangent),
-        (strain_energy, energy),
-        (find_event, event),
-        (_inverted, inverted),
-    ):
-        bind(stub, function)
-    if measure is not None:
-        bind(_measure, measure)
-    if remember is not None:
-        bind(_remember, remember)
-    if rate_stiffness is not None:
-        bind(add_rate_stiffness, rate_stiffness)
-    if touches is not None:
-        bind(touched, touches)
+    @overload(stub, jit_options=PART, strict=False)
+    def _choose(batch, *arguments):
+        kind = batch.instance_class if isinstance(batch, types.BaseNamedTuple) else None
+        return _DOES.get((kind, stub))
 
 
 def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
@@ -346,13 +342,26 @@ def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
     """
     if (batch_type, add_force) not in _DOES:
         raise TypeError(f"no operations for {batch_type.__name__}")
-    return _DOES.get((batch_type, stub), False)
+    return _DOES.get((batch_type, stub), no_energy) not in _NOTHING
 
 
 #: Operations that do nothing.
 _NOTHING = {no_inertia, no_energy, no_event, never_inverted}
-_DOES: dict[tuple[type, Any], bool] = {}
+_DOES: dict[tuple[Any, Any], Callable[..., Any]] = {}
 _inverted, _measure, _remember = inverted, measure, remember  # the parameters of implements hide the names
+for _stub in (
+    add_force,
+    add_inertia,
+    add_tangent,
+    strain_energy,
+    find_event,
+    inverted,
+    measure,
+    remember,
+    add_rate_stiffness,
+    touched,
+):
+    _choose_by_kind(_stub)
 
 
 def optional(function: Callable[..., Any], default: Any = None) -> Any:

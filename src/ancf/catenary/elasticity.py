@@ -12,6 +12,7 @@ import numpy as np
 
 import ancf
 
+from ..analysis import equilibria
 from ..arrays import FloatArray
 from ..files import writing
 from ..model import checks
@@ -133,13 +134,10 @@ def _lifts(overhead: Assembled, track: FloatArray, force: FloatArray) -> FloatAr
         for point in points:
             times = [1 + k + len(sample) * i for i in range(force.size)]
             model.add_force(point, _only_at(times, force / len(points)))
-    rest = ancf.equilibrium(model)
-    lift = np.empty((force.size, track.size))
-    for i in range(force.size):
-        for k, point in enumerate(sample):
-            state = ancf.equilibrium(model, time=float(1 + k + len(sample) * i))
-            lift[i, k] = _height(state, point) - _height(rest, point)
-    return lift
+    rest, *states = equilibria(model, range(1 + force.size * track.size))
+    lifted = zip(states, sample * force.size, strict=True)
+    lift = [_height(state, point) - _height(rest, point) for state, point in lifted]
+    return np.reshape(lift, (force.size, track.size))
 
 
 def _height(state: ancf.State, point: Point) -> float:

@@ -40,18 +40,20 @@ def fill_pattern(pairs: IntArray, n: int) -> tuple[IntArray, IntArray]:
     return row_start, column
 
 
-def _rows(pairs: IntArray, n: int) -> Iterator[set[int]]:
-    """Columns of the blocks of L, row by row."""
-    neighbours: list[set[int]] = [set() for _ in range(n)]
-    for i, j in pairs.tolist():
-        if i != j:
-            neighbours[max(i, j)].add(min(i, j))
-    parent = [-1] * n
+def _rows(pairs: IntArray, n: int) -> Iterator[list[int]]:
+    """Columns of the blocks of L, row by row, in no order."""
+    high, low = pairs.max(axis=1), pairs.min(axis=1)
+    key = np.unique((high * n + low)[high > low])
+    first = np.searchsorted(key, n * np.arange(n + 1)).tolist()
+    left = (key % max(n, 1)).tolist()
+    parent, passed = [-1] * n, [-1] * n
     for i in range(n):
-        row: set[int] = set()
-        for j in sorted(neighbours[i]):
-            while j != i and j not in row:  # climb the elimination tree: every node passed is filled
-                row.add(j)
+        row: list[int] = []
+        passed[i] = i
+        for j in left[first[i] : first[i + 1]]:
+            while passed[j] != i:  # climb the elimination tree: every node passed is filled
+                passed[j] = i
+                row.append(j)
                 if parent[j] < 0:
                     parent[j] = i
                 j = parent[j]
@@ -83,7 +85,8 @@ def order(pairs: IntArray, n: int) -> tuple[IntArray, str]:
         ``"as given"``, ``"band"`` or ``"minimum degree"``.
     """
     given = np.arange(n)
-    least = len({(min(p), max(p)) for p in map(tuple, pairs.tolist()) if p[0] != p[1]})
+    high, low = pairs.max(axis=1), pairs.min(axis=1)
+    least = len(np.unique((high * n + low)[high > low]))
     if _count(pairs, n, NEAR * least) <= NEAR * least:  # no other order can be better by more
         return given, "as given"
     candidates = {"as given": given, "band": band(pairs, n)}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 from numba import types
@@ -24,9 +25,10 @@ from ..system.core import (
 )
 from .balance import balance
 from .corotation import remember, turn_forth, turn_rows
-from .far import begin_far, end_far, isolate, show_far
-from .low_rank import forget
-from .memory import H_FACTOR, WORST
+from .far import begin_far, end_far, isolate, iterate_awake, show_far
+from .low_rank import correct_rows, forget
+from .memory import H_FACTOR, WORST, Memory
+from .near import iterate
 from .renewal import renewed
 from .sampling import Sampling, note_now, sample
 from .scheme import Scheme
@@ -48,6 +50,9 @@ class Apart(NamedTuple):
     begin_far: int  # of a line parts that can sleep
     end_far: int
     show_far: int
+    iterate_awake: int
+    correct: int  # contacts, or springs that may go slack
+    iterate: int  # of a line what is near
 
 
 @separate_kernel
@@ -112,6 +117,7 @@ def project(core, s, tolerance, corotate, w0, w1, w2):
 _new_matrix, _renew_tail, _project = caller(types.boolean), caller(types.boolean), caller(types.float64)
 _balance, _note, _sample = caller(types.none), caller(types.none), caller(types.none)
 _begin_far, _end_far, _show_far = caller(types.none), caller(types.boolean), caller(types.none)
+_iterate_awake, _iterate = caller(types.float64, nothing=math.inf), caller(types.float64, nothing=math.inf)
 
 
 @formula
@@ -172,7 +178,19 @@ def show_parts(apart, core, s, whole):
         _show_far(apart.show_far, (core, s, whole))
 
 
-def needed(core: Core, sampling: Sampling, explicit: bool) -> tuple[bool, ...]:
+@formula
+def iterated_awake(apart, core, s, gb, ib):
+    """See :func:`ancf.solvers.far.iterate_awake`."""
+    return _iterate_awake(apart.iterate_awake, (core, s, gb, ib, apart.correct))
+
+
+@formula
+def iterated(apart, core, s, limit, gb, ib):
+    """See :func:`ancf.solvers.near.iterate`."""
+    return _iterate(apart.iterate, (core, s, limit, gb, ib, apart.correct))
+
+
+def needed(core: Core, memory: Memory, sampling: Sampling, explicit: bool) -> tuple[bool, ...]:
     """Which of :class:`Apart` a model needs."""
     joints, implicit = core.joints, not explicit
     return (
@@ -182,7 +200,9 @@ def needed(core: Core, sampling: Sampling, explicit: bool) -> tuple[bool, ...]:
         bool(core.damped or core.loaded),
         len(sampling.moved) > 0 or len(sampling.pushed) > 0,
         sampling.width > 0,
-        *(3 * (implicit and bool(core.far) and len(core.far[0].part) > 0,)),
+        *(4 * (implicit and bool(core.far) and len(core.far[0].part) > 0,)),
+        implicit and len(memory.patches) > 0,
+        implicit and len(core.near) > 0,
     )
 
 
@@ -200,6 +220,9 @@ def apart_of(core: Any, memory: Any, sampling: Any, wanted: tuple[bool, ...]) ->
         (begin_far, types.none, (*both, number, scheme, number, number)),
         (end_far, flag, (*both, scheme, number, number)),
         (show_far, types.none, (*both, flag)),
+        (iterate_awake, number, (*both, number, number, types.int64)),
+        (correct_rows, types.none, (*both, number)),
+        (iterate, number, (*both, number, number, number, types.int64)),
     ]
     found = [
         addresses.address_of(kernel, given, result) if needs else 0

@@ -17,7 +17,7 @@ from ..contact.rows import find_rows
 from ..contact.strand import HELD, find_zones
 from ..system.core import solve_kept, to_local
 from .corotation import turn_back, turn_forth
-from .low_rank import correct
+from .low_rank import corrected
 
 #: Share of the correction that may be wrong.
 LEFT = 1e-4
@@ -122,21 +122,21 @@ def solve_turned(core, s, rule):
 
 
 @inline_kernel
-def solve_apart(core, s, rule, gb):
+def solve_apart(core, s, rule, gb, correct):
     """The same with what :mod:`ancf.solvers.low_rank` corrects."""
     solve_turned(core, s, rule)
     if not rule.corotate:
-        correct(s.patches, core, s.q, s.v, gb, s.r)
+        corrected(correct, core, s, gb)
 
 
 @inline_kernel
-def next_vector(batch, rows, core, s, rule, gb, k):
+def next_vector(batch, rows, core, s, rule, gb, correct, k):
     """Vector k + 1 of the basis, normal to those before it, and column k of the small matrix."""
     n, V, H = core.weight.shape[0], batch.basis, batch.small
     fill_shadows(core.supports, V[k])
     times_rows(batch, rows, V[k], s.r)
     to_local(core.supports, s.r)
-    solve_apart(core, s, rule, gb)
+    solve_apart(core, s, rule, gb, correct)
     for i in range(n):
         s.r[i] += V[k, i]
     for j in range(k + 1):
@@ -149,7 +149,7 @@ def next_vector(batch, rows, core, s, rule, gb, k):
         V[k + 1, i] = s.r[i] / size if size > 0.0 else 0.0
 
 
-def _solve_entwined(entwined, core, s, rule, gb):
+def _solve_entwined(entwined, core, s, rule, gb, correct):
     batch = entwined[0]
     rows = find_rows(batch, s.q, s.v, gb, 1.0)
     if rows == 0:
@@ -163,7 +163,7 @@ def _solve_entwined(entwined, core, s, rule, gb):
         V[0, i] = s.r[i] / size
     k = 0
     while k < V.shape[0] - 1:
-        next_vector(batch, rows, core, s, rule, gb, k)
+        next_vector(batch, rows, core, s, rule, gb, correct, k)
         rotate(H, k)
         k += 1
         if not abs(H[k, g]) > LEFT * size:
@@ -186,5 +186,6 @@ def _let_go(entwined):
 hold = optional(_hold)
 #: ``let_go(entwined)``: it is found in each state again.
 let_go = optional(_let_go)
-#: ``solve_entwined(entwined, core, s, rule, gb)``: the correction s.r of the factorised matrix, corrected.
+#: ``solve_entwined(entwined, core, s, rule, gb, correct)``: the correction s.r of the factorised matrix, with
+#: what cables do to each other.
 solve_entwined = optional(_solve_entwined)

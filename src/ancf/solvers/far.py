@@ -60,7 +60,7 @@ from ..system.far import (
     add_far,
 )
 from ..system.near import clear_beyond, residual_near
-from .low_rank import correct
+from .low_rank import corrected
 from .near import take
 from .scheme import finish_rows, note_step, predict_rows, restore_rows
 
@@ -312,8 +312,12 @@ def _asleep(items):
     return items[0].counts[SLEEPING] > 0
 
 
-def _iterate_awake(items, nearby, core, s, gb, ib):
-    far, near, n = items[0], nearby[0], core.weight.shape[0]
+@separate_kernel
+def iterate_awake(core, s, gb, ib, correct):
+    """Correct what is awake; its norm. `correct` is an address, see
+    :func:`ancf.solvers.low_rank.corrected`.
+    """
+    far, near, n = core.far[0], core.near[0], core.weight.shape[0]
     count = far.counts[RANGES]
     for k in range(count):
         near.low[k], near.high[k] = far.range[k, 0], far.range[k, 1]
@@ -322,7 +326,7 @@ def _iterate_awake(items, nearby, core, s, gb, ib):
     to_local(core.supports, s.r)
     clear_beyond(near, count, n // 6, s.r)
     solve_ranges(core.factor, s.r, near.low, near.high, count)
-    correct(s.patches, core, s.q, s.v, gb, s.r)
+    corrected(correct, core, s, gb)
     return take(near, s, core.weight, gb, ib, count)
 
 
@@ -358,7 +362,5 @@ restore_awake = optional(_restore_awake, False)
 finish_awake = optional(_finish_awake, False)
 #: ``asleep(core.far)``: whether a part sleeps.
 asleep = optional(_asleep, False)
-#: ``iterate_awake(core.far, core.near, core, s, gb, ib)``: correct what is awake; norm of the correction.
-iterate_awake = optional(_iterate_awake, 0.0)
 #: ``isolate(core.far, factor, A)``: rows of what sleeps are those of the identity; boundaries feel the parts.
 isolate = optional(_isolate)

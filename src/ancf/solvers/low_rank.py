@@ -17,9 +17,11 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from numba import types
 
+from ..addresses import caller
 from ..arrays import FloatArray, IntArray
-from ..compiled import inline_kernel, optional
+from ..compiled import formula, inline_kernel, optional, separate_kernel
 from ..connections.contact import DAMPING, FORCE, STIFFNESS, add_row, touch
 from ..connections.contact_build import no_contacts
 from ..connections.spring_damper import spring_gradient, spring_state
@@ -298,3 +300,19 @@ forget = optional(_forget)
 move_on = optional(_move_on)
 #: ``correct(patches, core, q, v, gb, x)``: the solution x of the factorised matrix, corrected.
 correct = optional(_correct)
+
+
+@separate_kernel
+def correct_rows(core, s, gb):
+    """Correct the solution s.r of a model with patches; see :func:`correct`."""
+    correct(s.patches, core, s.q, s.v, gb, s.r)
+
+
+_correct_rows = caller(types.none)
+
+
+@formula
+def corrected(place, core, s, gb):
+    """Call :func:`correct_rows` by its address, which is 0 without patches."""
+    if place != 0:
+        _correct_rows(place, (core, s, gb))

@@ -13,12 +13,12 @@ import math
 
 import numpy as np
 
-from ..compiled import inline_kernel, optional
+from ..compiled import inline_kernel, optional, separate_kernel
 from ..linalg.reach import solve_near
 from ..system.core import to_local
 from ..system.far import add_far, hush
 from ..system.near import SEGMENT, clear_beyond, residual_near
-from .low_rank import correct
+from .low_rank import corrected
 
 #: Share of the correction that ends the iteration up to which a block has settled: what it leaves is then
 #: noise of the accelerations that the predictor does not feel.
@@ -89,8 +89,12 @@ def _take_all(nearby, s, weight, gb, ib):
     return take(near, s, weight, gb, ib, 1)
 
 
-def _iterate(nearby, core, s, limit, gb, ib):
-    near, n = nearby[0], core.weight.shape[0]
+@separate_kernel
+def iterate(core, s, limit, gb, ib, correct):
+    """Correct what is above a limit; its norm. `correct` is an address, see
+    :func:`ancf.solvers.low_rank.corrected`.
+    """
+    near, n = core.near[0], core.weight.shape[0]
     count = unsettled(near, SETTLED * limit, n // 6)
     residual_near(near, count, n, core.ws, s.q, s.v, s.a, s.f, s.r)
     add_far(core.far[0], s)
@@ -98,11 +102,9 @@ def _iterate(nearby, core, s, limit, gb, ib):
     to_local(core.supports, s.r)
     clear_beyond(near, count, n // 6, s.r)
     count = solve_near(core.factor, core.joints.first, s.r, near.low, near.high, count, near.spread)
-    correct(s.patches, core, s.q, s.v, gb, s.r)
+    corrected(correct, core, s, gb)
     return take(near, s, core.weight, gb, ib, count)
 
 
 #: ``take_all(core.near, s, weight, gb, ib)``: take the whole correction; its norm, infinite without `near`.
 take_all = optional(_take_all, math.inf)
-#: ``iterate(core.near, core, s, limit, gb, ib)``: correct what is above the limit; norm of the correction.
-iterate = optional(_iterate, math.inf)

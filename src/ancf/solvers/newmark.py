@@ -37,6 +37,8 @@ from .apart import (
     begin_parts,
     book,
     end_parts,
+    iterated,
+    iterated_awake,
     matrix_anew,
     projected,
     show_parts,
@@ -47,10 +49,10 @@ from .apart import (
 from .carry import carry, unbalanced
 from .corotation import turn
 from .entwined import hold, let_go, solve_apart, solve_entwined
-from .far import asleep, finish_awake, iterate_awake, predict_awake, restore_awake
+from .far import asleep, finish_awake, predict_awake, restore_awake
 from .low_rank import move_on
 from .memory import ETA, H_FACTOR, NOISE, NORM, WORST
-from .near import iterate, take_all
+from .near import take_all
 from .renewal import count
 from .scheme import coefficients, finish, predict, restore
 from .status import (
@@ -185,17 +187,17 @@ def newton(core, s, h, rule, modified, B, G, apart):
         if iteration == PATIENT:
             hold(core.entwined, s.q)
         if whole and asleep(core.far):
-            norm = iterate_awake(core.far, core.near, core, s, G / B, 1.0 / B)
+            norm = iterated_awake(apart, core, s, G / B, 1.0 / B)
         elif whole:
             unbalanced(core, s, h)
-            solve_apart(core, s, rule, G / B)
-            solve_entwined(core.entwined, core, s, rule, G / B)
+            solve_apart(core, s, rule, G / B, apart.correct)
+            solve_entwined(core.entwined, core, s, rule, G / B, apart.correct)
             if nearby:
                 norm = take_all(core.near, s, core.weight, G / B, 1.0 / B)
             else:
                 norm = update(s, core.weight, G / B, 1.0 / B)
         else:
-            norm = iterate(core.near, core, s, tolerance / eta, G / B, 1.0 / B)
+            norm = iterated(apart, core, s, tolerance / eta, G / B, 1.0 / B)
         size, whole = norm, not nearby
         if has_joints:
             still(core.joints, s.v, s.a)

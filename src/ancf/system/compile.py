@@ -249,10 +249,9 @@ def joined(parts: list[NDArray[Any]], dtype: type) -> NDArray[Any]:
 
 def held_arrays(held: IntArray, places: Places) -> dict[str, Any]:
     """What of Supports belongs to held unknowns."""
-    crosses = [places.cross(int(i)) for i in held]
     return {
         "held": np.ascontiguousarray(held, dtype=np.int64),
-        "held_zero": joined(crosses, np.int64),
+        "held_zero": places.crosses(held),
         "held_one": np.ascontiguousarray(36 * (held // 6) + 7 * (held % 6), dtype=np.int64),
     }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -51,23 +52,39 @@ class Places:
         j = np.tile(slots, (1, k))
         return np.ascontiguousarray(self.of(i, j).reshape(n, k * k))
 
+    @cached_property
+    def by_column(self) -> tuple[IntArray, IntArray]:
+        """Stored blocks below the diagonal, column by column, and where each column begins among them."""
+        first = np.searchsorted(np.sort(self.column), np.arange(self.n + 1))
+        return np.argsort(self.column, kind="stable"), first
+
     def blocks_of(self, b: int) -> tuple[IntArray, IntArray]:
         """Numbers of the stored blocks in row b (diagonal included) and below in column b."""
+        order, first = self.by_column
         row = self.n + np.arange(self.row_start[b], self.row_start[b + 1])
-        column = self.n + np.flatnonzero(self.column == b)
-        return np.append(row, b), column
+        return np.append(row, b), self.n + order[first[b] : first[b + 1]]
 
-    def cross(self, unknown: int) -> IntArray:
-        """Places of the row and column of an unknown, the diagonal entry included."""
-        row, column = self.blocks_of(unknown // 6)
-        c = unknown % 6
-        in_row = (36 * row[:, None] + 6 * c + np.arange(6)).ravel()
-        below = np.append(column, unknown // 6)
-        in_column = (36 * below[:, None] + c + 6 * np.arange(6)).ravel()
-        return np.unique(np.concatenate([in_row, in_column]))
+    def crosses(self, unknowns: IntArray) -> IntArray:
+        """Places of the rows and columns of unknowns, the diagonal entries included; ascending."""
+        b, c = unknowns // 6, unknowns % 6
+        order, first = self.by_column
+        of, row = _ranges(self.row_start[b], self.row_start[b + 1])
+        below, k = _ranges(first[b], first[b + 1])
+        starts = [36 * (self.n + row) + 6 * c[of], 36 * b + 6 * c]
+        tops = [36 * (self.n + order[k]) + c[below], 36 * b + c]
+        in_row = np.concatenate(starts)[:, None] + np.arange(6)
+        in_column = np.concatenate(tops)[:, None] + 6 * np.arange(6)
+        return np.unique(np.concatenate([in_row.ravel(), in_column.ravel()]))
 
     def pieces(self, slot: int) -> tuple[IntArray, IntArray]:
         """Places of the 3x6 pieces in the row of a slot and of the 6x3 pieces in its column."""
         row, column = self.blocks_of(slot // 6)
         c = slot % 6
         return 36 * row + 6 * c, 36 * np.append(column, slot // 6) + c
+
+
+def _ranges(first: IntArray, last: IntArray) -> tuple[IntArray, IntArray]:
+    """All numbers of ranges in a row, and which range each is of."""
+    count = last - first
+    of = np.repeat(np.arange(len(count)), count)
+    return of, np.arange(len(of)) - np.repeat(np.cumsum(count) - count, count) + first[of]

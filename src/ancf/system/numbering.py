@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -70,8 +71,8 @@ class Numbering:
             if isinstance(body, RigidBody):
                 self._keep(body.name, rigid(body, self.slots))
         tied = {c.name: c for c in model.connections if isinstance(c, Spherical) and c.shared}
-        for ball in tied.values():  # first: rows are made of slots
-            self._share(ball)
+        if tied:  # first: rows are made of slots
+            self._share(tied.values())
         for joint in model.connections:
             if isinstance(joint, Slide):
                 self.sliding.append(self.blocks)
@@ -98,12 +99,17 @@ class Numbering:
         self.multipliers[name] = 6 * self.blocks + np.arange(rows)
         self.blocks += (rows + 5) // 6
 
-    def _share(self, joint: Spherical) -> None:
-        """Give both nodes the same slot for r."""
-        ends = [p for p in (joint.a, joint.b) if isinstance(p, Point)]
-        a, b = (int(self.slots[p.body.name][node_of(p.body, p.x), 0]) for p in ends)
+    def _share(self, balls: Iterable[Spherical]) -> None:
+        """Give both nodes of each joint the same slot for r, that of the first."""
+        goes = np.arange(6 * self.blocks)
+        for ball in balls:
+            ends = [p for p in (ball.a, ball.b) if isinstance(p, Point)]
+            a, b = (int(self.slots[p.body.name][node_of(p.body, p.x), 0]) for p in ends)
+            goes[_end(goes, b)] = _end(goes, a)
+        while not np.array_equal(further := goes[goes], goes):
+            goes = further
         for slots in self.slots.values():
-            slots[slots[:, 0] == b, 0] = a
+            slots[:, 0] = goes[slots[:, 0]]
 
     def renumber(self, rank: IntArray) -> None:
         """Move block k to place rank[k]."""
@@ -155,3 +161,10 @@ class Numbering:
             if unknown == length:
                 return f"length of {name}"
         return f"unknown {unknown}"
+
+
+def _end(goes: IntArray, slot: int) -> int:
+    """Where a slot has come to that was moved, perhaps several times."""
+    while goes[slot] != slot:
+        slot = int(goes[slot])
+    return slot

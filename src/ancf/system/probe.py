@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -171,6 +172,14 @@ def _rigid_factors(point: Point, vectors: int) -> FloatArray:
 
 
 def _factors(beam: Beam, xi: float, h: float, y: float, z: float) -> FloatArray:
-    shape, names = ELEMENTS[beam.element].shape, _NAMES if beam.has_section else _NAMES[:2]
-    rest = [shape(beam.element, xi, h, derivative=name) for name in names]
-    return np.stack([shape(beam.element, xi, h, y, z), *rest])
+    return _shapes(beam.element, beam.has_section, float(xi), float(h), float(y), float(z))
+
+
+@lru_cache(maxsize=4096)
+def _shapes(element: str, section: bool, xi: float, h: float, y: float, z: float) -> FloatArray:
+    """Many points are nodes: where the elements are alike, their factors are."""
+    shape, names = ELEMENTS[element].shape, _NAMES if section else _NAMES[:2]
+    rest = [shape(element, xi, h, derivative=name) for name in names]
+    found = np.stack([shape(element, xi, h, y, z), *rest])
+    found.flags.writeable = False
+    return found
