@@ -22,10 +22,10 @@ def springs(model: Model, locate: Callable[[Point], Any]) -> SpringBatch:
     items = [c for c in model.connections if isinstance(c, Spring)]
     n, k = len(items), max((_slots(c) for c in items), default=CABLE)
     base = np.full((n, 2 * k), -1, dtype=np.int64)
-    factor, offset, data = np.zeros((n, 2 * k)), np.zeros((n, 3)), np.zeros((n, 6))
+    factor, offset, data = np.zeros((n, 2 * k)), np.zeros((n, 3)), np.zeros((n, 7))
     for e, spring in enumerate(items):
         data[e, :4] = spring.stiffness, spring.damping, spring.length, spring.slack
-        data[e, 4:] = spring.friction, spring.friction_velocity
+        data[e, 4:6] = spring.friction, spring.friction_velocity
         for end, first, sign in ((spring.a, 0, -1.0), (spring.b, k, 1.0)):
             if isinstance(end, Point):
                 probe = locate(end)

@@ -19,7 +19,7 @@ from ..compiled import Role, formula, implements, inline_kernel
 from .curves import looked_up
 
 #: Columns of SpringBatch.data.
-STIFFNESS, DAMPING, LENGTH, SLACK, FRICTION, CREEP = range(6)
+STIFFNESS, DAMPING, LENGTH, SLACK, FRICTION, CREEP, IDLE = range(7)
 #: Columns of SpringBatch.found.
 FORCE, DISTANCE = range(2)
 
@@ -31,9 +31,7 @@ class SpringBatch(NamedTuple):
     dest: NDArray[np.int64]  # (n, k*k) places of the 3x3 blocks in the matrix
     factor: FloatArray  # (n, k) shape functions, negative at the first end
     offset: FloatArray  # (n, 3) position of a fixed second end
-    data: (
-        FloatArray  # (n, 6) stiffness, damping, length, 1 if slack, friction and the rate where it has grown
-    )
+    data: FloatArray  # (n, 7) stiffness, damping, length, 1 if slack, friction, its rate, 1 if left out now
     inside: NDArray[np.int64]  # (n,) 1: its stiffness is in the matrix that was assembled last
     begins: NDArray[np.int64]  # (2 n + 1,) curves of each: force over elongation, force over its rate
     place: FloatArray  # (m,) see connections/curves.py
@@ -104,6 +102,8 @@ def spring_gradient(batch, e, q, b):
 def spring_force(batch, q, v, a, r, ws):
     """Add the spring forces to r."""
     for e in range(batch.base.shape[0]):
+        if batch.data[e, IDLE] != 0.0:
+            continue
         n, _, _, tension, carries = spring_state(batch, e, q, v)
         if carries:
             for k in range(batch.base.shape[1]):
@@ -118,6 +118,8 @@ def spring_force(batch, q, v, a, r, ws):
 def spring_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add stiffness and damping of the springs that carry to A."""
     for e in range(batch.base.shape[0]):
+        if batch.data[e, IDLE] != 0.0:
+            continue
         n, length, rate, tension, carries = spring_state(batch, e, q, v)
         batch.inside[e] = carries
         if not carries:

@@ -25,7 +25,8 @@ from ..system.core import (
 )
 from .balance import balance
 from .corotation import remember, turn_forth, turn_rows
-from .far import begin_far, end_far, isolate, iterate_awake, show_far
+from .far import begin_far, end_far, show_far
+from .far_awake import isolate, iterate_awake
 from .low_rank import correct_rows, forget
 from .memory import H_FACTOR, WORST, Memory
 from .near import iterate
@@ -180,7 +181,7 @@ def show_parts(apart, core, s, whole):
 
 @formula
 def iterated_awake(apart, core, s, gb, ib):
-    """See :func:`ancf.solvers.far.iterate_awake`."""
+    """See :func:`ancf.solvers.far_awake.iterate_awake`."""
     return _iterate_awake(apart.iterate_awake, (core, s, gb, ib, apart.correct))
 
 

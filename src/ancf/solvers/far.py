@@ -2,27 +2,26 @@
 
 With their modes y, the boundary's displacements x and the masses P between them, a part that sleeps obeys
 
-    y'' + loss y' + w^2 y + P (x'' + drag x' - shift x) = 0,
-    residual on x = f + M x'' + C x' + K x + P^T (y'' + drag y' - shift y),
+    y'' + loss y' + w^2 y + P (x'' + drag x') = 0,
+    residual on x = f + M x'' + C x' + K x + P^T (y'' + drag y'),
 
-which is linear: of each step the modes are eliminated, with D = 1/B + (G/B) loss + w^2 and the weights
-W = 1/B + (G/B) drag - shift of the coupling, and
+which is linear: of each step the modes are eliminated.  From predictions y~, v~ without acceleration and with
+the weights D = 1/B + (G/B) loss + w^2 and W = 1/B + (G/B) drag, the boundary feels
 
-    S = M/B + (G/B) C + K - (W P)^T D^-1 (W P)
+    f + (M - P^T W/D P) x'' + (C - P^T W/D drag P) x' + K x + P^T (drag v~ - W/D (loss v~ + w^2 y~)),
 
-is what the boundary feels of the part.  So a step evaluates the residual at the prediction once, corrects it
-by S (x - x~) while Newton's method moves the boundary, and then the modes follow.
+whose last term is known before the step.  So a step evaluates this at the prediction of x once, corrects it
+by its derivative S while Newton's method moves the boundary, and then the modes follow.
 """
 
 from __future__ import annotations
 
-from ..compiled import formula, inline_kernel, optional, separate_kernel
+from ..compiled import inline_kernel, separate_kernel
 from ..connections.sliding import slider
 from ..connections.spring_damper import spring_state
-from ..linalg.reach import solve_ranges
-from ..simd import LANES, every, load, store, total
-from ..system.core import to_local
+from ..simd import LANES, every, load, store
 from ..system.far import (
+    ACROSS,
     ASLEEP,
     AWAY,
     BAR,
@@ -34,7 +33,6 @@ from ..system.far import (
     DROPPERS,
     EDGE,
     EDGES,
-    ENTRY,
     FELT,
     GUESS,
     GUESS_RATE,
@@ -47,204 +45,181 @@ from ..system.far import (
     NEAR,
     PLACE,
     POSITION,
-    RANGES,
     RATE,
-    REST,
     ROWS,
     SECOND,
-    SHIFT,
     SIGHT,
     SLEEPING,
     STEP,
     WATCHED,
-    add_far,
 )
-from ..system.near import clear_beyond, residual_near
-from .low_rank import corrected
-from .near import take
-from .scheme import finish_rows, note_step, predict_rows, restore_rows
 
-# rows of the workspace: displacements, rates and accelerations of a boundary, and x'' - shift x
-X, V, A, ALONG = range(4)
+# rows of the workspace: displacements, rates and accelerations of a boundary
+X, V, A, SEEN = range(4)
 
 
 @inline_kernel
 def tune(far, h, gb, ib):
     """Matrices of all kinds for a step of the length h."""
     for t in range(far.kind.shape[0]):
-        n, o, high = far.kind[t, EDGES], far.kind[t, COUPLING], far.kind[t, HIGH]
-        column = far.kind[t, COLUMN]
-        for i in range(column, column + n * high):
-            whole = ib * load(far.mass, i) + gb * load(far.damping, i) + load(far.stiffness, i)
-            store(whole, far.matrix, i)
-        for k in range(far.kind[t, ROWS]):
-            m = far.kind[t, MODES] + k
-            weight = every(ib - far.memo[SHIFT]) + gb * load(far.drag, m)
-            inverse = 1.0 / (every(ib) + gb * load(far.loss, m) + load(far.square, m))
-            store(weight, far.weight, m)
-            store(inverse, far.inverse, m)
-            for i in range(n):
-                scaled = weight * weight * inverse * load(far.coupling, o + n * k + i)
-                for j in range(n):
-                    row = column + high * i + j // LANES
-                    far.matrix[row, j % LANES] -= total(scaled * load(far.coupling, o + n * k + j))
+        n, begin, o = far.kind[t, EDGES], far.kind[t, MODES], far.kind[t, COLUMN]
+        last = o + n * far.kind[t, HIGH]
+        for i in range(o, last):
+            store(load(far.mass, i), far.felt_mass, i)
+            store(load(far.damping, i), far.felt_damping, i)
+        for k in range(begin, begin + far.kind[t, ROWS]):
+            loss, drag, square = load(far.loss, k), load(far.drag, k), load(far.square, k)
+            inverse = 1.0 / (every(ib) + gb * loss + square)
+            share = (every(ib) + gb * drag) * inverse
+            store(inverse, far.inverse, k)
+            store(0.0 - share * square, far.by_place, k)
+            store(drag - share * loss, far.by_rate, k)
+            store(share, far.state, FELT, 0)
+            for m in range(LANES):
+                condense(far, t, LANES * (k - begin) + m, far.state[FELT, 0, m], far.drag[k, m])
+        for i in range(o, last):
+            felt = ib * load(far.felt_mass, i) + gb * load(far.felt_damping, i)
+            store(felt + load(far.stiffness, i), far.matrix, i)
     far.memo[STEP] = h
 
 
-def _predict_awake(items, s, h, scheme, keep, shadows):
-    far = items[0]
-    if far.counts[SLEEPING] == 0:
-        return False
-    for k in range(far.counts[RANGES]):
-        predict_rows(s, h, scheme, keep, 6 * far.range[k, 0], 6 * far.range[k, 1])
-    predict_rows(s, h, scheme, keep, shadows, s.q.shape[0])
-    return True
-
-
-def _restore_awake(items, s, shadows):
-    far = items[0]
-    if far.counts[SLEEPING] == 0:
-        return False
-    for k in range(far.counts[RANGES]):
-        restore_rows(s, 6 * far.range[k, 0], 6 * far.range[k, 1])
-    restore_rows(s, shadows, s.q.shape[0])
-    return True
-
-
-def _finish_awake(items, s, h, scheme, shadows):
-    far = items[0]
-    if far.counts[SLEEPING] == 0:
-        return False
-    for k in range(far.counts[RANGES]):
-        finish_rows(s, scheme, 6 * far.range[k, 0], 6 * far.range[k, 1])
-    finish_rows(s, scheme, shadows, s.q.shape[0])
-    note_step(s, h)
-    return True
-
-
 @inline_kernel
-def edge_residual(far, p, s):
-    """Residual of the boundary of a part without its modes, in ``push``; keeps the prediction."""
-    t, first, border = far.part[p, KIND], far.part[p, EDGE], far.part[p, BORDER]
+def condense(far, t, m, share, drag):
+    """Take from the boundary's mass and damping what mode m of a kind follows within a step."""
     n, o, high = far.kind[t, EDGES], far.kind[t, COLUMN], far.kind[t, HIGH]
+    row = far.kind[t, ACROSS] + high * m
     for i in range(n):
-        u = far.edge[first + i]
-        far.guess[first + i] = s.q[u]
-        x = s.q[u] - far.still[first + i]
-        far.room[X, i], far.room[V, i], far.room[A, i] = x, s.v[u], s.a[u]
-        far.room[ALONG, i] = s.a[u] - far.memo[SHIFT] * x
-    for k in range(high):
-        sum_of = load(far.force, border + k)
-        for j in range(n):
-            row = o + high * j + k
-            sum_of = sum_of + load(far.mass, row) * far.room[A, j] + load(far.damping, row) * far.room[V, j]
-            sum_of = sum_of + load(far.stiffness, row) * far.room[X, j]
-        store(sum_of, far.push, border + k)
-
-
-@formula
-def foresee(far, p, k, scheme, h):
-    """Prediction of eight modes whose acceleration at the end of the step is zero; kept for the end."""
-    am, af, be, ga = scheme.alpha_m, scheme.alpha_f, scheme.beta, scheme.gamma
-    row, hh = far.part[p, PLACE] + k, h * h
-    y, v = load(far.state, POSITION, row), load(far.state, RATE, row)
-    a, bar = load(far.state, SECOND, row), load(far.state, BAR, row)
-    coming = (af / (1.0 - am)) * a - (am / (1.0 - am)) * bar
-    y = y + h * v + hh * ((0.5 - be) * bar + be * coming)
-    v = v + h * ((1.0 - ga) * bar + ga * coming)
-    store(y, far.state, GUESS, row)
-    store(v, far.state, GUESS_RATE, row)
-    return y, v
+        part = share * far.across[row + i // LANES, i % LANES]
+        for j in range(high):
+            c, place = load(far.across, row + j) * part, o + high * i + j
+            store(load(far.felt_mass, place) - c, far.felt_mass, place)
+            store(load(far.felt_damping, place) - c * drag, far.felt_damping, place)
 
 
 @inline_kernel
-def mode_residuals(far, p, h, scheme):
-    """Predict the modes of a part and their residuals, and add what they do to the boundary."""
+def see_edge(far, p, s):
+    """Displacements, rates and accelerations of the boundary of a part, in the workspace."""
+    first = far.part[p, EDGE]
+    for i in range(far.kind[far.part[p, KIND], EDGES]):
+        u = far.edge[first + i]
+        far.room[X, i] = s.q[u] - far.still[first + i]
+        far.room[V, i], far.room[A, i] = s.v[u], s.a[u]
+
+
+@inline_kernel
+def foresee(far, p, scheme, h):
+    """Predictions of the modes with no acceleration at the end of the step, and what is felt of them."""
+    am, af, be, ga = scheme.alpha_m, scheme.alpha_f, scheme.beta, scheme.gamma
+    hh, begin = h * h, far.kind[far.part[p, KIND], MODES]
+    for k in range(far.kind[far.part[p, KIND], ROWS]):
+        row, m = far.part[p, PLACE] + k, begin + k
+        y, v = load(far.state, POSITION, row), load(far.state, RATE, row)
+        a, bar = load(far.state, SECOND, row), load(far.state, BAR, row)
+        coming = (af / (1.0 - am)) * a - (am / (1.0 - am)) * bar
+        y = y + h * v + hh * ((0.5 - be) * bar + be * coming)
+        v = v + h * ((1.0 - ga) * bar + ga * coming)
+        store(y, far.state, GUESS, row)
+        store(v, far.state, GUESS_RATE, row)
+        store(load(far.by_place, m) * y + load(far.by_rate, m) * v, far.state, FELT, row)
+
+
+@inline_kernel
+def push_edge(far, p):
+    """What a part does to its boundary at the prediction, in ``push``."""
     t, place, border = far.part[p, KIND], far.part[p, PLACE], far.part[p, BORDER]
-    n, rows, begin, o = far.kind[t, EDGES], far.kind[t, ROWS], far.kind[t, MODES], far.kind[t, COUPLING]
-    for k in range(rows):
-        m = begin + k
-        y, v = foresee(far, p, k, scheme, h)
-        along, rate = every(0.0), every(0.0)
+    n, o, high, a = far.kind[t, EDGES], far.kind[t, COLUMN], far.kind[t, HIGH], far.kind[t, ACROSS]
+    felt, room = far.state[FELT], far.room
+    for j in range(high):
+        s0, s1, s2, s3 = load(far.force, border + j), every(0.0), every(0.0), every(0.0)
+        for k in range(far.kind[t, ROWS]):
+            z, row = place + k, a + high * LANES * k + j
+            for m in range(0, LANES, 4):  # four sums, which do not wait for each other
+                s0 = s0 + load(far.across, row + high * m) * felt[z, m]
+                s1 = s1 + load(far.across, row + high * (m + 1)) * felt[z, m + 1]
+                s2 = s2 + load(far.across, row + high * (m + 2)) * felt[z, m + 2]
+                s3 = s3 + load(far.across, row + high * (m + 3)) * felt[z, m + 3]
         for i in range(n):
-            c = load(far.coupling, o + n * k + i)
-            along = along + c * far.room[ALONG, i]
-            rate = rate + c * far.room[V, i]
-        drag = load(far.drag, m)
-        rest = load(far.loss, m) * v + load(far.square, m) * y + along + drag * rate
-        felt = drag * v - far.memo[SHIFT] * y - load(far.weight, m) * load(far.inverse, m) * rest
-        store(rest, far.state, REST, place + k)
-        store(felt, far.state, FELT, place + k)
-    for i in range(n):
-        sum_of = every(0.0)
-        for k in range(rows):
-            sum_of = sum_of + load(far.coupling, o + n * k + i) * load(far.state, FELT, place + k)
-        far.push[border + i // LANES, i % LANES] += total(sum_of)
+            row = o + high * i + j
+            s0 = s0 + load(far.felt_mass, row) * room[A, i]
+            s1 = s1 + load(far.felt_damping, row) * room[V, i]
+            s2 = s2 + load(far.stiffness, row) * room[X, i]
+        store((s0 + s1) + (s2 + s3), far.push, border + j)
 
 
 @separate_kernel
 def begin_far(core, s, h, scheme, gb, ib):
-    """Residuals of the parts that sleep at the prediction."""
+    """What the parts that sleep do to their boundaries at the prediction."""
     far = core.far[0]
     if far.counts[SLEEPING] == 0:
         return
     if far.memo[STEP] != h:
         tune(far, h, gb, ib)
     for p in range(far.part.shape[0]):
-        if far.part[p, ASLEEP] != 0:
-            edge_residual(far, p, s)
-            mode_residuals(far, p, h, scheme)
+        if far.part[p, ASLEEP] == 0:
+            continue
+        first = far.part[p, EDGE]
+        for i in range(first, first + far.kind[far.part[p, KIND], EDGES]):
+            far.guess[i] = s.q[far.edge[i]]
+        see_edge(far, p, s)
+        foresee(far, p, scheme, h)
+        push_edge(far, p)
 
 
 @inline_kernel
-def follow_modes(far, p, s, scheme, gb, ib):
+def follow_modes(far, p, scheme, gb, ib):
     """The modes of a part at the end of the step, where its boundary has come to."""
     am, af = scheme.alpha_m, scheme.alpha_f
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
-    t, first = far.part[p, KIND], far.part[p, EDGE]
+    t, room = far.part[p, KIND], far.room
     n, begin, o = far.kind[t, EDGES], far.kind[t, MODES], far.kind[t, COUPLING]
-    for i in range(n):
-        far.room[X, i] = far.guess[first + i] - s.q[far.edge[first + i]]
+    n += n % 2
     for k in range(far.kind[t, ROWS]):
-        m, row = begin + k, far.part[p, PLACE] + k
-        moved = every(0.0)
-        for i in range(n):
-            moved = moved + load(far.coupling, o + n * k + i) * far.room[X, i]
-        x = load(far.inverse, m) * (load(far.state, REST, row) - load(far.weight, m) * moved)
+        m, row, c = begin + k, far.part[p, PLACE] + k, o + n * k
+        a0, a1, v0, v1 = every(0.0), every(0.0), every(0.0), every(0.0)
+        for i in range(0, n, 2):
+            even, odd = load(far.coupling, c + i), load(far.coupling, c + i + 1)
+            a0, a1 = a0 + even * room[A, i], a1 + odd * room[A, i + 1]
+            v0, v1 = v0 + even * room[V, i], v1 + odd * room[V, i + 1]
+        y, v = load(far.state, GUESS, row), load(far.state, GUESS_RATE, row)
+        rest = load(far.loss, m) * v + load(far.square, m) * y + (a0 + a1) + load(far.drag, m) * (v0 + v1)
+        x = load(far.inverse, m) * rest
         a = -ib * x
         bar = c1 * a + c2 * load(far.state, SECOND, row) + c3 * load(far.state, BAR, row)
-        store(load(far.state, GUESS, row) - x, far.state, POSITION, row)
-        store(load(far.state, GUESS_RATE, row) - gb * x, far.state, RATE, row)
+        store(y - x, far.state, POSITION, row)
+        store(v - gb * x, far.state, RATE, row)
         store(a, far.state, SECOND, row)
         store(bar, far.state, BAR, row)
 
 
 @inline_kernel
 def show(far, p, s, first, last):
-    """Positions and velocities of some of the unknowns inside a part that sleeps, by rows of eight."""
-    t, edge, place = far.part[p, KIND], far.part[p, EDGE], far.part[p, PLACE]
-    n, rows, inner = far.kind[t, EDGES], far.kind[t, ROWS], far.part[p, INNER]
-    for i in range(n):
-        u = far.edge[edge + i]
-        far.room[X, i], far.room[V, i] = s.q[u] - far.still[edge + i], s.v[u]
+    """Positions and velocities of some of the unknowns inside a part that sleeps, by rows of eight.
+
+    Those of its boundary are in the workspace.
+    """
+    t, place, inner = far.part[p, KIND], far.part[p, PLACE], far.part[p, INNER]
+    n, rows, room = far.kind[t, EDGES], far.kind[t, ROWS], far.room
+    n += n % 2
+    position, rate = far.state[POSITION], far.state[RATE]
     for w in range(first, last, LANES):
         o = far.kind[t, SIGHT] + (n + LANES * rows) * (w // LANES)
-        q, v = every(0.0), every(0.0)
-        for i in range(n):
-            c = load(far.sight, o + i)
-            q = q + c * far.room[X, i]
-            v = v + c * far.room[V, i]
+        q0, q1, v0, v1 = every(0.0), every(0.0), every(0.0), every(0.0)
+        for i in range(0, n, 2):
+            even, odd = load(far.sight, o + i), load(far.sight, o + i + 1)
+            q0, q1 = q0 + even * room[X, i], q1 + odd * room[X, i + 1]
+            v0, v1 = v0 + even * room[V, i], v1 + odd * room[V, i + 1]
         for k in range(rows):
-            for m in range(LANES):
-                c = load(far.sight, o + n + LANES * k + m)
-                q = q + c * far.state[POSITION, place + k, m]
-                v = v + c * far.state[RATE, place + k, m]
-        store(q, far.room[A], 0)
-        store(v, far.room[ALONG], 0)
+            z, c = place + k, o + n + LANES * k
+            for m in range(0, LANES, 2):
+                even, odd = load(far.sight, c + m), load(far.sight, c + m + 1)
+                q0, q1 = q0 + even * position[z, m], q1 + odd * position[z, m + 1]
+                v0, v1 = v0 + even * rate[z, m], v1 + odd * rate[z, m + 1]
+        store(q0 + q1, room[A], 0)
+        store(v0 + v1, room[SEEN], 0)
         for m in range(min(LANES, last - w)):
             i = inner + w + m
-            s.q[far.inner[i]] = far.rest[i] + far.room[A, m]
-            s.v[far.inner[i]] = far.room[ALONG, m]
+            s.q[far.inner[i]] = far.rest[i] + room[A, m]
+            s.v[far.inner[i]] = room[SEEN, m]
 
 
 @inline_kernel
@@ -276,6 +251,7 @@ def show_far(core, s, whole):
             continue
         t, inner = far.part[p, KIND], far.part[p, INNER]
         if whole:
+            see_edge(far, p, s)
             show(far, p, s, 0, far.kind[t, INSIDE])
         else:
             for i in range(inner + far.kind[t, WATCHED], inner + far.kind[t, INSIDE]):
@@ -303,64 +279,7 @@ def end_far(core, s, scheme, gb, ib):
     far = core.far[0]
     for p in range(far.part.shape[0]):
         if far.part[p, ASLEEP] != 0:
-            follow_modes(far, p, s, scheme, gb, ib)
+            see_edge(far, p, s)
+            follow_modes(far, p, scheme, gb, ib)
             show(far, p, s, 0, far.kind[far.part[p, KIND], WATCHED])
     return turns(far, s.patches[0], s)
-
-
-def _asleep(items):
-    return items[0].counts[SLEEPING] > 0
-
-
-@separate_kernel
-def iterate_awake(core, s, gb, ib, correct):
-    """Correct what is awake; its norm. `correct` is an address, see
-    :func:`ancf.solvers.low_rank.corrected`.
-    """
-    far, near, n = core.far[0], core.near[0], core.weight.shape[0]
-    count = far.counts[RANGES]
-    for k in range(count):
-        near.low[k], near.high[k] = far.range[k, 0], far.range[k, 1]
-    residual_near(near, count, n, core.ws, s.q, s.v, s.a, s.f, s.r)
-    add_far(far, s)
-    to_local(core.supports, s.r)
-    clear_beyond(near, count, n // 6, s.r)
-    solve_ranges(core.factor, s.r, near.low, near.high, count)
-    corrected(correct, core, s, gb)
-    return take(near, s, core.weight, gb, ib, count)
-
-
-def _isolate(items, factor, A):
-    far = items[0]
-    if far.counts[SLEEPING] == 0:
-        return
-    n = factor.row_start.shape[0] - 1
-    for b in range(n):
-        if far.sleeps[b] != 0:
-            for m in range(36):
-                A[36 * b + m] = 1.0 if m % 7 == 0 else 0.0
-        for k in range(factor.row_start[b], factor.row_start[b + 1]):
-            if far.sleeps[b] != 0 or far.sleeps[factor.column[k]] != 0:
-                for m in range(36):
-                    A[36 * (n + k) + m] = 0.0
-    for p in range(far.part.shape[0]):
-        if far.part[p, ASLEEP] != 0:
-            t = far.part[p, KIND]
-            n = far.kind[t, EDGES]
-            for i in range(n):
-                for j in range(n):
-                    place, row = far.entry[far.part[p, ENTRY] + n * i + j], far.kind[t, HIGH] * i + j // LANES
-                    if place >= 0:
-                        A[place] += far.matrix[far.kind[t, COLUMN] + row, j % LANES]
-
-
-#: ``predict_awake(core.far, s, h, scheme, keep, shadows)``: predict what is awake, if something sleeps.
-predict_awake = optional(_predict_awake, False)
-#: ``restore_awake(core.far, s, shadows)``: it is as at the start of the step, likewise.
-restore_awake = optional(_restore_awake, False)
-#: ``finish_awake(core.far, s, h, scheme, shadows)``: accept the step, likewise.
-finish_awake = optional(_finish_awake, False)
-#: ``asleep(core.far)``: whether a part sleeps.
-asleep = optional(_asleep, False)
-#: ``isolate(core.far, factor, A)``: rows of what sleeps are those of the identity; boundaries feel the parts.
-isolate = optional(_isolate)

@@ -11,6 +11,7 @@ from ..arrays import FloatArray, IntArray
 from ..connections.spring_damper import SLACK
 from ..simd import LANES
 from ..system.far import (
+    ACROSS,
     BORDER,
     COLUMN,
     COUPLING,
@@ -31,7 +32,7 @@ from ..system.far import (
     Far,
 )
 from ..system.system import System
-from .far_parts import Kind, Matrices, Part, Shapes, alike, reduced, shapes_of, shift_of
+from .far_parts import Kind, Matrices, Part, Shapes, alike, reduced, shapes_of
 
 #: Components in which strips and droppers act, and in which nothing does: z and y.
 ACTS, ASIDE = 2, 1
@@ -60,9 +61,9 @@ class FarPlan:
 
 
 def kinds_of(
-    matrices: Matrices, parts: list[Part], plan: FarPlan
+    matrices: Matrices, parts: list[Part], plan: FarPlan, step: tuple[float, float]
 ) -> tuple[list[Kind], list[int], list[FloatArray]]:
-    """Kinds, the kind of each part, and its forces on the boundary at rest."""
+    """Kinds for steps with these factors of mass and damping, those of all parts, and forces at rest."""
     kinds: list[Kind] = []
     known: list[Any] = []
     shapes: list[Shapes] = []
@@ -74,8 +75,11 @@ def kinds_of(
         if found is None:
             found = len(kinds)
             known.append(flat)
-            shapes.append(shapes_of(blocks, plan.frequency, part.inner % 3 == ASIDE, shapes))
-            kinds.append(reduced(blocks, shapes[-1], shift_of(plan.frequency)))
+            aside, order = part.inner % 3 == ASIDE, np.argsort(part.number)
+            shapes.append(
+                shapes_of([one.sorted(order) for one in blocks], plan.frequency, aside[order], shapes)
+            )
+            kinds.append(reduced(blocks, shapes[-1].of(part.number), step))
         kind_of.append(found)
         forces.append(force)
     return kinds, kind_of, forces
@@ -102,11 +106,12 @@ def arrays_of(
     listed: list[list[dict[str, Any]]] = [of_kind, of_part]
     made = {name: np.concatenate([row[name] for row in each]) for each in listed for name in each[0]}
     begins = {name: _begins([row[name] for row in each]) for each in listed for name in each[0]}
-    table = np.zeros((len(kinds), 9), dtype=np.int64)
+    table = np.zeros((len(kinds), 10), dtype=np.int64)
     for t, kind in enumerate(kinds):
-        edges, first = kind.coupling.shape[1], parts[kind_of.index(t)]
+        edges, first = kind.mass.shape[1], parts[kind_of.index(t)]
         table[t, [MODES, ROWS, EDGES]] = begins["square"][t], len(of_kind[t]["square"]), edges
-        table[t, [COUPLING, COLUMN, SIGHT]] = [begins[name][t] for name in ("coupling", "mass", "sight")]
+        columns = {COUPLING: "coupling", COLUMN: "mass", SIGHT: "sight", ACROSS: "across"}
+        table[t, list(columns)] = [begins[name][t] for name in columns.values()]
         table[t, HIGH] = -(-edges // LANES)
         table[t, [INSIDE, WATCHED]] = len(kind.inside), int(np.isin(first.inner, watched).sum())
     lines = np.zeros((len(parts), 10), dtype=np.int64)
@@ -126,17 +131,16 @@ def arrays_of(
         part=lines,
         place=np.array([_extent(part, plan.rest) for part in parts]),
         kind=table,
-        inverse=np.zeros_like(made["square"]),
-        weight=np.zeros_like(made["square"]),
-        matrix=np.zeros_like(made["mass"]),
-        state=np.zeros((8, rows, LANES)),
+        **{name: np.zeros_like(made["square"]) for name in ("inverse", "by_place", "by_rate")},
+        **{name: np.zeros_like(made["mass"]) for name in ("felt_mass", "felt_damping", "matrix")},
+        state=np.zeros((7, rows, LANES)),
         guess=np.zeros(len(made["edge"])),
         push=np.zeros_like(made["force"]),
-        room=np.zeros((8, LANES * max(2, int(table[:, HIGH].max())))),
+        room=np.zeros((4, LANES * (1 + int(table[:, HIGH].max())))),
         sleeps=np.zeros(blocks, dtype=np.int64),
         range=np.zeros((blocks // 2 + 2, 2), dtype=np.int64),
         counts=np.zeros(2, dtype=np.int64),
-        memo=np.zeros(5),
+        memo=np.zeros(4),
         **made,
     )
 
@@ -144,13 +148,20 @@ def arrays_of(
 def _of_kind(kind: Kind) -> dict[str, Any]:
     """Arrays of a kind by lanes; names as in :class:`ancf.system.far.Far`."""
     found = {name: _lanes(getattr(kind, name)[:, None])[:, 0] for name in ("square", "loss", "drag")}
-    modes = LANES * len(found["square"])
-    sight = np.zeros((len(kind.inside), kind.coupling.shape[1] + modes))
-    sight[:, : kind.inside.shape[1]] = kind.inside
-    found |= {"coupling": _lanes(kind.coupling).reshape(-1, LANES), "sight": _lanes(sight).reshape(-1, LANES)}
-    for name in ("mass", "damping", "stiffness"):  # symmetric: rows serve as columns
-        found[name] = _lanes(getattr(kind, name)).transpose(1, 0, 2).reshape(-1, LANES)
+    (modes, edges), even = kind.coupling.shape, len(kind.mass) % 2
+    full = LANES * len(found["square"])
+    coupling, psi = (np.pad(x, ((0, 0), (0, even))) for x in (kind.coupling, kind.inside[:, :edges]))
+    sight = np.hstack([psi, kind.inside[:, edges:], np.zeros((len(psi), full - modes))])
+    found |= {"coupling": _lanes(coupling).reshape(-1, LANES), "sight": _lanes(sight).reshape(-1, LANES)}
+    found["across"] = _columns(np.pad(kind.coupling, ((0, full - modes), (0, 0))).T)
+    for name in ("mass", "damping", "stiffness"):
+        found[name] = _columns(np.pad(getattr(kind, name), ((0, 0), (0, even))))
     return found
+
+
+def _columns(matrix: FloatArray) -> FloatArray:
+    """One column after the other, by rows of eight."""
+    return _lanes(matrix).transpose(1, 0, 2).reshape(-1, LANES)
 
 
 def _begins(rows: list[Any]) -> IntArray:

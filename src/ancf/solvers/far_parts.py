@@ -9,9 +9,10 @@ from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve, eigh
-from scipy.sparse import coo_array, csr_array
+from scipy.linalg import eigh
+from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.csgraph import connected_components
+from scipy.sparse.linalg import splu
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..compiled import traits
@@ -34,6 +35,7 @@ class Part(NamedTuple):
     """A part of a line: unknowns, cable elements and springs of its own."""
 
     inner: IntArray  # unknowns inside that move
+    number: IntArray  # their places along the wires
     edge: IntArray  # unknowns of its boundary that move
     blocks: IntArray
     elements: IntArray  # of the cables' batch
@@ -91,7 +93,9 @@ def parts_of(system: System, cables: CableBatch, cuts: IntArray) -> list[Part]:
         ):
             continue
         if len(edge):
-            parts.append(Part(_free(free, blocks), _free(free, edge), blocks, of_cables, of_springs))
+            inner = _free(free, blocks)
+            places = np.arange(len(inner))
+            parts.append(Part(inner, places, _free(free, edge), blocks, of_cables, of_springs))
     return parts
 
 
@@ -144,6 +148,12 @@ class Blocks(NamedTuple):
     inner: Any  # sparse (inner, inner)
     mixed: Any  # sparse (inner, edge)
     edge: FloatArray  # (edge, edge), of the part alone
+
+    def sorted(self, order: IntArray) -> Blocks:
+        """The same with the unknowns inside in another order."""
+        inner = self.inner[order][:, order]
+        inner.sort_indices()
+        return Blocks(inner, self.mixed[order], self.edge)
 
 
 class Matrices:
@@ -244,6 +254,10 @@ class Shapes(NamedTuple):
     square: FloatArray  # (modes,)
     modes: FloatArray  # (inner, modes)
 
+    def of(self, number: IntArray) -> Shapes:
+        """The same of unknowns inside with these numbers."""
+        return self._replace(modes=self.modes[number])
+
 
 def shapes_of(blocks: list[Blocks], frequency: float, aside: BoolArray, known: list[Shapes]) -> Shapes:
     """Modes of a part, taken from a ``known`` one that it is like, or whose mirror image it is like.
@@ -270,12 +284,20 @@ def _turned(matrix: Any, sign: FloatArray) -> Any:
     return csr_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
 
 
-def reduced(blocks: list[Blocks], shapes: Shapes, shift: float) -> Kind:
-    """A part by its modes and its boundary."""
+def reduced(blocks: list[Blocks], shapes: Shapes, step: tuple[float, float]) -> Kind:
+    """A part by its modes, by what a boundary moves within a step, and by its boundary.
+
+    Parameters
+    ----------
+    blocks : list of Blocks
+        M, C and K.
+    shapes : Shapes
+    step : (float, float)
+        Factors of M and C beside K in the matrix of a step, 1/B in 1/s^2 and G/B in 1/s.
+    """
     mass, damping, stiffness = blocks
-    modes = shapes.modes
-    dynamic = (stiffness.inner + shift * mass.inner).toarray()
-    psi = -cho_solve(cho_factor(dynamic), (stiffness.mixed + shift * mass.mixed).toarray())
+    psi = _followed(blocks, (0.0, 0.0, 1.0))
+    square, modes = _completed(mass.inner, stiffness.inner, shapes, _followed(blocks, (*step, 1.0)) - psi)
     moved = (mass.inner @ modes).T
     coupling = modes.T @ mass.mixed + moved @ psi
     slowed = (damping.inner @ modes).T
@@ -283,7 +305,7 @@ def reduced(blocks: list[Blocks], shapes: Shapes, shift: float) -> Kind:
     size = np.sum(coupling * coupling, axis=1)
     drag = np.sum(lost * coupling, axis=1) / np.where(size > 0.0, size, 1.0)
     return Kind(
-        shapes.square,
+        square,
         np.einsum("ki,ik->k", slowed, modes),
         drag,
         coupling,
@@ -293,16 +315,37 @@ def reduced(blocks: list[Blocks], shapes: Shapes, shift: float) -> Kind:
     )
 
 
-#: Share of the highest frequency of the modes from which the shift is made: with a higher one static
-#: deflections would be made of ever more modes, with a lower one the ends of a part get a common mass.
-SHIFTED = 1.0 / 8.0
 #: Least share of the kinetic energy of a mode that is not aside.
 LEAST = 1e-2
+#: Least share of the kinetic energy of what is added to the modes that these do not have already, and least
+#: ratio of the energies of two vectors that are added.
+ADDED, APART = 1e-18, 1e-6
 
 
-def shift_of(frequency: float) -> float:
-    """The shift for modes up to a frequency, 1/s^2; see :mod:`ancf.system.far`."""
-    return float((2.0 * np.pi * SHIFTED * frequency) ** 2)
+def _followed(blocks: list[Blocks], factors: tuple[float, float, float]) -> FloatArray:
+    """What the inside does with each unknown of the boundary, by the sum of M, C and K with these factors."""
+    inner, mixed = (
+        sum(factor * getattr(one, name) for factor, one in zip(factors, blocks, strict=True))
+        for name in ("inner", "mixed")
+    )
+    found: FloatArray = -splu(csc_array(inner)).solve(mixed.toarray())
+    return found
+
+
+def _completed(
+    mass: Any, stiffness: Any, shapes: Shapes, wanted: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Modes and their w^2 with others of higher frequencies so that ``wanted``, (inner, n), is among them."""
+    modes, size = shapes.modes, np.einsum("ij,ij->j", wanted, mass @ wanted)
+    added = wanted
+    for _ in range(2):  # once more for the round-off
+        added = added - modes @ (modes.T @ (mass @ added))
+    energy = np.einsum("ij,ij->j", added, mass @ added)
+    added = added[:, energy > ADDED * size] / np.sqrt(energy[energy > ADDED * size])
+    share, turn = eigh(added.T @ (mass @ added))
+    added = added @ (turn[:, share > APART * share.max()] / np.sqrt(share[share > APART * share.max()]))
+    square, turn = eigh(added.T @ (stiffness @ added), added.T @ (mass @ added))
+    return np.append(shapes.square, square), np.hstack([modes, added @ turn])
 
 
 def _condensed(psi: FloatArray, blocks: Blocks) -> FloatArray:

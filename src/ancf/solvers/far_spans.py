@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..connections.spring_damper import SLACK
+from ..connections.spring_damper import IDLE, SLACK
 from ..simd import LANES
 from ..system.far import (
     ASLEEP,
@@ -27,13 +27,12 @@ from ..system.far import (
     RANGES,
     RATE,
     SECOND,
-    SHIFT,
     SLEEPING,
     WATCHED,
 )
 from ..system.system import System
 from .far_arrays import ACTS, FarPlan, arrays_of, kinds_of
-from .far_parts import Matrices, Part, cables_of, in_order, parts_of, shift_of, sleep, wake
+from .far_parts import Matrices, Part, cables_of, in_order, parts_of, sleep, wake
 from .memory import H_FACTOR, Memory
 
 #: Distance, m, by which a part that may sleep is further from all strips than one that has to wake.
@@ -53,10 +52,18 @@ class FarSpans:
     plan : FarPlan
     watched : ndarray of int
         Unknowns that are recorded in every step.
-    step : float, s
+    step : (float, float, float)
+        Its length in s, and the factors of mass and damping in its matrix.
     """
 
-    def __init__(self, system: System, memory: Memory, plan: FarPlan, watched: IntArray, step: float) -> None:
+    def __init__(
+        self,
+        system: System,
+        memory: Memory,
+        plan: FarPlan,
+        watched: IntArray,
+        step: tuple[float, float, float],
+    ) -> None:
         self.system, self.memory = system, memory
         self.parts: list[Part] = []
         self.left_out = 0.0  # largest displacement that the modes could not take over, m
@@ -70,11 +77,10 @@ class FarSpans:
         if not self.parts:
             return
         matrices = Matrices(system, cables, self.parts, plan.rest)
-        self.kinds, self.kind_of, forces = kinds_of(matrices, self.parts, plan)
+        self.kinds, self.kind_of, forces = kinds_of(matrices, self.parts, plan, step[1:])
         self.far = arrays_of(system, self.parts, self.kinds, self.kind_of, forces, plan, watched)
         self.far.memo[NEAR], self.far.memo[AWAY] = plan.near, plan.near + BETWEEN
-        self.far.memo[SHIFT] = shift_of(plan.frequency)
-        self.far.memo[CALMED] = np.ceil(CALM_TIME / step)
+        self.far.memo[CALMED] = np.ceil(CALM_TIME / step[0])
         self.kept: list[Any] = [None] * len(self.parts)
         self.touched = system.core.near[0].touched.copy()
         system.core = system.core._replace(far=(self.far,))
@@ -148,20 +154,21 @@ class FarSpans:
         left = own - kind.inside[:, len(part.edge) :] @ y
         self.left_out = max(self.left_out, float(np.abs(left[part.inner % 6 < 3]).max()))
         v, bar = (kind.project @ (x[part.inner] - psi @ x[part.edge]) for x in (m.v, m.abar))
-        along = m.a[part.edge] - far.memo[SHIFT] * (m.q[part.edge] - still)
-        a = -kind.loss * v - kind.square * y - kind.coupling @ along
+        a = -kind.loss * v - kind.square * y - kind.coupling @ m.a[part.edge]
         a -= kind.drag * (kind.coupling @ m.v[part.edge])
         for row, values in ((POSITION, y), (RATE, v), (SECOND, a), (BAR, bar)):
             self._put(k, row, values)
         hidden = self.far.part[k, INNER] + np.arange(far.kind[self.kind_of[k], WATCHED], len(part.inner))
         m.q[far.inner[hidden]], m.v[far.inner[hidden]] = far.rest[hidden], 0.0
+        m.a[part.inner] = 0.0
         self._still(k)
         far.part[k, ASLEEP] = 1
 
     def _still(self, k: int) -> None:
-        """Take stiffness and mass from the cables of a part, and let its droppers push."""
+        """Take stiffness and mass from the cables of a part, and let its droppers push for themselves."""
         self.kept[k] = sleep(self.cables, self.parts[k])
-        self.system.parts["springs"].data[self.parts[k].springs, SLACK] = 0.0
+        springs = self.system.parts["springs"].data
+        springs[self.parts[k].springs, SLACK], springs[self.parts[k].springs, IDLE] = 0.0, 1.0
 
     def _wake(self, k: int) -> None:
         part, kind, m = self.parts[k], self.kinds[self.kind_of[k]], self.memory
@@ -177,7 +184,9 @@ class FarSpans:
             vector[part.inner] = m.a[part.inner]
         wake(self.cables, part, self.kept[k])
         first = far.part[k, HUNG]
-        self.system.parts["springs"].data[far.hung[first : first + far.part[k, DROPPERS]], SLACK] = 1.0
+        springs = self.system.parts["springs"].data
+        springs[far.hung[first : first + far.part[k, DROPPERS]], SLACK] = 1.0
+        springs[part.springs, IDLE] = 0.0
         far.part[k, ASLEEP] = far.part[k, CALM] = 0
 
     def _put(self, k: int, row: int, values: FloatArray) -> None:
@@ -227,4 +236,5 @@ def _is_still(system: System, part: Part) -> bool:
 def _watched_first(part: Part, watched: IntArray) -> Part:
     """Its unknowns with those that are recorded before all others."""
     seen = np.isin(part.inner, watched)
-    return part._replace(inner=np.concatenate([part.inner[seen], part.inner[~seen]]))
+    order = np.concatenate([np.flatnonzero(seen), np.flatnonzero(~seen)])
+    return part._replace(inner=part.inner[order], number=order)

@@ -16,8 +16,8 @@ import numpy as np
 from ..compiled import inline_kernel, optional, separate_kernel
 from ..linalg.reach import solve_near
 from ..system.core import to_local
-from ..system.far import add_far, hush
-from ..system.near import SEGMENT, clear_beyond, residual_near
+from ..system.far import add_far, clear_settled, hush
+from ..system.near import SEGMENT, residual_near
 from .low_rank import corrected
 
 #: Share of the correction that ends the iteration up to which a block has settled: what it leaves is then
@@ -100,7 +100,7 @@ def iterate(core, s, limit, gb, ib, correct):
     add_far(core.far[0], s)
     hush(core.far[0], near.low, near.high, count, s.r)
     to_local(core.supports, s.r)
-    clear_beyond(near, count, n // 6, s.r)
+    clear_settled(core.far[0], near, count, n // 6, s.r)
     count = solve_near(core.factor, core.joints.first, s.r, near.low, near.high, count, near.spread)
     corrected(correct, core, s, gb)
     return take(near, s, core.weight, gb, ib, count)

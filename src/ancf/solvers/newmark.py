@@ -49,7 +49,7 @@ from .apart import (
 from .carry import carry, unbalanced
 from .corotation import turn
 from .entwined import hold, let_go, solve_apart, solve_entwined
-from .far import asleep, finish_awake, predict_awake, restore_awake
+from .far_awake import asleep, finish_awake, load_awake, predict_awake, restore_awake
 from .low_rank import move_on
 from .memory import ETA, H_FACTOR, NOISE, NORM, WORST
 from .near import take_all
@@ -270,7 +270,8 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out, apart):
     level[0], level[1], level[2] = rule.w0, rule.w1, rule.w2
     status = OK
     for n in range(keep.shape[0]):
-        external_force(core.loads, tables.value[n], s.f)
+        if not load_awake(core.far, core.loads, tables.value[n], s.f, core.weight.shape[0]):
+            external_force(core.loads, tables.value[n], s.f)
         for attempt in range(rule.first, rule.last + 1):
             keeps = 1.0 if attempt == 0 else 0.0
             if not predict_awake(core.far, s, h, scheme, keeps, core.weight.shape[0]):

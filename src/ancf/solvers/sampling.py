@@ -63,9 +63,8 @@ def sampling_of(system: System) -> Sampling:
 @formula
 def note(core: Any, s: Any, sampling: Any) -> None:
     """Leave accelerations and forces out of balance at the end of a step, before batches remember it."""
-    if sampling.moved.shape[0] > 0:
-        for i in range(s.a.shape[0]):
-            sampling.felt[0, i] = s.a[i]
+    for k in range(sampling.moved.shape[0]):
+        sampling.felt[0, sampling.moved[k]] = s.a[sampling.moved[k]]
     if sampling.pushed.shape[0] > 0:
         residual(core.batches, core.ws, s.q, s.v, s.a, s.f, s.r)
         for i in range(s.a.shape[0]):

@@ -20,6 +20,11 @@ class Scheme(NamedTuple):
     alpha_m: float
     alpha_f: float
 
+    def of(self, h: float) -> tuple[float, float]:
+        """B and G of a step h, as :func:`coefficients` has them in kernels."""
+        c = (1.0 - self.alpha_f) / (1.0 - self.alpha_m)
+        return self.beta * h * h * c, self.gamma * h * c
+
 
 @formula
 def coefficients(h, scheme):

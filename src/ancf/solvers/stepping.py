@@ -74,18 +74,17 @@ class Run(Account):
         self.full, self.rest, self.steps = self.span.full, self.span.rest, self.span.steps
         self.watched = Watched(system)
         self.begun, self.between = False, False  # the start is stored; all until `done` is, and nothing else
-        self.done, self.look, self.apart = 0, FIRST_LOOK, FIRST_LOOK
+        self.done, self.apart = 0, FIRST_LOOK
+        self.look = FIRST_LOOK if system.core.accounted else self.steps
         self.control: Control | None = None
         self.use(integrator)
         self.memory: Memory = allocate(system.size, turning_nodes(system), room_for_patches(system))
         self.sampling = sampling_of(system)
         self.bridge = Bridge(self)
         self.far: FarSpans | None = None
+        self.tabled: Tables | None = None  # what is left of a block's after parts of a line have turned
         self.seconds = 0.0
-        self.astray, self.exchanged = (
-            0.0,
-            0.0,
-        )  # largest so far, J: energy that does not add up, and all of it
+        self.astray = self.exchanged = 0.0  # largest so far, J: energy that does not add up, and all of it
 
     def use(self, integrator: Any) -> None:
         """Take what the steps need from the settings of a method of the Newmark family."""
@@ -97,9 +96,7 @@ class Run(Account):
 
     def rule(self, h: float, first: int = 0, last: int = 0, furthest: float = UNLIMITED) -> Rule:
         """Newton's rule, the formulation of the constraints for a step h and which attempts to make."""
-        s = self.scheme
-        c = (1.0 - s.alpha_f) / (1.0 - s.alpha_m)
-        weights = self.formulation.weights(s.beta * h * h * c, s.gamma * h * c, h)
+        weights = self.formulation.weights(*self.scheme.of(h), h)
         return Rule(*self.newton, *weights, self.formulation.projects, furthest, first, last)
 
     @property
@@ -124,7 +121,9 @@ class Run(Account):
     def reduce(self, plan: FarPlan) -> FarSpans:
         """Let parts of a line sleep that nothing touches; after :meth:`start`."""
         begin = clock.process_time()
-        self.far = FarSpans(self.system, self.memory, plan, self.sampling.unknowns, self.h)
+        B, G = self.scheme.of(self.h)
+        step = self.h, 1.0 / B, G / B
+        self.far = FarSpans(self.system, self.memory, plan, self.sampling.unknowns, step)
         self.far.begin()
         self.seconds += clock.process_time() - begin
         self.__dict__.pop("kernels", None)
@@ -262,7 +261,7 @@ class Run(Account):
         row = np.where(keep, np.cumsum(keep) - 1, -1)
         out = self.room(int(keep.sum()), count)
         cpu = clock.process_time()
-        first, most = 0, count
+        first, most, self.tabled = 0, count, None
         try:
             while first < count:
                 t = self.time(done + first)
@@ -305,9 +304,12 @@ class Run(Account):
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
         if self.hesitates:
             return 0, SLOW
-        here = self.memory.q, self.memory.v
-        tables = self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end, here)
-        return self.block(self.system.core, tables, h, self.rule(h), row, out)
+        tables, here = self.tabled, (self.memory.q, self.memory.v)
+        if tables is None or len(tables.value) != len(row):
+            tables = self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end, here)
+        n, status = self.block(self.system.core, tables, h, self.rule(h), row, out)
+        self.tabled = Tables(*(x[n:] for x in tables)) if status == TURN else None
+        return n, status
 
     @cached_property
     def kernels(self) -> tuple[int, Apart]:

@@ -136,6 +136,12 @@ def external_force(loads, load, f):
         weigh(loads, load)
     for i in range(f.shape[0]):
         f[i] = loads.gravity[i]
+    add_patterns(loads, load, f)
+
+
+@formula
+def add_patterns(loads, load, f):
+    """Add the inputs of the patterns to f, which holds the weight where these act."""
     for k in range(loads.start.shape[0] - 1):
         size = load[loads.grows[k], 0] if loads.grows[k] >= 0 else 1.0
         for m in range(loads.start[k], loads.start[k + 1]):
