@@ -19,6 +19,8 @@ _OPERATIONS = {
     "inverted": "inverted",
     "measure": "measure",
     "remember": "remember",
+    "rate_stiffness": "add_rate_stiffness",
+    "touches": "touched",
 }
 _DEFAULTS = {
     "inertia": compiled.no_inertia,
