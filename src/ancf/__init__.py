@@ -11,6 +11,7 @@ from .errors import Interrupted, ModelError, SolveError
 if TYPE_CHECKING:
     from .analysis import damped_modes, equilibrium, load, modes, simulate, stable_step
     from .control.stepper import Stepper, stepper
+    from .cosimulation.unit import FmuController
     from .design.bridges.jax import jax_function
     from .design.bridges.torch import torch_function
     from .design.calibrate import calibrate
@@ -47,6 +48,7 @@ _LATER = {
     "resume": "resumption",
     "stepper": "control.stepper",
     "Stepper": "control.stepper",
+    "FmuController": "cosimulation.unit",
     "Result": "results",
     "State": "results",
     "Modes": "results",
@@ -84,6 +86,7 @@ __all__ = [
     "Discrete",
     "Explicit",
     "Fit",
+    "FmuController",
     "GeneralizedAlpha",
     "Gusts",
     "Interrupted",
