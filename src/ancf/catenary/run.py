@@ -124,7 +124,7 @@ def run(
         worn off is positive, so are the crests of waves; see :func:`random_underside`. A file has the columns
         ``position`` in m and ``height_mm``.
     reduce : bool
-        Whether spans move by their modes up to 60 Hz while no pantograph is near and their droppers are taut
+        Whether spans move by their modes up to 50 Hz while no pantograph is near and their droppers are taut
         (Craig and Bampton 1968), which long lines gain time by. Not with a `controller`, `sensitivities`,
         sliding joints, or an `integrator` that makes a matrix in each iteration or lets it turn.
 

@@ -26,7 +26,7 @@ from .assemble import Assembled
 from .signals import CUT_OFF
 
 #: Modes are taken up to this multiple of the cut-off of what is evaluated.
-BEYOND = 3.0
+BEYOND = 2.5
 #: Distance of a strip at which a span is taken as it is, m.
 NEAR = 10.0
 

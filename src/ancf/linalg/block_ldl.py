@@ -139,44 +139,50 @@ def is_zero(T, t):
 
 
 @inline_kernel
+def factorise_row(A, factor, i):
+    """Fill row i of ``factor`` from the values A and the rows before; negative pivots, -1 if singular."""
+    row_start, column, place = factor.row_start, factor.column, factor.place
+    L, LT, D_inv, T = factor.L, factor.LT, factor.D_inv, factor.T
+    n = row_start.shape[0] - 1
+    first, last = row_start[i], row_start[i + 1]
+    for k in range(first, last):
+        place[column[k]] = k - first
+    for m in range(6):
+        for c in range(6):
+            D_inv[36 * i + 6 * m + c] = A[36 * i + 6 * max(m, c) + min(m, c)]
+    leading = True  # zeros at the left of a row stay zeros
+    for k in range(first, last):
+        j, t = column[k], 36 * (k - first)
+        for m in range(36):
+            T[t + m] = A[36 * (n + k) + m]
+            L[36 * k + m] = LT[36 * k + m] = 0.0
+        if leading:
+            leading = is_zero(T, t)
+            if leading:
+                continue
+        for h in range(row_start[j], row_start[j + 1]):
+            c = place[column[h]]
+            if c >= 0:
+                subtract_product(T, t, T, 36 * c, LT, 36 * h)
+        for m in range(0, 36, 6):
+            store_six(times(D_inv, 36 * j, T, t + m), L, 36 * k + m)
+        transpose(L, LT, 36 * k)
+        subtract_product(D_inv, 36 * i, T, t, LT, 36 * k)
+        mirror(D_inv, 36 * i)
+    for k in range(first, last):
+        place[column[k]] = -1
+    return invert_symmetric(D_inv, 36 * i, A)
+
+
+@inline_kernel
 def factorise(A, factor, last):
     """Fill ``factor`` from the values A; number of negative pivots, or -(block + 1) if singular.
 
     Rows from block ``last`` on are left out: see :mod:`ancf.linalg.border`.
     """
-    row_start, column, place = factor.row_start, factor.column, factor.place
-    L, LT, D_inv, T = factor.L, factor.LT, factor.D_inv, factor.T
-    n = row_start.shape[0] - 1
     negative = 0
     for i in range(last):
-        first, last = row_start[i], row_start[i + 1]
-        for k in range(first, last):
-            place[column[k]] = k - first
-        for m in range(6):
-            for c in range(6):
-                D_inv[36 * i + 6 * m + c] = A[36 * i + 6 * max(m, c) + min(m, c)]
-        leading = True  # zeros at the left of a row stay zeros
-        for k in range(first, last):
-            j, t = column[k], 36 * (k - first)
-            for m in range(36):
-                T[t + m] = A[36 * (n + k) + m]
-                L[36 * k + m] = LT[36 * k + m] = 0.0
-            if leading:
-                leading = is_zero(T, t)
-                if leading:
-                    continue
-            for h in range(row_start[j], row_start[j + 1]):
-                c = place[column[h]]
-                if c >= 0:
-                    subtract_product(T, t, T, 36 * c, LT, 36 * h)
-            for m in range(0, 36, 6):
-                store_six(times(D_inv, 36 * j, T, t + m), L, 36 * k + m)
-            transpose(L, LT, 36 * k)
-            subtract_product(D_inv, 36 * i, T, t, LT, 36 * k)
-            mirror(D_inv, 36 * i)
-        for k in range(first, last):
-            place[column[k]] = -1
-        bad = invert_symmetric(D_inv, 36 * i, A)
+        bad = factorise_row(A, factor, i)
         if bad < 0:
             return -(i + 1)
         negative += bad

@@ -2,8 +2,9 @@
 
 The inverse of the matrix of a time step decays away from its diagonal: within a step a force is felt no
 further than waves run.  A right-hand side that is zero but in some ranges of rows then has a solution that
-is round-off beyond some rows around them.  Forward and backward passes go on beyond a range until as many
-rows as the matrix is wide are round-off, and no further, whatever the order of the rows is.
+is nothing beyond some rows around them.  Forward and backward passes go on beyond a range until as many
+rows as the matrix is wide are nothing, and no further, whatever the order of the rows is.  Nothing is what is
+small beside the largest number; corrections of a step are small beside the state already.
 """
 
 from __future__ import annotations
@@ -12,8 +13,8 @@ from ..compiled import formula, inline_kernel
 from ..simd import every, load_six, store_six
 from .block_ldl import Factor, columns, times
 
-#: Share of the largest number below which the numbers of a row are round-off.
-ROUND_OFF = 1e-12
+#: Share of the largest number below which the numbers of a row are nothing.
+NOTHING = 1e-8
 
 
 @formula
@@ -54,7 +55,7 @@ def forward(factor, n, x, low, high, count, spread):
             store_six(s, x, 6 * i)
             size = size_of(x, i)
             largest = max(largest, size)
-            quiet = 0 if size > ROUND_OFF * largest else quiet + 1
+            quiet = 0 if size > NOTHING * largest else quiet + 1
             i += 1
         high[pieces - 1] = end = i
     return pieces
@@ -80,7 +81,7 @@ def backward(factor, x, low, high, pieces, spread):
                 store_six(load_six(x, j) - columns(L, 36 * m, f0, f1, f2, f3, f4, f5), x, j)
             size = size_of(x, i)
             largest = max(largest, size)
-            quiet = 0 if size > ROUND_OFF * largest else quiet + 1
+            quiet = 0 if size > NOTHING * largest else quiet + 1
             i -= 1
         low[p] = i + 1
         clear(x, clean, i + 1)

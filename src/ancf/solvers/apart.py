@@ -26,7 +26,7 @@ from ..system.core import (
 from .balance import balance
 from .corotation import remember, turn_forth, turn_rows
 from .far import begin_far, end_far, show_far
-from .far_awake import isolate, iterate_awake
+from .far_awake import asleep, iterate_awake, matrix_awake
 from .low_rank import correct_rows, forget
 from .memory import H_FACTOR, WORST, Memory
 from .near import iterate
@@ -52,20 +52,33 @@ class Apart(NamedTuple):
     end_far: int
     show_far: int
     iterate_awake: int
+    matrix_awake: int
     correct: int  # contacts, or springs that may go slack
     iterate: int  # of a line what is near
 
 
+_new_matrix, _renew_tail, _project = caller(types.boolean), caller(types.boolean), caller(types.float64)
+_balance, _note, _sample = caller(types.none), caller(types.none), caller(types.none)
+_begin_far, _end_far, _show_far = caller(types.none), caller(types.boolean), caller(types.none)
+_iterate_awake, _iterate = caller(types.float64, nothing=math.inf), caller(types.float64, nothing=math.inf)
+_matrix_awake = caller(types.int64, nothing=0)
+
+
 @separate_kernel
-def new_matrix(core, s, h, B, G):
-    """Make and factorise the matrix of a step h in the present state; whether that is possible."""
-    assemble(core.batches, core.ws, s.q, s.v, core.A, 1.0 / B, G / B, 1.0)
-    restrict(core.supports, core.A)
-    isolate(core.far, core.factor, core.A)
-    remember(s.frames, s.q)
+def new_matrix(core, s, h, B, G, awake):
+    """Make and factorise the matrix of a step h in the present state; whether that is possible.
+
+    ``awake`` is the address of :func:`ancf.solvers.far_awake.matrix_awake` where something may sleep.
+    """
     s.counts[JACOBIANS] += 1
     s.counts[FACTORIZATIONS] += 1
-    bad = factorise_head(core.A, core.factor, core.joints.first)
+    if asleep(core.far):
+        bad = _matrix_awake(awake, (core, s, G / B, 1.0 / B))
+    else:
+        assemble(core.batches, core.ws, s.q, s.v, core.A, 1.0 / B, G / B, 1.0)
+        restrict(core.supports, core.A)
+        bad = factorise_head(core.A, core.factor, core.joints.first)
+    remember(s.frames, s.q)
     if bad >= 0 and has_rows(core.joints):
         forget_columns(core.joints.border)
         bad = min(renew_border(core.joints.border, core.A, core.factor), 0)
@@ -115,16 +128,10 @@ def project(core, s, tolerance, corotate, w0, w1, w2):
     return norm
 
 
-_new_matrix, _renew_tail, _project = caller(types.boolean), caller(types.boolean), caller(types.float64)
-_balance, _note, _sample = caller(types.none), caller(types.none), caller(types.none)
-_begin_far, _end_far, _show_far = caller(types.none), caller(types.boolean), caller(types.none)
-_iterate_awake, _iterate = caller(types.float64, nothing=math.inf), caller(types.float64, nothing=math.inf)
-
-
 @formula
 def matrix_anew(apart, core, s, h, B, G):
     """See :func:`new_matrix`."""
-    return _new_matrix(apart.new_matrix, (core, s, h, B, G))
+    return _new_matrix(apart.new_matrix, (core, s, h, B, G, apart.matrix_awake))
 
 
 @formula
@@ -201,7 +208,7 @@ def needed(core: Core, memory: Memory, sampling: Sampling, explicit: bool) -> tu
         bool(core.damped or core.loaded),
         len(sampling.moved) > 0 or len(sampling.pushed) > 0,
         sampling.width > 0,
-        *(4 * (implicit and bool(core.far) and len(core.far[0].part) > 0,)),
+        *(5 * (implicit and bool(core.far) and len(core.far[0].part) > 0,)),
         implicit and len(memory.patches) > 0,
         implicit and len(core.near) > 0,
     )
@@ -212,7 +219,7 @@ def apart_of(core: Any, memory: Any, sampling: Any, wanted: tuple[bool, ...]) ->
     flag, number, vector = types.boolean, types.float64, types.Array(types.float64, 1, "C")
     both, scheme = (core, memory), type_of(Scheme(0.0, 0.0, 0.0, 0.0))
     kernels: list[tuple[Any, Any, tuple[Any, ...]]] = [
-        (new_matrix, flag, (*both, number, number, number)),
+        (new_matrix, flag, (*both, number, number, number, types.int64)),
         (renew_tail, flag, (*both, flag, number, number)),
         (project, number, (*both, number, flag, number, number, number)),
         (balance, types.none, (*both, number)),
@@ -222,6 +229,7 @@ def apart_of(core: Any, memory: Any, sampling: Any, wanted: tuple[bool, ...]) ->
         (end_far, flag, (*both, scheme, number, number)),
         (show_far, types.none, (*both, flag)),
         (iterate_awake, number, (*both, number, number, types.int64)),
+        (matrix_awake, types.int64, (*both, number, number)),
         (correct_rows, types.none, (*both, number)),
         (iterate, number, (*both, number, number, number, types.int64)),
     ]

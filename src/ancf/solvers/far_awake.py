@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from ..compiled import optional, separate_kernel
+from ..batches import add_tangents
+from ..compiled import inline_kernel, optional, separate_kernel
+from ..linalg.block_ldl import factorise_row
 from ..linalg.reach import solve_ranges
 from ..simd import LANES
-from ..system.core import add_patterns, to_local
+from ..system.core import add_patterns, restrict, to_local
 from ..system.far import ASLEEP, COLUMN, EDGES, ENTRY, HIGH, KIND, RANGES, SLEEPING, add_far
-from ..system.near import residual_near
+from ..system.near import choose, residual_near
 from .low_rank import corrected
 from .near import take
 from .scheme import finish_rows, note_step, predict_rows, restore_rows
@@ -64,15 +66,22 @@ def _asleep(items):
     return items[0].counts[SLEEPING] > 0
 
 
+@inline_kernel
+def take_awake(far, near):
+    """Ranges of what is awake, in those of :mod:`ancf.system.near`; their number."""
+    count = far.counts[RANGES]
+    for k in range(count):
+        near.low[k], near.high[k] = far.range[k, 0], far.range[k, 1]
+    return count
+
+
 @separate_kernel
 def iterate_awake(core, s, gb, ib, correct):
     """Correct what is awake; its norm. `correct` is an address, see
     :func:`ancf.solvers.low_rank.corrected`.
     """
     far, near, n = core.far[0], core.near[0], core.weight.shape[0]
-    count = far.counts[RANGES]
-    for k in range(count):
-        near.low[k], near.high[k] = far.range[k, 0], far.range[k, 1]
+    count = take_awake(far, near)
     residual_near(near, count, n, core.ws, s.q, s.v, s.a, s.f, s.r)
     add_far(far, s)
     to_local(core.supports, s.r)
@@ -81,17 +90,25 @@ def iterate_awake(core, s, gb, ib, correct):
     return take(near, s, core.weight, gb, ib, count)
 
 
-def _isolate(items, factor, A):
-    far = items[0]
-    if far.counts[SLEEPING] == 0:
-        return
+@inline_kernel
+def clear_matrix(far, factor, A):
+    """Zero in the rows of what is awake."""
     n = factor.row_start.shape[0] - 1
-    for b in range(n):
-        if far.sleeps[b] != 0:
-            for m in range(36):
-                A[36 * b + m] = 1.0 if m % 7 == 0 else 0.0
-        for k in range(factor.row_start[b], factor.row_start[b + 1]):
-            if far.sleeps[b] != 0 or far.sleeps[factor.column[k]] != 0:
+    for r in range(far.counts[RANGES]):
+        low, high = far.range[r, 0], far.range[r, 1]
+        for m in range(36 * low, 36 * high):
+            A[m] = 0.0
+        for m in range(36 * (n + factor.row_start[low]), 36 * (n + factor.row_start[high])):
+            A[m] = 0.0
+
+
+@inline_kernel
+def isolate(far, factor, A):
+    """Nothing is coupled to what sleeps; boundaries feel the parts."""
+    n = factor.row_start.shape[0] - 1
+    for r in range(far.counts[RANGES]):
+        for k in range(factor.row_start[far.range[r, 0]], factor.row_start[far.range[r, 1]]):
+            if far.sleeps[factor.column[k]] != 0:
                 for m in range(36):
                     A[36 * (n + k) + m] = 0.0
     for p in range(far.part.shape[0]):
@@ -105,6 +122,26 @@ def _isolate(items, factor, A):
                         A[place] += far.matrix[far.kind[t, COLUMN] + row, j % LANES]
 
 
+@separate_kernel
+def matrix_awake(core, s, gb, ib):
+    """Make and factorise the rows of what is awake of the matrix; -(block + 1) if singular.
+
+    Rows of what sleeps are those of the identity in the factors, see
+    :meth:`ancf.solvers.far_spans.FarSpans.turn`, and count nowhere else.
+    """
+    far, near, A, factor = core.far[0], core.near[0], core.A, core.factor
+    clear_matrix(far, factor, A)
+    choose(near, take_awake(far, near))
+    add_tangents(near.batches, s.q, s.v, A, ib, gb, 1.0, core.ws)
+    restrict(core.supports, A)
+    isolate(far, factor, A)
+    for r in range(far.counts[RANGES]):
+        for i in range(far.range[r, 0], far.range[r, 1]):
+            if factorise_row(A, factor, i) < 0:
+                return -(i + 1)
+    return 0
+
+
 #: ``load_awake(core.far, loads, load, f, shadows)``: the load vector on what is awake, if something sleeps.
 load_awake = optional(_load_awake, False)
 #: ``predict_awake(core.far, s, h, scheme, keep, shadows)``: predict what is awake, if something sleeps.
@@ -115,5 +152,3 @@ restore_awake = optional(_restore_awake, False)
 finish_awake = optional(_finish_awake, False)
 #: ``asleep(core.far)``: whether a part sleeps.
 asleep = optional(_asleep, False)
-#: ``isolate(core.far, factor, A)``: rows of what sleeps are those of the identity; boundaries feel the parts.
-isolate = optional(_isolate)

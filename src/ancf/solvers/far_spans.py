@@ -73,6 +73,7 @@ class FarSpans:
         self.cables = cables
         watched = watched[watched % 6 == ACTS]
         parts = in_order(system, parts_of(system, cables, plan.cuts))
+        watched = np.union1d(watched, _hung(system))
         self.parts = [_watched_first(part, watched) for part in parts if _is_still(system, part)]
         if not self.parts:
             return
@@ -162,7 +163,17 @@ class FarSpans:
         m.q[far.inner[hidden]], m.v[far.inner[hidden]] = far.rest[hidden], 0.0
         m.a[part.inner] = 0.0
         self._still(k)
+        self._alone(part)
         far.part[k, ASLEEP] = 1
+
+    def _alone(self, part: Part) -> None:
+        """Let the rows of a part in the factors be those of the identity."""
+        factor, b = self.system.core.factor, part.blocks
+        first, last = factor.row_start[b], factor.row_start[b + 1]
+        rows = np.concatenate([np.arange(i, j) for i, j in zip(first, last, strict=True)])
+        for values, places in ((factor.L, rows), (factor.LT, rows), (factor.D_inv, b)):
+            values.reshape(-1, 36)[places] = 0.0
+        factor.D_inv.reshape(-1, 36)[b, ::7] = 1.0
 
     def _still(self, k: int) -> None:
         """Take stiffness and mass from the cables of a part, and let its droppers push for themselves."""
@@ -221,6 +232,13 @@ class FarSpans:
         first = self.cables.first
         whole = np.add.reduceat(idle, first[:-1]) == np.diff(first)
         self.system.core.near[0].touched[:] = np.where(whole[:, None], 0, self.touched)
+
+
+def _hung(system: System) -> IntArray:
+    """Heights of the ends of all springs: what their forces follow from."""
+    springs = system.parts["springs"]
+    slots: IntArray = springs.base[(springs.base >= 0) & (springs.factor != 0.0)]
+    return slots + ACTS
 
 
 def _is_still(system: System, part: Part) -> bool:
