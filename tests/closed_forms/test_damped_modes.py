@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import ancf
 from ancf.errors import ModelError, SolveError
@@ -168,3 +169,39 @@ def test_resistance_that_stands_still_is_refused_of_what_turns():
     rope.set_motion(angular_velocity=(0, 0, 5.0))
     with pytest.raises(SolveError, match="resistance that stands still"):
         ancf.damped_modes(model, count=3)
+
+
+def pressed(load, elements, section):
+    """Lowest two eigenvalues of a column, EI = rhoA = L = 1, whose end is pressed along its tangent."""
+    model = ancf.Model()
+    column = model.add_beam("column", start=(0, 0, 0), end=(0, 0, 1), elements=elements, section=section)
+    model.clamp(column.start)
+    for x in column.node_x[1:]:
+        model.hold(column.at(float(x)), position="y", slope="y")
+    model.add_follower_force(column.end, (-load, 0, 0))
+    return ancf.damped_modes(model, about=ancf.equilibrium(model), count=2).eigenvalues
+
+
+def becks_equation(w, load):
+    s = np.sqrt(load**2 / 4 + w * w)
+    a, b = np.sqrt(s + load / 2), np.sqrt(s - load / 2)
+    return load**2 + 2 * w * w + load * w * np.sin(a) * np.sinh(b) + 2 * w * w * np.cos(a) * np.cosh(b)
+
+
+@pytest.mark.parametrize(("load", "elements"), [(-15.0, 8), (4.0, 6), (12.0, 8), (19.5, 10)])
+def test_column_under_a_follower_force(load, elements):
+    """The roots of Beck's characteristic equation, pulled and pressed."""
+    found = pressed(load, elements, ancf.Section(EA=1e6, EI=1.0, rhoA=1.0))
+    assert np.abs(found.real).max() < 1e-6
+    wanted = [brentq(becks_equation, 0.95 * w, 1.05 * w, args=(load,)) for w in found.imag]
+    assert found.imag == pytest.approx(wanted, rel=4e-4)
+
+
+def test_column_flutters():
+    """Two frequencies meet at 20.05; damping of the material makes that earlier (Ziegler's paradox)."""
+    assert np.abs(pressed(19.95, 10, ancf.Section(EA=1e6, EI=1.0, rhoA=1.0)).real).max() < 1e-6
+    above = pressed(20.2, 10, ancf.Section(EA=1e6, EI=1.0, rhoA=1.0))
+    assert above.real.max() > 0.3
+    damped = ancf.Section(EA=1e6, EI=1.0, rhoA=1.0, bending_damping=1e-3)
+    assert pressed(10.0, 10, damped).real.max() < 0.0
+    assert pressed(12.0, 10, damped).real.max() > 0.0

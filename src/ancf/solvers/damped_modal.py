@@ -12,12 +12,16 @@ state.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import Any
+
 import numpy as np
 from scipy.linalg import eig, null_space
 from scipy.sparse import coo_array, csc_array
 from scipy.spatial.transform import Rotation
 
 from ..arrays import FloatArray, IntArray
+from ..compiled import traits
 from ..errors import SolveError
 from ..linalg.sparse import to_sparse
 from ..system.core import apply_load, assemble, follow_supports, residual
@@ -30,6 +34,7 @@ BALANCED = 1e-7  # forces that are left, of the largest
 ROUNDS = 30  # of Newton's method
 SHIFT = 1e-6  # of a mean frequency: about what eigenvalues are found
 NEUTRAL = 1e-3  # of the shift: what is zero
+DIFFERENCE, ROUND_OFF = 1e-6, 1e-8  # of positions in sizes of the model; of stiffnesses, what is none
 TURN = 0.3  # rad, by which a model is turned to see whether it turns freely
 
 ComplexArray = np.ndarray
@@ -77,7 +82,7 @@ class Damped:
     def matrices(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Mass, damping with the gyroscopic part, stiffness with the centrifugal one, constraints."""
         f = self.free
-        K = self._whole(0.0, 0.0, 1.0)
+        K = self._whole(0.0, 0.0, 1.0) + circulatory(self.system, self.q)
         M = self._part(self.M, f, f)
         D = self._part(csc_array(self._whole(0.0, 1.0, 0.0) + 2.0 * (self.M @ self.W)), f, f)
         turned = self._part(csc_array(K + self.M @ self.W @ self.W), f, f)
@@ -147,6 +152,40 @@ class Damped:
             follow_supports(self.system.core.supports, self.q, self.v, self.a)
         what = f"{np.max(np.abs(left)):.3g} are left of {largest:.3g} N: the state does not turn steadily"
         raise SolveError("damped_modes", what, "let loads and supports turn with it, or leave them out")
+
+
+def circulatory(system: System, q: FloatArray) -> csc_array:
+    """The antisymmetric half of the stiffness of loads that follow the motion, (n, n), as differences.
+
+    The matrices of a time step are symmetric and leave it out; a column flutters by it.
+    """
+    core, n = system.core, system.n
+    place, none, f = np.arange(n), np.zeros_like(q), np.zeros_like(q)
+    for c in range(3):
+        place[core.supports.rot_slot + c] = core.supports.rot_shadow + c
+    moved = np.intersect1d(_touched(core.external), place)
+    if not len(moved):
+        return csc_array((n, n))
+    J = np.zeros((n, n))
+    for i in np.flatnonzero(np.isin(place, moved) & (core.weight > 0.0)):
+        both = []
+        for h in (DIFFERENCE, -DIFFERENCE):
+            near, r = q.copy(), np.zeros_like(q)
+            near[place[i]] += h / core.weight[i]
+            residual(core.external, core.ws, near, none, none, f, r)
+            both.append(r[place])
+        J[:, i] = (both[0] - both[1]) * core.weight[i] / (2.0 * DIFFERENCE)
+    half = 0.5 * (J - J.T)
+    half[np.abs(half) < ROUND_OFF * np.abs(J).max()] = 0.0
+    return csc_array(half)
+
+
+def _touched(batches: Iterable[Any]) -> IntArray:
+    """Entries of the state vector of all slots of batches."""
+    slots = [np.ravel(getattr(b, name)) for b in batches for name in traits(b).slots]
+    found = np.concatenate([np.zeros(0, dtype=np.int64), *slots])
+    found = np.unique(found[found >= 0])
+    return np.ravel(found[:, None] + np.arange(3))
 
 
 def damped_modes_about(

@@ -14,12 +14,15 @@ from .statics import square_torsion
 
 #: Roots of cos(b) cosh(b) = -1, clamped and free.
 CANTILEVER = (1.8751040687119611, 4.694091132974175, 7.854757438237613)
+#: With s = sqrt(P^2/4 + w^2), a^2 = s + P/2, b^2 = s - P/2 the frequencies w of a column under a follower
+#: force P obey P^2 + 2 w^2 + P w sin a sinh b + 2 w^2 cos a cosh b = 0; two of them meet at
+BECK = 20.05095362
 
 
 def cases() -> list[Case]:
     """All of them."""
     of_cables = [*_cantilever(), *_simply_supported(), *_string(), _compressed(), _bar()]
-    return [*of_cables, *_timoshenko(), _torsion(), *_spring()]
+    return [*of_cables, *_timoshenko(), _torsion(), *_spring(), _beck()]
 
 
 def _cantilever() -> list[Case]:
@@ -145,3 +148,24 @@ def _numbered(
         Case(f"{name}: frequency {n}", element, float(value), other, tolerance, "rad/s", where)
         for n, (value, other) in enumerate(zip(found, wanted, strict=True), start=1)
     ]
+
+
+def _beck() -> Case:
+    """A column that a force along its tangent presses: from some load on it flutters."""
+    low, high = 18.0, 22.0  # EI/L^2
+    while high - low > 1e-5:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if flutters(middle) else (middle, high)
+    where = "Beck 1952: a double root of his characteristic equation"
+    return Case("column, follower force: flutter", "cable", low, BECK, 1e-3, "EI/L^2", where)
+
+
+def flutters(load: float) -> bool:
+    """Whether a column of 12 elements does in its plane, under a load in EI/L^2."""
+    model, beam = cable(12)
+    model.clamp(beam.start)
+    for x in beam.node_x[1:]:
+        model.hold(beam.at(x), position="z", slope="z")
+    model.add_follower_force(beam.end, (-load * EI / LENGTH**2, 0.0, 0.0))
+    modes = ancf.damped_modes(model, about=ancf.equilibrium(model), count=2)
+    return bool(modes.eigenvalues.real.max() > 1e-3 * math.sqrt(EI / RHO_A) / LENGTH**2)
