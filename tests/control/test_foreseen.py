@@ -73,3 +73,44 @@ class TestMotion:
             said.append(str(caught.value))
         assert said[0] == said[1]
         assert times[-1] == pytest.approx(0.347, abs=1.5e-3)
+
+
+class TestPieces:
+    """Where there are many given motions the tables to come are made piece by piece."""
+
+    def test_are_the_same_tables(self):
+        model, _ = moved([])
+        live = ancf.stepper(model, step=1e-3)
+        inputs, asked = live.system.inputs, (0.256, 1e-3, 256, 0.0, 1e9)
+        *before, made = inputs.piecewise(*asked)
+        assert len(before) == inputs.pieces - 1 > 0
+        assert all(piece is None for piece in before)
+        for mine, wanted in zip(made, inputs.tables(*asked), strict=True):
+            assert np.array_equal(mine, wanted)
+
+    @pytest.mark.parametrize("together", [1, 7, 50])
+    def test_change_nothing(self, together):
+        """Steps over several tables, with an input that changes between them, against a run of all."""
+
+        def push(t):
+            return 5.0 * max(round(t / 1e-3) // together, 0)
+
+        known, other = moved([])
+        known.add_force(other, lambda t: (push(t - 1e-3), 0.0, 0.0))
+        told = ancf.simulate(known, t_end=0.7, step=1e-3)
+        model, load = moved([])
+        live = ancf.stepper(model, step=1e-3)
+        for first in range(0, 700, together):
+            live.inputs["push"] = push(first * 1e-3)
+            live.advance(together)
+        assert live.position(load) == pytest.approx(told.position(other)[-1], abs=1e-9)
+
+    def test_a_function_that_fails_in_tables_to_come(self):
+        """The run goes on to where it fails, step by step."""
+        model, _ = moved([], fails=0.4)
+        live = ancf.stepper(model, step=1e-3)
+        while live.t < 0.39:
+            live.advance()
+        with pytest.raises(ModelError, match="no more"):
+            live.advance(10)
+        assert live.t == pytest.approx(0.397, abs=1.5e-3)

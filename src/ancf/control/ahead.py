@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -12,13 +13,15 @@ from ..errors import ModelError, SolveError
 from ..model.expression import Expression
 from ..results.store import MemoryStore
 from ..solvers.quick import DONE, PACKED, Quick
-from ..solvers.status import EVENT, OK, SLOW
+from ..solvers.status import EVENT, OK, SLOW, TURN
 from ..solvers.stepping import Run
+from ..system.core import Tables
 from ..system.drives import driven_steps
 from ..system.inputs import on_grid
+from .foreseen import Foreseen
 
-#: Steps ahead.
-ROWS = 256
+#: Steps ahead, and after how many of them a piece of the next tables is made, where there are many pieces.
+ROWS, STRIDE = 256, 32
 
 
 class Ahead:
@@ -34,7 +37,9 @@ class Ahead:
 
     def __init__(self, run: Run, store: MemoryStore) -> None:
         self.run, self.store = run, store
-        self.inputs, self.memo = run.system.inputs, run.memory.memo
+        inputs = run.system.inputs
+        assert isinstance(inputs, Foreseen)
+        self.inputs, self.memo = inputs, run.memory.memo
         self.led: list[tuple[int, Any, Expression]] = []  # loads, their components, formulas of inputs
         for load in self.inputs.led:
             function = self.inputs.loads[load]
@@ -49,9 +54,10 @@ class Ahead:
         self.row: Any = self.tables.value.reshape(-1).data
         self.sure = False  # the next step may be taken by the shortest way
         self.base = run.done  # steps before the first row
-        self.at = self.rows = self.given = (
-            0  # next row, rows that are tabulated, and those with inputs of now
-        )
+        self.at = self.rows = self.given = 0  # next row, rows that may be taken, and those with inputs of now
+        self.made = 0  # rows that are tabulated; those behind `rows` are not taken yet
+        self.coming: Iterator[Tables | None] | None = None  # makes the tables of the steps after these
+        self.next: Tables | None = None  # these, once they are made
         self.width = 1  # rows that get inputs at once
         self.handed = 0  # rows whose samples are stored
         self.changes = self.inputs.changes
@@ -79,6 +85,8 @@ class Ahead:
         if status >= EVENT:
             run.happened(status - EVENT, run.time(run.done), run.done)
             run.store(-1, self.at - 1, self.out)
+        elif status == TURN:
+            run.turn()
         elif status != OK:
             self.bridge()
 
@@ -137,21 +145,51 @@ class Ahead:
             self.given, self.width = self.at, 1
 
     def tabulate(self, wanted: int) -> None:
-        """Functions of time of the next steps; of those that are wanted if one fails further on."""
+        """Functions of time of the next steps; of those that are wanted if one fails further on.
+
+        Where these are many the steps after those are tabulated meanwhile, piece by piece: no single step
+        has to wait for all of them.
+        """
+        if self.rows < self.made:
+            self.prepare(-(-self.inputs.pieces // (ROWS // STRIDE - 1)))
+            self.rows = min(self.rows + STRIDE, self.made)
+            return
         self.hand_over()
+        self.prepare(self.inputs.pieces)
+        found, self.coming, self.next = self.next, None, None
+        self.given = 0 if self.led else ROWS  # inputs may have changed since
+        if found is None:
+            found, self.given = self.tabled(wanted), ROWS
+        rows = len(found.value)
+        for x, y in zip(found, self.tables, strict=True):
+            y[:rows] = x
+        self.base, self.at, self.handed, self.rows, self.made = self.run.done, 0, 0, rows, rows
+        self.given, self.changes = min(self.given, rows), self.inputs.changes
+        if rows == ROWS and self.inputs.pieces > 1:
+            run = self.run
+            times = run.time(run.done + rows), run.h, rows, run.t_start, run.t_end
+            self.coming, self.rows = self.inputs.piecewise(*times), STRIDE
+
+    def tabled(self, wanted: int) -> Tables:
+        """Tables of as many of the next steps as can be made at once."""
         run = self.run
         for rows in (ROWS, min(wanted, ROWS), 1):
             try:
                 times = run.time(run.done), run.h, rows, run.t_start, run.t_end
-                found = self.inputs.tables(*times, self.here)
-                break
+                return self.inputs.tables(*times, self.here)
             except ModelError:
                 if rows == 1:
                     raise
-        for x, y in zip(found, self.tables, strict=True):
-            y[:rows] = x
-        self.base, self.at, self.handed, self.rows, self.given = run.done, 0, 0, rows, rows
-        self.changes = self.inputs.changes
+        raise AssertionError
+
+    def prepare(self, pieces: int) -> None:
+        """Make some pieces of the tables that come, if there are any left to make."""
+        try:
+            for _ in range(pieces):
+                if self.coming is not None and self.next is None:
+                    self.next = next(self.coming)
+        except ModelError:  # a function fails further on: said when it is asked for
+            self.coming = None
 
     def lead(self, count: int) -> None:
         """Loads that depend on inputs, of the next steps; of ever more while the inputs stay as they are."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from ..arrays import FloatArray
@@ -69,8 +71,19 @@ class Foreseen(Inputs):
     def _rows(self) -> int:
         return 0 if self._known is None else len(self._known.value)
 
-    def _made(self, start: float, step: float, steps: int, first: float, last: float) -> Tables:
-        """Tables with the constant loads as they were, and one difference formula for all motions."""
+    def _made(
+        self,
+        start: float,
+        step: float,
+        steps: int,
+        first: float,
+        last: float,
+        known: list[FloatArray] | None = None,
+    ) -> Tables:
+        """Tables with the constant loads as they were, and one difference formula for all motions.
+
+        ``known`` are the motions, if they are, each (steps, unknowns, 3).
+        """
         if not self._plain:
             return super().tables(start, step, steps, first, last)
         times = on_grid(start, step, np.arange(1, steps + 1), first)
@@ -81,9 +94,27 @@ class Foreseen(Inputs):
         for k in self._timely:
             value[:, k] = self.loads[k].under(self.given, times)
         motion = np.zeros((steps, 0, 3))
-        if self.motions:
+        if known:
+            motion = np.concatenate(known, axis=1)
+        elif self.motions:
             motion = np.stack(differences(self._places, times, step, first, last), axis=-1)
         return Tables(value, motion, np.zeros((steps, 0, 3, 3, 3)))
+
+    @property
+    def pieces(self) -> int:
+        """In how many pieces tables can be made, 1: at once alone."""
+        return len(self.motions) + 1 if self._plain and not self.drives else 1
+
+    def piecewise(
+        self, start: float, step: float, steps: int, first: float, last: float
+    ) -> Iterator[Tables | None]:
+        """The tables that :meth:`tables` makes of many steps, made piece by piece; the last one is them."""
+        times = on_grid(start, step, np.arange(1, steps + 1), first)
+        motion = []
+        for one in self.motions:
+            motion.append(np.stack(differences(one.values, times, step, first, last), axis=-1))
+            yield None
+        yield self._made(start, step, steps, first, last, motion)
 
     def _places(self, times: FloatArray) -> FloatArray:
         """All given motions side by side."""

@@ -212,11 +212,12 @@ def differences(
     grid[below : below + n] = times
     values = function(grid)
     rate, second = np.zeros((n, values.shape[1])), np.zeros((n, values.shape[1]))
-    weights = _WEIGHTS[at - begin]
+    centred = bool(np.all(at - begin == half))  # all times have the same formula
+    weights = _WEIGHTS[half, :, :, None] if centred else _WEIGHTS[at - begin].transpose(1, 2, 0)
     for s in range(STENCIL):  # one after the other: a sum by the library rounds as its length wants
-        value = values[begin - begin[0] + s]
-        rate += weights[:, 0, s, None] * value
-        second += weights[:, 1, s, None] * value
+        value = values[s : s + n] if centred else values[begin - begin[0] + s]
+        rate += weights[0, s, :, None] * value
+        second += weights[1, s, :, None] * value
     return values[below : below + n], rate / step, second / step**2
 
 
