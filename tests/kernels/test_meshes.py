@@ -206,6 +206,7 @@ BAD = {
         "look inwards and others outwards",
     ),
     "no area": (lambda p, t: {"points": p, "triangles": np.concatenate([t, [[0, 1, 1]]])}, "has no area"),
+    "too far": (lambda p, t: {"points": 1e12 * p, "triangles": t}, "distances from it are not known"),
     "no such point": (lambda p, t: {"points": p, "triangles": t + 1}, "names a point that is none"),
     "no triangles": (lambda p, t: {"points": p}, "triangles: is missing"),
     "nothing": (lambda p, t: {}, "give either file, or points"),

@@ -17,6 +17,8 @@ from .shape import AT, Parameter, Shape
 SAME = 1e-7
 #: Of the size: twice the height of a triangle without area.
 FLAT = 1e-12
+#: Distance of a point from the origin of its mesh at which round-off reaches a tenth of a millimetre, m.
+FURTHEST = 1e11
 #: Bytes before the triangles of a binary STL file, and of a triangle: twelve numbers and two bytes.
 HEAD, RECORD = 84, np.dtype([("numbers", "<f4", (4, 3)), ("more", "<u2")])
 
@@ -68,6 +70,10 @@ class Mesh(Shape):
                 k = int(np.flatnonzero(outside.any(axis=1))[0])
                 raise ModelError(f"Mesh.triangles[{k}]", f"names a point that is none of the {len(points)}")
         points = points * self.scale
+        furthest = float(np.max(np.abs(points)))
+        if furthest > FURTHEST:
+            what = f"has points {furthest:.3g} m away: distances from it are not known to 0.1 mm"
+            raise ModelError("Mesh.scale", what, f"within {FURTHEST:g} m; 1e-3 for a file in millimetres")
         corners = points[triangles]
         double = np.linalg.norm(
             np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
