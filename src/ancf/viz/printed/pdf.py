@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape
@@ -41,7 +42,20 @@ def write(path: Path, title: str, elements: Sequence[Element]) -> None:
         leftMargin=MARGIN - PADDING, rightMargin=MARGIN - PADDING, topMargin=MARGIN, bottomMargin=MARGIN,
     )  # fmt: skip
     parts = list(_flow(list(blocks(elements))))
-    document.build(parts, onFirstPage=_numbered, onLaterPages=_numbered)
+    with _binary():
+        document.build(parts, onFirstPage=_numbered, onLaterPages=_numbered)
+
+
+@contextmanager
+def _binary() -> Iterator[None]:
+    """Pictures as bytes: written as letters they take a quarter more space and half of the time."""
+    from reportlab import rl_config
+
+    kept, rl_config.useA85 = rl_config.useA85, 0
+    try:
+        yield
+    finally:
+        rl_config.useA85 = kept
 
 
 def _register_fonts() -> None:
