@@ -279,9 +279,14 @@ def shapes_of(blocks: list[Blocks], frequency: float, aside: BoolArray, known: l
 
 def _refined(mass: Any, stiffness: Any, modes: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Modes and their w^2 from those of a part that is like this one: a step of subspace iteration."""
-    better = splu(csc_array(stiffness)).solve(mass @ modes)
+    better = _solver(stiffness).solve(mass @ modes)
     square, turn = eigh(better.T @ (stiffness @ better), better.T @ (mass @ better))
     return square, better @ turn
+
+
+def _solver(matrix: Any) -> Any:
+    """Factors of a symmetric sparse matrix."""
+    return splu(csc_array(matrix), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
 
 
 def _turned(matrix: Any, sign: FloatArray) -> Any:
@@ -335,7 +340,7 @@ def _followed(blocks: list[Blocks], factors: tuple[float, float, float]) -> Floa
         sum(factor * getattr(one, name) for factor, one in zip(factors, blocks, strict=True))
         for name in ("inner", "mixed")
     )
-    found: FloatArray = -splu(csc_array(inner)).solve(mixed.toarray())
+    found: FloatArray = -_solver(inner).solve(mixed.toarray())
     return found
 
 

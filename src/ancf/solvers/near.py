@@ -16,7 +16,7 @@ import numpy as np
 from ..compiled import inline_kernel, optional, separate_kernel
 from ..linalg.reach import solve_near
 from ..system.core import to_local
-from ..system.far import add_far, clear_settled, hush
+from ..system.far import add_far_near, clear_settled, hush
 from ..system.near import SEGMENT, residual_near
 from .low_rank import corrected
 
@@ -97,7 +97,7 @@ def iterate(core, s, limit, gb, ib, correct):
     near, n = core.near[0], core.weight.shape[0]
     count = unsettled(near, SETTLED * limit, n // 6)
     residual_near(near, count, n, core.ws, s.q, s.v, s.a, s.f, s.r)
-    add_far(core.far[0], s)
+    add_far_near(core.far[0], near, count, s)
     hush(core.far[0], near.low, near.high, count, s.r)
     to_local(core.supports, s.r)
     clear_settled(core.far[0], near, count, n // 6, s.r)

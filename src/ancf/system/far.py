@@ -24,7 +24,7 @@ from ..arrays import FloatArray, IntArray
 from ..compiled import inline_kernel
 from ..linalg.reach import clear
 from ..records import recorded
-from ..simd import LANES, load, store
+from ..simd import LANES, every, load, store
 from .near import clear_beyond
 
 # columns of Far.kind: first row of its modes and their number of rows of eight, boundary unknowns, first row
@@ -100,22 +100,48 @@ def no_far() -> Far:
 @inline_kernel
 def add_far(far, s):
     """Add to s.r what parts that sleep do to their boundaries."""
+    for p in range(far.part.shape[0]):
+        if far.part[p, ASLEEP] != 0:
+            add_part(far, p, s)
+
+
+@inline_kernel
+def add_far_near(far, near, count, s):
+    """The same of those parts whose boundaries some ranges of blocks touch."""
     if far.counts[SLEEPING] == 0:
         return
     for p in range(far.part.shape[0]):
-        if far.part[p, ASLEEP] == 0:
-            continue
-        t, first, border = far.part[p, KIND], far.part[p, EDGE], far.part[p, BORDER]
-        n, o, high = far.kind[t, EDGES], far.kind[t, COLUMN], far.kind[t, HIGH]
-        for i in range(n):
-            far.room[0, i] = s.q[far.edge[first + i]] - far.guess[first + i]
-        for k in range(high):
-            total = load(far.push, border + k)
-            for j in range(n):
-                total = total + load(far.matrix, o + high * j + k) * far.room[0, j]
-            store(total, far.room[1], LANES * k)
-        for i in range(n):
-            s.r[far.edge[first + i]] += far.room[1, i]
+        if far.part[p, ASLEEP] != 0 and is_beside(far, p, near, count):
+            add_part(far, p, s)
+
+
+@inline_kernel
+def is_beside(far, p, near, count):
+    """Whether the boundary of a part is in some of the ranges."""
+    first = far.part[p, EDGE]
+    for i in range(first, first + far.kind[far.part[p, KIND], EDGES]):
+        block = far.edge[i] // 6
+        for k in range(count):
+            if near.low[k] <= block < near.high[k]:
+                return True
+    return False
+
+
+@inline_kernel
+def add_part(far, p, s):
+    """Add to s.r what a part does to its boundary."""
+    t, first, border = far.part[p, KIND], far.part[p, EDGE], far.part[p, BORDER]
+    n, o, high = far.kind[t, EDGES], far.kind[t, COLUMN], far.kind[t, HIGH]
+    for i in range(n):
+        far.room[0, i] = s.q[far.edge[first + i]] - far.guess[first + i]
+    for k in range(high):
+        even, odd = load(far.push, border + k), every(0.0)
+        for j in range(0, n + n % 2, 2):
+            even = even + load(far.matrix, o + high * j + k) * far.room[0, j]
+            odd = odd + load(far.matrix, o + high * (j + 1) + k) * far.room[0, j + 1]
+        store(even + odd, far.room[1], LANES * k)
+    for i in range(n):
+        s.r[far.edge[first + i]] += far.room[1, i]
 
 
 @inline_kernel
