@@ -171,33 +171,39 @@ class Matrices:
     def __init__(self, system: System, cables: CableBatch, parts: list[Part], q: FloatArray) -> None:
         self.system, self.q = system, q
         self._pattern = _pattern(system.places)
-        self.whole, self.force = self._all(), self._residual()
-        self.others = []
+        values = self._values()
+        self.whole, self.force = [self._matrix(x) for x in values], self._residual()
+        self.alone = []
         for number in range(2):  # neighbours share a boundary: every other part is taken away at a time
             mine = [(part, sleep(cables, part)) for part in parts[number::2]]
-            self.others.append((self._all(), self._residual()))
+            without = self._values()
+            self.alone.append(([x - y for x, y in zip(values, without, strict=True)], self._residual()))
             for part, kept in mine:
                 wake(cables, part, kept)
 
     def of_part(self, k: int, part: Part) -> tuple[list[Blocks], FloatArray]:
         """M, C and K of part k, and its forces on its boundary at rest, N."""
-        others, force = self.others[k % 2]
+        alone, force = self.alone[k % 2]
         i, b = part.inner, part.edge
-        found = []
-        for matrix, other in zip(self.whole, others, strict=True):
+        pattern, place = self._pattern
+        number = pattern[b][:, b].toarray()  # from 1 on, 0: nothing there
+        at, found = place[np.maximum(number, 1) - 1], []
+        for matrix, own in zip(self.whole, alone, strict=True):
             rows = matrix[i]
-            on_edge = matrix[b][:, b] - other[b][:, b]
-            found.append(Blocks(rows[:, i], rows[:, b], on_edge.toarray()))
+            found.append(Blocks(rows[:, i], rows[:, b], np.where(number > 0, own[at], 0.0)))
         return found, self.force[b] - force[b]
 
-    def _all(self) -> list[csr_array]:
-        return [self._one(*which) for which in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
+    def _values(self) -> list[FloatArray]:
+        """M, C and K as the values of the iteration matrix."""
+        core, still, found = self.system.core, np.zeros_like(self.q), []
+        for which in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)):
+            assemble(core.batches, core.ws, self.q, still, core.A, *which)
+            found.append(core.A.copy())
+        return found
 
-    def _one(self, mass: float, damping: float, stiffness: float) -> csr_array:
-        core = self.system.core
-        assemble(core.batches, core.ws, self.q, np.zeros_like(self.q), core.A, mass, damping, stiffness)
+    def _matrix(self, values: FloatArray) -> csr_array:
         pattern, place = self._pattern
-        return csr_array((core.A[place], pattern.indices, pattern.indptr), shape=pattern.shape)
+        return csr_array((values[place], pattern.indices, pattern.indptr), shape=pattern.shape)
 
     def _residual(self) -> FloatArray:
         core, zero = self.system.core, np.zeros(self.system.size)
@@ -220,7 +226,9 @@ def _pattern(places: Places) -> tuple[csr_array, IntArray]:
     columns = np.broadcast_to((6 * j)[:, None, None] + at, place.shape)
     numbers = np.arange(place.size) + 1  # not 0: a place that is none
     made = csr_array((numbers, (rows.ravel(), columns.ravel())), shape=(6 * n, 6 * n))
-    return made, place.ravel()[made.data - 1]
+    ordered = place.ravel()[made.data - 1]
+    made.data = numbers  # those of the entries as they stand
+    return made, ordered
 
 
 def sleep(cables: CableBatch, part: Part) -> list[FloatArray]:

@@ -83,6 +83,7 @@ class FarSpans:
         self.far.memo[NEAR], self.far.memo[AWAY] = plan.near, plan.near + BETWEEN
         self.far.memo[CALMED] = np.ceil(CALM_TIME / step[0])
         self.kept: list[Any] = [None] * len(self.parts)
+        self.rows = [_rows_of(system, part) for part in self.parts]
         self.touched = system.core.near[0].touched.copy()
         system.core = system.core._replace(far=(self.far,))
 
@@ -146,15 +147,15 @@ class FarSpans:
 
     def _sleep(self, k: int) -> None:
         part, kind, m = self.parts[k], self.kinds[self.kind_of[k]], self.memory
-        psi = kind.inside[:, : len(part.edge)]
-        far, first = self.far, self.far.part[k, EDGE]
-        still = far.still[first : first + len(part.edge)]
+        n, far, first = len(part.edge), self.far, self.far.part[k, EDGE]
         rest = far.rest[far.part[k, INNER] :][: len(part.inner)]
-        own = m.q[part.inner] - rest - psi @ (m.q[part.edge] - still)
-        y = kind.project @ own
-        left = own - kind.inside[:, len(part.edge) :] @ y
+        inside, edge = (np.stack([x[at] for x in (m.q, m.v, m.abar)], 1) for at in (part.inner, part.edge))
+        inside[:, 0] -= rest
+        edge[:, 0] -= far.still[first : first + n]
+        own = inside - kind.inside[:, :n] @ edge
+        y, v, bar = (kind.project @ own).T
+        left = own[:, 0] - kind.inside[:, n:] @ y
         self.left_out = max(self.left_out, float(np.abs(left[part.inner % 6 < 3]).max()))
-        v, bar = (kind.project @ (x[part.inner] - psi @ x[part.edge]) for x in (m.v, m.abar))
         a = -kind.loss * v - kind.square * y - kind.coupling @ m.a[part.edge]
         a -= kind.drag * (kind.coupling @ m.v[part.edge])
         for row, values in ((POSITION, y), (RATE, v), (SECOND, a), (BAR, bar)):
@@ -163,14 +164,12 @@ class FarSpans:
         m.q[far.inner[hidden]], m.v[far.inner[hidden]] = far.rest[hidden], 0.0
         m.a[part.inner] = 0.0
         self._still(k)
-        self._alone(part)
+        self._alone(k)
         far.part[k, ASLEEP] = 1
 
-    def _alone(self, part: Part) -> None:
+    def _alone(self, k: int) -> None:
         """Let the rows of a part in the factors be those of the identity."""
-        factor, b = self.system.core.factor, part.blocks
-        first, last = factor.row_start[b], factor.row_start[b + 1]
-        rows = np.concatenate([np.arange(i, j) for i, j in zip(first, last, strict=True)])
+        factor, b, rows = self.system.core.factor, self.parts[k].blocks, self.rows[k]
         for values, places in ((factor.L, rows), (factor.LT, rows), (factor.D_inv, b)):
             values.reshape(-1, 36)[places] = 0.0
         factor.D_inv.reshape(-1, 36)[b, ::7] = 1.0
@@ -186,11 +185,11 @@ class FarSpans:
         far, first = self.far, self.far.part[k, EDGE]
         still = far.still[first : first + len(part.edge)]
         rest = far.rest[far.part[k, INNER] :][: len(part.inner)]
-        y, v, a, bar = (self._get(k, row) for row in (POSITION, RATE, SECOND, BAR))
-        m.q[part.inner] = rest + kind.inside @ np.append(m.q[part.edge] - still, y)
-        m.v[part.inner] = kind.inside @ np.append(m.v[part.edge], v)
-        m.a[part.inner] = kind.inside @ np.append(m.a[part.edge], a)
-        m.abar[part.inner] = kind.inside @ np.append(m.abar[part.edge], bar)
+        modes = [self._get(k, row) for row in (POSITION, RATE, SECOND, BAR)]
+        edge = (m.q[part.edge] - still, m.v[part.edge], m.a[part.edge], m.abar[part.edge])
+        seen = kind.inside @ np.vstack([np.stack(edge, 1), np.stack(modes, 1)])
+        m.q[part.inner] = rest + seen[:, 0]
+        m.v[part.inner], m.a[part.inner], m.abar[part.inner] = seen[:, 1:].T
         for vector in (m.a1, m.a2, m.a3):
             vector[part.inner] = m.a[part.inner]
         wake(self.cables, part, self.kept[k])
@@ -239,6 +238,13 @@ def _hung(system: System) -> IntArray:
     springs = system.parts["springs"]
     slots: IntArray = springs.base[(springs.base >= 0) & (springs.factor != 0.0)]
     return slots + ACTS
+
+
+def _rows_of(system: System, part: Part) -> IntArray:
+    """Blocks beside the diagonal that a part has in the factors."""
+    start = system.core.factor.row_start
+    rows: IntArray = np.concatenate([np.arange(start[b], start[b + 1]) for b in part.blocks.tolist()])
+    return rows
 
 
 def _is_still(system: System, part: Part) -> bool:
