@@ -30,7 +30,7 @@ from .family import Family
 from .follow import Trail, check_method, given_start, refuse_breaks, when_cut
 from .nearby import Nearby
 from .parameters import Parameter
-from .start import Start, at_level
+from .start import starts
 
 #: Bytes of states up to which all are kept and no step is taken again, and those of a block.
 KEPT, BLOCK = 320e6, 16e6
@@ -187,12 +187,10 @@ class Adjoint:
         q, v, _ = self.first
         wanted = self._wanted(q[None].copy(), v[None].copy(), slopes)[0]
         when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
-        begin, total = Start(system, self.m, *self.first, when), np.zeros(len(self.families))
-        for k, (family, given) in enumerate(zip(self.families, self.given, strict=True)):
-            s = begin.sensitivity(*given, *at_level(system, self.families, k, self.first, when))
-            q1, v1, a1 = (x[None].copy() for x in self.first)
-            held = family.at_steps(q1, v1, a1, when, gaps=False).held
-            total[k] = np.sum(mu * s) + np.sum(wanted * (s[:2] + held[:2, 0]))
+        total = np.zeros(len(self.families))
+        found = starts(system, self.m, self.nearby, self.given, self.first, when)
+        for k, (s, held) in enumerate(found):
+            total[k] = np.sum(mu * s) + np.sum(wanted * (s[:2] + held))
         return total + self._explicit(q[None], v[None], slopes)
 
     def _take(self, count: int, store: Collector) -> None:

@@ -1,9 +1,9 @@
 """A model at values of a parameter around its own: what the residual of a fixed state changes by.
 
 All that a parameter does is in the arrays of a compiled model.  The residual of a *fixed* state is a smooth
-function of them, linear or rational in most parameters, and has no dynamics in it: differences of order six
-give its derivative to round-off, for every kind of parameter and every kind of load or connection alike.
-Where it is found to be linear, two values are enough.
+function of them, linear or rational in most parameters, and has no dynamics in it: differences of order four
+or six give its derivative to round-off, for every kind of parameter and every kind of load or connection
+alike.  Where it is found to be linear, two values are enough; where that is known, one and the model's own.
 """
 
 from __future__ import annotations
@@ -17,34 +17,33 @@ import numpy as np
 from ..arrays import FloatArray
 from ..batches import Batches
 from ..errors import ModelError
-from ..solvers.checkpoint import distinct
 from ..solvers.stages import place_rows, stage_residuals
 from ..system.core import Core, Tables, apply_load, apply_supports, place_supports, residual
 from ..system.system import System
+from .alike import Known, alike, changed, on_a_line, same_inputs, same_loads
 from .parameters import Parameter
 
-#: Step of the differences, relative, and of a parameter that is zero, in its unit.
+#: Step of the differences, relative, and of a parameter that is zero, in its unit or the size of the model.
 STEP = 1e-3
 #: Places of the values in steps, and weights of the derivative of order six: on both sides, on one.
 BOTH = ((-3.0, -2.0, -1.0, 1.0, 2.0, 3.0), (-1 / 60, 9 / 60, -45 / 60, 45 / 60, -9 / 60, 1 / 60))
+#: The same of order four, where that is seen to do.
+FOUR = (-3.0, -1.5, 1.5, 3.0), (1 / 18, -8 / 18, 8 / 18, -1 / 18)
 ABOVE = (
     (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0),
     (-147 / 60, 360 / 60, -450 / 60, 400 / 60, -225 / 60, 72 / 60, -10 / 60),
 )
-#: Times at which motions of supports are compared, s.
-TIMES = 0.0, 0.137, 1.713
 #: The step where forces have kinks, which no value may reach: a taut dropper is stretched by 0.1 mm.
 TINY = 1e-7
 KINKED = {"springs", "contacts", "pressing", "rubbing", "crossing", "gripping", "bumping", "rolling"}
 #: The same where all is linear; energies are quadratic then.
 PAIR = ((-3.0, 3.0), (-1 / 6, 1 / 6))
-#: How far the mean of two values may be from that between them, relative to their difference, up to which a
-#: parameter is linear, and the size of the changes of the state in which that is tried.
-LINEAR, SHAKEN = 1e-10, 0.01
-#: Accelerations where that is tried once more, in these per square second, and round-off of the residuals.
-PUSHED, ROUND_OFF = 1e3, 1e-14
-#: What runs and searches change in a batch: it does not depend on a parameter.
-OWN = ("value", "level", "found", "alpha", "scale", "inside", "measured", "mode", "open")
+#: Size of the changes of the state in which it is tried whether a parameter is linear.
+SHAKEN = 0.01
+#: What order two may lack of a derivative, relative, up to which order four is as good as six.
+SMOOTH = 3e-5
+#: Accelerations where that is tried once more, in these per square second.
+PUSHED = 1e3
 
 
 class Push(NamedTuple):
@@ -75,8 +74,9 @@ class Family:
     def __init__(self, parameter: Parameter, base: System, thorough: bool = False) -> None:
         self.parameter, self.base = parameter, base
         p = parameter.value
-        unit = abs(p) if p != 0.0 else 1.0
+        unit = abs(p) if p != 0.0 else min(1.0, base.model.size)
         self._made: dict[float, System] = {}
+        self._differ: dict[int, set[str]] = {}  # names of batches by system
         self.linear = False
         if parameter.quadratic:
             self._take(TINY, *PAIR)
@@ -88,34 +88,58 @@ class Family:
     def _choose(self, h: float, tiny: float, thorough: bool) -> None:
         """Take values h apart, two or six, or two that are tiny steps apart where forces have kinks."""
         p = self.parameter.value
-        if p != 0.0:
+        if self.parameter.linear and not thorough:
+            return self._take_line(3.0 * h if p >= 0.0 else -3.0 * h)
+        try:
             self._take(h, *PAIR)
-            if self._names() & KINKED and not thorough:
+            if p != 0.0 and self._names() & KINKED and not thorough:
                 self._made.clear()
                 return self._take(tiny, *PAIR)
             if not thorough and self._linear():
                 self.linear = True
                 return None
-        try:
+            if not thorough and self._steady_inputs() == (True, True):
+                self._take(h, *FOUR)
+                if self._smooth():
+                    return None
             return self._take(h, *BOTH)
         except ModelError:
             if p != 0.0:
                 raise
         return self._take(h, *ABOVE)  # it may not be negative
 
+    def _steady_inputs(self) -> tuple[bool, bool]:
+        """Whether no motion of a support depends on the parameter, and no input of a load."""
+        found = [same_inputs(self.base, system) for system in self.systems]
+        return all(motions for motions, _ in found), all(values for _, values in found)
+
     def _names(self) -> set[str]:
         """Of the batches on which the parameter acts."""
-        return set().union(*(self._changed(s) for s in self.systems))
+        for system in self.systems:
+            if id(system) not in self._differ:
+                self._differ[id(system)] = changed(self.base, system)
+        return set().union(*(self._differ[id(system)] for system in self.systems))
+
+    def _take_line(self, offset: float) -> None:
+        """Let the systems be one at this offset and the model's own: all is linear between them."""
+        self._put([self._compiled(offset), self.base], [offset, 0.0], [1.0 / offset, -1.0 / offset])
 
     def _take(self, h: float, places: tuple[float, ...], weights: tuple[float, ...]) -> None:
         """Let the systems be those at these places, in steps h."""
         for x in places:
             if x not in self._made:
                 self._made[x] = self._compiled(h * x)
-        self.systems = [self._made[x] for x in places]
-        self.offsets, self.weights = [h * x for x in places], [w / h for w in weights]
-        self._shape = [s.initial_shape() - self.base.initial_shape() for s in self.systems]
+        systems = [self._made[x] for x in places]
+        self._put(systems, [h * x for x in places], [w / h for w in weights])
+
+    def _put(self, systems: list[System], offsets: list[float], weights: list[float]) -> None:
+        self.systems, self.offsets, self.weights = systems, offsets, weights
         base = self.base
+        if self.parameter.linear:  # in it nothing but forces changes
+            self._shape = [np.zeros(base.size)] * len(systems)
+        else:
+            shape = Known.of(base).initial_shape()
+            self._shape = [s.initial_shape() - shape for s in systems]
         self._states = [
             (getattr(s.parts[name], key), name, key)
             for s in self.systems
@@ -127,23 +151,20 @@ class Family:
     def _look(self) -> None:
         """See what of the model depends on the parameter."""
         base = self.base
-        changed = self.changed = self._names()
-        self._few = [Batches(b for name, b in s.parts.items() if name in changed) for s in self.systems]
-        self.plain = all(self._is_plain(s, few) for s, few in zip(self.systems, self._few, strict=True))
-        self._loads = any(not _same_loads(base, s) for s in self.systems)
+        names = self.changed = self._names()
+        self._few = [Batches(b for name, b in s.parts.items() if name in names) for s in self.systems]
+        still, self._fed = self._steady_inputs()
+        self.plain = still and all(self._is_plain(k) for k in range(len(self.systems)))
+        self._loads = any(not same_loads(base, s) for s in self.systems)
         self._steady: list[FloatArray] | None = None
         self._constant = all(f.constant for s in self.systems for f in s.inputs.loads)
-        self._fed = all(_same_values(base, s) for s in self.systems)
 
-    def _is_plain(self, system: System, few: Batches) -> bool:
+    def _is_plain(self, k: int) -> bool:
         """Whether supports are as they are, and no batch has inputs or rows of constraints of its own."""
-        base, held = self.base, self.base.core.supports.held
-        supports = base.core.supports, system.core.supports
-        if not _same_motions(base, system):
+        base, system, few = self.base, self.systems[k], self._few[k]
+        if np.any(self._shape[k][base.core.supports.held]):
             return False
-        if any(np.any(shape[held]) for shape in self._shape):
-            return False
-        if not np.array_equal(supports[0].rot_R[:, 0], supports[1].rot_R[:, 0]):
+        if not np.array_equal(base.core.supports.rot_R[:, 0], system.core.supports.rot_R[:, 0]):
             return False
         value = system.core.loads.value
         shared = (
@@ -192,23 +213,36 @@ class Family:
 
     def _linear(self) -> bool:
         """Whether residual and initial state are linear in the parameter, which two values tell then."""
-        base, rng = self.base, np.random.default_rng(1)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            first = [s.initial_state() for s in (base, *self.systems)]
-        if not all(_on_a_line(*x) for x in zip(*first, strict=True)):
+        first = [Known.of(self.base).initial_state(0.0), *(_initial_state(s) for s in self.systems)]
+        if not all(on_a_line(*x) for x in zip(*first, strict=True)):
             return False
-        n, q = base.n, base.initial_shape()
+        found = self._residuals([self.base, *self.systems])
+        changes = any(np.any(low != high) for _, low, high in found)
+        return changes and all(on_a_line(*x) for x in found)
+
+    def _smooth(self) -> bool:
+        """Whether four values are enough: what order two lacks of the derivative is small."""
+        states = list(zip(*(_initial_state(s) for s in self.systems), strict=True))
+        for far_low, low, high, far_high in (*self._residuals(self.systems), *states):
+            near, far = (high - low) / 3.0, (far_high - far_low) / 6.0
+            size = float(np.max(np.abs(near), initial=0.0))
+            if float(np.max(np.abs(far - near), initial=0.0)) > SMOOTH * size:
+                return False
+        return True
+
+    def _residuals(self, systems: list[System]) -> list[list[FloatArray]]:
+        """Of systems in a strained state, and in one with accelerations."""
+        base, rng = self.base, np.random.default_rng(1)
+        n, q = base.n, Known.of(base).initial_shape()
         rest, shake = np.zeros_like(q), np.zeros((3, base.size))
         shake[:, :n] = SHAKEN * base.model.size * rng.uniform(-1, 1, (3, n)) * base.numbering.used()
         before = base.level.copy()
         base.level[:] = 1.0, 0.0, 0.0
         self.know(base)
-        strained = [self._residual(s, (q + shake[0], shake[1], rest)) for s in (base, *self.systems)]
-        pushed = [self._residual(s, (q, rest, PUSHED * shake[2])) for s in (base, *self.systems)]
+        strained = [self._residual(s, (q + shake[0], shake[1], rest)) for s in systems]
+        pushed = [self._residual(s, (q, rest, PUSHED * shake[2])) for s in systems]
         base.level[:] = before
-        changes = any(np.any(found[1] != found[2]) for found in (strained, pushed))
-        return changes and _on_a_line(*strained) and _on_a_line(*pushed)
+        return [strained, pushed]
 
     def _residual(self, system: System, states: tuple[FloatArray, FloatArray, FloatArray]) -> FloatArray:
         """Of a system at states q, v, a, of which it keeps nothing."""
@@ -224,22 +258,10 @@ class Family:
     def _compiled(self, offset: float) -> System:
         value = self.parameter.value + offset
         system = System(self.parameter.at(value), like=self.base)
-        if not _alike(self.base, system):
+        if not alike(self.base, system):
             what = f"with {value:.8g} the model has other unknowns than with {self.parameter.value:.8g}"
             raise ModelError(self.name, what, "the number of elements, nodes and joints has to stay")
         return system
-
-    def _changed(self, system: System) -> set[str]:
-        """Names of the batches on which the parameter acts."""
-        base, found = self.base, set()
-        same = all(a is b for a, b in zip(base.inputs.loads, system.inputs.loads, strict=True))
-        for name, batch in system.parts.items():
-            mine, other = distinct({"b": base.parts[name]}), distinct({"b": batch})
-            own = [key for key in mine if key.rsplit(".", 1)[-1] not in OWN]
-            differ = any(not np.array_equal(mine[key], other[key], equal_nan=True) for key in own)
-            if differ or (batch in system.core.external and not same):
-                found.add(name)
-        return found
 
     def know(self, system: System) -> None:
         """Let all systems be as one that runs: its joints, and the weights of their rows."""
@@ -306,9 +328,11 @@ class Family:
 
     def of_states(self, time: float) -> tuple[FloatArray, FloatArray]:
         """Derivatives of the initial shape and motion, (size,) each."""
+        if self.parameter.linear:
+            return np.zeros(self.base.size), np.zeros(self.base.size)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # what holds against a given motion was said of the model itself
-            here = self.base.initial_state(time)
+            here = Known.of(self.base).initial_state(time)
             both = [system.initial_state(time) for system in self.systems]
         q, v = np.zeros(self.base.size), np.zeros(self.base.size)
         for weight, state in zip(self.weights, both, strict=True):
@@ -340,6 +364,13 @@ class Family:
         made.held[..., free] = 0.0
 
 
+def _initial_state(system: System) -> tuple[FloatArray, FloatArray]:
+    """The initial state; what holds against a given motion was said of the model itself."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return system.initial_state()
+
+
 def _gaps(system: System, tables: Any, states: Any) -> FloatArray:
     """C in the rows of the multipliers of states."""
     level = system.level.copy()
@@ -351,50 +382,3 @@ def _gaps(system: System, tables: Any, states: Any) -> FloatArray:
     system.level[:] = level
     rows: FloatArray = r * system.core.joints.mask
     return rows
-
-
-def _on_a_line(middle: FloatArray, low: FloatArray, high: FloatArray) -> bool:
-    """Whether a vector at the middle of two values is their mean."""
-    width = LINEAR * float(np.max(np.abs(high - low), initial=0.0))
-    width += ROUND_OFF * float(np.max(np.abs(middle), initial=0.0))
-    return float(np.max(np.abs(0.5 * (high + low) - middle), initial=0.0)) <= width
-
-
-def _same_motions(a: System, b: System) -> bool:
-    """Whether supports move alike, as they do at some odd times."""
-    for time in TIMES:
-        mine, other = (s.inputs.tables(time, 1e-3, 1, time, np.inf) for s in (a, b))
-        if not np.array_equal(mine.motion, other.motion) or not np.array_equal(mine.rotation, other.rotation):
-            return False
-    return True
-
-
-def _same_values(a: System, b: System) -> bool:
-    """Whether the inputs of loads are the same, as they are at some odd times."""
-    for time in TIMES:
-        mine, other = (s.inputs.tables(time, 1e-3, 1, time, np.inf).value for s in (a, b))
-        if not np.array_equal(mine, other):
-            return False
-    return True
-
-
-def _same_loads(a: System, b: System) -> bool:
-    """Whether dead loads are the same numbers and functions."""
-    names = ("still", "hung", "slot", "factor")
-    same = all(np.array_equal(getattr(a.core.loads, x), getattr(b.core.loads, x)) for x in names)
-    return same and all(x is y for x, y in zip(a.inputs.loads, b.inputs.loads, strict=True))
-
-
-def _alike(a: System, b: System) -> bool:
-    """Whether two systems have the same unknowns in the same order."""
-    same = a.size == b.size and a.n == b.n and a.slots.keys() == b.slots.keys()
-    same = same and all(np.array_equal(a.slots[key], b.slots[key]) for key in a.slots)
-    same = same and a.parts.keys() == b.parts.keys()
-    same = same and np.array_equal(a.core.supports.held, b.core.supports.held)
-    return same and all(
-        x.shape == y.shape
-        for key in a.parts
-        for x, y in zip(
-            distinct({"b": a.parts[key]}).values(), distinct({"b": b.parts[key]}).values(), strict=False
-        )
-    )

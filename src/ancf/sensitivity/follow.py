@@ -24,7 +24,7 @@ from .family import Family
 from .nearby import Nearby
 from .parameters import Parameter, check_known
 from .samples import Samples
-from .start import Start, at_level
+from .start import starts
 
 #: Change of the initial motion by joints, in sizes of the model, that does not count.
 SHIFTED = 1e-8
@@ -139,16 +139,13 @@ class Following:
         system.measured[...] = run.system.measured
         when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
         states = run.memory.q.copy(), run.memory.v.copy(), run.memory.a.copy()
-        begin = Start(system, self.m, *states, when)
         self.s = np.zeros((-(-len(self.families) // LANES), 4, system.size, LANES))
         first = np.zeros((len(self.families), 1, 3, system.size))
-        for k, (family, given) in enumerate(zip(self.families, self.given, strict=True)):
-            family.know(system)
-            s = begin.sensitivity(*given, *at_level(system, self.families, k, states, when))
+        found = starts(system, self.m, self.nearby, self.given, states, when)
+        for k, (s, held) in enumerate(found):
             self.s[k // LANES, :, :, k % LANES] = s
-            q, v, a = (x[None].copy() for x in states)
-            held = family.at_steps(q, v, a, when, gaps=False).held
-            first[k, 0] = s[:3] + held[:, 0]
+            first[k, 0] = s[:3]
+            first[k, 0, :2] += held
         self._keep(first[:, :, :2])
         self.samples.take(states[0][None], states[1][None], first)
         self.trail = Trail(run)

@@ -67,18 +67,13 @@ class Nearby:
 
         ``when``: start, step, first and last time, as ``Inputs.tables`` takes them, and these tables.
         """
-        count, size = way.q.shape
         for family in self.families:
             family.know(self.system)
-        push = self._room(count)
-        if self.plain:
-            rows = push if not self.others else np.zeros((len(self.plain), count, size))
-            for row, k in enumerate(self.plain):
-                for weight, loads, value in self.families[k].loads_used(when, tables):
-                    add_loads(loads, value, weight, self._work, rows[row])
-            add_pushes(self.system.core, self._uses, tables, way, self._work, rows)
-            if self.others:
-                push[self.plain] = rows
+        push = self._room(len(way.q))
+        if not self.others:
+            self._add_plain(way, when, tables, push)
+        elif self.plain:
+            push[self.plain] = self.plain_at_steps(way, when, tables)
         gap = np.zeros_like(push) if gaps else push
         held = {}
         for k in self.others:  # plain ones leave the rows of joints as they are
@@ -87,3 +82,18 @@ class Nearby:
             if gaps:
                 gap[k] = found.gap
         return Pushes(push, gap, held)
+
+    def plain_at_steps(self, way: Way, when: tuple[float, float, float, float], tables: Any) -> FloatArray:
+        """Pushes of the plain families, (p, n, size)."""
+        rows = np.zeros((len(self.plain), *way.q.shape))
+        self._add_plain(way, when, tables, rows)
+        return rows
+
+    def _add_plain(
+        self, way: Way, when: tuple[float, float, float, float], tables: Any, rows: FloatArray
+    ) -> None:
+        for row, k in enumerate(self.plain):
+            for weight, loads, value in self.families[k].loads_used(when, tables):
+                add_loads(loads, value, weight, self._work, rows[row])
+        if self.plain:
+            add_pushes(self.system.core, self._uses, tables, way, self._work, rows)

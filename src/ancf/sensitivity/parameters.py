@@ -8,8 +8,15 @@ from typing import Any
 
 from ..errors import ModelError
 from ..model import checks
+from ..model.beam import Beam
+from ..model.bodies import PointMass
 from ..model.model import Model
+from ..model.section import DAMPINGS
 from ..model.vary import value_of, varied
+from ..model.winches import by_body
+
+#: Numbers of a section in which all forces of cables and beams are linear.
+OF_SECTIONS = {"EA", "EI", "rhoA", "E", "rho", *DAMPINGS}
 
 
 @dataclass(frozen=True)
@@ -44,12 +51,15 @@ class Parameter:
         ``build(value)`` is the model with another value.
     quadratic : bool
         What it builds is known to change by a polynomial of degree two: two values tell all.
+    linear : bool
+        All forces are known to be linear in it, and nothing else depends on it: one value tells all.
     """
 
     name: str
     value: float
     build: Callable[[float], Model]
     quadratic: bool = False
+    linear: bool = False
 
     def at(self, value: float) -> Model:
         """The model with a value.
@@ -108,7 +118,17 @@ def check_known(start: Any, parameters: list[Parameter], where: str) -> None:
 
 def _named(model: Model, name: Any, where: str) -> Parameter:
     clean = checks.text(name, where)
-    return Parameter(clean, value_of(model, clean), Named(model.snapshot(), clean))
+    value = value_of(model, clean)
+    return Parameter(clean, value, Named(model.snapshot(), clean), linear=_is_linear(model, clean))
+
+
+def _is_linear(model: Model, name: str) -> bool:
+    """Whether forces are linear in a number: stiffnesses, masses and dampings of a body without a winch."""
+    owner, _, key = name.rpartition(".")
+    body = model.bodies.get(owner)
+    if isinstance(body, Beam):
+        return key in OF_SECTIONS and owner not in by_body(model)
+    return isinstance(body, PointMass) and key == "mass"
 
 
 def _built(name: Any, given: Any, where: str) -> Parameter:

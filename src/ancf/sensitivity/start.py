@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import SolveError
 from ..solvers.directions import products_along, rows_along
-from ..solvers.sensitivity import ABAR, ENOUGH, MOST, NOISY, A, Matrices, Q, V
+from ..solvers.sensitivity import ABAR, ENOUGH, MOST, NOISY, A, Matrices, Q, V, Way
 from ..system.core import (
     apply_supports,
     assemble,
@@ -20,7 +21,8 @@ from ..system.core import (
     solve_matrix,
 )
 from ..system.system import System
-from .family import Push
+from .family import Family
+from .nearby import Nearby
 
 
 class Start:
@@ -117,20 +119,62 @@ class Start:
         follow_supports(core.supports, *d)
 
 
-def at_level(system: System, families: list[Any], k: int, states: Any, when: Any) -> tuple[Any, Any]:
-    """Functions of the level of the constraints for :meth:`Start.sensitivity`, of family k."""
+def starts(
+    system: System,
+    m: Matrices,
+    nearby: Nearby,
+    given: list[tuple[FloatArray, FloatArray]],
+    states: Any,
+    when: Any,
+) -> Iterator[tuple[FloatArray, FloatArray]]:
+    """For each family the derivatives of a consistent start, see :meth:`Start.sensitivity`, and held ones.
+
+    Parameters
+    ----------
+    system, m : System, Matrices
+    nearby : Nearby
+        The families.
+    given : list of (dq, dv)
+        What of the initial state is asked for, by family.
+    states : (q, v, a)
+        At the start.
+    when : tuple
+        See :class:`Start`.
+
+    Yields
+    ------
+    made : (4, size)
+    held : (2, size)
+        Derivatives of q and v where supports hold them.
+    """
+    first, step, *limits = when
+    q, v, a = states
+    begin = Start(system, m, q, v, a, when)
+    way, tables = Way(*(x[None].copy() for x in states)), system.inputs.tables(first, step, 1, *limits)
+    pushes = nearby.plain_at_steps(way, when, tables).copy()
+    still = np.zeros((2, system.size))
+    rows = {k: row for row, k in enumerate(nearby.plain)}
+    for k, family in enumerate(nearby.families):
+        if k in rows:  # it does nothing to rows of joints
+            push = pushes[rows[k], 0]
+            yield begin.sensitivity(*given[k], lambda level, push=push: push, lambda level: 0.0), still
+        else:
+            at = _at_level(system, family, states, when)
+            made = begin.sensitivity(*given[k], at, at)
+            here = Way(*(x[None].copy() for x in states))
+            yield made, family.at_steps(*here, when, gaps=False).held[:2, 0]
+
+
+def _at_level(system: System, family: Family, states: Any, when: Any) -> Callable[[Any], FloatArray]:
+    """What a family does to the residual, as a function of the level of the constraints."""
     q, v, a = (x[None] for x in states)
 
-    def push_at(level: tuple[float, float, float]) -> Push:
+    def push(level: tuple[float, float, float]) -> FloatArray:
         before = system.level.copy()
         system.level[:] = level
-        families[k].know(system)
-        made: Push = families[k].at_steps(q, v, a, when, gaps=False)
+        family.know(system)
+        made: FloatArray = family.at_steps(q, v, a, when, gaps=False).push[0]
         system.level[:] = before
         return made
 
-    def push(level: tuple[float, float, float]) -> FloatArray:
-        found: FloatArray = push_at(level).push[0]
-        return found
-
-    return push, push  # the rows of the multipliers are in the residual
+    return push

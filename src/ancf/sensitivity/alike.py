@@ -1,0 +1,130 @@
+"""How systems around the value of a parameter differ from that of the model."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+from weakref import WeakKeyDictionary, ref
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..solvers.checkpoint import Arrays, distinct
+from ..system.core import Tables
+from ..system.system import System
+
+#: Times at which motions of supports are compared, s.
+TIMES = 0.0, 0.137, 1.713
+#: What runs and searches change in a batch: it does not depend on a parameter.
+OWN = ("value", "level", "found", "alpha", "scale", "inside", "measured", "mode", "open")
+#: How far the mean of two values may be from that between them, relative to their difference, up to which a
+#: parameter is linear; round-off of the residuals.
+LINEAR, ROUND_OFF = 1e-10, 1e-14
+
+
+class Known:
+    """What all parameters of a model ask of its system, computed once.
+
+    Parameters
+    ----------
+    system : System
+    """
+
+    _all: ClassVar[WeakKeyDictionary[System, Known]] = WeakKeyDictionary()
+
+    def __init__(self, system: System) -> None:
+        self.tables = _tables(system)
+        self.arrays = {name: _arrays(batch) for name, batch in system.parts.items()}
+        self._system = ref(system)
+        self._states: dict[float, tuple[FloatArray, FloatArray]] = {}
+        self._shape: FloatArray | None = None
+
+    def initial_state(self, time: float) -> tuple[FloatArray, FloatArray]:
+        """See :meth:`ancf.system.system.System.initial_state`; arrays that all share."""
+        if time not in self._states:
+            self._states[time] = self._there.initial_state(time)
+        return self._states[time]
+
+    def initial_shape(self) -> FloatArray:
+        """See :meth:`ancf.system.system.System.initial_shape`."""
+        if self._shape is None:
+            self._shape = self._there.initial_shape()
+        return self._shape
+
+    @property
+    def _there(self) -> System:
+        system = self._system()
+        assert system is not None
+        return system
+
+    @classmethod
+    def of(cls, system: System) -> Known:
+        """Of a system, which may have been asked before; inputs of the model must not change meanwhile."""
+        if system not in cls._all:
+            cls._all[system] = cls(system)
+        return cls._all[system]
+
+
+def _tables(system: System) -> list[Tables]:
+    return [system.inputs.tables(time, 1e-3, 1, time, np.inf) for time in TIMES]
+
+
+def _arrays(batch: Any) -> Arrays:
+    """Arrays of a batch that may depend on a parameter."""
+    found = distinct({"b": batch})
+    return {key: array for key, array in found.items() if key.rsplit(".", 1)[-1] not in OWN}
+
+
+def changed(base: System, system: System) -> set[str]:
+    """Names of the batches that differ."""
+    found: set[str] = set()
+    if system is base:
+        return found
+    mine = Known.of(base).arrays
+    same = all(a is b for a, b in zip(base.inputs.loads, system.inputs.loads, strict=True))
+    for name, batch in system.parts.items():
+        other = _arrays(batch)
+        differ = any(not np.array_equal(mine[name][key], other[key], equal_nan=True) for key in mine[name])
+        if differ or (batch in system.core.external and not same):
+            found.add(name)
+    return found
+
+
+def on_a_line(middle: FloatArray, low: FloatArray, high: FloatArray) -> bool:
+    """Whether a vector at the middle of two values is their mean."""
+    width = LINEAR * float(np.max(np.abs(high - low), initial=0.0))
+    width += ROUND_OFF * float(np.max(np.abs(middle), initial=0.0))
+    return float(np.max(np.abs(0.5 * (high + low) - middle), initial=0.0)) <= width
+
+
+def same_inputs(base: System, system: System) -> tuple[bool, bool]:
+    """Whether supports move alike, and loads have the same inputs, as they do at some odd times."""
+    motions = values = True
+    if system is base:
+        return True, True
+    for mine, other in zip(Known.of(base).tables, _tables(system), strict=True):
+        motions = motions and np.array_equal(mine.motion, other.motion)
+        motions = motions and np.array_equal(mine.rotation, other.rotation)
+        values = values and np.array_equal(mine.value, other.value)
+    return motions, values
+
+
+def same_loads(a: System, b: System) -> bool:
+    """Whether dead loads are the same numbers and functions."""
+    names = ("still", "hung", "slot", "factor")
+    same = all(np.array_equal(getattr(a.core.loads, x), getattr(b.core.loads, x)) for x in names)
+    return same and all(x is y for x, y in zip(a.inputs.loads, b.inputs.loads, strict=True))
+
+
+def alike(a: System, b: System) -> bool:
+    """Whether two systems have the same unknowns in the same order."""
+    same = a.size == b.size and a.n == b.n and a.slots.keys() == b.slots.keys()
+    same = same and all(np.array_equal(a.slots[key], b.slots[key]) for key in a.slots)
+    same = same and a.parts.keys() == b.parts.keys()
+    same = same and np.array_equal(a.core.supports.held, b.core.supports.held)
+    return same and all(
+        x.shape == y.shape
+        for key in a.parts
+        for x, y in zip(
+            distinct({"b": a.parts[key]}).values(), distinct({"b": b.parts[key]}).values(), strict=False
+        )
+    )
