@@ -20,11 +20,13 @@ from .model.integrators import Explicit, Integrator
 from .model.model import Model
 from .preparation import carried_out, given_state, method_of, prepared
 from .results import remembered
+from .results import result as results
 from .results.modes import DampedModes, Modes
-from .results.result import Result, load
+from .results.result import Result
 from .results.state import State
 from .results.store import FileStore, MemoryStore
 from .sensitivity.compute import of_state, with_sensitivities
+from .sensitivity.kept import with_kept
 from .sensitivity.modal import of_modes
 from .sensitivity.parameters import check_known, parameters_of
 from .solvers import statics
@@ -137,7 +139,8 @@ def simulate(
         of all forces less, :attr:`Result.energy` is not to be had, and a run that creates energy from
         nothing is not noticed.
     file : path, optional
-        HDF5 file that takes the states while they are computed; default in memory.
+        HDF5 file that takes the states while they are computed, and their derivatives by numbers of the
+        model; default in memory.
     progress : callable, optional
         Called between blocks of steps with a :class:`ancf.results.Progress`.
     controller : callable, optional
@@ -189,6 +192,10 @@ def simulate(
         made = led(made, controller, check_controller(controller, control_step, step, "simulate"), "simulate")
     elif control_step is not None:
         raise ModelError("simulate.control_step", "has no effect without a controller")
+    if parameters:
+        if output_step is not None:
+            made.header["settings"]["output_step"] = output_step
+        made.header["settings"]["sensitivities"] = [one.name for one in parameters if one.named]
     store = MemoryStore(made.system) if file is None else FileStore(file, made.system, made.header)
     try:
         if parameters:
@@ -198,6 +205,26 @@ def simulate(
         if start is None and not isinstance(error, StorageError):
             _advise_rest(error, model)
         raise
+
+
+def load(path: str | Path, system: System | None = None) -> Result:
+    """Result from a file that a simulation or :meth:`Result.save` wrote.
+
+    It answers what the result in memory answered, sensitivities by numbers of the model included, and has its
+    model; a question that needs the value of a Python function, which no file can keep, is a ModelError.
+
+    Parameters
+    ----------
+    path : path
+    system : System, optional
+        The system that made it, if it is still there; else the file's model makes one when it is needed.
+
+    Raises
+    ------
+    ModelError
+        There is no such file, or it is not a results file.
+    """
+    return with_kept(results.load(path, system))
 
 
 def _advise_rest(error: SolveError, model: Model) -> None:

@@ -245,6 +245,9 @@ class Traits:
     inertial : function, optional
         ``inertial(batch)``: the batch with its mass alone, where the forces of that depend on velocities:
         what they lose without velocities is not dissipated.
+    some : function, optional
+        ``some(batch, rows)``: the batch with some of its parts, for forces alone, of one whose parts do not
+        know of each other.
     """
 
     role: Role = Role.NONE
@@ -262,6 +265,7 @@ class Traits:
     turning_mass: Callable[[Any], bool] | None = None
     exact: Callable[[Any, bool], bool] | None = None
     inertial: Callable[[Any], Any] | None = None
+    some: Callable[[Any, Any], Any] | None = None
 
 
 _TRAITS: dict[type, Traits] = {}

@@ -195,6 +195,10 @@ def _settings(old: Result, file: str | Path, model: Model | None) -> dict[str, A
         raise ModelError(str(file), "holds an equilibrium and no simulation", "start one: ancf.simulate(...)")
     if not len(old.t):
         raise ModelError(str(file), "holds no state to go on from", "simulate it again")
+    if derived := settings.get("sensitivities"):
+        what = f"has sensitivities by {checks.listed(derived)}, which a resumed run does not carry on"
+        hint = "simulate(model, start=ancf.load(file).state(), sensitivities=[...], file=...)"
+        raise ModelError(str(file), what, hint)
     if model is not None:
         if model.to_dict() != old.model.to_dict():
             hint = "give the model that was computed, or simulate(model, start=ancf.load(file).state(), ...)"

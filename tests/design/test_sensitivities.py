@@ -1,11 +1,15 @@
 """Sensitivities against extrapolated central differences of whole computations, and Taylor remainders."""
 
+from dataclasses import replace
+from functools import partial
+
 import numpy as np
 import pytest
 
 import ancf
 from ancf.model.vary import names_of, varied
 from ancf.paper import cantilever, pendulum, sliding, spin_up
+from ancf.sensitivity.parameters import parameters_of
 from helpers import EXACT, METHODS, cable
 from slopes import extrapolated, off, remainder_slopes
 
@@ -311,3 +315,52 @@ def test_a_number_without_effect_has_the_sensitivity_zero():
     found = result.sensitivity("hub.angular_velocity[2]").position("arm.end")
     assert np.max(np.abs(found)) < 1e-12
     assert np.all(np.isfinite(result.sensitivity("hub.velocity[2]").position("arm.end")))
+
+
+def tension(face, power):
+    """A power of the tension somewhere: what is linear in forces, and what is not."""
+    return face.tension("rope.at(0.3)") ** power
+
+
+@pytest.mark.parametrize("case", ["cable", "damped", "solid", "mass", "springs"])
+def test_numbers_known_to_be_linear_are_found_to_be(case):
+    """What is taken of one value is what differences of order six give, of the whole run and at any place."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    damping = {"axial_damping": 0.3, "bending_damping": 1e-3, "damping": 0.2} if case == "damped" else {}
+    if case == "solid":
+        section = ancf.Section.rectangle(0.02, 0.03, E=2e7, rho=900.0, nu=0.3)
+        beam = model.add_beam(
+            "rope", start=(0, 0, 0), end=(0.7, 0, 0.2), elements=2, section=section, element="nonlocking"
+        )
+    else:
+        section = ancf.Section(EA=400.0, EI=0.3, rhoA=0.2, **damping)
+        beam = model.add_beam("rope", start=(0, 0, 0), end=(0.7, 0, 0.2), elements=3, section=section)
+    model.clamp(beam.start)
+    weight = model.add_point_mass("weight", at=(0.7, 0, 0.2), mass=0.1)
+    model.connect(weight, beam.end)
+    names = {"solid": ["rope.E", "rope.rho"], "mass": ["weight.mass"]}.get(
+        case, ["rope.EA", "rope.EI", "rope.rhoA"]
+    )
+    names += [
+        f"rope.{name}"
+        for name in ("damping", "axial_damping", "bending_damping")
+        if case in ("cable", "damped")
+    ]
+    if case == "springs":
+        model.add_spring(beam.at(0.4), (0.3, 0, 0.5), stiffness=5.0, damping=0.1, length=0.3, name="stay")
+        model.add_spring(beam.at(0.2), (0.3, 0, 0.5), stiffness=5.0, length=0.9, slack=True, name="loose")
+        names = ["stay.stiffness", "stay.damping", "stay.length", "loose.length"]
+    known = parameters_of(model, names, "test")
+    assert all(one.linear for one in known)
+    unknown = [replace(one, name=f"{one.name} again", linear=False, kinked=False) for one in known]
+    result = ancf.simulate(model, t_end=0.02, step=1e-3, sensitivities=[*known, *unknown])
+    for name in names:
+        one, two = result.sensitivity(name), result.sensitivity(f"{name} again")
+        size = np.max(np.abs(two.dv)) + 1e-12
+        size *= 1e2 if case == "springs" else 1.0  # without that knowledge steps are tiny: round-off
+        assert np.allclose(one.dq, two.dq, rtol=0, atol=1e-9 * size), name
+        assert np.allclose(one.dv, two.dv, rtol=0, atol=1e-8 * size), name
+        for power in (1, 3):
+            question = partial(tension, power=power)
+            wanted = two.of(question)
+            assert np.allclose(one.of(question), wanted, rtol=1e-7, atol=1e-8 * np.max(np.abs(wanted))), name

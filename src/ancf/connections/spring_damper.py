@@ -200,6 +200,25 @@ def _damped(batch):
     return bool(np.any(batch.data[:, (DAMPING, FRICTION)])) or bool(np.any(np.diff(batch.begins)[1::2]))
 
 
+def _some(batch, rows):
+    """Some of the springs, with their curves."""
+    curves = [k for e in rows for k in (2 * e, 2 * e + 1)]
+    points = [np.arange(batch.begins[k], batch.begins[k + 1]) for k in curves]
+    own = np.concatenate([np.zeros(0, dtype=np.int64), *points])
+    kept = {
+        name: getattr(batch, name)[rows] for name in ("base", "dest", "factor", "offset", "data", "inside")
+    }
+    return batch._replace(
+        **kept,
+        begins=np.cumsum([0, *map(len, points)]).astype(np.int64),
+        place=batch.place[own],
+        height=batch.height[own],
+        area=batch.area[own],
+        wanted=np.zeros(0, dtype=np.int64),
+        found=np.zeros((0, 2)),
+    )
+
+
 implements(
     SpringBatch,
     force=spring_force,
@@ -209,5 +228,6 @@ implements(
     rate_stiffness=spring_rate_stiffness,
     role=Role.DISSIPATES | Role.MEASURES,
     damped=_damped,
+    some=_some,
     exact=lambda batch, moving: not (moving and _damped(batch)),
 )

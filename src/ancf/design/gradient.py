@@ -121,7 +121,7 @@ def _forward(
     for parameter in parameters:
         own, total = result.sensitivity(parameter.name), 0.0
         for pair, slope in slopes.items():
-            total += float(np.sum(slope * own.of(lambda face, pair=pair: ask(face, *pair))))
+            total += float(np.sum(slope * own.answer(lambda face, pair=pair: ask(face, *pair))))
         made[parameter.name] = total
     return value, made
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -45,7 +46,7 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
         self._store, self._header, self._made_by = store, header, system
         self._recorded: Sensors | None = None
         self._moving: tuple[FloatArray, FloatArray] | None = None
-        self.derivatives: dict[str, Any] = {}  # by the name of a parameter
+        self.derivatives: Mapping[str, Any] = {}  # by the name of a parameter
         if system is not None:
             self.model, self._slots, self._joints = system.model, system.slots, system.joints
             self._last = remembered.of_system(system)
@@ -241,6 +242,10 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
         """
         return sensitivity_of(self.derivatives, name)
 
+    def derived(self) -> dict[str, dict[str, Any]]:
+        """Data sets of derivatives by parameter, of a result that was read from a file."""
+        return self._store.derived if isinstance(self._store, ReadStore) else {}
+
     def save(self, path: str | Path) -> None:
         """Write the result to an HDF5 file; :func:`ancf.load` reads it.
 
@@ -266,6 +271,11 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
             file.record(samples["time"], np.concatenate(parts, axis=1))
         file.append(arrays["time"], arrays["q"], arrays["v"], arrays["work"])
         assert isinstance(self._store, MemoryStore)
+        for k, name in enumerate(self._header["settings"].get("sensitivities", [])):
+            if (own := self.derivatives.get(name)) is None:
+                continue  # the run failed
+            rows = self.sensors.derivatives[name].rows if self._system.sensors else np.zeros((0, 0))
+            file.derive(k, (own.dq, own.dv, rows))
         if self._store.checkpoint is not None:
             file.put(self._store.checkpoint)
         file.update(self.stats, self.status)

@@ -17,7 +17,9 @@ def sensitivity_of(known: Mapping[str, Any], name: Any) -> Any:
     ModelError
         They were not asked for.
     """
-    there = [one for one, item in known.items() if item is not None]
+    there = [*known]
+    if isinstance(known, dict):  # the others are of a file, and made when they are asked for
+        there = [one for one, item in known.items() if item is not None]
     if not there:
         hint = 'such as ancf.simulate(..., sensitivities=["beam.EI"])'
         raise ModelError("sensitivity", "no sensitivities were asked for when this was computed", hint)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -52,7 +52,7 @@ class Sensors(SpringFields, ContactFields, Plotted):
         by_ends = [item for name, item in self._springs.items() if name not in listing.springs]
         self._listed = frozenset(listing.points)
         self._placed = self._listed.union(end for item in by_ends for end in _ends(item))
-        self.derivatives: dict[str, Any] = {}  # by the name of a parameter
+        self.derivatives: Mapping[str, Any] = {}  # by the name of a parameter
 
     @property
     def t(self) -> FloatArray:

@@ -48,7 +48,7 @@ def check_header(header: Any) -> None:
             checks.number(settings[key], f"header.settings.{key}")
     checks.flag(settings.get("energy", True), "header.settings.energy")
     checks.text(settings.get("integrator", ""), "header.settings.integrator")
-    for key in ("sensors", "called once a step"):
+    for key in ("sensors", "called once a step", "sensitivities"):
         for k, name in enumerate(_list(settings.get(key, []), f"header.settings.{key}")):
             checks.text(name, f"header.settings.{key}[{k}]")
     for key in ("title", "created"):

@@ -7,7 +7,7 @@ so that a run that is killed leaves a file which is readable up to its last bloc
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Protocol
@@ -26,7 +26,7 @@ from ..solvers.status import COUNTS
 from ..system.energy import energies
 from ..system.sensors import Listing
 from ..system.system import System
-from . import checkpoints, hdf5, remembered
+from . import checkpoints, derivatives, hdf5, remembered
 from .checkpoints import Checkpoint
 from .layout import write_layout
 from .layout_sensors import DATA, write_listing
@@ -198,6 +198,7 @@ class FileStore:
         write_layout(file, self._system)
         remembered.write(file, remembered.of_system(self._system))
         write_listing(file, self._system.sensors)
+        derivatives.create(file, header["settings"].get("sensitivities", []), size, self._system.sensors)
         checkpoints.Places.make(file)
         file.flush()
 
@@ -220,6 +221,11 @@ class FileStore:
         with self._storing():
             for name in DATA:
                 _extend(self._file["sensors"][name], columns[name])
+
+    def derive(self, k: int, rows: Sequence[FloatArray]) -> None:
+        """Add derivatives by parameter k of states, of their rates and of samples."""
+        with self._storing():
+            derivatives.add(self._file, k, rows)
 
     def update(self, stats: Stats, status: str) -> None:
         """Counters and status so far; everything until now reaches the disk."""

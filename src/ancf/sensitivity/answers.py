@@ -104,7 +104,7 @@ class Sensitivity:
             raise AttributeError(f"a sensitivity has no {name!r}", name=name, obj=self)
 
         def answer(*items: Any) -> FloatArray:
-            return self._of(lambda face: getattr(face, name)(*map(text_of, items)), name in LINEAR)
+            return self.answer(lambda face: getattr(face, name)(*map(text_of, items)), name in LINEAR)
 
         return answer
 
@@ -121,12 +121,12 @@ class Sensitivity:
     @property
     def momentum(self) -> FloatArray:
         """Derivative of the momentum of all bodies, kg m/s per unit."""
-        return self.of(lambda face: face.momentum)
+        return self.answer(lambda face: face.momentum)
 
     @property
     def energy(self) -> Energy:
         """Derivatives of kinetic, strain and potential energy, J per unit; work is not known and zero."""
-        kinetic, strain, potential = np.moveaxis(self.of(lambda face: face.energies()), -1, 0)
+        kinetic, strain, potential = np.moveaxis(self.answer(lambda face: face.energies()), -1, 0)
         none = np.zeros_like(kinetic)
         return Energy(kinetic, strain, potential, none, none)
 
@@ -156,7 +156,7 @@ class Sensitivity:
         t, found = np.atleast_1d(np.asarray(self.t, dtype=np.float64)), []
         for name, kink in kinks_of(self._family.base.model).items():
             here = kink(Face(self._family.base, self._q, self._v, float(t[-1])))
-            own = changed(name, t, np.atleast_1d(here), np.atleast_1d(self.of(kink)), size)
+            own = changed(name, t, np.atleast_1d(here), np.atleast_1d(self.answer(kink)), size)
             found += [own] if own is not None else []
         return sorted(found, key=lambda one: (one.t, one.name))
 
@@ -168,14 +168,29 @@ class Sensitivity:
         ModelError
             What the question itself raises.
         """
-        return self._of(question, False)
+        return self._of(question, False, self._family.around())
 
-    def _of(self, question: Callable[[Face], Any], linear: bool) -> FloatArray:
+    def answer(self, question: Callable[[Face], Any], linear: bool = False) -> FloatArray:
+        """The same for a question that a state or a result answers by itself.
+
+        Parameters
+        ----------
+        question : function
+        linear : bool
+            It is linear in the state.
+        """
+        each = zip(self._family.systems, self._family.weights, strict=True)
+        return self._of(question, linear, list(each))
+
+    def _of(
+        self, question: Callable[[Face], Any], linear: bool, around: list[tuple[System, float]]
+    ) -> FloatArray:
         family, t = self._family, np.ravel(self.t)[-1]
         here = np.asarray(question(Face(family.base, self._q, self._v, t)), dtype=np.float64)
         total: Any = np.zeros_like(here)
-        for system, weight in zip(family.systems, family.weights, strict=True):
-            total = total + weight * (np.asarray(question(Face(system, self._q, self._v, t))) - here)
+        for system, weight in around:
+            if system is not family.base:
+                total = total + weight * (np.asarray(question(Face(system, self._q, self._v, t))) - here)
         if linear:
             return np.asarray(total + question(Face(family.base, self.dq, self.dv, t)))
         for e, dq, dv in self._moves():

@@ -61,8 +61,6 @@ def with_sensitivities(
         As of :func:`ancf.simulate`, or the derivative jumps.
     """
     run: Any = made.run
-    if output_step is not None:
-        made.header["settings"]["output_step"] = output_step
     every = steps_between("simulate", run.t_end, run.h, output_step, run.t_start)
     following = Following(made, parameters, start, store, every)
     result = carried_out(made, store, progress, following)

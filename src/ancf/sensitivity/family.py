@@ -22,6 +22,7 @@ from ..system.core import Core, Tables, apply_load, apply_supports, place_suppor
 from ..system.system import System
 from .alike import Known, alike, changed, on_a_line, same_inputs, same_loads
 from .parameters import Parameter
+from .values import few_of, gaps_of, quiet_state
 
 #: Step of the differences, relative, and of a parameter that is zero, in its unit or the size of the model.
 STEP = 1e-3
@@ -65,6 +66,14 @@ class Family:
     thorough : bool
         Take all values also of a parameter in which the residual is linear, for what is asked of matrices.
 
+    Attributes
+    ----------
+    plain : bool
+        No support depends on the parameter, and no load that depends on the state or row of a joint does.
+    shift : ndarray
+        Derivative of the state where it is held, (size,), if that is all that keeps it from being plain; else
+        empty.
+
     Raises
     ------
     ModelError
@@ -74,7 +83,8 @@ class Family:
     def __init__(self, parameter: Parameter, base: System, thorough: bool = False) -> None:
         self.parameter, self.base = parameter, base
         p = parameter.value
-        unit = abs(p) if p != 0.0 else min(1.0, base.model.size)
+        unit = self._unit = abs(p) if p != 0.0 else min(1.0, base.model.size)
+        self._wide: list[tuple[System, float]] = []
         self._made: dict[float, System] = {}
         self._differ: dict[int, set[str]] = {}  # names of batches by system
         self.linear = False
@@ -89,7 +99,8 @@ class Family:
         """Take values h apart, two or six, or two that are tiny steps apart where forces have kinks."""
         p = self.parameter.value
         if self.parameter.linear and not thorough:
-            return self._take_line(3.0 * h if p >= 0.0 else -3.0 * h)
+            step = tiny if self.parameter.kinked else h
+            return self._take_line(3.0 * step if p >= 0.0 else -3.0 * step)
         try:
             self._take(h, *PAIR)
             if p != 0.0 and self._names() & KINKED and not thorough:
@@ -148,22 +159,37 @@ class Family:
             if hasattr(base.parts[name], key)
         ]
 
+    def around(self) -> list[tuple[System, float]]:
+        """Systems and weights with which any smooth function is differentiated, linear in forces or not."""
+        if not (self.parameter.linear or self.linear):
+            return list(zip(self.systems, self.weights, strict=True))
+        if not self._wide:
+            h = (TINY if self.parameter.kinked else STEP) * self._unit
+            places, weights = FOUR if self.parameter.value != 0.0 else ABOVE
+            systems = [self._compiled(h * x) if x != 0.0 else self.base for x in places]
+            self._wide = [(system, w / h) for system, w in zip(systems, weights, strict=True)]
+        return self._wide
+
     def _look(self) -> None:
         """See what of the model depends on the parameter."""
         base = self.base
         names = self.changed = self._names()
-        self._few = [Batches(b for name, b in s.parts.items() if name in names) for s in self.systems]
+        *self._few, self._own = few_of([*self.systems, base], names)
         still, self._fed = self._steady_inputs()
-        self.plain = still and all(self._is_plain(k) for k in range(len(self.systems)))
+        plain = still and all(self._is_plain(k) for k in range(len(self.systems)))
+        shift = np.zeros(base.size)
+        for weight, shape in zip(self.weights, self._shape, strict=True):
+            shift[base.core.supports.held] += weight * shape[base.core.supports.held]
+        self.plain = plain and not np.any(shift)
+        self.shift = shift if plain and np.any(shift) else shift[:0]
         self._loads = any(not same_loads(base, s) for s in self.systems)
         self._steady: list[FloatArray] | None = None
         self._constant = all(f.constant for s in self.systems for f in s.inputs.loads)
 
     def _is_plain(self, k: int) -> bool:
-        """Whether supports are as they are, and no batch has inputs or rows of constraints of its own."""
-        base, system, few = self.base, self.systems[k], self._few[k]
-        if np.any(self._shape[k][base.core.supports.held]):
-            return False
+        """Whether supports turn as they do, and no batch has inputs or rows of constraints of its own."""
+        base, system = self.base, self.systems[k]
+        few = [batch for name, batch in system.parts.items() if name in self.changed]
         if not np.array_equal(base.core.supports.rot_R[:, 0], system.core.supports.rot_R[:, 0]):
             return False
         value = system.core.loads.value
@@ -179,8 +205,7 @@ class Family:
         """
         if not self.linear:
             return list(zip(self.weights, self._few, strict=True))
-        base = Batches(batch for name, batch in self.base.parts.items() if name in self.changed)
-        return [(1.0 / self.offsets[-1], self._few[-1]), (-1.0 / self.offsets[-1], base)]
+        return [(1.0 / self.offsets[-1], self._few[-1]), (-1.0 / self.offsets[-1], self._own)]
 
     def loads_used(
         self, when: tuple[float, float, float, float], tables: Tables
@@ -213,7 +238,7 @@ class Family:
 
     def _linear(self) -> bool:
         """Whether residual and initial state are linear in the parameter, which two values tell then."""
-        first = [Known.of(self.base).initial_state(0.0), *(_initial_state(s) for s in self.systems)]
+        first = [Known.of(self.base).initial_state(0.0), *(quiet_state(s) for s in self.systems)]
         if not all(on_a_line(*x) for x in zip(*first, strict=True)):
             return False
         found = self._residuals([self.base, *self.systems])
@@ -222,7 +247,7 @@ class Family:
 
     def _smooth(self) -> bool:
         """Whether four values are enough: what order two lacks of the derivative is small."""
-        states = list(zip(*(_initial_state(s) for s in self.systems), strict=True))
+        states = list(zip(*(quiet_state(s) for s in self.systems), strict=True))
         for far_low, low, high, far_high in (*self._residuals(self.systems), *states):
             near, far = (high - low) / 3.0, (far_high - far_low) / 6.0
             size = float(np.max(np.abs(near), initial=0.0))
@@ -294,7 +319,7 @@ class Family:
             for x, y, here in zip(made.held, states, (q, v, a), strict=True):
                 x += weight * (y - here)
             if gaps:
-                made.gap[...] += weight * _gaps(system, tables, states)
+                made.gap[...] += weight * gaps_of(system, tables, states)
         self._finish(made)
         return made
 
@@ -362,23 +387,3 @@ class Family:
         free = np.ones(made.push.shape[1], dtype=bool)
         free[self.base.core.supports.held], free[n:] = False, False
         made.held[..., free] = 0.0
-
-
-def _initial_state(system: System) -> tuple[FloatArray, FloatArray]:
-    """The initial state; what holds against a given motion was said of the model itself."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return system.initial_state()
-
-
-def _gaps(system: System, tables: Any, states: Any) -> FloatArray:
-    """C in the rows of the multipliers of states."""
-    level = system.level.copy()
-    system.level[:] = 1.0, 0.0, 0.0
-    core = system.core._replace(batches=system.core.joints.batches)
-    r = np.empty_like(states[0])
-    q, v, a = (x.copy() for x in states)
-    stage_residuals(core, tables, q, v, a, np.empty(system.size), r)
-    system.level[:] = level
-    rows: FloatArray = r * system.core.joints.mask
-    return rows

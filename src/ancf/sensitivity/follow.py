@@ -11,6 +11,7 @@ from ..errors import ModelError, SolveError
 from ..model.integrators.base import NewmarkFamily
 from ..preparation import Prepared, adopted
 from ..results.state import State
+from ..results.store import FileStore
 from ..simd import LANES
 from ..solvers.abreast import follow_steps, room_for
 from ..solvers.ahead import ahead_of
@@ -90,11 +91,12 @@ class Following:
         check_differentiable(self.system, where)
         check_shift(made, start, where)
         self.families = [Family(parameter, self.system) for parameter in parameters]
-        self.nearby = Nearby(self.families, self.system)
+        self.nearby = Nearby(self.families, self.system, shifts=True)
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
         self.ahead, self.room = ahead_of(self.system.core, self.m), room_for(self.system.size)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
         self.taken, self.done, self.stored = 0, 0, 0  # steps taken in and followed, states stored
+        self.handed = 0, 0  # states and samples that a file has
         self.waiting: list[tuple[FloatArray, FloatArray, FloatArray]] = []  # q, v, a of steps to be followed
         run: Any = self.run
         count = 2 + (run.steps - 1) // every
@@ -108,12 +110,14 @@ class Following:
         if not self.stored:
             self._begin()
             self.store.append(t, q, v, work)
+            self._hand_on()
             return
         if len(t):
             self._take(q, v)
             keep = self._kept_of(self.taken, len(t))
             t, q, v, work = t[keep], q[keep], v[keep], work[keep]
         self.store.append(t, q, v, work)
+        self._hand_on()
 
     def record(self, t: FloatArray, samples: FloatArray) -> None:
         """Samples."""
@@ -122,6 +126,17 @@ class Following:
     def update(self, stats: Stats, status: str) -> None:
         """Counters."""
         self.store.update(stats, status)
+
+    def _hand_on(self) -> None:
+        """Give a file the derivatives by numbers of the model that it lacks."""
+        if not isinstance(self.store, FileStore):
+            return
+        states, samples = slice(self.handed[0], self.stored), slice(self.handed[1], self.samples.done)
+        named = [k for k, family in enumerate(self.families) if family.parameter.named]
+        for place, k in enumerate(named):
+            dq, dv = self.rows[k, states, 0], self.rows[k, states, 1]
+            self.store.derive(place, (dq, dv, self.samples.rows[k, samples]))
+        self.handed = self.stored, self.samples.done
 
     def due(self) -> bool:
         """Never: a run that is gone on with would not know them."""
@@ -182,14 +197,27 @@ class Following:
         for begin in range(0, count, most):
             rows = slice(begin, min(begin + most, count))
             way = Way(q[rows].copy(), v[rows].copy(), a[rows])
-            made = self._block(way, h, self.done + begin)
-            self._keep(made[:, keep[rows], :2])
+            if self.every == 1 and not self.samples.sampling.width:
+                self._block(way, h, self.done + begin, self.rows, self.stored)
+                self.stored += len(way.q)
+                continue
+            made = self._room(len(way.q))
+            self._block(way, h, self.done + begin, made, 0)
+            self._keep(made[:, np.flatnonzero(keep[rows]), :2])
             self.samples.take(way.q, way.v, made)
         self.done += count
 
-    def _block(self, way: Way, h: float, done: int) -> FloatArray:
+    def _room(self, count: int) -> FloatArray:
+        """Room for the derivatives of q, v and a, (p, count, 3, size), in the memory of the block before."""
+        wanted = len(self.families) * count * 3 * self.system.size
+        if wanted > self._kept.size:
+            self._kept = np.zeros(wanted)
+        return self._kept[:wanted].reshape(len(self.families), count, 3, self.system.size)
+
+    def _block(self, way: Way, h: float, done: int, out: FloatArray, place: int) -> None:
+        """Carry on over the steps of a block; fill the rows of (p, rows, 2 or 3, size) from a place on."""
         run, system = self.run, self.system
-        count, size = way.q.shape
+        count = len(way.q)
         rule = run.rule(h)
         joined = Constraining(rule.w0, rule.w1, rule.w2, rule.projects)
         system.level[:] = rule.w0, rule.w1, rule.w2
@@ -197,19 +225,14 @@ class Following:
         projects = rule.projects and len(system.multipliers) > 0
         tables = system.inputs.tables(*when[:2], count, *when[2:])
         found = self.nearby.at_steps(way, when, tables, projects)
-        wanted = len(self.families) * count * 3 * size
-        if wanted > self._kept.size:
-            self._kept = np.zeros(wanted)
-        out = self._kept[:wanted].reshape(len(self.families), count, 3, size)
         rooms, pushes = (system.core, self.m, self.ahead, self.room), (found.push, found.gap)
-        n, status = follow_steps(*rooms, tables, way, *pushes, h, run.scheme, joined, self.s, out)
+        n, status = follow_steps(*rooms, tables, way, *pushes, h, run.scheme, joined, self.s, out, place)
         if status != OK:
             t = run.time(done + int(n) + 1)
             what = "the equations of the sensitivities cannot be solved"
             raise SolveError(f"sensitivities at t = {t:.6g} s", what, "take a smaller step")
         for k, held in found.held.items():
-            out[k] += np.moveaxis(held, 0, 1)
-        return out
+            out[k, place : place + count] += np.moveaxis(held[: out.shape[2]], 0, 1)
 
     def found(self) -> list[FloatArray]:
         """Derivatives of q and v at the stored times by parameter, (n, 2, size) each."""

@@ -33,12 +33,15 @@ class Nearby:
     families : list of Family
     system : System
         On whose arrays the sensitivities are computed.
+    shifts : bool
+        Places of supports that shift are part of the sensitivities themselves, and not of the pushes.
     """
 
-    def __init__(self, families: list[Family], system: System) -> None:
+    def __init__(self, families: list[Family], system: System, shifts: bool = False) -> None:
         self.families, self.system = families, system
-        self.plain = [k for k, family in enumerate(families) if family.plain]
-        self.others = [k for k, family in enumerate(families) if not family.plain]
+        self.shifts = {k: family.shift for k, family in enumerate(families) if shifts and family.shift.size}
+        self.plain = [k for k, family in enumerate(families) if family.plain or k in self.shifts]
+        self.others = [k for k in range(len(families)) if k not in self.plain]
         found: dict[int, tuple[Any, list[tuple[int, float]]]] = {}
         for row, k in enumerate(self.plain):
             for weight, changed in families[k].used():

@@ -10,6 +10,7 @@ from ..errors import ModelError
 from ..model import checks
 from ..model.beam import Beam
 from ..model.bodies import PointMass
+from ..model.connections import Spring
 from ..model.model import Model
 from ..model.section import DAMPINGS
 from ..model.vary import value_of, varied
@@ -17,6 +18,8 @@ from ..model.winches import by_body
 
 #: Numbers of a section in which all forces of cables and beams are linear.
 OF_SECTIONS = {"EA", "EI", "rhoA", "E", "rho", *DAMPINGS}
+#: The same of a spring without a curve.
+OF_SPRINGS = {"stiffness", "damping", "length"}
 
 
 @dataclass(frozen=True)
@@ -53,6 +56,8 @@ class Parameter:
         What it builds is known to change by a polynomial of degree two: two values tell all.
     linear : bool
         All forces are known to be linear in it, and nothing else depends on it: one value tells all.
+    kinked : bool
+        Of one that is linear: there are kinks, between which it is.
     """
 
     name: str
@@ -60,6 +65,12 @@ class Parameter:
     build: Callable[[float], Model]
     quadratic: bool = False
     linear: bool = False
+    kinked: bool = False
+
+    @property
+    def named(self) -> bool:
+        """Whether it is a number of the model by its name, which a file can keep."""
+        return isinstance(self.build, Named)
 
     def at(self, value: float) -> Model:
         """The model with a value.
@@ -119,10 +130,21 @@ def check_known(start: Any, parameters: list[Parameter], where: str) -> None:
 def _named(model: Model, name: Any, where: str) -> Parameter:
     clean = checks.text(name, where)
     value = value_of(model, clean)
-    return Parameter(clean, value, Named(model.snapshot(), clean), linear=_is_linear(model, clean))
+    spring = _of_spring(model, clean)
+    linear, kinked = spring is not None or _of_body(model, clean), spring is not None and spring.slack
+    return Parameter(clean, value, Named(model.snapshot(), clean), linear=linear, kinked=kinked)
 
 
-def _is_linear(model: Model, name: str) -> bool:
+def _of_spring(model: Model, name: str) -> Spring | None:
+    """Of a number in which a spring's force is linear, as long as it does not slacken, the spring."""
+    owner, _, key = name.rpartition(".")
+    for one in model.connections:
+        if isinstance(one, Spring) and one.name == owner and key in OF_SPRINGS:
+            return one if one.law is None and one.damper is None else None
+    return None
+
+
+def _of_body(model: Model, name: str) -> bool:
     """Whether forces are linear in a number: stiffnesses, masses and dampings of a body without a winch."""
     owner, _, key = name.rpartition(".")
     body = model.bodies.get(owner)

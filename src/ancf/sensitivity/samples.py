@@ -62,7 +62,9 @@ class Samples:
 
     def _measured(self, p: int, family: Family, q: FloatArray, v: FloatArray, made: FloatArray) -> FloatArray:
         total, here = np.zeros((len(q), self.sampling.width)), self._rows(self.sampling, q, v)
-        for sampling, weight in zip(self.near[p], family.weights, strict=True):
+        for sampling, weight, own in zip(self.near[p], family.weights, family.systems, strict=True):
+            if own is family.base:
+                continue
             total += weight * (self._rows(sampling, q, v) - here)
         still = np.zeros_like(q)
         for dq, dv, d in ((made[:, 0], still, made[:, 0]), (still, made[:, 1], made[:, 1])):
@@ -103,7 +105,7 @@ class SensorSensitivity:
 
     def __init__(self, family: Family, sensors: Sensors, rows: FloatArray) -> None:
         self._family, self._sensors = family, sensors
-        k = len(sensors.listing.index)
+        self.rows, k = rows, len(sensors.listing.index)
         self._d = {"q": rows[:, :k], "v": rows[:, k : 2 * k], "measured": rows[:, 2 * k :]}
         self.t = sensors.t
 
@@ -140,8 +142,10 @@ class SensorSensitivity:
         question(self._sensors)
         base = np.asarray(question(self._with(self._family.base, now)))
         total: Any = np.zeros_like(base)
-        for system, weight in zip(self._family.systems, self._family.weights, strict=True):
-            total = total + weight * (np.asarray(question(self._with(system, now))) - base)
+        family = self._family
+        for system, weight in zip(family.systems, family.weights, strict=True) if name else family.around():
+            if system is not family.base:
+                total = total + weight * (np.asarray(question(self._with(system, now))) - base)
         if linear or name.startswith(("contact", "acceleration")):
             return np.asarray(total + question(self._with(self._family.base, now | d)))
         for key in d:

@@ -52,7 +52,9 @@ class Start:
         if factorise_matrix(core.A, core.factor) < 0:
             raise SolveError("sensitivities at the start", "the mass matrix is singular")
 
-    def sensitivity(self, dq: FloatArray, dv: FloatArray, push: Any, gap: Any) -> FloatArray:
+    def sensitivity(
+        self, dq: FloatArray, dv: FloatArray, push: Any, gap: Any, shift: FloatArray | None = None
+    ) -> FloatArray:
         """Derivatives of q, v, a and the algorithmic acceleration, (4, size), from those that are asked for.
 
         Parameters
@@ -61,9 +63,13 @@ class Start:
             Of the initial state, before constraints hold.
         push, gap : function of the level of the constraints
             Derivatives of the residual, and of the rows of the constraints, at fixed free unknowns.
+        shift : (size,), optional
+            Derivatives of q that are not in these, where it is held.
         """
         d = np.zeros((3, self.system.size))
         d[0], d[1] = self._free(dq), self._free(dv)
+        if shift is not None:
+            d[0] += shift
         lam = self.system.multipliers
         d[:2, lam] = 0.0
         if len(lam):
@@ -156,8 +162,9 @@ def starts(
     rows = {k: row for row, k in enumerate(nearby.plain)}
     for k, family in enumerate(nearby.families):
         if k in rows:  # it does nothing to rows of joints
-            push = pushes[rows[k], 0]
-            yield begin.sensitivity(*given[k], lambda level, push=push: push, lambda level: 0.0), still
+            own = pushes[rows[k], 0]
+            made = begin.sensitivity(*given[k], lambda _, own=own: own, lambda _: 0.0, nearby.shifts.get(k))
+            yield made, still
         else:
             at = _at_level(system, family, states, when)
             made = begin.sensitivity(*given[k], at, at)

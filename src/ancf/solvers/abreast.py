@@ -322,8 +322,8 @@ def predicted(s, d, h, scheme):
 
 
 @inline_kernel
-def kept(room, s, scheme, out, n, first):
-    """Write s_q, s_v, s_a of step n to where they are kept, and to the start of the next step."""
+def kept(room, s, scheme, out, row, first):
+    """Write s_q, s_v and, if there is room, s_a to a row of what is kept; the next step starts with them."""
     am, af = scheme.alpha_m, scheme.alpha_f
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
     for i in range(s.shape[1]):
@@ -333,13 +333,13 @@ def kept(room, s, scheme, out, n, first):
         store(v, s, V, i)
         store(a, s, A, i)
     for p in range(first, min(first + LANES, out.shape[0])):
-        for k in range(3):
+        for k in range(out.shape[2]):
             for i in range(s.shape[1]):
-                out[p, n, k, i] = room.d[k, i, p - first]
+                out[p, row, k, i] = room.d[k, i, p - first]
 
 
 @kernel
-def follow_steps(core, m, ahead, room, tables, way, push, gap, h, scheme, joined, s, out):
+def follow_steps(core, m, ahead, room, tables, way, push, gap, h, scheme, joined, s, out, place):
     """Carry sensitivities through the steps of a block.
 
     Parameters
@@ -353,8 +353,9 @@ def follow_steps(core, m, ahead, room, tables, way, push, gap, h, scheme, joined
     h, scheme, joined : float, Scheme, Constraining
     s : (p/8 rounded up, 4, size, 8)
         At the start; changed to the end.
-    out : (p, steps, 3, size)
-        s_q, s_v, s_a at the ends of the steps.
+    out : (p, rows, 2 or 3, size)
+        s_q, s_v and s_a at the ends of the steps, in the rows from ``place`` on.
+    place : int
 
     Returns
     -------
@@ -379,5 +380,5 @@ def follow_steps(core, m, ahead, room, tables, way, push, gap, h, scheme, joined
             if status != OK:
                 return n, status
             follow_abreast(core.supports, room.d)
-            kept(room, s[g], scheme, out, n, LANES * g)
+            kept(room, s[g], scheme, out, place + n, LANES * g)
     return way.q.shape[0], OK
