@@ -12,6 +12,7 @@ import numpy as np
 import ancf
 
 from ..arrays import FloatArray, IntArray
+from ..control.foreseen import Foreseen
 from ..errors import ModelError
 from ..model import checks
 from ..model.points import Point
@@ -119,6 +120,7 @@ def simulated(
 ) -> tuple[Result, FarSpans]:
     """As :func:`ancf.simulate`, with spans that sleep."""
     made = prepared(overhead.model, method=integrator, **given)
+    made.system.inputs = Foreseen(made.system.inputs)  # a block of steps ends where a span turns
     run: Any = made.run
     spans: FarSpans = run.reduce(sleep.plan(made.system, overhead))
     store = MemoryStore(made.system) if file is None else FileStore(file, made.system, made.header)
