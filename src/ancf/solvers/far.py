@@ -53,9 +53,12 @@ from ..system.far import (
     STEP,
     WATCHED,
 )
+from .status import STEPS
 
-# rows of the workspace: displacements, rates and accelerations of a boundary
+# rows of the workspace: displacements, rates and accelerations of a boundary, and what is seen
 X, V, A, SEEN = range(4)
+#: Steps between two looks at a part: in 4 ms a strip runs 0.3 m.
+LOOKED = 4
 
 
 @inline_kernel
@@ -260,9 +263,11 @@ def show_far(core, s, whole):
 
 @inline_kernel
 def turns(far, known, s):
-    """Whether a part has to wake, or may sleep."""
+    """Whether a part has to wake, or may sleep; each part is looked at every so many steps."""
     found = False
     for p in range(far.part.shape[0]):
+        if (s.counts[STEPS] + p) % LOOKED != 0:
+            continue
         asleep, d = far.part[p, ASLEEP] != 0, distance(far, p, known.contacts, s.q)
         taut = is_taut(far, p, known.springs, s)
         far.part[p, CALM] = far.part[p, CALM] + 1 if taut else 0

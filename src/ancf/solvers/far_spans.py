@@ -31,6 +31,7 @@ from ..system.far import (
     WATCHED,
 )
 from ..system.system import System
+from .far import LOOKED
 from .far_arrays import ACTS, FarPlan, arrays_of, kinds_of
 from .far_parts import Matrices, Part, cables_of, in_order, parts_of, sleep, wake
 from .memory import H_FACTOR, Memory
@@ -81,7 +82,7 @@ class FarSpans:
         self.kinds, self.kind_of, forces = kinds_of(matrices, self.parts, plan, step[1:])
         self.far = arrays_of(system, self.parts, self.kinds, self.kind_of, forces, plan, watched)
         self.far.memo[NEAR], self.far.memo[AWAY] = plan.near, plan.near + BETWEEN
-        self.far.memo[CALMED] = np.ceil(CALM_TIME / step[0])
+        self.far.memo[CALMED] = np.ceil(CALM_TIME / (LOOKED * step[0]))
         self.kept: list[Any] = [None] * len(self.parts)
         self.rows = [_rows_of(system, part) for part in self.parts]
         self.touched = system.core.near[0].touched.copy()

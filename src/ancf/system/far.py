@@ -33,7 +33,7 @@ from .near import clear_beyond
 MODES, ROWS, EDGES, COUPLING, COLUMN, HIGH, SIGHT, INSIDE, WATCHED, ACROSS = range(10)
 # columns of Far.part: kind, first row of its coordinates, first boundary unknown and first row of eight of
 # these, first place in `entry`, first unknown inside, first dropper and their number, whether it is asleep,
-# steps for which it has been calm
+# looks at it for which it has been calm
 KIND, PLACE, EDGE, BORDER, ENTRY, INNER, HUNG, DROPPERS, ASLEEP, CALM = range(10)
 # rows of the coordinates of a mode: y, dy/dt, d2y/dt2, the algorithmic acceleration, and for the step at hand
 # predictions of the first two and what the boundary feels
@@ -41,7 +41,7 @@ POSITION, RATE, SECOND, BAR, GUESS, GUESS_RATE, FELT = range(7)
 # entries of Far.counts: ranges of blocks that are awake, parts that are asleep, first unknown of the shadows
 RANGES, SLEEPING = range(2)
 # entries of Far.memo: step for which matrices are made; distances of a strip, m, at which a part wakes at the
-# latest and may sleep at the earliest, and steps for which it has to be calm
+# latest and may sleep at the earliest, and looks for which it has to be calm
 STEP, NEAR, AWAY, CALMED = range(4)
 
 
