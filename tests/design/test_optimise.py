@@ -71,9 +71,13 @@ def test_the_optimum_from_its_file_is_the_optimum(folder):
     assert least == pytest.approx(told["objective"]["least"], rel=1e-12)
 
 
-def test_the_example_can_be_read():
-    given = read_optimisation(EXAMPLES / "droppers.toml")
+@pytest.mark.parametrize(("name", "spans"), [("droppers.toml", 4), ("droppers_13.toml", 13)])
+def test_the_examples_can_be_read(name, spans):
+    given = read_optimisation(EXAMPLES / name)
     assert len(given.parameters) >= 10
+    assert len(given.line.spans) == spans
+    labels = [label for one in given.parameters.values() for label in one.labels]
+    assert len(set(labels)) == len(labels)
     assert given.settings["speed"] == pytest.approx(280 / 3.6)
 
 

@@ -17,7 +17,7 @@ CONTROLLED = ("active_pantograph", "crane", "crane_env")
 #: Scripts of tests/design/test_calibrate.py and test_measured_cable.py.
 CALIBRATED = ("calibrate", "measured_cable")
 #: Model files; three describe overhead lines, study.toml and tolerances.toml studies, calibrate.toml
-#: a calibration, and droppers.toml what ancf optimise looks for.
+#: a calibration, and droppers.toml and droppers_13.toml what ancf optimise looks for.
 OTHERS = {
     "line.toml",
     "tension_length.toml",
@@ -26,6 +26,8 @@ OTHERS = {
     "calibrate.toml",
     "droppers.toml",
     "droppers_line.toml",
+    "droppers_13.toml",
+    "droppers_13_line.toml",
 }
 FILES = sorted({path.name for path in EXAMPLES.glob("*.toml")} - OTHERS)
 
