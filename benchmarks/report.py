@@ -28,7 +28,7 @@ def show(results: Results, console: Console) -> None:
     ):
         if results.get(key):
             console.print(table(results[key]))
-    if results["growth"]["us_per_step_and_element"]:
+    if results.get("growth", {}).get("us_per_step_and_element"):
         console.print(growth(results["growth"]))
     console.print(f"[dim]{footer(results['machine'])}[/]")
 

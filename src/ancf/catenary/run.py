@@ -167,7 +167,7 @@ def run(
     )
     _warn(cautions.before(plan))
     if any(unit.relaxed_at == "mean" for unit in plan.pantographs):
-        plan = _relaxed(plan)
+        plan = _relaxed(plan, sleeps)
     if sensitivities:
         check_run(plan, sensitivities, controller)
     if controller is not None and checks.non_negative(control_delay, "run.control_delay"):
@@ -187,7 +187,7 @@ def _warn(texts: Iterator[str]) -> None:
         warnings.warn(text, UserWarning, stacklevel=3)
 
 
-def _relaxed(plan: Plan) -> Plan:
+def _relaxed(plan: Plan, sleeps: bool) -> Plan:
     """The plan with springs relaxed at the mean heights over the window, from a trial run on a coarse mesh.
 
     They take nothing from the mean of the contact force: what is missing there in the trial run, to the
@@ -195,7 +195,7 @@ def _relaxed(plan: Plan) -> Plan:
     """
     mesh = plan.form if plan.door.given is not None else form(plan.form.line, TRIAL)
     trial = replace(plan, form=mesh, step=TRIAL_STEP)
-    done = _simulated(trial, None, None)
+    done = _simulated(trial, None, None, sleeps=sleeps)
     raised = []
     for k, (unit, recording) in enumerate(zip(plan.pantographs, done.recordings, strict=True)):
         passing = (recording.position >= plan.window[0]) & (recording.position <= plan.window[1])
