@@ -297,6 +297,24 @@ class TestBadInput:
         with pytest.raises(ancf.ModelError, match="do not fit the joints"):
             ancf.simulate(model, t_end=0.01, step=1e-3, sensitivities=["bead.mass"])
 
+    def test_a_damping_of_zero_beside_another_one(self):
+        """Elements with damping are computed by themselves: a small number has a sensitivity."""
+
+        def two(first):
+            model = ancf.Model(gravity=(0, 0, -9.81))
+            for name, damping in (("a", first), ("b", 1.0)):
+                section = ancf.Section(EA=1e4, EI=1.0, rhoA=0.1, axial_damping=damping)
+                model.clamp(
+                    model.add_beam(name, start=(0, 0, 0), end=(1, 0, 0), elements=9, section=section).start
+                )
+            return model
+
+        given = {"t_end": 0.01, "step": 1e-3, "sensitivities": ["a.axial_damping"]}
+        with pytest.raises(ancf.ModelError, match="other groups than with 0"):
+            ancf.simulate(two(0.0), **given)
+        small = ancf.simulate(two(1e-6), **given).sensitivity("a.axial_damping")
+        assert np.all(np.isfinite(small.position("a.end")))
+
     def test_what_was_not_asked_for(self):
         model = cantilever.build(2)
         result = ancf.simulate(model, t_end=0.01, step=1e-3, sensitivities=["gravity"])

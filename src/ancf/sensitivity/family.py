@@ -284,6 +284,9 @@ class Family:
         value = self.parameter.value + offset
         system = System(self.parameter.at(value), like=self.base)
         if not alike(self.base, system):
+            if self.parameter.value == 0.0 and system.size == self.base.size:
+                what = f"with {value:.3g} the elements of the model are in other groups than with 0"
+                raise ModelError(self.name, what, "take a small number in place of 0")
             what = f"with {value:.8g} the model has other unknowns than with {self.parameter.value:.8g}"
             raise ModelError(self.name, what, "the number of elements, nodes and joints has to stay")
         return system
