@@ -2,12 +2,13 @@
 
 Python drops what the handler of a signal raises while an object is deleted ("Exception ignored in"): a run
 whose only signal comes at such a moment would go on to its end.  So each signal is raised and kept, and a
-run asks between two blocks of steps whether one was dropped.
+run asks between two blocks of steps whether one was dropped, and nothing is printed of it.
 """
 
 from __future__ import annotations
 
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -33,7 +34,15 @@ def kept(*signals: signal.Signals) -> Iterator[None]:
         _kept.append(_RAISED[signal.Signals(number)])
         raise _kept[-1]
 
+    show = sys.unraisablehook
+
+    def dropped(what: Any) -> None:
+        if not (_kept and issubclass(what.exc_type, KeyboardInterrupt)):
+            show(what)
+
     try:
+        if ours:
+            sys.unraisablehook = dropped
         for number in ours:
             signal.signal(number, stop)
         yield
@@ -41,6 +50,7 @@ def kept(*signals: signal.Signals) -> Iterator[None]:
         for number in ours:
             signal.signal(number, _FREE[number])
         if ours:
+            sys.unraisablehook = show
             _kept.clear()
 
 

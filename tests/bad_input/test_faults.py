@@ -310,6 +310,28 @@ class TestSignals:
                 signal.raise_signal(signal.SIGTERM)
         assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
 
+    @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+    def test_at_a_deletion_it_is_kept_without_a_word(self, number, monkeypatch):
+        """What else goes wrong at a deletion is shown as ever."""
+        shown = []
+        monkeypatch.setattr(sys, "unraisablehook", lambda what: shown.append(what.exc_type))
+
+        class Gone:
+            def __init__(self, act):
+                self.act = act
+
+            def __del__(self):
+                self.act()
+
+        with kept(signal.SIGINT, signal.SIGTERM):
+            Gone(lambda: signal.raise_signal(number))
+            assert shown == []
+            with pytest.raises(KeyboardInterrupt):
+                heed()
+            Gone(lambda: 1 / 0)
+        Gone(lambda: 1 / 0)
+        assert shown == [ZeroDivisionError, ZeroDivisionError]
+
     def send(self, number):
         """Send a signal to this process once a run has stored states."""
 
