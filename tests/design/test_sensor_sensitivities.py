@@ -68,14 +68,15 @@ def test_what_is_not_known(sensors):
         _ = sensors.sensitivity("stay.length").colour
 
 
+@pytest.mark.parametrize("name", ["stay.length", "clamp.at[2]"])
 @pytest.mark.parametrize("stiff", [40.0, 4e3, 4e5])
-def test_droppers_near_their_slack(stiff):
-    """A taut dropper is stretched by less than a difference of its length would change it."""
+def test_droppers_near_their_slack(stiff, name):
+    """A taut dropper is stretched by less than a difference of its length or place would change it."""
     model = travelling_strip(stiff)
-    own = ancf.equilibrium(model, sensitivities=["stay.length"]).sensitivity("stay.length")
+    own = ancf.equilibrium(model, sensitivities=[name]).sensitivity(name)
 
     def height(m):
         return ancf.equilibrium(m).position("wire.at(20)")[2]
 
-    wanted = extrapolated(height, model, "stay.length", 3e-6, 2)
+    wanted = extrapolated(height, model, name, 3e-6, 2)
     assert own.position("wire.at(20)")[2] == pytest.approx(wanted, rel=1e-5)

@@ -103,7 +103,7 @@ class Family:
             return self._take_line(3.0 * step if p >= 0.0 else -3.0 * step)
         try:
             self._take(h, *PAIR)
-            if p != 0.0 and self._names() & KINKED and not thorough:
+            if p != 0.0 and not thorough and (self._names() & KINKED or self._moves_kinks()):
                 self._made.clear()
                 return self._take(tiny, *PAIR)
             if not thorough and self._linear():
@@ -130,6 +130,12 @@ class Family:
             if id(system) not in self._differ:
                 self._differ[id(system)] = changed(self.base, system)
         return set().union(*(self._differ[id(system)] for system in self.systems))
+
+    def _moves_kinks(self) -> bool:
+        """Whether supports are moved where something has kinks, whose numbers stay as they are."""
+        base = self.base
+        held, kinked = base.core.supports.held, (base.parts[name] for name in KINKED & set(base.parts))
+        return any(len(b[0]) for b in kinked) and any(np.any(shape[held]) for shape in self._shape)
 
     def _take_line(self, offset: float) -> None:
         """Let the systems be one at this offset and the model's own: all is linear between them."""
