@@ -277,7 +277,8 @@ def damped_modes(model: Model, *, about: State | None = None, count: int = 10) -
 
     A model rotates steadily if its velocities say so: those of ``set_motion(angular_velocity=...)``, or of a
     clamp that turns. The shape that centrifugal forces give it is found first. With the rotation come
-    gyroscopic and centrifugal forces, so that modes whirl.
+    gyroscopic and centrifugal forces, so that modes whirl. Loads that follow the motion have all of their
+    stiffness, so that what flutters has an eigenvalue with a positive real part.
 
     Parameters
     ----------

@@ -21,9 +21,9 @@ def add_times(block, first, step, x, sign, X, i):
         store(load(X, i + c) + sign * row_times(block, first * c, step, x), X, i + c)
 
 
-@kernel
-def multiply_abreast(factor, values, X, Y):
-    """Add the product of the symmetric matrix of these block values and X to Y."""
+@formula
+def multiply(factor, values, above, X, Y):
+    """Add the product of a matrix and X to Y: above the diagonal are the blocks below it, times a sign."""
     n = factor.row_start.shape[0] - 1
     for i in range(n):
         x = six(X, 6 * i)
@@ -31,20 +31,19 @@ def multiply_abreast(factor, values, X, Y):
         for k in range(factor.row_start[i], factor.row_start[i + 1]):
             j, block = 6 * factor.column[k], values[36 * (n + k) : 36 * (n + k) + 36]
             add_times(block, 6, 1, six(X, j), 1.0, Y, 6 * i)
-            add_times(block, 1, 6, x, 1.0, Y, j)
+            add_times(block, 1, 6, x, above, Y, j)
+
+
+@kernel
+def multiply_abreast(factor, values, X, Y):
+    """Add the product of the symmetric matrix of these block values and X to Y."""
+    multiply(factor, values, 1.0, X, Y)
 
 
 @kernel
 def multiply_twisted_abreast(factor, values, X, Y):
     """Add the product of the antisymmetric matrix of these block values and X to Y."""
-    n = factor.row_start.shape[0] - 1
-    for i in range(n):
-        x = six(X, 6 * i)
-        add_times(values[36 * i : 36 * i + 36], 6, 1, x, 1.0, Y, 6 * i)
-        for k in range(factor.row_start[i], factor.row_start[i + 1]):
-            j, block = 6 * factor.column[k], values[36 * (n + k) : 36 * (n + k) + 36]
-            add_times(block, 6, 1, six(X, j), 1.0, Y, 6 * i)
-            add_times(block, 1, 6, x, -1.0, Y, j)
+    multiply(factor, values, -1.0, X, Y)
 
 
 @kernel

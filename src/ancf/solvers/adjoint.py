@@ -14,10 +14,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..compiled import formula, inline_kernel, kernel
+from ..compiled import inline_kernel, kernel
 from ..linalg.eight import factor_of
 from ..simd import LANES
-from ..system.core import drive, solve_matrix, to_local
+from ..system.core import drive, onto_shadows, solve_matrix, to_local
 from .ahead import look_ahead
 from .scheme import coefficients
 from .sensitivity import ENOUGH, MOST, is_done, product, twisted_product
@@ -51,18 +51,6 @@ def take_wanted(supports, wanted, mu, x, moved):
     for i in range(mu.shape[1]):
         mu[0, i] += moved[0, i]
         mu[1, i] += moved[1, i]
-
-
-@formula
-def onto_shadows(supports, x):
-    """Vectors at the unknowns of local axes as those of the shadows."""
-    for k in range(supports.rot_slot.shape[0]):
-        i, j = supports.rot_slot[k], supports.rot_shadow[k]
-        for c in range(3):
-            total = 0.0
-            for r in range(3):
-                total += supports.rot_R[k, 0, c, r] * x[i + r]
-            x[j + c] = total
 
 
 @inline_kernel

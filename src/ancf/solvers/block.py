@@ -70,10 +70,8 @@ def _stepping(given: tuple[Any, ...], explicit: bool) -> tuple[Any, tuple[Any, .
 
 def kernels_of(core: Core, memory: Memory, sampling: Sampling, explicit: bool) -> tuple[int, Apart]:
     """Addresses of the kernel that takes steps and of those that it calls; what is missing is compiled."""
-    given, wanted = (
-        (type_of(core), type_of(memory), type_of(sampling)),
-        needed(core, memory, sampling, explicit),
-    )
+    given = type_of(core), type_of(memory), type_of(sampling)
+    wanted = needed(core, memory, sampling, explicit)
     key = given, wanted
     if key not in addresses.found:
         apart = apart_of(*given, wanted)

@@ -163,11 +163,11 @@ def circulatory(system: System, q: FloatArray) -> csc_array:
     place, none, f = np.arange(n), np.zeros_like(q), np.zeros_like(q)
     for c in range(3):
         place[core.supports.rot_slot + c] = core.supports.rot_shadow + c
-    moved = np.intersect1d(_touched(core.external), place)
+    moved = np.flatnonzero(np.isin(place, _touched(core.external)) & (core.weight > 0.0))
     if not len(moved):
         return csc_array((n, n))
     J = np.zeros((n, n))
-    for i in np.flatnonzero(np.isin(place, moved) & (core.weight > 0.0)):
+    for i in moved:
         both = []
         for h in (DIFFERENCE, -DIFFERENCE):
             near, r = q.copy(), np.zeros_like(q)

@@ -15,7 +15,7 @@ import numpy as np
 from ..compiled import formula, inline_kernel, optional
 from ..contact.rows import find_rows
 from ..contact.strand import HELD, find_zones
-from ..system.core import solve_kept, to_local
+from ..system.core import onto_shadows, solve_kept, to_local
 from .corotation import turn_back, turn_forth
 from .low_rank import corrected
 
@@ -32,18 +32,6 @@ def product_of(x, y, n):
     for i in range(n):
         total += x[i] * y[i]
     return total
-
-
-@inline_kernel
-def fill_shadows(supports, x):
-    """Shadows of a direction."""
-    for k in range(supports.rot_slot.shape[0]):
-        i, j = supports.rot_slot[k], supports.rot_shadow[k]
-        for c in range(3):
-            total = 0.0
-            for m in range(3):
-                total += supports.rot_R[k, 0, c, m] * x[i + m]
-            x[j + c] = total
 
 
 @inline_kernel
@@ -133,7 +121,7 @@ def solve_apart(core, s, rule, gb, correct):
 def next_vector(batch, rows, core, s, rule, gb, correct, k):
     """Vector k + 1 of the basis, normal to those before it, and column k of the small matrix."""
     n, V, H = core.weight.shape[0], batch.basis, batch.small
-    fill_shadows(core.supports, V[k])
+    onto_shadows(core.supports, V[k])
     times_rows(batch, rows, V[k], s.r)
     to_local(core.supports, s.r)
     solve_apart(core, s, rule, gb, correct)

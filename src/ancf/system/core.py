@@ -167,6 +167,18 @@ def assemble(batches, ws, q, v, A, c_mass, c_damping, c_stiffness):
 
 
 @formula
+def onto_shadows(supports, x):
+    """Vectors at the unknowns of local axes as those of the shadows."""
+    for k in range(supports.rot_slot.shape[0]):
+        i, j = supports.rot_slot[k], supports.rot_shadow[k]
+        for c in range(3):
+            total = 0.0
+            for m in range(3):
+                total += supports.rot_R[k, 0, c, m] * x[i + m]
+            x[j + c] = total
+
+
+@formula
 def to_local(supports, r):
     """Residual as the solve wants it: components along local axes, zero for held unknowns."""
     for k in range(supports.rot_slot.shape[0]):
