@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from copy import deepcopy
+from collections.abc import Callable
 from dataclasses import fields, is_dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,12 +16,11 @@ from .beam import Beam
 from .bodies import Body, PointMass
 from .describe import section as described
 from .describe import section_of
+from .exchange import exchanged, renewed
 from .functions import TimeFunction
 from .inputs import make_input
-from .joints import Slide
 from .kinds import GROUPS, SURROUNDINGS
 from .loads import DistributedLoad
-from .points import Point
 from .section import DAMPINGS, Section
 
 if TYPE_CHECKING:
@@ -41,6 +41,8 @@ OF_BEAM = ("length", "start", "end", "velocity", "angular_velocity", "about")
 NO_NUMBERS = ("axis", "release", "unilateral", "normal", "strip", "direction", "tolerance")
 #: Other names of fields of bodies.
 CALLED = {"at": "position"}
+#: ``put(old, new, factor)``: a model with one body or item for another, see :mod:`ancf.model.exchange`.
+Put = Callable[..., Any]
 
 
 def value_of(model: Model, name: str) -> float:
@@ -51,7 +53,7 @@ def value_of(model: Model, name: str) -> float:
     ModelError
         The model has no such number.
     """
-    return _resolve(model, name)[0]
+    return _resolve(model, name, exchanged)[0]
 
 
 def varied(model: Model, name: str, value: float) -> Model:
@@ -77,8 +79,14 @@ def varied(model: Model, name: str, value: float) -> Model:
     ModelError
         The model has no such number, or it cannot have this value.
     """
-    made: Model = _resolve(model, name)[1](checks.number(value, name))
+    made: Model = _resolve(model, name, exchanged)[1](checks.number(value, name))
     return made
+
+
+def renewal(model: Model, name: str) -> Callable[[float], Model]:
+    """The same as a function of the value, for models that are only read: they share what does not change."""
+    make: Callable[[float], Model] = _resolve(model, name, renewed)[1]
+    return lambda value: make(checks.number(value, name))
 
 
 def names_of(model: Model) -> list[str]:
@@ -96,8 +104,8 @@ def names_of(model: Model) -> list[str]:
     return found + list(model.inputs)
 
 
-def _resolve(model: Model, name: Any) -> tuple[float, Any]:
-    """The number now, and a function from another one to the model."""
+def _resolve(model: Model, name: Any, exchange: Any) -> tuple[float, Any]:
+    """The number now, and a function from another one to the model, whose items that makes ``exchange``."""
     name = checks.text(name, "a parameter's name")
     if name.startswith("gravity"):
         found = KEY.fullmatch(name)
@@ -114,10 +122,10 @@ def _resolve(model: Model, name: Any) -> tuple[float, Any]:
         hint = "such as beam.EI, gravity, end force.force[2]"
         raise ModelError(name or '""', "is no number of the model", hint)
     if owner in model.bodies:
-        return _of_body(model, model.bodies[owner], name, found["key"], found["part"])
+        return _of_body(partial(exchange, model), model.bodies[owner], name, found["key"], found["part"])
     for item in _items(model):
         if item.name == owner:
-            return _of_item(model, item, name, found["key"], found["part"])
+            return _of_item(partial(exchange, model), item, name, found["key"], found["part"])
     known = [*model.bodies, *(item.name for item in _items(model))]
     raise ModelError(name, f'the model has no "{owner}"', checks.nearest(owner, known))
 
@@ -159,9 +167,9 @@ def _of_vector(name: str, given: Any, part: str | None, use: Any) -> tuple[float
     return float(vector[int(part)]), changed
 
 
-def _of_body(model: Model, body: Body, name: str, key: str, part: str | None) -> tuple[float, Any]:
-    def use(**values: Any) -> Model:
-        return _exchanged(model, body, replace(body, **values))
+def _of_body(put: Put, body: Body, name: str, key: str, part: str | None) -> tuple[float, Any]:
+    def use(**values: Any) -> Any:
+        return put(body, replace(body, **values))
 
     if isinstance(body, Beam):
         if body.has_section and key in ("EA", "EI", "rhoA"):
@@ -170,16 +178,16 @@ def _of_body(model: Model, body: Body, name: str, key: str, part: str | None) ->
             now, made = _of_section(body.section, name, key, part)
             return now, lambda x: use(section=made(x))
         if key == "length" and part is None:
-            return body.length, lambda x: _of_length(model, body, checks.positive(x, name))
+            return body.length, lambda x: _of_length(put, body, checks.positive(x, name))
         if key in ("start", "end"):
-            return _of_end(model, body, name, key, part)
+            return _of_end(put, body, name, key, part)
         if key not in OF_BEAM:
             raise _no_key(body, name, key)
     field = CALLED.get(key, key)
     value = getattr(body, field, None)
     if isinstance(value, np.ndarray) and field in ("position", "inertia", "velocity", "angular_velocity"):
         if field == "position":
-            return _of_vector(name, value, part, lambda r: _moved(model, body, r))
+            return _of_vector(name, value, part, lambda r: _moved(put, body, r))
         return _of_vector(name, value, part, lambda x: use(**{field: x}))
     if isinstance(value, float) and part is None:
         checked = checks.positive if field == "mass" else checks.non_negative
@@ -192,12 +200,12 @@ def _no_key(item: Any, name: str, key: str) -> ModelError:
     return ModelError(name, what, checks.nearest(key, _keys(item)) or f"it has: {', '.join(_keys(item))}")
 
 
-def _moved(model: Model, body: Any, position: Any) -> Model:
+def _moved(put: Put, body: Any, position: Any) -> Any:
     """A body without elements at another place; it turns about the same place of it."""
     if isinstance(body, PointMass):
-        return _exchanged(model, body, replace(body, position=position))
+        return put(body, replace(body, position=position))
     about = body.about + (position - body.position)
-    return _exchanged(model, body, replace(body, position=position, about=about))
+    return put(body, replace(body, position=position, about=about))
 
 
 def _of_section(section: Section, name: str, key: str, part: str | None) -> tuple[float, Any]:
@@ -247,16 +255,16 @@ def _direct(section: Section, name: str, key: str, x: float) -> Section:
     return made
 
 
-def _of_length(model: Model, beam: Beam, length: float) -> Model:
+def _of_length(put: Put, beam: Beam, length: float) -> Any:
     """A beam of another natural length in the same initial shape; its points stay at their share of it."""
     factor = length / beam.length
     node_x = beam.node_x * factor
     node_x[-1] = length
     made = replace(beam, length=length, stretch=beam.stretch / factor, node_x=node_x)
-    return _exchanged(model, beam, made, factor)
+    return put(beam, made, factor)
 
 
-def _of_end(model: Model, beam: Beam, name: str, key: str, part: str | None) -> tuple[float, Any]:
+def _of_end(put: Put, beam: Beam, name: str, key: str, part: str | None) -> tuple[float, Any]:
     """One end of a straight beam, the other one and the natural length stay."""
     ends = {"start": beam.node_position[0].copy(), "end": beam.node_position[-1].copy()}
     if np.max(np.linalg.norm(np.cross(beam.node_tangent, ends["end"] - ends["start"]), axis=1)) > 1e-9 * (
@@ -264,7 +272,7 @@ def _of_end(model: Model, beam: Beam, name: str, key: str, part: str | None) -> 
     ):
         raise ModelError(name, "is an end of a curve", "a function that builds the model, or a model file")
 
-    def use(place: Any) -> Model:
+    def use(place: Any) -> Any:
         both = ends | {key: np.asarray(place)}
         way = both["end"] - both["start"]
         distance = float(np.linalg.norm(way))
@@ -279,21 +287,21 @@ def _of_end(model: Model, beam: Beam, name: str, key: str, part: str | None) -> 
             about=both["start"] if np.array_equal(beam.about, ends["start"]) else beam.about,
             lay=None,
         )
-        return _exchanged(model, beam, made)
+        return put(beam, made)
 
     if part is None:
         raise ModelError(name, "has three components", f"{name}[0], {name}[1], {name}[2]")
     return _of_vector(name, ends[key], part, use)
 
 
-def _of_item(model: Model, item: Any, name: str, key: str, part: str | None) -> tuple[float, Any]:
+def _of_item(put: Put, item: Any, name: str, key: str, part: str | None) -> tuple[float, Any]:
     if key not in _keys(item):
         raise _no_key(item, name, key)
     field = key if hasattr(item, key) else CALLED[key]
     value = getattr(item, field)
 
-    def use(changed: Any) -> Model:
-        return _exchanged(model, item, _checked(replace(item, **{field: changed}), name))
+    def use(changed: Any) -> Any:
+        return put(item, _checked(replace(item, **{field: changed}), name))
 
     if isinstance(value, float) and part is None:
         return value, use
@@ -346,45 +354,3 @@ class _Scaled:
     def of(cls, given: TimeFunction, factor: float) -> TimeFunction:
         """As a function of time."""
         return TimeFunction(cls(given, factor), given.size, given.where)
-
-
-def _exchanged(model: Model, old: Any, new: Any, factor: float = 1.0) -> Model:
-    """A copy of a model with one body or item for another; places on a body of another length move along."""
-    memo: dict[int, Any] = {id(old): new}
-    for item in (*model.bodies.values(), *_items(model)):
-        if item is not old and not is_dataclass(item):
-            memo[id(item)] = item
-        for value in _values(item):
-            if isinstance(value, Point):
-                if value.body is old:
-                    memo[id(value)] = _carried(value, new, factor)
-            elif not isinstance(value, tuple) and not is_dataclass(value):
-                memo[id(value)] = value
-    made = deepcopy(model, memo)
-    if isinstance(old, Beam) and factor != 1.0:
-        for key in GROUPS:
-            setattr(made, key, [_stretched(item, new, factor) for item in getattr(made, key)])
-    return made
-
-
-def _values(item: Any) -> list[Any]:
-    return [getattr(item, field.name) for field in fields(item)] if is_dataclass(item) else []
-
-
-def _carried(point: Point, body: Any, factor: float) -> Point:
-    if not isinstance(body, Beam) or factor == 1.0:
-        return replace(point, body=body)
-    if point.label.endswith(".end"):
-        return body.end
-    x = point.x * factor
-    label = point.label if point.label.endswith(".start") else body.at(x, point.y, point.z).label
-    return replace(point, body=body, x=x, label=label)
-
-
-def _stretched(item: Any, beam: Beam, factor: float) -> Any:
-    if isinstance(item, DistributedLoad) and item.body is beam:
-        x0, x1 = item.between
-        return replace(item, between=(x0 * factor, min(x1 * factor, beam.length)))
-    if isinstance(item, Slide) and item.carrier is beam:
-        return replace(item, s=item.s * factor)
-    return item

@@ -8,6 +8,7 @@ from weakref import WeakKeyDictionary, ref
 import numpy as np
 
 from ..arrays import FloatArray
+from ..compiled import Role, traits
 from ..solvers.checkpoint import Arrays, distinct
 from ..system.core import Tables
 from ..system.system import System
@@ -80,13 +81,19 @@ def changed(base: System, system: System) -> set[str]:
     if system is base:
         return found
     mine = Known.of(base).arrays
-    same = all(a is b for a, b in zip(base.inputs.loads, system.inputs.loads, strict=True))
+    same = _same_functions(base, system)
     for name, batch in system.parts.items():
+        if batch is base.parts[name]:
+            continue
         other = _arrays(batch)
         differ = any(not np.array_equal(mine[name][key], other[key], equal_nan=True) for key in mine[name])
-        if differ or (batch in system.core.external and not same):
+        if differ or (Role.EXTERNAL in traits(batch).role and not same):
             found.add(name)
     return found
+
+
+def _same_functions(a: System, b: System) -> bool:
+    return all(x is y for x, y in zip(a.inputs.loads, b.inputs.loads, strict=True))
 
 
 def on_a_line(middle: FloatArray, low: FloatArray, high: FloatArray) -> bool:
@@ -99,7 +106,7 @@ def on_a_line(middle: FloatArray, low: FloatArray, high: FloatArray) -> bool:
 def same_inputs(base: System, system: System) -> tuple[bool, bool]:
     """Whether supports move alike, and loads have the same inputs, as they do at some odd times."""
     motions = values = True
-    if system is base:
+    if system.inputs is base.inputs or (_unmoved(base, system) and _same_functions(base, system)):
         return True, True
     for mine, other in zip(Known.of(base).tables, _tables(system), strict=True):
         motions = motions and np.array_equal(mine.motion, other.motion)
@@ -108,22 +115,29 @@ def same_inputs(base: System, system: System) -> tuple[bool, bool]:
     return motions, values
 
 
+def _unmoved(a: System, b: System) -> bool:
+    """Whether no support of two systems moves."""
+    return not any(one.motions or one.rotations for one in (a.inputs, b.inputs))
+
+
 def same_loads(a: System, b: System) -> bool:
     """Whether dead loads are the same numbers and functions."""
     names = ("still", "hung", "slot", "factor")
-    same = all(np.array_equal(getattr(a.core.loads, x), getattr(b.core.loads, x)) for x in names)
-    return same and all(x is y for x, y in zip(a.inputs.loads, b.inputs.loads, strict=True))
+    same = a.dead is b.dead or all(np.array_equal(getattr(a.dead, x), getattr(b.dead, x)) for x in names)
+    return same and _same_functions(a, b)
 
 
 def alike(a: System, b: System) -> bool:
     """Whether two systems have the same unknowns in the same order."""
-    same = a.size == b.size and a.n == b.n and a.slots.keys() == b.slots.keys()
-    same = same and all(np.array_equal(a.slots[key], b.slots[key]) for key in a.slots)
-    same = same and a.parts.keys() == b.parts.keys()
-    same = same and np.array_equal(a.core.supports.held, b.core.supports.held)
+    same = a.size == b.size and a.n == b.n and a.parts.keys() == b.parts.keys()
+    if same and a.slots is not b.slots:
+        same = a.slots.keys() == b.slots.keys()
+        same = same and all(np.array_equal(a.slots[key], b.slots[key]) for key in a.slots)
+    same = same and (a.held is b.held or np.array_equal(a.held, b.held))
     return same and all(
         x.shape == y.shape
         for key in a.parts
+        if a.parts[key] is not b.parts[key]
         for x, y in zip(
             distinct({"b": a.parts[key]}).values(), distinct({"b": b.parts[key]}).values(), strict=False
         )

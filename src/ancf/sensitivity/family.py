@@ -16,12 +16,15 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..batches import Batches
+from ..compiled import Role, traits
 from ..errors import ModelError
 from ..solvers.stages import place_rows, stage_residuals
+from ..system.beside import beside
 from ..system.core import Core, Tables, apply_load, apply_supports, place_supports, residual
 from ..system.system import System
-from .alike import Known, alike, changed, on_a_line, same_inputs, same_loads
+from .alike import Known, alike, changed, same_inputs, same_loads
 from .parameters import Parameter
+from .trial import Trial
 from .values import few_of, gaps_of, quiet_state
 
 #: Step of the differences, relative, and of a parameter that is zero, in its unit or the size of the model.
@@ -39,12 +42,6 @@ TINY = 1e-7
 KINKED = {"springs", "contacts", "pressing", "rubbing", "crossing", "gripping", "bumping", "rolling"}
 #: The same where all is linear; energies are quadratic then.
 PAIR = ((-3.0, 3.0), (-1 / 6, 1 / 6))
-#: Size of the changes of the state in which it is tried whether a parameter is linear.
-SHAKEN = 0.01
-#: What order two may lack of a derivative, relative, up to which order four is as good as six.
-SMOOTH = 3e-5
-#: Accelerations where that is tried once more, in these per square second.
-PUSHED = 1e3
 
 
 class Push(NamedTuple):
@@ -65,6 +62,8 @@ class Family:
         Of the model itself.
     thorough : bool
         Take all values also of a parameter in which the residual is linear, for what is asked of matrices.
+    shifts : bool
+        What supports hold is not moved in residuals where it shifts.
 
     Attributes
     ----------
@@ -80,20 +79,23 @@ class Family:
         The parameter changes which unknowns there are, or the model cannot be built around its value.
     """
 
-    def __init__(self, parameter: Parameter, base: System, thorough: bool = False) -> None:
-        self.parameter, self.base = parameter, base
+    def __init__(
+        self, parameter: Parameter, base: System, thorough: bool = False, shifts: bool = False
+    ) -> None:
+        self.parameter, self.base, self.shifts = parameter, base, shifts
         p = parameter.value
         unit = self._unit = abs(p) if p != 0.0 else min(1.0, base.model.size)
         self._wide: list[tuple[System, float]] = []
         self._made: dict[float, System] = {}
         self._differ: dict[int, set[str]] = {}  # names of batches by system
+        self._begun: dict[int, tuple[FloatArray, FloatArray]] = {}  # initial states by system
         self.linear = False
         if parameter.quadratic:
             self._take(TINY, *PAIR)
         else:
             self._choose(STEP * unit, TINY * unit, thorough)
-        self._made.clear()
         self._look()
+        self._forget()
 
     def _choose(self, h: float, tiny: float, thorough: bool) -> None:
         """Take values h apart, two or six, or two that are tiny steps apart where forces have kinks."""
@@ -101,23 +103,37 @@ class Family:
         if self.parameter.linear and not thorough:
             step = tiny if self.parameter.kinked else h
             return self._take_line(3.0 * step if p >= 0.0 else -3.0 * step)
+        acts = self.parameter.acts
+        known = acts is not None and acts.moves  # not to be linear
         try:
-            self._take(h, *PAIR)
+            self._take(h, *(FOUR if known else PAIR))
             if p != 0.0 and not thorough and (self._names() & KINKED or self._moves_kinks()):
-                self._made.clear()
+                self._forget()
                 return self._take(tiny, *PAIR)
-            if not thorough and self._linear():
+            if not thorough and not known and self._trial().linear():
                 self.linear = True
                 return None
             if not thorough and self._steady_inputs() == (True, True):
                 self._take(h, *FOUR)
-                if self._smooth():
+                if self._trial().smooth():
                     return None
             return self._take(h, *BOTH)
         except ModelError:
             if p != 0.0:
                 raise
         return self._take(h, *ABOVE)  # it may not be negative
+
+    def _forget(self) -> None:
+        """Of systems that are not needed any more."""
+        for kept in (self._made, self._differ, self._begun):
+            kept.clear()
+
+    def _trial(self) -> Trial:
+        """In which it is tried how many values the parameter needs."""
+        self.know(self.base)
+        still = self.shifts and not self._names() and all(self._turns_alike(s) for s in self.systems)
+        still = still and all(same_loads(self.base, system) for system in self.systems)
+        return Trial(self.base, self.systems, self._states, still)
 
     def _steady_inputs(self) -> tuple[bool, bool]:
         """Whether no motion of a support depends on the parameter, and no input of a load."""
@@ -134,7 +150,7 @@ class Family:
     def _moves_kinks(self) -> bool:
         """Whether supports are moved where something has kinks, whose numbers stay as they are."""
         base = self.base
-        held, kinked = base.core.supports.held, (base.parts[name] for name in KINKED & set(base.parts))
+        held, kinked = base.held, (base.parts[name] for name in KINKED & set(base.parts))
         return any(len(b[0]) for b in kinked) and any(np.any(shape[held]) for shape in self._shape)
 
     def _take_line(self, offset: float) -> None:
@@ -155,9 +171,13 @@ class Family:
         if self.parameter.linear:  # in it nothing but forces changes
             self._shape = [np.zeros(base.size)] * len(systems)
         else:
-            shape = Known.of(base).initial_shape()
-            self._shape = [s.initial_shape() - shape for s in systems]
-        self._states = [
+            shape = Known.of(base).initial_state(0.0)[0]
+            for system in systems:
+                if id(system) not in self._begun:
+                    self._begun[id(system)] = quiet_state(system)
+            self._states = [self._begun[id(system)] for system in systems]
+            self._shape = [q - shape for q, _ in self._states]
+        self._flags = [
             (getattr(s.parts[name], key), name, key)
             for s in self.systems
             for name in base.parts
@@ -185,7 +205,7 @@ class Family:
         plain = still and all(self._is_plain(k) for k in range(len(self.systems)))
         shift = np.zeros(base.size)
         for weight, shape in zip(self.weights, self._shape, strict=True):
-            shift[base.core.supports.held] += weight * shape[base.core.supports.held]
+            shift[base.held] += weight * shape[base.held]
         self.plain = plain and not np.any(shift)
         self.shift = shift if plain and np.any(shift) else shift[:0]
         self._loads = any(not same_loads(base, s) for s in self.systems)
@@ -194,15 +214,22 @@ class Family:
 
     def _is_plain(self, k: int) -> bool:
         """Whether supports turn as they do, and no batch has inputs or rows of constraints of its own."""
-        base, system = self.base, self.systems[k]
+        system = self.systems[k]
         few = [batch for name, batch in system.parts.items() if name in self.changed]
-        if not np.array_equal(base.core.supports.rot_R[:, 0], system.core.supports.rot_R[:, 0]):
+        if not self._turns_alike(system):
             return False
-        value = system.core.loads.value
         shared = (
-            np.may_share_memory(x, value) for b in few for x in b if isinstance(x, np.ndarray) and x.size
+            np.may_share_memory(x, system.value)
+            for b in few
+            for x in b
+            if isinstance(x, np.ndarray) and x.size
         )
-        return not any(shared) and not any(b in system.core.joints.batches for b in few)
+        return not any(shared) and not any(Role.CONSTRAINS in traits(b).role for b in few)
+
+    def _turns_alike(self, system: System) -> bool:
+        """Whether local axes of supports are as they are."""
+        mine, other = self.base.supports.rot_R, system.supports.rot_R
+        return mine is other or np.array_equal(mine[:, 0], other[:, 0])
 
     def used(self) -> list[tuple[float, Batches]]:
         """Weights and the batches that the parameter changes at each value.
@@ -230,7 +257,7 @@ class Family:
             value = tables.value
             if not self._fed:
                 value = self._steady[k] if self._constant else self._value(k, when, len(value))
-            yield weight, system.core.loads, value
+            yield weight, system.dead, value
 
     def _value(self, k: int, when: tuple[float, float, float, float], count: int) -> FloatArray:
         """Inputs of the loads at value k of the parameter at the ends of steps, (count, n, 3)."""
@@ -242,53 +269,12 @@ class Family:
         """Of the parameter."""
         return self.parameter.name
 
-    def _linear(self) -> bool:
-        """Whether residual and initial state are linear in the parameter, which two values tell then."""
-        first = [Known.of(self.base).initial_state(0.0), *(quiet_state(s) for s in self.systems)]
-        if not all(on_a_line(*x) for x in zip(*first, strict=True)):
-            return False
-        found = self._residuals([self.base, *self.systems])
-        changes = any(np.any(low != high) for _, low, high in found)
-        return changes and all(on_a_line(*x) for x in found)
-
-    def _smooth(self) -> bool:
-        """Whether four values are enough: what order two lacks of the derivative is small."""
-        states = list(zip(*(quiet_state(s) for s in self.systems), strict=True))
-        for far_low, low, high, far_high in (*self._residuals(self.systems), *states):
-            near, far = (high - low) / 3.0, (far_high - far_low) / 6.0
-            size = float(np.max(np.abs(near), initial=0.0))
-            if float(np.max(np.abs(far - near), initial=0.0)) > SMOOTH * size:
-                return False
-        return True
-
-    def _residuals(self, systems: list[System]) -> list[list[FloatArray]]:
-        """Of systems in a strained state, and in one with accelerations."""
-        base, rng = self.base, np.random.default_rng(1)
-        n, q = base.n, Known.of(base).initial_shape()
-        rest, shake = np.zeros_like(q), np.zeros((3, base.size))
-        shake[:, :n] = SHAKEN * base.model.size * rng.uniform(-1, 1, (3, n)) * base.numbering.used()
-        before = base.level.copy()
-        base.level[:] = 1.0, 0.0, 0.0
-        self.know(base)
-        strained = [self._residual(s, (q + shake[0], shake[1], rest)) for s in systems]
-        pushed = [self._residual(s, (q, rest, PUSHED * shake[2])) for s in systems]
-        base.level[:] = before
-        return [strained, pushed]
-
-    def _residual(self, system: System, states: tuple[FloatArray, FloatArray, FloatArray]) -> FloatArray:
-        """Of a system at states q, v, a, of which it keeps nothing."""
-        core, (q, v, a) = system.core, (x.copy() for x in states)
-        tables = system.inputs.tables(-1e-3, 1e-3, 1, 0.0, np.inf)
-        value, r, force = core.loads.value.copy(), np.empty_like(q), np.empty_like(q)
-        place_supports(core.supports, core.loads.value, tables, 0, q, v, a)
-        apply_load(core.loads, tables.value[0], force)
-        residual(core.batches, core.ws, q, v, a, force, r)
-        core.loads.value[...] = value
-        return r
-
     def _compiled(self, offset: float) -> System:
-        value = self.parameter.value + offset
-        system = System(self.parameter.at(value), like=self.base)
+        value, acts = self.parameter.value + offset, self.parameter.acts
+        if acts is not None:
+            system = beside(self.base, self.parameter.at(value), acts)
+        else:
+            system = System(self.parameter.at(value), like=self.base)
         if not alike(self.base, system):
             if self.parameter.value == 0.0 and system.size == self.base.size:
                 what = f"with {value:.3g} the elements of the model are in other groups than with 0"
@@ -303,7 +289,7 @@ class Family:
             own.level[:] = system.level
             if len(system.measured):
                 own.measured[...] = system.measured
-        for mine, name, key in self._states:
+        for mine, name, key in self._flags:
             mine[...] = getattr(system.parts[name], key)
 
     def at_steps(
@@ -367,7 +353,7 @@ class Family:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # what holds against a given motion was said of the model itself
             here = Known.of(self.base).initial_state(time)
-            both = [system.initial_state(time) for system in self.systems]
+            both = self._states if time == 0.0 else [system.initial_state(time) for system in self.systems]
         q, v = np.zeros(self.base.size), np.zeros(self.base.size)
         for weight, state in zip(self.weights, both, strict=True):
             q += weight * (state[0] - here[0])  # what does not change leaves no round-off
@@ -385,7 +371,7 @@ class Family:
 
     def _moved(self, k: int, q: FloatArray) -> FloatArray:
         """States (n, size) with what supports hold without moving it where it is in system k."""
-        held = self.base.core.supports.held
+        held = self.base.held
         moved = q.copy()
         moved[:, held] += self._shape[k][held]
         return moved
@@ -394,5 +380,5 @@ class Family:
         n = self.base.n
         made.push[:, n:] = made.gap[:, n:] = 0.0
         free = np.ones(made.push.shape[1], dtype=bool)
-        free[self.base.core.supports.held], free[n:] = False, False
+        free[self.base.held], free[n:] = False, False
         made.held[..., free] = 0.0

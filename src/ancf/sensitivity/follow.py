@@ -90,7 +90,7 @@ class Following:
         self.system = System(made.system.model)
         check_differentiable(self.system, where)
         check_shift(made, start, where)
-        self.families = [Family(parameter, self.system) for parameter in parameters]
+        self.families = [Family(parameter, self.system, shifts=True) for parameter in parameters]
         self.nearby = Nearby(self.families, self.system, shifts=True)
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
         self.ahead, self.room = ahead_of(self.system.core, self.m), room_for(self.system.size)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from ..errors import ModelError
@@ -13,8 +14,10 @@ from ..model.bodies import PointMass
 from ..model.connections import Spring
 from ..model.model import Model
 from ..model.section import DAMPINGS
-from ..model.vary import value_of, varied
+from ..model.vary import renewal, value_of
 from ..model.winches import by_body
+from ..system.beside import Acts
+from .acts import acts_of
 
 #: Numbers of a section in which all forces of cables and beams are linear.
 OF_SECTIONS = {"EA", "EI", "rhoA", "E", "rho", *DAMPINGS}
@@ -38,7 +41,15 @@ class Named:
 
     def __call__(self, value: float) -> Model:
         """The model with this value."""
-        return varied(self.model, self.name, value)
+        return self._make(value)
+
+    @cached_property
+    def _make(self) -> Callable[[float], Model]:
+        return renewal(self.model, self.name)
+
+    def __reduce__(self) -> Any:
+        """What makes models is found again elsewhere."""
+        return Named, (self.model, self.name)
 
 
 @dataclass(frozen=True)
@@ -58,6 +69,8 @@ class Parameter:
         All forces are known to be linear in it, and nothing else depends on it: one value tells all.
     kinked : bool
         Of one that is linear: there are kinks, between which it is.
+    acts : Acts, optional
+        What it acts on, besides the initial shape and motion, where that is known.
     """
 
     name: str
@@ -66,6 +79,7 @@ class Parameter:
     quadratic: bool = False
     linear: bool = False
     kinked: bool = False
+    acts: Acts | None = None
 
     @property
     def named(self) -> bool:
@@ -129,10 +143,12 @@ def check_known(start: Any, parameters: list[Parameter], where: str) -> None:
 
 def _named(model: Model, name: Any, where: str) -> Parameter:
     clean = checks.text(name, where)
-    value = value_of(model, clean)
-    spring = _of_spring(model, clean)
-    linear, kinked = spring is not None or _of_body(model, clean), spring is not None and spring.slack
-    return Parameter(clean, value, Named(model.snapshot(), clean), linear=linear, kinked=kinked)
+    value, build = value_of(model, clean), Named(model.snapshot(), clean)
+    spring, acts = _of_spring(model, clean), acts_of(model, clean)
+    if spring is not None:
+        return Parameter(clean, value, build, linear=True, kinked=spring.slack, acts=acts)
+    linear = _of_body(model, clean) or (acts is not None and clean.startswith("gravity"))
+    return Parameter(clean, value, build, linear=linear, acts=acts)
 
 
 def _of_spring(model: Model, name: str) -> Spring | None:

@@ -63,19 +63,13 @@ def build_parts(
     ``measured``, (contacts, 4), what they leave for sensors.
     """
     slots = numbering.slots
-    kinds: dict[str, list[Beam]] = {}
     winches = by_body(model)
     lengths = lengths_of(model, {name: np.array([x]) for name, x in numbering.lengths.items()})
 
     def find(point: Point) -> Probe:
         return locate(point, slots[point.body.name], lengths.get(point.body.name, (-1, 0.0)))
 
-    for name, beam in model.beams.items():
-        if name not in winches:
-            kinds.setdefault(beam.element, []).append(beam)
-    parts: Parts = {
-        kind: ELEMENTS[kind].build(beams, [slots[b.name] for b in beams]) for kind, beams in kinds.items()
-    }
+    parts = build_elements(model, slots)
     if winches:
         parts["winched"] = winched_build.build(
             [w.beam for w in winches.values()],
@@ -89,10 +83,7 @@ def build_parts(
     if twisted:
         parts["torsion springs"] = torsion_springs(twisted, slots)
     parts |= loads.batches(model, find, value)
-    undeformed = [b for b in model.bodies.values() if not isinstance(b, Beam)]
-    rotary = rotary_inertia(model.beams.values(), slots)
-    if undeformed or rotary:
-        parts["bodies"] = inertia(undeformed, slots, rotary)
+    parts |= build_bodies(model, slots)
     touching = [c for c in model.connections if isinstance(c, Contact)]
     if touching:
         parts["contacts"] = contacts(touching, find, slots, measured[: len(touching)])
@@ -110,6 +101,25 @@ def build_parts(
     if bumping:
         parts |= bumps(bumping, slots, measured[len(measured) - len(bumping) :])
     return parts | _joints(model, numbering, level, find)
+
+
+def build_elements(model: Model, slots: dict[str, IntArray]) -> Parts:
+    """Batches of elements by their kind, those of cables with a winch apart."""
+    kinds: dict[str, list[Beam]] = {}
+    winches = by_body(model)
+    for name, beam in model.beams.items():
+        if name not in winches:
+            kinds.setdefault(beam.element, []).append(beam)
+    return {
+        kind: ELEMENTS[kind].build(beams, [slots[b.name] for b in beams]) for kind, beams in kinds.items()
+    }
+
+
+def build_bodies(model: Model, slots: dict[str, IntArray]) -> Parts:
+    """Batch of masses, if there are any."""
+    undeformed = [b for b in model.bodies.values() if not isinstance(b, Beam)]
+    rotary = rotary_inertia(model.beams.values(), slots)
+    return {"bodies": inertia(undeformed, slots, rotary)} if undeformed or rotary else {}
 
 
 def _joints(model: Model, numbering: Numbering, level: FloatArray, find: Callable[[Point], Probe]) -> Parts:

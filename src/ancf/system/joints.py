@@ -71,6 +71,15 @@ def tail_supports(supports: Supports, places: Places, first: int) -> Supports:
     )
 
 
+def share_scales(system: Any, like: Any) -> bool:
+    """Take over masses and stiffnesses of rows from a system with the same rows; whether there is one."""
+    mine, other = system.parts.get("joints"), like.parts.get("joints")
+    if mine is None or other is None or mine.scale.shape != other.scale.shape:
+        return mine is None
+    mine.scale[...] = other.scale
+    return True
+
+
 def set_scales(system: Any) -> None:
     """Give each row the mass and the stiffness of what it holds, to be multiplied with C_q^T C_q.
 
@@ -78,10 +87,10 @@ def set_scales(system: Any) -> None:
     motion. A stiffness from elsewhere, or one of 1, would leave of the inertia of a small body nothing but
     round-off: they take it at rest alone.
     """
-    batch = system.parts.get("joints")
+    core, batch = system.core, system.parts.get("joints")
     if batch is None:
         return
-    core, q = system.core, system.initial_shape()
+    q = system.initial_shape()
     entries, columns = np.arange(system.n // 6)[:, None], 7 * np.arange(6)
     row = np.repeat(np.arange(len(batch.unknown)), np.diff(batch.start))
     slot = np.where(batch.slot < system.n, batch.slot, 0)

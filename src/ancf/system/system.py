@@ -26,11 +26,12 @@ from ..model.surfaces import SurfaceContact
 from ..model.touching import bodies_of
 from ..model.winches import check_winches
 from . import loads
-from .compile import bind_parts, build_parts, held_arrays, joined, make_core, order_blocks, rotation_arrays
-from .core import Core, Loads, Supports, place_supports
+from .compile import bind_parts, build_parts, held_arrays, order_blocks
+from .core import Core, place_supports
+from .derived import Derived
 from .initial_motion import shape_rates
 from .inputs import Inputs
-from .joints import core_joints, set_scales
+from .joints import set_scales, share_scales
 from .matrix import Places
 from .nodes import start_vectors
 from .numbering import Numbering
@@ -39,7 +40,7 @@ from .sensors import Listing
 from .supports import collect
 
 
-class System:
+class System(Derived):
     """All arrays of a model, in the order in which the solver eliminates the nodes.
 
     Parameters
@@ -52,8 +53,8 @@ class System:
 
     Attributes
     ----------
-    core : Core
-        What the kernels work on.
+    value : ndarray, shape (loads, 3)
+        Inputs of loads as they are now.
     parts : dict of str to batch
         The batches of the core by name: elements by their kind, "springs", "moments", "section moments",
         other loads that depend on the state by the word of their kind, "bodies", "contacts", "pressing" and
@@ -104,11 +105,11 @@ class System:
         self.joints = _joint_unknowns(self.numbering)
         first = {item.name: item.value for item in model.inputs.values()}
         self.inputs = Inputs(functions, self.constraints, first)
+        self.value = value
         self.parts = bind_parts(parts, self.rank, self.constraints, self.places)
-        supports = self._supports()
-        joints = core_joints(list(self.parts.values()), self, supports)
-        self.core = make_core(self.parts, self.places, self._weight(), supports, joints, self._loads(value))
-        set_scales(self)
+        self._like = like
+        if like is None or not share_scales(self, like):
+            set_scales(self)
 
     def _order(self, parts: Any, like: System | None) -> None:
         """Order of the nodes and pattern of the matrix."""
@@ -178,58 +179,13 @@ class System:
             seen[slots == rotation.slot] = self.n + 3 * k
         return seen
 
-    def _supports(self) -> Supports:
-        driven = np.array(sorted(self.constraints.driven), dtype=np.int64)
-        return Supports(
-            **held_arrays(self._held(), self.places),
-            **rotation_arrays(self.constraints, self.places, self.n),
-            prescribed=self.inputs.prescribed,
-            driven=self._shadowed(driven),
-        )
-
-    def _loads(self, value: FloatArray) -> Loads:
-        self.patterns = loads.patterns(self.model, self.probe, self.slots, self.numbering.arcs)
-        still, rows = loads.gravity(self.model, self.slots, self.size), len(value)
-        weight, slot, row, unknown = loads.hung(self.model, self.slots, self.numbering.lengths, rows)
-        return Loads(
-            gravity=still.copy(),
-            still=still,
-            hung=weight,
-            hung_slot=slot,
-            hung_row=row,
-            hung_from=unknown,
-            grows=loads.growing(self.model, rows),
-            start=np.cumsum([0] + [len(p[0]) for p in self.patterns]).astype(np.int64),
-            slot=joined([p[0] for p in self.patterns], np.int64),
-            factor=joined([p[1] for p in self.patterns], np.float64),
-            value=value,
-        )
-
-    def _held(self) -> IntArray:
-        unused = np.flatnonzero(~self.numbering.used())
-        return np.unique(np.concatenate([unused, sorted(self.constraints.held)])).astype(np.int64)
-
-    def _weight(self) -> FloatArray:
-        weight, size = np.ones(self.n), self.model.size
-        for slots in self.numbering.slots.values():
-            for c in range(3):
-                weight[slots[:, 0] + c] = 1.0 / size
-        for name, beam in self.model.beams.items():
-            internal = self.numbering.slots[name][:-1, self.numbering.shared[name] :]
-            for c in range(3):
-                weight[internal + c] = np.diff(beam.node_x)[:, None]
-        weight[self.numbering.all_multipliers()] = 0.0
-        weight[list(self.numbering.arcs.values())] = 1.0 / size
-        weight[list(self.numbering.lengths.values())] = 1.0 / size
-        return weight
-
     def holding(self, bodies: list[str]) -> Core:
         """Core in which these bodies are held altogether; joints to others carry nothing."""
         extra = [self.numbering.slots[name].ravel()[:, None] + np.arange(3) for name in bodies]
         idle = [j.name for j in self.model.connections if set(bodies_of(j)) & set(bodies)]
         extra += [self.joints[name] for name in (*idle, *bodies) if name in self.joints]
-        held = np.unique(np.concatenate([self.core.supports.held, *[e.ravel() for e in extra]]))
-        supports = self.core.supports._replace(**held_arrays(held, self.places))
+        held = np.unique(np.concatenate([self.held, *[e.ravel() for e in extra]]))
+        supports = self.supports._replace(**held_arrays(held, self.places))
         return self.core._replace(supports=supports)
 
     @cached_property
@@ -240,7 +196,7 @@ class System:
     @cached_property
     def free(self) -> IntArray:
         """Unknowns that move freely."""
-        return np.setdiff1d(np.arange(self.n), self.core.supports.held)
+        return np.setdiff1d(np.arange(self.n), self.held)
 
     def initial_state(self, time: float = 0.0) -> tuple[FloatArray, FloatArray]:
         """State vectors q and v of the initial shape and motion, supports as at ``time``."""
@@ -299,11 +255,11 @@ class System:
         before = new_q.copy(), new_v.copy()
         self.place(time, new_q, new_v, a)  # the rotations of this time
         for k, r in enumerate(self.constraints.rotations):
-            R, dR = self.core.supports.rot_R[k, :2]
+            R, dR = self.supports.rot_R[k, :2]
             own, shadow = slice(r.slot, r.slot + 3), slice(self.n + 3 * k, self.n + 3 * k + 3)
             new_q[own] = R.T @ before[0][shadow]
             new_v[own] = R.T @ (before[1][shadow] - dR @ new_q[own])
-        held = self.core.supports.held
+        held = self.held
         still = np.setdiff1d(held, self.inputs.prescribed)
         new_v[still] = 0.0
         self.place(time, new_q, new_v, a)
@@ -324,7 +280,7 @@ class System:
         """Put supports where they are at ``time``, and inputs of loads; fills the shadows."""
         h = 1e-3
         tables = self.inputs.tables(time - h, h, 1, time, np.inf, (q, v), still=True)
-        place_supports(self.core.supports, self.core.loads.value, tables, 0, q, v, a)
+        place_supports(self.supports, self.value, tables, 0, q, v, a)
 
     def _set_motion(self, q: FloatArray, v: FloatArray, a: FloatArray, time: float) -> None:
         """Initial rigid motions of the bodies; what a support holds follows the support."""
@@ -346,19 +302,19 @@ class System:
             return
         for k, r in enumerate(self.constraints.rotations):
             shadow = slice(self.n + 3 * k, self.n + 3 * k + 3)
-            R, dR = self.core.supports.rot_R[k, :2]
+            R, dR = self.supports.rot_R[k, :2]
             wanted[r.slot : r.slot + 3] = R.T @ (wanted[shadow] - dR @ q[r.slot : r.slot + 3])
         given = v.copy()
         v[: self.n] = wanted[: self.n]
-        held = self.core.supports.held
+        held = self.held
         v[held] = given[held]
         self._warn_of_jump(wanted, v)
         self.place(time, q, v, a)
 
     def _warn_of_jump(self, wanted: FloatArray, v: FloatArray) -> None:
-        gap = np.abs(wanted[: self.n] - v[: self.n]) * self.core.weight
+        gap = np.abs(wanted[: self.n] - v[: self.n]) * self.weight
         worst = int(np.argmax(gap))
-        if gap[worst] > 1e-9 * np.max(np.abs(wanted[: self.n]) * self.core.weight):
+        if gap[worst] > 1e-9 * np.max(np.abs(wanted[: self.n]) * self.weight):
             name = self.numbering.describe(worst)
             text = f"{name}: set_motion asks for {wanted[worst]:.6g}, the support holds it at {v[worst]:.6g}"
             warnings.warn(text + "; the support wins", UserWarning, stacklevel=2)

@@ -1,0 +1,64 @@
+"""On what the numbers of a model act, as far as that is known: systems around them are made of the rest."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..model.beam import Beam
+from ..model.bodies import PointMass
+from ..model.connections import Spring
+from ..model.functions import TimeFunction
+from ..model.loads import DistributedLoad, Force
+from ..model.model import Model
+from ..model.section import DAMPINGS
+from ..model.winches import by_body
+from ..system.beside import BODIES, ELEMENTS, SPRINGS, Acts
+
+#: Of sections, those on which the forces of elements alone depend, and those on which weights do, too.
+FORCES, MASSES = {"EA", "EI", "E", *DAMPINGS}, {"rhoA", "rho"}
+#: Numbers of all bodies on which nothing but the initial motion depends.
+MOTION = {"velocity", "angular_velocity"}
+
+
+def acts_of(model: Model, name: str) -> Acts | None:
+    """Of a number by its name; None where it may act on anything."""
+    owner, _, key = name.rpartition(".")
+    key = key.partition("[")[0]
+    if not owner:
+        weighs = key == "gravity" and not model.fluids and not by_body(model)
+        return Acts(weighs=True) if weighs else None
+    body = model.bodies.get(owner)
+    if body is None:
+        sprung = any(isinstance(one, Spring) and one.name == owner for one in model.connections)
+        return Acts(frozenset((SPRINGS,))) if sprung and key in ("stiffness", "damping", "length") else None
+    if key in MOTION and not model.fluids:
+        return Acts()
+    if isinstance(body, PointMass):
+        return Acts(frozenset((BODIES,)), weighs=True) if key == "mass" else None
+    if not isinstance(body, Beam) or owner in by_body(model):
+        return None
+    if key in FORCES or key in MASSES:
+        return Acts(frozenset((ELEMENTS, BODIES)), weighs=key in MASSES)
+    if not _is_bare(model) or body.has_section:
+        return None
+    if key in ("start", "end"):
+        return Acts(moves=True)
+    everything = frozenset((ELEMENTS, SPRINGS, BODIES))
+    return Acts(everything, weighs=True, moves=True) if key == "length" else None
+
+
+def _is_bare(model: Model) -> bool:
+    """Whether there are dead forces alone, and no connections but springs."""
+    around = model.fluids or model.grounds or model.surfaces or by_body(model)
+    return (
+        not around
+        and all(isinstance(_given(load), TimeFunction) for load in model.loads)
+        and all(isinstance(one, Spring) for one in model.connections)
+    )
+
+
+def _given(load: Any) -> Any:
+    """What a dead force is a function of."""
+    if isinstance(load, Force):
+        return load.force
+    return load.load if isinstance(load, DistributedLoad) else None

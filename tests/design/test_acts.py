@@ -1,0 +1,110 @@
+"""Systems around a number of a model that share what it does not act on, against systems made anew."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import ancf
+from ancf.model.vary import names_of, renewal, value_of, varied
+from ancf.sensitivity.acts import acts_of
+from ancf.sensitivity.alike import OWN
+from ancf.solvers.checkpoint import distinct
+from ancf.system.beside import beside
+from ancf.system.system import System
+
+
+def hung():
+    """Two cables with dampings, a mass, springs between them and to the ground, forces, a turned clamp."""
+    model = ancf.Model(gravity=(0.3, 0.2, -9.81))
+    section = ancf.Section(
+        EA=1e4, EI=2.0, rhoA=0.3, axial_damping=1.0, bending_damping=0.01, damping=0.02, rotary_inertia=0.001
+    )
+    model.add_beam("a", start=(0, 0, 0), end=(2, 0.5, 0), elements=9, section=section)
+    plain = ancf.Section(EA=2e4, EI=1.0, rhoA=0.2)
+    model.add_beam("b", start=(0, 1, 0), end=(2, 1, 0.5), elements=4, section=plain)
+    model.add_point_mass("m", at=(3, 1, 0), mass=2.0)
+    a, b = model.beams["a"], model.beams["b"]
+    model.clamp(a.start)
+    model.pin(b.start, displacement=("0", "0", "0.1*t"))
+    model.add_spring(a.at(0.7), b.at(1.3), stiffness=20.0, damping=0.1, length=0.9, name="between")
+    model.add_spring(b.end, "m", stiffness=30.0, length=0.8, name="mass spring")
+    model.add_spring(a.end, (2, 0.5, 2), stiffness=5.0, length=1.0, name="up")
+    model.add_force(a.at(1.1), (0, 0, "-sin(t)"), name="push")
+    model.add_distributed_load(b, (0, 0, -0.5), name="snow")
+    return model
+
+
+def jointed():
+    """A cable and a solid beam in a hinge, with a moment: little is known of lengths and places."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e4, EI=2.0, rhoA=0.3)
+    a = model.add_beam("a", start=(0, 0, 0), end=(1, 0, 0), elements=4, section=section)
+    solid = ancf.Section.rectangle(width=0.1, height=0.1, E=1e6, rho=500.0, nu=0.3)
+    b = model.add_beam("b", start=(1, 0, 0), end=(2, 0, 0), elements=2, section=solid)
+    model.pin(a.start)
+    model.connect(a.end, b.start)
+    model.add_moment(b.end, (0, 1.0, 0))
+    return model
+
+
+def arrays(system):
+    found = distinct({"parts": system.parts, "dead": system.dead._asdict()})
+    found |= distinct({"supports": system.supports._asdict()})
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # supports hold against motions that are asked for
+        q, v = system.initial_state(0.3)
+    table = system.inputs.tables(0.0, 0.1, 3, 0.0, 1.0)
+    found |= {"q": q, "v": v, "motion": table.motion, "rotation": table.rotation}
+    return {key: array for key, array in found.items() if key.rsplit(".", 1)[-1] not in OWN}
+
+
+@pytest.mark.parametrize("build", [hung, jointed])
+def test_they_are_those_made_anew(build):
+    model, seen = build(), []
+    base = System(model)
+    for name in names_of(model):
+        acts = acts_of(model, name)
+        if acts is None:
+            continue
+        seen.append(name)
+        value = value_of(model, name)
+        other = renewal(model, name)(1.01 * value + 0.001)
+        mine, whole = arrays(beside(base, other, acts)), arrays(System(other, like=base))
+        assert mine.keys() == whole.keys()
+        for key in mine:
+            assert np.array_equal(mine[key], whole[key]), (name, key)
+    known = ("gravity[0]", "a.EA", "a.rhoA" if build is hung else "b.rho", "a.velocity[1]")
+    assert set(known) <= set(seen)
+    assert ("a.length" in seen) == (build is hung)
+
+
+@pytest.mark.parametrize("name", ["a.length", "a.start[2]", "b.EI", "m.mass", "between.stiffness", "m.at[0]"])
+def test_models_that_share_say_the_same(name):
+    """Compiled, the model with all items copied and that which shares some are one."""
+    model = hung()
+    value = 1.02 * value_of(model, name) + 0.001
+    shared, apart = renewal(model, name)(value), varied(model, name, value)
+    mine, whole = arrays(System(shared)), arrays(System(apart))
+    for key in mine:
+        assert np.array_equal(mine[key], whole[key]), key
+    assert model.bodies["a"] is not apart.bodies["a"]
+    assert value_of(model, name) != value
+
+
+def test_a_point_on_the_body_goes_with_it():
+    model = hung()
+    made = renewal(model, "a.length")(4.0)
+    spring = next(one for one in made.connections if one.name == "between")
+    assert spring.a.body is made.beams["a"]
+    assert spring.a.x == pytest.approx(0.7 * 4.0 / model.beams["a"].length)
+    assert spring.b.body is model.beams["b"]
+
+
+def test_what_is_not_known():
+    model = hung()
+    assert acts_of(model, "a.EA") is not None
+    assert acts_of(model, "push.force") is None
+    assert acts_of(model, "between.slack") is None
+    assert acts_of(jointed(), "a.length") is None
+    assert acts_of(jointed(), "a.start[0]") is None
