@@ -71,7 +71,6 @@ def test_states_that_are_stored_change_nothing(tmp_path):
     ("given", "said"),
     [
         ({"contact": "joint"}, 'contact="joint"'),
-        ({"controller": lambda run: None}, "a controller"),
         ({"sensitivities": {"first": ["2-1"]}}, "sensitivities"),
         ({"integrator": ancf.Trapezoidal()}, "an integrator"),
         ({"integrator": ancf.GeneralizedAlpha(0.9, newton=ancf.Newton(modified=False))}, "an integrator"),

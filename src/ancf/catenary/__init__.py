@@ -33,6 +33,7 @@ from .run_data import Recording, Run
 from .signals import Butterworth
 from .span import DropperRule, Span
 from .statistics import Statistics, statistics
+from .steps import LineStepper, Touching, stepper
 from .stitch import StitchWire
 from .travelling import add_pantograph
 from .underside import random_underside, read_underside
@@ -59,6 +60,7 @@ __all__ = [
     "Identified",
     "Kept",
     "Line",
+    "LineStepper",
     "Load",
     "LongDroppers",
     "Measured",
@@ -78,6 +80,7 @@ __all__ = [
     "SteadyArm",
     "StitchWire",
     "Tensioner",
+    "Touching",
     "Verified",
     "Wire",
     "WireType",
@@ -112,6 +115,7 @@ __all__ = [
     "run",
     "slopes",
     "statistics",
+    "stepper",
     "time_above",
     "verify",
     "wire",

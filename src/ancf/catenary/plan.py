@@ -136,14 +136,18 @@ def make_plan(
     door: Door,
     roof: Any = None,
     underside: Any = None,
+    evaluated: bool = True,
 ) -> Plan:
-    """Check what ``run`` was given."""
+    """Check what ``run`` was given, or ``stepper``, of which nothing is ``evaluated`` over a window."""
     line, units = shape.line, _units(pantograph, spacing)
     behind, train = _start(line, start), units[-1][1]
     kinds = [unit for unit, _ in units]
     _check_strips(line, kinds)
-    interval = _window(line, window, behind + train, train, until)
-    last = interval[1] + BEYOND if until is None else until
+    if evaluated or window is not None or any(unit.relaxed_at == "mean" for unit in kinds):
+        interval = _window(line, window, behind + train, train, until)
+        last = interval[1] + BEYOND if until is None else until
+    else:
+        interval, last = (behind + train, line.length), line.length - train
     _check_sweep(shape, kinds, behind, last + train)
     return Plan(
         form=shape,

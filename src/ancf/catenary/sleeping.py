@@ -13,10 +13,11 @@ import ancf
 
 from ..arrays import FloatArray, IntArray
 from ..control.foreseen import Foreseen
+from ..control.lead import check_controller, led
 from ..errors import ModelError
 from ..model import checks
 from ..model.points import Point
-from ..preparation import carried_out, prepared
+from ..preparation import Prepared, carried_out, prepared
 from ..results.result import Result
 from ..results.store import FileStore, MemoryStore
 from ..solvers.far_arrays import FarPlan
@@ -29,7 +30,7 @@ from .signals import CUT_OFF
 #: Modes are taken up to this multiple of the cut-off of what is evaluated.
 BEYOND = 2.5
 #: Distance of a strip at which a span is taken as it is, m.
-NEAR = 10.0
+NEAR = 7.0
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ class Sleep:
         return FarPlan(cuts(overhead, system), rest, BEYOND * CUT_OFF, NEAR)
 
 
-def allowed(given: bool, integrator: Any, *, touch: str, led: bool, derived: bool) -> bool:
+def allowed(given: bool, integrator: Any, *, touch: str, derived: bool, where: str = "run.reduce") -> bool:
     """Whether spans are to sleep, as ``run(reduce=...)`` says.
 
     Parameters
@@ -63,27 +64,26 @@ def allowed(given: bool, integrator: Any, *, touch: str, led: bool, derived: boo
         Default that of :func:`ancf.catenary.run`.
     touch : str
         Kind of the contact.
-    led, derived : bool
-        Whether there is a controller, and whether sensitivities are wanted.
+    derived : bool
+        Whether sensitivities are wanted.
 
     Raises
     ------
     ModelError
         Something does not go together with it.
     """
-    if not checks.flag(given, "run.reduce"):
+    if not checks.flag(given, where):
         return False
     newton = getattr(integrator, "newton", None)
     plain = integrator is None or (newton is not None and newton.modified and not newton.corotate)
     against = {
-        "a controller": led,
         "sensitivities": derived,
         'contact="joint"': touch == "joint",
         "an integrator that does not keep its matrix as it is": not plain,
     }
     there = next((name for name, found in against.items() if found), None)
     if there is not None:
-        raise ModelError("run.reduce", f"does not go together with {there}", "leave one of both out")
+        raise ModelError(where, f"does not go together with {there}", "leave one of both out")
     return True
 
 
@@ -109,6 +109,14 @@ def _roots(overhead: Assembled, system: System) -> list[int]:
     return [int(slots[p.body.name][node_of(p.body, p.x), 0]) for p in points]
 
 
+def reduced(made: Prepared, overhead: Assembled, sleep: Sleep) -> FarSpans:
+    """Let spans of a simulation sleep that has not taken a step yet."""
+    made.system.inputs = Foreseen(made.system.inputs)  # a block of steps ends where a span turns
+    run: Any = made.run
+    spans: FarSpans = run.reduce(sleep.plan(made.system, overhead))
+    return spans
+
+
 def simulated(
     overhead: Assembled,
     sleep: Sleep,
@@ -116,13 +124,18 @@ def simulated(
     file: str | Path | None,
     progress: Callable[[Any], None] | None,
     integrator: Any,
+    controller: Callable[[Any], Any] | None = None,
+    control_step: float | None = None,
     **given: Any,
 ) -> tuple[Result, FarSpans]:
     """As :func:`ancf.simulate`, with spans that sleep."""
+    every = 0
+    if controller is not None:
+        every = check_controller(controller, control_step, given["step"], "run")
     made = prepared(overhead.model, method=integrator, **given)
-    made.system.inputs = Foreseen(made.system.inputs)  # a block of steps ends where a span turns
-    run: Any = made.run
-    spans: FarSpans = run.reduce(sleep.plan(made.system, overhead))
+    spans = reduced(made, overhead, sleep)
+    if controller is not None:
+        made = led(made, controller, every, "run")
     store = MemoryStore(made.system) if file is None else FileStore(file, made.system, made.header)
     return carried_out(made, store, progress), spans
 

@@ -45,7 +45,8 @@ def run_line(
     from ..catenary.catalogue import read_line
     from ..catenary.measuring_file import read_measuring_head
     from ..catenary.mesh import Mesh
-    from ..catenary.run import STEP, run
+    from ..catenary.ready import STEP
+    from ..catenary.run import run
     from ..model.checks import positive
     from ..model.file.paths import assignments
     from ..model.settings import MOST_STEPS

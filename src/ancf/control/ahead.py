@@ -20,7 +20,7 @@ from ..system.drives import driven_steps
 from ..system.inputs import on_grid
 from .foreseen import Foreseen
 
-#: Steps ahead, and after how many of them a piece of the next tables is made, where there are many pieces.
+#: Steps ahead, and after how many of them at most a piece of the next tables is made.
 ROWS, STRIDE = 256, 32
 
 
@@ -49,6 +49,7 @@ class Ahead:
         self.tables, self.out = bundle.tables, bundle.out
         self.quick = Quick(bundle)
         self.step = self.quick.step
+        self.stride = int(np.clip(ROWS // (inputs.pieces + 1), 1, STRIDE))
         slow = bool(self.inputs.drives) or any(f.uses_t for *_, f in self.led)
         self.cells = None if slow else self._cells()
         self.row: Any = self.tables.value.reshape(-1).data
@@ -151,8 +152,9 @@ class Ahead:
         has to wait for all of them.
         """
         if self.rows < self.made:
-            self.prepare(-(-self.inputs.pieces // (ROWS // STRIDE - 1)))
-            self.rows = min(self.rows + STRIDE, self.made)
+            self.prepare(-(-self.inputs.pieces // (ROWS // self.stride - 1)))
+            self.hand_over()
+            self.rows = min(self.rows + self.stride, self.made)
             return
         self.hand_over()
         self.prepare(self.inputs.pieces)
@@ -168,7 +170,7 @@ class Ahead:
         if rows == ROWS and self.inputs.pieces > 1:
             run = self.run
             times = run.time(run.done + rows), run.h, rows, run.t_start, run.t_end
-            self.coming, self.rows = self.inputs.piecewise(*times), STRIDE
+            self.coming, self.rows = self.inputs.piecewise(*times), self.stride
 
     def tabled(self, wanted: int) -> Tables:
         """Tables of as many of the next steps as can be made at once."""
@@ -240,7 +242,9 @@ class Ahead:
     def hand_over(self) -> None:
         """Store what was recorded."""
         if self.run.sampling.width and self.at > self.handed:
-            numbers = range(self.base + self.handed + 1, self.base + self.at + 1)
-            times = np.array([self.run.time(number) for number in numbers])
+            numbers = np.arange(self.base + self.handed + 1, self.base + self.at + 1)
+            times: FloatArray = self.run.t_start + self.run.h * numbers.astype(
+                np.float64
+            )  # as :meth:`Run.time`
             self.store.record(times, self.out.samples[self.handed : self.at].copy())
         self.handed = self.at

@@ -11,8 +11,8 @@ from ..errors import ModelError
 from ..system.core import Tables
 from ..system.inputs import Inputs, differences, on_grid
 
-#: Steps ahead.
-ROWS = 256
+#: Steps ahead, and of how many of them a piece of the tables has the motions.
+ROWS, PIECE = 256, 64
 #: Distance of a place in time from the grid of the steps, in steps, up to which it is on it.
 ON_GRID = 1e-6
 
@@ -78,11 +78,11 @@ class Foreseen(Inputs):
         steps: int,
         first: float,
         last: float,
-        known: list[FloatArray] | None = None,
+        known: FloatArray | None = None,
     ) -> Tables:
         """Tables with the constant loads as they were, and one difference formula for all motions.
 
-        ``known`` are the motions, if they are, each (steps, unknowns, 3).
+        ``known`` are the motions, if they are, (steps, unknowns, 3).
         """
         if not self._plain:
             return super().tables(start, step, steps, first, last)
@@ -93,27 +93,31 @@ class Foreseen(Inputs):
         value = np.repeat(self._constant[None], steps, axis=0)
         for k in self._timely:
             value[:, k] = self.loads[k].under(self.given, times)
-        motion = np.zeros((steps, 0, 3))
-        if known:
-            motion = np.concatenate(known, axis=1)
-        elif self.motions:
+        motion = np.zeros((steps, 0, 3)) if known is None else known
+        if known is None and self.motions:
             motion = np.stack(differences(self._places, times, step, first, last), axis=-1)
         return Tables(value, motion, np.zeros((steps, 0, 3, 3, 3)))
 
     @property
     def pieces(self) -> int:
-        """In how many pieces tables can be made, 1: at once alone."""
-        return len(self.motions) + 1 if self._plain and not self.drives else 1
+        """In how many pieces tables of as many steps as can be can be made, 1: at once alone."""
+        return len(self.motions) * (ROWS // PIECE) + 1 if self._plain and not self.drives else 1
 
     def piecewise(
         self, start: float, step: float, steps: int, first: float, last: float
     ) -> Iterator[Tables | None]:
         """The tables that :meth:`tables` makes of many steps, made piece by piece; the last one is them."""
         times = on_grid(start, step, np.arange(1, steps + 1), first)
-        motion = []
+        motion = np.zeros((steps, sum(len(one.unknowns) for one in self.motions), 3))
+        column = 0
         for one in self.motions:
-            motion.append(np.stack(differences(one.values, times, step, first, last), axis=-1))
-            yield None
+            columns = slice(column, column + len(one.unknowns))
+            for begin in range(0, steps, PIECE):
+                rows = slice(begin, begin + PIECE)
+                for k, found in enumerate(differences(one.values, times[rows], step, first, last)):
+                    motion[rows, columns, k] = found
+                yield None
+            column = columns.stop
         yield self._made(start, step, steps, first, last, motion)
 
     def _places(self, times: FloatArray) -> FloatArray:

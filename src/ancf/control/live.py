@@ -77,12 +77,31 @@ class Live(State):
         self._joints, self._arcs = self.system.joints, self.system.numbering.arcs
         self._lengths = self.system.lengths
         self._springs = springs_of(self.model.connections)
+        self._partly = isinstance(self._run, Run) and self._run.far is not None
         self.look()
 
     def look(self) -> None:
         """See the run as it is now."""
-        self._q, self._v, self._work = self._run.now()
+        self._now, self._seen = self._run.now(), self._run.done
         self.t = self._run.t_start + self._run.done * self._run.h
+
+    def _vectors(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Those of now; of a line of which parts sleep they are made when they are asked for."""
+        if self._partly and self._seen != self._run.done:
+            self._now, self._seen = self._run.now(), self._run.done
+        return self._now
+
+    @property
+    def _q(self) -> FloatArray:  # type: ignore[override]
+        return self._vectors()[0]
+
+    @property
+    def _v(self) -> FloatArray:  # type: ignore[override]
+        return self._vectors()[1]
+
+    @property
+    def _work(self) -> FloatArray:
+        return self._vectors()[2]
 
     def __repr__(self) -> str:
         return line_of_state(self)

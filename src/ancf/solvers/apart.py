@@ -59,7 +59,7 @@ class Apart(NamedTuple):
 
 _new_matrix, _renew_tail, _project = caller(types.boolean), caller(types.boolean), caller(types.float64)
 _balance, _note, _sample = caller(types.none), caller(types.none), caller(types.none)
-_begin_far, _end_far, _show_far = caller(types.none), caller(types.boolean), caller(types.none)
+_begin_far, _end_far, show_far_at = caller(types.none), caller(types.boolean), caller(types.none)
 _iterate_awake, _iterate = caller(types.float64, nothing=math.inf), caller(types.float64, nothing=math.inf)
 _matrix_awake = caller(types.int64, nothing=0)
 
@@ -183,7 +183,7 @@ def end_parts(apart, core, s, scheme, gb, ib):
 def show_parts(apart, core, s, whole):
     """See :func:`ancf.solvers.far.show_far`."""
     if apart.show_far != 0:
-        _show_far(apart.show_far, (core, s, whole))
+        show_far_at(apart.show_far, (core, s, whole))
 
 
 @formula

@@ -12,7 +12,7 @@ from ..addresses import caller, pointer
 from ..compiled import kernel
 from ..records import type_of
 from ..system.core import Core, Tables
-from .apart import Apart, apart_of, needed
+from .apart import Apart, apart_of, needed, show_far_at
 from .explicit import advance_explicit
 from .memory import Memory
 from .newmark import Rule, advance
@@ -57,6 +57,12 @@ def explicit_block(steps, core, memory, tables, h, turning, keep, sampling, out,
     """The same for :func:`ancf.solvers.explicit.advance_explicit`."""
     core, memory, sampling = pointer(core), pointer(memory), pointer(sampling)
     return take_explicit(steps, (core, memory, tables, h, turning, keep, sampling, out, apart))
+
+
+@kernel
+def show_at(function, core, memory, whole):
+    """Call :func:`ancf.solvers.far.show_far` by its address, with those of core and memory."""
+    show_far_at(function, (pointer(core), pointer(memory), whole))
 
 
 def stepping(core: Core, memory: Memory, sampling: Sampling, explicit: bool) -> tuple[Any, tuple[Any, ...]]:

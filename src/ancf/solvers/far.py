@@ -57,7 +57,7 @@ from .status import STEPS
 
 # rows of the workspace: displacements, rates and accelerations of a boundary, and what is seen
 X, V, A, SEEN = range(4)
-#: Steps between two looks at a part: in 4 ms a strip runs 0.3 m.
+#: Steps between two looks at the parts: in 4 ms a strip runs 0.3 m.
 LOOKED = 4
 
 
@@ -263,11 +263,14 @@ def show_far(core, s, whole):
 
 @inline_kernel
 def turns(far, known, s):
-    """Whether a part has to wake, or may sleep; each part is looked at every so many steps."""
+    """Whether a part has to wake, or may sleep, which is looked at every so many steps.
+
+    The step after one in which parts turn makes a matrix: the two never have to be done in one.
+    """
+    if s.counts[STEPS] % LOOKED != 0:
+        return False
     found = False
     for p in range(far.part.shape[0]):
-        if (s.counts[STEPS] + p) % LOOKED != 0:
-            continue
         asleep, d = far.part[p, ASLEEP] != 0, distance(far, p, known.contacts, s.q)
         taut = is_taut(far, p, known.springs, s)
         far.part[p, CALM] = far.part[p, CALM] + 1 if taut else 0

@@ -16,17 +16,16 @@ from scipy.sparse.linalg import splu
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..compiled import traits
-from ..elements.cable import DA_L, DB_L, EA_L, EI_L, MASS, CableBatch
+from ..elements.cable import CableBatch
 from ..system.core import apply_load, assemble, residual
 from ..system.matrix import Places
 from ..system.system import System
+from .far_lanes import lanes_of, sleep, wake
 
 #: Blocks of which a part consists at least: smaller ones are not worth it.
 FEWEST = 24
 #: Share of the largest entries up to which the matrices of two parts are alike.
 ALIKE = 1e-4
-#: Rows of the cables' constants that are zero in sleep.
-ASLEEP_ROWS = (EA_L, EI_L, DA_L, DB_L, MASS)
 #: Batches that a line with parts may have.
 KNOWN = ("springs", "bodies", "contacts")
 
@@ -175,11 +174,12 @@ class Matrices:
         self.whole, self.force = [self._matrix(x) for x in values], self._residual()
         self.alone = []
         for number in range(2):  # neighbours share a boundary: every other part is taken away at a time
-            mine = [(part, sleep(cables, part)) for part in parts[number::2]]
+            lanes = [lanes_of(cables, part.elements) for part in parts[number::2]]
+            mine = [(own, sleep(cables, own)) for own in lanes]
             without = self._values()
             self.alone.append(([x - y for x, y in zip(values, without, strict=True)], self._residual()))
-            for part, kept in mine:
-                wake(cables, part, kept)
+            for own, kept in mine:
+                wake(cables, own, kept)
 
     def of_part(self, k: int, part: Part) -> tuple[list[Blocks], FloatArray]:
         """M, C and K of part k, and its forces on its boundary at rest, N."""
@@ -229,30 +229,6 @@ def _pattern(places: Places) -> tuple[csr_array, IntArray]:
     ordered = place.ravel()[made.data - 1]
     made.data = numbers  # those of the entries as they stand
     return made, ordered
-
-
-def sleep(cables: CableBatch, part: Part) -> list[FloatArray]:
-    """Take stiffness and mass from the cables of a part; what was taken."""
-    chunk, lane = _lanes(cables, part)
-    kept = [cables.lane_data[chunk, row, lane].copy() for row in ASLEEP_ROWS]
-    kept.append(cables.lane_slope[chunk, 0, lane].copy())
-    for row in ASLEEP_ROWS:
-        cables.lane_data[chunk, row, lane] = 0.0
-    cables.lane_slope[chunk, 0, lane] = 0.0
-    return kept
-
-
-def wake(cables: CableBatch, part: Part, kept: list[FloatArray]) -> None:
-    """Give it back."""
-    chunk, lane = _lanes(cables, part)
-    for row, values in zip(ASLEEP_ROWS, kept[:-1], strict=True):
-        cables.lane_data[chunk, row, lane] = values
-    cables.lane_slope[chunk, 0, lane] = kept[-1]
-
-
-def _lanes(cables: CableBatch, part: Part) -> tuple[IntArray, IntArray]:
-    chunk = np.searchsorted(cables.first, part.elements, side="right") - 1
-    return chunk, part.elements - cables.first[chunk]
 
 
 class Shapes(NamedTuple):

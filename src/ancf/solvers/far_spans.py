@@ -33,7 +33,8 @@ from ..system.far import (
 from ..system.system import System
 from .far import LOOKED
 from .far_arrays import ACTS, FarPlan, arrays_of, kinds_of
-from .far_parts import Matrices, Part, cables_of, in_order, parts_of, sleep, wake
+from .far_lanes import lanes_of, sleep, wake
+from .far_parts import Matrices, Part, cables_of, in_order, parts_of
 from .memory import H_FACTOR, Memory
 
 #: Distance, m, by which a part that may sleep is further from all strips than one that has to wake.
@@ -84,7 +85,11 @@ class FarSpans:
         self.far.memo[NEAR], self.far.memo[AWAY] = plan.near, plan.near + BETWEEN
         self.far.memo[CALMED] = np.ceil(CALM_TIME / (LOOKED * step[0]))
         self.kept: list[Any] = [None] * len(self.parts)
+        self.lanes = [lanes_of(cables, part.elements) for part in self.parts]
         self.rows = [_rows_of(system, part) for part in self.parts]
+        self.places = [np.flatnonzero(part.inner % 6 < 3) for part in self.parts]  # displacements
+        self.owner = _owners([part.blocks for part in self.parts], len(self.far.sleeps))
+        self.of_element = _owners([part.elements for part in self.parts], len(cables.base))
         self.touched = system.core.near[0].touched.copy()
         system.core = system.core._replace(far=(self.far,))
 
@@ -92,37 +97,58 @@ class FarSpans:
         """Let sleep what may at the start."""
         if self.parts:
             self.far.part[:, CALM] = int(self.far.memo[CALMED])
-            self.turn()
+            _, calm = self._found()
+            self._go_to_sleep(calm)
 
     def turn(self) -> None:
-        """Wake what has to, and let sleep what may."""
-        near = self._distances()
-        taut = self.far.part[:, CALM] > 0
-        calm = self.far.part[:, CALM] >= self.far.memo[CALMED]
-        for k in range(len(self.parts)):
-            if self.far.part[k, ASLEEP]:
-                if near[k] < self.far.memo[NEAR] or not taut[k]:
-                    self._wake(k)
-            elif near[k] > self.far.memo[AWAY] and calm[k]:
-                self._sleep(k)
+        """Wake what has to, or let sleep one part that may: a step has to wait for it."""
+        due, calm = self._found()
+        for k in due:
+            self._wake(k)
+        self._go_to_sleep([] if due else calm[:1])
+
+    def wake_all(self) -> list[int]:
+        """Go on with the whole line; what was asleep."""
+        asleep = np.flatnonzero(self.far.part[:, ASLEEP]).tolist() if self.parts else []
+        for k in asleep:
+            self._wake(k)
+        if asleep:
+            self._ranges()
+        return asleep
+
+    def sleep_on(self, parts: list[int]) -> None:
+        """Let sleep what has just been woken, if it still may."""
+        if parts:
+            self.far.part[parts, CALM] = int(self.far.memo[CALMED])
+            _, calm = self._found()
+            self._go_to_sleep([k for k in calm if k in parts])
+
+    def _found(self) -> tuple[list[int], list[int]]:
+        """Parts that have to wake, and those that may sleep."""
+        part, memo, near = self.far.part, self.far.memo, self._distances()
+        asleep, calm = part[:, ASLEEP] != 0, part[:, CALM]
+        due = asleep & ((near < memo[NEAR]) | (calm <= 0))
+        may = ~asleep & (near > memo[AWAY]) & (calm >= memo[CALMED])
+        return np.flatnonzero(due).tolist(), np.flatnonzero(may).tolist()
+
+    def _go_to_sleep(self, parts: list[int]) -> None:
+        for k in parts:
+            self._sleep(k)
         self._ranges()
 
-    def wake_all(self) -> None:
-        """Go on with the whole line."""
-        if self.parts:
-            for k in np.flatnonzero(self.far.part[:, ASLEEP]).tolist():
-                self._wake(k)
-            self._ranges()
+    @property
+    def some(self) -> bool:
+        """Whether a part sleeps."""
+        return bool(self.parts) and int(self.far.counts[SLEEPING]) > 0
 
     @contextmanager
     def woken(self) -> Iterator[None]:
         """The whole line awake for a while; what was asleep sleeps on as if nothing had been."""
-        asleep = np.flatnonzero(self.far.part[:, ASLEEP]).tolist() if self.parts else []
-        if not asleep:
+        if not self.some:
             yield
             return
         kept = [x.copy() for x in self._changed()]
-        self.wake_all()
+        asleep = self.wake_all()
         try:
             yield
         finally:
@@ -147,21 +173,21 @@ class FarSpans:
         return found
 
     def _sleep(self, k: int) -> None:
-        part, kind, m = self.parts[k], self.kinds[self.kind_of[k]], self.memory
-        n, far, first = len(part.edge), self.far, self.far.part[k, EDGE]
-        rest = far.rest[far.part[k, INNER] :][: len(part.inner)]
-        inside, edge = (np.stack([x[at] for x in (m.q, m.v, m.abar)], 1) for at in (part.inner, part.edge))
-        inside[:, 0] -= rest
-        edge[:, 0] -= far.still[first : first + n]
-        own = inside - kind.inside[:, :n] @ edge
-        y, v, bar = (kind.project @ own).T
-        left = own[:, 0] - kind.inside[:, n:] @ y
-        self.left_out = max(self.left_out, float(np.abs(left[part.inner % 6 < 3]).max()))
-        a = -kind.loss * v - kind.square * y - kind.coupling @ m.a[part.edge]
-        a -= kind.drag * (kind.coupling @ m.v[part.edge])
+        part, kind, m, far = self.parts[k], self.kinds[self.kind_of[k]], self.memory, self.far
+        n, first, begin = len(part.edge), far.part[k, EDGE], far.part[k, INNER]
+        inner = slice(begin, begin + len(part.inner))
+        inside, edge = (np.array([x[at] for x in (m.q, m.v, m.abar)]) for at in (part.inner, part.edge))
+        inside[0] -= far.rest[inner]
+        edge[0] -= far.still[first : first + n]
+        own = inside - edge @ kind.inside[:, :n].T
+        y, v, bar = own @ kind.project.T
+        left = own[0] - kind.inside[:, n:] @ y
+        self.left_out = max(self.left_out, float(np.abs(left[self.places[k]]).max()))
+        at, rate = m.a[part.edge], m.v[part.edge]
+        a = -kind.loss * v - kind.square * y - kind.coupling @ at - kind.drag * (kind.coupling @ rate)
         for row, values in ((POSITION, y), (RATE, v), (SECOND, a), (BAR, bar)):
             self._put(k, row, values)
-        hidden = self.far.part[k, INNER] + np.arange(far.kind[self.kind_of[k], WATCHED], len(part.inner))
+        hidden = slice(begin + far.kind[self.kind_of[k], WATCHED], begin + len(part.inner))
         m.q[far.inner[hidden]], m.v[far.inner[hidden]] = far.rest[hidden], 0.0
         m.a[part.inner] = 0.0
         self._still(k)
@@ -177,7 +203,7 @@ class FarSpans:
 
     def _still(self, k: int) -> None:
         """Take stiffness and mass from the cables of a part, and let its droppers push for themselves."""
-        self.kept[k] = sleep(self.cables, self.parts[k])
+        self.kept[k] = sleep(self.cables, self.lanes[k])
         springs = self.system.parts["springs"].data
         springs[self.parts[k].springs, SLACK], springs[self.parts[k].springs, IDLE] = 0.0, 1.0
 
@@ -193,7 +219,7 @@ class FarSpans:
         m.v[part.inner], m.a[part.inner], m.abar[part.inner] = seen[:, 1:].T
         for vector in (m.a1, m.a2, m.a3):
             vector[part.inner] = m.a[part.inner]
-        wake(self.cables, part, self.kept[k])
+        wake(self.cables, self.lanes[k], self.kept[k])
         first = far.part[k, HUNG]
         springs = self.system.parts["springs"].data
         springs[far.hung[first : first + far.part[k, DROPPERS]], SLACK] = 1.0
@@ -214,24 +240,27 @@ class FarSpans:
     def _ranges(self) -> None:
         """Ranges of blocks that are awake; the matrix is another one."""
         far = self.far
-        far.sleeps[:] = 0
-        for part, row in zip(self.parts, far.part, strict=True):
-            far.sleeps[part.blocks] = row[ASLEEP]
-        change = np.diff(np.concatenate([[1], far.sleeps, [1]]))
+        asleep = np.append(far.part[:, ASLEEP], 0)
+        far.sleeps[:] = asleep[self.owner]
+        change = np.diff(far.sleeps, prepend=1, append=1)
         begin, end = np.flatnonzero(change < 0), np.flatnonzero(change > 0)
-        far.counts[RANGES], far.counts[SLEEPING] = len(begin), int(far.part[:, ASLEEP].sum())
+        far.counts[RANGES], far.counts[SLEEPING] = len(begin), int(asleep.sum())
         far.range[: len(begin), 0], far.range[: len(begin), 1] = begin, end
-        self._chunks()
+        self._chunks(asleep)
         self.memory.memo[H_FACTOR] = 0.0
 
-    def _chunks(self) -> None:
+    def _chunks(self, asleep: IntArray) -> None:
         """Chunks of cable elements that sleep altogether are not touched by anything."""
-        idle = np.zeros(len(self.cables.base), dtype=bool)
-        for part, row in zip(self.parts, self.far.part, strict=True):
-            idle[part.elements] = row[ASLEEP] != 0
-        first = self.cables.first
-        whole = np.add.reduceat(idle, first[:-1]) == np.diff(first)
-        self.system.core.near[0].touched[:] = np.where(whole[:, None], 0, self.touched)
+        idle = np.minimum.reduceat(asleep[self.of_element], self.cables.first[:-1])
+        np.multiply(self.touched, 1 - idle[:, None], out=self.system.core.near[0].touched)
+
+
+def _owners(own: list[IntArray], count: int) -> IntArray:
+    """Which part has each of so many items, as numbers of a table with one row more for none."""
+    owner = np.full(count, len(own))
+    for k, items in enumerate(own):
+        owner[items] = k
+    return owner
 
 
 def _hung(system: System) -> IntArray:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Callable
-from contextlib import nullcontext
 from functools import cached_property
 from typing import Any, NoReturn
 
@@ -16,12 +15,12 @@ from ..errors import ModelError, SolveError
 from ..model.integrators import Integrator
 from ..records import place
 from ..system.consistency import open_contacts
-from ..system.core import Core, Tables, apply_load, first_event, residual
+from ..system.core import Core, Tables, apply_load, first_event
 from ..system.energy import energies
 from ..system.system import System
 from . import failures
-from .account import Account
 from .apart import Apart
+from .asleep import Asleep
 from .balance import begin_account
 from .block import implicit_block, kernels_of
 from .bridge import Bridge
@@ -29,8 +28,6 @@ from .checkpoint import Snapshot, Watched, copies, refill
 from .control import Control
 from .corotation import flies, turning_nodes
 from .events import happen
-from .far_arrays import FarPlan
-from .far_spans import FarSpans
 from .formulations import FORMULATIONS
 from .low_rank import room_for_patches
 from .memory import H_FACTOR, H_PREV, KNOWN, WORST, Memory, allocate
@@ -51,7 +48,7 @@ FIRST_LOOK, NEXT_LOOK, FAR_LOOK, WIDE_LOOK = 8, 4, 64, 2**17
 MOST_MADE = 0.5  # energy from nowhere, as a share of the energy exchanged
 
 
-class Run(Account):
+class Run(Asleep):
     """One simulation of a System from t_start to t_end with output every ``every`` steps."""
 
     #: Numbers of which a snapshot has the values, besides the arrays of the memory and of the system.
@@ -81,7 +78,6 @@ class Run(Account):
         self.memory: Memory = allocate(system.size, turning_nodes(system), room_for_patches(system))
         self.sampling = sampling_of(system)
         self.bridge = Bridge(self)
-        self.far: FarSpans | None = None
         self.tabled: Tables | None = None  # what is left of a block's after parts of a line have turned
         self.seconds = 0.0
         self.astray = self.exchanged = 0.0  # largest so far, J: energy that does not add up, and all of it
@@ -118,18 +114,6 @@ class Run(Account):
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         self._compile(first)
 
-    def reduce(self, plan: FarPlan) -> FarSpans:
-        """Let parts of a line sleep that nothing touches; after :meth:`start`."""
-        begin = clock.process_time()
-        B, G = self.scheme.of(self.h)
-        step = self.h, 1.0 / B, G / B
-        self.far = FarSpans(self.system, self.memory, plan, self.sampling.unknowns, step)
-        self.far.begin()
-        self.seconds += clock.process_time() - begin
-        self.__dict__.pop("kernels", None)
-        _ = self.kernels  # there are more now: they are compiled outside the CPU time of the run
-        return self.far
-
     def _compile(self, tables: Tables) -> None:
         """No steps yet: this compiles, outside the CPU time of the run."""
         none, nothing = np.zeros(0, dtype=np.int64), self.room(0, 0)
@@ -146,7 +130,7 @@ class Run(Account):
 
     def snapshot(self) -> Snapshot:
         """All that decides how the run goes on, copied; of a line as if no part of it slept."""
-        with nullcontext() if self.far is None else self.far.woken():
+        with self.awake():
             return self._snapshot()
 
     def _snapshot(self) -> Snapshot:
@@ -321,31 +305,9 @@ class Run(Account):
         """Whether the next step is one after a start, perhaps with a jump, which is taken with care."""
         return bool(self.memory.memo[KNOWN] == 0.0 and self.system.core.damped)
 
-    def now(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """State vectors q, v, and work dissipated and supplied, as they are now and will be changed."""
-        m = self.memory
-        return m.q, m.v, m.work
-
-    def felt(self) -> tuple[FloatArray, FloatArray]:
-        """Accelerations, and forces out of balance, which in held rows are reactions, of the state now."""
-        m, core, r = self.memory, self.system.core, np.zeros(self.system.size)
-        residual(core.batches, core.ws, m.q, m.v, m.a, m.f, r)
-        return m.a, r
-
     def bundle(self, rows: int) -> Implicit | Direct:
         """All that steps one by one take, with room for so many of them."""
         return Implicit(**shared(self, rows), scheme=self.scheme, rule=self.rule(self.h))
-
-    def turn(self) -> None:
-        """Parts of a line wake or fall asleep."""
-        if self.far is not None:
-            self.far.turn()
-
-    def bridged(self, t: float, h: float, number: int) -> None:
-        """Step ``number`` from t to t + h, which has failed; no part sleeps in it."""
-        if self.far is not None:
-            self.far.wake_all()
-        self.bridge.cross(t, h, number)
 
     def stop(self, t: float, number: int, status: int, h: float) -> NoReturn:
         """Step ``number`` of length h fails for good at t.
