@@ -25,6 +25,7 @@ from .compiled import (
     PART,
     add_force,
     add_inertia,
+    add_number_work,
     add_rate_stiffness,
     add_tangent,
     does_something,
@@ -102,6 +103,12 @@ def touched_at(record, q, out):
     return touched(read(record), q, out)
 
 
+@separate_kernel
+def number_work_at(record, q, v, a, x, out, ws):
+    """``add_number_work`` of the batch at an address."""
+    add_number_work(read(record), q, v, a, x, out, ws)
+
+
 _V, _x = VECTOR, types.float64
 #: Kernels of the operations on a record, the types of what they take besides it, and what they return.
 OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
@@ -115,11 +122,14 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     remember: (remember_at, (_V, _V), types.none),
     add_rate_stiffness: (rate_stiffness_at, (_V, _V, _V, _V, _V), types.none),
     touched: (touched_at, (_V, _V), types.int64),
+    add_number_work: (number_work_at, (_V, _V, _V, _V, _V, _V), types.none),
 }
 _COLUMNS = 1 + len(OPERATIONS)
-FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER, RATES, TOUCHED = range(1, _COLUMNS)
+FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER, RATES, TOUCHED, NUMBERS = range(
+    1, _COLUMNS
+)
 #: Operations compiled for those who ask for them, see :mod:`ancf.solvers.rare`, and their columns.
-RARE = {add_rate_stiffness: RATES, touched: TOUCHED}
+RARE = {add_rate_stiffness: RATES, touched: TOUCHED, add_number_work: NUMBERS}
 
 
 class _Table(NamedTuple):

@@ -168,6 +168,11 @@ def touched(batch, q, out):
     raise TypeError(f"{type(batch).__name__} does not know what it touches")
 
 
+def add_number_work(batch, q, v, a, x, out, ws):
+    """Add the derivatives of x . force by the numbers of the batch, ``Traits.numbers``, to ``out``."""
+    raise TypeError(f"{type(batch).__name__} does not know what its numbers do")
+
+
 def inverted(batch, q, ws):
     """Slot of r_y at the start of the first element with a collapsed or inverted section, else -1."""
     raise TypeError(f"no check of {type(batch).__name__}")
@@ -248,6 +253,11 @@ class Traits:
     some : function, optional
         ``some(batch, rows)``: the batch with some of its parts, for forces alone, of one whose parts do not
         know of each other.
+    numbers : function, optional
+        ``numbers(batch)``: those by which :func:`add_number_work` differentiates, (m,): in stiffnesses,
+        masses and the like they are linear.
+    numbered : tuple of str
+        The fields of which they are made.
     """
 
     role: Role = Role.NONE
@@ -266,6 +276,8 @@ class Traits:
     exact: Callable[[Any, bool], bool] | None = None
     inertial: Callable[[Any], Any] | None = None
     some: Callable[[Any, Any], Any] | None = None
+    numbers: Callable[[Any], Any] | None = None
+    numbered: tuple[str, ...] = ()
 
 
 _TRAITS: dict[type, Traits] = {}
@@ -304,6 +316,7 @@ def implements(
     remember: Callable[..., Any] | None = None,
     rate_stiffness: Callable[..., Any] | None = None,
     touches: Callable[..., Any] | None = None,
+    number_work: Callable[..., Any] | None = None,
     **given: Any,
 ) -> None:
     """Register the operations of a kind of batch (see the functions above) and its :class:`Traits`.
@@ -322,6 +335,7 @@ def implements(
         _remember: remember,
         add_rate_stiffness: rate_stiffness,
         touched: touches,
+        add_number_work: number_work,
     }
     for stub, function in operations.items():
         if function is not None:
@@ -342,7 +356,7 @@ def _choose_by_kind(stub: Callable[..., Any]) -> None:
 
 def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
     """Whether an operation of a kind of batch does anything; all kinds have all but :func:`measure`,
-    :func:`remember`, :func:`add_rate_stiffness` and :func:`touched`.
+    :func:`remember`, :func:`add_rate_stiffness`, :func:`touched` and :func:`add_number_work`.
     """
     if (batch_type, add_force) not in _DOES:
         raise TypeError(f"no operations for {batch_type.__name__}")
@@ -364,6 +378,7 @@ for _stub in (
     remember,
     add_rate_stiffness,
     touched,
+    add_number_work,
 ):
     _choose_by_kind(_stub)
 

@@ -21,6 +21,7 @@ _OPERATIONS = {
     "remember": "remember",
     "rate_stiffness": "add_rate_stiffness",
     "touches": "touched",
+    "number_work": "add_number_work",
 }
 _DEFAULTS = {
     "inertia": compiled.no_inertia,

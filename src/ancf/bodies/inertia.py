@@ -42,6 +42,15 @@ def body_force(batch, q, v, a, r, ws):
 
 
 @inline_kernel
+def body_number_work(batch, q, v, a, x, out, ws):
+    """See :func:`ancf.compiled.add_number_work`."""
+    for n in range(batch.base.shape[0]):
+        i, j = batch.base[n, 0], batch.base[n, 1]
+        for c in range(3):
+            out[n] += x[i + c] * a[j + c]
+
+
+@inline_kernel
 def body_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add c_mass M."""
     for n in range(batch.base.shape[0]):
@@ -56,5 +65,8 @@ implements(
     force=body_force,
     inertia=body_inertia,
     tangent=body_tangent,
+    number_work=body_number_work,
+    numbers=lambda batch: batch.mass,
+    numbered=("mass",),
     exact=lambda batch, moving: True,
 )

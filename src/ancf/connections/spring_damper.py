@@ -170,6 +170,27 @@ def spring_rate_stiffness(batch, q, v, S, W, ws):
 
 
 @inline_kernel
+def spring_number_work(batch, q, v, a, x, out, ws):
+    """See :func:`ancf.compiled.add_number_work`: the numbers of a spring act on its tension alone."""
+    columns = batch.data.shape[1]
+    for e in range(batch.base.shape[0]):
+        n, length, rate, _, carries = spring_state(batch, e, q, v)
+        if batch.data[e, IDLE] != 0.0 or not carries:
+            continue
+        dx, dy, dz = spring_vector(batch, e, x, 0.0)
+        moved = n[0] * dx + n[1] * dy + n[2] * dz
+        extension, first = length - batch.data[e, LENGTH], columns * e
+        out[first + STIFFNESS] += moved * extension
+        out[first + DAMPING] += moved * rate
+        out[first + LENGTH] -= moved * (batch.data[e, STIFFNESS] + looked_up(batch, 2 * e, extension)[1])
+        if batch.data[e, FRICTION] != 0.0:
+            creep = batch.data[e, CREEP]
+            share = math.tanh(rate / creep)
+            out[first + FRICTION] += moved * share
+            out[first + CREEP] -= moved * batch.data[e, FRICTION] * (1.0 - share * share) * rate / creep**2
+
+
+@inline_kernel
 def spring_energy(batch, q, ws):
     """Elastic energy of the springs, J."""
     energy = 0.0
@@ -226,6 +247,9 @@ implements(
     energy=spring_energy,
     measure=spring_measure,
     rate_stiffness=spring_rate_stiffness,
+    number_work=spring_number_work,
+    numbers=lambda batch: batch.data.ravel(),
+    numbered=("data",),
     role=Role.DISSIPATES | Role.MEASURES,
     damped=_damped,
     some=_some,

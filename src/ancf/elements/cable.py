@@ -19,8 +19,32 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
-from ..simd import LANES, every, gather, gather_nodes, load, scatter, scatter_nodes, store, total, zero
+from ..simd import every, gather, gather_nodes, load, scatter, scatter_nodes, total, zero
+from .cable_columns import (
+    AXIAL,
+    AXIALLY,
+    BEGIN,
+    BENDING,
+    CURVATURE,
+    CURVED,
+    DA_L,
+    DAMPED,
+    DB_L,
+    EA_L,
+    EI_L,
+    END,
+    FIRST,
+    IN_BENDING,
+    IN_SLOPE,
+    INV_L,
+    LENGTH,
+    MASS,
+    PAPER,
+    VISCOUS,
+    VISCOUSLY,
+)
 from .cable_damping import axial_damping, bending_damping, bending_damping_tangent, slope_damping
+from .cable_numbers import elements_work, numbers
 from .cable_rates import TWIST, rate_blocks, store_twists
 from .cable_strain import (
     WEIGHT,
@@ -44,27 +68,14 @@ from .cable_strain import (
 from .cable_tangent import (
     BLOCKS,
     KDD,
-    MASSES,
-    PLACES,
-    add_block,
-    add_chunk,
     spread,
     spread_slope,
     spread_slope_damping,
+    store_tangent,
     whole_blocks,
 )
 from .chunks import in_lanes
 from .workspace import clear
-
-# rows of the elements' constants: L, 1/L, EA L, EI L, damping D_a L and D_b L, rhoA L/420, damping/rhoA
-LENGTH, INV_L, EA_L, EI_L, DA_L, DB_L, MASS, VISCOUS = range(8)
-#: First row of the curvatures in the reference strains.
-CURVATURE = 10
-# columns of the groups: first chunk and end, paper's strains or not, first row of gp, numbers of axial and of
-# bending Gauss points, which damping there is, whether there are reference strains
-BEGIN, END, PAPER, FIRST, AXIAL, BENDING, DAMPED, CURVED = range(8)
-#: Bits of the column ``damped`` of the groups.
-VISCOUSLY, AXIALLY, IN_BENDING, IN_SLOPE = 1, 2, 4, 8
 
 
 class CableBatch(NamedTuple):
@@ -254,34 +265,6 @@ def cable_inertia(batch, a, r, ws):
 
 
 @inline_kernel
-def mass_entry(x, y, length):
-    """420/(rhoA L) times the integral of S_x S_y of eq. 23."""
-    power = x % 2 + y % 2
-    return MASSES[x, y] * (1.0 if power == 0 else (length if power == 1 else length * length))
-
-
-@inline_kernel
-def store_tangent(batch, A, ws, chunk, mass):
-    """Add stiffness blocks of a chunk, and its mass by the factors rhoA L/420, to the block values A."""
-    data = batch.lane_data
-    inv_l, length, one = load(data, chunk, INV_L), load(data, chunk, LENGTH), every(1.0)
-    if batch.order[chunk] > 0:
-        scale, masses = (-inv_l, one, inv_l, one), (mass, mass * length, mass * length * length)
-        add_chunk(A, batch.lane_block, batch.order[chunk], chunk, ws, scale, masses)
-        return
-    store(mass, ws, BLOCKS * LANES)
-    for m in range(batch.first[chunk + 1] - batch.first[chunk]):
-        e, il, h = batch.first[chunk] + m, data[chunk, INV_L, m], data[chunk, LENGTH, m]
-        for x in range(4):
-            for y in range(4):
-                place = batch.dest[e, 4 * x + y]
-                if place >= 0:
-                    scale = (il * (x - 1.0) if x % 2 == 0 else 1.0) * (il * (y - 1.0) if y % 2 == 0 else 1.0)
-                    own = ws[BLOCKS * LANES + m] * mass_entry(x, y, h)
-                    add_block(A, place, ws, PLACES[4 * x + y], m, scale, own)
-
-
-@inline_kernel
 def stiffness(batch, group, chunk, x, ws, c_damping, c_stiffness, along, across):
     """Add the tangents of strains and damping in the shape x to the blocks between d, t1 and t2.
 
@@ -344,6 +327,16 @@ def cable_rate_stiffness(batch, q, v, S, W, ws):
 
 
 @inline_kernel
+def cable_number_work(batch, q, v, a, x, out, ws):
+    """See :func:`ancf.compiled.add_number_work`."""
+    for n in range(batch.groups.shape[0]):
+        group = batch.groups[n]
+        for chunk in range(group[BEGIN], group[END]):
+            states = nodes(batch, q, chunk), nodes(batch, v, chunk), nodes(batch, a, chunk)
+            elements_work(batch, group, chunk, states, nodes(batch, x, chunk), out)
+
+
+@inline_kernel
 def cable_energy(batch, q, ws):
     """Strain energy, J (the integral behind eq. 27)."""
     energy, gp, data = 0.0, batch.gp, batch.lane_data
@@ -383,6 +376,9 @@ implements(
     tangent=cable_tangent,
     energy=cable_energy,
     rate_stiffness=cable_rate_stiffness,
+    number_work=cable_number_work,
+    numbers=numbers,
+    numbered=("lane_data", "lane_slope"),
     role=Role.DISSIPATES,
     slots=("base", "lane_base"),
     bind=bind,

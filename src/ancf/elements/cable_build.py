@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 from ..arrays import FloatArray, IntArray
 from ..model.beam import Beam
 from ..simd import LANES
-from .cable import AXIALLY, IN_BENDING, IN_SLOPE, VISCOUSLY, CableBatch
+from .cable import CableBatch
+from .cable_columns import AXIALLY, IN_BENDING, IN_SLOPE, VISCOUSLY
 from .cable_slack import slack
 from .cable_strain import gauss_table
 from .chunks import in_lanes

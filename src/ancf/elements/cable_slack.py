@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from .cable import AXIAL, BEGIN, CURVED, EA_L, END, LENGTH, PAPER, CableBatch
+from .cable import CableBatch
+from .cable_columns import AXIAL, BEGIN, CURVED, EA_L, END, LENGTH, PAPER
 from .chunks import in_lanes
 
 

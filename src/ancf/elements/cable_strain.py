@@ -182,6 +182,12 @@ def dyads(x, p, s, pp, ps, sp, ss):
 
 
 @formula
+def axial_slope(a, eps0, paper):
+    """Derivative of :func:`axial_force` by a."""
+    return every(0.5) if paper else 0.5 * (1.0 + eps0) / (a * sqrt(a))
+
+
+@formula
 def axial_tangent(p, eps0, ea, damping, paper):
     """Rows of the derivative of the axial force by p; `damping` acts along the axis."""
     a = dot(p, p)
@@ -196,9 +202,8 @@ def axial_tangent(p, eps0, ea, damping, paper):
 
 
 @formula
-def bending_tangent(p, s, kappa0, ei, paper, curved):
-    """Rows of the second derivatives of EI/2 (kappa - kappa0)^2: by p p, p s, s p and s s."""
-    a, b, c = dot(p, p), dot(p, s), dot(s, s)
+def curvature_slopes(a, b, c, kappa0, ei, paper, curved):
+    """First derivatives of EI/2 (kappa - kappa0)^2 by a, b and c, and second: aa, ab, ac, bb, bc, cc."""
     ia, im, k2 = squared_curvature(a, b, c, paper)
     power = 3.0 if paper else 2.0
     wu, wuu = 0.5 * ei, every(0.0)  # dW/d(kappa^2), and its derivative
@@ -216,10 +221,18 @@ def bending_tangent(p, s, kappa0, ei, paper, curved):
     hbb = -2.0 * wu * im + wuu * ub * ub
     hbc = wuu * ub * uc
     hcc = wuu * uc * uc
-    pp = dyads(2.0 * wu * ua, p, s, 4.0 * haa, 2.0 * hab, 2.0 * hab, hbb)
-    ps = dyads(wu * ub, p, s, 2.0 * hab, 4.0 * hac, hbb, 2.0 * hbc)
-    sp = dyads(wu * ub, p, s, 2.0 * hab, hbb, 4.0 * hac, 2.0 * hbc)
-    ss = dyads(2.0 * wu * uc, p, s, hbb, 2.0 * hbc, 2.0 * hbc, 4.0 * hcc)
+    return (wu * ua, wu * ub, wu * uc), (haa, hab, hac, hbb, hbc, hcc)
+
+
+@formula
+def bending_tangent(p, s, kappa0, ei, paper, curved):
+    """Rows of the second derivatives of EI/2 (kappa - kappa0)^2: by p p, p s, s p and s s."""
+    first, second = curvature_slopes(dot(p, p), dot(p, s), dot(s, s), kappa0, ei, paper, curved)
+    (wa, wb, wc), (haa, hab, hac, hbb, hbc, hcc) = first, second
+    pp = dyads(2.0 * wa, p, s, 4.0 * haa, 2.0 * hab, 2.0 * hab, hbb)
+    ps = dyads(wb, p, s, 2.0 * hab, 4.0 * hac, hbb, 2.0 * hbc)
+    sp = dyads(wb, p, s, 2.0 * hab, hbb, 4.0 * hac, 2.0 * hbc)
+    ss = dyads(2.0 * wc, p, s, hbb, 2.0 * hbc, 2.0 * hbc, 4.0 * hcc)
     return pp, ps, sp, ss
 
 

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compiled import formula, inline_kernel
-from ..simd import LANES, load, scatter_nodes, vector
+from ..simd import LANES, every, load, scatter_nodes, store, vector
+from .cable_columns import INV_L, LENGTH
 from .cable_damping import SLOPES
 from .workspace import add_row, add_rows
 
@@ -153,3 +154,31 @@ def whole_blocks(dest: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np
     order = np.where(both & whole[:, 1, 0], 1, np.where(both & whole[:, 0, 1], 2, 0))
     between = np.where(order == 1, d[:, 1, 0, 0], d[:, 0, 1, 0])
     return np.stack([d[:, 0, 0, 0], d[:, 1, 1, 0], between], axis=1), order
+
+
+@inline_kernel
+def mass_entry(x, y, length):
+    """420/(rhoA L) times the integral of S_x S_y of eq. 23."""
+    power = x % 2 + y % 2
+    return MASSES[x, y] * (1.0 if power == 0 else (length if power == 1 else length * length))
+
+
+@inline_kernel
+def store_tangent(batch, A, ws, chunk, mass):
+    """Add stiffness blocks of a chunk, and its mass by the factors rhoA L/420, to the block values A."""
+    data = batch.lane_data
+    inv_l, length, one = load(data, chunk, INV_L), load(data, chunk, LENGTH), every(1.0)
+    if batch.order[chunk] > 0:
+        scale, masses = (-inv_l, one, inv_l, one), (mass, mass * length, mass * length * length)
+        add_chunk(A, batch.lane_block, batch.order[chunk], chunk, ws, scale, masses)
+        return
+    store(mass, ws, BLOCKS * LANES)
+    for m in range(batch.first[chunk + 1] - batch.first[chunk]):
+        e, il, h = batch.first[chunk] + m, data[chunk, INV_L, m], data[chunk, LENGTH, m]
+        for x in range(4):
+            for y in range(4):
+                place = batch.dest[e, 4 * x + y]
+                if place >= 0:
+                    scale = (il * (x - 1.0) if x % 2 == 0 else 1.0) * (il * (y - 1.0) if y % 2 == 0 else 1.0)
+                    own = ws[BLOCKS * LANES + m] * mass_entry(x, y, h)
+                    add_block(A, place, ws, PLACES[4 * x + y], m, scale, own)

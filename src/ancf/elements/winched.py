@@ -31,6 +31,17 @@ from ..compiled import Role, formula, implements, inline_kernel
 from ..simd import every, gather, load, scatter, total, vector
 from ..vectors import dot
 from .cable import (
+    add_to_nodes,
+    bind,
+    damped_force,
+    differences,
+    elastic,
+    nodes,
+    on_nodes,
+    reference,
+    stiffness,
+)
+from .cable_columns import (
     AXIAL,
     BEGIN,
     BENDING,
@@ -47,19 +58,9 @@ from .cable import (
     PAPER,
     VISCOUS,
     VISCOUSLY,
-    add_to_nodes,
-    bind,
-    damped_force,
-    differences,
-    elastic,
-    nodes,
-    on_nodes,
-    reference,
-    stiffness,
-    store_tangent,
 )
 from .cable_strain import WEIGHT, a_of, axial_energy, b_of, bending_energy, c_of, forces, products
-from .cable_tangent import BLOCKS, KDD
+from .cable_tangent import BLOCKS, KDD, store_tangent
 from .workspace import clear
 
 # rows of ``lane_run``: X of both nodes, 1/L0, rhoA/2 at the node that is the winch, gravity

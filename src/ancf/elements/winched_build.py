@@ -10,8 +10,9 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..model.beam import Beam
 from . import cable_build
-from .cable import INV_L, LENGTH, MASS, mass_entry
+from .cable_columns import INV_L, LENGTH, MASS
 from .cable_slack import Slack
+from .cable_tangent import mass_entry
 from .chunks import in_lanes
 from .winched import INV_L0, WHOLE, X1, X2, WinchedBatch
 

@@ -44,7 +44,7 @@ def acts_of(model: Model, name: str) -> Acts | None:
     if key in ("start", "end"):
         return Acts(moves=True)
     everything = frozenset((ELEMENTS, SPRINGS, BODIES))
-    return Acts(everything, weighs=True, moves=True) if key == "length" else None
+    return Acts(everything, weighs=True, moves=True, shapes=True) if key == "length" else None
 
 
 def _is_bare(model: Model) -> bool:

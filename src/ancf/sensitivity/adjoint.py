@@ -23,6 +23,7 @@ from ..solvers.checkpoint import Snapshot
 from ..solvers.record import Stats
 from ..solvers.sensitivity import Way
 from ..solvers.status import OK
+from ..system.core import follow_supports
 from ..system.system import System
 from .answers import LINEAR, Face
 from .base import check_differentiable, matrices_of
@@ -31,11 +32,14 @@ from .follow import Trail, check_method, given_start, refuse_breaks, when_cut
 from .nearby import Nearby
 from .parameters import Parameter
 from .start import starts
+from .weighed import Weighed
 
 #: Bytes of states up to which all are kept and no step is taken again, and those of a block.
 KEPT, BLOCK = 320e6, 16e6
 #: Change of an unknown, in its own size, of the differences of what is asked.
 MOVED = 1e-4
+#: Answers that nothing but the state and the shape functions has a part in.
+SHAPES = ("position", "velocity", "slope")
 PLACES = ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12))
 
 #: A question: a quantity and of what.
@@ -120,8 +124,9 @@ class Adjoint:
         self.run: Any = made.run
         self.system = System(made.system.model)
         check_differentiable(self.system, where)
-        self.families = [Family(parameter, self.system) for parameter in parameters]
-        self.nearby = Nearby(self.families, self.system)
+        self.families = [Family(parameter, self.system, shifts=True) for parameter in parameters]
+        self.nearby = Nearby(self.families, self.system, shifts=True)
+        self.weighed = Weighed(self.nearby)
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
         self.ahead = ahead_of(self.system.core, self.m)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
@@ -138,7 +143,7 @@ class Adjoint:
         self.first = q[0].copy(), v[0].copy(), run.memory.a.copy()
         times, found = [t], [self._asked(q, v)]
         keep = 24.0 * size * run.steps <= KEPT
-        most = max(1, min(int(BLOCK / (8 * size * (6 * len(self.families) + 12))), run.steps))
+        most = max(1, min(int(BLOCK / (8 * size * (6 * len(self.nearby.others) + 12))), run.steps))
         if not keep:
             most = min(most, max(16, int(np.sqrt(run.steps))))
         while run.done < run.steps:
@@ -160,6 +165,9 @@ class Adjoint:
         """Derivatives of the number by the parameters, (p,), from those by the histories."""
         run, system = self.run, self.system
         total, mu = np.zeros(len(self.families)), np.zeros((4, system.size))
+        still = np.zeros(
+            system.size
+        )  # derivatives of the number by those of q that are the same at all times
         for block in reversed(self.blocks):
             rows = slice(block.done + 1, block.done + block.count + 1)
             own = {key: slope[rows] for key, slope in slopes.items()}
@@ -168,19 +176,35 @@ class Adjoint:
             when = run.time(block.done), block.h, run.t_start, run.t_end
             lam = np.zeros_like(way.q)
             tables = system.inputs.tables(*when[:2], block.count, *when[2:])
-            found = self.nearby.at_steps(Way(*(x.copy() for x in way)), when, tables, gaps=False)
-            states = Way(*(x.copy() for x in way))
+            lost = np.zeros(system.size)
             _, status = back_steps(
-                system.core, self.m, self.ahead, tables, states, wanted, block.h, run.scheme, mu, lam
+                system.core, self.m, self.ahead, tables, way, wanted, block.h, run.scheme, mu, lam, lost
             )
             if status != OK:
                 raise SolveError("gradient", "the equations of the adjoint cannot be solved", "smaller steps")
-            total -= np.einsum("ni,pni->p", lam, found.push)
-            for k, held in found.held.items():
-                total[k] += np.sum(np.moveaxis(held[:2], 0, 1) * wanted)
+            still += np.sum(wanted[:, 0], axis=0) - lost
+            total += self._pushed(way, when, tables, wanted, lam)
             total += self._explicit(way.q, way.v, own)
             block.way = None
+        for k, shift in self.nearby.shifts.items():
+            total[k] += still @ self._followed(shift)
         return total + self._of_start({key: slope[:1] for key, slope in slopes.items()}, mu)
+
+    def _pushed(self, way: Way, when: Any, tables: Any, wanted: FloatArray, lam: FloatArray) -> FloatArray:
+        """What is due to what parameters do to the states of a block at fixed free unknowns."""
+        made = -self.weighed.at_steps(way, when, tables, lam)
+        for k in self.nearby.others:
+            family = self.families[k]
+            family.know(self.system)
+            found = family.at_steps(*way, when, gaps=False)
+            made[k] += np.sum(np.moveaxis(found.held[:2], 0, 1) * wanted) - np.sum(lam * found.push)
+        return made
+
+    def _followed(self, shift: FloatArray) -> FloatArray:
+        """A derivative of q that is the same at all times, the shadows filled."""
+        moved, still = shift.copy(), np.zeros((2, shift.size))
+        follow_supports(self.system.core.supports, moved, *still)
+        return moved
 
     def _of_start(self, slopes: dict[Any, FloatArray], mu: FloatArray) -> FloatArray:
         run, system = self.run, self.system
@@ -229,6 +253,9 @@ class Adjoint:
         """What parameters do to the answers of fixed states."""
         total, here = np.zeros(len(self.families)), self._asked(q, v)
         for k, family in enumerate(self.families):
+            acts = family.parameter.acts
+            if acts is not None and not acts.shapes and all(key[0] in SHAPES for key in self.keys):
+                continue
             for system, weight in zip(family.systems, family.weights, strict=True):
                 if system is self.system:
                     continue

@@ -42,18 +42,7 @@ class Nearby:
         self.shifts = {k: family.shift for k, family in enumerate(families) if shifts and family.shift.size}
         self.plain = [k for k, family in enumerate(families) if family.plain or k in self.shifts]
         self.others = [k for k in range(len(families)) if k not in self.plain]
-        found: dict[int, tuple[Any, list[tuple[int, float]]]] = {}
-        for row, k in enumerate(self.plain):
-            for weight, changed in families[k].used():
-                for batch in changed:
-                    found.setdefault(id(batch), (batch, []))[1].append((row, weight))
-        uses = [use for _, own in found.values() for use in own]
-        self._uses = Uses(
-            Batches(batch for batch, _ in found.values()),
-            np.cumsum([0] + [len(own) for _, own in found.values()]),
-            np.array([row for row, _ in uses], dtype=np.int64),
-            np.array([weight for _, weight in uses], dtype=np.float64),
-        )
+        self._uses = uses_of(families, self.plain)
         self._work, self._kept = np.zeros(system.size), np.zeros(0)
 
     def _room(self, count: int) -> FloatArray:
@@ -100,3 +89,19 @@ class Nearby:
                 add_loads(loads, value, weight, self._work, rows[row])
         if self.plain:
             add_pushes(self.system.core, self._uses, tables, way, self._work, rows)
+
+
+def uses_of(families: list[Family], chosen: list[int]) -> Uses:
+    """Batches around the values of the chosen parameters, whose rows are counted among these."""
+    found: dict[int, tuple[Any, list[tuple[int, float]]]] = {}
+    for row, k in enumerate(chosen):
+        for weight, changed in families[k].used():
+            for batch in changed:
+                found.setdefault(id(batch), (batch, []))[1].append((row, weight))
+    uses = [use for _, own in found.values() for use in own]
+    return Uses(
+        Batches(batch for batch, _ in found.values()),
+        np.cumsum([0] + [len(own) for _, own in found.values()]),
+        np.array([row for row, _ in uses], dtype=np.int64),
+        np.array([weight for _, weight in uses], dtype=np.float64),
+    )

@@ -98,7 +98,7 @@ def factors(core, factor, W, mu, c1, B, G, lam, work):
 
 
 @kernel
-def back_steps(core, m, ahead, tables, way, wanted, h, scheme, mu, out):
+def back_steps(core, m, ahead, tables, way, wanted, h, scheme, mu, out, still):
     """Carry the adjoint back through the steps of a block.
 
     Parameters
@@ -111,6 +111,8 @@ def back_steps(core, m, ahead, tables, way, wanted, h, scheme, mu, out):
         mu_q, mu_v, mu_a, mu_b at the end of the block; changed to those at its start.
     out : (steps, size)
         lambda.
+    still : (size,)
+        What lambda does to derivatives of q that are the same at all times is added: K^T lambda.
 
     Returns
     -------
@@ -143,6 +145,7 @@ def back_steps(core, m, ahead, tables, way, wanted, h, scheme, mu, out):
             product(core, ahead.C[k], lam, x[1], w)
         for i in range(size):
             back[0, i], back[1, i] = x[0, i], x[1, i]
+            still[i] += x[0, i]
         folded(core.supports, x, back)
         for i in range(n):
             eq, ev = mu[0, i] - back[0, i], mu[1, i] - back[1, i]

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..elements.cable import DA_L, DB_L, EA_L, EI_L, MASS, CableBatch
+from ..elements.cable import CableBatch
+from ..elements.cable_columns import DA_L, DB_L, EA_L, EI_L, MASS
 
 #: Rows of the cables' constants that are zero in sleep.
 ASLEEP_ROWS = (EA_L, EI_L, DA_L, DB_L, MASS)

@@ -12,7 +12,8 @@ from typing import NamedTuple
 from ..arrays import FloatArray, IntArray
 from ..batches import Batches, add_force_of
 from ..compiled import kernel
-from ..system.core import drive, external_force, to_local
+from ..system.core import drive, external_force, onto_shadows, to_local
+from .rare import add_number_work_of
 
 
 class Uses(NamedTuple):
@@ -68,3 +69,57 @@ def add_loads(loads, value, weight, work, push):
             external_force(loads, value[step], work)
         for i in range(work.shape[0]):
             push[step, i] -= weight * work[i]
+
+
+@kernel
+def weigh_pushes(core, uses, known, begin, tables, way, lam, work, pushed, numbers, total):
+    """Add lambda . R_p at the ends of steps to what they are for the parameters and for numbers of batches.
+
+    Parameters
+    ----------
+    core, uses, tables, way : Core, Uses, Tables, Way
+        See :func:`add_pushes`.
+    known : Batches
+        Of the model itself, which know what their numbers do.
+    begin : (batches + 1,)
+        Where the numbers of each of them begin.
+    lam : (steps, size)
+        lambda at the unknowns; filled at the shadows.
+    work : (size,)
+    pushed : (rows,)
+        For the parameters of the uses.
+    numbers : (m,)
+        Derivatives by the numbers.
+    total : (size,)
+        Sum of lambda.
+    """
+    n = core.weight.shape[0]
+    for step in range(way.q.shape[0]):
+        q, v, a, x = way.q[step], way.v[step], way.a[step], lam[step]
+        drive(core.supports, core.loads.value, tables, step, q, v, a)
+        onto_shadows(core.supports, x)
+        for i in range(work.shape[0]):
+            total[i] += x[i]
+        for k in range(begin.shape[0] - 1):
+            add_number_work_of(known, k, q, v, a, x, numbers[begin[k] : begin[k + 1]], core.ws)
+        for k in range(uses.start.shape[0] - 1):
+            for i in range(work.shape[0]):
+                work[i] = 0.0
+            add_force_of(uses.batches, k, q, v, a, work, core.ws)
+            to_local(core.supports, work)
+            found = 0.0
+            for i in range(n):
+                found += work[i] * x[i]
+            for m in range(uses.start[k], uses.start[k + 1]):
+                pushed[uses.of[m]] += uses.weight[m] * found
+
+
+@kernel
+def weigh_loads(loads, value, work, lam):
+    """Sum over the steps of lambda, (steps, size) with its shadows, times dead loads of these inputs."""
+    total = 0.0
+    for step in range(lam.shape[0]):
+        external_force(loads, value[step], work)
+        for i in range(work.shape[0]):
+            total += lam[step, i] * work[i]
+    return total

@@ -7,10 +7,10 @@ from typing import Any
 
 from numba import typeof
 
-from ..batches import RARE, RATES, TOUCHED, Batches, address_of, caller_of
-from ..compiled import add_rate_stiffness, inline_kernel, touched
+from ..batches import NUMBERS, RARE, RATES, TOUCHED, Batches, address_of, caller_of
+from ..compiled import add_number_work, add_rate_stiffness, inline_kernel, touched
 
-_rate, _touched = caller_of(add_rate_stiffness), caller_of(touched, 0)
+_rate, _touched, _numbers = caller_of(add_rate_stiffness), caller_of(touched, 0), caller_of(add_number_work)
 
 
 def knowing(stub: Any, batches: Iterable[Any]) -> Batches:
@@ -36,3 +36,10 @@ def all_touched(batches, q, out):
     for k in range(table.shape[0]):
         count += _touched(table[k, TOUCHED], table[k, 0], (q, out[count:]))
     return count
+
+
+@inline_kernel
+def add_number_work_of(batches, k, q, v, a, x, out, ws):
+    """``add_number_work`` of one of the :class:`Batches`."""
+    table = batches.table
+    _numbers(table[k, NUMBERS], table[k, 0], (q, v, a, x, out, ws))

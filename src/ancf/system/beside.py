@@ -25,6 +25,7 @@ class Acts(NamedTuple):
     parts: frozenset[str] = frozenset()  # ELEMENTS, SPRINGS, BODIES
     weighs: bool = False  # dead loads
     moves: bool = False  # places and axes of supports
+    shapes: bool = False  # shape functions, and where points are on their bodies
 
 
 def beside(system: System, model: Model, acts: Acts) -> System:

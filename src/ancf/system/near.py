@@ -13,7 +13,8 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..batches import Batches, add_forces
 from ..compiled import inline_kernel
-from ..elements.cable import BEGIN, END, CableBatch
+from ..elements.cable import CableBatch
+from ..elements.cable_columns import BEGIN, END
 from ..linalg.block_ldl import Factor
 from ..linalg.reach import clear, spread_of
 from ..records import recorded

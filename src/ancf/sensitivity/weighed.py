@@ -1,0 +1,88 @@
+"""What lambda of an adjoint makes of what parameters do to residuals: lambda . R_p, summed over the steps.
+
+Where a parameter changes nothing but numbers of batches that know what these do (``Traits.numbers``), the
+derivatives by these numbers are summed up, once for all parameters; what the numbers change by is a
+difference of arrays.  Forces of other batches are evaluated at the values around a parameter and weighed.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..compiled import add_number_work, traits
+from ..solvers.pushes import weigh_loads, weigh_pushes
+from ..solvers.rare import knowing
+from ..solvers.sensitivity import Way
+from .alike import OWN
+from .family import Family
+from .nearby import Nearby, uses_of
+
+
+class Weighed:
+    """The families of all parameters of an adjoint.
+
+    Parameters
+    ----------
+    nearby : Nearby
+    """
+
+    def __init__(self, nearby: Nearby) -> None:
+        self.nearby, self.system = nearby, nearby.system
+        families = nearby.families
+        rates = {k: rates_of(families[k]) for k in nearby.plain}
+        self.rates = {k: found for k, found in rates.items() if found is not None}
+        names = sorted({name for found in self.rates.values() for name in found})
+        batches = [self.system.parts[name] for name in names]
+        sizes = [len(next(found[name] for found in self.rates.values() if name in found)) for name in names]
+        self.begin = np.cumsum([0, *sizes]).astype(np.int64)
+        self.place = {name: slice(*self.begin[k : k + 2]) for k, name in enumerate(names)}
+        self.known = knowing(add_number_work, batches)
+        self.others = [k for k in nearby.plain if k not in self.rates]
+        self.uses = uses_of(families, self.others)
+        self.work = np.zeros(self.system.size)
+
+    def at_steps(
+        self, way: Way, when: tuple[float, float, float, float], tables: Any, lam: FloatArray
+    ) -> FloatArray:
+        """For the steps of a block and their lambda, (p,); see ``Nearby.at_steps``."""
+        families = self.nearby.families
+        made, pushed = np.zeros(len(families)), np.zeros(len(self.others))
+        numbers, total = np.zeros(self.begin[-1]), np.zeros(self.system.size)
+        core, work = self.system.core, self.work
+        weigh_pushes(core, self.uses, self.known, self.begin, tables, way, lam, work, pushed, numbers, total)
+        made[self.others] = pushed
+        for k, found in self.rates.items():
+            made[k] += sum(float(numbers[self.place[name]] @ rate) for name, rate in found.items())
+        for k in self.nearby.plain:
+            for weight, loads, value in families[k].loads_used(when, tables):
+                if len(loads.start) == 1 or len(value) == 1:  # the same at all times
+                    made[k] -= weight * weigh_loads(loads, value[:1], work, total[None])
+                else:
+                    made[k] -= weight * weigh_loads(loads, value, work, lam)
+        return made
+
+
+def rates_of(family: Family) -> dict[str, FloatArray] | None:
+    """Derivatives of the numbers of batches by a parameter, by name, if that is all it does to forces."""
+    found = {}
+    for name in family.changed:
+        batch, each = family.base.parts[name], [system.parts[name] for system in family.systems]
+        numbers, keys = traits(batch).numbers, traits(batch).numbered
+        if numbers is None or any(not _has_other(batch, other, keys) for other in each):
+            return None
+        here = numbers(batch)
+        changes = [w * (numbers(one) - here) for w, one in zip(family.weights, each, strict=True)]
+        found[name] = np.sum(changes, axis=0)
+    return found
+
+
+def _has_other(batch: Any, other: Any, keys: tuple[str, ...]) -> bool:
+    """Whether nothing but these numbers differs."""
+    return all(
+        mine is theirs or np.array_equal(mine, theirs)
+        for key, mine, theirs in zip(batch._fields, batch, other, strict=True)
+        if key not in keys and key not in OWN
+    )

@@ -1,0 +1,141 @@
+"""What the numbers of batches do to x . force: the kernels against differences of the forces."""
+
+import numpy as np
+import pytest
+
+import ancf
+from ancf.batches import Batches
+from ancf.compiled import add_number_work, does_something, traits
+from ancf.elements.cable_columns import VISCOUS
+from ancf.solvers.pushes import Uses, weigh_pushes
+from ancf.solvers.rare import knowing
+from ancf.solvers.sensitivity import Way
+from ancf.system.core import residual
+from ancf.system.system import System
+
+SECTIONS = {
+    "plain": {},
+    "axial": {"axial_damping": 5.0},
+    "bending": {"bending_damping": 0.5},
+    "all": {"axial_damping": 5.0, "bending_damping": 0.5, "damping": 0.3, "slope_damping": 0.2},
+}
+
+
+def cable(strain, elements, shape, **damping):
+    model = ancf.Model()
+    section = ancf.Section(EA=100.0, EI=1.0, rhoA=0.1, **damping)
+    given = {"elements": elements, "section": section, "strain": strain}
+    if shape == "straight":
+        return model, model.add_beam("beam", start=(0, 0, 0), end=(1.2, 0.3, 0), **given)
+
+    def arc(s):
+        return np.array([np.sin(s), 1.0 - np.cos(s), 0.0])
+
+    return model, model.add_beam("beam", path=arc, **given)
+
+
+def sprung():
+    """Springs with and without dampers, curves, friction, slack and stretched."""
+    model, beam = cable("material", 3, "straight")
+    places = {"stiffness": 10.0, "length": 0.3}
+    model.add_spring(beam.at(0.77), (0.5, 0.5, 1), damping=30.0, **places)
+    model.add_spring(beam.end, (0.5, 0.5, 1), friction=2.0, friction_velocity=0.4, **places)
+    model.add_spring(beam.at(0.2), beam.at(0.9), stiffness=7.0, length=0.2, slack=True)
+    model.add_spring(beam.at(0.3), (0, 0, 0.1), stiffness=7.0, length=5.0, slack=True)
+    return model
+
+
+def states(system, seed):
+    """A strained shape, velocities, accelerations and x, and where they come from."""
+    rng = np.random.default_rng(seed)
+    used = np.append(system.numbering.used(), np.zeros(system.size - system.n))
+    q, v, a, x = (by * used * rng.uniform(-1, 1, system.size) for by in (0.02, 0.5, 500.0, 1.0))
+    return q + system.initial_shape(), v, a, x, rng
+
+
+def found_by_kernel(system, batch, q, v, a, x):
+    """Derivatives of x . force by the numbers of a batch, from the kernel that weighs them in a run."""
+    m = len(traits(batch).numbers(batch))
+    uses = Uses(Batches(), np.zeros(1, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0))
+    out, work, total = np.zeros(m), np.zeros(system.size), np.zeros(system.size)
+    known = knowing(add_number_work, [batch])
+    tables = system.inputs.tables(0.0, 0.1, 1, 0.0, 1.0)
+    way = Way(*(y[None].copy() for y in (q, v, a)))
+    begin = np.array([0, m])
+    weigh_pushes(system.core, uses, known, begin, tables, way, x[None].copy(), work, np.zeros(0), out, total)
+    assert np.array_equal(total, x)
+    return out
+
+
+def work(system, batch, q, v, a, x):
+    r = np.empty(system.size)
+    residual(Batches([batch]), system.core.ws, q, v, a, np.zeros(system.size), r)
+    return x * r
+
+
+def check(system, name, field, row, seed=1, size=1.0):
+    """The derivative along a random change of some rows of a field, by differences of order six."""
+    batch = system.parts[name]
+    q, v, a, x, rng = states(system, seed)
+    values = getattr(batch, field)
+    change = np.zeros_like(values)
+    change[:, row] = size * values[:, row] * rng.uniform(0.2, 1.0, values[:, row].shape)
+
+    def moved(e):
+        return batch._replace(**{field: values + e * change})
+
+    def slope(of):
+        one, two, three = ((of(e) - of(-e)) / (2 * e) for e in (1e-3, 2e-3, 3e-3))
+        return 1.5 * one - 0.6 * two + 0.1 * three
+
+    numbers = traits(batch).numbers
+    rate = slope(lambda e: numbers(moved(e)))
+    own = found_by_kernel(system, batch, q, v, a, x)
+    wanted = slope(lambda e: work(system, moved(e), q, v, a, x).sum())
+    terms, round_off = np.abs(own * rate).sum(), 1e-12 * np.abs(work(system, batch, q, v, a, x)).sum()
+    assert abs(own @ rate - wanted) <= 1e-9 * terms + round_off
+    assert terms == 0.0 or terms > 1e3 * round_off
+    return terms
+
+
+@pytest.mark.parametrize("elements", [3, 9])
+@pytest.mark.parametrize("shape", ["straight", "curved"])
+@pytest.mark.parametrize("strain", ["material", "paper"])
+@pytest.mark.parametrize("damping", SECTIONS)
+def test_of_cables(damping, strain, shape, elements):
+    system = System(cable(strain, elements, shape, **SECTIONS[damping])[0])
+    for row in range(8):
+        terms = check(system, "cable", "lane_data", row)
+        needed = {4: "axial_damping", 5: "bending_damping", VISCOUS: "damping"}.get(row)
+        assert (terms > 0.0) == (needed is None or needed in SECTIONS[damping]), row
+    terms = check(system, "cable", "lane_slope", 0)
+    assert (terms > 0.0) == ("slope_damping" in SECTIONS[damping])
+
+
+def test_of_springs():
+    system = System(sprung())
+    for column in (0, 1, 2, 4, 5):
+        assert check(system, "springs", "data", column) > 0.0
+
+
+def test_of_masses():
+    model, _ = cable("material", 3, "straight")
+    model.add_point_mass("m", at=(0, 0, 1), mass=2.0)
+    model.add_rigid_body("hub", at=(0, 1, 1), mass=3.0, inertia=(1.0, 2.0, 2.5))
+    system = System(model)
+    q, v, a, x, _ = states(system, 2)
+    batch = system.parts["bodies"]
+    own = found_by_kernel(system, batch, q, v, a, x)
+    assert own @ batch.mass == pytest.approx(work(system, batch, q, v, a, x).sum(), rel=1e-12)
+    single = np.zeros_like(batch.mass)
+    single[2] = 1.0
+    assert own[2] == pytest.approx(work(system, batch._replace(mass=single), q, v, a, x).sum(), rel=1e-12)
+
+
+def test_kinds_that_know_have_numbers():
+    model, _ = cable("material", 3, "straight")
+    for batch in System(model).parts.values():
+        own = traits(batch)
+        assert does_something(type(batch), add_number_work) == (own.numbers is not None)
+        assert bool(own.numbered) == (own.numbers is not None)
+        assert set(own.numbered) <= set(batch._fields)
