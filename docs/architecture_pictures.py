@@ -42,7 +42,7 @@ FLOORS = (
     ("vectors", "arithmetic of three numbers in kernels"),
     ("compiled", "kernels, and operations by type of batch"),
     ("parts  addresses", "code that kernels take in, or call by its address"),
-    ("files  worker  columns", "files that are complete or absent, processes"),
+    ("files  worker  columns  garbage", "files that are complete or absent, processes"),
     ("errors  arrays  interrupts", "messages, types of arrays, signals kept until heeded"),
 )
 #: On the lowest floor too, but for the package alone.

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from . import garbage
 from .compilation import expected
 from .errors import Interrupted, ModelError, SolveError, StorageError
 from .interrupts import heed, kept
@@ -81,6 +82,7 @@ def prepared(
     return made
 
 
+@garbage.without
 def compiled(
     model: Model,
     method: Integrator,

@@ -17,7 +17,7 @@ ROOT = Path(ancf.__file__).parent
 #: From the bottom to the top; a layer imports from lower ones and from itself.
 LAYERS = (
     {"errors", "_version", "kernel_cache", "arrays", "interrupts"},
-    {"files", "worker", "columns"},
+    {"files", "worker", "columns", "garbage"},
     {"parts", "addresses"},
     {"compiled"},
     {"vectors"},

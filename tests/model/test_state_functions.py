@@ -27,7 +27,7 @@ FORMULAS = (
 @pytest.mark.parametrize("text", FORMULAS)
 def test_compiled_formula_is_the_formula(text):
     """Plain Python of the translation against the evaluation on arrays, at many states."""
-    function = StateFunction([text, 1.5, "y"], "force", np.zeros(3), 1.0)
+    function = StateFunction([text, 1.5, "y"], "force", np.zeros(3), lambda: 1.0)
     law, rng = python_of([text, 1.5, "y"]), np.random.default_rng(len(text))
     for _ in range(40):
         t, r, v = rng.uniform(0, 3), rng.uniform(-2, 2, 3), rng.uniform(-2, 2, 3)
@@ -37,9 +37,9 @@ def test_compiled_formula_is_the_formula(text):
 @pytest.mark.parametrize("name", NAMES[1:])
 def test_each_name_makes_a_law(name):
     given = ["0", f"2*{name}", "t"]
-    assert isinstance(force_function(given, "force", np.zeros(3), 1.0), StateFunction)
+    assert isinstance(force_function(given, "force", np.zeros(3), lambda: 1.0), StateFunction)
     state = dict(zip(NAMES, (5.0, 1.0, 2.0, 3.0, 4.0, 6.0, 7.0), strict=True))
-    law = force_function(given, "force", np.zeros(3), 1.0)
+    law = force_function(given, "force", np.zeros(3), lambda: 1.0)
     value = law(5.0, np.array([1.0, 2.0, 3.0]), np.array([4.0, 6.0, 7.0]))
     assert value.tolist() == [0.0, 2 * state[name], 5.0]
 
@@ -49,12 +49,12 @@ def test_each_name_makes_a_law(name):
     [(1, 2, 3), ["sin(t)", 0, 0], lambda t: (t, 0, 0), {"t": [0, 1], "value": [[0, 0, 0], [1, 1, 1]]}],
 )
 def test_functions_of_time_stay_what_they_are(given):
-    assert not isinstance(force_function(given, "force", np.zeros(3), 1.0), StateFunction)
+    assert not isinstance(force_function(given, "force", np.zeros(3), lambda: 1.0), StateFunction)
 
 
 def test_defaults_do_not_count():
     """A function of time may have further arguments with values of their own."""
-    given = force_function(lambda t, a=1.0, b=2.0: (a * t, b, 0.0), "force", np.zeros(3), 1.0)
+    given = force_function(lambda t, a=1.0, b=2.0: (a * t, b, 0.0), "force", np.zeros(3), lambda: 1.0)
     assert given(3.0).tolist() == [3.0, 2.0, 0.0]
 
 

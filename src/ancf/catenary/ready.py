@@ -10,6 +10,7 @@ import numpy as np
 
 import ancf
 
+from .. import garbage
 from ..arrays import FloatArray
 from ..sensitivity.parameters import Parameter
 from .assemble import Assembled
@@ -63,6 +64,7 @@ class Ready:
     wanted: list[Parameter]
     alone: ancf.State | None
 
+    @garbage.without
     def settings(self, integrator: Any) -> dict[str, Any]:
         """What is given to a simulation or to steps one by one; an integrator of None is the default."""
         model = self.overhead.model
@@ -79,6 +81,7 @@ class Ready:
         }
 
 
+@garbage.without
 def ready(
     plan: Plan, *, active: bool, sleeps: bool, sensitivities: Mapping[str, Sequence[str]] | None = None
 ) -> Ready:

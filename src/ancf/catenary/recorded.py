@@ -8,6 +8,7 @@ import numpy as np
 
 import ancf
 
+from .. import garbage
 from ..arrays import FloatArray
 from .assemble import Assembled
 from .collectors import Collector
@@ -24,6 +25,7 @@ def _dropper_forces(sensors: Any, overhead: Assembled) -> FloatArray:
     return forces
 
 
+@garbage.without
 def recorded(result: ancf.Result, ready: Ready, said: dict[str, Any]) -> Run:
     """What a run has recorded; ``said`` joins its settings."""
     overhead, plan, rest = ready.overhead, ready.plan, ready.rest

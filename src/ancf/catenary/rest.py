@@ -6,6 +6,7 @@ import warnings
 from dataclasses import replace
 from typing import overload
 
+from .. import garbage
 from ..errors import ModelError
 from .arm_loads import pushed
 from .assemble import Assembled, assembled
@@ -53,7 +54,8 @@ def form(line: Line | Route, mesh: Mesh | None = None) -> AnyForm:
         The iteration did not converge.
 
     """
-    return _of_route(line, mesh) if isinstance(line, Route) else _of_line(line, mesh)
+    with garbage.later():
+        return _of_route(line, mesh) if isinstance(line, Route) else _of_line(line, mesh)
 
 
 def _of_line(line: Line, mesh: Mesh | None, section: int = 0) -> Form:

@@ -221,6 +221,11 @@ class Beam:
         i = int(np.argmin(np.abs(self.node_x - x)))
         return i if abs(self.node_x[i] - x) <= NODE_TOLERANCE * self.length else None
 
+    def element_at(self, x: float) -> int:
+        """Element at x, of two the second one."""
+        after = int(self.node_x.searchsorted(x, side="right"))
+        return min(max(after - 1, 0), self.elements - 1)
+
     def off_centre(self, x: float, y: float, z: float) -> bool:
         """Whether a place is off the centreline."""
         return y != 0.0 or z != 0.0
@@ -267,6 +272,6 @@ class Beam:
 
     def _place(self, x: float) -> tuple[int, float, float]:
         """Element at x, place in it from 0 to 1, its reference length."""
-        e = int(np.clip(np.searchsorted(self.node_x, x, side="right") - 1, 0, self.elements - 1))
+        e = self.element_at(x)
         h = float(self.node_x[e + 1] - self.node_x[e])
         return e, float(x - self.node_x[e]) / h, h

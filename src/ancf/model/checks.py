@@ -119,7 +119,7 @@ def vector(value: object, where: str) -> FloatArray:
 def place(value: object, where: str) -> FloatArray:
     """Three finite numbers that can be squared without overflow: a position, m."""
     clean = vector(value, where)
-    if float(np.max(np.abs(clean))) > LARGEST:
+    if max(map(abs, clean.tolist())) > LARGEST:
         raise ModelError(where, f"is {clean.tolist()} m, must be within {LARGEST:g} m")
     return clean
 

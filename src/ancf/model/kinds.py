@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache
 from importlib import import_module
 from typing import Any
 
@@ -283,7 +284,12 @@ def all_kinds() -> Iterator[Kind]:
 
 def kind_of(item: Any) -> Kind:
     """The kind of a support, load, connection or surrounding."""
-    return next(kind for kind in (*all_kinds(), *SURROUNDINGS.values()) if kind.item is type(item))
+    return _by_item()[type(item)]
+
+
+@cache
+def _by_item() -> dict[type, Kind]:
+    return {kind.item: kind for kind in (*all_kinds(), *SURROUNDINGS.values())}
 
 
 def by_word(group: str) -> dict[str, Kind]:

@@ -75,7 +75,7 @@ def make_distributed(
     if not isinstance(body, Beam):
         what = f'"{body.name}" is a {kind(body)}, a distributed load acts on a beam or cable'
         raise ModelError(f"{where}.body", what, "model.add_force(...) acts on any body")
-    function = force_function(load, f"{where}.load", body.initial_position(0.5 * body.length), size)
+    function = force_function(load, f"{where}.load", body.initial_position(0.5 * body.length), lambda: size)
     if between is None:
         return DistributedLoad(name, body, function, (0.0, body.length))
     x0, x1 = checks.array(between, f"{where}.between", (2,)).tolist()

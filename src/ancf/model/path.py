@@ -86,8 +86,8 @@ def interpolated(points: FloatArray, where: str, closed: bool = False) -> Curve:
     There is no such spline through some points whose distances differ much: the search for it makes the
     curve longer and longer. It then passes through them with the parameter of the chords' lengths.
     """
-    for i, point in enumerate(points):
-        checks.place(point, f"{where}[{i}]")
+    for k in np.flatnonzero(~(np.abs(points).max(axis=1) <= checks.LARGEST)).tolist():
+        checks.place(points[k], f"{where}[{k}]")
     if closed:
         points = _loop(points)
     chords = np.linalg.norm(np.diff(points, axis=0), axis=1)

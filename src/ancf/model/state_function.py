@@ -104,10 +104,15 @@ class StateFunction:
         return value.astype(np.float64)
 
 
-def force_function(given: Any, where: str, position: FloatArray, size: float) -> TimeFunction | StateFunction:
-    """A function of time, or of the state if it takes three arguments or names x ... vz."""
+def force_function(
+    given: Any, where: str, position: FloatArray, size: Callable[[], float]
+) -> TimeFunction | StateFunction:
+    """A function of time, or of the state if it takes three arguments or names x ... vz.
+
+    ``size``: gives that of the model, m; it is asked for if the force is such a law.
+    """
     if _is_law(given):
-        return StateFunction(given, where, position, size)
+        return StateFunction(given, where, position, size())
     return TimeFunction(given, 3, where)
 
 

@@ -153,7 +153,7 @@ def locate(point: Point, slots: IntArray, length: tuple[int, float] = (-1, 0.0))
     body, x, y, z = point.body, point.x, point.y, point.z
     if not isinstance(body, Beam):
         return Probe(body, x, y, z, slots[0], _rigid_factors(point, slots.shape[1]))
-    e = int(np.clip(np.searchsorted(body.node_x, x, side="right") - 1, 0, body.elements - 1))
+    e = body.element_at(x)
     h = float(body.node_x[e + 1] - body.node_x[e])
     S = _factors(body, (x - body.node_x[e]) / h, h, y, z)
     vectors = KINDS[body.element].vectors
