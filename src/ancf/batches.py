@@ -23,6 +23,7 @@ from . import addresses
 from .addresses import call_at
 from .compiled import (
     PART,
+    VECTOR,
     add_force,
     add_inertia,
     add_number_work,
@@ -38,69 +39,67 @@ from .compiled import (
     strain_energy,
     touched,
 )
-from .records import RecordType, read, words_of
-
-VECTOR = types.Array(types.float64, 1, "C")
+from .records import RecordType, words_of
 
 
 @separate_kernel
 def force_at(record, q, v, a, r, ws):
     """``add_force`` of the batch at an address."""
-    add_force(read(record), q, v, a, r, ws)
+    add_force(record, q, v, a, r, ws)
 
 
 @separate_kernel
 def inertia_at(record, a, r, ws):
     """``add_inertia`` of the batch at an address."""
-    add_inertia(read(record), a, r, ws)
+    add_inertia(record, a, r, ws)
 
 
 @separate_kernel
 def tangent_at(record, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """``add_tangent`` of the batch at an address."""
-    add_tangent(read(record), q, v, A, c_mass, c_damping, c_stiffness, ws)
+    add_tangent(record, q, v, A, c_mass, c_damping, c_stiffness, ws)
 
 
 @separate_kernel
 def energy_at(record, q, ws):
     """``strain_energy`` of the batch at an address."""
-    return 1.0 * strain_energy(read(record), q, ws)
+    return 1.0 * strain_energy(record, q, ws)
 
 
 @separate_kernel
 def event_at(record, q):
     """``find_event`` of the batch at an address."""
-    return find_event(read(record), q)
+    return find_event(record, q)
 
 
 @separate_kernel
 def inverted_at(record, q, ws):
     """``inverted`` of the batch at an address."""
-    return inverted(read(record), q, ws)
+    return inverted(record, q, ws)
 
 
 @separate_kernel
 def measure_at(record, q, v):
     """``measure`` of the batch at an address."""
-    measure(read(record), q, v)
+    measure(record, q, v)
 
 
 @separate_kernel
 def remember_at(record, q, v):
     """``remember`` of the batch at an address."""
-    remember(read(record), q, v)
+    remember(record, q, v)
 
 
 @separate_kernel
 def rate_stiffness_at(record, q, v, S, W, ws):
     """``add_rate_stiffness`` of the batch at an address."""
-    add_rate_stiffness(read(record), q, v, S, W, ws)
+    add_rate_stiffness(record, q, v, S, W, ws)
 
 
 @separate_kernel
 def touched_at(record, q, out):
     """``touched`` of the batch at an address."""
-    return touched(read(record), q, out)
+    return touched(record, q, out)
 
 
 @separate_kernel

@@ -18,13 +18,16 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, NamedTuple, TypeAlias, cast
 
 import numba
 from numba.core import event
 
+from .compiled import traits
 from .model.integrators import INTEGRATORS, Explicit, Integrator, NewmarkFamily, Trapezoidal
 from .model.model import Model
+
+Kernel: TypeAlias = tuple[Any, tuple[Any, ...]]
 
 BEFORE = "compiling the numerical core, once on this machine: {what} first, 10 to 40 s in all ..."
 AFTER = "compiled in {seconds:.0f} s: {what}"
@@ -172,53 +175,52 @@ def _words(name: str) -> str:
     return "".join(f" {c.lower()}" if c.isupper() and k else c.lower() for k, c in enumerate(short))
 
 
-def stepping(method: Integrator | None, model: Model | None = None) -> tuple[Any, tuple[Any, ...]]:
-    """The kernel that takes the steps of a method, and the types of what it takes.
+class Needed(NamedTuple):
+    """Kernels with the types of what they take, none of them compiled."""
 
-    They are the same for all models, but for contacts and slack springs, which a step corrects.
+    steps: Kernel  # takes the steps of the method
+    operations: list[Kernel]  # of the kinds of the model, in the order in which a System asks for them
+    resting: list[Kernel]  # of an equilibrium besides them
+    apart: list[Kernel]  # what is apart from the steps, last what sensors need
+
+
+def needed(model: Model, method: Integrator | None) -> Needed:
+    """What a model needs.
 
     Parameters
     ----------
+    model : Model
     method : Integrator or None
         One that takes no steps of its own kernel is read as the default.
-    model : Model, optional
-        Default a point mass.
     """
-    from .solvers.block import stepping as found
+    from .records import RecordType, type_of
+    from .solvers.apart import Apart, apart_of, needed
+    from .solvers.block import stepping
     from .solvers.runs import run_of
     from .system.system import System
 
-    if model is None:
-        model = Model()
-        model.add_point_mass("m", at=(0, 0, 0), mass=1.0)
-    used = method if isinstance(method, NewmarkFamily | Explicit) else Trapezoidal()
-    with _in_place_of_compiling(lambda *_: 0):
-        system = System(model)
-        run: Any = run_of(used, system, 0.0, 1.0, 0.5, 1)
-    return found(system.core, run.memory, run.sampling, run.explicit)
-
-
-def operations(model: Model, method: Integrator | None = None) -> list[tuple[Any, tuple[Any, ...]]]:
-    """Kernels that a model needs at an address, with the types of what they take; none is compiled.
-
-    The operations of its kinds and, for a method, what is apart from its steps.
-    """
-    from .solvers.block import kernels_of
-    from .solvers.runs import run_of
-    from .system.system import System
-
-    found: list[tuple[Any, tuple[Any, ...]]] = []
+    found: list[Kernel] = []
 
     def note(dispatcher: Any, signature: tuple[Any, ...], result: Any) -> int:
         found.append((dispatcher, signature))
         return 0
 
+    used = method if isinstance(method, NewmarkFamily | Explicit) else Trapezoidal()
     with _in_place_of_compiling(note):
         system = System(model)
-        if isinstance(method, NewmarkFamily | Explicit):
-            run: Any = run_of(method, system, 0.0, 1.0, 0.5, 1)
-            kernels_of(system.core, run.memory, run.sampling, run.explicit)
-    return found
+        operations, found = found, []
+        run: Any = run_of(used, system, 0.0, 1.0, 0.5, 1)
+        memory, sampling = run.memory, run.sampling
+        types = type_of(system.core), type_of(memory), type_of(sampling)
+        apart_of(*types, needed(system.core, memory, sampling, run.explicit))
+        apart_of(*types, tuple(name in ("note", "sample") for name in Apart._fields))
+    batches = [batch for batch in system.core.batches if len(batch[0])]
+    resting = [
+        (kernel, (RecordType(type_of(batch)), *given))
+        for batch in batches
+        for kernel, given in traits(batch).resting
+    ]
+    return Needed(stepping(system.core, memory, sampling, run.explicit), operations, resting, found)
 
 
 @contextmanager
@@ -239,13 +241,16 @@ def main() -> None:
     """Compile what the process that started this one will need, beginning with what it needs last."""
     given = json.load(sys.stdin)
     method = INTEGRATORS[given["method"]]() if given["method"] else None
-    jobs: list[tuple[Any, tuple[Any, ...]]] = []
     try:
-        model = Model.from_dict(given["model"])
-        steps, jobs = stepping(method, model), operations(model, method)[::-1]
+        found = needed(Model.from_dict(given["model"]), method)
     except Exception:  # a model with Python functions, of which a description keeps the names only
-        steps = stepping(method)
-    jobs = [steps, *jobs] if method is not None else [*jobs, steps]
+        mass = Model()
+        mass.add_point_mass("m", at=(0, 0, 0), mass=1.0)
+        found = needed(mass, method)
+    if method is None:  # what comes after an equilibrium, as a rule
+        jobs = [*found.operations[::-1], *found.resting, found.steps, *found.apart]
+    else:
+        jobs = [found.steps, *found.operations[::-1], *found.apart]
     for dispatcher, signature in jobs:
         if getattr(getattr(dispatcher, "_cache", None), "cache_path", ""):  # else nothing would be kept
             with suppress(Exception):

@@ -37,7 +37,12 @@ _OPTIONS: dict[str, Any] = {
 _CALLED: Any = {**_OPTIONS, "no_cpython_wrapper": True}
 #: And what they take in is translated with them.
 PART: Any = {**_CALLED, "pipeline_class": PartCompiler}
+#: And is vectorised with the loops that call it.
+FORMULA: Any = {**PART, "forceinline": True}
 
+
+#: Type in kernels of the vectors that operations take.
+VECTOR = types.Array(types.float64, 1, "C")
 
 #: Unknowns that a part touches, see :func:`touched`.
 MOST_TOUCHED = 120
@@ -95,7 +100,7 @@ def inline_kernel(function: F) -> F:
 
 def formula(function: F) -> F:
     """Put the code of a small kernel into the loops that call it, which can only then be vectorised."""
-    return _inner(function, {**PART, "forceinline": True})
+    return _inner(function, FORMULA)
 
 
 def _inner(function: F, settings: Any) -> F:
@@ -250,6 +255,8 @@ class Traits:
     inertial : function, optional
         ``inertial(batch)``: the batch with its mass alone, where the forces of that depend on velocities:
         what they lose without velocities is not dissipated.
+    resting : tuple, optional
+        Kernels of `early`, `late` and `free`, and the types of what they take behind the record of the batch.
     some : function, optional
         ``some(batch, rows)``: the batch with some of its parts, for forces alone, of one whose parts do not
         know of each other.
@@ -275,6 +282,7 @@ class Traits:
     turning_mass: Callable[[Any], bool] | None = None
     exact: Callable[[Any, bool], bool] | None = None
     inertial: Callable[[Any], Any] | None = None
+    resting: tuple[tuple[Any, tuple[Any, ...]], ...] = ()
     some: Callable[[Any, Any], Any] | None = None
     numbers: Callable[[Any], Any] | None = None
     numbered: tuple[str, ...] = ()
@@ -350,7 +358,7 @@ def _choose_by_kind(stub: Callable[..., Any]) -> None:
 
     @overload(stub, jit_options=PART, strict=False)
     def _choose(batch, *arguments):
-        kind = batch.instance_class if isinstance(batch, types.BaseNamedTuple) else None
+        kind = getattr(getattr(batch, "batch", batch), "instance_class", None)
         return _DOES.get((kind, stub))
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import struct
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -23,13 +24,15 @@ from numba.core.datamodel import models
 from numba.core.typing.templates import AttributeTemplate, infer_getattr
 from numba.extending import (
     NativeValue,
-    intrinsic,
     lower_getattr_generic,
+    overload,
     register_model,
     typeof_impl,
     unbox,
 )
 from numpy.typing import NDArray
+
+from .compiled import FORMULA
 
 T = TypeVar("T")
 WORD = ir.IntType(64)
@@ -95,6 +98,19 @@ def _unbox(kind: Any, given: Any, c: Any) -> Any:
     return NativeValue(c.builder.load(address), is_error=failed)
 
 
+class Located:
+    """A named tuple for kernels that take it as a record, at an address that holds while this lives."""
+
+    def __init__(self, value: Any) -> None:
+        self.value, self._words = value, words_of(value)
+        self.address = int(self._words.ctypes.data)
+
+
+@typeof_impl.register(Located)
+def _typeof_located(given: Any, context: Any) -> RecordType:
+    return RecordType(type_of(given.value))
+
+
 # --- in Python
 
 
@@ -144,17 +160,6 @@ def _add(value: Any, words: list[int]) -> None:
 
 
 # --- in kernels
-
-
-@intrinsic
-def read(typing, record):
-    """The named tuple at an address, with all its fields."""
-
-    def generate(context, builder, signature, arguments):
-        words = builder.bitcast(arguments[0], WORD.as_pointer())
-        return _value(context, builder, record.batch, words, 0)[0]
-
-    return record.batch(record), generate
 
 
 @infer_getattr
@@ -229,3 +234,22 @@ def _array(context: Any, builder: Any, kind: Any, words: Any, k: int) -> Any:
     array.itemsize = context.get_constant(types.intp, size)
     array.meminfo, array.parent = (ir.Constant(x.type, None) for x in (array.meminfo, array.parent))
     return array._getvalue()
+
+
+def where_dimensions(number: int, function: Callable[..., Any], default: Any) -> Any:
+    """Kernel whose first argument is an array; of one with fewer dimensions it returns `default`.
+
+    So a batch that has no use for an array says so by its type, and nothing is compiled for it.
+    """
+
+    def stub(array, *arguments):
+        return function(array, *arguments) if array.ndim == number else default
+
+    def nothing(array, *arguments):
+        return default
+
+    @overload(stub, jit_options=FORMULA, strict=False)
+    def _choose(array, *arguments):
+        return function if array.ndim == number else nothing
+
+    return stub

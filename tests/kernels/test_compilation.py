@@ -39,7 +39,7 @@ class TestHelp:
     def test_the_stepping_is_the_one_that_runs_take(self, made):
         """The types are found without compiling; they are those that a run calls it with."""
         model = ancf.Model.from_dict(made().to_dict())
-        dispatcher, signature = compilation.stepping(ancf.GeneralizedAlpha(), model)
+        dispatcher, signature = compilation.needed(model, ancf.GeneralizedAlpha()).steps
         assert dispatcher is advance
         before = set(advance.overloads)
         ancf.simulate(made(), t_end=0.002, step=1e-3)
@@ -48,16 +48,32 @@ class TestHelp:
 
     def test_models_share_the_stepping(self):
         """Without slack springs and contacts: what one model has compiled another does not."""
-        _, wanted = compilation.stepping(ancf.Trapezoidal())
-        assert compilation.stepping(ancf.Trapezoidal(), rope()[0])[1] == wanted
+        mass = ancf.Model()
+        mass.add_point_mass("m", at=(0, 0, 0), mass=1.0)
+        wanted = compilation.needed(mass, ancf.Trapezoidal()).steps
+        assert compilation.needed(rope()[0], ancf.Trapezoidal()).steps == wanted
 
     @pytest.mark.parametrize("made", [lambda: rope()[0], hung], ids=["rope", "hung"])
     def test_the_operations_are_those_of_the_model(self, made):
         """Found without compiling; then the model is compiled, and nothing else is missing."""
-        found = compilation.operations(ancf.Model.from_dict(made().to_dict()))
-        ancf.simulate(made(), t_end=0.002, step=1e-3)
-        assert len(found) >= 4
-        assert all(signature in dispatcher.overloads for dispatcher, signature in found)
+        found = compilation.needed(ancf.Model.from_dict(made().to_dict()), ancf.Trapezoidal())
+        ancf.simulate(made(), t_end=0.002, step=1e-3, sensors=["rope.start"])
+        jobs = [*found.operations, *found.apart]
+        assert len(found.operations) >= 3
+        assert [kernel.py_func.__name__ for kernel, _ in found.apart[-2:]] == ["note_now", "sample"]
+        assert all(signature in dispatcher.overloads for dispatcher, signature in jobs[:-2] + jobs[-1:])
+
+    def test_an_equilibrium_needs_more(self):
+        """A cable on a rough cylinder: what holds it and lets it go is among what was found."""
+        model, beam = rope(diameter=0.01)
+        drum = model.add_surface("drum", ancf.Cylinder(at=(0.5, 0, -0.05), axis=(0, 1, 0), radius=0.044))
+        model.add_surface_contact(beam, drum, stiffness=1e5, damping=1.0, friction=0.1)
+        model.pin(beam.end)
+        found = compilation.needed(ancf.Model.from_dict(model.to_dict()), None).resting
+        ancf.equilibrium(model)
+        names = [kernel.py_func.__name__ for kernel, _ in found]
+        assert names == ["press_lost", "press_free", "grip", "renew_limits"]
+        assert all(signature in kernel.overloads for kernel, signature in found)
 
     def test_nothing_helps_where_all_is_there(self, monkeypatch):
         model, _ = rope()
@@ -100,5 +116,5 @@ def test_warmup_has_every_kind():
     """Kinds of batches that its models have, found without compiling, against all that have operations."""
     found = set()
     for made in (warmup._cable, warmup._beams, warmup._joints, warmup._bead, warmup._surrounded):
-        found |= {signature[0].batch.instance_class for _, signature in compilation.operations(made())}
+        found |= {signature[0].batch.instance_class for _, signature in compilation.needed(made(), None).operations}
     assert {kind.__name__ for kind, stub in _DOES if stub is add_force} - {c.__name__ for c in found} <= RARE

@@ -77,6 +77,7 @@ def _interpret() -> None:
     )
     addresses.pointer = records.place = lambda value: value
     records.type_of = type
+    records.Located = lambda value: value
     batches.Batches = type("Batches", (tuple,), {})
     for operation, of_tuple in _ALL.items():
         setattr(batches, operation, getattr(batches, of_tuple))

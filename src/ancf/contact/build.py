@@ -72,7 +72,7 @@ def batches(
         "far": np.full((len(base), 5), -np.inf),
     }
     tree, faces, first = trees([surface.shape for surface in surfaces])
-    given |= {"tree": tree, "faces": faces}
+    given |= {"tree": tree, "faces": faces} if len(tree) else {"tree": np.zeros(0), "faces": np.zeros(0)}
     given["surfaces"][:, NUMBERS] = np.where(first >= 0, first, given["surfaces"][:, NUMBERS])
     every = np.concatenate([[len(base), 0], np.arange(len(base))]).astype(np.int64)
     lit, bond = np.ones(len(base), dtype=np.int64), np.zeros(fields["weight"].shape, dtype=np.int64)

@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 from ..compiled import Role, formula, implements, inline_kernel, kernel
+from ..records import Located
 from ..vectors import dot
 from .meeting import (
     FIRST,
@@ -194,7 +195,7 @@ def bump_lost(batch):
 
 def forget_way(batch, q, holds):
     """See :func:`bump_lost`; there is nothing that it could hold."""
-    bump_lost(batch)
+    bump_lost(Located(batch))
     return False
 
 

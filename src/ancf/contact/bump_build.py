@@ -14,6 +14,7 @@ from ..model.bodies import RigidBody
 from ..model.body_contact import BodyContact
 from ..model.shape import Shape
 from ..model.surface_shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
+from ..records import Located
 from .build import MOST_NUMBERS
 from .bump import bump_values
 from .lay import DEEPEST, FIRST, LAST, OTHER, SHALLOW
@@ -70,7 +71,7 @@ def _refuse_sunk(items: Sequence[BodyContact], batch: BumpBatch, slots: dict[str
         for slot, x in zip(slots[body.name][0], [body.position, *body.axes.T], strict=True):
             q[0, slot : slot + 3] = x
     out = np.zeros((1, len(items), 4))
-    bump_values(batch._replace(found=np.zeros((len(items), 4))), q, np.zeros_like(q), out)
+    bump_values(Located(batch._replace(found=np.zeros((len(items), 4)))), q, np.zeros_like(q), out)
     for item, depth in zip(items, out[0, :, 1].tolist(), strict=True):
         if depth > SUNK * min(_radius(s.shape) for s in (item.surface, item.other)):
             what = f'"{item.surface.name}" is {depth:.4g} m inside "{item.other.name}"'

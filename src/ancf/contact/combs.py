@@ -9,6 +9,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..compiled import kernel
+from ..records import Located
 from ..vectors import dot
 from .press import pressed
 from .touch import place_on, relative, row_of
@@ -55,5 +56,5 @@ def teeth(batch: Any, j: int, q: FloatArray, v: FloatArray) -> FloatArray:
     """Place, force per length and speed of the elements of contact j in states, (n, elements, 7)."""
     out = np.zeros((len(q), int(np.sum(batch.contact == j)), COLUMNS))
     for k in range(len(q)):
-        comb_values(batch, j, np.ascontiguousarray(q[k]), np.ascontiguousarray(v[k]), out[k])
+        comb_values(Located(batch), j, np.ascontiguousarray(q[k]), np.ascontiguousarray(v[k]), out[k])
     return out

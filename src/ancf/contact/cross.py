@@ -19,6 +19,7 @@ import math
 import numpy as np
 
 from ..compiled import formula, inline_kernel, kernel
+from ..records import Located
 from ..vectors import dot
 from .near import LIVE, anything, keep, look, look_ahead, look_back, look_if_live
 from .strand import (
@@ -245,5 +246,5 @@ def cross_lost(batch):
 
 def look_everywhere(batch, q, holds):
     """See :func:`cross_lost`; there is nothing that it could hold."""
-    cross_lost(batch)
+    cross_lost(Located(batch))
     return False

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..compiled import kernel
+from ..records import Located
 from .cross import cross_measure
 from .grip import LIMIT, RUBBED, grip_measure
 from .near import look
@@ -59,14 +60,14 @@ def cross_nearest(batch, j, q, out):
 def cross_places(batch: Any, j: int, q: FloatArray) -> FloatArray:
     """Where contact j is nearest in states (n, size), (n, 2, 3) m; not a number where nothing is near."""
     out = np.full((len(q), 2, 3), math.nan)
-    cross_nearest(_own(batch), j, np.ascontiguousarray(q), out)
+    cross_nearest(Located(_own(batch)), j, np.ascontiguousarray(q), out)
     return out
 
 
 def cross_pressures(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
     """Force and depth of each contact in states (n, size), NaN behind them, (n, contacts, 4)."""
     out = np.full((len(q), len(batch.found), 4), np.nan)
-    cross_values(_own(batch), q, v, out)
+    cross_values(Located(_own(batch)), q, v, out)
     return out
 
 
@@ -74,7 +75,7 @@ def grip_frictions(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
     """Friction and the share of it that slips of each contact in a state, (contacts, 2)."""
     mine = _own(batch)
     mine.grip[:, LIMIT] *= AT_LIMIT
-    grip_values(mine, np.ascontiguousarray(q), np.ascontiguousarray(v))
+    grip_values(Located(mine), np.ascontiguousarray(q), np.ascontiguousarray(v))
     return np.array(mine.found[:, RUBBED:])
 
 

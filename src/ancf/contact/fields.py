@@ -11,6 +11,7 @@ from ..arrays import BoolArray, FloatArray
 from ..compiled import kernel
 from ..elements.shapes import gauss
 from ..model.surfaces import SurfaceContact
+from ..records import Located
 from .press import press_measure, pressed
 from .rub import RUBBED, SLIPPED, drawn, rub_measure, rubbed
 from .touch import carrier, lie, nodes_of, outside, place_on, row_of
@@ -121,7 +122,7 @@ def press_nearest(batch, j, q, out):
 def nearest_places(batch: Any, j: int, q: FloatArray) -> FloatArray:
     """Where contact j is nearest in states (n, size): on the axis and on the surface, (n, 2, 3) m."""
     out = np.empty((len(q), 2, 3))
-    press_nearest(batch, j, np.ascontiguousarray(q), out)
+    press_nearest(Located(batch), j, np.ascontiguousarray(q), out)
     return out
 
 
@@ -129,14 +130,14 @@ def pressures(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
     """Force and depth of each contact in states (n, size), NaN behind them, (n, contacts, 4)."""
     mine = batch._replace(found=batch.found.copy())  # a question must not move what a run measures
     out = np.full((len(q), len(batch.found), 4), np.nan)
-    press_values(mine, q, v, out)
+    press_values(Located(mine), q, v, out)
     return out
 
 
 def frictions(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
     """Friction and the share of it that slips of each contact in a state, (contacts, 2)."""
     mine = batch._replace(found=batch.found.copy(), limit=AT_LIMIT * batch.limit)
-    rub_values(mine, np.ascontiguousarray(q), np.ascontiguousarray(v))
+    rub_values(Located(mine), np.ascontiguousarray(q), np.ascontiguousarray(v))
     return np.array(mine.found[:, RUBBED:])
 
 
@@ -147,9 +148,9 @@ def contact_line(
     beam, pressing = item.body, parts["pressing"]
     j, (n, points) = items.index(item), (item.body.elements, pressing.weight.shape[1])
     found, rough = np.empty((n, points, 2)), np.zeros((n, points, 4))
-    press_line(pressing, j, q, v, found)
+    press_line(Located(pressing), j, q, v, found)
     if item.friction > 0.0:
-        rub_line(parts["rubbing"], j, q, v, rough)
+        rub_line(Located(parts["rubbing"]), j, q, v, rough)
     x = beam.node_x[:-1, None] + gauss(points)[0] * np.diff(beam.node_x)[:, None]
     size, limit = np.linalg.norm(rough[..., :3], axis=-1), rough[..., 3]
     slips = (limit > 0.0) & (size >= AT_LIMIT * limit)

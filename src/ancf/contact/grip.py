@@ -27,8 +27,9 @@ import math
 
 import numpy as np
 
-from ..compiled import Role, formula, implements, inline_kernel, kernel
+from ..compiled import VECTOR, Role, formula, implements, inline_kernel, kernel
 from ..connections.in_matrix import no_pairs, no_places
+from ..records import Located
 from ..vectors import dot
 from .cross import add_force_on, factors, from_slots, met, not_in_matrix, pressed_at
 from .near import look_if_live
@@ -346,7 +347,7 @@ def renew_limits(batch, q, v):
 
 def let_rub(batch, q):
     """Renew the limits in an equilibrium; returns their relative change."""
-    change, most = renew_limits(batch, q, np.zeros_like(q))
+    change, most = renew_limits(Located(batch), q, np.zeros_like(q))
     return change / most if most > 0.0 else 0.0
 
 
@@ -361,4 +362,5 @@ implements(
     role=Role.RUBS | Role.MEASURES,
     memory=("grip",),
     late=lambda batch: let_rub,
+    resting=((renew_limits, (VECTOR, VECTOR)),),
 )

@@ -18,10 +18,12 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numba import types
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, formula, implements, inline_kernel, kernel
+from ..compiled import VECTOR, Role, formula, implements, inline_kernel, kernel
+from ..records import Located
 from ..vectors import dot
 from .reel import stretched, swept
 from .touch import (
@@ -80,7 +82,7 @@ class PressBatch(NamedTuple):
     surfaces: FloatArray  # (surfaces, 10) columns PLACE ... NUMBERS
     shape_of: NDArray[np.int64]  # (surfaces,) number of the profile
     found: FloatArray  # (contacts, 4) columns FORCE, DEPTH when it was measured last
-    tree: FloatArray  # (m, 8) boxes of all meshes, see contact.mesh
+    tree: FloatArray  # (m, 8) boxes of all meshes, see contact.mesh; (0,) if there are none
     faces: FloatArray  # (t, 30) their triangles
     hint: NDArray[np.int64]  # (n, points) triangle that was nearest when it was looked for last
     far: FloatArray  # (n, 5) memory: where the first node was, ROOM and GONE
@@ -284,7 +286,7 @@ def press_lost(batch, q, holds):
 
 def look_everywhere(batch, q, holds):
     """See :func:`press_lost`; there is no friction."""
-    press_lost(batch, q, holds)
+    press_lost(Located(batch), q, holds)
     return False
 
 
@@ -305,6 +307,11 @@ def press_free(batch, q, every):
     return count
 
 
+def let_go(batch, q, every):
+    """See :func:`press_free`."""
+    return press_free(Located(batch), q, every)
+
+
 implements(
     PressBatch,
     force=press_force,
@@ -314,7 +321,8 @@ implements(
     remember=press_remember,
     inverted=press_passed,
     early=look_everywhere,
-    free=press_free,
+    free=let_go,
+    resting=((press_lost, (VECTOR, types.boolean)), (press_free, (VECTOR, types.boolean))),
     role=Role.DISSIPATES | Role.MEASURES,
     slots=("base", "winch"),
     memory=("far",),

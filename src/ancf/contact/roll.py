@@ -16,7 +16,8 @@ import math
 
 import numpy as np
 
-from ..compiled import Role, formula, implements, inline_kernel, kernel
+from ..compiled import VECTOR, Role, formula, implements, inline_kernel, kernel
+from ..records import Located
 from ..vectors import dot
 from .bump import add_bump, add_bump_block, bumped
 from .meeting import BumpBatch, apart_at, both, both_rates, meet
@@ -140,7 +141,7 @@ def roll_limits(batch, q, v):
 
 def let_roll(batch, q):
     """Renew the limits in an equilibrium; returns their relative change."""
-    change, most = roll_limits(batch, q, np.zeros_like(q))
+    change, most = roll_limits(Located(batch), q, np.zeros_like(q))
     return change / most if most > 0.0 else 0.0
 
 
@@ -153,4 +154,5 @@ implements(
     role=Role.RUBS | Role.MEASURES,
     memory=("rough",),
     late=lambda batch: let_roll,
+    resting=((roll_limits, (VECTOR, VECTOR)),),
 )

@@ -10,6 +10,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, kernel
 from ..connections.in_matrix import no_pairs, no_places
+from ..records import Located
 from .cross import (
     cross_energy,
     cross_force,
@@ -104,7 +105,7 @@ def stiffness_rows(batch, q, v):
 
 def rows_in(batch: Any, q: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Rows (m, size) and stiffnesses (m,) of an equilibrium in the state q."""
-    count = stiffness_rows(batch, q, np.zeros_like(q))
+    count = stiffness_rows(Located(batch), q, np.zeros_like(q))
     rows = np.zeros((count, len(q)))
     for m in range(count):
         slots = batch.base[batch.at[m]].ravel()

@@ -26,11 +26,13 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numba import types
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, formula, implements, inline_kernel, kernel
+from ..compiled import VECTOR, Role, formula, implements, inline_kernel, kernel
 from ..loads.along import upstream
+from ..records import Located
 from ..vectors import dot
 from .press import pressed
 from .reel import grown, stretched, swept
@@ -323,13 +325,13 @@ def grip(batch, q, holds):
 
 def hold(batch, q, holds):
     """See :func:`grip`."""
-    grip(batch, q, holds)
+    grip(Located(batch), q, holds)
     return True
 
 
 def let_rub(batch, q):
     """Renew the limits in an equilibrium; returns their relative change."""
-    change, most = renew_limits(batch, q, np.zeros_like(q))
+    change, most = renew_limits(Located(batch), q, np.zeros_like(q))
     if most > 0.0:
         return float(change / most)
     return 1.0 if change > 0.0 else 0.0  # what has been held does not touch: it is let go all the same
@@ -346,4 +348,5 @@ implements(
     memory=("far", "anchor", "limit", "before", "most", "lit", "drift", "since"),
     late=lambda batch: let_rub,
     early=hold,
+    resting=((grip, (VECTOR, types.boolean)), (renew_limits, (VECTOR, VECTOR))),
 )

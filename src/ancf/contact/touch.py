@@ -13,6 +13,7 @@ import math
 import numpy as np
 
 from ..compiled import formula, inline_kernel
+from ..records import where_dimensions
 from ..vectors import cross, dot
 from .mesh import MESH, nearest_face
 from .profiles import profile_of
@@ -99,7 +100,7 @@ def outside(batch, e, p, body, at, axis, r):
     """
     k = batch.surface[e]
     if batch.shape_of[k] == MESH:
-        return beside_mesh(batch, e, p, k, body, r)
+        return beside_mesh(batch.tree, batch, e, p, k, body, r)
     h, rho, away = cylindrical(r, at, axis)
     d, n_rho, n_z, bend = profile_of(batch.shape_of[k], batch.surfaces[k, NUMBERS:], rho, h)
     n = (
@@ -111,15 +112,17 @@ def outside(batch, e, p, body, at, axis, r):
     return d, n, cross(axis, away), bend, about
 
 
-@formula
-def beside_mesh(batch, e, p, k, body, r):
+def _beside_mesh(tree, batch, e, p, k, body, r):
     """The same of a mesh, which lies in body axes."""
     s = batch.surfaces[k]
     x = in_body(body, r)
     x = x[0] - s[PLACE], x[1] - s[PLACE + 1], x[2] - s[PLACE + 2]
-    d, n, a, bend, about, face = nearest_face(batch.tree, batch.faces, s[NUMBERS], batch.hint[e, p], x)
+    d, n, a, bend, about, face = nearest_face(tree, batch.faces, s[NUMBERS], batch.hint[e, p], x)
     batch.hint[e, p] = face
     return d, turned(body, n), turned(body, a), bend, about
+
+
+beside_mesh = where_dimensions(2, _beside_mesh, (math.inf, ZERO, ZERO, 0.0, 0.0))
 
 
 @inline_kernel

@@ -40,6 +40,7 @@ from ..model.beam import Beam
 from ..model.fluids import require_section
 from ..model.grounds import Relief
 from ..model.points import initial_position
+from ..records import Located
 from .along import (
     add_block_along,
     add_material,
@@ -337,7 +338,7 @@ def renew_limits(batch, q, v):
 
 def let_rub(batch, q):
     """Renew the limits in an equilibrium; returns their relative change."""
-    change, most = renew_limits(batch, q, np.zeros_like(q))
+    change, most = renew_limits(Located(batch), q, np.zeros_like(q))
     return change / most if most > 0.0 else 0.0
 
 
