@@ -116,5 +116,6 @@ def test_warmup_has_every_kind():
     """Kinds of batches that its models have, found without compiling, against all that have operations."""
     found = set()
     for made in (warmup._cable, warmup._beams, warmup._joints, warmup._bead, warmup._surrounded):
-        found |= {signature[0].batch.instance_class for _, signature in compilation.needed(made(), None).operations}
+        operations = compilation.needed(made(), None).operations
+        found |= {signature[0].batch.instance_class for _, signature in operations}
     assert {kind.__name__ for kind, stub in _DOES if stub is add_force} - {c.__name__ for c in found} <= RARE
