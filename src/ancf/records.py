@@ -133,10 +133,11 @@ def _asked(array: Any) -> int:
 
 def _looked_up(array: Any) -> int:
     """The same from where NumPy's C interface has it, behind what all objects have: seven times as fast."""
-    return int(_number(id(array) + object.__basicsize__).value)
+    return int(_number(id(array) + _HEAD).value)
 
 
 _number: Any = ctypes.c_ssize_t.from_address
+_HEAD = object.__basicsize__
 _sample = np.zeros(3)
 _begin = _looked_up if _looked_up(_sample) == _asked(_sample) else _asked
 

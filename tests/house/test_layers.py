@@ -16,7 +16,7 @@ ROOT = Path(ancf.__file__).parent
 
 #: From the bottom to the top; a layer imports from lower ones and from itself.
 LAYERS = (
-    {"errors", "_version", "kernel_cache", "arrays", "interrupts"},
+    {"errors", "_version", "kernel_cache", "arrays", "interrupts", "later"},
     {"files", "worker", "columns", "garbage"},
     {"parts", "addresses"},
     {"compiled"},

@@ -8,11 +8,11 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ..arrays import FloatArray, IntArray
 from ..elements.registry import ELEMENTS
 from ..errors import ModelError
+from ..later import cKDTree
 from ..model.beam import Beam
 from ..model.cable_contact import CableContact
 from ..model.points import Point

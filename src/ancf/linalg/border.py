@@ -155,13 +155,14 @@ def read_row(border, A, factor, n, t):
 def subtract_inverse(border, t, h, o):
     """S -= R_t K^-1 R_h^T, for the block of S at ``o``."""
     width, part = border.kept.shape[1], border.part
-    for u in range(border.number[t]):
-        for w in range(border.number[h]):
-            a, b = 36 * (t * width + u), 36 * (h * width + w)
-            G, at = border.inverse[border.kept[t, u]], 36 * border.block[border.kept[h, w]]
-            for i in range(0, 36, 6):
-                store_six(times(G, at, border.R, a + i), part, i)
-            subtract_product(border.S, o, part, 0, border.RT, b)
+    for w in range(border.number[h]):
+        at = 36 * border.block[border.kept[h, w]]
+        for i in range(0, 36, 6):
+            s = every(0.0)
+            for u in range(border.number[t]):
+                s = s + times(border.inverse[border.kept[t, u]], at, border.R, 36 * (t * width + u) + i)
+            store_six(s, part, i)
+        subtract_product(border.S, o, part, 0, border.RT, 36 * (h * width + w))
 
 
 @formula

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.sparse import csc_matrix, csr_matrix, eye_array
-from scipy.sparse.csgraph import reverse_cuthill_mckee
-from scipy.sparse.linalg import splu
 
 from ..arrays import IntArray
+from ..later import csc_matrix, csr_matrix, eye_array, reverse_cuthill_mckee, splu
 
 #: Ratio of the numbers of blocks in L up to which an ordering counts as equally good.
 NEAR = 1.15

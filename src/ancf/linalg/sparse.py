@@ -6,9 +6,9 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array, csc_array
 
 from ..arrays import FloatArray
+from ..later import coo_array, csc_array
 
 
 class Pattern(Protocol):

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.sparse import bmat, csc_array
-from scipy.sparse.linalg import splu
 
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
+from ..later import bmat, csc_array, splu
 from ..linalg.sparse import to_sparse
 from ..results.modes import Modes
 from ..system.contacts import touching

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csc_array
-from scipy.sparse.linalg import LinearOperator, gmres, splu
 
 from ..arrays import FloatArray
 from ..errors import SolveError
+from ..later import LinearOperator, csc_array, gmres, splu
 from ..linalg.sparse import to_sparse
 from ..solvers.directions import products_along
 from ..solvers.statics import STENCIL_STEP

@@ -19,6 +19,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..compiled import formula, inline_kernel
+from ..linalg.block_ldl import is_zero
 from ..records import recorded
 from ..simd import LANES, gather, gather_nodes, greatest, load, put, put_nodes, sqrt, store, vector
 from ..system.system import System
@@ -240,11 +241,23 @@ def turn_forth(frames, r):
 def turn_rows(frames, A):
     """C -> C Q for the rows that are not kept: a joint's row then fits the matrix that is."""
     for k in range(frames.nodes.shape[0]):
-        for m in range(frames.first[k], frames.first[k + 1]):
+        for t in range(frames.tail.shape[2]):
             for lane in range(frames.nodes[k]):
-                for t in range(frames.tail.shape[2]):
-                    if frames.tail[m, lane, t] >= 0:
-                        turn_piece(frames.Q, k, lane, A, frames.tail[m, lane, t])
+                turn_row(frames, A, k, lane, t)
+
+
+@inline_kernel
+def turn_row(frames, A, k, lane, t):
+    """The pieces of one of these rows under one node: of most nodes they are zero."""
+    block, empty = -1, True
+    for m in range(frames.first[k], frames.first[k + 1]):
+        place = frames.tail[m, lane, t]
+        if place >= 0:
+            if place - place % 36 != block:
+                block = place - place % 36
+                empty = is_zero(A, block)
+            if not empty:
+                turn_piece(frames.Q, k, lane, A, place)
 
 
 @inline_kernel
@@ -252,6 +265,5 @@ def turn_piece(Q, k, lane, A, place):
     """C -> C Q for six rows of three numbers."""
     for o in range(place, place + 36, 6):
         x, y, z = A[o], A[o + 1], A[o + 2]
-        if x != 0.0 or y != 0.0 or z != 0.0:
-            for c in range(3):
-                A[o + c] = x * Q[k, c, lane] + y * Q[k, 3 + c, lane] + z * Q[k, 6 + c, lane]
+        for c in range(3):
+            A[o + c] = x * Q[k, c, lane] + y * Q[k, 3 + c, lane] + z * Q[k, 6 + c, lane]

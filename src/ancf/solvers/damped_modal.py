@@ -16,13 +16,11 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
-from scipy.linalg import eig, null_space
-from scipy.sparse import coo_array, csc_array
-from scipy.spatial.transform import Rotation
 
 from ..arrays import FloatArray, IntArray
 from ..compiled import traits
 from ..errors import SolveError
+from ..later import coo_array, csc_array, eig, null_space
 from ..linalg.sparse import to_sparse
 from ..system.core import apply_load, assemble, follow_supports, residual
 from ..system.system import System
@@ -119,6 +117,8 @@ class Damped:
 
     def _check_symmetry(self) -> None:
         """Forces turn with the model: what stands still and acts on it does so the same from all sides."""
+        from scipy.spatial.transform import Rotation  # few runs turn: see ancf.later
+
         R = Rotation.from_rotvec(TURN * self.spin / np.linalg.norm(self.spin)).as_matrix()
         turned, places = self.q.copy(), _vectors(self.system.slots)
         first = np.concatenate([slots[:, 0] for slots in self.system.slots.values()])

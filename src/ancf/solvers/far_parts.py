@@ -9,14 +9,11 @@ from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.linalg import eigh
-from scipy.sparse import coo_array, csc_array, csr_array
-from scipy.sparse.csgraph import connected_components
-from scipy.sparse.linalg import splu
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..compiled import traits
 from ..elements.cable import CableBatch
+from ..later import connected_components, coo_array, csc_array, csr_array, eigh, splu
 from ..system.core import apply_load, assemble, residual
 from ..system.matrix import Places
 from ..system.system import System

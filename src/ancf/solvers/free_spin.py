@@ -11,9 +11,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from ..arrays import FloatArray, IntArray
+from ..later import csc_array
 from ..system.system import System
 
 Solve = Callable[[FloatArray], FloatArray]

@@ -11,13 +11,13 @@ Reference: Prathap, The Finite Element Method in Structural Mechanics (1993), on
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse.linalg import splu
 
 from ..arrays import FloatArray
 from ..batches import Batches
 from ..elements.cable import CableBatch
 from ..elements.cable_strain import gauss_table
 from ..elements.shapes import gauss
+from ..later import splu
 from ..linalg.sparse import to_sparse
 from ..system.contacts import touching
 from ..system.core import apply_supports, assemble, residual, restrict

@@ -10,12 +10,11 @@ found at all is a matter of inertia: K - sigma M has a negative pivot for each e
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import LinAlgError, eigh, null_space
-from scipy.sparse import csc_array
-from scipy.sparse.linalg import LinearOperator, SuperLU, eigsh, splu
+from numpy.linalg import LinAlgError
 
 from ..arrays import FloatArray, IntArray
 from ..errors import SolveError
+from ..later import LinearOperator, SuperLU, csc_array, eigh, eigsh, null_space, splu
 from ..linalg.sparse import to_sparse
 from ..model import checks
 from ..system.contacts import touching

@@ -18,10 +18,9 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import csc_array
-from scipy.sparse.linalg import splu
 
 from ..arrays import FloatArray, IntArray
+from ..later import csc_array, splu
 from ..linalg.ordering import band
 from ..system.core import (
     Core,

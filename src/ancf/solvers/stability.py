@@ -10,11 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.linalg import eigh_tridiagonal
-from scipy.sparse import csc_array
 
 from ..arrays import FloatArray
 from ..errors import SolveError
+from ..later import csc_array, eigh_tridiagonal
 from ..linalg.sparse import to_sparse
 from ..model.cable_contact import CableContact
 from ..model.surfaces import SurfaceContact

@@ -7,11 +7,11 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy.sparse.linalg import SuperLU, splu
 
 from ..arrays import FloatArray
 from ..compiled import traits
 from ..errors import SolveError
+from ..later import SuperLU, splu
 from ..linalg.sparse import to_sparse
 from ..model.beam import Beam
 from ..model.joints import Slide

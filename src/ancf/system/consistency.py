@@ -6,12 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import null_space, svd
-from scipy.sparse import csc_array
-from scipy.sparse.linalg import splu
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
+from ..later import csc_array, null_space, splu, svd
 from ..linalg.sparse import to_sparse
 from ..model.joints import Slide
 from .core import assemble, constraints, restrict

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from ..arrays import FloatArray
 from ..compiled import traits
+from ..later import csc_array
 from .core import Core, apply_supports
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -108,10 +109,12 @@ class Inputs:
         rotation = [self._rotation(r, times, step, first, last) for r in self.rotations]
         made = Tables(
             value=_amplitudes(self.loads, times, self.given),
-            motion=np.ascontiguousarray(np.concatenate([np.zeros((steps, 0, 3)), *motion], axis=1)),
-            rotation=np.ascontiguousarray(
-                np.stack(rotation, axis=1) if rotation else np.zeros((steps, 0, 3, 3, 3))
-            ),
+            motion=np.ascontiguousarray(np.concatenate(motion, axis=1))
+            if motion
+            else np.zeros((steps, 0, 3)),
+            rotation=np.ascontiguousarray(np.stack(rotation, axis=1))
+            if rotation
+            else np.zeros((steps, 0, 3, 3, 3)),
         )
         for drive in self.drives:
             self._lengths(drive, made, times, step, here, still)
@@ -166,10 +169,9 @@ def on_grid(start: float, step: float, number: NDArray[np.int64], first: float) 
     They are then the same to the last bit however the run is divided into blocks, which depends on how fast
     the machine is.
     """
-    steps = (start - first) / step
-    whole = np.round(steps)
-    if np.isfinite(steps) and abs(steps - whole) < 1e-6:
-        counted: FloatArray = first + step * (float(whole) + number.astype(np.float64))
+    steps = float((start - first) / step)
+    if math.isfinite(steps) and abs(steps - round(steps)) < 1e-6:
+        counted: FloatArray = first + step * (float(round(steps)) + number.astype(np.float64))
         return counted
     times: FloatArray = start + step * number.astype(np.float64)
     return times

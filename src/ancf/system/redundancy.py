@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import null_space, qr
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
+from ..later import null_space, qr
 from ..model.model import Model
 from .consistency import GAP, Rows, held_rows, surely_independent
 from .system import System
