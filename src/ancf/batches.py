@@ -105,7 +105,7 @@ def touched_at(record, q, out):
 @separate_kernel
 def number_work_at(record, q, v, a, x, out, ws):
     """``add_number_work`` of the batch at an address."""
-    add_number_work(read(record), q, v, a, x, out, ws)
+    add_number_work(record, q, v, a, x, out, ws)
 
 
 _V, _x = VECTOR, types.float64
