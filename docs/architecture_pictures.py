@@ -40,10 +40,11 @@ FLOORS = (
     ("batches", "batches of all kinds under one type"),
     ("records", "batches at an address"),
     ("vectors", "arithmetic of three numbers in kernels"),
+    ("choices", "kernels by the type of what they take"),
     ("compiled", "kernels, and operations by type of batch"),
     ("parts  addresses", "code that kernels take in, or call by its address"),
     ("files  worker  columns  garbage", "files that are complete or absent, processes"),
-    ("errors  arrays  interrupts", "messages, types of arrays, signals kept until heeded"),
+    ("errors  arrays  interrupts  later", "messages, types of arrays, signals kept until heeded, scipy"),
 )
 #: On the lowest floor too, but for the package alone.
 UNSHOWN = ("_version", "kernel_cache")

@@ -60,6 +60,7 @@ def stamped() -> list[Path]:
         root / "records.py",
         root / "addresses.py",
         root / "batches.py",
+        root / "choices.py",
         root / "vectors.py",
     )
     return [*kernels, *(f for folder in FOLDERS for f in sorted((root / folder).rglob("*.py")))]
@@ -389,19 +390,3 @@ for _stub in (
     add_number_work,
 ):
     _choose_by_kind(_stub)
-
-
-def optional(function: Callable[..., Any], default: Any = None) -> Any:
-    """Kernel whose first argument is a tuple; of an empty one it returns `default` and compiles nothing."""
-
-    def stub(items, *arguments):
-        raise TypeError("only in compiled code")
-
-    def nothing(items, *arguments):
-        return default
-
-    @overload(stub, jit_options=PART, strict=False)
-    def _choose(items, *arguments):
-        return function if len(items) else nothing
-
-    return stub

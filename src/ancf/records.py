@@ -11,7 +11,6 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import struct
-from collections.abc import Callable
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -25,14 +24,11 @@ from numba.core.typing.templates import AttributeTemplate, infer_getattr
 from numba.extending import (
     NativeValue,
     lower_getattr_generic,
-    overload,
     register_model,
     typeof_impl,
     unbox,
 )
 from numpy.typing import NDArray
-
-from .compiled import FORMULA
 
 T = TypeVar("T")
 WORD = ir.IntType(64)
@@ -235,22 +231,3 @@ def _array(context: Any, builder: Any, kind: Any, words: Any, k: int) -> Any:
     array.itemsize = context.get_constant(types.intp, size)
     array.meminfo, array.parent = (ir.Constant(x.type, None) for x in (array.meminfo, array.parent))
     return array._getvalue()
-
-
-def where_dimensions(number: int, function: Callable[..., Any], default: Any) -> Any:
-    """Kernel whose first argument is an array; of one with fewer dimensions it returns `default`.
-
-    So a batch that has no use for an array says so by its type, and nothing is compiled for it.
-    """
-
-    def stub(array, *arguments):
-        return function(array, *arguments) if array.ndim == number else default
-
-    def nothing(array, *arguments):
-        return default
-
-    @overload(stub, jit_options=FORMULA, strict=False)
-    def _choose(array, *arguments):
-        return function if array.ndim == number else nothing
-
-    return stub

@@ -487,7 +487,9 @@ class TestCache:
         root, stamped = Path(compiled.__file__).parent, set(compiled.stamped())
         for path in root.rglob("*.py"):
             text = path.read_text(encoding="utf-8")
-            makes = re.search(r"compiled import [^\n]*(kernel|formula|implements|optional)|njit\(", text)
+            makes = re.search(
+                r"compiled import [^\n]*(kernel|formula|implements)|choices import|njit\(", text
+            )
             assert not makes or path in stamped, path
         assert root / "bodies" / "inertia.py" in stamped
 

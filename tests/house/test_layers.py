@@ -2,6 +2,7 @@
 
 import ast
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -20,6 +21,7 @@ LAYERS = (
     {"files", "worker", "columns", "garbage"},
     {"parts", "addresses"},
     {"compiled"},
+    {"choices"},
     {"vectors"},
     {"records"},
     {"batches"},
@@ -248,6 +250,23 @@ class TestStart:
         done = python(code, self.HEAVY, options=STRICT)
         assert done.code == 0, done.err
         assert done.out == "[]\n"
+
+    def test_a_short_run_is_light(self):
+        """A cable that swings needs nothing of scipy, which takes as long to import as numba."""
+        run = "ancf.simulate(model, t_end=2e-3, step=1e-3)"
+        code = TINY.split("state =")[0] + f"\n{run}\nimport sys; print('scipy.sparse' in sys.modules)"
+        done = python(code, options=STRICT)
+        assert done.out == "False\n", done.err
+
+
+def test_what_is_imported_later_is_there():
+    """Each name of ancf.later is one of the module that it says."""
+    from ancf import later
+
+    for name in later.__all__:
+        module, real = (cell.cell_contents for cell in getattr(later, name).__closure__)
+        assert hasattr(import_module(module), real), name
+        assert real == name
 
 
 def graph():

@@ -3,9 +3,11 @@
 from collections import namedtuple
 
 import numba
+import numpy as np
 import pytest
 
-from ancf.compiled import formula, inline_kernel, kernel, optional
+from ancf.choices import optional, where_dimensions
+from ancf.compiled import formula, inline_kernel, kernel
 from ancf.kernel_cache import announce_compilation
 
 Batch = namedtuple("Batch", "factor")
@@ -62,6 +64,27 @@ class TestOptional:
     def test_not_from_python(self):
         with pytest.raises(TypeError, match="only in compiled code"):
             scaled((), 2.0)
+
+
+entry = where_dimensions(2, lambda table, row: 2.0 * table[row, 0], -1.0)
+
+
+@kernel
+def entry_of(table, row):
+    return entry(table, row)
+
+
+class TestWhereDimensions:
+    """An array with fewer dimensions stands for none: nothing is compiled that would index it by two."""
+
+    def test_of_a_table(self):
+        assert entry_of(np.array([[1.0, 5.0], [3.0, 7.0]]), 1) == 6.0
+
+    def test_of_none(self):
+        assert entry_of(np.zeros(0), 1) == -1.0
+
+    def test_from_python(self):
+        assert [entry(table, 0) for table in (np.array([[4.0]]), np.zeros(0))] == [8.0, -1.0]
 
 
 def test_compiling_is_announced_once():

@@ -11,7 +11,7 @@ from numba import types
 import ancf
 from ancf.addresses import address_of, caller, pointer
 from ancf.compiled import kernel, separate_kernel
-from ancf.records import _asked, _looked_up, recorded, type_of, words_of
+from ancf.records import Located, _asked, _looked_up, recorded, type_of, words_of
 from ancf.solvers.block import kernels_of
 from ancf.solvers.runs import run_of
 from ancf.system.system import System
@@ -125,6 +125,27 @@ def test_a_record_is_small(rng):
     """An array is its address, its shape and its strides; a recorded tuple an address."""
     given = made(rng, (2, 1, 3))
     assert len(words_of(given)) == 1 + 1 + (1 + 3) + 1 + (1 + 1) + 0 + 7 + 1
+
+
+class Table(NamedTuple):
+    x: np.ndarray
+    table: np.ndarray
+
+
+@kernel
+def traced(o):
+    o.x[0] = 9.0
+    total = 0.0
+    for k in range(o.table.shape[0]):
+        total += o.table[k, k]
+    return total
+
+
+def test_located(rng):
+    """A named tuple of any class, read and written by its address."""
+    given = Table(np.zeros(2), rng.standard_normal((3, 3)))
+    assert traced(Located(given)) == pytest.approx(np.trace(given.table))
+    assert given.x.tolist() == [9.0, 0.0]
 
 
 def test_what_no_record_has(rng):

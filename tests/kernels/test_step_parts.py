@@ -14,7 +14,7 @@ from ancf.solvers import corotation as turning
 from ancf.solvers.carry import carry
 from ancf.solvers.corotation import remember, turn, turn_back, turn_forth, turn_rows
 from ancf.solvers.low_rank import eliminate
-from ancf.solvers.memory import FIRST_LIMIT, H_FACTOR, H_PREV, KNOWN, LIMIT, allocate
+from ancf.solvers.memory import FIRST_LIMIT, H_FACTOR, H_PREV, KNOWN, LIMIT, aligned, allocate
 from ancf.solvers.newmark import worst_unknown
 from ancf.solvers.renewal import count, renewed
 from ancf.solvers.scheme import Scheme, predict_rows
@@ -75,6 +75,20 @@ def test_elimination_pivots(n):
     room[:n, :n], room[:n, n] = A, b
     eliminate.py_func(room, n)
     assert room[:n, n] == pytest.approx(np.linalg.solve(A, b), rel=1e-10)
+
+
+@pytest.mark.parametrize("n", [1, 8, 72, 512, 700])
+def test_vectors_begin_with_a_line(n):
+    """At a multiple of 64 bytes, apart from each other, and no two whole pages of 4096 bytes apart."""
+    vectors = aligned(17, n)
+    places = np.array([x.ctypes.data for x in vectors])
+    assert not np.any(places % 64)
+    assert np.all(np.diff(places) >= 8 * n)
+    assert np.diff(places)[0] % 4096 != 0
+    for k, x in enumerate(vectors):
+        assert (len(x), x.any()) == (n, False)
+        x[:] = k
+    assert all(np.all(x == k) for k, x in enumerate(vectors))
 
 
 def test_worst_unknown():

@@ -68,9 +68,10 @@ def _interpret() -> None:
         setattr(compiled, decorator, _plain)
     for name, operation in _OPERATIONS.items():
         setattr(compiled, operation, chosen(name))
-    compiled.implements, compiled.optional = implements, optional
-    from ancf import addresses, batches, records
+    compiled.implements = implements
+    from ancf import addresses, batches, choices, records
 
+    choices.optional = optional
     addresses.address_of = lambda function, given, result: function
     addresses.caller = lambda result, given=None, nothing=None: (
         lambda function, arguments: function(*arguments) if function else nothing

@@ -12,8 +12,8 @@ import math
 
 import numpy as np
 
+from ..choices import where_dimensions
 from ..compiled import formula, inline_kernel
-from ..records import where_dimensions
 from ..vectors import cross, dot
 from .mesh import MESH, nearest_face
 from .profiles import profile_of

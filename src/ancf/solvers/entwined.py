@@ -12,7 +12,8 @@ import math
 
 import numpy as np
 
-from ..compiled import formula, inline_kernel, optional
+from ..choices import optional
+from ..compiled import formula, inline_kernel
 from ..contact.rows import find_rows
 from ..contact.strand import HELD, find_zones
 from ..system.core import onto_shadows, solve_kept, to_local

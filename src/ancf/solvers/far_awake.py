@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from ..batches import add_tangents
-from ..compiled import inline_kernel, optional, separate_kernel
+from ..choices import optional
+from ..compiled import inline_kernel, separate_kernel
 from ..linalg.block_ldl import factorise_row
 from ..linalg.reach import solve_ranges
 from ..simd import LANES

@@ -21,7 +21,8 @@ from numba import types
 
 from ..addresses import caller
 from ..arrays import FloatArray, IntArray
-from ..compiled import formula, inline_kernel, optional, separate_kernel
+from ..choices import optional
+from ..compiled import formula, inline_kernel, separate_kernel
 from ..connections.contact import DAMPING, FORCE, STIFFNESS, add_row, touch
 from ..connections.contact_build import no_contacts
 from ..connections.spring_damper import spring_gradient, spring_state

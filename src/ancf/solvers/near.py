@@ -13,7 +13,8 @@ import math
 
 import numpy as np
 
-from ..compiled import inline_kernel, optional, separate_kernel
+from ..choices import optional
+from ..compiled import inline_kernel, separate_kernel
 from ..linalg.reach import solve_near
 from ..system.core import to_local
 from ..system.far import add_far_near, clear_settled, hush
