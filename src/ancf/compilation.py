@@ -194,7 +194,8 @@ def needed(model: Model, method: Integrator | None) -> Needed:
         One that takes no steps of its own kernel is read as the default.
     """
     from .records import RecordType, type_of
-    from .solvers.apart import Apart, apart_of, needed
+    from .solvers.apart import Apart, apart_of
+    from .solvers.apart import needed as apart_needed
     from .solvers.block import stepping
     from .solvers.runs import run_of
     from .system.system import System
@@ -212,7 +213,7 @@ def needed(model: Model, method: Integrator | None) -> Needed:
         run: Any = run_of(used, system, 0.0, 1.0, 0.5, 1)
         memory, sampling = run.memory, run.sampling
         types = type_of(system.core), type_of(memory), type_of(sampling)
-        apart_of(*types, needed(system.core, memory, sampling, run.explicit))
+        apart_of(*types, apart_needed(system.core, memory, sampling, run.explicit))
         apart_of(*types, tuple(name in ("note", "sample") for name in Apart._fields))
     batches = [batch for batch in system.core.batches if len(batch[0])]
     resting = [

@@ -87,10 +87,8 @@ def _compile_once(dispatcher: Any) -> None:
     """Let the dispatcher look into the cache again when no other process compiles the same kernel."""
     cache = dispatcher._cache
     compile_it, load = dispatcher.compile, cache.load_overload
-    if hasattr(
-        cache, "_load_overload"
-    ):  # numba's own first loads all that a compiler needs, for a third of the time
-        load = cache._load_overload
+    # numba's own first loads all that a compiler needs, for a third of the time
+    load = getattr(cache, "_load_overload", load)
     held: dict[str, int] = {}
 
     def loaded(signature: Any, context: Any) -> Any:

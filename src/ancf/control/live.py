@@ -21,6 +21,7 @@ from ..solvers.stepping import Run
 from ..system.energy import energies
 from ..system.inputs import Inputs
 from ..system.spring_fields import springs_of
+from ..system.system import System
 
 
 class InputValues(MutableMapping[str, float]):
@@ -138,10 +139,15 @@ class Live(State):
     @property
     def energy(self) -> Energy:
         """Energies now, J; dissipated and supplied since the start."""
-        kinetic, strain, potential = energies(self.system, self._q[None], self._v[None])[0]
+        kinetic, strain, potential = energies(self._whole, self._q[None], self._v[None])[0]
         dissipated, supplied = (np.float64(x) for x in self._work)
         return Energy(kinetic, strain, potential, dissipated, supplied)  # type: ignore[arg-type]
 
     def state(self) -> State:
         """The state now, which stays as it is while the run goes on."""
-        return State(self.system, self.t, self.q, self.v, self.stats, self.known)
+        return State(self._whole, self.t, self.q, self.v, self.stats, self.known)
+
+    @property
+    def _whole(self) -> System:
+        """The system of the run, or one like it: cables of parts that sleep have no stiffness in that."""
+        return self.system.double if self._partly else self.system

@@ -165,9 +165,7 @@ class Adjoint:
         """Derivatives of the number by the parameters, (p,), from those by the histories."""
         run, system = self.run, self.system
         total, mu = np.zeros(len(self.families)), np.zeros((4, system.size))
-        still = np.zeros(
-            system.size
-        )  # derivatives of the number by those of q that are the same at all times
+        still = np.zeros(system.size)  # by derivatives of q that are the same at all times
         for block in reversed(self.blocks):
             rows = slice(block.done + 1, block.done + block.count + 1)
             own = {key: slope[rows] for key, slope in slopes.items()}
