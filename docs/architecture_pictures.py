@@ -28,7 +28,7 @@ FLOORS = (
     ("sensitivity", "exact derivatives of equilibria, runs and modes"),
     ("control", "inputs, controllers, steps one by one"),
     ("preparation", "a model compiled, started, carried out"),
-    ("compilation", "what is said and done while kernels are compiled"),
+    ("compilation", "what is done while kernels are compiled"),
     ("results", "states, histories, files"),
     ("solvers", "steps, statics, eigenvalues"),
     ("system", "a model as flat arrays, numbered and ordered"),
@@ -44,7 +44,7 @@ FLOORS = (
     ("compiled", "kernels, and operations by type of batch"),
     ("parts  addresses", "code that kernels take in, or call by its address"),
     ("files  worker  columns  garbage", "files that are complete or absent, processes"),
-    ("errors  arrays  interrupts  later", "messages, types of arrays, signals kept until heeded, scipy"),
+    ("errors  arrays  interrupts  later", "messages, arrays, signals, imports that wait"),
 )
 #: On the lowest floor too, but for the package alone.
 UNSHOWN = ("_version", "kernel_cache")
@@ -81,7 +81,7 @@ def floors() -> None:
     for k, (name, what) in enumerate(reversed(FLOORS)):
         box(axes, 0.0, k, 14.2, 0.8, "white")
         axes.text(0.2, k + 0.38, name, va="center", family="monospace", fontsize=8.5, weight="bold")
-        axes.text(5.6, k + 0.38, what, va="center", fontsize=8.5)
+        axes.text(6.6, k + 0.38, what, va="center", fontsize=8.5)
     axes.annotate(
         "", (14.7, 0.2), (14.7, len(FLOORS) - 0.4), arrowprops={"arrowstyle": "-|>", "color": style.BLUE}
     )
