@@ -44,13 +44,26 @@ def solid():
     return model
 
 
+def clamped():
+    """A cable and a spring; the clamp turns with the ends."""
+    model = ancf.Model(gravity=(0, 0.3, -9.81))
+    section = ancf.Section(EA=300.0, EI=0.7, rhoA=0.2)
+    beam = model.add_beam("a", start=(0, 0, 0), end=(1, 0.2, 0.1), elements=3, section=section)
+    model.clamp(beam.start)
+    model.add_force(beam.at(0.3), (0, "sin(7*t)", -1.0), name="push")
+    model.add_spring(beam.end, (1, 0, 1), stiffness=20.0, length=0.3, name="held")
+    return model
+
+
 CASES = {
     "plain": lambda: two_cables(3),
     "damped": lambda: two_cables(9, **DAMPED),
     "without weight": lambda: two_cables(8, gravity=0.0, damping=0.1),
+    "clamped": clamped,
     "solid": solid,
 }
 NAMES = {
+    "clamped": ["a.EI", "a.start[0]", "a.start[1]", "a.start[2]", "a.end[1]", "a.end[2]", "held.length"],
     "solid": ["a.E", "held.length", "gravity[2]", "a.rho"],
     "others": [
         *(f"b.{key}" for key in OF_SECTIONS),
@@ -80,7 +93,8 @@ def test_the_sum_over_the_steps(case):
     way = Way(q, v, a)
     push = nearby.at_steps(Way(*(x.copy() for x in way)), when, tables, gaps=False).push
     wanted, size = np.sum(push * lam, axis=(1, 2)), np.sum(np.abs(push * lam), axis=(1, 2))
-    found = weighed.at_steps(Way(*(x.copy() for x in way)), when, tables, lam.copy())
+    turned = np.zeros((weighed.turning, 3, 3))
+    found = weighed.at_steps(Way(*(x.copy() for x in way)), when, tables, lam.copy(), turned)
     assert nearby.plain
     for k in nearby.plain:
         assert abs(found[k] - wanted[k]) <= 2e-9 * size[k], names[k]

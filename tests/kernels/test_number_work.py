@@ -61,8 +61,8 @@ def found_by_kernel(system, batch, q, v, a, x):
     known = knowing(add_number_work, [batch])
     tables = system.inputs.tables(0.0, 0.1, 1, 0.0, 1.0)
     way = Way(*(y[None].copy() for y in (q, v, a)))
-    begin = np.array([0, m])
-    weigh_pushes(system.core, uses, known, begin, tables, way, x[None].copy(), work, np.zeros(0), out, total)
+    begin, sums = np.array([0, m]), (np.zeros(0), out, np.zeros((0, 3, 3)), total)
+    weigh_pushes(system.core, uses, known, begin, tables, way, x[None].copy(), work, *sums)
     assert np.array_equal(total, x)
     return out
 

@@ -174,23 +174,35 @@ class Adjoint:
             when = run.time(block.done), block.h, run.t_start, run.t_end
             lam = np.zeros_like(way.q)
             tables = system.inputs.tables(*when[:2], block.count, *when[2:])
-            lost = np.zeros(system.size)
+            lost, turned = np.zeros(system.size), np.zeros((self.weighed.turning, 3, 3))
+            sums = mu, lam, lost, turned
             _, status = back_steps(
-                system.core, self.m, self.ahead, tables, way, wanted, block.h, run.scheme, mu, lam, lost
+                system.core, self.m, self.ahead, tables, way, wanted, block.h, run.scheme, *sums
             )
             if status != OK:
                 raise SolveError("gradient", "the equations of the adjoint cannot be solved", "smaller steps")
             still += np.sum(wanted[:, 0], axis=0) - lost
-            total += self._pushed(way, when, tables, wanted, lam)
+            self._add_axes(way, wanted, turned)
+            total += self._pushed(way, when, tables, wanted, lam, turned)
             total += self._explicit(way.q, way.v, own)
             block.way = None
         for k, shift in self.nearby.shifts.items():
             total[k] += still @ self._followed(shift)
         return total + self._of_start({key: slope[:1] for key, slope in slopes.items()}, mu)
 
-    def _pushed(self, way: Way, when: Any, tables: Any, wanted: FloatArray, lam: FloatArray) -> FloatArray:
+    def _add_axes(self, way: Way, wanted: FloatArray, turned: FloatArray) -> None:
+        """Take from ``turned`` the derivatives of the number by local axes through the states there."""
+        supports = self.system.core.supports
+        for k in range(len(turned)):
+            i, j = supports.rot_slot[k], supports.rot_shadow[k]
+            for n, x in enumerate((way.q, way.v)):
+                turned[k] -= wanted[:, n, j : j + 3].T @ x[:, i : i + 3]
+
+    def _pushed(
+        self, way: Way, when: Any, tables: Any, wanted: FloatArray, lam: FloatArray, turned: FloatArray
+    ) -> FloatArray:
         """What is due to what parameters do to the states of a block at fixed free unknowns."""
-        made = -self.weighed.at_steps(way, when, tables, lam)
+        made = -self.weighed.at_steps(way, when, tables, lam, turned)
         for k in self.nearby.others:
             family = self.families[k]
             family.know(self.system)

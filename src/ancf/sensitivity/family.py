@@ -25,6 +25,7 @@ from ..system.system import System
 from .alike import Known, alike, changed, same_inputs, same_loads
 from .parameters import Parameter
 from .trial import Trial
+from .turns import axes_rates
 from .values import few_of, gaps_of, quiet_state
 
 #: Step of the differences, relative, and of a parameter that is zero, in its unit or the size of the model.
@@ -69,9 +70,9 @@ class Family:
     ----------
     plain : bool
         No support depends on the parameter, and no load that depends on the state or row of a joint does.
-    shift : ndarray
-        Derivative of the state where it is held, (size,), if that is all that keeps it from being plain; else
-        empty.
+    shift, turn : ndarray
+        Derivatives of the state where it is held, (size,), and of the local axes of supports, (k, 3, 3), if
+        these are all that keeps it from being plain; else, and where they are zero, empty.
 
     Raises
     ------
@@ -131,7 +132,7 @@ class Family:
     def _trial(self) -> Trial:
         """In which it is tried how many values the parameter needs."""
         self.know(self.base)
-        still = self.shifts and not self._names() and all(self._turns_alike(s) for s in self.systems)
+        still = self.shifts and not self._names()
         still = still and all(same_loads(self.base, system) for system in self.systems)
         return Trial(self.base, self.systems, self._states, still)
 
@@ -202,22 +203,22 @@ class Family:
         names = self.changed = self._names()
         *self._few, self._own = few_of([*self.systems, base], names)
         still, self._fed = self._steady_inputs()
-        plain = still and all(self._is_plain(k) for k in range(len(self.systems)))
-        shift = np.zeros(base.size)
+        plain = still and all(self._has_own(system) for system in self.systems)
+        shift, turn = np.zeros(base.size), axes_rates(base, self.systems, self.weights)
         for weight, shape in zip(self.weights, self._shape, strict=True):
             shift[base.held] += weight * shape[base.held]
-        self.plain = plain and not np.any(shift)
+        if turn is None or (np.any(turn) and len(base.multipliers)):
+            plain, turn = False, np.zeros((0, 3, 3))
+        self.plain = plain and not np.any(shift) and not np.any(turn)
         self.shift = shift if plain and np.any(shift) else shift[:0]
+        self.turn = turn if plain and np.any(turn) else turn[:0]
         self._loads = any(not same_loads(base, s) for s in self.systems)
         self._steady: list[FloatArray] | None = None
         self._constant = all(f.constant for s in self.systems for f in s.inputs.loads)
 
-    def _is_plain(self, k: int) -> bool:
-        """Whether supports turn as they do, and no batch has inputs or rows of constraints of its own."""
-        system = self.systems[k]
+    def _has_own(self, system: System) -> bool:
+        """Whether no batch that the parameter changes has inputs, or rows of constraints, of the system's."""
         few = [batch for name, batch in system.parts.items() if name in self.changed]
-        if not self._turns_alike(system):
-            return False
         shared = (
             np.may_share_memory(x, system.value)
             for b in few
@@ -225,11 +226,6 @@ class Family:
             if isinstance(x, np.ndarray) and x.size
         )
         return not any(shared) and not any(Role.CONSTRAINS in traits(b).role for b in few)
-
-    def _turns_alike(self, system: System) -> bool:
-        """Whether local axes of supports are as they are."""
-        mine, other = self.base.supports.rot_R, system.supports.rot_R
-        return mine is other or np.array_equal(mine[:, 0], other[:, 0])
 
     def used(self) -> list[tuple[float, Batches]]:
         """Weights and the batches that the parameter changes at each value.

@@ -13,7 +13,8 @@ from ..preparation import Prepared, adopted
 from ..results.state import State
 from ..results.store import FileStore
 from ..simd import LANES
-from ..solvers.abreast import follow_steps, room_for
+from ..solvers.abreast import follow_steps
+from ..solvers.abreast_room import room_for
 from ..solvers.ahead import ahead_of
 from ..solvers.checkpoint import Snapshot
 from ..solvers.record import Stats
@@ -92,6 +93,7 @@ class Following:
         check_shift(made, start, where)
         self.families = [Family(parameter, self.system, shifts=True) for parameter in parameters]
         self.nearby = Nearby(self.families, self.system, shifts=True)
+        self.turn = self.nearby.turn_abreast()
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
         self.ahead, self.room = ahead_of(self.system.core, self.m), room_for(self.system.size)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
@@ -225,7 +227,7 @@ class Following:
         projects = rule.projects and len(system.multipliers) > 0
         tables = system.inputs.tables(*when[:2], count, *when[2:])
         found = self.nearby.at_steps(way, when, tables, projects)
-        rooms, pushes = (system.core, self.m, self.ahead, self.room), (found.push, found.gap)
+        rooms, pushes = (system.core, self.m, self.ahead, self.room), (found.push, found.gap, self.turn)
         n, status = follow_steps(*rooms, tables, way, *pushes, h, run.scheme, joined, self.s, out, place)
         if status != OK:
             t = run.time(done + int(n) + 1)

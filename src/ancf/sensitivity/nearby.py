@@ -8,6 +8,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..batches import Batches
+from ..simd import LANES
 from ..solvers.pushes import Uses, add_loads, add_pushes
 from ..solvers.sensitivity import Way
 from ..system.system import System
@@ -25,8 +26,8 @@ class Pushes(NamedTuple):
 class Nearby:
     """The families of all parameters of a run.
 
-    Those that move no support and change no load that depends on the state are differentiated in compiled
-    code, each batch once for all of them.
+    Those that change no load that depends on the state and no motion of a support are differentiated in
+    compiled code, each batch once for all of them.
 
     Parameters
     ----------
@@ -34,16 +35,35 @@ class Nearby:
     system : System
         On whose arrays the sensitivities are computed.
     shifts : bool
-        Places of supports that shift are part of the sensitivities themselves, and not of the pushes.
+        Places of supports that shift, and local axes that turn, are part of the sensitivities themselves,
+        and not of the pushes.
     """
 
     def __init__(self, families: list[Family], system: System, shifts: bool = False) -> None:
         self.families, self.system = families, system
         self.shifts = {k: family.shift for k, family in enumerate(families) if shifts and family.shift.size}
-        self.plain = [k for k, family in enumerate(families) if family.plain or k in self.shifts]
+        self.turns = {k: family.turn for k, family in enumerate(families) if shifts and family.turn.size}
+        own = self.shifts.keys() | self.turns.keys()
+        self.plain = [k for k, family in enumerate(families) if family.plain or k in own]
         self.others = [k for k in range(len(families)) if k not in self.plain]
-        self._uses = uses_of(families, self.plain)
+        self._uses, self._turn = uses_of(families, self.plain), self._turns_of(self.plain)
         self._work, self._kept = np.zeros(system.size), np.zeros(0)
+
+    def _turns_of(self, chosen: list[int]) -> FloatArray:
+        """Derivatives of the local axes by the chosen parameters, (p, k, 3, 3), if any turns; else none."""
+        count = len(self.system.core.supports.rot_slot) if self.turns else 0
+        turn = np.zeros((len(chosen) if count else 0, count, 3, 3))
+        for row, k in enumerate(chosen):
+            if k in self.turns:
+                turn[row] = self.turns[k]
+        return turn
+
+    def turn_abreast(self) -> FloatArray:
+        """The same of all parameters as their sensitivities lie, (p/8 rounded up, k, 3, 3, 8)."""
+        turn, groups = self._turns_of(list(range(len(self.families)))), -(-len(self.families) // LANES)
+        lanes = np.zeros((groups * LANES, *turn.shape[1:]))
+        lanes[: len(turn)] = turn
+        return np.ascontiguousarray(np.moveaxis(lanes.reshape(groups, LANES, *turn.shape[1:]), 1, -1))
 
     def _room(self, count: int) -> FloatArray:
         """Zeros (p, count, size), in the memory of the block before: pages that are new cost time."""
@@ -88,7 +108,7 @@ class Nearby:
             for weight, loads, value in self.families[k].loads_used(when, tables):
                 add_loads(loads, value, weight, self._work, rows[row])
         if self.plain:
-            add_pushes(self.system.core, self._uses, tables, way, self._work, rows)
+            add_pushes(self.system.core, self._uses, self._turn, tables, way, self._work, rows)
 
 
 def uses_of(families: list[Family], chosen: list[int]) -> Uses:

@@ -53,7 +53,13 @@ class Start:
             raise SolveError("sensitivities at the start", "the mass matrix is singular")
 
     def sensitivity(
-        self, dq: FloatArray, dv: FloatArray, push: Any, gap: Any, shift: FloatArray | None = None
+        self,
+        dq: FloatArray,
+        dv: FloatArray,
+        push: Any,
+        gap: Any,
+        shift: FloatArray | None = None,
+        turn: FloatArray | None = None,
     ) -> FloatArray:
         """Derivatives of q, v, a and the algorithmic acceleration, (4, size), from those that are asked for.
 
@@ -65,6 +71,8 @@ class Start:
             Derivatives of the residual, and of the rows of the constraints, at fixed free unknowns.
         shift : (size,), optional
             Derivatives of q that are not in these, where it is held.
+        turn : (k, 3, 3), optional
+            Those of the local axes of supports.
         """
         d = np.zeros((3, self.system.size))
         d[0], d[1] = self._free(dq), self._free(dv)
@@ -75,7 +83,7 @@ class Start:
         if len(lam):
             self._shift(d, 0, (1.0, 0.0, 0.0), gap)
             self._shift(d, 1, (0.0, 1.0, 0.0), gap)
-        self._accelerate(d, push((0.0, 0.0, 1.0)))
+        self._accelerate(d, push((0.0, 0.0, 1.0)), np.zeros((0, 3, 3)) if turn is None else turn)
         made = np.zeros((4, self.system.size))
         made[Q], made[V], made[A], made[ABAR] = d[0], d[1], d[2], d[2]
         return made
@@ -104,13 +112,13 @@ class Start:
             if np.max(np.abs(r)) <= NOISY * np.max(np.abs(d[k]), initial=0.0):
                 return
 
-    def _accelerate(self, d: FloatArray, push: FloatArray) -> None:
-        """Accelerations and multipliers."""
+    def _accelerate(self, d: FloatArray, push: FloatArray, turn: FloatArray) -> None:
+        """Accelerations and multipliers, and the shadows of all."""
         system, core = self.system, self.system.core
         system.level[:] = 0.0, 0.0, 1.0
         r, still, before = np.empty(system.size), np.zeros(system.size), np.inf
         for _ in range(MOST):
-            products_along(core, self.m, self.q, self.v, self.a, d, still, r)
+            products_along(core, self.m, self.q, self.v, self.a, d, turn, still, r)
             r += push
             r[core.supports.held] = 0.0
             solve_matrix(core.factor, r)
@@ -123,6 +131,10 @@ class Start:
                 break
             before = norm
         follow_supports(core.supports, *d)
+        for k, R in enumerate(turn):
+            i, j = core.supports.rot_slot[k], core.supports.rot_shadow[k]
+            for s, x in zip(d, (self.q, self.v, self.a), strict=True):
+                s[j : j + 3] += R @ x[i : i + 3]
 
 
 def starts(
@@ -163,7 +175,8 @@ def starts(
     for k, family in enumerate(nearby.families):
         if k in rows:  # it does nothing to rows of joints
             own = pushes[rows[k], 0]
-            made = begin.sensitivity(*given[k], lambda _, own=own: own, lambda _: 0.0, nearby.shifts.get(k))
+            moved = nearby.shifts.get(k), nearby.turns.get(k)
+            made = begin.sensitivity(*given[k], lambda _, own=own: own, lambda _: 0.0, *moved)
             yield made, still
         else:
             at = _at_level(system, family, states, when)

@@ -75,7 +75,7 @@ def _solver(system: System, core: Core, q: FloatArray):  # type: ignore[no-untyp
         d[:] = 0.0
         d[0, :n] = x
         d[0, core.supports.held] = 0.0
-        products_along(core, m, q, still, still, d, still, r)
+        products_along(core, m, q, still, still, d, np.zeros((0, 3, 3)), still, r)
         y: FloatArray = r[:n].copy()
         y[core.supports.held] = x[core.supports.held]
         return y

@@ -11,6 +11,7 @@ from ..batches import Batches
 from ..system.core import apply_load, place_supports, residual
 from ..system.system import System
 from .alike import Known, on_a_line
+from .turns import axes_of
 
 #: Size of the changes of the state in which it is tried whether a parameter is linear.
 SHAKEN = 0.01
@@ -44,7 +45,8 @@ class Trial:
     def linear(self) -> bool:
         """Whether residual and initial state are linear in the parameter, which two values tell then."""
         first = [Known.of(self.base).initial_state(0.0), *self.states]
-        if not all(on_a_line(*x) for x in zip(*first, strict=True)):
+        axes = [axes_of(self.base, system) for system in (self.base, *self.systems)]
+        if not all(on_a_line(*x) for x in (*zip(*first, strict=True), axes)):
             return False
         found = self._residuals([self.base, *self.systems])
         changes = self.still or any(np.any(low != high) for _, low, high in found)
@@ -53,7 +55,8 @@ class Trial:
     def smooth(self) -> bool:
         """Whether four values are enough: what order two lacks of the derivative is small."""
         states = list(zip(*self.states, strict=True))
-        for far_low, low, high, far_high in (*self._residuals(self.systems), *states):
+        axes = [axes_of(self.base, system) for system in self.systems]
+        for far_low, low, high, far_high in (*self._residuals(self.systems), *states, axes):
             near, far = (high - low) / 3.0, (far_high - far_low) / 6.0
             size = float(np.max(np.abs(near), initial=0.0))
             if float(np.max(np.abs(far - near), initial=0.0)) > SMOOTH * size:

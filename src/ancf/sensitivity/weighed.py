@@ -43,17 +43,29 @@ class Weighed:
         self.others = [k for k in nearby.plain if k not in self.rates]
         self.uses = uses_of(families, self.others)
         self.work = np.zeros(self.system.size)
+        self.turning = len(self.system.core.supports.rot_slot) if nearby.turns else 0  # local axes to look at
 
     def at_steps(
-        self, way: Way, when: tuple[float, float, float, float], tables: Any, lam: FloatArray
+        self,
+        way: Way,
+        when: tuple[float, float, float, float],
+        tables: Any,
+        lam: FloatArray,
+        turned: FloatArray,
     ) -> FloatArray:
-        """For the steps of a block and their lambda, (p,); see ``Nearby.at_steps``."""
+        """For the steps of a block and their lambda, (p,); see ``Nearby.at_steps``.
+
+        ``turned``: derivatives of lambda . R by the local axes so far, (k, 3, 3).
+        """
         families = self.nearby.families
         made, pushed = np.zeros(len(families)), np.zeros(len(self.others))
         numbers, total = np.zeros(self.begin[-1]), np.zeros(self.system.size)
         core, work = self.system.core, self.work
-        weigh_pushes(core, self.uses, self.known, self.begin, tables, way, lam, work, pushed, numbers, total)
+        sums = pushed, numbers, turned, total
+        weigh_pushes(core, self.uses, self.known, self.begin, tables, way, lam, work, *sums)
         made[self.others] = pushed
+        for k, turn in self.nearby.turns.items():
+            made[k] += float(np.sum(turn * turned))
         for k, found in self.rates.items():
             made[k] += sum(float(numbers[self.place[name]] @ rate) for name, rate in found.items())
         for k in self.nearby.plain:

@@ -6,82 +6,27 @@ numbers are read once for eight of them.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
-from ..arrays import FloatArray
 from ..compiled import formula, inline_kernel, kernel
 from ..linalg.eight import factor_of
 from ..linalg.lanes import multiply_abreast, multiply_twisted_abreast, solve_abreast
-from ..simd import LANES, absolute, every, load, store
+from ..simd import LANES, every, load, store
 from ..system.core import constraint_rows, drive, solve_sparse, to_local
+from .abreast_room import add_push, follow_abreast, kept, predicted, sizes_of, turn_abreast
 from .ahead import look_ahead
 from .local import add_local, add_locals, look_near
 from .scheme import coefficients
-from .sensitivity import (
-    ABAR,
-    DIFFERENCED,
-    ENOUGH,
-    LEAST,
-    MOST,
-    A,
-    Q,
-    V,
-    add_lossy,
-    add_rough,
-    extent,
-    is_done,
-)
+from .sensitivity import DIFFERENCED, ENOUGH, LEAST, MOST, add_lossy, add_rough, extent, is_done
 from .status import OK, SINGULAR, SLOW
-
-
-class Abreast(NamedTuple):
-    """Room for eight sensitivities."""
-
-    d: FloatArray  # (3, size, 8) s_q, s_v, s_a
-    r: FloatArray  # (size, 8)
-    seen: FloatArray  # (size, 8)
-    before: FloatArray  # (8,) sizes of the last corrections
-    open: FloatArray  # (8,) 1 while corrections go on, else 0
-    norm: FloatArray  # (8,) sizes of corrections, and of what they correct
-    size: FloatArray  # (8,)
-    shift: FloatArray  # (8,) sizes of shifts onto the constraints
-
-
-def room_for(size: int) -> Abreast:
-    """Room for the unknowns of a model."""
-    return Abreast(
-        *(np.zeros((*shape, LANES)) for shape in ((3, size), (size,), (size,))), *np.zeros((5, LANES))
-    )
-
-
-@formula
-def follow_abreast(supports, d):
-    """Shadows from the unknowns, as :func:`ancf.system.core.follow`."""
-    for k in range(supports.rot_slot.shape[0]):
-        i, j = supports.rot_slot[k], supports.rot_shadow[k]
-        for c in range(3):
-            x, dx, ddx = every(0.0), every(0.0), every(0.0)
-            for m in range(3):
-                R, dR, ddR = (
-                    supports.rot_R[k, 0, c, m],
-                    supports.rot_R[k, 1, c, m],
-                    supports.rot_R[k, 2, c, m],
-                )
-                q, v, a = load(d, 0, i + m), load(d, 1, i + m), load(d, 2, i + m)
-                x = x + R * q
-                dx = dx + R * v + dR * q
-                ddx = ddx + R * a + (2.0 * dR) * v + ddR * q
-            store(x, d, 0, j + c)
-            store(dx, d, 1, j + c)
-            store(ddx, d, 2, j + c)
 
 
 @formula
 def see(core, x, room):
     """Keep x as the matrices take it, the values of shadows at the unknowns where they have their rows."""
     supports = core.supports
+    if supports.rot_slot.shape[0] == 0:
+        return
     for i in range(x.shape[0]):
         store(load(x, i), room.seen, i)
     for k in range(supports.rot_slot.shape[0]):
@@ -93,19 +38,22 @@ def see(core, x, room):
 def add_product(core, values, x, room):
     """Add a matrix times x to r, the rows of shadows where the matrix has them."""
     see(core, x, room)
-    multiply_abreast(core.factor, values, room.seen, room.r)
+    own = room.seen if core.supports.rot_slot.shape[0] > 0 else x
+    multiply_abreast(core.factor, values, own, room.r)
 
 
 @formula
-def products(core, m, K, C, W, room):
-    """r = M s_a + C s_v + K s_q of the exact batches."""
+def products(core, m, K, C, W, moves, room):
+    """r = M s_a + C s_v + K s_q of the exact batches; ``moves``: s_a is not zero."""
     d, r, supports = room.d, room.r, core.supports
     for i in range(r.shape[0]):
         store(every(0.0), r, i)
     add_product(core, K, d[0], room)
     if W.shape[0] > 0:
-        multiply_twisted_abreast(core.factor, W, room.seen, room.r)
-    add_product(core, m.M, d[2], room)
+        own = room.seen if supports.rot_slot.shape[0] > 0 else d[0]
+        multiply_twisted_abreast(core.factor, W, own, r)
+    if moves:
+        add_product(core, m.M, d[2], room)
     if m.damped:
         add_product(core, C, d[1], room)
     for k in range(supports.rot_slot.shape[0]):
@@ -151,21 +99,19 @@ def to_local_abreast(supports, r):
 
 
 @inline_kernel
-def out_of_balance(core, m, matrices, x, push, n, first, room):
+def out_of_balance(core, m, matrices, x, turn, push, n, first, moves, room):
     """r = M s_a + C s_v + K s_q + R_p as the solve wants it, of step n and parameters from ``first`` on."""
     r, count = room.r, min(LANES, push.shape[0] - first)
     follow_abreast(core.supports, room.d)
-    products(core, m, matrices[0], matrices[1], matrices[2], room)
+    turn_abreast(core.supports, turn, x, room.d)
+    products(core, m, matrices[0], matrices[1], matrices[2], moves, room)
     if m.lossy.table.shape[0] > 0 or (m.rough.table.shape[0] > 0 and not m.local):
         for k in range(count):
             if room.open[k] > 0.0:
                 add_others(core, m, x, room, k)
     add_locals(core, m, x, room, count)
     to_local_abreast(core.supports, r)
-    for k in range(count):
-        own = push[first + k, n]
-        for i in range(r.shape[0]):
-            r[i, k] = room.open[k] * (r[i, k] + own[i])
+    add_push(room, push, n, first, count)
     for k in range(core.supports.held.shape[0]):
         store(every(0.0), r, core.supports.held[k])
 
@@ -209,16 +155,6 @@ def correct(core, room, B, G):
     for k in range(multipliers.shape[0]):
         store(every(0.0), d, 1, multipliers[k])
         store(every(0.0), d, 2, multipliers[k])
-
-
-@formula
-def sizes_of(X, weight, out):
-    """Largest entry of each lane by size, weighted."""
-    found = every(0.0)
-    for i in range(weight.shape[0]):
-        size = weight[i] * absolute(load(X, i))
-        found = 0.5 * (found + size + absolute(found - size))
-    store(found, out, 0)
 
 
 @inline_kernel
@@ -281,23 +217,25 @@ def not_done(room, weight, count, enough):
 
 
 @inline_kernel
-def solved(core, m, factor, matrices, x, push, gap, n, first, joined, room, B, G):
-    """Corrections of predicted sensitivities; a status."""
+def solved(core, m, factor, matrices, x, turn, push, gap, n, first, joined, at_once, room, B, G):
+    """Corrections of predicted sensitivities, perhaps ``at_once``; a status."""
     joints, count = core.joints, min(LANES, push.shape[0] - first)
     rough = m.rough.table.shape[0] > 0
     known = m.lossy.table.shape[0] == 0 and not m.turning and (m.local or not rough)
     projects = joined.projects and joints.multipliers.shape[0] > 0
-    again, enough = matrices[2].shape[0] > 0 or rough, DIFFERENCED if rough else ENOUGH
-    for k in range(count):
-        room.before[k], room.open[k], room.shift[k] = np.inf, 1.0, 0.0
+    enough = DIFFERENCED if rough else ENOUGH
+    again = matrices[2].shape[0] > 0 or rough
+    for k in range(LANES):
+        room.before[k], room.open[k], room.shift[k] = np.inf, 1.0 if k < count else 0.0, 0.0
     for round in range(MOST):
         if round > 0 and known and not projects:
             out_again(core, m, matrices[2], x, room, count, B, G)
         else:
-            out_of_balance(core, m, matrices, x, push, n, first, room)
+            moves = not at_once or turn.shape[0] > 0
+            out_of_balance(core, m, matrices, x, turn, push, n, first, moves, room)
         solve_abreast(factor, room.r)
         correct(core, room, B, G)
-        if known and not projects and not again:
+        if at_once:
             return OK
         if projects:
             for k in range(count):
@@ -308,38 +246,15 @@ def solved(core, m, factor, matrices, x, push, gap, n, first, joined, room, B, G
     return SLOW
 
 
-@formula
-def predicted(s, d, h, scheme):
-    """d = (s_q, s_v, s_a) at the end of a step from the sensitivities s at its start, with the same s_a."""
-    am, af = scheme.alpha_m, scheme.alpha_f
-    c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
-    for i in range(s.shape[1]):
-        q, v, a, bar = load(s, Q, i), load(s, V, i), load(s, A, i), load(s, ABAR, i)
-        new = (c1 + c2) * a + c3 * bar
-        store(q + h * v + (h * h) * ((0.5 - scheme.beta) * bar + scheme.beta * new), d, 0, i)
-        store(v + h * ((1.0 - scheme.gamma) * bar + scheme.gamma * new), d, 1, i)
-        store(a, d, 2, i)
-
-
 @inline_kernel
-def kept(room, s, scheme, out, row, first):
-    """Write s_q, s_v and, if there is room, s_a to a row of what is kept; the next step starts with them."""
-    am, af = scheme.alpha_m, scheme.alpha_f
-    c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
-    for i in range(s.shape[1]):
-        q, v, a = load(room.d, 0, i), load(room.d, 1, i), load(room.d, 2, i)
-        store(c1 * a + c2 * load(s, A, i) + c3 * load(s, ABAR, i), s, ABAR, i)
-        store(q, s, Q, i)
-        store(v, s, V, i)
-        store(a, s, A, i)
-    for p in range(first, min(first + LANES, out.shape[0])):
-        for k in range(out.shape[2]):
-            for i in range(s.shape[1]):
-                out[p, row, k, i] = room.d[k, i, p - first]
+def takes_one(core, m, projects):
+    """Whether one correction is all: the factors of a step have all of its matrix, and nothing is shifted."""
+    whole = m.W.shape[0] == 0 and m.lossy.table.shape[0] == 0 and m.rough.table.shape[0] == 0
+    return whole and not m.turning and not (projects and core.joints.multipliers.shape[0] > 0)
 
 
 @kernel
-def follow_steps(core, m, ahead, room, tables, way, push, gap, h, scheme, joined, s, out, place):
+def follow_steps(core, m, ahead, room, tables, way, push, gap, turn, h, scheme, joined, s, out, place):
     """Carry sensitivities through the steps of a block.
 
     Parameters
@@ -350,6 +265,8 @@ def follow_steps(core, m, ahead, room, tables, way, push, gap, h, scheme, joined
     way : Way
     push, gap : (p, steps, size)
         Derivatives of the residual and of the constraints' positions, at fixed free unknowns.
+    turn : (p/8 rounded up, k, 3, 3, 8)
+        Derivatives of the local axes of supports, or k = 0: they do not turn with a parameter.
     h, scheme, joined : float, Scheme, Constraining
     s : (p/8 rounded up, 4, size, 8)
         At the start; changed to the end.
@@ -362,6 +279,7 @@ def follow_steps(core, m, ahead, room, tables, way, push, gap, h, scheme, joined
     Steps done and the status of the last one.
     """
     B, G = coefficients(h, scheme)
+    at_once = takes_one(core, m, joined.projects)
     level = core.joints.level
     level[0], level[1], level[2] = joined.w0, joined.w1, joined.w2
     for n in range(way.q.shape[0]):
@@ -375,10 +293,14 @@ def follow_steps(core, m, ahead, room, tables, way, push, gap, h, scheme, joined
         x = (way.q[n], way.v[n], way.a[n])
         drive(core.supports, core.loads.value, tables, n, x[0], x[1], x[2])
         for g in range(s.shape[0]):
-            predicted(s[g], room.d, h, scheme)
-            status = solved(core, m, factor, matrices, x, push, gap, n, LANES * g, joined, room, B, G)
+            predicted(s[g], room.d, h, scheme, 0.0 if at_once else 1.0)
+            own, first = turn[g], LANES * g
+            status = solved(
+                core, m, factor, matrices, x, own, push, gap, n, first, joined, at_once, room, B, G
+            )
             if status != OK:
                 return n, status
             follow_abreast(core.supports, room.d)
+            turn_abreast(core.supports, own, x, room.d)
             kept(room, s[g], scheme, out, place + n, LANES * g)
     return way.q.shape[0], OK

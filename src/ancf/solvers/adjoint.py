@@ -97,8 +97,19 @@ def factors(core, factor, W, mu, c1, B, G, lam, work):
     return status
 
 
+@inline_kernel
+def add_turns(supports, x, y, turned):
+    """Add derivatives x by q, v and a at the shadows times the state y there: those by the local axes."""
+    for k in range(turned.shape[0]):
+        i, j = supports.rot_slot[k], supports.rot_shadow[k]
+        for n in range(x.shape[0]):
+            for m in range(3):
+                for c in range(3):
+                    turned[k, m, c] += x[n, j + m] * y[n][i + c]
+
+
 @kernel
-def back_steps(core, m, ahead, tables, way, wanted, h, scheme, mu, out, still):
+def back_steps(core, m, ahead, tables, way, wanted, h, scheme, mu, out, still, turned):
     """Carry the adjoint back through the steps of a block.
 
     Parameters
@@ -113,6 +124,8 @@ def back_steps(core, m, ahead, tables, way, wanted, h, scheme, mu, out, still):
         lambda.
     still : (size,)
         What lambda does to derivatives of q that are the same at all times is added: K^T lambda.
+    turned : (k, 3, 3)
+        What it does through places and motion where local axes turn, by these, or k = 0: it is not asked for.
 
     Returns
     -------
@@ -143,6 +156,7 @@ def back_steps(core, m, ahead, tables, way, wanted, h, scheme, mu, out, still):
         product(core, m.M, lam, x[2], w)
         if m.damped:
             product(core, ahead.C[k], lam, x[1], w)
+        add_turns(core.supports, x, (way.q[at], way.v[at], way.a[at]), turned)
         for i in range(size):
             back[0, i], back[1, i] = x[0, i], x[1, i]
             still[i] += x[0, i]

@@ -9,16 +9,17 @@ from .sensitivity import LEAST, out_of_balance, stiffnesses
 
 
 @kernel
-def products_along(core, m, q, v, a, d, still, r):
+def products_along(core, m, q, v, a, d, turn, still, r):
     """r = M s_a + C s_v + K s_q along d, (3, size), as the solve wants it; the exact matrices are made anew.
 
-    ``still`` is a vector of zeros.
+    The shadows of d are filled; ``turn``: how their local axes turn, (k, 3, 3) or none.  ``still`` is a
+    vector of zeros.
     """
     for i in range(m.K.shape[0]):
         m.C[i] = 0.0
     stiffnesses(core, m, m.K, m.W, q, v, still)
     add_tangents(m.exact, q, v, m.C, 0.0, 1.0, 0.0, core.ws)
-    out_of_balance(core, m, (q, v, a), d, still, r)
+    out_of_balance(core, m, (q, v, a), d, turn, still, r)
 
 
 @kernel

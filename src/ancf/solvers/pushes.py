@@ -10,8 +10,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ..arrays import FloatArray, IntArray
-from ..batches import Batches, add_force_of
-from ..compiled import kernel
+from ..batches import Batches, add_force_of, add_forces
+from ..compiled import inline_kernel, kernel
 from ..system.core import drive, external_force, onto_shadows, to_local
 from .rare import add_number_work_of
 
@@ -25,8 +25,27 @@ class Uses(NamedTuple):
     weight: FloatArray  # per unit of the parameter
 
 
+@inline_kernel
+def all_forces(core, inputs, q, v, a, r):
+    """r = what is out of balance at a state in physical components: at shadows what supports hold."""
+    external_force(core.loads, inputs, r)
+    for i in range(r.shape[0]):
+        r[i] = -r[i]
+    add_forces(core.batches, q, v, a, r, core.ws)
+
+
+@inline_kernel
+def add_turned(supports, turn, r, row):
+    """Add to a row of the pushes that local axes turn by R' under the forces r, R'^T r."""
+    for k in range(turn.shape[0]):
+        i, j = supports.rot_slot[k], supports.rot_shadow[k]
+        for c in range(3):
+            for m in range(3):
+                row[i + c] += turn[k, m, c] * r[j + m]
+
+
 @kernel
-def add_pushes(core, uses, tables, way, work, push):
+def add_pushes(core, uses, turn, tables, way, work, push):
     """Add the forces of the batches to the pushes, and bring these into the form that the solve wants.
 
     Parameters
@@ -34,6 +53,8 @@ def add_pushes(core, uses, tables, way, work, push):
     core : Core
         Of the model itself; its supports and inputs are those of all.
     uses : Uses
+    turn : (rows, k, 3, 3)
+        Derivatives of the local axes, or no rows.
     tables : Tables
         At the ends of the steps.
     way : Way
@@ -59,6 +80,10 @@ def add_pushes(core, uses, tables, way, work, push):
             to_local(core.supports, row)
             for i in range(n, size):
                 row[i] = 0.0
+        if turn.shape[0] > 0:
+            all_forces(core, tables.value[step], q, v, a, work)
+            for p in range(push.shape[0]):
+                add_turned(core.supports, turn[p], work, push[p, step])
 
 
 @kernel
@@ -72,7 +97,7 @@ def add_loads(loads, value, weight, work, push):
 
 
 @kernel
-def weigh_pushes(core, uses, known, begin, tables, way, lam, work, pushed, numbers, total):
+def weigh_pushes(core, uses, known, begin, tables, way, lam, work, pushed, numbers, turned, total):
     """Add lambda . R_p at the ends of steps to what they are for the parameters and for numbers of batches.
 
     Parameters
@@ -90,10 +115,12 @@ def weigh_pushes(core, uses, known, begin, tables, way, lam, work, pushed, numbe
         For the parameters of the uses.
     numbers : (m,)
         Derivatives by the numbers.
+    turned : (k, 3, 3)
+        The same by the local axes in lambda . R^T r, or k = 0: they are not asked for.
     total : (size,)
         Sum of lambda.
     """
-    n = core.weight.shape[0]
+    n, supports = core.weight.shape[0], core.supports
     for step in range(way.q.shape[0]):
         q, v, a, x = way.q[step], way.v[step], way.a[step], lam[step]
         drive(core.supports, core.loads.value, tables, step, q, v, a)
@@ -112,6 +139,13 @@ def weigh_pushes(core, uses, known, begin, tables, way, lam, work, pushed, numbe
                 found += work[i] * x[i]
             for m in range(uses.start[k], uses.start[k + 1]):
                 pushed[uses.of[m]] += uses.weight[m] * found
+        if turned.shape[0] > 0:
+            all_forces(core, tables.value[step], q, v, a, work)
+            for k in range(turned.shape[0]):
+                i, j = supports.rot_slot[k], supports.rot_shadow[k]
+                for m in range(3):
+                    for c in range(3):
+                        turned[k, m, c] += work[j + m] * x[i + c]
 
 
 @kernel

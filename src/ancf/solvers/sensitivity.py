@@ -240,10 +240,22 @@ def add_lossy(core, m, x, d, r):
             r[i] -= weight * w[2][i]
 
 
+@formula
+def turn_along(supports, turn, x, d):
+    """Add to the shadows of d that their local axes turn by R', (k, 3, 3) or none: R' y of x = (q, v, a)."""
+    for k in range(turn.shape[0]):
+        i, j = supports.rot_slot[k], supports.rot_shadow[k]
+        for c in range(3):
+            for m in range(3):
+                for n in range(3):
+                    d[n, j + c] += turn[k, c, m] * x[n][i + m]
+
+
 @inline_kernel
-def out_of_balance(core, m, x, d, push, r):
-    """r = M s_a + C s_v + K s_q + R_p as the solve wants it."""
+def out_of_balance(core, m, x, d, turn, push, r):
+    """r = M s_a + C s_v + K s_q + R_p as the solve wants it; see :func:`turn_along`."""
     follow(core.supports, d[0], d[1], d[2])
+    turn_along(core.supports, turn, x, d)
     for i in range(r.shape[0]):
         r[i] = 0.0
     product(core, m.K, d[0], r, m.work[4:6])
