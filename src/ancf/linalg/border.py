@@ -25,7 +25,8 @@ from ..arrays import FloatArray, IntArray
 from ..compiled import formula, inline_kernel, kernel
 from ..records import recorded, type_of
 from ..simd import every, load_six, store_six
-from .block_ldl import Factor, allocate, columns, factorise, is_zero, solve_rows, subtract_product, times
+from .block import combined, is_zero, six, sixfold, subtract_product, times
+from .block_ldl import Factor, allocate, factorise, solve_rows
 
 #: Blocks whose columns are kept for each row besides those that it may have at a time.
 SPARE = 2
@@ -222,10 +223,9 @@ def spread(border, y, x):
         for u in range(border.number[t]):
             Z, part = border.inverse[border.kept[t, u]], border.part
             store_six(times(border.R, 36 * (t * width + u), y, 6 * t), part, 0)
-            f0, f1, f2 = every(part[0]), every(part[1]), every(part[2])
-            f3, f4, f5 = every(part[3]), every(part[4]), every(part[5])
+            factors = sixfold(part, 0)
             for i in range(Z.shape[0] // 36):
-                store_six(load_six(x, 6 * i) - columns(Z, 36 * i, f0, f1, f2, f3, f4, f5), x, 6 * i)
+                store_six(load_six(x, 6 * i) - combined(six(Z, 36 * i), factors), x, 6 * i)
 
 
 @inline_kernel

@@ -13,7 +13,8 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..compiled import formula, inline_kernel, kernel
 from ..simd import LANES, absolute, every, gather_nodes, load, put_nodes, store, total, vector
-from .block_ldl import SINGULAR, Factor, factorise
+from .block import SINGULAR
+from .block_ldl import Factor, factorise
 
 #: Least size of a pivot beside that of the first lane, which chooses the order for all.
 LIKE = 1e-2

@@ -10,8 +10,9 @@ small beside the largest number; corrections of a step are small beside the stat
 from __future__ import annotations
 
 from ..compiled import formula, inline_kernel
-from ..simd import every, load_six, store_six
-from .block_ldl import Factor, columns, times
+from ..simd import load_six, store_six
+from .block import combined, six, sixfold, times
+from .block_ldl import Factor
 
 #: Share of the largest number below which the numbers of a row are nothing.
 NOTHING = 1e-8
@@ -74,11 +75,10 @@ def backward(factor, x, low, high, pieces, spread):
             if lowest < clean:
                 clear(x, lowest, clean)
                 clean = lowest
-            f0, f1, f2 = every(x[6 * i]), every(x[6 * i + 1]), every(x[6 * i + 2])
-            f3, f4, f5 = every(x[6 * i + 3]), every(x[6 * i + 4]), every(x[6 * i + 5])
+            factors = sixfold(x, 6 * i)
             for m in range(row_start[i], row_start[i + 1]):
                 j = 6 * column[m]
-                store_six(load_six(x, j) - columns(L, 36 * m, f0, f1, f2, f3, f4, f5), x, j)
+                store_six(load_six(x, j) - combined(six(L, 36 * m), factors), x, j)
             size = size_of(x, i)
             largest = max(largest, size)
             quiet = 0 if size > NOTHING * largest else quiet + 1
@@ -136,11 +136,10 @@ def solve_ranges(factor, x, low, high, count):
             store_six(times(D_inv, 36 * i, x, 6 * i), x, 6 * i)
     for k in range(count - 1, -1, -1):
         for i in range(high[k] - 1, low[k] - 1, -1):
-            f0, f1, f2 = every(x[6 * i]), every(x[6 * i + 1]), every(x[6 * i + 2])
-            f3, f4, f5 = every(x[6 * i + 3]), every(x[6 * i + 4]), every(x[6 * i + 5])
+            factors = sixfold(x, 6 * i)
             for m in range(row_start[i], row_start[i + 1]):
                 j = 6 * column[m]
-                store_six(load_six(x, j) - columns(L, 36 * m, f0, f1, f2, f3, f4, f5), x, j)
+                store_six(load_six(x, j) - combined(six(L, 36 * m), factors), x, j)
 
 
 def spread_of(factor: Factor, n: int | None = None) -> int:

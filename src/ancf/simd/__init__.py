@@ -13,9 +13,10 @@ from .memory import (
     scatter,
     scatter_nodes,
     store,
+    store_columns,
     store_six,
 )
-from .values import LANES, absolute, every, greatest, sqrt, total, vector, zero
+from .values import LANES, absolute, every, greatest, replaced, sqrt, total, vector, zero
 
 __all__ = [
     "LANES",
@@ -30,10 +31,12 @@ __all__ = [
     "load_six",
     "put",
     "put_nodes",
+    "replaced",
     "scatter",
     "scatter_nodes",
     "sqrt",
     "store",
+    "store_columns",
     "store_six",
     "total",
     "vector",

@@ -40,6 +40,11 @@ def store_six(value: Any, array: Any, place: Any) -> None:
     array[place : place + 6] = value[:6]
 
 
+def store_columns(a: Any, b: Any, c: Any, d: Any, e: Any, f: Any, array: Any, place: Any) -> None:
+    """Write six rows of six numbers column after column to a one-dimensional array, from a place on."""
+    array[place : place + 36] = np.stack([x[:6] for x in (a, b, c, d, e, f)], axis=1).ravel()
+
+
 def gather(x: Any, slots: Any, *place: Any) -> Any:
     """The Triple of x[i], x[i + 1], x[i + 2] for the eight i = slots[place]."""
     return x[slots[place][None] + np.arange(3)[:, None]]
@@ -194,6 +199,28 @@ def _at(builder: Any, begin: Any, k: int, size: int) -> Any:
     """Pointer to a vector of numbers from the k-th on."""
     wanted = ir.VectorType(DOUBLE, size).as_pointer()
     return builder.bitcast(builder.gep(begin, [INT(k)], inbounds=True), wanted)
+
+
+@in_kernels(
+    store_columns,
+    lambda *given: (
+        types.none if all(x is lanes for x in given[:6]) and _is_rows(given[6], given[7:]) else None
+    ),
+)
+def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    rows, kinds = arguments[:6], signature.args
+    begin = _pointer(context, builder, kinds[6], arguments[6], arguments[7:], kinds[7:])
+    fours = [_shuffle(builder, x, x, 0, 1, 2, 3) for x in rows]
+    ends = [_shuffle(builder, x, x, 4, 5) for x in rows]
+    low = _transposed(builder, fours[:4])
+    pairs = [_shuffle(builder, ends[k], ends[k + 1], 0, 2, 1, 3) for k in (0, 2, 4)]
+    low += [_shuffle(builder, pairs[0], pairs[1], *half) for half in ((0, 1, 4, 5), (2, 3, 6, 7))]
+    high = [_shuffle(builder, fours[4], fours[5], k, k + 4) for k in range(4)]
+    high += [_shuffle(builder, pairs[2], pairs[2], *half) for half in ((0, 1), (2, 3))]
+    for k, (four, two) in enumerate(zip(low, high, strict=True)):
+        builder.store(four, _at(builder, begin, 6 * k, 4), align=8)
+        builder.store(two, _at(builder, begin, 6 * k + 4, 2), align=8)
+    return context.get_dummy_value()
 
 
 @in_kernels(

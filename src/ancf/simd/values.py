@@ -164,9 +164,20 @@ class _Component(AbstractTemplate):
         return lanes(*args) if args[0] is triple and args[1] in (0, 1, 2) else None
 
 
+@infer_global(operator.getitem)
+class _Number(AbstractTemplate):
+    def generic(self, args: Any, kws: Any) -> Any:
+        return types.float64(*args) if args[0] is lanes and isinstance(args[1], types.Integer) else None
+
+
 @lower_builtin("static_getitem", TripleType, types.Any)
 def _component(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     return builder.extract_value(arguments[0], int(arguments[1]))
+
+
+@lower_builtin(operator.getitem, LanesType, types.Integer)
+def _number(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    return builder.extract_element(arguments[0], arguments[1])
 
 
 # --- values from numbers
@@ -203,6 +214,11 @@ def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
 
 
 # --- functions of lanes
+
+
+def replaced(x: Any, place: Any, number: Any) -> Any:
+    """The numbers of x, but this one at a place."""
+    return np.where(np.arange(LANES) == place, number, x)
 
 
 def sqrt(x: Any) -> Any:
@@ -245,6 +261,17 @@ def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         parts_of(context, builder, *given)[0] for given in zip(signature.args, arguments, strict=True)
     )
     return builder.select(builder.fcmp_ordered(">", x, least), x, least)
+
+
+@in_kernels(
+    replaced,
+    lambda x, place, number: (
+        lanes if x is lanes and isinstance(place, types.Integer) and number is types.float64 else None
+    ),
+)
+def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    x, place, number = arguments
+    return builder.insert_element(x, number, place)
 
 
 @in_kernels(total, lambda x: types.float64 if x is lanes else None)

@@ -19,7 +19,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..compiled import formula, inline_kernel
-from ..linalg.block_ldl import is_zero
+from ..linalg.block import is_zero
 from ..records import recorded
 from ..simd import LANES, gather, gather_nodes, greatest, load, put, put_nodes, sqrt, store, vector
 from ..system.system import System

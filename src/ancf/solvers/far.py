@@ -31,6 +31,7 @@ from ..system.far import (
     COLUMN,
     COUPLING,
     DROPPERS,
+    DUE,
     EDGE,
     EDGES,
     FELT,
@@ -51,6 +52,8 @@ from ..system.far import (
     SIGHT,
     SLEEPING,
     STEP,
+    TO_SLEEP,
+    TO_WAKE,
     WATCHED,
 )
 from .status import STEPS
@@ -272,12 +275,14 @@ def turns(far, known, s):
     found = False
     for p in range(far.part.shape[0]):
         asleep, d = far.part[p, ASLEEP] != 0, distance(far, p, known.contacts, s.q)
-        taut = is_taut(far, p, known.springs, s)
+        taut, due = is_taut(far, p, known.springs, s), 0
         far.part[p, CALM] = far.part[p, CALM] + 1 if taut else 0
         if asleep:
-            found = found or d < far.memo[NEAR] or not taut
-        else:
-            found = found or (d > far.memo[AWAY] and far.part[p, CALM] >= far.memo[CALMED])
+            due = TO_WAKE if d < far.memo[NEAR] or not taut else 0
+        elif d > far.memo[AWAY] and far.part[p, CALM] >= far.memo[CALMED]:
+            due = TO_SLEEP
+        far.part[p, DUE] = due
+        found = found or due != 0
     return found
 
 

@@ -114,7 +114,7 @@ def arrays_of(
         table[t, list(columns)] = [begins[name][t] for name in columns.values()]
         table[t, HIGH] = -(-edges // LANES)
         table[t, [INSIDE, WATCHED]] = len(kind.inside), int(np.isin(first.inner, watched).sum())
-    lines = np.zeros((len(parts), 10), dtype=np.int64)
+    lines = np.zeros((len(parts), 11), dtype=np.int64)
     lines[:, KIND] = kind_of
     lines[:, PLACE] = _begins([of_kind[t]["square"] for t in kind_of])
     for column, name in (

@@ -1,4 +1,6 @@
-"""Constants of cables that are zero while a part of a line sleeps: its modes have stiffness and mass."""
+"""Cables of a part of a line that sleeps: constants that are zero, as its modes have stiffness and mass, and
+chunks of elements that nothing touches.
+"""
 
 from __future__ import annotations
 
@@ -43,3 +45,29 @@ def sleep(cables: CableBatch, lanes: Lanes) -> tuple[FloatArray, FloatArray]:
 def wake(cables: CableBatch, lanes: Lanes, kept: tuple[FloatArray, FloatArray]) -> None:
     """Give it back."""
     cables.lane_data.reshape(-1)[lanes.data], cables.lane_slope.reshape(-1)[lanes.slope] = kept
+
+
+class Chunks:
+    """Chunks of elements; those that sleep altogether are not touched by anything.
+
+    Parameters
+    ----------
+    cables : CableBatch
+    elements : list of ndarray
+        Elements of each part.
+    touched : ndarray, (chunks, 2)
+        Blocks that each touches, see :class:`ancf.system.near.Near`; changed where parts sleep.
+    """
+
+    def __init__(self, cables: CableBatch, elements: list[IntArray], touched: IntArray) -> None:
+        self.touched, self.all = touched, touched.copy()
+        self.size, self.asleep = np.diff(cables.first), np.zeros(len(touched), dtype=np.int64)
+        chunks = [np.searchsorted(cables.first, own, side="right") - 1 for own in elements]
+        self.own = [np.unique(own, return_counts=True) for own in chunks]
+
+    def mark(self, k: int, asleep: int) -> None:
+        """A part falls asleep (1) or wakes (0)."""
+        chunks, count = self.own[k]
+        self.asleep[chunks] += count if asleep else -count
+        awake = self.asleep[chunks] < self.size[chunks]
+        self.touched[chunks] = self.all[chunks] * awake[:, None]

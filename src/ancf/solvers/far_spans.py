@@ -18,6 +18,7 @@ from ..system.far import (
     CALM,
     CALMED,
     DROPPERS,
+    DUE,
     EDGE,
     HUNG,
     INNER,
@@ -28,12 +29,14 @@ from ..system.far import (
     RATE,
     SECOND,
     SLEEPING,
+    TO_SLEEP,
+    TO_WAKE,
     WATCHED,
 )
 from ..system.system import System
 from .far import LOOKED
 from .far_arrays import ACTS, FarPlan, arrays_of, kinds_of
-from .far_lanes import lanes_of, sleep, wake
+from .far_lanes import Chunks, lanes_of, sleep, wake
 from .far_parts import Matrices, Part, cables_of, in_order, parts_of
 from .memory import H_FACTOR, Memory
 
@@ -88,24 +91,27 @@ class FarSpans:
         self.lanes = [lanes_of(cables, part.elements) for part in self.parts]
         self.rows = [_rows_of(system, part) for part in self.parts]
         self.places = [np.flatnonzero(part.inner % 6 < 3) for part in self.parts]  # displacements
-        self.owner = _owners([part.blocks for part in self.parts], len(self.far.sleeps))
-        self.of_element = _owners([part.elements for part in self.parts], len(cables.base))
-        self.touched = system.core.near[0].touched.copy()
+        self.shown = [
+            np.ascontiguousarray(kind.inside[self.places[self.kind_of.index(t)], kind.mass.shape[1] :])
+            for t, kind in enumerate(self.kinds)
+        ]
+        self.chunks = Chunks(cables, [part.elements for part in self.parts], system.core.near[0].touched)
+        self.bounds = np.ones(len(self.far.sleeps) + 2, dtype=np.int64)
         system.core = system.core._replace(far=(self.far,))
 
     def begin(self) -> None:
         """Let sleep what may at the start."""
         if self.parts:
             self.far.part[:, CALM] = int(self.far.memo[CALMED])
-            _, calm = self._found()
-            self._go_to_sleep(calm)
+            self._go_to_sleep(self._calm())
 
     def turn(self) -> None:
         """Wake what has to, or let sleep one part that may: a step has to wait for it."""
-        due, calm = self._found()
+        found = self.far.part[:, DUE]
+        due = np.flatnonzero(found == TO_WAKE).tolist()
         for k in due:
             self._wake(k)
-        self._go_to_sleep([] if due else calm[:1])
+        self._go_to_sleep([] if due else np.flatnonzero(found == TO_SLEEP)[:1].tolist())
 
     def wake_all(self) -> list[int]:
         """Go on with the whole line; what was asleep."""
@@ -120,16 +126,13 @@ class FarSpans:
         """Let sleep what has just been woken, if it still may."""
         if parts:
             self.far.part[parts, CALM] = int(self.far.memo[CALMED])
-            _, calm = self._found()
-            self._go_to_sleep([k for k in calm if k in parts])
+            self._go_to_sleep([k for k in self._calm() if k in parts])
 
-    def _found(self) -> tuple[list[int], list[int]]:
-        """Parts that have to wake, and those that may sleep."""
+    def _calm(self) -> list[int]:
+        """Parts that may sleep."""
         part, memo, near = self.far.part, self.far.memo, self._distances()
-        asleep, calm = part[:, ASLEEP] != 0, part[:, CALM]
-        due = asleep & ((near < memo[NEAR]) | (calm <= 0))
-        may = ~asleep & (near > memo[AWAY]) & (calm >= memo[CALMED])
-        return np.flatnonzero(due).tolist(), np.flatnonzero(may).tolist()
+        may = (part[:, ASLEEP] == 0) & (near > memo[AWAY]) & (part[:, CALM] >= memo[CALMED])
+        return np.flatnonzero(may).tolist()
 
     def _go_to_sleep(self, parts: list[int]) -> None:
         for k in parts:
@@ -160,7 +163,7 @@ class FarSpans:
     def _changed(self) -> list[Any]:
         """All that :meth:`wake_all` changes but the constants of cables and springs."""
         m, far = self.memory, self.far
-        own = [far.part, far.sleeps, far.range, far.counts, self.system.core.near[0].touched]
+        own = [far.part, far.sleeps, far.range, far.counts, self.chunks.touched, self.chunks.asleep]
         return [m.q, m.v, m.a, m.abar, m.a1, m.a2, m.a3, m.memo, *own]
 
     def _distances(self) -> FloatArray:
@@ -181,8 +184,8 @@ class FarSpans:
         edge[0] -= far.still[first : first + n]
         own = inside - edge @ kind.inside[:, :n].T
         y, v, bar = own @ kind.project.T
-        left = own[0] - kind.inside[:, n:] @ y
-        self.left_out = max(self.left_out, float(np.abs(left[self.places[k]]).max()))
+        left = own[0, self.places[k]] - self.shown[self.kind_of[k]] @ y
+        self.left_out = max(self.left_out, float(np.abs(left).max()))
         at, rate = m.a[part.edge], m.v[part.edge]
         a = -kind.loss * v - kind.square * y - kind.coupling @ at - kind.drag * (kind.coupling @ rate)
         for row, values in ((POSITION, y), (RATE, v), (SECOND, a), (BAR, bar)):
@@ -192,7 +195,7 @@ class FarSpans:
         m.a[part.inner] = 0.0
         self._still(k)
         self._alone(k)
-        far.part[k, ASLEEP] = 1
+        self._mark(k, 1)
 
     def _alone(self, k: int) -> None:
         """Let the rows of a part in the factors be those of the identity."""
@@ -224,7 +227,8 @@ class FarSpans:
         springs = self.system.parts["springs"].data
         springs[far.hung[first : first + far.part[k, DROPPERS]], SLACK] = 1.0
         springs[part.springs, IDLE] = 0.0
-        far.part[k, ASLEEP] = far.part[k, CALM] = 0
+        far.part[k, CALM] = 0
+        self._mark(k, 0)
 
     def _put(self, k: int, row: int, values: FloatArray) -> None:
         lanes = self.far.state[row].reshape(-1)
@@ -237,30 +241,19 @@ class FarSpans:
         found: FloatArray = lanes[first : first + len(self.kinds[self.kind_of[k]].square)]
         return found
 
+    def _mark(self, k: int, asleep: int) -> None:
+        self.far.part[k, ASLEEP] = asleep
+        self.far.sleeps[self.parts[k].blocks] = asleep
+        self.chunks.mark(k, asleep)
+
     def _ranges(self) -> None:
         """Ranges of blocks that are awake; the matrix is another one."""
         far = self.far
-        asleep = np.append(far.part[:, ASLEEP], 0)
-        far.sleeps[:] = asleep[self.owner]
-        change = np.diff(far.sleeps, prepend=1, append=1)
-        begin, end = np.flatnonzero(change < 0), np.flatnonzero(change > 0)
-        far.counts[RANGES], far.counts[SLEEPING] = len(begin), int(asleep.sum())
-        far.range[: len(begin), 0], far.range[: len(begin), 1] = begin, end
-        self._chunks(asleep)
+        self.bounds[1:-1] = far.sleeps
+        turns = np.flatnonzero(self.bounds[1:] != self.bounds[:-1])  # they begin and end by turns
+        far.counts[RANGES], far.counts[SLEEPING] = len(turns) // 2, int(far.part[:, ASLEEP].sum())
+        far.range.reshape(-1)[: len(turns)] = turns
         self.memory.memo[H_FACTOR] = 0.0
-
-    def _chunks(self, asleep: IntArray) -> None:
-        """Chunks of cable elements that sleep altogether are not touched by anything."""
-        idle = np.minimum.reduceat(asleep[self.of_element], self.cables.first[:-1])
-        np.multiply(self.touched, 1 - idle[:, None], out=self.system.core.near[0].touched)
-
-
-def _owners(own: list[IntArray], count: int) -> IntArray:
-    """Which part has each of so many items, as numbers of a table with one row more for none."""
-    owner = np.full(count, len(own))
-    for k, items in enumerate(own):
-        owner[items] = k
-    return owner
 
 
 def _hung(system: System) -> IntArray:

@@ -23,7 +23,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..batches import Batches, add_forces, add_tangents
 from ..compiled import formula, inline_kernel, kernel
-from ..linalg.block_ldl import times
+from ..linalg.block import times
 from ..simd import load_six, store_six, total
 from ..system.core import follow, to_local
 from .rare import add_rate_stiffnesses

@@ -33,8 +33,10 @@ from .near import clear_beyond
 MODES, ROWS, EDGES, COUPLING, COLUMN, HIGH, SIGHT, INSIDE, WATCHED, ACROSS = range(10)
 # columns of Far.part: kind, first row of its coordinates, first boundary unknown and first row of eight of
 # these, first place in `entry`, first unknown inside, first dropper and their number, whether it is asleep,
-# looks at it for which it has been calm
-KIND, PLACE, EDGE, BORDER, ENTRY, INNER, HUNG, DROPPERS, ASLEEP, CALM = range(10)
+# looks at it for which it has been calm, what the last look found
+KIND, PLACE, EDGE, BORDER, ENTRY, INNER, HUNG, DROPPERS, ASLEEP, CALM, DUE = range(11)
+# what a look finds: a part has to wake, or may sleep; or neither
+TO_WAKE, TO_SLEEP = 1, 2
 # rows of the coordinates of a mode: y, dy/dt, d2y/dt2, the algorithmic acceleration, and for the step at hand
 # predictions of the first two and what the boundary feels
 POSITION, RATE, SECOND, BAR, GUESS, GUESS_RATE, FELT = range(7)
@@ -52,7 +54,7 @@ class Far(NamedTuple):
     Columns of boundary unknowns are as many as is even, the last one perhaps zero.
     """
 
-    part: IntArray  # (k, 10) columns KIND ... CALM
+    part: IntArray  # (k, 11) columns KIND ... DUE
     place: FloatArray  # (k, 2) where it begins and ends along the track, m
     kind: IntArray  # (t, 10) columns MODES ... ACROSS
     square: FloatArray  # (.., 8) w^2 of the modes
@@ -89,7 +91,7 @@ class Far(NamedTuple):
 
 def no_far() -> Far:
     """A line without parts that can sleep."""
-    shapes: dict[str, Any] = {"part": (0, 10), "place": (0, 2), "kind": (0, 10), "state": (7, 0, LANES)}
+    shapes: dict[str, Any] = {"part": (0, 11), "place": (0, 2), "kind": (0, 10), "state": (7, 0, LANES)}
     shapes |= {"room": (4, 0), "range": (0, 2), "counts": (2,), "memo": (4,)}
     shapes |= dict.fromkeys(("entry", "edge", "still", "guess", "inner", "rest", "hung", "sleeps"), (0,))
     numbers = ("part", "kind", "entry", "edge", "inner", "hung", "sleeps", "range", "counts")
