@@ -17,10 +17,12 @@ from ancf.simd import (
     load_six,
     put,
     put_nodes,
+    replaced,
     scatter,
     scatter_nodes,
     sqrt,
     store,
+    store_columns,
     store_six,
     total,
     vector,
@@ -154,6 +156,52 @@ def test_six_numbers_touch_no_others(size, i, j):
     np.testing.assert_array_equal(x, wanted)
     sixes.py_func(room, i, j)
     np.testing.assert_array_equal(room[:size], wanted)
+
+
+@kernel
+def numbers(x, k, y, out):
+    """Number k of a value, and the value with another one in its place; k known when compiled, and not."""
+    a = load(x, 0)
+    store(replaced(a, k, y), out, 0)
+    store(replaced(replaced(a, 2, y), 5, a[2]), out, 1)
+    return a[k] - a[7]
+
+
+@pytest.mark.parametrize("k", range(LANES))
+def test_single_numbers(k):
+    x, y = RNG.standard_normal(LANES), 0.3
+    out, plain = np.zeros((2, 2, LANES))
+    assert numbers(x, k, y, out) == numbers.py_func(x, k, y, plain) == x[k] - x[7]
+    np.testing.assert_array_equal(out, plain)
+    wanted = np.array([x, x])
+    wanted[0, k] = wanted[1, 2] = y
+    wanted[1, 5] = x[2]
+    np.testing.assert_array_equal(out, wanted)
+
+
+@kernel
+def turned(x, i, j, out):
+    store_columns(
+        load_six(x, i),
+        load_six(x, i + 6),
+        load_six(x, i + 12),
+        load_six(x, i + 18),
+        load_six(x, i + 24),
+        load_six(x, i + 30),
+        out,
+        j,
+    )
+
+
+@pytest.mark.parametrize(("i", "j"), [(0, 0), (3, 1), (36, 7)])
+def test_rows_are_written_as_columns_and_touch_no_others(i, j):
+    x, out = RNG.standard_normal(i + 36), RNG.standard_normal(j + 37)
+    plain, wanted = out.copy(), out.copy()
+    wanted[j : j + 36] = x[i : i + 36].reshape(6, 6).T.ravel()
+    turned(x, i, j, out)
+    turned.py_func(x, i, j, plain)
+    np.testing.assert_array_equal(out, wanted)
+    np.testing.assert_array_equal(plain, wanted)
 
 
 def test_what_does_not_fit_is_refused_when_it_is_compiled():

@@ -188,11 +188,15 @@ def _shuffle(builder: Any, x: Any, y: Any, *mask: int) -> Any:
     return builder.shuffle_vector(x, y, ir.Constant(ir.VectorType(INT, len(mask)), list(mask)))
 
 
+#: The first halves and the second halves of two vectors of four.
+HALVES = (0, 1, 4, 5), (2, 3, 6, 7)
+
+
 def _transposed(builder: Any, x: list[Any]) -> list[Any]:
     """Four vectors of four, rows for columns, in eight steps within and across halves of a register."""
     low = [_shuffle(builder, x[k], x[k + 1], 0, 4, 2, 6) for k in (0, 2)]
     high = [_shuffle(builder, x[k], x[k + 1], 1, 5, 3, 7) for k in (0, 2)]
-    return [_shuffle(builder, *pair, *half) for half in ((0, 1, 4, 5), (2, 3, 6, 7)) for pair in (low, high)]
+    return [_shuffle(builder, *pair, *half) for half in HALVES for pair in (low, high)]
 
 
 def _at(builder: Any, begin: Any, k: int, size: int) -> Any:
@@ -214,7 +218,7 @@ def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     ends = [_shuffle(builder, x, x, 4, 5) for x in rows]
     low = _transposed(builder, fours[:4])
     pairs = [_shuffle(builder, ends[k], ends[k + 1], 0, 2, 1, 3) for k in (0, 2, 4)]
-    low += [_shuffle(builder, pairs[0], pairs[1], *half) for half in ((0, 1, 4, 5), (2, 3, 6, 7))]
+    low += [_shuffle(builder, pairs[0], pairs[1], *half) for half in HALVES]
     high = [_shuffle(builder, fours[4], fours[5], k, k + 4) for k in range(4)]
     high += [_shuffle(builder, pairs[2], pairs[2], *half) for half in ((0, 1), (2, 3))]
     for k, (four, two) in enumerate(zip(low, high, strict=True)):
