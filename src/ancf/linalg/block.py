@@ -47,6 +47,13 @@ def copy(A, a, B, b):
 
 
 @formula
+def turn(A, a, B, b):
+    """Write the transposed of a block at ``A[a]`` to ``B[b]``."""
+    x0, x1, x2, x3, x4, x5 = six(A, a)
+    store_columns(x0, x1, x2, x3, x4, x5, B, b)
+
+
+@formula
 def is_zero(A, o):
     """Whether the block at ``A[o]`` is zero."""
     a, b, c, d, e, f = six(A, o)

@@ -25,7 +25,7 @@ from ..arrays import FloatArray, IntArray
 from ..compiled import formula, inline_kernel, kernel
 from ..records import recorded, type_of
 from ..simd import every, load_six, store_six
-from .block import combined, is_zero, six, sixfold, subtract_product, times
+from .block import combined, copy, is_zero, put_six, six, sixfold, subtract_product, times, turn
 from .block_ldl import Factor, allocate, factorise, solve_rows
 
 #: Blocks whose columns are kept for each row besides those that it may have at a time.
@@ -102,8 +102,9 @@ def unit_columns(factor, n, block, Z):
             if column[k] >= block:
                 subtract_product(Z, 36 * i, Z, 36 * column[k], LT, 36 * k)
     for i in range(block, n):
+        rows = six(D_inv, 36 * i)
         for c in range(36 * i, 36 * i + 36, 6):
-            store_six(times(D_inv, 36 * i, Z, c), Z, c)
+            store_six(combined(rows, sixfold(Z, c)), Z, c)
     for i in range(n - 1, -1, -1):
         for k in range(row_start[i], row_start[i + 1]):
             subtract_product(Z, 36 * column[k], Z, 36 * i, L, 36 * k)
@@ -143,11 +144,8 @@ def read_row(border, A, factor, n, t):
             continue
         u = border.number[t]
         o = 36 * (t * width + u)
-        for c in range(36):
-            border.R[o + c] = A[a + c]
-        for i in range(6):
-            for j in range(6):
-                border.RT[o + 6 * j + i] = A[a + 6 * i + j]
+        copy(A, a, border.R, o)
+        turn(A, a, border.RT, o)
         border.place[t, u], border.kept[t, u] = a, columns_of(border, factor, n, factor.column[k])
         border.number[t] = u + 1
 
@@ -155,14 +153,16 @@ def read_row(border, A, factor, n, t):
 @inline_kernel
 def subtract_inverse(border, t, h, o):
     """S -= R_t K^-1 R_h^T, for the block of S at ``o``."""
-    width, part = border.kept.shape[1], border.part
+    width, part, R, none = border.kept.shape[1], border.part, border.R, every(0.0)
     for w in range(border.number[h]):
         at = 36 * border.block[border.kept[h, w]]
-        for i in range(0, 36, 6):
-            s = every(0.0)
-            for u in range(border.number[t]):
-                s = s + times(border.inverse[border.kept[t, u]], at, border.R, 36 * (t * width + u) + i)
-            store_six(s, part, i)
+        s0, s1, s2, s3, s4, s5 = none, none, none, none, none, none
+        for u in range(border.number[t]):
+            rows, r = six(border.inverse[border.kept[t, u]], at), 36 * (t * width + u)
+            s0, s1 = s0 + combined(rows, sixfold(R, r)), s1 + combined(rows, sixfold(R, r + 6))
+            s2, s3 = s2 + combined(rows, sixfold(R, r + 12)), s3 + combined(rows, sixfold(R, r + 18))
+            s4, s5 = s4 + combined(rows, sixfold(R, r + 24)), s5 + combined(rows, sixfold(R, r + 30))
+        put_six((s0, s1, s2, s3, s4, s5), part, 0)
         subtract_product(border.S, o, part, 0, border.RT, 36 * (h * width + w))
 
 
@@ -196,8 +196,7 @@ def make_border(border, A, factor):
     for i in range(border.S.shape[0]):
         border.S[i] = 0.0
     for t in range(rows):
-        for c in range(36):
-            border.S[36 * t + c] = A[36 * (n + t) + c]
+        copy(A, 36 * (n + t), border.S, 36 * t)
         subtract_inverse(border, t, t, 36 * t)
         for h in range(t):
             subtract_inverse(border, t, h, 36 * (rows + border.small.row_start[t] + h))
