@@ -6,6 +6,8 @@ A block is six rows of six numbers, which stand one after the other in an array;
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..compiled import formula, inline_kernel
 from ..simd import absolute, every, load_six, replaced, store_columns, store_six, total
 
@@ -113,7 +115,10 @@ def multiply(A, oa, B, ob, C, CT, oc):
 
 @formula
 def swept(rows, p):
-    """The rows of a symmetric block swept on pivot p, which is no variable: all is decided when compiled."""
+    """The rows of a symmetric block swept on pivot p.
+
+    It is known when a kernel is compiled, which leaves nothing to be decided.
+    """
     a, b, c, d, e, f = rows
     x = rows[p]
     y = replaced(x, p, -1.0) * (1.0 / x[p])
@@ -130,21 +135,22 @@ def swept(rows, p):
 @formula
 def invert_definite(A, o, original):
     """Invert the block at ``A[o]`` in place if all pivots are positive in their order; whether they are."""
+    # a plain 0 is a type of its own for numba, for which it would translate everything anew
     rows = six(A, o)
     clear = rows[0][0] > CLEAR * original[o]
-    rows = swept(rows, 0)
+    rows = swept(rows, np.int64(0))
     clear = clear and rows[1][1] > CLEAR * original[o + 7]
-    rows = swept(rows, 1)
+    rows = swept(rows, np.int64(1))
     clear = clear and rows[2][2] > CLEAR * original[o + 14]
-    rows = swept(rows, 2)
+    rows = swept(rows, np.int64(2))
     clear = clear and rows[3][3] > CLEAR * original[o + 21]
-    rows = swept(rows, 3)
+    rows = swept(rows, np.int64(3))
     clear = clear and rows[4][4] > CLEAR * original[o + 28]
-    rows = swept(rows, 4)
+    rows = swept(rows, np.int64(4))
     clear = clear and rows[5][5] > CLEAR * original[o + 35]
     if not clear:
         return False
-    x0, x1, x2, x3, x4, x5 = swept(rows, 5)
+    x0, x1, x2, x3, x4, x5 = swept(rows, np.int64(5))
     put_six((-x0, -x1, -x2, -x3, -x4, -x5), A, o)
     mirror(A, o)
     return True
