@@ -20,7 +20,7 @@ from numba import types
 from numba.extending import overload
 
 from . import kernel_cache
-from .parts import PartCompiler
+from .parts import PartCompiler, part
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -89,33 +89,19 @@ def inlined_kernel(function: F) -> F:
 
 def separate_kernel(function: F) -> F:
     """Compile ``function`` for kernels that call it by its address, and cache it like :func:`kernel`."""
-    dispatcher = _inner(function, _CALLED)
+    dispatcher = part(function, _CALLED)
     kernel_cache.use(dispatcher, _STAMP)
     return dispatcher
 
 
 def inline_kernel(function: F) -> F:
     """Compile ``function`` as a part of the kernels that call it; Python cannot call it."""
-    return _inner(function, PART)
+    return part(function, PART)
 
 
 def formula(function: F) -> F:
     """Put the code of a small kernel into the loops that call it, which can only then be vectorised."""
-    return _inner(function, FORMULA)
-
-
-def _inner(function: F, settings: Any) -> F:
-    dispatcher: Any = numba.njit(**settings)(function)
-
-    def refuse(*arguments: Any, **keywords: Any) -> None:
-        raise TypeError(f"{function.__name__} is a part of kernels: call one of them, or its py_func")
-
-    def keep(compiled: Any) -> None:
-        dispatcher.overloads[tuple(compiled.signature.args)] = compiled
-
-    # numba would jump to the entry that is not there
-    dispatcher._compile_for_args, dispatcher.add_overload = refuse, keep
-    return cast(F, dispatcher)
+    return part(function, FORMULA)
 
 
 def add_force(batch, q, v, a, r, ws):

@@ -7,10 +7,16 @@ left as it comes from numba, and is optimised with the kernel that has it: a thi
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeVar, cast
 
+import numba
+from numba import types
 from numba.core import codegen, compiler
+from numba.core.errors import TypingError
 from numba.core.targetconfig import TargetConfig
+
+F = TypeVar("F", bound=Callable[..., Any])
 
 _Library: Any = codegen.JITCodeLibrary
 
@@ -53,6 +59,31 @@ class PartCompiler(compiler.Compiler):
             state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
         pipelines: list[Any] = super().define_pipelines()  # type: ignore[no-untyped-call]
         return pipelines
+
+
+def part(function: F, settings: Any) -> F:
+    """Compile ``function`` with these settings of numba where kernels call it; Python cannot call it."""
+    dispatcher: Any = numba.njit(**settings)(function)
+
+    def refuse(*arguments: Any, **keywords: Any) -> None:
+        raise TypeError(f"{function.__name__} is a part of kernels: call one of them, or its py_func")
+
+    def keep(compiled: Any) -> None:
+        dispatcher.overloads[tuple(compiled.signature.args)] = compiled
+
+    template = dispatcher.get_call_template
+    kind_of: Any = types.unliteral
+
+    def of_kinds(arguments: Any, keywords: Any) -> Any:
+        try:
+            return template(tuple(map(kind_of, arguments)), keywords)
+        except TypingError:  # it needs the number itself, as a place in a tuple
+            return template(arguments, keywords)
+
+    # numba would jump to the entry that is not there, and translate it anew for each number in a call
+    dispatcher._compile_for_args, dispatcher.add_overload = refuse, keep
+    dispatcher.get_call_template = of_kinds
+    return cast(F, dispatcher)
 
 
 def _values(self: Any) -> dict[str, Any]:
