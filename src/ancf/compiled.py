@@ -252,6 +252,9 @@ class Traits:
         masses and the like they are linear.
     numbered : tuple of str
         The fields of which they are made.
+    joined : function, optional
+        ``joined(batch, other)``: the batch as it knows what all numbers do that one of both has, as dampings
+        that are zero in the other; default the batch itself.
     """
 
     role: Role = Role.NONE
@@ -273,6 +276,7 @@ class Traits:
     some: Callable[[Any, Any], Any] | None = None
     numbers: Callable[[Any], Any] | None = None
     numbered: tuple[str, ...] = ()
+    joined: Callable[[Any, Any], Any] | None = None
 
 
 _TRAITS: dict[type, Traits] = {}

@@ -44,7 +44,8 @@ from .cable_columns import (
     VISCOUSLY,
 )
 from .cable_damping import axial_damping, bending_damping, bending_damping_tangent, slope_damping
-from .cable_numbers import elements_work, numbers
+from .cable_hessian import add_elastic
+from .cable_numbers import elements_work, joined, numbers
 from .cable_rates import TWIST, rate_blocks, store_twists
 from .cable_strain import (
     WEIGHT,
@@ -53,12 +54,10 @@ from .cable_strain import (
     add_abc,
     axial_energy,
     axial_force,
-    axial_tangent,
     b_of,
     bend,
     bending_energy,
     bending_force,
-    bending_tangent,
     c_of,
     forces,
     product_rates,
@@ -69,7 +68,6 @@ from .cable_tangent import (
     BLOCKS,
     KDD,
     spread,
-    spread_slope,
     spread_slope_damping,
     store_tangent,
     whole_blocks,
@@ -271,24 +269,18 @@ def stiffness(batch, group, chunk, x, ws, c_damping, c_stiffness, along, across)
     There are factors of the axial constants, and of those of bending.
     """
     d, t1, t2 = x
-    gp, first, axial = batch.gp, group[FIRST], group[AXIAL]
-    paper, curved = group[PAPER] != 0, group[CURVED] != 0
+    gp, first, data = batch.gp, group[FIRST] + group[AXIAL], batch.lane_data
     damped = group[DAMPED] if c_damping != 0.0 else 0
-    data = batch.lane_data
     ea, da = along * (c_stiffness * load(data, chunk, EA_L)), along * (c_damping * load(data, chunk, DA_L))
-    for k in range(axial):
-        g = first + k
-        w, p = gp[g, WEIGHT], slope(gp, g, d, t1, t2)
-        spread_slope(ws, gp, g, axial_tangent(p, reference(batch, chunk, k, curved), w * ea, w * da, paper))
     ei, db = across * (c_stiffness * load(data, chunk, EI_L)), across * (c_damping * load(data, chunk, DB_L))
-    inv_l = load(data, chunk, INV_L)
-    for k in range(group[BENDING]):
-        g = first + axial + k
-        w, p, s = gp[g, WEIGHT], slope(gp, g, d, t1, t2), bend(gp, g, d, t1, t2, inv_l)
-        kappa0 = reference(batch, chunk, CURVATURE + k, curved)
-        spread(ws, gp, g, inv_l, bending_tangent(p, s, kappa0, w * ei, paper, curved))
-        if damped & IN_BENDING:
-            spread(ws, gp, g, inv_l, bending_damping_tangent(p, s, w * db, paper, inv_l))
+    if c_stiffness != 0.0 or damped & AXIALLY:
+        add_elastic(batch, group, chunk, differences(x), ws, ea, ei, da)
+    if damped & IN_BENDING:
+        inv_l = load(data, chunk, INV_L)
+        for g in range(first, first + group[BENDING]):
+            p, s = slope(gp, g, d, t1, t2), bend(gp, g, d, t1, t2, inv_l)
+            pairs = bending_damping_tangent(p, s, gp[g, WEIGHT] * db, group[PAPER] != 0, inv_l)
+            spread(ws, gp, g, inv_l, pairs)
     if damped & IN_SLOPE:
         spread_slope_damping(ws, along * (c_damping * load(batch.lane_slope, chunk, 0)))
 
@@ -298,6 +290,8 @@ def cable_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add c_mass M + c_damping C + c_stiffness K (c_stiffness is 0 or 1) to the block values A."""
     for n in range(batch.groups.shape[0]):
         group = batch.groups[n]
+        if c_mass == 0.0 and c_stiffness == 0.0 and group[DAMPED] == 0:
+            continue
         for chunk in range(group[BEGIN], group[END]):
             clear(ws, KDD, BLOCKS)
             stiffness(batch, group, chunk, shape(batch, q, chunk), ws, c_damping, c_stiffness, 1.0, 1.0)
@@ -379,6 +373,7 @@ implements(
     number_work=cable_number_work,
     numbers=numbers,
     numbered=("lane_data", "lane_slope"),
+    joined=joined,
     role=Role.DISSIPATES,
     slots=("base", "lane_base"),
     bind=bind,

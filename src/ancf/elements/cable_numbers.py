@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..compiled import formula, inline_kernel
-from ..simd import LANES, every, load, store
+from ..simd import LANES, absolute, every, load, store, total
 from ..vectors import dot
 from .cable_columns import (
     AXIAL,
@@ -64,6 +64,15 @@ def numbers(batch):
     data = batch.lane_data.copy()
     data[:, VISCOUS] *= data[:, MASS]
     return np.concatenate([data.ravel(), batch.lane_slope.ravel()])
+
+
+def joined(batch, other):
+    """The batch with the kinds of damping that it or another one has, see :class:`ancf.compiled.Traits`."""
+    groups = batch.groups.copy()
+    if groups.shape != other.groups.shape:
+        return batch
+    groups[:, DAMPED] |= other.groups[:, DAMPED]
+    return batch._replace(groups=groups)
 
 
 @formula
@@ -222,11 +231,13 @@ def elements_work(batch, group, chunk, states, x, out):
         along = along + more
     if damped & IN_BENDING:
         add_row(out, chunk, DB_L, bending_loss(batch, group, q, v, x, inv_l))
-        more = every(0.0)
-        for k in range(4):
-            place, weight = CHANGES[k]
-            more = more + weight * bending_loss(batch, group, q, v, x, (1.0 + CHANGE * place) * inv_l)
-        along = along + load(data, chunk, DB_L) * ((1.0 / CHANGE) * more)
+        db = load(data, chunk, DB_L)
+        if total(absolute(db)) > 0.0:
+            more = every(0.0)
+            for k in range(4):
+                place, weight = CHANGES[k]
+                more = more + weight * bending_loss(batch, group, q, v, x, (1.0 + CHANGE * place) * inv_l)
+            along = along + db * ((1.0 / CHANGE) * more)
     if damped & IN_SLOPE:
         work, more = slope_loss(in_elements(v, inv_l), in_elements(x, inv_l))
         at = LANES * (ROWS * data.shape[0] + chunk)

@@ -188,20 +188,6 @@ def axial_slope(a, eps0, paper):
 
 
 @formula
-def axial_tangent(p, eps0, ea, damping, paper):
-    """Rows of the derivative of the axial force by p; `damping` acts along the axis."""
-    a = dot(p, p)
-    if paper:
-        f = ea * (0.5 * (a - 1.0) - eps0)
-        h = ea + damping
-    else:
-        f = ea * (1.0 - (1.0 + eps0) / sqrt(a))
-        h = (ea - f + damping) / a
-    none = every(0.0)
-    return dyads(f, p, p, h, none, none, none)
-
-
-@formula
 def curvature_slopes(a, b, c, kappa0, ei, paper, curved):
     """First derivatives of EI/2 (kappa - kappa0)^2 by a, b and c, and second: aa, ab, ac, bb, bc, cc."""
     ia, im, k2 = squared_curvature(a, b, c, paper)
@@ -222,18 +208,6 @@ def curvature_slopes(a, b, c, kappa0, ei, paper, curved):
     hbc = wuu * ub * uc
     hcc = wuu * uc * uc
     return (wu * ua, wu * ub, wu * uc), (haa, hab, hac, hbb, hbc, hcc)
-
-
-@formula
-def bending_tangent(p, s, kappa0, ei, paper, curved):
-    """Rows of the second derivatives of EI/2 (kappa - kappa0)^2: by p p, p s, s p and s s."""
-    first, second = curvature_slopes(dot(p, p), dot(p, s), dot(s, s), kappa0, ei, paper, curved)
-    (wa, wb, wc), (haa, hab, hac, hbb, hbc, hcc) = first, second
-    pp = dyads(2.0 * wa, p, s, 4.0 * haa, 2.0 * hab, 2.0 * hab, hbb)
-    ps = dyads(wb, p, s, 2.0 * hab, 4.0 * hac, hbb, 2.0 * hbc)
-    sp = dyads(wb, p, s, 2.0 * hab, hbb, 4.0 * hac, 2.0 * hbc)
-    ss = dyads(2.0 * wc, p, s, hbb, 2.0 * hbc, 2.0 * hbc, 4.0 * hcc)
-    return pp, ps, sp, ss
 
 
 @formula

@@ -35,7 +35,7 @@ class Weighed:
         rates = {k: rates_of(families[k]) for k in nearby.plain}
         self.rates = {k: found for k, found in rates.items() if found is not None}
         names = sorted({name for found in self.rates.values() for name in found})
-        batches = [self.system.parts[name] for name in names]
+        batches = [self._knowing(name) for name in names]
         sizes = [len(next(found[name] for found in self.rates.values() if name in found)) for name in names]
         self.begin = np.cumsum([0, *sizes]).astype(np.int64)
         self.place = {name: slice(*self.begin[k : k + 2]) for k, name in enumerate(names)}
@@ -44,6 +44,14 @@ class Weighed:
         self.uses = uses_of(families, self.others)
         self.work = np.zeros(self.system.size)
         self.turning = len(self.system.core.supports.rot_slot) if nearby.turns else 0  # local axes to look at
+
+    def _knowing(self, name: str) -> Any:
+        """The batch of the model of this name, which knows of all numbers that a parameter changes."""
+        batch = self.system.parts[name]
+        for k in self.rates:
+            for system in self.nearby.families[k].systems:
+                batch = joined(batch, system.parts[name])
+        return batch
 
     def at_steps(
         self,
@@ -91,10 +99,16 @@ def rates_of(family: Family) -> dict[str, FloatArray] | None:
     return found
 
 
+def joined(batch: Any, other: Any) -> Any:
+    """The batch as it knows what all numbers do that it or another one has."""
+    own = traits(batch).joined
+    return batch if own is None else own(batch, other)
+
+
 def _has_other(batch: Any, other: Any, keys: tuple[str, ...]) -> bool:
-    """Whether nothing but these numbers differs."""
+    """Whether nothing but these numbers differs, and which of them there are."""
     return all(
         mine is theirs or np.array_equal(mine, theirs)
-        for key, mine, theirs in zip(batch._fields, batch, other, strict=True)
+        for key, mine, theirs in zip(batch._fields, joined(batch, other), joined(other, batch), strict=True)
         if key not in keys and key not in OWN
     )
