@@ -43,7 +43,7 @@ def test_along_a_direction(damping, strain, elements):
 
     q, v, zero = system.initial_shape() + shaken(0.02), shaken(0.5), np.zeros(system.size)
     d, found = np.stack([shaken(1.0), shaken(1.0), shaken(1.0)]), np.empty(system.size)
-    products_along(core, m, q, v, zero, d.copy(), zero.copy(), found)
+    products_along(core, m, q, v, zero, d.copy(), np.zeros((0, 3, 3)), zero.copy(), found)
 
     def force(e):
         r = np.empty(system.size)

@@ -13,6 +13,8 @@ from ..solvers.checkpoint import Arrays, distinct
 from ..system.core import Tables
 from ..system.system import System
 
+#: Component of a slope, in the size of this, up to which it is zero.
+NONE = 1e-9
 #: Times at which motions of supports are compared, s.
 TIMES = 0.0, 0.137, 1.713
 #: What runs and searches change in a batch: it does not depend on a parameter.
@@ -38,6 +40,7 @@ class Known:
         self._system = ref(system)
         self._states: dict[float, tuple[FloatArray, FloatArray]] = {}
         self._shape: FloatArray | None = None
+        self._axes: FloatArray | None = None
 
     def initial_state(self, time: float) -> tuple[FloatArray, FloatArray]:
         """See :meth:`ancf.system.system.System.initial_state`; arrays that all share."""
@@ -50,6 +53,17 @@ class Known:
         if self._shape is None:
             self._shape = self._there.initial_shape()
         return self._shape
+
+    def moving_axes(self) -> FloatArray:
+        """1 for local axes of supports, (k, 1, 3); 0 where they hold components along them that are zero."""
+        if self._axes is None:
+            supports, held = self._there.supports, np.zeros(self._there.size, dtype=bool)
+            held[supports.held] = True
+            slots = supports.rot_slot[:, None] + np.arange(3)
+            y = np.abs(self.initial_shape()[slots])
+            idle = held[slots] & (y <= NONE * np.max(y, axis=1, keepdims=True))
+            self._axes = np.where(idle, 0.0, 1.0)[:, None, :]
+        return self._axes
 
     @property
     def _there(self) -> System:

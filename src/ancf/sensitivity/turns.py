@@ -8,22 +8,14 @@ from ..arrays import FloatArray
 from ..system.system import System
 from .alike import Known
 
-#: Component of a slope, in the size of this, up to which it is zero.
-NONE = 1e-9
-
 
 def axes_of(base: System, system: System) -> FloatArray:
     """Local axes of a system, (k, 3, 3), zero where supports hold components along them that are zero.
 
     Such axes need not turn smoothly: of a clamped cable any two across it will do.
     """
-    supports, R = base.supports, system.supports.rot_R[:, 0].copy()
-    if len(R):
-        slots = supports.rot_slot[:, None] + np.arange(3)
-        y = np.abs(Known.of(base).initial_shape()[slots])
-        idle = np.isin(slots, supports.held) & (y <= NONE * np.max(y, axis=1, keepdims=True))
-        R *= ~idle[:, None, :]
-    return R
+    R = system.supports.rot_R[:, 0]
+    return R * Known.of(base).moving_axes() if len(R) else R
 
 
 def axes_rates(base: System, systems: list[System], weights: list[float]) -> FloatArray | None:
@@ -34,7 +26,7 @@ def axes_rates(base: System, systems: list[System], weights: list[float]) -> Flo
     mine, moving = base.supports.rot_R, base.supports.rot_moving >= 0
     turn = np.zeros_like(mine[:, 0])
     others = [(s, w) for s, w in zip(systems, weights, strict=True) if s.supports.rot_R is not mine]
-    if not others:
+    if not others or not len(mine):
         return turn
     if any(not np.array_equal(s.supports.rot_R[moving, 0], mine[moving, 0]) for s, _ in others):
         return None
