@@ -98,6 +98,47 @@ class TestSides:
             form(replace(line, conditions=Conditions(wind=-38.0)), COARSE)
 
 
+class TestDefaultSide:
+    """An arm of which nobody said where it stands keeps the side of the design: masts do not move."""
+
+    def blown(self, **arm):
+        wires = {
+            key: replace(getattr(short_line(), key), diameter=0.0132)
+            for key in ("contact_wire", "messenger_wire")
+        }
+        stagger, arm = tuple(0.3 * y for y in STAGGER), arm or {"length": 1.1}
+        line = short_line(
+            contact_support="free", stagger=stagger, steady_arm=SteadyArm(**arm), anchors="tension", **wires
+        )
+        return line, replace(line, conditions=Conditions(wind=-38.0))
+
+    def test_the_hinge_stays(self):
+        line, windy = self.blown()
+        with pytest.warns(UserWarning, match=r"support \d: the arm stands to the right .* can only pull"):
+            found = form(windy, COARSE)
+        rest = form(line, COARSE)
+        told, before = arm_loads(found)[1:-1], arm_loads(rest)[1:-1]
+        assert [one.side for one in told] == [one.side for one in before] == list(RIGHT)
+        assert {(one.side, one.acts) for one in told} == {("left", "pulls"), ("right", "pushes")}
+        for here, there in zip(assemble(found).arms[1:-1], assemble(rest).arms[1:-1], strict=True):
+            assert np.asarray(here.b)[1:] == pytest.approx(np.asarray(there.b)[1:], abs=1e-3)
+        assert verify(assemble(found)).place < 2e-6
+
+    def test_is_the_side_that_could_be_given(self):
+        _, windy = self.blown()
+        given = replace(windy, steady_arm=tuple(sided(RIGHT)))
+        with pytest.warns(UserWarning, match="can only pull"):
+            assert form(windy, COARSE).arm_force == pytest.approx(form(given, COARSE).arm_force, abs=1e-6)
+
+    def test_springs_may_push(self):
+        """They stand for arms of any kind: what they do is told, and is no warning."""
+        _, windy = self.blown(vertical=300.0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            told = arm_loads(form(windy, COARSE))[1:-1]
+        assert ("right", "pushes") in {(one.side, one.acts) for one in told}
+
+
 class TestPush:
     @pytest.mark.parametrize("length", [0.9, 1.6])
     def test_stiffness(self, length):

@@ -61,8 +61,8 @@ def arm_loads(found: Any) -> list[ArmLoad]:
         curve, kink = radial(line)
         for k, force in enumerate(form.arm_force):
             end = k in (0, len(form.arm_force) - 1)
-            side, sideways = "" if end else line.arm(k).stands(float(force[1])), float(force[1])
-            acts = "" if end else "pushes" if line.arm(k).sense(sideways) < 0.0 else "pulls"
+            side, sideways = "" if end else form.arm(k).stands(float(force[1])), float(force[1])
+            acts = "" if end else "pushes" if form.arm(k).sense(sideways) < 0.0 else "pulls"
             where = len(made) + 1, float(x[k])
             made.append(
                 ArmLoad(*where, float(curve[k]), float(kink[k]), sideways, float(force[2]), side, acts)
@@ -122,17 +122,27 @@ def check_arms(line: Any, force: FloatArray) -> None:
         _check(line, k, float(force[k, 1]), curve, kink)
 
 
-def pushed(line: Any, force: FloatArray) -> list[str]:
-    """The same as texts, for states in which it is a finding and no mistake of the design."""
-    found = []
-    for k in range(1, len(force) - 1):
-        if line.arm(k).refuses(float(force[k, 1])):
-            found.append(f"support {k + 1}: {_said(line, k, float(force[k, 1]))}")
-    return found
+def sides(force: FloatArray) -> tuple[str, ...]:
+    """The side of the wire to which each arm pulls by forces (supports, 3) in N; "" where it does not."""
+    across = force[:, 1].tolist()
+    return tuple("" if abs(f) < FAINT else "left" if f > 0.0 else "right" for f in across)
 
 
-def _said(line: Any, k: int, force: float) -> str:
-    return f"the arm stands to the {line.arm(k).side} of the wire and is pushed with {abs(force):.0f} N"
+def pushed(found: Any) -> list[str]:
+    """The same of a Form as texts, for states in which it is a finding and no mistake of the design.
+
+    Springs of which nobody said where they stand may push: they stand for any kind of arm.
+    """
+    said = []
+    for k, force in enumerate(found.arm_force[:, 1].tolist()):
+        given = found.line.arm(k)
+        if 0 < k < len(found.arm_force) - 1 and (given.hinged or given.side) and found.arm(k).refuses(force):
+            said.append(f"support {k + 1}: {_said(found.arm(k), force)}")
+    return said
+
+
+def _said(arm: Any, force: float) -> str:
+    return f"the arm stands to the {arm.side} of the wire and is pushed with {abs(force):.0f} N"
 
 
 def _check(line: Any, k: int, force: float, curve: FloatArray, kink: FloatArray) -> None:
@@ -140,9 +150,7 @@ def _check(line: Any, k: int, force: float, curve: FloatArray, kink: FloatArray)
     if not arm.refuses(force):
         return
     from_curve, from_kink = (-abs(v) if v * force < 0.0 else abs(v) for v in (curve[k], kink[k]))
-    what = (
-        f"{_said(line, k, force)} at support {k + 1}, {from_curve:.0f} N by the curve and {from_kink:.0f} N "
-    )
+    what = f"{_said(arm, force)} at support {k + 1}, {from_curve:.0f} N by the curve and {from_kink:.0f} N "
     what += "by the staggers: it can only pull"
     other = "right" if arm.side == "left" else "left"
     in_table = k < len(line.rows)

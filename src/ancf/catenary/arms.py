@@ -14,8 +14,8 @@ from ..model.bodies import PointMass
 from ..model.connections import Spring
 from ..model.points import Point
 from ..model.supports import Hold
+from .fittings import SteadyArm
 from .form import Form
-from .line import Line
 
 #: Length of a spring to a fixed point, m: long enough that its force keeps its direction, and unstretched.
 LONG = 20.0
@@ -36,28 +36,28 @@ def add_arms(overhead: Any, found: Form) -> None:
     """The steady arms of all supports but the first and the last; of twin wires each has its own."""
     nodes = found.contact.nodes.support
     overhead.supports = [overhead.contact.point(node) for node in nodes]
-    overhead.arms, overhead.arm_holds = _arms_of(overhead, found.line, overhead.supports, found.arm_force)
+    overhead.arms, overhead.arm_holds = _arms_of(overhead, found, overhead.supports, found.arm_force)
     if overhead.twin is not None:
         points = [overhead.twin.point(node) for node in nodes]
-        made = _arms_of(overhead, found.line, points, found.twin_arm_force, " of the second wire")
+        made = _arms_of(overhead, found, points, found.twin_arm_force, " of the second wire")
         overhead.twin_arms, overhead.twin_arm_holds = made
 
 
 def _arms_of(
-    overhead: Any, line: Line, points: list[Point], forces: Any, which: str = ""
+    overhead: Any, found: Form, points: list[Point], forces: Any, which: str = ""
 ) -> tuple[list[Spring | None], list[Hold | None]]:
     """The arms of one contact wire, with forces (supports, 3) in N at rest: springs, and what holds it."""
-    model, before = overhead.model, overhead.prefix
+    model, before, line = overhead.model, overhead.prefix, found.line
     arms: list[Spring | None] = [None] * len(points)
     holds: list[Hold | None] = [None] * len(points)
     for k in range(1, len(points) - 1):
-        point, arm, name = points[k], line.arm(k), f"{before}steady arm {k + 1}{which}"
+        point, arm, name = points[k], found.arm(k), f"{before}steady arm {k + 1}{which}"
         force = forces[k] + np.array([0.0, 0.0, 0.5 * arm.mass * line.gravity])
         add_mass(model, f"{before}arm {k + 1}{which} mass", point, 0.5 * arm.mass)
         if arm.uplift_stop is not None:
             _add_stop(model, point, arm.uplift_stop, f"{before}uplift stop {k + 1}{which}")
         if arm.hinged:
-            arms[k] = _add_hinged_arm(model, line, k, point, force, name)
+            arms[k] = _add_hinged_arm(model, arm, k, point, force, name)
             continue
         arms[k] = _add_vertical_arm(model, point, arm.vertical, force[2], name)
         if arm.lateral is None:
@@ -94,11 +94,10 @@ def add_long_spring(
 
 
 def _add_hinged_arm(
-    model: ancf.Model, line: Line, k: int, point: Point, force: FloatArray, name: str
+    model: ancf.Model, arm: SteadyArm, k: int, point: Point, force: FloatArray, name: str
 ) -> Spring:
     """A bar to a pivot on the mast, in the direction of the force (3,) in N on the wire, or against it."""
-    size, sense = float(np.linalg.norm(force)), line.arm(k).sense(float(force[1]))
-    arm = line.arm(k)
+    size, sense = float(np.linalg.norm(force)), arm.sense(float(force[1]))
     assert arm.length is not None
     if abs(force[1]) < 1.0 or abs(force[2]) > abs(force[1]):
         what = f"the wire pulls sideways with {abs(force[1]):.0f} N at support {k + 1}, which has to carry "

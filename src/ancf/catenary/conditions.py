@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 from ..errors import ModelError
 from ..model import checks
+from .wire import Wire
 
 COLDEST, HOTTEST = -80.0, 200.0  # degrees Celsius
 
@@ -64,3 +66,25 @@ class Conditions:
         checks.positive(self.gust_length, f"{where}.gust_length")
         checks.integer(self.seed, f"{where}.seed", 0, 2**32)
         checks.between(self.wear, f"{where}.wear", 0.0, 0.6)
+
+    def worn(self, wire: Wire) -> Wire:
+        """The contact wire with its wear, its ice and the tension of weights, as it hangs at any temperature.
+
+        What temperature and wear do to the tension between fixed ends is known of a form only.
+        """
+        left, tension = 1.0 - self.wear, self.contact_tension or wire.tension
+        EA = left * wire.EA
+        mass = (left * wire.mass + self.ice) * (1.0 + wire.tension / wire.EA) / (1.0 + tension / EA)
+        return replace(wire, EA=EA, EI=left**2 * wire.EI, mass=mass, tension=tension)
+
+
+def warmer(line: Any) -> float:
+    """By how much a line is warmer than where its heights and lengths hold, K."""
+    degrees = line.conditions.temperature
+    return 0.0 if degrees is None else float(degrees - line.temperature)
+
+
+def expansion(line: Any) -> float:
+    """Of the droppers, 1/K: that of the messenger, which is a rope like them."""
+    wire = line.messenger_wire or line.contact_wire
+    return float(wire.expansion)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,7 @@ from .line import Line
 from .mesh import Mesh
 from .rest import assemble, form
 from .route import Route
+from .route_form import AnyForm
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +38,8 @@ class Elasticity:
     force : (k,) N
     lift : (k, n) m
         Displacement of the place under the force.
+    form : Form or None
+        Of the spans that were computed.
 
     """
 
@@ -44,6 +47,7 @@ class Elasticity:
     x: FloatArray
     force: FloatArray
     lift: FloatArray
+    form: AnyForm | None = field(default=None, repr=False, compare=False)
 
     @property
     def value(self) -> FloatArray:
@@ -118,7 +122,7 @@ def elasticity(
     )
     start = float(overhead.form.line.supports[middle - first])
     lift = _lifts(overhead, start + places, force)
-    return Elasticity(middle, places, force, lift)
+    return Elasticity(middle, places, force, lift, overhead.form)
 
 
 def elasticity_beside(line: Line | Route) -> Elasticity:

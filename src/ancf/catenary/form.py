@@ -10,10 +10,11 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
-from .arm_loads import check_arms, check_roughly
+from .arm_loads import check_arms, check_roughly, sides
 from .auxiliary import LongDroppers
+from .conditions import expansion
 from .first_guess import first_guess
-from .fittings import Droppers
+from .fittings import Droppers, SteadyArm
 from .hang import Hung, hang_auxiliary, hang_contact, hang_messenger, hang_stitches
 from .line import Line
 from .mesh import Mesh
@@ -47,7 +48,7 @@ class Form:
     dropper_force : (n,) N
         Its force between the two wires' clamps; half of the dropper's weight is at each.
     dropper_length, dropper_natural : (n,) m
-        From clamp to clamp under this force, and without force.
+        From clamp to clamp under this force, and without force at the temperature of the state.
     dropper_stiffness : (n,) N/m
     clamp_give : (n,) m/N
         What both wires give too little at the clamps on this mesh, see :mod:`ancf.catenary.clamps`.
@@ -72,6 +73,11 @@ class Form:
         The second of two contact wires side by side, and
     twin_arm_force : (supports, 3) N or None
         the force on it at the supports.
+    arm_sides : tuple of str
+        Of each support the side of the wire on which the hinge of its arm is where the line does not say it:
+        that to which it pulls in the design, in every state. "" of ends, and where the design pulls nowhere.
+    warmer : float, K
+        Than in the design, by its conditions.
     made_for : (Line, Mesh)
         What it was found for.
 
@@ -106,6 +112,8 @@ class Form:
     long_droppers: LongDroppers | None = None
     twin: WireShape | None = None
     twin_arm_force: FloatArray | None = None
+    arm_sides: tuple[str, ...] = ()
+    warmer: float = 0.0
     made_for: tuple[Line, Mesh] | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -127,6 +135,12 @@ class Form:
         return self.contact.wire.critical_speed(max(span.length for span in self.line.spans))
 
     @property
+    def cut_length(self) -> FloatArray:
+        """Lengths (n,) without force at the temperature for which the line is designed, as cut, m."""
+        cut: FloatArray = self.dropper_natural / (1.0 + expansion(self.line) * self.warmer)
+        return cut
+
+    @property
     def spring_stiffness(self) -> FloatArray:
         """Stiffnesses (n,) in N/m of the droppers between the nodes: with the give of their clamps."""
         stiffness: FloatArray = self.dropper_stiffness / (1.0 + self.clamp_give * self.dropper_stiffness)
@@ -139,6 +153,11 @@ class Form:
             self.line.droppers.damping * (self.spring_stiffness / self.dropper_stiffness) ** 2
         )
         return damping
+
+    def arm(self, k: int) -> SteadyArm:
+        """Steady arm of a support, with the side on which it stands."""
+        arm, side = self.line.arm(k), self.arm_sides[k] if self.arm_sides else ""
+        return arm if arm.side is not None or not side else replace(arm, side=side)
 
     @property
     def support_height(self) -> FloatArray:
@@ -318,6 +337,7 @@ def _finished(line: Line, mesh: Mesh, now: Hung, iterations: int) -> Form:
         support_load=now.support,
         support_side=now.side,
         arm_force=now.arm,
+        arm_sides=sides(now.arm),
         iterations=iterations,
         pull=np.outer(tensions, [1.0, 1.0]),
         auxiliary=now.auxiliary,

@@ -54,7 +54,7 @@ def with_errors(found: Form, errors: DropperErrors, section: int = 0) -> FloatAr
     They are those of ``dropper_lengths`` where the line has some, and of the design otherwise.
     """
     given = found.line.dropper_lengths
-    plain = found.dropper_natural if given is None else np.array(given)
+    plain = found.cut_length if given is None else np.array(given)
     random = np.random.default_rng(errors.seed if section == 0 else [errors.seed, section])
     lengths: FloatArray = plain + errors.deviation * random.standard_normal(plain.size)
     if np.any(lengths <= 0.0):

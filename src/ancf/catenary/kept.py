@@ -12,6 +12,7 @@ from ..arrays import FloatArray
 from ..columns import read_columns
 from ..errors import ModelError
 from .quantity import Quantity
+from .state import pulled
 
 SUMMARY = "run.json"
 #: Runs that fit beside each other in a table.
@@ -26,7 +27,8 @@ class Kept:
     ----------
     name : str
         That of the folder, and of the pantograph if there are several.
-    line : str
+    line, state : str
+        Title, and conditions with the tensions at rest; nothing of runs of earlier versions.
     speed_kmh : float
     window : (float, float)
         Track interval that was evaluated, m.
@@ -47,6 +49,7 @@ class Kept:
     position: FloatArray
     force: FloatArray
     uplift: list[tuple[float, float]]
+    state: str = ""
 
     @property
     def quantities(self) -> list[Quantity]:
@@ -127,7 +130,16 @@ def _kept(path: Path, data: dict[str, Any], k: int, name: str) -> Kept:
         position=_numbers(columns, "position_m", file),
         force=_numbers(columns, "force_20hz_N", file),
         uplift=[(float(row["position_m"]), float(row["uplift_mm"])) for row in one["uplift_mm"]],
+        state=_state(data),
     )
+
+
+def _state(data: dict[str, Any]) -> str:
+    rows = [
+        f"{row['wire']} {pulled(row['smallest_N'], row['largest_N'])} N (designed {row['designed_N']:.0f})"
+        for row in data.get("tensions", ())
+    ]
+    return ", ".join([*filter(None, [data.get("state", "")]), *rows])
 
 
 def _numbers(columns: dict[str, list[Any]], key: str, file: Path) -> FloatArray:

@@ -380,8 +380,9 @@ class Line:
 
     @property
     def wave_speed(self) -> float:
-        """Wave speed of the contact wire, of a conductor rail the critical one of its longest span, m/s."""
-        return self.contact_wire.critical_speed(max(span.length for span in self.spans))
+        """Wave speed of the contact wire, worn and iced, of a rail that of its longest span, m/s."""
+        wire = self.conditions.worn(self.contact_wire)
+        return wire.critical_speed(max(span.length for span in self.spans))
 
     def dropper_label(self, j: int) -> str:
         """Place of a dropper in the description: ``line.spans[2].droppers[3]``."""

@@ -71,7 +71,7 @@ def _of_line(line: Line, mesh: Mesh | None, section: int = 0) -> Form:
         found = as_built(found, lengths)
     if line.conditions != Conditions():
         found = in_conditions(found)
-        for text in pushed(line, found.arm_force):
+        for text in pushed(found):
             warnings.warn(f"line.conditions: in them at {text}: it can only pull", UserWarning, stacklevel=4)
     return found
 

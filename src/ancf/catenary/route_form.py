@@ -75,8 +75,14 @@ class RouteForm:
 
     @property
     def dropper_natural(self) -> FloatArray:
-        """From clamp to clamp without force, m."""
+        """From clamp to clamp without force at the temperature of the state, m."""
         length: FloatArray = self.joined(lambda form: form.dropper_natural)
+        return length
+
+    @property
+    def cut_length(self) -> FloatArray:
+        """The same at the temperature for which the line is designed, as cut, m."""
+        length: FloatArray = self.joined(lambda form: form.cut_length)
         return length
 
     @property

@@ -28,9 +28,9 @@ class Row:
     length : float, mm
         From clamp to clamp, hanging under its load.
     natural : float, mm
-        From clamp to clamp, unstretched: what is cut.
+        From clamp to clamp, unstretched at the temperature of the design: what is cut.
     load : float, N
-        Tension at the lower end.
+        Tension at the lower end: what the contact wire hangs with, without the dropper's own weight.
     contact_height, messenger_height : float, mm
         Of the wires there, over the nominal height of the contact wire.
 
@@ -76,8 +76,8 @@ class Formed(Protocol):
         ...
 
     @property
-    def dropper_natural(self) -> FloatArray:
-        """The same without force, m."""
+    def cut_length(self) -> FloatArray:
+        """The same without force at the temperature of the design, m."""
         ...
 
     @property
@@ -107,7 +107,7 @@ def rows(form: Formed) -> list[Row]:
             position=places[j],
             track=float(line.dropper_x[j]),
             length=1e3 * float(form.dropper_length[j]),
-            natural=1e3 * float(form.dropper_natural[j]),
+            natural=1e3 * float(form.cut_length[j]),
             load=float(form.dropper_load[j]),
             contact_height=1e3 * float(form.contact_height[j]),
             messenger_height=1e3 * float(form.messenger_height[j]),

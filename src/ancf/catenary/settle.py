@@ -13,7 +13,7 @@ from ..arrays import BoolArray, FloatArray
 from ..errors import ModelError, SolveError
 from .assemble import Assembled, assembled
 from .auxiliary import LongDroppers
-from .conditions import Conditions
+from .conditions import Conditions, expansion, warmer
 from .form import Form
 from .line import Line
 from .shape import Strung, WireShape
@@ -82,16 +82,16 @@ def _changed(built: Form) -> Form:
     """The form with the wires and natural lengths of the conditions, which does not rest yet."""
     line = built.line
     air = line.conditions
-    warmer = (line.temperature if air.temperature is None else air.temperature) - line.temperature
-    contact = _stretched(built.contact, warmer)
-    messenger = None if built.messenger is None else _stretched(built.messenger, warmer)
-    auxiliary = None if built.auxiliary is None else _stretched(built.auxiliary, warmer)
+    heat = warmer(line)
+    contact = _stretched(built.contact, heat)
+    messenger = None if built.messenger is None else _stretched(built.messenger, heat)
+    auxiliary = None if built.auxiliary is None else _stretched(built.auxiliary, heat)
     pull = built.pull.copy()
     given = air.contact_tension, air.messenger_tension, None, air.contact_tension
     for k, tension in enumerate(given[: len(pull)]):
         if tension is not None:
             pull[k] *= tension / built.pull[k].mean()
-    kinds = _wires(line, air, warmer)
+    kinds = _wires(line, air, heat)
     return replace(
         built,
         contact=kinds[0].under(contact, float(pull[0].mean())),
@@ -99,12 +99,13 @@ def _changed(built: Form) -> Form:
         auxiliary=None if auxiliary is None else kinds[2].under(auxiliary, float(pull[2].mean())),
         twin=None
         if built.twin is None
-        else kinds[0].under(_stretched(built.twin, warmer), float(pull[3].mean())),
-        long_droppers=_longer(built.long_droppers, 1.0 + _expansion(line) * warmer),
-        stitches=tuple(_stitch(line, shape, air, warmer) for shape in built.stitches),
-        dropper_natural=built.dropper_natural * (1.0 + _expansion(line) * warmer),
+        else kinds[0].under(_stretched(built.twin, heat), float(pull[3].mean())),
+        long_droppers=_longer(built.long_droppers, 1.0 + expansion(line) * heat),
+        stitches=tuple(_stitch(line, shape, air, heat) for shape in built.stitches),
+        dropper_natural=built.dropper_natural * (1.0 + expansion(line) * heat),
         pull=pull,
         settled=True,
+        warmer=heat,
     )
 
 
@@ -112,17 +113,11 @@ def _longer(made: LongDroppers | None, factor: float) -> LongDroppers | None:
     return None if made is None else replace(made, natural=made.natural * factor)
 
 
-def _expansion(line: Line) -> float:
-    """Of the droppers: that of the messenger, which is a rope like them."""
-    wire = line.messenger_wire or line.contact_wire
-    return wire.expansion
+def _stretched(shape: WireShape, heat: float) -> WireShape:
+    return replace(shape, arc=shape.arc * (1.0 + shape.wire.expansion * heat))
 
 
-def _stretched(shape: WireShape, warmer: float) -> WireShape:
-    return replace(shape, arc=shape.arc * (1.0 + shape.wire.expansion * warmer))
-
-
-def _wires(line: Line, air: Conditions, warmer: float) -> list[_Wires]:
+def _wires(line: Line, air: Conditions, heat: float) -> list[_Wires]:
     """Contact wire and messenger."""
     made = []
     third = None if line.auxiliary is None else line.auxiliary.wire
@@ -130,17 +125,17 @@ def _wires(line: Line, air: Conditions, warmer: float) -> list[_Wires]:
         if wire is None:
             continue
         left = 1.0 - air.wear if k == 0 else 1.0
-        longer = 1.0 + wire.expansion * warmer
+        longer = 1.0 + wire.expansion * heat
         mass = wire.mass * (1.0 + wire.tension / wire.EA) / longer
         ice = air.ice * (1.0 + wire.tension / wire.EA)
         made.append(_Wires(left * mass + ice, left * wire.EA, left**2 * wire.EI))
     return made
 
 
-def _stitch(line: Line, shape: WireShape, air: Conditions, warmer: float) -> WireShape:
+def _stitch(line: Line, shape: WireShape, air: Conditions, heat: float) -> WireShape:
     wire = shape.wire
-    mass = wire.mass * (1.0 + wire.tension / wire.EA) / (1.0 + wire.expansion * warmer) + air.ice
-    return _Wires(mass, wire.EA, wire.EI).under(_stretched(shape, warmer), wire.tension)
+    mass = wire.mass * (1.0 + wire.tension / wire.EA) / (1.0 + wire.expansion * heat) + air.ice
+    return _Wires(mass, wire.EA, wire.EI).under(_stretched(shape, heat), wire.tension)
 
 
 def _with_friction(built: Form, begun: Form) -> Form:
@@ -261,7 +256,7 @@ def _arms(built: Form, wire: int, contact: WireShape, overhead: Assembled, state
     assert given is not None
     holds = (overhead.arm_holds, overhead.twin_arm_holds)[wire]
     for k in range(1, len(force) - 1):
-        arm, node = line.arm(k), contact.nodes.support[k]
+        arm, node = built.arm(k), contact.nodes.support[k]
         rest, here = rests[node], contact.position[node]
         weight = np.array([0.0, 0.0, 0.5 * arm.mass * line.gravity])
         first = given[k] + weight

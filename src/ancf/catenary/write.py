@@ -17,6 +17,7 @@ from .clamp_strain import bends, clamp_strains
 from .cycles import rainflow
 from .passing import dropper_forces, dropper_places
 from .signals import Intervals
+from .state import state, tensions
 from .statistics import Statistics, statistics
 
 if TYPE_CHECKING:
@@ -68,6 +69,11 @@ def summary(run: Run, found: Sequence[Statistics]) -> dict[str, Any]:
     return {
         "ancf": __version__,
         "line": run.form.line.title,
+        "state": state(run.form.line),
+        "tensions": [
+            {"wire": name, "designed_N": was, "smallest_N": low, "largest_N": high}
+            for name, was, low, high in tensions(run.form)
+        ],
         "speed_kmh": round(found[0]["speed"].value, 6),
         "window_m": list(run.window),
         "filter": found[0].filter.text,

@@ -56,19 +56,21 @@ def show_elasticity(
 
 def _print_schedule(line: Line | Route, found: AnyForm) -> None:
     from ..catenary.schedule import texts
+    from ..catenary.state import at_rest, state
 
-    heads = ("span", "dropper", "at [m]", "track [m]", "length [mm]", "unstretched [mm]", "load [N]")
-    shown = table(*heads, "wire height [mm]", "messenger height [mm]")
+    heads = ("span", "dropper", "at [m]", "track [m]", "length [mm]", "unstretched [mm]")
+    shown = table(*heads, "load at the lower end [N]", "wire height [mm]", "messenger height [mm]")
     for row in found.schedule():
         shown.add_row(*texts(row))
     where = console()
-    where.print(_title(line), soft_wrap=True)
+    where.print(_title(line, found.wave_speed), soft_wrap=True)
+    where.print(f"{state(line)}; at rest {at_rest(found)}", soft_wrap=True)
     where.print(shown)
-    total = float(found.dropper_natural.sum())
-    lengths = found.dropper_length
+    total = float(found.cut_length.sum())
+    lengths, degrees = found.dropper_length, line.parts[0].temperature
     shortest = f"the shortest {1e3 * float(lengths.min()):.1f} mm, " if lengths.size else ""
     where.print(
-        f"{lengths.size} droppers, {total:.3f} m unstretched in all, {shortest}"
+        f"{lengths.size} droppers, {total:.3f} m unstretched in all (as cut, at {degrees:g} °C), {shortest}"
         f"contact wire {line.parts[0].contact_support} at the supports",
         soft_wrap=True,
     )
@@ -85,19 +87,24 @@ def _print_arms(found: AnyForm) -> None:
 
 
 def _print_elasticity(line: Line | Route, found: Elasticity) -> None:
+    from ..catenary.state import at_rest, state
+
     shown = table("at [m]", *(f"{force:g} N [mm/N]" for force in found.force))
     for x, values in zip(found.x, found.value.T, strict=True):
         shown.add_row(f"{x:.2f}", *(f"{value:.4f}" for value in values))
     where = console()
-    where.print(_title(line), soft_wrap=True)
+    formed = found.form
+    where.print(_title(line, line.wave_speed if formed is None else formed.wave_speed), soft_wrap=True)
+    told = "" if formed is None else f"; at rest {at_rest(formed)}"
+    where.print(state(line) + told, soft_wrap=True)
     where.print(f"elasticity along span {found.span + 1}", soft_wrap=True)
     where.print(shown)
     for force, ratio in zip(found.force, found.nonuniformity, strict=True):
         where.print(f"non-uniformity at {force:g} N: {100 * ratio:.1f} %", soft_wrap=True)
 
 
-def _title(line: Line | Route) -> str:
-    size = f"{len(line.spans)} spans, {line.length:g} m, wave speed {3.6 * line.wave_speed:.0f} km/h"
+def _title(line: Line | Route, wave_speed: float) -> str:
+    size = f"{len(line.spans)} spans, {line.length:g} m, wave speed {3.6 * wave_speed:.0f} km/h"
     return f"{line.title}: {size}" if line.title else size
 
 

@@ -39,5 +39,7 @@ def compare_runs(folders: list[Path], output: Path, to: str | None = None, quiet
     for name, unit, values, changes in differences(runs):
         cells = (shown(value, unit) for value in [*values, *changes])
         made.add_row(name, "" if unit == "count" else unit, *cells)
+    for run in runs:
+        console().print(f"{run.name}: {run.line}{f'; {run.state}' if run.state else ''}", soft_wrap=True)
     console().print(made)
     console().print("written: " + ", ".join(map(str, files)), soft_wrap=True)

@@ -13,6 +13,7 @@ from ...viz import printed, style
 from ...viz.html import element, figure, page, section
 from ..acceptance import acceptance
 from ..clamp_strain import bends
+from ..state import at_rest, state, titled
 from . import measured as measuring
 from . import tables
 from .content import Content
@@ -77,7 +78,7 @@ def write_reports(
 
 def _write(content: Content, files: Sequence[tuple[str, Path]]) -> list[Path]:
     style.require_matplotlib()
-    title = f"{content.run.form.line.title}, {content.speed_kmh:.4g} km/h"
+    title = f"{titled(content.run.form.line)}, {content.speed_kmh:.4g} km/h"
     on_paper: list[Element] = []
     for kind, path in files:
         if kind == printed.HTML:
@@ -104,6 +105,8 @@ def _top(content: Content, title: str) -> Iterator[Element]:
     low, high = content.run.window
     what = f"{head}: {names}. Evaluated from {low:g} m to {high:g} m."
     yield element("p", what, class_="faint")
+    found = content.run.form
+    yield element("p", f"State: {state(found.line)}; at rest {at_rest(found)}.", class_="faint")
     if content.reference is None:
         return
     for k in range(len(content.found)):

@@ -82,7 +82,8 @@ def pieces(runs: Sequence[Kept], save: Save) -> list[Element]:
     parts = [element("h1", TITLE)]
     for run in runs:
         low, high = run.window
-        what = f"{run.name}: {run.line}, {run.speed_kmh:.4g} km/h, evaluated from {low:g} m to {high:g} m."
+        what = f"{run.name}: {run.line}, {run.speed_kmh:.4g} km/h, evaluated from {low:g} m to {high:g} m"
+        what += f"; {run.state}." if run.state else "."
         parts.append(element("p", what, class_="faint"))
     names = [run.name for run in runs]
     parts.append(

@@ -14,6 +14,7 @@ from ..cycles import rainflow
 from ..passing import DropperForces, dropper_places
 from ..quantity import TAGS, shown
 from ..route import Route
+from ..state import pulled, state, tensions
 from ..table import texts
 
 if TYPE_CHECKING:
@@ -139,9 +140,7 @@ def schedule(content: Content) -> Element:
     """The dropper schedule: lengths and loads of all droppers at rest."""
     form = content.run.form
     heights = (form.contact_height, form.messenger_height)
-    numbers = np.column_stack(
-        [MM * np.asarray(a) for a in (form.dropper_length, form.dropper_natural, *heights)]
-    )
+    numbers = np.column_stack([MM * np.asarray(a) for a in (form.dropper_length, form.cut_length, *heights)])
     rows = [
         (str(span), str(number), f"{x:g}", *(shown(v, "mm") for v in lengths), shown(float(load), "N"))
         for (span, number, x), lengths, load in zip(
@@ -149,7 +148,8 @@ def schedule(content: Content) -> Element:
         )
     ]
     lengths = ("length [mm]", "unstretched [mm]", "contact wire at [mm]", "messenger at [mm]")
-    return table(("span", "dropper", "position [m]", *lengths, "load [N]"), rows, numbers=range(8))
+    load = "load at the lower end [N]"
+    return table(("span", "dropper", "position [m]", *lengths, load), rows, numbers=range(8))
 
 
 def run_data(content: Content) -> Element:
@@ -185,16 +185,19 @@ def _tagged(key: str, known: Mapping[str, str]) -> str:
 def _line(content: Content) -> Iterator[tuple[str, str, str]]:
     line = content.run.form.line
     yield from _sections(line) if isinstance(line, Route) else _tension_length(line)
+    for name, was, low, high in tensions(content.run.form):
+        yield f"tension of the {name} in this state [N]", "", f"{pulled(low, high)}, designed {was:.0f}"
 
 
 def _sections(line: Route) -> Iterator[tuple[str, str, str]]:
     parts = line.parts
     yield "line", "title", line.title
+    yield "state", "conditions", state(line)
     ends = [f"{start:g} to {start + part.length:g}" for start, part in zip(line.starts, parts, strict=True)]
     yield "sections [m]", "sections", ", ".join(ends)
     for k, part in enumerate(parts):
         for name, key, value in _tension_length(part):
-            if name not in ("line", "source"):
+            if name not in ("line", "state", "source"):
                 yield f"section {k + 1}: {name}", key, value
     yield "source", "source", line.source or "not given"
 
@@ -202,6 +205,7 @@ def _sections(line: Route) -> Iterator[tuple[str, str, str]]:
 def _tension_length(line: Line) -> Iterator[tuple[str, str, str]]:
     spans = [f"{span.length:g}" for span in line.spans]
     yield "line", "title", line.title
+    yield "state", "conditions", state(line)
     yield (
         "spans [m]",
         "spans",
