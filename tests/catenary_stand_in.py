@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from ancf.catenary import Conditions
 from ancf.catenary.run_data import Recording, Run
 
 SPAN, SPANS = 60.0, 10
@@ -53,6 +54,11 @@ def line(spans=SPANS):
         contact_support="held",
         anchors="fixed",
         gravity=9.81,
+        auxiliary=None,
+        temperature=10.0,
+        conditions=Conditions(),
+        dropper_lengths=None,
+        dropper_errors=None,
     )
     made.parts = (made,)
     made.height_at = np.zeros_like
@@ -83,6 +89,8 @@ def form(spans=SPANS):
         dropper_load=loads,
         dropper_length=lengths,
         dropper_natural=lengths - loads / 1e5,
+        cut_length=lengths - loads / 1e5,
+        pull=np.array([[20e3, 20e3], [16e3, 16e3]]),
         contact_height=np.zeros(count),
         messenger_height=lengths,
     )

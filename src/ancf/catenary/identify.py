@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,6 +22,10 @@ KINDS |= {"accelerance": (2, True), "mobility": (1, True), "receptance": (0, Tru
 WHERE = "identify_pantograph"
 #: Most masses that are tried, starts of each search, bounds of it as factors of the start.
 MOST_MASSES, STARTS, WIDE = 4, 12, 1e4
+#: A longer chain has to leave less than this share of the error of a shorter one: less follows the noise.
+CLEARLY = 0.8
+#: Relative error above which a chain does not answer as what was measured; masses of pantographs, kg.
+ROUGH, LIGHTEST, HEAVIEST = 0.1, 0.05, 100.0
 
 
 def dynamic_stiffness(unit: Pantograph, frequency: npt.ArrayLike) -> npt.NDArray[np.complex128]:
@@ -82,6 +88,11 @@ class Identified:
         return made
 
     @property
+    def plausible(self) -> bool:
+        """Whether all masses are those of a pantograph, 0.05 to 100 kg."""
+        return all(LIGHTEST <= mass <= HEAVIEST for mass in self.pantograph.masses)
+
+    @property
     def largest(self) -> float:
         """Largest of them."""
         return float(np.max(np.abs(self.errors)))
@@ -100,7 +111,8 @@ def identify_pantograph(
     """Fit a chain of masses to the frequency response at the strip, from the roof at rest.
 
     Relative errors of the complex response at all frequencies are made as small as can be in the mean, from
-    several starts. Without `masses` the shortest chain that stays within the tolerance is taken, or the best.
+    several starts. Without `masses` the shortest chain that stays within the tolerance is taken, or else the
+    shortest of which no longer one with masses of a pantograph leaves clearly less, four fifths of its error.
 
     Parameters
     ----------
@@ -122,28 +134,70 @@ def identify_pantograph(
     ------
     ModelError
         Lists of different lengths, too few values, a value that is zero or not finite, an unknown kind.
+
+    Warns
+    -----
+    UserWarning
+        The error is above 10 %, with the kind that would fit, or a mass is none of a pantograph.
     """
     f, stiffness = _checked(frequency, response, kind)
     counts = list(range(1, MOST_MASSES + 1))
     if masses is not None:
         counts = [checks.integer(masses, f"{WHERE}.masses", 1, MOST_MASSES)]
     checks.positive(tolerance, f"{WHERE}.tolerance")
-    best: Identified | None = None
+    more = {"name": "identified", "static_force": static_force, **more}
+    found = _best(f, stiffness, counts, tolerance, more)
+    for text in _cautions(found, frequency, response, kind):
+        warnings.warn(text, UserWarning, stacklevel=2)
+    return found
+
+
+def _best(
+    f: FloatArray,
+    stiffness: npt.NDArray[np.complex128],
+    counts: Sequence[int],
+    tolerance: float,
+    more: dict[str, Any],
+) -> Identified:
+    """The shortest chain within the tolerance, or of which no longer one is clearly better."""
+    made: list[Identified] = []
     for count in counts:
         if 3 * count > 2 * f.size:
             break
         m, k, c = _fit(f, stiffness, count)
-        unit = Pantograph(
-            masses=m, stiffness=k, damping=c, static_force=static_force, **{"name": "identified", **more}
-        )
-        found = Identified(unit, f, stiffness, dynamic_stiffness(unit, f))
-        if best is None or found.error < best.error:
-            best = found
-        if best.error <= tolerance:
-            break
-    if best is None:
+        unit = Pantograph(masses=m, stiffness=k, damping=c, **more)
+        made.append(Identified(unit, f, stiffness, dynamic_stiffness(unit, f)))
+        if made[-1].error <= tolerance and made[-1].plausible:
+            return made[-1]
+    if not made:
         raise ModelError(f"{WHERE}.frequency", f"has {f.size} values, too few for the chain", "give more")
-    return best
+    likely = [one for one in made if one.plausible] or made
+    least = min(one.error for one in likely)
+    return next(one for one in likely if one.error * CLEARLY <= least)
+
+
+def _cautions(found: Identified, frequency: Any, response: Any, kind: str) -> Iterator[str]:
+    """What is to be said about a chain before it is used."""
+    if found.error > ROUGH:
+        text = (
+            f"{WHERE}: the chain is {100.0 * found.error:.0f} % off in the mean, above {100.0 * ROUGH:.0f} %"
+        )
+        fits = {}
+        for other in KINDS:
+            f, stiffness = _checked(frequency, response, other)
+            counts = [n for n in range(1, MOST_MASSES) if 3 * n <= 2 * f.size]
+            one = _best(f, stiffness, counts, ROUGH, {"static_force": 1.0}) if other != kind else found
+            if one.plausible:
+                fits[other] = one.error
+        near = min(fits, key=fits.__getitem__, default=kind)
+        if near != kind and fits[near] < CLEARLY * found.error:
+            better = f"{100.0 * fits[near]:.2g} %"
+            text += f'; as kind "{near}" a chain is {better} off: is "{kind}" what was measured?'
+        yield text
+    if not found.plausible:
+        sizes = ", ".join(f"{mass:.3g}" for mass in found.pantograph.masses)
+        text = f"{WHERE}: masses of {sizes} kg are none of a pantograph, {LIGHTEST:g} to {HEAVIEST:g} kg: "
+        yield text + "they follow noise, or the kind or the unit of the response is another one"
 
 
 def _checked(frequency: Any, response: Any, kind: str) -> tuple[FloatArray, npt.NDArray[np.complex128]]:

@@ -10,6 +10,7 @@ import typer
 from .common_options import Folder, OptionalFolder, Quiet, Report, Set, States, To
 from .guard import reported
 from .line_options import (
+    Aerodynamic,
     ContactKind,
     ContactStiffness,
     Elements,
@@ -152,6 +153,7 @@ def catenary_identify(
     kind: ResponseKind = "apparent_mass",
     masses: Masses = None,
     static_force: StaticForce = 70.0,
+    aerodynamic: Aerodynamic = 0.0,
     quiet: Quiet = False,
 ) -> None:
     """Fit a pantograph to the frequency response at its strip, and write it as a file for ancf catenary run.
@@ -161,7 +163,7 @@ def catenary_identify(
     with reported():
         from .catenary_identify import identify
 
-        identify(response, output, kind, masses, static_force, quiet)
+        identify(response, output, kind, masses, static_force, aerodynamic, quiet)
 
 
 @catenary.command("elasticity")

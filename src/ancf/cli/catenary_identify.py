@@ -15,6 +15,7 @@ def identify(
     kind: str = "apparent_mass",
     masses: int | None = None,
     static_force: float = 70.0,
+    aerodynamic: float = 0.0,
     quiet: bool = False,
 ) -> None:
     """Fit, print and write.
@@ -31,7 +32,10 @@ def identify(
 
     checks.choice(kind, "--kind", tuple(KINDS))
     frequency, measured = read_response(response)
-    found = identify_pantograph(frequency, measured, kind=kind, masses=masses, static_force=static_force)
+    checks.non_negative(aerodynamic, "--aerodynamic")
+    found = identify_pantograph(
+        frequency, measured, kind=kind, masses=masses, static_force=static_force, aerodynamic=aerodynamic
+    )
     unit, error = found.pantograph, f"{100 * found.error:.2g} %"
     worst = float(found.frequency[int(np.argmax(np.abs(found.errors)))])
     largest = f"{100 * found.largest:.2g} % at {worst:g} Hz"
@@ -47,3 +51,8 @@ def identify(
     console().print(made)
     console().print(f"relative error of the response: {error} in the mean, {largest}", soft_wrap=True)
     console().print(f"written: {path}", soft_wrap=True)
+    lift = f"{unit.force(0.0):g} N at standstill, {unit.force(250.0 / 3.6):.1f} N at 250 km/h"
+    if aerodynamic == 0.0:
+        lift = f"{unit.force(0.0):g} N at every speed: a response does not tell the aerodynamic force; "
+        lift += "--aerodynamic K gives K v^2, v in m/s (0.01257 for the law of the mean force, AC)"
+    console().print(f"force: {lift}", soft_wrap=True)

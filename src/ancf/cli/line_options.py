@@ -125,3 +125,9 @@ Masses = Annotated[
     int | None, typer.Option(metavar="N", help="Masses of the chain.", show_default="as few as fit")
 ]
 StaticForce = Annotated[float, typer.Option("--static-force", metavar="N", help="At standstill, N.")]
+Aerodynamic = Annotated[
+    float,
+    typer.Option(
+        "--aerodynamic", metavar="K", help="Of the force K v^2, N s^2/m^2: a response does not tell it."
+    ),
+]
