@@ -73,6 +73,8 @@ class Family:
     shift, turn : ndarray
         Derivatives of the state where it is held, (size,), and of the local axes of supports, (k, 3, 3), if
         these are all that keeps it from being plain; else, and where they are zero, empty.
+    constant : bool
+        No dead load of the model changes with time.
 
     Raises
     ------
@@ -214,7 +216,7 @@ class Family:
         self.turn = turn if plain and np.any(turn) else turn[:0]
         self._loads = any(not same_loads(base, s) for s in self.systems)
         self._steady: list[FloatArray] | None = None
-        self._constant = all(f.constant for s in self.systems for f in s.inputs.loads)
+        self.constant = all(f.constant for s in self.systems for f in s.inputs.loads)
 
     def _has_own(self, system: System) -> bool:
         """Whether no batch that the parameter changes has inputs, or rows of constraints, of the system's."""
@@ -247,12 +249,12 @@ class Family:
             return
         if self._steady is None:
             self._steady = (
-                [self._value(k, when, 1) for k in range(len(self.systems))] if self._constant else []
+                [self._value(k, when, 1) for k in range(len(self.systems))] if self.constant else []
             )
         for k, (system, weight) in enumerate(zip(self.systems, self.weights, strict=True)):
             value = tables.value
             if not self._fed:
-                value = self._steady[k] if self._constant else self._value(k, when, len(value))
+                value = self._steady[k] if self.constant else self._value(k, when, len(value))
             yield weight, system.dead, value
 
     def _value(self, k: int, when: tuple[float, float, float, float], count: int) -> FloatArray:

@@ -11,6 +11,7 @@ from ..batches import Batches
 from ..simd import LANES
 from ..solvers.pushes import Uses, add_loads, add_pushes
 from ..solvers.sensitivity import Way
+from ..system.core import apply_load
 from ..system.system import System
 from .family import Family
 
@@ -48,6 +49,7 @@ class Nearby:
         self.others = [k for k in range(len(families)) if k not in self.plain]
         self._uses, self._turn = uses_of(families, self.plain), self._turns_of(self.plain)
         self._work, self._kept = np.zeros(system.size), np.zeros(0)
+        self._weights: dict[int, Any] = {}  # derivatives of steady loads
 
     def _turns_of(self, chosen: list[int]) -> FloatArray:
         """Derivatives of the local axes by the chosen parameters, (p, k, 3, 3), if any turns; else none."""
@@ -105,10 +107,26 @@ class Nearby:
         self, way: Way, when: tuple[float, float, float, float], tables: Any, rows: FloatArray
     ) -> None:
         for row, k in enumerate(self.plain):
+            if k not in self._weights:
+                self._weights[k] = self._steady_loads(k, when, tables)
+            steady = self._weights[k]
+            if steady is not None:
+                rows[row] -= steady
+                continue
             for weight, loads, value in self.families[k].loads_used(when, tables):
                 add_loads(loads, value, weight, self._work, rows[row])
         if self.plain:
             add_pushes(self.system.core, self._uses, self._turn, tables, way, self._work, rows)
+
+    def _steady_loads(self, k: int, when: tuple[float, float, float, float], tables: Any) -> Any:
+        """Derivative of dead loads by a parameter, (size,) or 0, if it is the same at all times, or None."""
+        total: Any = 0.0
+        for weight, loads, value in self.families[k].loads_used(when, tables):
+            if len(loads.hung_slot) or (len(loads.start) > 1 and not self.families[k].constant):
+                return None
+            apply_load(loads, value[0], self._work)
+            total = total + weight * self._work
+        return total
 
 
 def uses_of(families: list[Family], chosen: list[int]) -> Uses:

@@ -12,8 +12,6 @@ for a part of K, W = -W^T, which is not in the factors and is made up for by ite
 
 from __future__ import annotations
 
-import numpy as np
-
 from ..compiled import inline_kernel, kernel
 from ..linalg.eight import factor_of
 from ..simd import LANES
@@ -56,12 +54,13 @@ def take_wanted(supports, wanted, mu, x, moved):
 @inline_kernel
 def solve_twisted(core, factor, W, lam, d, r, w):
     """Solve with the transposed matrix, whose antisymmetric half W is not in the factors; a status."""
-    n, before = core.weight.shape[0], np.inf
+    n, before = core.weight.shape[0], 0.0
     solve_matrix(factor, lam)
     if W.shape[0] == 0:
         return OK
     for i in range(n):
         d[i] = lam[i]
+        before = max(before, abs(lam[i]))  # the first of the corrections, each of which follows from the last
     for _ in range(MOST):
         onto_shadows(core.supports, d)
         for i in range(r.shape[0]):

@@ -37,14 +37,16 @@ def matrices_at(core, m, K, C, W, A, q, v, B, G):
     for i in range(still.shape[0]):
         still[i] = 0.0
     stiffnesses(core, m, K, W, q, v, still)
-    for i in range(K.shape[0]):
-        A[i] = K[i] + m.M[i] / B
+    c_mass, c_damping = 1.0 / B, G / B
     if m.damped:
         for i in range(K.shape[0]):
             C[i] = 0.0
         add_tangents(m.exact, q, v, C, 0.0, 1.0, 0.0, core.ws)
         for i in range(K.shape[0]):
-            A[i] += C[i] * (G / B)
+            A[i] = K[i] + c_mass * m.M[i] + c_damping * C[i]
+    else:
+        for i in range(K.shape[0]):
+            A[i] = K[i] + c_mass * m.M[i]
     add_tangents(m.rough, q, v, A, 1.0 / B, G / B, 1.0, core.ws)
     restrict(core.supports, A)
 
