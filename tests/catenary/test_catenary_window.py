@@ -116,6 +116,18 @@ class TestFilterBeforeCut:
         assert found["raw_height_range"].value == pytest.approx(0.0)
 
 
+def test_height_on_a_gradient():
+    """It climbs with the wire; over the nominal height it is the range of a level line, filter by filter."""
+    level, steep = made(), made()
+    steep.form.line.height_at = lambda x: 4e-3 * np.asarray(x)
+    climbed = steep.recordings[0].height + 4e-3 * steep.recordings[0].position
+    found = statistics(with_record(steep, height=climbed))
+    wanted = statistics(level)["height_range"].value
+    assert found["height_range_over_nominal"].value == pytest.approx(wanted, rel=1e-6)
+    assert found["height_range"].value > 1e3 * 4e-3 * np.ptp(WINDOW) - wanted
+    assert "height_range_over_nominal" not in [q.key for q in statistics(level).quantities]
+
+
 class TestEndsOfARecord:
     """A record is continued beyond its ends, turned about them: a straight line stays one."""
 

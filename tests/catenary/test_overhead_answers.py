@@ -10,8 +10,8 @@ from scipy.sparse.linalg import spsolve
 
 import catenary_stand_in as stand_in
 from ancf import ModelError
-from ancf.catenary import FatigueLine, acceptance, clamp_strains, rainflow, time_above
-from ancf.catenary.acceptance import ARC
+from ancf.catenary import FatigueLine, Quantity, acceptance, clamp_strains, rainflow, time_above
+from ancf.catenary.acceptance import ARC, footnote, verdict
 from ancf.catenary.clamp_strain import edge, strain_below_strip, strain_of_force
 from ancf.catenary.statistics import statistics
 from ancf.catenary.write import write_cycles
@@ -106,6 +106,15 @@ class TestClampStrain:
         wire.EA, wire.EI = 1e11 * np.pi * 0.007**2, 1e11 * np.pi * 0.007**4 / 4.0
         assert edge(wire) == pytest.approx(0.007)
 
+    def test_a_filter_that_overshoots(self, run):
+        """Behind a loss of contact the filtered force is below 0, which no strip does: a note says so."""
+        position = run.recordings[0].position
+        lost = of(run, force=np.where((position > 280.0) & (position < 300.0), 0.0, 200.0))
+        found = statistics(lost)
+        assert found["minimum"].value < 0.0
+        assert "unfiltered smallest force is 0.0 N" in footnote(found)
+        assert footnote(statistics(of(run, force=np.full(run.t.size, 100.0)))) == ""
+
     def test_above_the_wave_speed_it_is_endless(self):
         assert strain_of_force(stand_in.line().contact_wire, 130.0) == np.inf
 
@@ -170,21 +179,43 @@ class TestAcceptance:
     @pytest.mark.parametrize(
         ("kmh", "supply", "low", "high", "largest"),
         [
-            (160.0, "AC", 72.0, 103.0, 300.0),  # 72.03, 102.03
-            (250.0, "AC", 89.0, 131.0, 350.0),  # 89.4, 130.6
-            (300.0, "AC", 102.0, 158.0, 350.0),  # 102.3, 157.3
-            (199.0, "DC 3 kV", 128.0, 149.0, 300.0),  # 128.0, 148.4
-            (220.0, "DC 3 kV", 136.0, 157.0, 400.0),  # 136.5, 156.9
-            (199.0, "DC 1.5 kV", 114.0, 179.0, 300.0),  # 114.4, 178.4
+            (160.0, "AC", 72.0, 102.0, 300.0),  # 72.03, 102.03
+            (250.0, "AC", 89.4, 130.6, 350.0),  # 89.4, 130.6
+            (300.0, "AC", 102.3, 157.3, 350.0),  # 102.3, 157.3
+            (199.0, "DC 3 kV", 128.0, 148.4, 300.0),  # 128.0, 148.4
+            (220.0, "DC 3 kV", 136.5, 156.9, 400.0),  # 136.5, 156.9
+            (199.0, "DC 1.5 kV", 114.4, 178.4, 300.0),  # 114.4, 178.4
         ],
     )
     def test_mean_force(self, kmh, supply, low, high, largest):
-        """a v^2 + b of each supply by hand."""
+        """a v^2 + b of each supply by hand, to a tenth of a newton."""
         found = by_key(acceptance(stand_in.run(speed=kmh / 3.6), supply=supply))
         assert (found["mean_force"].low, found["mean_force"].high) == (low, high)
         assert found["maximum"].high == largest
         assert found["deviation"].high == pytest.approx(0.3 * found["mean_force"].value, abs=0.05)
         assert all(q.tag for q in found.values() if q.inside is not None)
+
+    def test_verdict(self, run):
+        """One sentence with value and limit of what is outside."""
+        assert verdict([q for q in acceptance(run) if q.inside is not False]) == "inside all limits"
+        rows = [
+            Quantity("mean_force", "mean force Fm, AC", "N", 70.0, low=78.8, high=108.8),
+            Quantity("deviation", "standard deviation, at most 0.3 Fm", "N", 34.2, high=32.3),
+            Quantity("minimum", "smallest force, below 20 Hz", "N", 1.0, low=0.0),
+            Quantity("speed_ratio", "speed / wave speed", "", 0.9, high=0.7),
+        ]
+        wanted = "outside: mean force Fm (70.0 < 78.8 N), standard deviation (34.2 > 32.3 N)"
+        assert verdict(rows) == f"{wanted}, speed / wave speed (0.900 > 0.700)"
+
+    def test_above_the_wave_speed(self, tmp_path):
+        """The closed form of the strain ends there: nothing is said of it, and all else is as it was."""
+        fast = stand_in.run(speed=1.1 * np.sqrt(20e3 / 1.35), step=1e-3)
+        keys = by_key(acceptance(fast)).keys()
+        assert {"mean_force", "speed_ratio"} <= keys
+        assert not {"strip_strain", "clamp_strain"} & keys
+        assert clamp_strains(fast) == []
+        rows = write_cycles(fast, tmp_path / "cycles.csv").read_text().splitlines()
+        assert {row.split(",")[0] for row in rows[1:]} == {"force_N"}
 
     @pytest.mark.parametrize(("samples", "counted"), [(2, False), (3, True), (10, True)])
     def test_arcs_last_5_ms(self, run, samples, counted):

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from ancf import ModelError
 from ancf.catenary import Mesh, Quantity, acceptance, read_line, run
-from ancf.catenary.report.sweep import Sweep, pieces, write_sweep
+from ancf.catenary.report.sweep import Sweep, pieces, warned, write_sweep
 from ancf.cli.app import app
 from ancf.design.sweep import SPACING, SPEED, SweepCase, sweep, values_of
 from ancf.viz.html import page
@@ -173,6 +173,19 @@ class TestReport:
         assert ("run.start: outside" in text) == (len(given.rows) > 1)
         accepted = len(given.done) if count == 1 else 0
         assert f"{accepted} of {len(given.rows)} cases are accepted with all pantographs" in text
+
+    def test_warnings_once_with_their_cases(self):
+        given = made_up((160.0, 200.0, 250.0), (), 1)
+        speed = "run.speed: {} km/h is {} of the wave speed"
+        given.rows[0]["message"] = f"warning: {speed.format(160, 0.91)}; warning: run.step: 5 ms is long"
+        given.rows[2]["message"] = f"warning: {speed.format(250, 1.42)}"
+        assert warned(given.rows, SPEED, SPACING) == [
+            (speed.format(160, 0.91), ["160 km/h", "250 km/h"]),
+            ("run.step: 5 ms is long", ["160 km/h"]),
+        ]
+        text = page("title", *pieces(given, "title", save=lambda _: b"png"))
+        assert "160 km/h, 250 km/h" in text
+        assert "run.step: 5 ms is long" in text
 
     def test_files(self, tmp_path):
         files = write_sweep(made_up((160.0, 200.0, 250.0), (), 1), tmp_path, ("html", "pdf", "docx"))

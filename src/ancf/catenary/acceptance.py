@@ -6,7 +6,7 @@ the standards, which their tags say.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,8 +15,8 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
 from . import passing
-from .clamp_strain import ALLOWED, bends, clamp_strains, strain_below_strip
-from .quantity import Quantity
+from .clamp_strain import ALLOWED, clamp_strains, strain_below_strip, strained
+from .quantity import Quantity, shown
 from .signals import at_zero, sample_rate
 from .statistics import LARGEST_DEVIATION, LARGEST_SPEED_RATIO, MEAN_FORCE_LAW, mean_force_target, statistics
 
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 KMH, MM = 3.6, 1e3
 #: Speed up to which the slower of two rules holds, km/h.
 SLOW = 200.0
-#: Limits of the mean force are rounded outwards to whole newtons.
 #: Least mean force, N: a v^2 (v in km/h) + b by power supply (EN 50367).
 LEAST_MEAN = {"AC": (0.00047, 60.0), "DC 3 kV": (0.00096, 90.0), "DC 1.5 kV": (0.00112, 70.0)}
 #: Largest mean force below SLOW where it is another law: AC.
@@ -78,6 +77,30 @@ def acceptance(
     ]  # fmt: skip
 
 
+def verdict(found: Sequence[Quantity]) -> str:
+    """One sentence on the quantities of a pantograph: "outside: standard deviation (34.2 > 32.3 N)"."""
+    outside = [q for q in found if q.inside is False]
+    if not outside:
+        return "inside all limits"
+    return "outside: " + ", ".join(_missed(q) for q in outside)
+
+
+def footnote(found: Statistics) -> str:
+    """What a smallest force below zero means; nothing of others."""
+    if found["minimum"].value >= 0.0:
+        return ""
+    return (
+        "A smallest force below 0 is the filter's, which overshoots where contact is lost or found again: "
+        f"the unfiltered smallest force is {shown(found['raw_minimum'].value, 'N')} N, a strip does not pull."
+    )
+
+
+def _missed(q: Quantity) -> str:
+    sign, limit = ("<", q.low) if q.low is not None and q.value < q.low else (">", q.high)
+    unit = f" {q.unit}" if q.unit else ""
+    return f"{q.name.partition(',')[0]} ({shown(q.value, q.unit)} {sign} {shown(limit, q.unit)}{unit})"
+
+
 def _forces(run: Run, k: int, supply: str, found: Statistics) -> Iterator[Quantity]:
     speeds = KMH * passing.speeds_in_window(run, k)
     square = float(np.sqrt(np.mean(speeds**2)))
@@ -89,9 +112,7 @@ def _forces(run: Run, k: int, supply: str, found: Statistics) -> Iterator[Quanti
         most = slope * square**2 + base
     mean, sigma = found["mean_force"].value, found["deviation"].value
     name = f"mean force Fm, {supply}"
-    yield Quantity(
-        "mean_force", name, "N", mean, low=float(np.floor(least)), high=float(np.ceil(most)), tag="U"
-    )
+    yield Quantity("mean_force", name, "N", mean, low=round(least, 1), high=round(most, 1), tag="U")
     limit = round(LARGEST_DEVIATION * mean, 1)
     yield Quantity("deviation", "standard deviation, at most 0.3 Fm", "N", sigma, high=limit, tag="U")
     highest = LARGEST[supply][0 if slow else 1]
@@ -145,16 +166,15 @@ def _stops(run: Run, places: list[float]) -> list[float]:
 
 def _strain(run: Run, k: int, found: Statistics) -> Iterator[Quantity]:
     """Bending of the contact wire; nothing of a wire without bending stiffness."""
-    if not bends(run.form.line):
+    if not strained(run):
         return
     window = found.window
     below = strain_below_strip(run, k)[window]
     at_strip = 1e6 * float(np.max(below))
-    if np.isfinite(at_strip):
-        name = "bending strain of the contact wire below the strip"
-        yield Quantity("strip_strain", name, "1e-6", at_strip, high=1e6 * ALLOWED, tag="practice")
+    name = "bending strain of the contact wire below the strip"
+    yield Quantity("strip_strain", name, "1e-6", at_strip, high=1e6 * ALLOWED, tag="practice")
     clamps = clamp_strains(run)
-    if clamps and np.isfinite(clamps[0].largest):
+    if clamps:
         name = "its change at clamps, all pantographs"
         largest = 1e6 * max(c.change for c in clamps)
         yield Quantity("clamp_strain", name, "1e-6", largest, high=1e6 * ALLOWED, tag="practice")

@@ -209,7 +209,7 @@ def _add_guide(model: Model, chain: Chain, level: Level, name: str, roof: PointM
 
     model.pin(guide, displacement=motion)
     short = 1e-3
-    climb = (float(level(start + short)) - float(level(start - short))) / (2.0 * short)
+    climb = (float(level(start + short)) - first) / short  # of what is ahead, where the slope may change
     x, y, z = track.velocity(1.0)
     guide.set_motion(velocity=(x, y, z + float(travel.speed(0.0)) * climb))
     return guide

@@ -67,6 +67,15 @@ def bends(line: Line | Route) -> bool:
     return bool(wire.EI > 0.0 and not getattr(wire, "rail", False))
 
 
+def strained(run: Run) -> bool:
+    """Whether contact wires bend, and all pantographs run below their wave speeds: strains are known."""
+    if not bends(run.form.line):
+        return False
+    speeds = [_speed(run, k) for k in range(len(run.recordings))]
+    wires = [part.contact_wire for part in run.form.line.parts]
+    return all(np.isfinite(strain_of_force(wire, speed)) for wire in wires for speed in speeds)
+
+
 def edge(wire: Any) -> float:
     """Distance of the edge of a contact wire from its axis, m; of a round bar if no diameter is given."""
     given = getattr(wire, "diameter", None)
@@ -102,8 +111,11 @@ def clamp_strains(run: Run, over: tuple[float, float] | None = None) -> list[Cla
 
     The force of a clamp is that of its dropper less its weight; where a strip passes, its contact force
     below 20 Hz adds to it, also at the very instant of the passing. What the strip gives above 20 Hz
-    accelerates the clamp, whose inertia is left out, as is that of the wire.
+    accelerates the clamp, whose inertia is left out, as is that of the wire. From the wave speed on the
+    closed form has no strain below a strip, and nothing is returned.
     """
+    if not strained(run):
+        return []
     low, high = run.window if over is None else over
     rate, butterworth, found, first, before = sample_rate(run.t), Butterworth(), [], 0, 0
     for part in run.form.line.parts:

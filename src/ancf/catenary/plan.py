@@ -242,19 +242,27 @@ def _window(
 
 
 def _middle(line: Line | Route, first: float, room: float) -> tuple[float, float]:
-    """A third of the spans, fewer if need be, as near the middle as the train allows; never the end spans."""
+    """A third of the spans, fewer if need be, as near the middle as the train allows; never the end spans.
+
+    Where no span begins behind the run-in, those that begin where the first pantograph has started.
+    """
     supports, spans = line.marks, line.marks.size - 1
-    for count in range(max(1, spans // 3), 0, -1):
-        starts = [
-            k
-            for k in range(1, spans - count)
-            if supports[k] >= first + RUN_IN and supports[k + count] + room <= line.length
-        ]
-        if starts:
-            best = min(starts, key=lambda k: abs(supports[k] + supports[k + count] - line.length))
-            return float(supports[best]), float(supports[best + count])
+    for lead in (RUN_IN, 0.0):
+        for count in range(max(1, spans // 3), 0, -1):
+            starts = [
+                k
+                for k in range(1, spans - count)
+                if supports[k] >= first + lead and supports[k + count] + room <= line.length
+            ]
+            if starts:
+                best = min(starts, key=lambda k: abs(supports[k] + supports[k + count] - line.length))
+                return float(supports[best]), float(supports[best + count])
     what = f"no span is left to evaluate: the train starts up to {first:g} m and needs {room:g} m beyond"
-    raise ModelError("run.window", what, f"use a line longer than {line.length:g} m, or less spacing")
+    hint = f"use a line longer than {line.length:g} m, or less spacing"
+    low, high = float(np.ceil(first)), float(np.floor(line.length - room))
+    if low < high:
+        hint += f"; or give a part of a span, --window {low:g} {high:g}, window=({low:g}, {high:g})"
+    raise ModelError("run.window", what, hint)
 
 
 def _check_strips(line: Line | Route, pantographs: list[Pantograph]) -> None:

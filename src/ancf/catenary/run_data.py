@@ -30,7 +30,7 @@ class Recording:
     force : (n,) float
         Contact force, unfiltered, N; 0 while contact is lost.
     height : (n,) float
-        Height of the contact wire at the contact point, above its nominal height, m.
+        Height of the contact wire at the contact point, as z of the line, m: on a gradient it climbs.
     stagger : (n,) float
         Sideways position of the contact point, m.
     strip : (n,) float

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 MM, MS, KMH = 1e3, 1e3, 3.6
 #: Largest accepted ratio of standard deviation to mean force (EN 50367).
 LARGEST_DEVIATION = 0.3
+#: Height that a level line may change, m.
+LEVEL = 1e-6
 #: Largest usual ratio of speed to wave speed.
 LARGEST_SPEED_RATIO = 0.7
 #: Mean-force law: 0.00097 v^2 (v in km/h) plus this, N, by power supply.
@@ -96,6 +98,7 @@ def statistics(run: Run, pantograph: int = 0, filter: Butterworth | None = None)
         *_loss(recording.force[window], 1.0 / rate),
         *_line(run, passing.uplift_in_window(run, pantograph), droppers),
         *_height(recording.height, rate, window, chosen),
+        *_over_nominal(run, pantograph, rate, window, chosen),
         *_speed(run, passing.speeds_in_window(run, pantograph)),
     )
     return Statistics(recording.name, quantities, chosen, force, window, supports, droppers)
@@ -155,6 +158,18 @@ def _height(height: FloatArray, rate: float, window: slice, chosen: Butterworth)
     yield Quantity("height_range", "range of contact-point height", "mm", MM * float(np.ptp(below)))
     raw = MM * float(np.ptp(height[window]))
     yield Quantity("raw_height_range", "range of contact-point height, unfiltered", "mm", raw)
+
+
+def _over_nominal(
+    run: Run, pantograph: int, rate: float, window: slice, chosen: Butterworth
+) -> Iterator[Quantity]:
+    """The same over the nominal height of the wire, where that is not level in the window."""
+    recording = run.recordings[pantograph]
+    level = np.asarray(run.form.line.height_at(recording.position), dtype=np.float64)
+    if float(np.ptp(level[window])) > LEVEL:
+        below = chosen.low_pass(recording.height - level, rate, CUT_OFF)[window]
+        name = "range of contact-point height over the nominal one"
+        yield Quantity("height_range_over_nominal", name, "mm", MM * float(np.ptp(below)))
 
 
 def _speed(run: Run, speeds: FloatArray) -> Iterator[Quantity]:

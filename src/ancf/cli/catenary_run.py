@@ -74,17 +74,26 @@ def run_line(
         output.clear()
         given["file"] = output.results if states else None
         screen.announce_compilation()
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            with screen.progress(1) as progress, _kept(given["file"]):
-                done = run(line, speed=speed, progress=progress, **given)
+        with _said_after(quiet), screen.progress(1) as progress, _kept(given["file"]):
+            done = run(line, speed=speed, progress=progress, **given)
         found, measured = _read(done, head)
         files = [*([output.results] if states else []), *_written(done, folder, formats, found, measured)]
     if not quiet:
-        for warning in caught:
-            console().print(f"warning: {warning.message}", soft_wrap=True)
         show(done, found, measured)
         console().print("written: " + ", ".join(str(file) for file in files), soft_wrap=True)
+
+
+@contextmanager
+def _said_after(quiet: bool) -> Iterator[None]:
+    """Keep warnings until what shows the progress is gone, however that ends."""
+    caught: list[warnings.WarningMessage] = []
+    try:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            yield
+    finally:
+        for warning in [] if quiet else caught:
+            warnings.warn(warning.message, stacklevel=1)
 
 
 @contextmanager
@@ -129,6 +138,7 @@ def _written(
 
 def show(done: Run, found: Sequence[Statistics] = (), measured: Sequence[Measured] = ()) -> None:
     """Print the statistics of each pantograph, and what it would have measured."""
+    from ..catenary.acceptance import acceptance, footnote, verdict
     from ..catenary.measuring_file import compared
     from ..catenary.state import at_rest, state
     from ..catenary.table import table
@@ -139,7 +149,14 @@ def show(done: Run, found: Sequence[Statistics] = (), measured: Sequence[Measure
     for k, one in enumerate(found or _read(done, None)[0]):
         title = f"{done.recordings[k].name}, {one['speed'].value:.4g} km/h"
         screen.print(title, style="bold", soft_wrap=True)
-        screen.print(table(one.quantities))
+        asked = acceptance(done, k, found=one)
+        number = f"Pantograph {k + 1}" if len(done.recordings) > 1 else "Pantograph"
+        screen.print(table(asked))
+        screen.print(f"{number}: {verdict(asked)}", style="bold", soft_wrap=True)
+        if footnote(one):
+            screen.print(footnote(one), soft_wrap=True)
+        known = {q.key for q in asked}
+        screen.print(table(q for q in one.quantities if q.key not in known))
         for name, true, force in compared(measured[k]) if measured else ():
             text = f"measured: {name} {force:.1f} N, {force - true:+.2f} N from the true one"
             screen.print(text, soft_wrap=True)

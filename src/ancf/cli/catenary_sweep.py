@@ -9,6 +9,7 @@ import typer
 
 from .guard import FAILED
 from .screen import Screen, console, table
+from .summary import plural
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -68,6 +69,7 @@ def sweep_line(
     if not quiet:
         _show(done, len(names))
         console().print("written: " + ", ".join(map(str, [folder / "table.csv", *files])), soft_wrap=True)
+        _tell_warnings(done)
     failed = done[done["status"] != "ok"]
     if len(failed):
         text = f"{len(failed)} of {len(done)} cases failed; the first: {failed['message'].iloc[0]}"
@@ -100,6 +102,20 @@ def _show(done: DataFrame, count: int) -> None:
             numbers = [_text(row.get(f"{key}_{k}"), digits) for key, digits in SHOWN]
             shown.add_row(*place, *([str(k)] if count > 1 else []), *numbers, verdict(row, k - 1))
     console().print(shown)
+
+
+def _tell_warnings(done: DataFrame) -> None:
+    """What cases warned of, each text once with the cases that it was said of."""
+    from ..catenary.report.sweep import warned
+    from ..design.sweep import SPACING, SPEED
+
+    rows = [{str(key): value for key, value in row.items()} for row in done.to_dict("records")]
+    told = warned(rows, SPEED, SPACING)
+    if told:
+        count = len({place for _, places in told for place in places})
+        console().print(f"{plural(count, 'case')} with warnings:", soft_wrap=True)
+        for text, places in told:
+            console().print(f"  {', '.join(places)}: {text}", soft_wrap=True)
 
 
 def _text(value: float | None, digits: int) -> str:

@@ -11,8 +11,8 @@ from ..._version import __version__
 from ...files import write_text
 from ...viz import printed, style
 from ...viz.html import element, figure, page, section
-from ..acceptance import acceptance
-from ..clamp_strain import bends
+from ..acceptance import acceptance, footnote, verdict
+from ..clamp_strain import strained
 from ..state import at_rest, state, titled
 from . import measured as measuring
 from . import tables
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from ..elasticity import Elasticity
     from ..measuring import Measured
+    from ..quantity import Quantity
     from ..references import Reference
     from ..run_data import Run
 
@@ -91,14 +92,20 @@ def _write(content: Content, files: Sequence[tuple[str, Path]]) -> list[Path]:
 
 def pieces(content: Content, title: str, save: Save = style.svg) -> list[Element]:
     """Elements of the report, its pictures as SVG or PNG."""
-    judged = [] if content.reference is not None else [_acceptance(content)]
+    lists = [] if content.reference is not None else accepted(content)
+    judged = [_acceptance(content, lists)] if lists else []
     answers = [*_statistics(content), *_measured(content), _figures(content, save), *_line_tables(content)]
     parts = [*judged, *answers, _computed(content)]
     links = [element("a", str(part[0].text), href=f"#{part.get('id')}") for part in parts]
-    return [*_top(content, title), element("nav", *links), *parts, _foot()]
+    return [*_top(content, title, lists), element("nav", *links), *parts, _foot()]
 
 
-def _top(content: Content, title: str) -> Iterator[Element]:
+def accepted(content: Content) -> list[list[Quantity]]:
+    """What the standards ask for, a list for each pantograph."""
+    return [acceptance(content.run, k, found=one) for k, one in enumerate(content.found)]
+
+
+def _top(content: Content, title: str, lists: Sequence[Sequence[Quantity]]) -> Iterator[Element]:
     yield element("h1", title)
     names = ", ".join(unit.title or unit.name for unit in content.run.pantographs)
     head = "Pantographs, the first ahead" if content.several else "Pantograph"
@@ -108,6 +115,9 @@ def _top(content: Content, title: str) -> Iterator[Element]:
     found = content.run.form
     yield element("p", f"State: {state(found.line)}; at rest {at_rest(found)}.", class_="faint")
     if content.reference is None:
+        for name, one in zip(content.names, lists, strict=True):
+            told = f"{name}: {verdict(one)}" if content.several else verdict(one).capitalize()
+            yield element("p", f"{told} of EN 50367, EN 50119 and practice.", class_="verdict")
         return
     for k in range(len(content.found)):
         yield element("p", _verdict(content, k), class_="verdict")
@@ -126,19 +136,20 @@ def _verdict(content: Content, k: int) -> str:
     return f"{before}{found}{told}; {content.filter_note(k)}."
 
 
-def _acceptance(content: Content) -> Element:
+def _acceptance(content: Content, lists: Sequence[Sequence[Quantity]]) -> Element:
     """What the standards ask for, of all pantographs side by side."""
-    lists = [acceptance(content.run, k, found=one) for k, one in enumerate(content.found)]
     limits = (
         "Limits of EN 50367, EN 50119 and the TSI Energy for AC 25 kV, and the bending strain of contact "
         "wires that RTRI allows (Quarterly Report 66 (2025) 84-89)."
     )
+    notes = dict.fromkeys(filter(None, map(footnote, content.found)))
     return section(
         "Acceptance",
         "acceptance",
         tables.beside(content.names, lists),
         tables.tags([q for one in lists for q in one]),
         element("p", limits, class_="faint"),
+        *(element("p", text, class_="faint") for text in notes),
         element("h3", "Time above a force"),
         tables.times_above(content),
     )
@@ -203,7 +214,7 @@ def _line_tables(content: Content) -> Iterator[Element]:
     for k in range(len(content.found)):
         title = "Droppers in the window" + (f", {content.name(k)}" if content.several else "")
         yield section(title, f"droppers-{k + 1}", tables.droppers(content, k))
-    if bends(content.run.form.line) and any(low <= x <= high for x in content.run.form.line.dropper_x):
+    if strained(content.run) and any(low <= x <= high for x in content.run.form.line.dropper_x):
         yield section("Cycles of clamps and droppers", "cycles", tables.clamps(content), *_of_cycles())
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
     from .figures import Save
 
+#: Numbers of a text, which differ from case to case.
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 #: A case: its numbers by name, "status" and "message".
 Row = Mapping[str, Any]
 #: Quantities of the tables: key, head, unit.
@@ -131,6 +134,10 @@ def pieces(sweep: Sweep, title: str, save: Save) -> list[Element]:
         told = [(*_place(sweep, row), str(row["message"])) for row in failed]
         shows = table((*_heads(sweep), "message"), told, numbers=range(len(_heads(sweep))))
         parts.append(section("Failed cases", "failed", shows))
+    warnings = warned(sweep.rows, sweep.speed, sweep.spacing)
+    if warnings:
+        texts = [(", ".join(places), text) for text, places in warnings]
+        parts.append(section("Warnings", "warnings", table(("cases", "warning"), texts)))
     day = datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%d %H:%M UTC")
     foot = (LIMITS, f"ancf {__version__}, {day}")
     return [*parts, *(element("p", text, class_="faint") for text in foot)]
@@ -153,6 +160,19 @@ def verdict(row: Row, k: int) -> str:
     missed = [key.removeprefix(before).removesuffix(behind) for key in keys if key.endswith(behind)]
     told = ", ".join(names.get(key, key.replace("_", " ")) for key in missed)
     return f"outside: {told}" if told else "outside"
+
+
+def warned(rows: Sequence[Row], speed: str, spacing: str) -> list[tuple[str, list[str]]]:
+    """Each text of a warning, numbers aside, with the cases of which it was said: "250 km/h, 200 m"."""
+    found: dict[str, tuple[str, list[str]]] = {}
+    for row in rows:
+        place = f"{row[speed]:g} km/h" + (f", {row[spacing]:g} m" if spacing in row else "")
+        for part in str(row["message"] if row["status"] == "ok" else "").split("warning: ")[1:]:
+            text = part.rstrip("; ")
+            told = found.setdefault(text.partition(":")[0] + NUMBER.sub("#", text), (text, []))
+            if place not in told[1]:
+                told[1].append(place)
+    return list(found.values())
 
 
 def _heads(sweep: Sweep) -> tuple[str, ...]:

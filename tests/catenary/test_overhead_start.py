@@ -1,0 +1,49 @@
+"""Where a run starts and what of it is evaluated when nobody says it, on short lines and on gradients."""
+
+import warnings
+
+import pytest
+
+from ancf import ModelError
+from ancf.catenary import form, run
+from ancf.catenary.collectors import Touch
+from ancf.catenary.plan import Door, make_plan
+from ancf.catenary.travel import make_travel
+from overhead_lines import COARSE, STEP, collector, short_line
+
+
+@pytest.fixture(scope="module")
+def found():
+    return form(short_line(), COARSE)
+
+
+def planned(found, start, spacing=None):
+    return make_plan(found, make_travel(40.0), collector(), spacing, start, None, None, Touch(), STEP, Door())
+
+
+class TestWindow:
+    def test_behind_the_run_in(self, found):
+        assert planned(found, 15.0).window == (66.0, 98.0)
+
+    def test_a_span_that_fits_without_it(self, found):
+        """50 m behind 55 m no span begins; the one from 66 m on is whole, and a warning tells it."""
+        assert planned(found, 55.0).window == (66.0, 98.0)
+        with pytest.warns(UserWarning, match=r"run\.window: begins 11 m after"):
+            run(found, speed=40.0, pantograph=collector(), step=STEP, start=55.0)
+
+    def test_part_of_a_span(self, found):
+        with pytest.raises(ModelError, match="no span is left to evaluate") as caught:
+            planned(found, 100.0)
+        assert "--window 100 126" in caught.value.hint
+        with pytest.raises(ModelError, match="no span is left to evaluate") as caught:
+            planned(found, 10.0, spacing=120.0)
+        assert "--window" not in caught.value.hint
+
+
+def test_start_at_a_kink_of_the_gradient():
+    """The guide of the lowest spring starts as steep as the wire ahead: nothing warns, nothing is knocked."""
+    line = short_line(height=(0.0, 0.0, 0.03, 0.22, 0.25, 0.25))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        way = {"start": 66.0, "window": (117.0, 120.0), "until": 121.0}
+        run(line, mesh=COARSE, speed=30.0, pantograph=collector(), step=STEP, **way)
