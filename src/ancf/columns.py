@@ -29,7 +29,7 @@ def read_columns(path: Path, where: str) -> dict[str, list[Any]]:
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
             lines = [line for line in file if not line.lstrip().startswith("#") and line.strip()]
-        separator = next((s for s in SEPARATORS if lines and s in lines[0]), ",")
+        separator = separator_of(lines[0] if lines else "")
         read = csv.reader(lines, delimiter=separator, skipinitialspace=True)
         rows = [row for row in read if any(entry.strip() for entry in row)]
     except FileNotFoundError:
@@ -47,6 +47,11 @@ def read_columns(path: Path, where: str) -> dict[str, list[Any]]:
             raise ModelError(where, f'{path}: column {k + 1} has the name "{name}", must be unique')
     comma = separator != ","
     return {name: _column([row[k].strip() for row in rows[1:]], comma) for k, name in enumerate(head)}
+
+
+def separator_of(head: str) -> str:
+    """What parts the entries of a table, by its head: tab, semicolon or comma."""
+    return next((s for s in SEPARATORS if s in head), ",")
 
 
 def split_unit(head: str) -> tuple[str, str]:

@@ -14,7 +14,7 @@ from ..model.bodies import PointMass
 from ..model.connections import Spring
 from ..model.points import Point
 from ..model.supports import Hold
-from .fittings import SteadyArm
+from .fittings import FAINT, SteadyArm
 from .form import Form
 
 #: Length of a spring to a fixed point, m: long enough that its force keeps its direction, and unstretched.
@@ -99,13 +99,18 @@ def _add_hinged_arm(
     """A bar to a pivot on the mast, in the direction of the force (3,) in N on the wire, or against it."""
     size, sense = float(np.linalg.norm(force)), arm.sense(float(force[1]))
     assert arm.length is not None
-    if abs(force[1]) < 1.0 or abs(force[2]) > abs(force[1]):
-        what = f"the wire pulls sideways with {abs(force[1]):.0f} N at support {k + 1}, which has to carry "
-        what += f"{force[2]:.0f} N: a hinged arm would hang down"
-        hint = 'give more stagger, contact_support = "free", or vertical instead of length'
-        raise ModelError("line.steady_arm.length", what, hint)
+    check_hinged(k, force)
     pivot = point.initial_position + sense * arm.length * force / size
     made: Spring = model.add_spring(
         point, pivot, stiffness=arm.stiffness, length=arm.length - sense * size / arm.stiffness, name=name
     )
     return made
+
+
+def check_hinged(k: int, force: FloatArray) -> None:
+    """Raise ModelError where a hinged arm at support k would hang down, by its force (3,) on the wire, N."""
+    if abs(force[1]) < FAINT or abs(force[2]) > abs(force[1]):
+        what = f"the wire pulls sideways with {abs(force[1]):.0f} N at support {k + 1}, which has to carry "
+        what += f"{force[2]:.0f} N: a hinged arm would hang down, its pull has to be larger than that"
+        hint = 'give more stagger, contact_support = "free", or vertical instead of length'
+        raise ModelError("line.steady_arm.length", what, hint)

@@ -147,6 +147,8 @@ class Assembled:
     def break_dropper(self, span: int, number: int) -> None:
         """Take a dropper away, both counted from 1; its halves stay at the clamps as masses.
 
+        ``overhead.droppers`` then has None in its place, and runs record a force of 0 for it.
+
         Raises
         ------
         ModelError

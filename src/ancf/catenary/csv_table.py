@@ -7,6 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from ..columns import separator_of
 from ..errors import ModelError
 from ..model.checks import choice, listed, nearest
 
@@ -27,13 +28,16 @@ def read_table(
 ) -> list[Row]:
     """Rows of a CSV file as numbers; empty cells are left out.
 
+    Entries are parted by commas, or by semicolons or tabs, as the head has them; then numbers may have a
+    decimal comma, as spreadsheets write them in many countries.
+
     Parameters
     ----------
     path : Path
     needed, known : sequences of str
         Columns that must be there, and all that may be.
     lists : sequence of str
-        Columns whose cells hold numbers with ";" between them.
+        Columns whose cells hold numbers with ";" between them, in quotes in a table with semicolons.
     others : bool
         Columns that nobody asks for are let pass.
     words : mapping
@@ -48,20 +52,27 @@ def read_table(
     """
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
-            lines = [line for line in csv.reader(file) if any(cell.strip() for cell in line)]
+            text = file.read().splitlines(keepends=True)
+        separator = separator_of(next((line for line in text if line.strip()), ""))
+        lines = [line for line in csv.reader(text, delimiter=separator) if any(cell.strip() for cell in line)]
     except FileNotFoundError:
         raise ModelError(str(path), "no such file") from None
     except (OSError, ValueError, csv.Error) as error:
-        raise ModelError(str(path), f"cannot be read: {error}", "CSV in UTF-8, commas, one head") from None
+        raise ModelError(str(path), f"cannot be read: {error}", "CSV in UTF-8, one head") from None
     if len(lines) < 2 or len(lines) > MOST_ROWS:
         raise ModelError(str(path), f"has {max(len(lines) - 1, 0)} rows", "a head and a row for each item")
     head = [cell.strip() for cell in lines[0]]
     _check_head(path, head, needed, known, others)
     rows = []
+
+    def point(cell: str) -> str:
+        return cell if separator == "," else cell.replace(",", ".")
+
     for number, line in enumerate(lines[1:], start=1):
         if len(line) != len(head):
             what = f"has {len(line)} cells, the head has {len(head)}"
-            raise ModelError(f"{path}, row {number}", what)
+            decimal = "decimal commas need semicolons or tabs between columns" if separator == "," else ""
+            raise ModelError(f"{path}, row {number}", what, decimal)
         cells = {key: cell.strip() for key, cell in zip(head, line, strict=True) if cell.strip()}
         for key in needed:
             if key not in cells:
@@ -70,7 +81,7 @@ def read_table(
             {
                 key: _word(cell, words[key], f"{path}, row {number}, column {key}")
                 if words and key in words
-                else _value(cell, key in lists, f"{path}, row {number}, column {key}")
+                else _value(point(cell), key in lists, f"{path}, row {number}, column {key}")
                 for key, cell in cells.items()
                 if key in known
             }

@@ -20,7 +20,7 @@ from ..model.points import Point
 from .assemble import Assembled
 from .line import Line
 from .mesh import Mesh
-from .rest import assemble, form
+from .rest import assemble, form, track_of
 from .route import Route
 from .route_form import AnyForm
 
@@ -73,7 +73,7 @@ class Elasticity:
 
 
 def elasticity(
-    line: Line | Route,
+    line: Line | Route | str | Path,
     forces: Sequence[float] = (100.0, 200.0),
     points: int = 20,
     span: int | None = None,
@@ -84,7 +84,7 @@ def elasticity(
 
     Parameters
     ----------
-    line : Line or Route
+    line : Line, Route, name or path
         Of a route its longest tension length.
     forces : sequence of float, N
         Upward, > 0.
@@ -107,6 +107,7 @@ def elasticity(
     for k, value in enumerate(force):
         checks.positive(value, f"elasticity.forces[{k}]")
     checks.integer(points, "elasticity.points", 2, 10_000)
+    line = track_of(line)
     if isinstance(line, Route):
         longest = int(np.argmax([len(part.spans) for part in line.parts]))
         found = elasticity(line.parts[longest], forces, points, span, beside, mesh)

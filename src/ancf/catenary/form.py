@@ -18,6 +18,7 @@ from .fittings import Droppers, SteadyArm
 from .hang import Hung, hang_auxiliary, hang_contact, hang_messenger, hang_stitches
 from .line import Line
 from .mesh import Mesh
+from .pictured import Pictured
 from .reach import cautions, check_aside
 from .schedule import Row, rows, write
 from .shape import WireShape
@@ -31,7 +32,7 @@ WITHOUT_WEIGHT = ("damping", "rows", "title", "source", "tags")
 
 
 @dataclass(frozen=True, slots=True)
-class Form:
+class Form(Pictured):
     """A line at rest.
 
     Attributes

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import replace
+from pathlib import Path
 from typing import overload
 
 from .. import garbage
 from ..errors import ModelError
+from ..model.checks import shown
 from .arm_loads import pushed
 from .assemble import Assembled, assembled
+from .catalogue import read_line
 from .conditions import Conditions
 from .form import Form, check, check_lengths, design
 from .irregular import with_errors
@@ -26,7 +29,9 @@ from .twin import design_twin
 def form(line: Line, mesh: Mesh | None = None) -> Form: ...
 @overload
 def form(line: Route, mesh: Mesh | None = None) -> RouteForm: ...
-def form(line: Line | Route, mesh: Mesh | None = None) -> AnyForm:
+@overload
+def form(line: Line | Route | str | Path, mesh: Mesh | None = None) -> AnyForm: ...
+def form(line: Line | Route | str | Path, mesh: Mesh | None = None) -> AnyForm:
     """Find a line's form.
 
     The design first: the contact wire alone, held at its heights, tells the forces of the droppers; the
@@ -40,8 +45,8 @@ def form(line: Line | Route, mesh: Mesh | None = None) -> AnyForm:
 
     Parameters
     ----------
-    line : Line or Route
-        Of a route each tension length by itself.
+    line : Line, Route, name or path
+        Of a route each tension length by itself; a name of the catalogue, or a line file.
     mesh : Mesh
         Of all wires, default ``Mesh()``.
 
@@ -54,8 +59,20 @@ def form(line: Line | Route, mesh: Mesh | None = None) -> AnyForm:
         The iteration did not converge.
 
     """
+    line = track_of(line)
     with garbage.later():
         return _of_route(line, mesh) if isinstance(line, Route) else _of_line(line, mesh)
+
+
+def track_of(line: Line | Route | str | Path) -> Line | Route:
+    """The line, or that of a name of the catalogue or of a line file."""
+    if isinstance(line, str | Path):
+        return read_line(line)
+    given: object = line
+    if not isinstance(given, Line | Route):
+        what = f"must be a Line, a Route, a name or a path, is {shown(given)}"
+        raise ModelError("catenary.line", what, "catenary.read_line reads one")
+    return given
 
 
 def _of_line(line: Line, mesh: Mesh | None, section: int = 0) -> Form:

@@ -12,13 +12,14 @@ import numpy as np
 from ..arrays import FloatArray
 from .form import Form
 from .mesh import Mesh
+from .pictured import Pictured
 from .route import Route
 from .schedule import Row, rows, write
 from .shape import WireShape
 
 
 @dataclass(frozen=True, slots=True)
-class RouteForm:
+class RouteForm(Pictured):
     """Tension lengths at rest.
 
     Arrays of droppers and supports are those of all sections, one after the other; see :class:`Form`.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -32,6 +33,8 @@ def show_form(name: str, output: Path | None, quiet: bool = False, given: list[s
     if folder is not None:
         _written(found.save_schedule(folder.path / "schedule.csv"), quiet)
         _written(write(catenary.arm_loads(found), folder.path / "arms.csv"), quiet)
+        if find_spec("matplotlib") is not None:
+            _written(found.plot().save(folder.path / "form.png"), quiet)
 
 
 def show_elasticity(

@@ -7,8 +7,8 @@ from typing import Any
 
 from ..errors import ModelError
 from .info import is_hdf5
-from .info_line import OF_A_LINE, size_of
-from .screen import console
+from .info_line import size_of
+from .screen import Screen, console
 from .summary import plural
 
 #: Numbers of a results file that are looked at together.
@@ -32,7 +32,7 @@ def check_file(path: Path, given: list[str] | None = None) -> None:
         if given:
             raise ModelError("--set", "changes model files and line files, not results", "leave it out")
         return _check_results(path)
-    from ..model.file import read_toml
+    from ..model.file import OF_A_LINE, read_toml
     from ..model.file.paths import assignments, changed
 
     data = read_toml(path, "model file")
@@ -57,12 +57,15 @@ def _check_model(path: Path, data: dict[str, Any]) -> None:
 
 
 def _check_line(path: Path, data: dict[str, Any]) -> None:
-    """Read a line, divide its wires and hang them as strings; more is found with its form."""
+    """Read a line, hang its wires as strings, find its form and look at that."""
+    from ..catenary.checked import at_rest
     from ..catenary.file import parse_track
     from ..catenary.rest import check_track
 
     line = parse_track(data, str(path))
     said = check_track(line)
+    Screen(quiet=False).announce_compilation()
+    said += at_rest(line)
     _print_right(path, size_of(line))
     for text in said[:MOST_SAID]:
         console().print(f"  warning: {text}", soft_wrap=True)

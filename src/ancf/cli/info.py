@@ -24,8 +24,8 @@ def show_info(path: Path) -> None:
 
 def _show_description(path: Path) -> None:
     """A line file or a model file, by the tables that it has."""
-    from ..model.file import read_toml
-    from .info_line import OF_A_LINE, show_line
+    from ..model.file import OF_A_LINE, read_toml
+    from .info_line import show_line
     from .info_model import show_model
 
     data = read_toml(path, "model file")

@@ -12,9 +12,6 @@ from .summary import plural
 if TYPE_CHECKING:
     from ..catenary import Line, Route
 
-#: Tables that only line files have.
-OF_A_LINE = {"contact_wire", "messenger_wire", "spans", "steady_arm"}
-
 
 def show_line(path: Path, data: dict[str, Any]) -> None:
     """Print what a line consists of; it must fit together as strings."""

@@ -26,7 +26,8 @@ def view_file(
     Parameters
     ----------
     paths : list of Path
-        Results files, or the folders with ``results.h5``; several are compared.
+        Results files, or the folders with ``results.h5``; several are compared. One line file shows the line
+        at rest.
     output : Path, optional
         Default ``view.html`` beside the first one.
     options : dict
@@ -52,7 +53,9 @@ def view_file(
         _follow(sources, output, options, show)
         return
     target = _target(sources[0], output)
-    if len(sources) == 1:
+    if len(sources) == 1 and sources[0].suffix == ".toml":
+        written = _line_at_rest(sources[0], target, options)
+    elif len(sources) == 1:
         written = write_view(open_result(sources[0]), target, file=sources[0].name, **options)
     else:
         named = dict(zip(labels_of(sources), map(open_result, sources), strict=True))
@@ -60,6 +63,21 @@ def view_file(
     console().print(str(written), soft_wrap=True)
     if show:
         webbrowser.open(written.resolve().as_uri())
+
+
+def _line_at_rest(path: Path, target: Path, options: dict[str, Any]) -> Path:
+    """The page of an overhead line at rest, in the state of its file."""
+    from ..model.file import OF_A_LINE, read_toml
+
+    if not OF_A_LINE & read_toml(path, "model file").keys():
+        raise ModelError(str(path), "is a model file, which has no results yet", f"ancf run {path} -o out")
+    import ancf
+
+    from .. import catenary
+    from ..viz.view.frame import Framed
+
+    overhead = catenary.assemble(catenary.form(catenary.read_line(path)))
+    return Framed(ancf.equilibrium(overhead.model), **options).save(target)
 
 
 def _follow(sources: list[Path], output: Path | None, options: dict[str, Any], show: bool) -> None:

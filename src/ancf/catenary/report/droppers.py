@@ -30,7 +30,7 @@ def draw_extremes(content: Content, figure: Figure) -> None:
     axes = figure.subplots()
     found = dropper_forces(content.run)
     x = np.array([d.position for d in found])
-    marks.shade_window(axes, content.run)
+    marks.shade_window(axes, content.run.window)
     low, high = [d.smallest for d in found], [d.largest for d in found]
     axes.vlines(x, low, high, color=style.BLUE, linewidth=1.6, label="smallest to largest")
     axes.plot(x, [d.rest for d in found], "_", color="black", markersize=4, label="at rest")

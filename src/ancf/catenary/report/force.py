@@ -26,7 +26,7 @@ def draw(content: Content, figure: Figure) -> None:
     """Force, unfiltered and below 20 Hz, over the whole run."""
     panels = figure.subplots(len(content.found), sharex=True, squeeze=False)[:, 0]
     for k, axes in enumerate(panels):
-        marks.shade_window(axes, content.run)
+        marks.shade_window(axes, content.run.window)
         _curves(axes, content, k)
         marks.along_track(axes, content)
     panels[-1].set_xlabel("track position [m]")

@@ -29,7 +29,7 @@ def uplift_size(content: Content) -> tuple[float, float]:
 def draw_uplift(content: Content, figure: Figure) -> None:
     """Largest uplift at each support, and its history at the supports of the window."""
     upper, lower = figure.subplots(2)
-    marks.shade_window(upper, content.run)
+    marks.shade_window(upper, content.run.window)
     for k, found in enumerate(content.found):
         x, uplift = [s.position for s in found.supports], [MM * s.uplift for s in found.supports]
         marker = {"marker": "osD^"[k % 4], "linestyle": "none", "color": marks.look(k)["color"]}
@@ -75,7 +75,7 @@ def draw_height(content: Content, figure: Figure) -> None:
     """Height of the contact point, below 20 Hz, over the track."""
     axes = figure.subplots()
     rate = sample_rate(content.run.t)
-    marks.shade_window(axes, content.run)
+    marks.shade_window(axes, content.run.window)
     for k, found in enumerate(content.found):
         recording = content.run.recordings[k]
         height = found.filter.low_pass(recording.height, rate, CUT_OFF)

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from ..form import Form
+    from ..route_form import AnyForm
     from ..shape import WireShape
     from .content import Content
 
@@ -30,22 +31,32 @@ def size(content: Content) -> tuple[float, float]:
 
 
 def draw(content: Content, figure: Figure) -> None:
-    """The line at rest over the whole track: from the side, the contact wire alone, from above."""
+    """The line at rest over the whole track, with what is evaluated."""
+    strip = min(unit.strip_length for unit in content.run.pantographs)
+    draw_form(content.run.form, figure, strip, content.run.window)
+
+
+def draw_form(
+    found: AnyForm, figure: Figure, strip: float, window: tuple[float, float] | None = None
+) -> None:
+    """From the side, the contact wire alone, from above; length of the strips and what is evaluated, m."""
     side, sag, plan = figure.subplots(3, sharex=True, height_ratios=(1.2, 1.0, 1.0))
-    line = content.run.form.line
+    line = found.line
     starts = getattr(line, "starts", (0.0,))
-    for form, start in zip(content.run.form.shifted, starts, strict=True):
+    for form, start in zip(found.shifted, starts, strict=True):
         _from_the_side(side, form)
         contacts = [shape for shape in (form.contact, form.twin) if shape is not None]
         for x, _, z in (shape.position.T for shape in contacts):
             sag.plot(x, MM * (z - form.line.height_at(x - start)), **CONTACT)
         for name, shape, look in _wires(form):
             plan.plot(shape.position[:, 0], MM * shape.position[:, 1], label=name, **look)
-    _strips(plan, content)
+    for k, y in enumerate((-0.5 * MM * strip, 0.5 * MM * strip)):
+        plan.axhline(y, linestyle="--", label="ends of the strip" if k == 0 else None, **marks.FINE)
     for axes in (side, sag, plan):
-        marks.shade_window(axes, content.run)
+        if window is not None:
+            marks.shade_window(axes, window)
         axes.set_xlim(float(np.min(line.supports)), float(np.max(line.supports)))
-        marks.mark_line(axes, content.run)
+        marks.mark_line(axes, line)
     side.set_ylabel("height at rest [m]")
     sag.set_ylabel("contact wire over\nits nominal height [mm]")
     plan.set(xlabel="track position [m]", ylabel="to the left of the axis [mm]")
@@ -74,10 +85,3 @@ def _from_the_side(axes: Axes, form: Form) -> None:
     if upper is not None and lower is not None:
         low, high = lower.position[lower.nodes.stitch], upper.position[upper.nodes.dropper]
         axes.vlines(low[:, 0], low[:, 2], high[:, 2], **FINE)
-
-
-def _strips(axes: Axes, content: Content) -> None:
-    """Where the shortest strip ends on both sides."""
-    reach = 0.5 * MM * min(unit.strip_length for unit in content.run.pantographs)
-    for k, y in enumerate((-reach, reach)):
-        axes.axhline(y, linestyle="--", label="ends of the strip" if k == 0 else None, **marks.FINE)

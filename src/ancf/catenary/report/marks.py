@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ..run_data import Run
+    from ..line import Line
+    from ..route import Route
     from .content import Content
 
 WIDTH = 180.0  # mm, of all figures
@@ -25,14 +26,14 @@ def look(k: int) -> dict[str, Any]:
     return style.line(k)
 
 
-def shade_window(axes: Axes, run: Run) -> None:
+def shade_window(axes: Axes, window: tuple[float, float]) -> None:
     """Shade the track interval that is evaluated."""
-    axes.axvspan(*run.window, color=style.SHADE, linewidth=0, zorder=0, label="evaluated")
+    axes.axvspan(*window, color=style.SHADE, linewidth=0, zorder=0, label="evaluated")
 
 
-def mark_line(axes: Axes, run: Run) -> None:
+def mark_line(axes: Axes, line: Line | Route) -> None:
     """Masts as triangles and droppers as ticks along the lower edge, masts as thin lines above."""
-    line, edge = run.form.line, axes.get_xaxis_transform()
+    edge = axes.get_xaxis_transform()
     axes.vlines(line.supports, 0, 1, transform=edge, color=style.LIGHT, linewidth=0.4, zorder=0.5)
     at: dict[str, Any] = {
         "transform": edge,
@@ -51,7 +52,7 @@ def along_track(axes: Axes, content: Content, limits: tuple[float, float] | None
     positions = [recording.position for recording in content.run.recordings]
     whole = (min(float(x.min()) for x in positions), max(float(x.max()) for x in positions))
     axes.set_xlim(limits or whole)
-    mark_line(axes, content.run)
+    mark_line(axes, content.run.form.line)
 
 
 def legend(figure: Figure, axes: Axes, columns: int = 6) -> None:

@@ -52,6 +52,10 @@ class Study:
     values: Mapping[str, Any] = field(default_factory=dict)
 
 
+#: Tables that only files of overhead lines have.
+OF_A_LINE = {"contact_wire", "messenger_wire", "spans", "steady_arm"}
+
+
 def read_study(path: str | Path, values: Mapping[str, Any] | None = None) -> Study:
     """Read a model file.
 
@@ -70,7 +74,11 @@ def read_study(path: str | Path, values: Mapping[str, Any] | None = None) -> Stu
 
     """
     text, given = _read_text(Path(path), "model file"), dict(values or {})
-    study = parse_study(changed(with_files(_toml(text, str(path)), Path(path).parent), given), str(path))
+    data = _toml(text, str(path))
+    if OF_A_LINE & data.keys():
+        hint = f"ancf catenary run {path} --speed 250, ancf catenary form {path}, ancf check {path}"
+        raise ModelError(str(path), "is the file of an overhead line, not of a model", hint)
+    study = parse_study(changed(with_files(data, Path(path).parent), given), str(path))
     return replace(study, source_text=text, values=given)
 
 
