@@ -55,6 +55,7 @@ def line(spans=SPANS):
         anchors="fixed",
         gravity=9.81,
         auxiliary=None,
+        report={},
         temperature=10.0,
         conditions=Conditions(),
         dropper_lengths=None,

@@ -204,7 +204,7 @@ class TestFile:
             ("start = 140.0", "sections[1].start: is 140 m, the section before reaches from 0 to 128 m"),
             ("", "sections[1].start: is missing"),
             ("start = 64.0\nstager = 0.2", "sections[1].stager: unknown key"),
-            ("start = 64.0\nstagger = [0.1]", "sections[1].stagger: has shape"),
+            ("start = 64.0\nstagger = [0.1]", "sections[1].stagger: has 1 values"),
             ('start = 64.0\nsupports = "no.csv"', "sections[1].spans: and supports are given both"),
         ],
     )

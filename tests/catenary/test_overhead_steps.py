@@ -135,6 +135,32 @@ def test_inputs_push(reduce):
     assert np.std(mine - free) > 5.0
 
 
+@pytest.mark.parametrize("delay", [0.0, 4e-3])
+def test_a_controller_asks_for_pantographs(delay):
+    """What it is told at each step is what the run records there; with a dead time as well."""
+    told = []
+
+    def controller(run):
+        told.append((run.t, run.pantograph(0), run.pantograph(1)))
+        run.inputs["pantograph_1_force"] = 0.0
+
+    made = catenary.run(
+        short_line(), speed=40.0, pantograph=collector(), spacing=30.0, step=STEP, mesh=COARSE, start=5.0,
+        window=(98.0, 100.0), until=101.0, controller=controller, control_delay=delay,
+    )  # fmt: skip
+    assert len(told) > 100
+    for t, *both in told:
+        j = int(np.argmin(np.abs(made.t - t)))
+        for k, one in enumerate(both):
+            assert one.force == pytest.approx(made.recordings[k].force[j], abs=1e-9)
+            assert one.position == pytest.approx(made.recordings[k].position[j], abs=1e-9)
+    with pytest.raises(ancf.ModelError, match=r"pantograph\.number"):
+        catenary.run(
+            short_line(), speed=40.0, pantograph=collector(), step=STEP, mesh=COARSE, window=(66.0, 70.0),
+            until=71.0, controller=lambda run: run.pantograph(1),
+        )  # fmt: skip
+
+
 def test_a_controller_feels_the_same_line():
     line = short_line()
 

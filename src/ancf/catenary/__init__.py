@@ -33,8 +33,9 @@ from .run_data import Recording, Run
 from .signals import Butterworth
 from .span import DropperRule, Span
 from .statistics import Statistics, statistics
-from .steps import LineStepper, Touching, stepper
+from .steps import LineStepper, stepper
 from .stitch import StitchWire
+from .touching import Touching
 from .travelling import add_pantograph
 from .underside import random_underside, read_underside
 from .validate import reference_run, write_validation

@@ -65,7 +65,9 @@ class Conditions:
             raise ModelError(f"{where}.turbulence", "has no effect without wind", "leave it out")
         checks.positive(self.gust_length, f"{where}.gust_length")
         checks.integer(self.seed, f"{where}.seed", 0, 2**32)
-        checks.between(self.wear, f"{where}.wear", 0.0, 0.6)
+        if not 0.0 <= checks.number(self.wear, f"{where}.wear") <= 0.6:
+            hint = "a share of the section: 0.2 for 20 %"
+            raise ModelError(f"{where}.wear", f"must be between 0 and 0.6, is {self.wear:g}", hint)
 
     def worn(self, wire: Wire) -> Wire:
         """The contact wire with its wear, its ice and the tension of weights, as it hangs at any temperature.

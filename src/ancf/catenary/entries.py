@@ -61,6 +61,13 @@ NumberOrCurve = Annotated[
 ]
 
 
+#: One number, or one for each support or dropper.
+Numbers = Annotated[list[float], Tag("<curve>")]
+FloatOrList = Annotated[Annotated[float, Tag("<number>")] | Numbers, Discriminator(_of_number)]
+PositiveOrList = Annotated[Annotated[Positive, Tag("<number>")] | Numbers, Discriminator(_of_number)]
+NotNegativeOrList = Annotated[Annotated[NonNegative, Tag("<number>")] | Numbers, Discriminator(_of_number)]
+
+
 class PantographEntry(Entry):
     """A pantograph file."""
 
@@ -229,7 +236,7 @@ class SpanEntry(Entry):
     droppers: DropperPlaces | None = Field(
         None, description="Places from the start of the span, increasing [m]; or first and pitch_max."
     )
-    pre_sag: NonNegative | list[float] = Field(
+    pre_sag: NotNegativeOrList = Field(
         0.0, description="Depth of a parabola between first and last dropper, or one sag per dropper [m]."
     )
     radius: float | None = Field(
@@ -238,6 +245,14 @@ class SpanEntry(Entry):
     long_droppers: DropperPlaces | None = Field(
         None, description="Places of those between messenger and auxiliary, as droppers [m]."
     )
+
+
+class ReportEntry(Entry):
+    """What stands at the beginning of reports."""
+
+    project: str = Field("", description="What the report belongs to.")
+    author: str = Field("", description="Who wrote it.")
+    customer: str = Field("", description="For whom.")
 
 
 class LineEntry(Entry):
@@ -256,11 +271,11 @@ class LineEntry(Entry):
     messenger_wire: WireEntry | None = Field(None, description="The messenger, default none.")
     droppers: DroppersEntry | None = Field(None, description="The droppers, needed with a messenger.")
     steady_arm: SteadyArmEntry = Field(description="The steady arms.")
-    system_height: Positive | list[float] | None = Field(
+    system_height: PositiveOrList | None = Field(
         None,
         description="Height of the messenger over the contact wire at the supports, one or one each [m].",
     )
-    height: float | list[float] = Field(
+    height: FloatOrList = Field(
         0.0, description="Height of the contact wire at the supports, one or one each [m]."
     )
     damping: RayleighEntry = Field(
@@ -278,13 +293,13 @@ class LineEntry(Entry):
     messenger_clamp: Literal["hinged", "continuous"] = Field(
         "hinged", description="Whether the messenger turns freely in its supports or bends over them."
     )
-    stagger: float | list[float] = Field(
+    stagger: FloatOrList = Field(
         0.0, description="Sideways place of the contact wire; one number alternates, or one per support [m]."
     )
-    messenger_stagger: float | list[float] | None = Field(
+    messenger_stagger: FloatOrList | None = Field(
         None, description="The same of the messenger, default that of the contact wire [m]."
     )
-    cant: float | list[float] = Field(
+    cant: FloatOrList = Field(
         0.0, description="Right rail above the left one at the supports, at 1.5 m, one or one each [m]."
     )
     contact_support: Literal["held", "free"] = Field(
@@ -306,6 +321,7 @@ class LineEntry(Entry):
     )
     dropper_errors: DropperErrorsEntry | None = Field(None, description="By which the lengths are off.")
     gravity: Positive = Field(9.81, description="Gravity [m/s^2].")
+    report: ReportEntry | None = Field(None, description="What stands at the beginning of reports.")
 
 
 #: Tables of a line file by their key.
@@ -325,4 +341,5 @@ TABLES: dict[str, type[Entry]] = {
     "loads": LoadEntry,
     "dropper_errors": DropperErrorsEntry,
     "conditions": ConditionsEntry,
+    "report": ReportEntry,
 }

@@ -113,7 +113,7 @@ def parse_track(data: dict[str, Any], source: str = "line") -> Line | Route:
             raise ModelError(f"{where}.start", "is missing", "track position of its first support, m")
         starts.append(checks.number(own["start"], f"{where}.start"))
     plain = {key: common[key] for key in ("title", "source", "tags") if key in common}
-    return Route(lines=tuple(lines), starts=tuple(starts), **plain)
+    return Route(lines=tuple(lines), starts=tuple(starts), report=lines[0].report, **plain)
 
 
 def parse_line(data: dict[str, Any], source: str = "line") -> Line:
@@ -184,6 +184,7 @@ def _line(entry: LineEntry, plain: dict[str, Any]) -> Line:
         dropper_errors=None
         if entry.dropper_errors is None
         else DropperErrors(**entry.dropper_errors.given()),
+        report={} if entry.report is None else entry.report.given(),
         loads=tuple(Load(**load.given()) for load in entry.loads),
         **given,
     )

@@ -28,7 +28,7 @@ MOST_ITERATIONS = 60
 #: How many times longer or shorter than designed droppers can be; more is a slip of units.
 UNLIKE = 10.0
 #: Parts of a line that may change without finding its form again: it rests alike.
-WITHOUT_WEIGHT = ("damping", "rows", "title", "source", "tags")
+WITHOUT_WEIGHT = ("damping", "rows", "title", "source", "report", "tags")
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from .cant import LARGEST, plumb_above
 from .conditions import Conditions
 from .excerpt import excerpt
 from .fittings import NO_DROPPERS, DropperErrors, Droppers, Load, SteadyArm, Tensioner
-from .span import Span, within
+from .span import Span, of_supports, within
 from .stitch import StitchWire
 from .wire import Rayleigh, Wire
 
@@ -105,6 +105,8 @@ class Line:
     rows : sequence of str
         Where each support stands in a table, for messages: "supports.csv, row 2, column ".
     title, source : str
+    report : mapping of str to str
+        "project", "author" and "customer", as they stand at the beginning of reports.
     tags : mapping of str to str
         How sure a value is, by its key.
 
@@ -139,6 +141,7 @@ class Line:
     rows: tuple[str, ...] = ()
     title: str = ""
     source: str = ""
+    report: Mapping[str, str] = field(default_factory=dict, hash=False)
     tags: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -151,7 +154,7 @@ class Line:
         for k, height in enumerate(self._per_support("system_height", alternating=False)):
             if self.messenger_wire is not None:
                 checks.positive(height, f"line.system_height[{k}]")
-                checks.between(height, f"line.system_height[{k}]", 0.0, HIGHEST)
+                within(height, HIGHEST, f"line.system_height[{k}]", "1.4")
         for key in ("height", "cant"):  # one number stays one, so that it fits another count of spans
             if isinstance(getattr(self, key), Sequence | np.ndarray):
                 self._per_support(key, alternating=False)
@@ -242,7 +245,7 @@ class Line:
         """Set a value to one number for each support."""
         value, count = getattr(self, key), len(self.spans) + 1
         if isinstance(value, list | tuple | np.ndarray):
-            clean = checks.array(value, f"line.{key}", (count,))
+            clean = of_supports(value, f"line.{key}", count)
         else:
             clean = np.full(count, checks.number(value, f"line.{key}"))
             if alternating:

@@ -35,7 +35,7 @@ class Pictured:
         """
         from ..viz import style
         from ..viz.pictures.picture import Picture
-        from .report.line_shape import draw_form
+        from .drawn import draw_form
 
         style.require_matplotlib()
         with style.new_figure(*size) as figure:

@@ -35,6 +35,8 @@ class Route:
     starts : sequence of float, m
         Track positions of their first supports.
     title, source : str
+    report : mapping of str to str
+        As of :class:`Line`.
     tags : mapping of str to str
 
     Raises
@@ -48,6 +50,7 @@ class Route:
     starts: tuple[float, ...]
     title: str = ""
     source: str = ""
+    report: Mapping[str, str] = field(default_factory=dict, hash=False)
     tags: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

@@ -28,6 +28,7 @@ from .rest import form
 from .route import Route
 from .route_form import AnyForm
 from .run_data import Run
+from .touching import Watched
 from .travel import make_travel
 
 #: Mesh and step of the trial run that finds a mean height.
@@ -102,7 +103,7 @@ def run(
     controller, control_step : callable and float, s
         See :func:`ancf.simulate`; its inputs are forces on the lowest masses of the pantographs, N, upwards:
         ``run.inputs["pantograph_force"]``, of several ``"pantograph_1_force"`` and so on. The contact force
-        is ``run.contact_force("pantograph contact")``, that of several ``"pantograph 1 contact"``.
+        is ``run.pantograph().force``, of several ``run.pantograph(1).force``, see :class:`Touching`.
     control_delay : float, s
         Time after which what the controller gives takes effect, rounded up to whole control steps.
     modify : callable
@@ -212,6 +213,8 @@ def _simulated(
     **led: Any,
 ) -> Run:
     begun = ready(plan, active=bool(led), sleeps=sleeps, sensitivities=sensitivities)
+    if callable(led.get("controller")):
+        led["controller"] = Watched(led["controller"], begun.collectors)
     given: dict[str, Any] = {
         "t_end": plan.duration,
         "output_step": plan.duration if output_step is None else output_step,

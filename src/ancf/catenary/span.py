@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
 
@@ -23,6 +24,15 @@ def within(value: float, most: float, where: str, usual: str) -> None:
     """Raise ModelError for a length that can only be a slip of units."""
     if abs(value) > most:
         raise ModelError(where, f"is {value:g} m, at most {most:g} m either way", f"units are m: {usual}")
+
+
+def of_supports(value: object, where: str, count: int) -> FloatArray:
+    """One number for each of so many supports (count,); ModelError if there are others."""
+    clean = checks.array(value, where, (None,))
+    if clean.size != count:
+        what = f"has {clean.size} values, the line has {count} supports"
+        raise ModelError(where, what, "give one, or one for each support")
+    return clean
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
-
-import numpy as np
+from typing import Any
 
 from ..control.stepper import Stepper, refuse_adaptive
 from ..errors import ModelError
-from ..model import checks
 from ..model.settings import MOST_STEPS
 from ..preparation import method_of, prepared
 from . import sleeping
@@ -21,35 +18,13 @@ from .mesh import Mesh
 from .pantograph import Pantograph
 from .plan import Door, formed, make_plan
 from .ready import STEP, Ready, ready
-from .recorded import recording
 from .route import Route
 from .route_form import AnyForm
 from .run import Speed, relaxed
+from .touching import Touching, touching
 from .travel import make_travel
 
 WHERE = "catenary.stepper"
-
-
-class Touching(NamedTuple):
-    """A pantograph at the wire now.
-
-    Attributes
-    ----------
-    position : float
-        Of its strips along the track, m.
-    force : float
-        Of the contact, of all strips and wires together, N.
-    height, stagger : float
-        Of the contact wire there, of two that which presses most, m.
-    strip : float
-        Height of the strip, m.
-    """
-
-    position: float
-    force: float
-    height: float
-    stagger: float
-    strip: float
 
 
 class LineStepper(Stepper):
@@ -94,22 +69,7 @@ class LineStepper(Stepper):
         ModelError
             There is no such pantograph.
         """
-        last = len(self.collectors) - 1
-        collector = self.collectors[checks.integer(number, "pantograph.number", 0, last)]
-        found = recording(_Now(self), collector)
-        values = (found.position, found.force, found.height, found.stagger, found.strip)
-        return Touching(*(float(x[0]) for x in values))
-
-
-class _Now:
-    """A state of now as if it were a history of one row."""
-
-    def __init__(self, state: Stepper) -> None:
-        self._state = state
-
-    def __getattr__(self, name: str) -> Callable[[Any], Any]:
-        ask = getattr(self._state, name)
-        return lambda item: np.asarray(ask(item))[None]
+        return touching(self, self.collectors, number)
 
 
 def stepper(

@@ -168,7 +168,7 @@ def view(
     show: Open = False,
     live: Live = False,
 ) -> None:
-    """Make a moving picture of results files, or of a line at rest: one HTML page that works without a network.
+    """Make a moving picture of results files, or of a line at rest: an HTML page that needs no network.
 
     Prints the path of the page. Several runs are compared: drawn together, their curves in the same plots.
     With --live the page follows a run that goes on, or waits for it.

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 #: Arrays of a line at rest: their names in formulas, and the fields of the form.
 OF_FORM = {
     "dropper_length": "dropper_length",
-    "dropper_unstretched": "dropper_natural",
+    "dropper_unstretched": "cut_length",
     "dropper_load": "dropper_load",
     "contact_height": "contact_height",
     "support_load": "support_load",
@@ -59,7 +59,10 @@ STATISTICS = (
 SIGMA, HIGHEST = "sigma", "uplift_maximum"
 RUN = "run."
 #: Settings of the table [run]: those of ``ancf catenary run``, and the pantograph that is evaluated.
-SETTINGS = ("speed", "pantograph", "spacing", "start", "window", "contact", "step", "evaluated")
+SETTINGS = (
+    *("speed", "pantograph", "spacing", "start", "window", "until", "contact", "contact_stiffness"),
+    *("step", "mesh", "reduce", "evaluated"),
+)
 
 
 @dataclass(frozen=True)
@@ -172,6 +175,9 @@ class _Passing(_AtRest):
         given = dict(settings)
         speed = checks.positive(given.pop("speed", None), "run.speed") / 3.6
         evaluated = given.pop("evaluated", 0)
+        if "mesh" in given:
+            contact, messenger = checks.array(given["mesh"], "run.mesh", (2,)).tolist()
+            given["mesh"] = catenary.Mesh(contact=contact, messenger=messenger)
         self.done: Run = catenary.run(line, speed=speed, **given)
         count = len(self.done.recordings)
         self.found: Statistics = catenary.statistics(

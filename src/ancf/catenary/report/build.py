@@ -108,9 +108,12 @@ def accepted(content: Content) -> list[list[Quantity]]:
 def _top(content: Content, title: str, lists: Sequence[Sequence[Quantity]]) -> Iterator[Element]:
     yield element("h1", title)
     names = ", ".join(unit.title or unit.name for unit in content.run.pantographs)
-    head = "Pantographs, the first ahead" if content.several else "Pantograph"
+    head = [f"{key.capitalize()}: {value}" for key, value in content.run.form.line.report.items() if value]
+    if head:
+        yield element("p", ". ".join(head) + ".")
+    units = "Pantographs, the first ahead" if content.several else "Pantograph"
     low, high = content.run.window
-    what = f"{head}: {names}. Evaluated from {low:g} m to {high:g} m."
+    what = f"{units}: {names}. Evaluated from {low:g} m to {high:g} m."
     yield element("p", what, class_="faint")
     found = content.run.form
     yield element("p", f"State: {state(found.line)}; at rest {at_rest(found)}.", class_="faint")

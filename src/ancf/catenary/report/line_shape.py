@@ -2,27 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from ...viz import style
+from ..drawn import draw_form
 from . import marks
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ..form import Form
-    from ..route_form import AnyForm
-    from ..shape import WireShape
     from .content import Content
-
-MM = 1e3
-#: Looks of the wires, from the lowest up.
-CONTACT, MESSENGER, AUXILIARY = (style.line(k) | {"linewidth": 1.0} for k in range(3))
-FINE: dict[str, Any] = {"color": style.GREY, "linewidth": 0.5}
 
 
 def size(content: Content) -> tuple[float, float]:
@@ -34,54 +22,3 @@ def draw(content: Content, figure: Figure) -> None:
     """The line at rest over the whole track, with what is evaluated."""
     strip = min(unit.strip_length for unit in content.run.pantographs)
     draw_form(content.run.form, figure, strip, content.run.window)
-
-
-def draw_form(
-    found: AnyForm, figure: Figure, strip: float, window: tuple[float, float] | None = None
-) -> None:
-    """From the side, the contact wire alone, from above; length of the strips and what is evaluated, m."""
-    side, sag, plan = figure.subplots(3, sharex=True, height_ratios=(1.2, 1.0, 1.0))
-    line = found.line
-    starts = getattr(line, "starts", (0.0,))
-    for form, start in zip(found.shifted, starts, strict=True):
-        _from_the_side(side, form)
-        contacts = [shape for shape in (form.contact, form.twin) if shape is not None]
-        for x, _, z in (shape.position.T for shape in contacts):
-            sag.plot(x, MM * (z - form.line.height_at(x - start)), **CONTACT)
-        for name, shape, look in _wires(form):
-            plan.plot(shape.position[:, 0], MM * shape.position[:, 1], label=name, **look)
-    for k, y in enumerate((-0.5 * MM * strip, 0.5 * MM * strip)):
-        plan.axhline(y, linestyle="--", label="ends of the strip" if k == 0 else None, **marks.FINE)
-    for axes in (side, sag, plan):
-        if window is not None:
-            marks.shade_window(axes, window)
-        axes.set_xlim(float(np.min(line.supports)), float(np.max(line.supports)))
-        marks.mark_line(axes, line)
-    side.set_ylabel("height at rest [m]")
-    sag.set_ylabel("contact wire over\nits nominal height [mm]")
-    plan.set(xlabel="track position [m]", ylabel="to the left of the axis [mm]")
-    marks.legend(figure, plan)
-
-
-def _wires(form: Form) -> Iterator[tuple[str, WireShape, dict[str, Any]]]:
-    """Name, shape and look of each wire of a tension length."""
-    yield "contact wire", form.contact, CONTACT
-    if form.twin is not None:
-        yield "second contact wire", form.twin, CONTACT | {"linestyle": ":"}
-    if form.auxiliary is not None:
-        yield "auxiliary", form.auxiliary, AUXILIARY
-    if form.messenger is not None:
-        yield "messenger", form.messenger, MESSENGER
-    for stitch in form.stitches:
-        yield "stitch wire", stitch, AUXILIARY
-
-
-def _from_the_side(axes: Axes, form: Form) -> None:
-    for _, shape, look in _wires(form):
-        axes.plot(shape.position[:, 0], shape.position[:, 2], **look)
-    places = form.contact.position[form.contact.nodes.dropper, 0]
-    axes.vlines(places, form.contact_height, form.messenger_height, **FINE)
-    upper, lower = form.messenger, form.auxiliary
-    if upper is not None and lower is not None:
-        low, high = lower.position[lower.nodes.stitch], upper.position[upper.nodes.dropper]
-        axes.vlines(low[:, 0], low[:, 2], high[:, 2], **FINE)

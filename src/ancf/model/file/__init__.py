@@ -52,6 +52,8 @@ class Study:
     values: Mapping[str, Any] = field(default_factory=dict)
 
 
+#: A number with a decimal comma behind a key.
+DECIMAL_COMMA = re.compile(r"=\s*[-+]?\d+,\d")
 #: Tables that only files of overhead lines have.
 OF_A_LINE = {"contact_wire", "messenger_wire", "spans", "steady_arm"}
 
@@ -172,7 +174,10 @@ def _toml(text: str, source: str) -> dict[str, Any]:
 def _syntax_error(text: str, source: str, message: str) -> ModelError:
     found = re.fullmatch(r"(.*) \(at line (\d+), column (\d+)\)", message, re.DOTALL)
     if found:
-        return ModelError(f"{source}, line {found[2]}, column {found[3]}", f"TOML syntax: {found[1]}")
+        row = text.split("\n")[int(found[2]) - 1]
+        hint = "a point for decimals: 54.0" if DECIMAL_COMMA.search(row) else ""
+        place = f"{source}, line {found[2]}, column {found[3]}"
+        return ModelError(place, f"TOML syntax: {found[1]}", hint)
     if message.endswith("(at end of document)"):
         lines = text.split("\n")
         spot = f"line {len(lines)}, column {len(lines[-1]) + 1}"
