@@ -6,9 +6,12 @@ from typer.testing import CliRunner
 
 import ancf
 from ancf import ModelError
-from ancf.catenary import Mesh, elasticity, form, read_line
+from ancf.catenary import Mesh, elasticity, form, read_line, run, statistics
+from ancf.catenary.report import write_report
 from ancf.cli.app import app
-from overhead_lines import COARSE, TOML, short_line
+from ancf.design.lines import LineCase
+from ancf.model.file import read_toml
+from overhead_lines import COARSE, STEP, TOML, collector, short_line
 
 TABLE = """position,stagger,droppers,arm_side
 0,0.2,4;12.5;26,
@@ -93,6 +96,60 @@ class TestOtherCommands:
         code, said = call("view", tmp_path / "model.toml")
         assert code == 2
         assert "is a model file, which has no results yet" in said
+
+
+class TestMessages:
+    """Numbers by what they mean: no names of types, and a hint where the unit is another one."""
+
+    @pytest.mark.parametrize(
+        ("given", "said"),
+        [
+            ("spans[0].pre_sag=-0.03", "error: spans[0].pre_sag: must be >= 0, is -0.03"),
+            (
+                "system_height=[1.4,1.4]",
+                "system_height: has 2 values, the line has 6 supports give one, or one",
+            ),
+            ("system_height=-1", "error: system_height: must be > 0, is -1"),
+            ("system_height=1400", "is 1400 m, at most 100 m either way units are m: 1.4"),
+            ("conditions.wear=20", "must be between 0 and 0.6, is 20 a share of the section: 0.2 for 20 %"),
+        ],
+    )
+    def test_of_values(self, path, given, said):
+        code, told = call("check", path, "--set", given)
+        assert code == 2
+        assert said in told
+        assert "float" not in told
+
+    def test_decimal_comma(self, path):
+        text = path.read_text()
+        assert "length = 30.0" in text
+        path.write_text(text.replace("length = 30.0", "length = 54,0"))
+        code, told = call("check", path)
+        assert code == 2
+        assert "TOML syntax" in told
+        assert "a point for decimals: 54.0" in told
+
+
+def test_who_and_what_for(path, tmp_path):
+    """[report] stands at the beginning of the report of a run."""
+    path.write_text(path.read_text() + '\n[report]\nproject = "Branch <3>"\nauthor = "A. Example"\n')
+    line = read_line(path)
+    assert line.report == {"project": "Branch <3>", "author": "A. Example"}
+    done = run(
+        line, speed=40.0, pantograph=collector(), step=STEP, mesh=COARSE, window=(90.0, 95.0), until=96.0
+    )
+    text = write_report(done, tmp_path / "report.html").read_text()
+    assert "Project: Branch &lt;3&gt;. Author: A. Example." in text
+
+
+def test_settings_of_studies(path):
+    """[run] of a study takes what the command takes: the numbers of such a run."""
+    settings = {"speed": 144.0, "mesh": [2.5, 5.0], "window": [90.0, 95.0], "until": 96.0, "reduce": True}
+    settings |= {"step": STEP, "contact_stiffness": 6e4, "pantograph": "en50318-2002"}
+    case = LineCase(read_toml(path, "line file"), (("sigma", "sigma"),), settings, source=str(path))
+    given = {"window": (90.0, 95.0), "until": 96.0, "reduce": True, "step": STEP, "contact_stiffness": 6e4}
+    done = run(path, speed=40.0, pantograph="en50318-2002", mesh=Mesh(contact=2.5, messenger=5.0), **given)
+    assert case()["sigma"] == pytest.approx(statistics(done)["deviation"].value, rel=1e-9)
 
 
 class TestPicture:
