@@ -97,8 +97,17 @@ def footnote(found: Statistics) -> str:
 
 def _missed(q: Quantity) -> str:
     sign, limit = ("<", q.low) if q.low is not None and q.value < q.low else (">", q.high)
-    unit = f" {q.unit}" if q.unit else ""
-    return f"{q.name.partition(',')[0]} ({shown(q.value, q.unit)} {sign} {shown(limit, q.unit)}{unit})"
+    unit = "e-6" if q.unit == "1e-6" else f" {q.unit}" if q.unit else ""
+    texts = shown(q.value, q.unit), shown(limit, q.unit)
+    if texts[0] == texts[1]:
+        texts = f"{q.value:.6g}", f"{limit:.6g}"
+    return f"{q.name.partition(',')[0]} ({texts[0]} {sign} {texts[1]}{unit})"
+
+
+def _outwards(limit: float, side: int) -> float:
+    """A limit of the mean force, N, to the next tenth outwards: pantographs are set to follow the law."""
+    tenths = 10.0 * limit - 1e-6 * side
+    return float(np.ceil(tenths) if side > 0 else np.floor(tenths)) / 10.0
 
 
 def _forces(run: Run, k: int, supply: str, found: Statistics) -> Iterator[Quantity]:
@@ -112,7 +121,7 @@ def _forces(run: Run, k: int, supply: str, found: Statistics) -> Iterator[Quanti
         most = slope * square**2 + base
     mean, sigma = found["mean_force"].value, found["deviation"].value
     name = f"mean force Fm, {supply}"
-    yield Quantity("mean_force", name, "N", mean, low=round(least, 1), high=round(most, 1), tag="U")
+    yield Quantity("mean_force", name, "N", mean, low=_outwards(least, -1), high=_outwards(most, 1), tag="U")
     limit = round(LARGEST_DEVIATION * mean, 1)
     yield Quantity("deviation", "standard deviation, at most 0.3 Fm", "N", sigma, high=limit, tag="U")
     highest = LARGEST[supply][0 if slow else 1]
