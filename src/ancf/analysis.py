@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from .arrays import FloatArray
 from .compilation import expected
 from .control.lead import check_controller, led
 from .control.live import Live
@@ -16,13 +17,16 @@ from .errors import ModelError, SolveError, StorageError
 from .model import checks
 from .model.beam import Beam
 from .model.bodies import PointMass, RigidBody
+from .model.doubts import doubts
 from .model.integrators import Explicit, Integrator
 from .model.model import Model
 from .preparation import carried_out, given_state, method_of, prepared
 from .results import remembered
 from .results import result as results
 from .results.modes import DampedModes, Modes
+from .results.out_of_balance import explain_unstable, notes_of_balance, of_motion
 from .results.result import Result
+from .results.room import check_room
 from .results.state import State
 from .results.store import FileStore, MemoryStore
 from .sensitivity.compute import of_state, with_sensitivities
@@ -196,6 +200,8 @@ def simulate(
         if output_step is not None:
             made.header["settings"]["output_step"] = output_step
         made.header["settings"]["sensitivities"] = [one.name for one in parameters if one.named]
+    if file is None:
+        check_room(made.system, made.header["settings"])
     store = MemoryStore(made.system) if file is None else FileStore(file, made.system, made.header)
     try:
         if parameters:
@@ -240,11 +246,15 @@ def _advise_rest(error: SolveError, model: Model) -> None:
 def modes(model: Model, *, about: State | None = None, count: int = 10, sensitivities: Any = ()) -> Modes:
     """Lowest natural modes of a model about a state, without damping.
 
+    Velocities are left out: of a model that rotates they are the modes at standstill, with the gyroscopic and
+    centrifugal forces :func:`damped_modes` has them.
+
     Parameters
     ----------
     model : Model
     about : State, optional
-        Equilibrium about which the model vibrates; default its initial shape.
+        Equilibrium about which the model vibrates; default its initial shape. A state that is no equilibrium,
+        or rotates, is named in ``notes``.
     count : int
         Number of modes.
     sensitivities : sequence of str or mapping
@@ -254,7 +264,7 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
     Raises
     ------
     ModelError
-        More modes are wanted than there are free unknowns.
+        More modes are wanted than there are free unknowns, or the initial shape is no equilibrium.
     SolveError
         The state is not a stable equilibrium.
     """
@@ -265,10 +275,18 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
     with expected(model):
         system = independent(model)
         q, v = given_state(system, about, "modes.about")
+        notes = _looked_at(system, q, about, "modes.about") + of_motion(system, q, v)
+        notes += doubts(system.model)
+        given = about is not None
         about = State(system, 0.0, q, np.zeros_like(v)) if about is None else State(system, about.t, q, v)
         about.derivatives = known
-        omega, shapes = natural_modes(about.system, about.q, count)
-    made = Modes(omega, shapes, about)
+        try:
+            omega, shapes = natural_modes(about.system, about.q, count)
+        except SolveError as error:
+            if given and not notes:
+                explain_unstable(error)
+            raise
+    made = Modes(omega, shapes, about, notes=notes)
     return replace(made, derivatives=of_modes(made, parameters)) if parameters else made
 
 
@@ -284,14 +302,16 @@ def damped_modes(model: Model, *, about: State | None = None, count: int = 10) -
     ----------
     model : Model
     about : State, optional
-        An equilibrium or a state that rotates; default the initial shape and motion.
+        An equilibrium or a state that rotates; default the initial shape and motion. One that is neither is
+        named in ``notes``.
     count : int
         Number of modes.
 
     Raises
     ------
     ModelError
-        More modes are wanted than there are free unknowns.
+        More modes are wanted than there are free unknowns, or the initial shape is no equilibrium and does
+        not rotate.
     SolveError
         The state moves otherwise than in a steady rotation; what stands still does not act alike from all
         sides of its axis; or there are more than 1500 unknowns.
@@ -302,7 +322,15 @@ def damped_modes(model: Model, *, about: State | None = None, count: int = 10) -
         time = 0.0 if about is None else about.t
         checks.integer(count, "damped_modes.count", 1, len(system.free) - 2 * len(system.multipliers))
         values, shapes, whirl, spin, q = damped_modes_about(system, q, v, time, count)
-        return DampedModes(values, shapes, whirl, spin, State(system, time, q, v))
+        notes = [] if np.any(spin) else _looked_at(system, q, about, "damped_modes.about")
+        return DampedModes(values, shapes, whirl, spin, State(system, time, q, v), notes)
+
+
+def _looked_at(system: System, q: FloatArray, about: State | None, where: str) -> list[str]:
+    """Whether a state is an equilibrium, see :func:`ancf.results.out_of_balance.notes_of_balance`."""
+    if about is None:
+        return notes_of_balance(system, q, 0.0, None, where)
+    return notes_of_balance(system, q, about.t, about.known, where)
 
 
 def stable_step(model: Model, *, about: State | None = None, safety: float = 0.9) -> float:

@@ -18,7 +18,9 @@ from .errors import Interrupted, ModelError, SolveError, StorageError
 from .interrupts import heed, kept
 from .model import checks
 from .model.beam import Beam
+from .model.doubts import doubts
 from .model.integrators import INTEGRATORS, Integrator, Radau, Trapezoidal
+from .model.jumps import jumps
 from .model.model import Model
 from .model.series import noises
 from .model.settings import steps_between
@@ -28,6 +30,7 @@ from .results.impacts import unresolved
 from .results.provenance import versions
 from .results.read_store import ReadStore
 from .results.result import Result, load, read
+from .results.room import ROOM
 from .results.state import State
 from .results.store import MemoryStore
 from .solvers.record import Progress
@@ -78,6 +81,7 @@ def prepared(
         check_gaps(system, q, f"{where}.start")
         for text in unresolved(system, q, method, step):
             warnings.warn(text, UserWarning, stacklevel=3)
+            made.header["notes"].append(text)
         made.run.start(q, v)
     return made
 
@@ -105,9 +109,11 @@ def compiled(
     system.sensors = _sensors(system, sensors, not isinstance(method, Radau), ends)
     if not checks.flag(energy, f"{where}.energy"):
         system.skip_energies()
-    for text in noises(model):
+    said = [*noises(model), *map(str, jumps(model, t_start, t_end, step))]
+    for text in said:
         warnings.warn(text, UserWarning, stacklevel=4)
     header = header_of(system, method, t_start, t_end, step, output_step)
+    header["notes"] = [*said, *doubts(model)]
     return Prepared(system, run_of(method, system, t_start, t_end, step, every), header, method)
 
 
@@ -150,13 +156,30 @@ def carried_out(
             raise
         except (SolveError, ModelError) as error:
             error.result = finished("failed")
+            _name_jump(error, made)
             raise
+        except MemoryError as error:
+            full = SolveError(f"t = {run.t_start + run.done * run.h:.6g} s", "the memory is full", ROOM)
+            full.result = finished("failed")
+            raise full from error
         except KeyboardInterrupt as stop:
             run.stopped(store)
             raise Interrupted(finished("interrupted")) from stop
         if run.caution:
             warnings.warn(run.caution, UserWarning, stacklevel=3)
         return finished("complete")
+
+
+def _name_jump(error: SolveError | ModelError, made: Prepared) -> None:
+    """Of a step that fails where a motion jumps, that is the cause and no other."""
+    if not isinstance(error, SolveError) or not len(error.result.t):
+        return
+    settings = made.header["settings"]
+    soon = float(error.result.t[-1]) + settings["output_step"] + settings["step"]
+    for jump in jumps(made.system.model, settings["t_start"], settings["t_end"], settings["step"]):
+        if jump.of_value and jump.time <= soon:
+            error.hint = ""
+            error.advise(str(jump))
 
 
 @contextmanager

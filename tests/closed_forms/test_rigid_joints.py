@@ -127,7 +127,9 @@ class TestWeld:
         found = []
         for model, tip in (whole(), welded()):
             run = ancf.simulate(model, t_end=0.05, step=1e-3)
-            found.append((ancf.modes(model, count=5).frequencies_hz, run.position(tip)[-1]))
+            found.append(
+                (ancf.modes(model, about=run.state(0), count=5).frequencies_hz, run.position(tip)[-1])
+            )
         assert found[0][0] == pytest.approx(found[1][0], rel=1e-7)
         assert found[0][1] == pytest.approx(found[1][1], abs=1e-8)
 

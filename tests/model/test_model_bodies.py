@@ -314,7 +314,8 @@ class TestSupports:
         for method in (model.pin, model.clamp):
             where = f"{method.__name__}(hub.at(0.1, 0, 0)).point"
             error = refused(where, "off the centre of mass", method, hub.at(0.1, 0, 0))
-            assert error.hint == "join it to the ground: model.connect(hub.at(0.1, 0, 0), [0.0, 0.1, 1.0])"
+            joined = "model.connect(hub.at(0.1, 0, 0), [0.0, 0.1, 1.0]) lets it turn"
+            assert error.hint == f"model.clamp(hub) holds all of it, {joined}"
         assert model.supports == []
 
 

@@ -182,7 +182,7 @@ class TestCurves:
         values = swinging.multiplier("hinge")
         assert values.shape == (61, 5)
         np.testing.assert_array_equal(curves(force)["hinge z"][:, 1], values[:, 2])
-        np.testing.assert_array_equal(curves(moment)["hinge 2"][:, 1], values[:, 4])
+        np.testing.assert_array_equal(curves(moment)["hinge y"][:, 1], swinging.joint_moment("hinge")[:, 1])
 
     def test_one_state_is_a_point(self):
         model = ancf.Model()
@@ -291,7 +291,7 @@ class TestMistakes:
             (["taut"], {"plane": "xz"}, "only points have a path"),
             (["ball"], {"plane": "xx"}, 'two or three letters of "xyz"'),
             (["ball"], {"size": (10, -1)}, "plot.size: must be > 0"),
-            ([3], {}, "must be a point, spring, contact or joint"),
+            ([3], {}, "must be a point, support, spring, contact or joint"),
         ],
     )
     def test_are_named(self, result, what, options, message):
@@ -379,7 +379,7 @@ class TestShapes:
         np.testing.assert_allclose(body.get_xydata(), expected)
 
     def test_modes(self, model):
-        modes = ancf.modes(model, count=3)
+        modes = ancf.modes(model, about=ancf.equilibrium(model), count=3)
         picture = modes.plot(2)
         titles = [axes.get_title() for axes in picture.axes]
         assert titles == [f"{k + 1}: {modes.frequencies_hz[k]:.4g} Hz" for k in range(2)]
@@ -486,7 +486,7 @@ class TestMovies:
         assert frames[0].std() > 10
 
     def test_mode(self, model, tmp_path):
-        modes = ancf.modes(model, count=2)
+        modes = ancf.modes(model, about=ancf.equilibrium(model), count=2)
         path = modes.animate(1, frames=4).save(tmp_path / "mode.gif", width=200)
         with Image.open(path) as movie:
             assert movie.n_frames == 4
@@ -565,7 +565,7 @@ class TestAnimation:
         assert asked["trace"] is None
 
     def test_mode(self, model, asked):
-        modes = ancf.modes(model, count=3)
+        modes = ancf.modes(model, about=ancf.equilibrium(model), count=3)
         modes.animate(2)._repr_html_()
         assert (asked["mode"], asked["color"]) == (2, "plain")
         with pytest.raises(ancf.ModelError, match=r"animate.mode: must be between 0 and 2"):

@@ -141,8 +141,8 @@ class TestPage:
         assert data["scene"]["threads"][0]["position"]["shape"][0] == 1
 
     def test_mode_swings(self, cantilever):
-        model = cantilever.state(0).system.model
-        modes = ancf.modes(model, count=2)
+        start = cantilever.state(0)
+        modes = ancf.modes(start.model, about=start, count=2)
         data = data_of(view_page(modes, mode=1, frames=33))
         position = array_of(data, data["scene"]["threads"][0]["position"])
         t = array_of(data, data["scene"]["t"])

@@ -14,6 +14,12 @@ from .screen import console
 PLACES = (Path(__file__).parent.parent / "docs", Path(__file__).parents[3] / "docs")
 #: Pages shown when so many or fewer have a word, in full the first one.
 SHOWN = 8
+#: Letters of a word that is not looked for at the beginning of longer ones.
+SHORT = 4
+#: Words that say nothing of what is looked for.
+SMALL = frozenset(
+    ("a", "an", "and", "by", "do", "for", "how", "in", "is", "of", "on", "the", "to", "what", "with")
+)
 #: Words of the index at the head of a page.
 INDEX = re.compile(r"^:::\{index\}(?P<words>[^\n]*)\n:::\n+", re.MULTILINE)
 
@@ -50,15 +56,37 @@ def title(file: Path) -> str:
         return next((line.lstrip("# ").strip() for line in lines if line.startswith("# ")), "")
 
 
-def ranked(word: str) -> list[str]:
-    """Pages about a word: of that name, with it in their names or index, in titles, then by count."""
-    wanted, found = word.casefold(), []
+def ranked(asked: str) -> list[str]:
+    """Pages about a word or several: with them as they are, else with all of them, else with the most."""
+    found = _about(asked)
+    words = [word for word in re.findall(r"[\w-]+", asked.casefold()) if word not in SMALL]
+    if found or len(words) < 2:
+        return found
+    each = [_about(word) for word in words]
+    every = dict.fromkeys(name for names in each for name in names)
+
+    def place(name: str) -> tuple[int, int]:
+        places = [names.index(name) for names in each if name in names]
+        return -len(places), sum(places)
+
+    return sorted(every, key=place)
+
+
+def _about(asked: str) -> list[str]:
+    """Pages with a word: of that name, with it in their names or index, in titles, then by count.
+
+    A word is found at its beginning: "joint" in joints, "cite" in cited and not in excited; a short one as it
+    is or with an s.
+    """
+    wanted, found = asked.casefold().strip(), []
+    end = r"s?(?!\w)" if len(wanted) <= SHORT else ""
+    pattern = re.compile(rf"(?<!\w){re.escape(wanted)}{end}")
     for name, file in pages().items():
         text = file.read_text(encoding="utf-8").casefold()
-        count = len(re.findall(re.escape(wanted), text))
+        count = len(pattern.findall(text))
         index = [one.strip() for words in INDEX.findall(text) for one in words.split(",")]
-        named = wanted in name.rpartition("/")[2].replace("_", " ") or wanted in index
-        titled = wanted in title(file).casefold()
+        named = bool(pattern.search(name.rpartition("/")[2].replace("_", " "))) or wanted in index
+        titled = bool(pattern.search(title(file).casefold()))
         if count or named or titled or wanted == name:
             theory = name.startswith("theory/")  # behind what is to be done
             found.append((name != wanted, not named, theory, not titled, -count, name))

@@ -7,6 +7,7 @@ import signal
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import typer
@@ -72,7 +73,7 @@ def show(error: BaseException) -> None:
 def described(error: BaseException) -> tuple[str, str, str]:
     """Kind, message and hint of an error."""
     if isinstance(error, ModelError | SolveError):
-        return "error:", f"{error.where}: {error.what}", error.hint
+        return "error:", f"{error.where}: {error.what}", error.hint or _of_example(error)
     if isinstance(error, KeyboardInterrupt):
         return "stopped", "by SIGTERM" if _terminated(error) else "by Ctrl-C", ""
     if isinstance(error, MemoryError):
@@ -82,6 +83,17 @@ def described(error: BaseException) -> tuple[str, str, str]:
         return "error:", f"{place}{error.strerror or error}", ""
     hint = f"this is a fault of ancf: please report it; {TRACEBACK}=1 in the environment shows where"
     return "internal error:", f"{type(error).__name__}: {error}", hint
+
+
+def _of_example(error: ModelError | SolveError) -> str:
+    """Where a file that is not there comes from, if it is one of the examples."""
+    from .examples import folder
+
+    try:
+        known = error.what == "no such file" and (folder() / Path(error.where).name).is_file()
+    except (ModelError, OSError, ValueError):
+        return ""
+    return "it comes with the package: ancf examples --copy examples" if known else ""
 
 
 def _show_warning(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:

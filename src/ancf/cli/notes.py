@@ -6,7 +6,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ..errors import ModelError
+from ..model.doubts import doubts
 from ..model.file import Study
+from ..model.jumps import jumps
 from ..model.model import Model
 from ..model.series import noises
 from .summary import node_count
@@ -31,7 +33,14 @@ def check_equilibrium(study: Study, system: System) -> None:
 
 def notes(study: Study, system: System) -> list[str]:
     """All remarks on a study, one line each."""
-    return [*_floating(system), *_stretched(study.model), *noises(study.model), *_size(study)]
+    return [
+        *_floating(system),
+        *_stretched(study.model),
+        *noises(study.model),
+        *_jumps(study),
+        *doubts(study.model),
+        *_size(study),
+    ]
 
 
 def _floating(system: System) -> Iterator[str]:
@@ -48,6 +57,12 @@ def _stretched(model: Model) -> Iterator[str]:
         if abs(beam.stretch - 1) > 1e-12:
             share = f"{100 * abs(beam.stretch - 1):.3g} % {'longer' if beam.stretch > 1 else 'shorter'}"
             yield f'body "{beam.name}" starts {share} than its natural length {beam.length:g} m'
+
+
+def _jumps(study: Study) -> Iterator[str]:
+    settings = study.simulation
+    if settings is not None:
+        yield from map(str, jumps(study.model, 0.0, settings.t_end, settings.step))
 
 
 def _size(study: Study) -> Iterator[str]:

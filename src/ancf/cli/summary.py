@@ -30,6 +30,7 @@ def summarise(
 ) -> dict[str, Any]:
     """Everything worth keeping of a run, ready for JSON."""
     from ..results import accuracy
+    from ..results.resolution import of_steps
     from ..results.tension import compressions, notes
 
     model = study.model
@@ -49,7 +50,13 @@ def summarise(
         "outputs": {label: at_point(model, state, label) for label in outputs(study)},
         "energy": energies(result),
         "compression": [item.as_dict() for item in pressed],
-        "notes": [*notes(pressed), *accuracy.of_energy(result), *(state.notes if still else [])],
+        "notes": [
+            *result.provenance.get("notes", []),
+            *notes(pressed),
+            *accuracy.of_energy(result),
+            *of_steps(result),
+        ]
+        + (state.notes if still else []),
         "counters": {key: value for key, value in counters.items() if key != "cpu_seconds"},
         "versions": {**result.provenance.get("versions", {}), "ancf": __version__},
         **seconds,
@@ -125,7 +132,8 @@ def energies(result: Result) -> dict[str, Any]:
     energy = result.energy
     series = {name: np.asarray(getattr(energy, name)) for name in ENERGIES}
     ends = {key: {n: float(x[i]) for n, x in series.items()} for key, i in (("start", 0), ("end", -1))}
-    return {**ends, "balance_drift": float(np.max(np.abs(energy.drift)))}
+    drift = np.asarray(energy.drift)
+    return {**ends, "balance_drift": float(np.max(np.abs(drift))), "balance_drift_end": float(drift[-1])}
 
 
 def print_summary(to: Console, summary: dict[str, Any]) -> None:
@@ -173,7 +181,10 @@ def _energy(energy: dict[str, Any]) -> Any:
     noise = 1e-15 * max(abs(x) for row in rows.values() for x in row)
     for key, row in rows.items():
         made.add_row(key, *[f"{x if abs(x) > noise else 0.0:.6g}" for x in row])
-    made.add_row("drift", *[""] * (len(ENERGIES) - 1), f"{energy['balance_drift']:.2g}")
+    from ..results.accuracy import at_most
+
+    drift = at_most(energy["balance_drift"], energy["balance_drift_end"])
+    made.add_row("drift", *[""] * (len(ENERGIES) - 1), drift)
     return made
 
 

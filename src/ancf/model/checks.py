@@ -13,6 +13,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 
 UNIT = 8 * float(np.finfo(np.float64).eps)  # deviation of a square from 1 that is round-off
+ALL = 100  # choices that a message lists
 LARGEST = 1e100  # of a coordinate in m or of an inertia in kg m^2
 
 
@@ -140,7 +141,9 @@ def choice(value: object, where: str, allowed: Sequence[str]) -> str:
     """One of the allowed words."""
     if isinstance(value, str) and value in allowed:
         return value
-    raise ModelError(where, f"is {shown(value)}, must be one of {listed(allowed)}", nearest(value, allowed))
+    raise ModelError(
+        where, f"is {shown(value)}, must be one of {listed(allowed, ALL)}", nearest(value, allowed)
+    )
 
 
 def listed(names: Iterable[str], limit: int = 20) -> str:

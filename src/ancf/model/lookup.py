@@ -130,7 +130,7 @@ class Lookup:
         if not isinstance(item, str):
             what = "must be a point, spring, joint or support of this model, or its name"
             raise ModelError(where, f"{what}, is {checks.shown(item)}")
-        if POINT_LABEL.fullmatch(item.strip()) or item.strip() in self.bodies:
+        if POINT_LABEL.fullmatch(item.strip()) or item.strip().partition(".")[0] in self.bodies:
             return self._point(item, where)
         names = [*self.bodies, *(c.name for c in self.connections), *(s.name for s in self.supports)]
         raise unknown(where, "point, spring, joint or support", item, names)

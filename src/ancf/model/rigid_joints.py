@@ -13,7 +13,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from . import checks
 from .beam import Beam
-from .bodies import PointMass
+from .bodies import PointMass, RigidBody
 from .kind import JOINT, Kind, Look
 from .make_joints import End, check_pair, require_axes
 from .points import Point
@@ -112,7 +112,9 @@ def make_universal(where: str, name: str, a: Point, b: End, axes: tuple[Any, Any
 def make_weld(where: str, name: str, a: Point, b: End, size: float) -> Weld:
     """Check what ``Model.weld`` was given; `size` is the size of the model in m."""
     if not isinstance(b, Point):
-        raise ModelError(f"{where}.b", "is a position in space", f"model.clamp({a}) holds it there")
+        held = a.body.name if isinstance(a.body, RigidBody) else a
+        hint = f"a clamp is a weld to the ground: model.clamp({held}); results have its reaction_moment"
+        raise ModelError(f"{where}.b", "is a position in space", hint)
     for key, end in (("a", a), ("b", b)):
         if isinstance(end.body, PointMass):
             what = f'"{end.body.name}" is a point mass and has no orientation'

@@ -217,12 +217,22 @@ def check_overlap(where: str, new: Support, others: list[Support]) -> None:
     for other in others:
         _refuse_second_winch(where, new, other)
         if isinstance(other, Clamp) and isinstance(new, Clamp):
+            _refuse_repeated(where, new, other)
             continue
         same_node = other.point.body is new.point.body and node_of(other.point) == node_of(new.point)
         twice = _held_twice(other.held, new.held)
         if same_node and twice:
             what = f'"{new.name}" and "{other.name}" both hold {", ".join(twice)} of {new.point}'
             raise ModelError(f"{where}.point", what, "keep one of them")
+
+
+def _refuse_repeated(where: str, new: Clamp, other: Clamp) -> None:
+    """A second clamp of a node that neither moves it nor holds its stretch is the first one again."""
+    same_node = other.point.body is new.point.body and node_of(other.point) == node_of(new.point)
+    moves = (new.rotation, new.rotation_vector, new.displacement)
+    if same_node and new.stretch == other.stretch and all(motion is None for motion in moves):
+        what = f'"{other.name}" clamps {new.point} already'
+        raise ModelError(f"{where}.point", what, "keep one of them; a second one gives a motion or a stretch")
 
 
 def _refuse_second_winch(where: str, new: Support, other: Support) -> None:
@@ -259,7 +269,8 @@ def require_node(point: Point, where: str) -> int:
         if not isinstance(body, Beam):
             what = f"{point} is off the centre of mass, a support holds a rigid body there"
             place = [round(float(x), 9) for x in point.initial_position]
-            raise ModelError(where, what, f"join it to the ground: model.connect({point}, {place})")
+            hint = f"model.clamp({body.name}) holds all of it, model.connect({point}, {place}) lets it turn"
+            raise ModelError(where, what, hint)
         what = f"{point} is off the centreline, what holds or joins a node must be on the centreline"
         raise ModelError(where, what, f"give {body.at(point.x)}")
     node = node_of(point)

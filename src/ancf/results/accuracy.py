@@ -7,6 +7,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.beam import Beam
+from ..model.doubts import doubts
 from ..solvers.locking import locked, stiffest
 from ..system import redundancy
 from ..system.consistency import nearly_dependent
@@ -25,7 +26,7 @@ KEEPING = ("trapezoidal", "explicit")
 def of_state(state: Instant) -> list[str]:
     """Notes on an equilibrium: which cable bends too little, and by how much."""
     system = state.system
-    found = redundancy.notes(system)
+    found = [*redundancy.notes(system), *doubts(system.model)]
     if np.any(state.v):
         return found
     moved = np.abs(locked(system, state.q))
@@ -47,6 +48,11 @@ def of_state(state: Instant) -> list[str]:
         f"stretch (EA L^2/EI = {stiffest(system):.1e}); take more of them, or a smaller EA"
     )
     return [text, *found]
+
+
+def at_most(largest: float, last: float) -> str:
+    """How far a balance of energies drifted: by size at most, and at the end."""
+    return f"at most {abs(largest):.2g} (end {last:.2g})"
 
 
 def of_joints(result: History) -> list[str]:

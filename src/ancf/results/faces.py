@@ -108,11 +108,11 @@ class Instant(Shaped, Protocol):
 
 
 class Swinging(Protocol):
-    """What Modes have."""
+    """What Modes and DampedModes have."""
 
     @property
-    def frequencies(self) -> FloatArray:
-        """Angular frequencies."""
+    def notes(self) -> list[str]:
+        """What to know of them."""
         ...
 
     @property
@@ -123,4 +123,37 @@ class Swinging(Protocol):
     @property
     def about(self) -> Instant:
         """The state that is vibrated about."""
+        ...
+
+
+class Swung(Swinging, Protocol):
+    """What Modes have."""
+
+    @property
+    def frequencies(self) -> FloatArray:
+        """Angular frequencies."""
+        ...
+
+
+class Whirling(Swinging, Protocol):
+    """What DampedModes have."""
+
+    @property
+    def eigenvalues(self) -> Any:
+        """Complex, 1/s."""
+        ...
+
+    @property
+    def damping_ratios(self) -> FloatArray:
+        """Shares of the critical damping."""
+        ...
+
+    @property
+    def whirl(self) -> FloatArray:
+        """1 and -1 for circles with and against the rotation."""
+        ...
+
+    @property
+    def spin(self) -> FloatArray:
+        """Rate of the rotation."""
         ...

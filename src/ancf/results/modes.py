@@ -12,7 +12,7 @@ from ..model.bodies import PointMass, RigidBody
 from ..model.points import Point
 from ..model.tables import Readable, Sheet
 from ..system.fields import Fields
-from .overview import line_of_modes, of_modes
+from .overview import line_of_modes, of_damped_modes, of_modes
 from .pictures import ModesPlotted
 from .sensitivities import sensitivity_of
 from .state import State
@@ -37,12 +37,15 @@ class Modes(ModesPlotted, Readable):
     shapes : ndarray, shape (count, size)
         State vectors of the shapes, normed to a modal mass of 1 kg.
     about : State
+    notes : list of str
+        What to know of them that nobody asked for: that the state is no equilibrium, that the model rotates.
     """
 
     frequencies: FloatArray
     shapes: FloatArray
     about: State
     derivatives: dict[str, Any] = field(default_factory=dict, repr=False)  # by the name of a parameter
+    notes: list[str] = field(default_factory=list, repr=False)
 
     def __repr__(self) -> str:
         return line_of_modes(self)
@@ -76,7 +79,7 @@ class Modes(ModesPlotted, Readable):
 
 
 @dataclass(frozen=True)
-class DampedModes:
+class DampedModes(Readable):
     """Damped modes about an equilibrium or a steady rotation; they grow and swing as ``exp(eigenvalue t)``.
 
     Of a pair of conjugate eigenvalues the one with the positive imaginary part is listed. About a rotation
@@ -96,6 +99,8 @@ class DampedModes:
         Rate of the steady rotation, rad/s.
     about : State
         The equilibrium, or what was found to turn steadily.
+    notes : list of str
+        What to know of them that nobody asked for: that the state is no equilibrium.
     """
 
     eigenvalues: Any
@@ -103,6 +108,13 @@ class DampedModes:
     whirl: FloatArray
     spin: FloatArray
     about: State
+    notes: list[str] = field(default_factory=list, repr=False)
+
+    def __repr__(self) -> str:
+        return line_of_modes(self)
+
+    def _sheet(self) -> Sheet:
+        return of_damped_modes(self)
 
     @property
     def frequencies_hz(self) -> FloatArray:

@@ -9,10 +9,11 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.supports import Support
+from ..model.winch import Winch
 from ..solvers.in_motion import in_motion
 from ..system.reactions import held_part, reaction, support_name
 from ..system.system import System
-from . import remembered
+from . import moments, remembered
 from .remembered import Remembered
 
 _FRICTION = (
@@ -62,6 +63,49 @@ class Motions:
         forces = self._in_motion()[1]
         found = [held_part(system, name, r) for r in np.atleast_2d(forces)]
         return found[0] if forces.ndim == 1 else np.array(found).reshape(-1, 3)
+
+    def reaction_moment(self: Any, support: Support | str) -> FloatArray:
+        """Moment of the ground on the node or body of a support, N m, about it, along global axes.
+
+        Of a rigid body it is about the centre of mass, of the end of a beam about the node. With a prescribed
+        rotation it is the moment of the motor. It is the part of all supports that hold one node together.
+
+        Parameters
+        ----------
+        support : Pin, Clamp, Hold or its name
+
+        Raises
+        ------
+        ModelError
+            As for :meth:`reaction`.
+        """
+        system = self.system
+        name = support_name(system, support)
+        self.reaction(name)  # of what is no equilibrium and should be one it says so
+        item = next(item for item in system.model.supports if item.name == name)
+        return moments.of_support(system, item, self.q[...], self._in_motion()[1])
+
+    def joint_moment(self: Any, joint: Any) -> FloatArray:
+        """Moment that the second end of a joint receives, N m, about the joint's point, along global axes.
+
+        The second end is ``b`` of a weld or hinge, the body of ``clamp(point, to=body)``, or the ground.
+        Its force is the first three of :meth:`multiplier`.
+
+        Parameters
+        ----------
+        joint : joint with multipliers, or its name
+
+        Raises
+        ------
+        ModelError
+            There is no such joint, or it is a sliding one.
+        """
+        item = moments.checked_joint(self.system, joint)
+        return moments.of_joint(self.system.double, item, np.array(self.q[...]))
+
+    def held_supports(self: Any) -> list[str]:
+        """Names of the supports that have a reaction."""
+        return [item.name for item in self.model.supports if not isinstance(item, Winch)]
 
     def _reaction_at_rest(self, name: str) -> FloatArray | None:
         """Of an equilibrium, None for what is in motion."""

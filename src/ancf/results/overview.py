@@ -13,7 +13,8 @@ from ..model.model import Model
 from ..model.overview import body_table, sizes
 from ..model.points import Point
 from ..model.tables import Sheet, Table, number, plural
-from .faces import History, Instant, Swinging
+from .accuracy import at_most
+from .faces import History, Instant, Swinging, Swung, Whirling
 
 STATUS = {
     "complete": "complete",
@@ -23,6 +24,10 @@ STATUS = {
 }
 #: Bodies that a summary shows when nothing was asked for.
 MOST_BODIES = 4
+#: Share of an eigenvalue that its real part has if it grows, and below which a part is round-off.
+GROWS, NOISE = 1e-6, 1e-10
+#: Whirl of what is called a circle.
+CIRCLES = 0.5
 #: Numbers of a history that a sheet reads for its notes.
 MOST_READ = 20_000_000
 POINT_COLUMNS = ("point", "x [m]", "y [m]", "z [m]", "speed [m/s]", "tension [N]")
@@ -62,17 +67,50 @@ def of_state(state: Instant) -> Sheet:
     return Sheet(f"State{_quoted(model.title)}", facts, [Table(POINT_COLUMNS, points)])
 
 
-def of_modes(modes: Swinging) -> Sheet:
+def of_modes(modes: Swung) -> Sheet:
     """Frequencies and periods."""
     rows = [
         (str(k), number(hz), number(omega), number(1.0 / hz) if hz > 0.0 else "")
         for k, (hz, omega) in enumerate(zip(modes.frequencies_hz, modes.frequencies, strict=True), 1)
     ]
     columns = ("mode", "frequency [Hz]", "angular frequency [rad/s]", "period [s]")
-    about = f"{plural(len(rows), 'mode')} about the state at t = {modes.about.t:g} s"
-    return Sheet(
-        f"Modes{_quoted(modes.about.system.model.title)}", [("count", about)], [Table(columns, rows, 40)]
-    )
+    return Sheet(f"Modes{_quoted(modes.about.system.model.title)}", _about(modes), [Table(columns, rows, 40)])
+
+
+def of_damped_modes(modes: Whirling) -> Sheet:
+    """Eigenvalues, frequencies, damping, and what each mode does: it grows, whirls or only decays."""
+    rows = []
+    for k, (value, whirl) in enumerate(zip(modes.eigenvalues, modes.whirl, strict=True), 1):
+        noise = NOISE * abs(value)
+        real, imaginary = (part if abs(part) > noise else 0.0 for part in (value.real, value.imag))
+        ratio = -real / abs(value) if value else 0.0
+        shown = (abs(imaginary) / (2 * np.pi), ratio, real, imaginary)
+        rows.append((str(k), *map(number, shown), _does(value, whirl)))
+    columns = ("mode", "frequency [Hz]", "damping ratio", "real part [1/s]", "imaginary part [1/s]", "motion")
+    rate = float(np.linalg.norm(modes.spin))
+    turning = f"{number(rate)} rad/s; frequencies are those of who turns with it" if rate else ""
+    facts = [*_about(modes), ("rotation", turning)]
+    return Sheet(f"DampedModes{_quoted(modes.about.system.model.title)}", facts, [Table(columns, rows, 40)])
+
+
+def _about(modes: Swinging) -> list[tuple[str, str]]:
+    """How many modes there are, about what, and their notes."""
+    count = f"{plural(len(modes.frequencies_hz), 'mode')} about the state at t = {modes.about.t:g} s"
+    return [("count", count), *(("note", text) for text in modes.notes)]
+
+
+def _does(value: complex, whirl: float) -> str:
+    """What a damped mode does."""
+    size = abs(value)
+    if value.real > GROWS * size:
+        return "flutters: grows" if value.imag > GROWS * size else "diverges: grows"
+    if size == 0.0:
+        return "neutral"
+    if value.imag <= GROWS * size:
+        return "decays"
+    if abs(whirl) > CIRCLES:
+        return "whirls with the rotation" if whirl > 0.0 else "whirls against the rotation"
+    return ""
 
 
 def line_of_result(result: History) -> str:
@@ -90,7 +128,7 @@ def line_of_modes(modes: Swinging) -> str:
     """One line: how many, lowest and highest frequency."""
     hz = modes.frequencies_hz
     ends = f", {hz[0]:.4g} to {hz[-1]:.4g} Hz" if len(hz) else ""
-    return f"Modes({plural(len(hz), 'mode')}{ends})"
+    return f"{type(modes).__name__}({plural(len(hz), 'mode')}{ends})"
 
 
 def times(result: History) -> str:
@@ -125,18 +163,27 @@ def _cost(result: History) -> str:
 
 
 def _drift(result: History, settings: dict[str, Any]) -> str:
-    """Change of the balance from the first to the last stored time; only these two states are looked at."""
+    """Change of the balance since the first stored time; of a long history its end alone is looked at."""
     if not settings.get("energy", True) or not len(result.t):
         return ""
     energy, work = result._end_energies()
     balance = energy.sum(axis=1) + work[:, 0] - work[:, 1]
     largest = float(np.max(np.abs(np.concatenate([energy, work], axis=1))))
-    return f"the balance drifts by {balance[-1] - balance[0]:.2g} J, largest part {largest:.3g} J"
+    last = float(balance[-1] - balance[0])
+    drift = (
+        at_most(float(np.max(np.abs(result.energy.drift))), last) if _short(result) else f"{last:.2g} (end)"
+    )
+    return f"drift of the balance {drift} J, largest part {largest:.3g} J"
+
+
+def _short(result: History) -> bool:
+    """Whether all states are looked at: print must not read gigabytes."""
+    return bool(len(result.t)) and result.q.shape[0] * result.q.shape[1] <= MOST_READ
 
 
 def _notes(result: History) -> list[str]:
-    """Notes of a history that is not long; print must not read gigabytes."""
-    return result.notes if len(result.t) and result.q.shape[0] * result.q.shape[1] <= MOST_READ else []
+    """Notes of a history that is not long; of a long one those that were there before it began."""
+    return result.notes if _short(result) else [str(text) for text in result.provenance.get("notes", [])]
 
 
 def _names(names: list[str]) -> str:

@@ -35,14 +35,15 @@ class Plotted:
 
         Parameters
         ----------
-        *what : Point, PointMass, RigidBody, Spring, Contact, joint or str
-            Points, springs, contacts or joints, as objects of the model or by name: "beam.end".
+        *what : Point, PointMass, RigidBody, Spring, Contact, joint, support or str
+            Points, springs, contacts, joints or supports, as objects of the model or by name: "beam.end".
         quantity : str
             What to ask of them: "position" (default of points), "velocity", "speed", "tension", "strain",
             "curvature", "bending_moment", "torque" or "twist" of points; "spring_force" (default) or
             "spring_length" of springs; "contact_force" (default), "contact_gap" or "arc_length" of
-            contacts; "arc_length" (default) or "arc_rate" of sliding joints; "multiplier" of joints;
-            "energy" of the whole.
+            contacts; "arc_length" (default), "arc_rate", "normal_force" or "sliding_friction" of sliding
+            joints; "multiplier" (default) or "joint_moment" of joints; "reaction" (default) or
+            "reaction_moment" of supports; "energy" of the whole.
         x : str
             Along the axis of x: "t", or a scalar quantity of the same items.
         plane : str

@@ -30,6 +30,7 @@ from .overview import line_of_result, of_result
 from .pictures import Filmed
 from .read_store import ReadStore
 from .remembered import Remembered
+from .resolution import of_steps
 from .sensitivities import sensitivity_of
 from .sensors import Sensors
 from .state import Energy, State
@@ -191,13 +192,15 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
 
     @property
     def notes(self) -> list[str]:
-        """What to know of the run that nobody asked for, one line each: cables that were pressed, and when,
-        energy that came from nowhere, joints of which others hold a part already.
+        """What to know of the run that nobody asked for, one line each: motions that jump or are noisy,
+        numbers that look like those of other units, cables that were pressed, and when, energy that came from
+        nowhere, steps that are long for what vibrates, joints of which others hold a part already.
 
         All stored states are looked at, when it is asked for.
         """
         pressed = tension.notes(tension.compressions(self))
-        return [*pressed, *accuracy.of_energy(self), *accuracy.of_joints(self)]
+        given = [str(text) for text in self._header.get("notes", [])]
+        return [*given, *pressed, *accuracy.of_energy(self), *of_steps(self), *accuracy.of_joints(self)]
 
     @property
     def stats(self) -> Stats:

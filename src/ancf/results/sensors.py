@@ -108,10 +108,19 @@ class Sensors(SpringFields, ContactFields, Plotted):
         return a
 
     def _sliding(self, joint: Any) -> tuple[FloatArray, FloatArray]:
-        hint = "ask the result, at its stored times"
-        raise ModelError(
-            named(getattr(joint, "name", joint)), "its carrier was not recorded by the sensors", hint
-        )
+        raise _not_recorded(joint, "the shape of its carrier")
+
+    def reaction_moment(self, support: Any) -> FloatArray:
+        """Not recorded: ask the result."""
+        raise _not_recorded(support, "its moment")
+
+    def joint_moment(self, joint: Any) -> FloatArray:
+        """Not recorded: ask the result."""
+        raise _not_recorded(joint, "its moment")
+
+    def held_supports(self) -> list[str]:
+        """Names of the supports whose reactions were recorded."""
+        return [*self.listing.held]
 
     def reaction(self, support: Any) -> FloatArray:
         """Force of the ground on the node of a support, N, shape (n, 3), global components.
@@ -197,6 +206,12 @@ class Sensors(SpringFields, ContactFields, Plotted):
 
     def _recorded(self) -> str:
         return "recorded are: " + ", ".join(self.names)
+
+
+def _not_recorded(item: Any, what: str) -> ModelError:
+    """An error of what results answer and samples do not."""
+    hint = "ask the result itself, at its stored times; without output_step= those are all steps"
+    return ModelError(named(getattr(item, "name", item)), f"the sensors have not recorded {what}", hint)
 
 
 def _ends(spring: Spring) -> list[Point]:

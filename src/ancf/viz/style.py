@@ -99,7 +99,12 @@ UNITS = {
     "energy": "J",
     "arc_length": "m",
     "arc_rate": "m/s",
+    "normal_force": "N",
+    "sliding_friction": "N",
     "multiplier": "N",
+    "joint_moment": "N m",
+    "reaction": "N",
+    "reaction_moment": "N m",
     "spring_force": "N",
     "spring_length": "m",
     "torsion_angle": "rad",
@@ -111,7 +116,7 @@ UNITS = {
     "frequency": "Hz",
 }
 #: Symbols that stand in labels instead of the name.
-SYMBOLS = {"t": "$t$", "multiplier": "force of the joint"}
+SYMBOLS = {"t": "$t$", "multiplier": "force of the joint", "joint_moment": "moment of the joint"}
 
 #: Settings that matplotlib holds while a figure is made and saved.
 SETTINGS: dict[Any, Any] = {

@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from ...errors import ModelError
-from ..checks import listed, nearest, shown
+from ..checks import ALL, listed, nearest, shown
 from .entries import NESTED, TAGGED, FileEntry
 from .fields import Entry
 
@@ -87,7 +87,7 @@ def _of_value(kind: str, given: Any, context: dict[str, Any], message: str) -> t
         return f"must be {sign} {context[key]:g}, is {given:g}", ""
     if kind == "literal_error":
         allowed = re.findall(r"'([^']*)'", context["expected"])
-        return f"is {shown(given)}, must be one of {listed(allowed)}", nearest(given, allowed)
+        return f"is {shown(given)}, must be one of {listed(allowed, ALL)}", nearest(given, allowed)
     if kind in ("too_short", "too_long"):
         wanted = context.get("min_length", context.get("max_length"))
         least = "at least " if wanted == 1 else ""
@@ -100,8 +100,8 @@ def _wrong_kind(where: str, given: Any, key: str, allowed: list[str]) -> ModelEr
         also = "the name of a section or " if key == "shape" and "sections" not in where else ""
         return ModelError(where, f"must be {also}a table, is {shown(given)} ({type(given).__name__})")
     if key not in given:
-        return ModelError(f"{where}.{key}", f"is missing, must be one of {listed(allowed)}")
-    what = f"is {shown(given[key])}, must be one of {listed(allowed)}"
+        return ModelError(f"{where}.{key}", f"is missing, must be one of {listed(allowed, ALL)}")
+    what = f"is {shown(given[key])}, must be one of {listed(allowed, ALL)}"
     return ModelError(f"{where}.{key}", what, nearest(given[key], allowed))
 
 

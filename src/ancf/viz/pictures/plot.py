@@ -104,6 +104,8 @@ def _panels(source: Any, what: Sequence[Any], quantity: str | None, x: str) -> I
         names = [label(item) for item in items]
         if QUANTITIES[asked].vector:
             yield from _components(asked, names, along, values)
+            if asked == "multiplier" and len(items) == 1 and values[0].shape[1] > 3:
+                yield from _moment(source, items[0], along[0], values[0])
         else:
             curves = [Curve(*given) for given in zip(names, along, values, strict=True)]
             yield Panel(style.axis_label(asked), curves)
@@ -121,19 +123,24 @@ def _components(
 ) -> Iterator[Panel]:
     """One item: its components in a panel, and moments in another; several items: a panel per component."""
     if len(names) == 1:
-        parts = {style.axis_label(quantity): slice(0, 3)}
-        if values[0].shape[1] > 3:
-            parts["moment of the joint [N m]"] = slice(3, None)
-        for text, columns in parts.items():
-            chosen = values[0][:, columns].T
-            letters = AXES if columns.start == 0 else [str(k + 1) for k in range(len(chosen))]
-            curves = [Curve(f"{names[0]} {c}", along[0], v) for c, v in zip(letters, chosen, strict=False)]
-            yield Panel(text, curves)
+        columns = values[0][:, :3].T
+        curves = [Curve(f"{names[0]} {c}", along[0], v) for c, v in zip(AXES, columns, strict=False)]
+        yield Panel(style.axis_label(quantity), curves)
         return
     for k, letter in enumerate(AXES):
         columns_of = zip(names, along, values, strict=True)
         curves = [Curve(name, x, value[:, k]) for name, x, value in columns_of if value.shape[1] > k]
         yield Panel(style.axis_label(quantity, letter), curves)
+
+
+def _moment(source: Any, item: Any, along: FloatArray, values: FloatArray) -> Iterator[Panel]:
+    """Moment of a joint along global axes; of sensors the multipliers that hold its axes, by number."""
+    name, text = label(item), style.axis_label("joint_moment")
+    try:
+        moment, letters = ask(source, "joint_moment", item), list(AXES)
+    except ModelError:
+        moment, letters = values[:, 3:], [str(k + 1) for k in range(values.shape[1] - 3)]
+    yield Panel(text, [Curve(f"{name} {c}", along, v) for c, v in zip(letters, moment.T, strict=True)])
 
 
 def _energies(source: Any, what: Sequence[Any], quantity: str | None, x: str) -> list[Panel]:

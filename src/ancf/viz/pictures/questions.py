@@ -15,6 +15,7 @@ from ...model.kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT, TORSIO
 from ...model.kinds import CONNECTIONS, kind_of
 from ...model.names import POINT_LABEL
 from ...model.points import Point
+from ...model.supports import Clamp, Hold, Pin
 
 
 class Question(NamedTuple):
@@ -26,6 +27,7 @@ class Question(NamedTuple):
 
 
 POINT = "point"
+SUPPORT = "support"
 
 QUANTITIES: dict[str, Question] = {
     "position": Question("position", (POINT,), vector=True),
@@ -47,7 +49,12 @@ QUANTITIES: dict[str, Question] = {
     "slipping": Question("slipping", (SURFACE_CONTACT,)),
     "arc_length": Question("arc_length", (SLIDE, CONTACT)),
     "arc_rate": Question("arc_rate", (SLIDE,)),
+    "normal_force": Question("normal_force", (SLIDE,), vector=True),
+    "sliding_friction": Question("sliding_friction", (SLIDE,)),
     "multiplier": Question("multiplier", (JOINT, SLIDE), vector=True),
+    "joint_moment": Question("joint_moment", (JOINT,), vector=True),
+    "reaction": Question("reaction", (SUPPORT,), vector=True),
+    "reaction_moment": Question("reaction_moment", (SUPPORT,), vector=True),
 }
 SCALARS = [name for name, question in QUANTITIES.items() if not question.vector]
 #: What is asked when no quantity is given.
@@ -59,6 +66,7 @@ DEFAULTS = {
     SURFACE_CONTACT: "contact_force",
     SLIDE: "arc_length",
     JOINT: "multiplier",
+    SUPPORT: "reaction",
 }
 
 
@@ -97,29 +105,32 @@ def quantity_of(source: Any, item: Any, quantity: str | None) -> str:
 
 
 def noun_of(source: Any, item: Any) -> str:
-    """What an item is: "point", "spring", "contact", "sliding joint" or "joint"."""
+    """What an item is: "point", "support", "spring", "contact", "sliding joint" or "joint"."""
     if isinstance(item, Point | PointMass | RigidBody | Beam):
         return POINT
+    if isinstance(item, Pin | Clamp | Hold):
+        return SUPPORT
     for kind in CONNECTIONS:
         if isinstance(item, kind.item):
             return kind.asked
     if not isinstance(item, str):
-        what = f"must be a point, spring, contact or joint, or its name, is {checks.shown(item)}"
+        what = f"must be a point, support, spring, contact or joint, or its name, is {checks.shown(item)}"
         raise ModelError("plot", what, 'such as result.plot("beam.end")')
     named = known(source)
     if item in named:
         return named[item]
     if item.strip() not in source.bodies and not POINT_LABEL.fullmatch(item.strip()):
-        what = f'"{item}" is no point, spring, contact or joint here'
+        what = f'"{item}" is no point, support, spring, contact or joint here'
         names = [*source.bodies, *named]
         raise ModelError("plot", what, checks.nearest(item, names) or f"there are: {checks.listed(names)}")
     return POINT
 
 
 def known(source: Any) -> dict[str, str]:
-    """Names of springs, contacts and joints, with what they are."""
+    """Names of springs, contacts, joints and supports, with what they are."""
     asked = {*source.joints, *source.springs, *source.torsion_springs, *source._contacts()}
-    return {item.name: kind_of(item).asked for item in source.model.connections if item.name in asked}
+    found = {item.name: kind_of(item).asked for item in source.model.connections if item.name in asked}
+    return found | dict.fromkeys(source.held_supports(), SUPPORT)
 
 
 def label(item: Any) -> str:

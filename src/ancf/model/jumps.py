@@ -1,0 +1,122 @@
+"""Given motions that jump: of what they move, a jump of the rate is a push that no step resolves.
+
+Forces of inertia grow as such a jump is divided among shorter steps, and their work does not converge. It is
+looked for in values of the motion: at a corner the change of the rate stays as it is when the times move
+together, elsewhere it goes with their distance, and at a jump of the value it grows.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import ModelError
+from .functions import TimeFunction
+from .joints import Slide
+
+#: Times at which a motion is looked at, of the first steps and of the whole, and corners looked at closer.
+FIRST, MOST = 400, 4
+#: Share of the largest rate that a jump has at least; of a step, how close times come before and after.
+SHARE, COARSE, FINE = 0.05, 8.0, 512.0
+#: How the change of the rate goes from coarse to fine: at a corner it stays, at a jump it grows.
+STAYS, GROWS = 0.5, 4.0
+
+
+class Jump(NamedTuple):
+    """Where and when a motion jumps: the value itself, or its rate."""
+
+    where: str
+    of_value: bool
+    time: float
+    size: float
+    unit: str
+
+    def __str__(self) -> str:
+        if self.of_value:
+            text = f"its value jumps by {self.size:.3g} {self.unit} at t = {self.time:.4g} s"
+            return f"{self.where}: {text}, which no step can follow; let it grow over several steps"
+        text = f"its rate jumps by {self.size:.3g} {self.unit}/s at t = {self.time:.4g} s"
+        return f"{self.where}: {text}, an impulse whose size depends on the step; round the corner off"
+
+
+def jumps(model: Any, start: float, end: float, step: float) -> list[Jump]:
+    """The largest jump of each given motion of a model between two times, s.
+
+    Motions with given exact derivatives and those that a run is led by are left out.
+    """
+    if not (math.isfinite(end) and end - start > 2.0 * step):
+        return []
+    found = []
+    for function, unit in _motions(model):
+        try:
+            found += _of_motion(function, unit, start, end, step)
+        except ModelError:  # the run says at which step
+            continue
+    return found
+
+
+def _motions(model: Any) -> Iterator[tuple[TimeFunction, str]]:
+    for support in model.supports:
+        exact = getattr(support, "rotation_rate", None) is not None
+        keys = [("displacement", "m"), ("rotation_vector", "rad"), ("length", "m")]
+        keys += [] if exact else [("rotation", "rad")]
+        for key, unit in keys:
+            yield from _varies(getattr(support, key, None), unit)
+    for joint in model.connections:
+        if isinstance(joint, Slide):
+            yield from _varies(joint.motion, "m")
+
+
+def _varies(function: Any, unit: str) -> Iterator[tuple[TimeFunction, str]]:
+    if isinstance(function, TimeFunction) and not (function.constant or function.inputs or function.missing):
+        yield function, unit
+
+
+def _of_motion(function: TimeFunction, unit: str, start: float, end: float, step: float) -> list[Jump]:
+    """The largest jump, among the first steps and over all of the time."""
+    steps = round((end - start) / step)
+    found = _between(function, unit, start, end, step, int(np.clip(steps, 8, FIRST)))
+    if steps > 2 * FIRST:
+        found += _between(function, unit, start, start + FIRST * step, step, FIRST)
+    return [max(found, key=lambda jump: (jump.of_value, jump.size))] if found else []
+
+
+def _between(
+    function: TimeFunction, unit: str, start: float, end: float, step: float, count: int
+) -> list[Jump]:
+    t = np.linspace(start, end, count + 1)
+    rates = np.diff(function.table(t), axis=0) / (t[1] - t[0])
+    changes = np.linalg.norm(np.diff(rates, axis=0), axis=1)
+    largest = float(np.max(np.linalg.norm(rates, axis=1)))
+    near = np.pad(changes, 2, mode="edge")
+    sharp = changes - np.maximum(near[:-4], near[4:])  # beyond that of the neighbours
+    places = [int(k) for k in np.argsort(sharp)[::-1][:MOST] if sharp[k] > SHARE * largest]
+    found = [_closer(function, unit, float(t[k]), float(t[k + 2]), step) for k in places]
+    return [jump for jump in found if jump is not None and (jump.of_value or jump.size > SHARE * largest)]
+
+
+def _closer(function: TimeFunction, unit: str, low: float, high: float, step: float) -> Jump | None:
+    """Move together around the sharpest corner; None if there is none."""
+    coarse = None
+    while True:
+        t = np.linspace(low, high, 5)
+        values = function.table(t)
+        change = np.diff(np.diff(values, axis=0), axis=0) / (t[1] - t[0])
+        sizes: FloatArray = np.linalg.norm(change, axis=1)
+        k = int(np.argmax(sizes))
+        low, high, now = float(t[k]), float(t[k + 2]), float(sizes[k])
+        width = high - low
+        if coarse is None and width <= step / COARSE:
+            coarse = now
+        if coarse is not None and width <= step / FINE:
+            break
+    if now > GROWS * coarse:
+        whole = float(np.linalg.norm(values[k + 2] - values[k]))
+        return Jump(function.where, True, float(t[k + 1]), whole, unit)
+    if now > STAYS * coarse:
+        return Jump(function.where, False, float(t[k + 1]), now, unit)
+    return None

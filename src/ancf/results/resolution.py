@@ -1,0 +1,49 @@
+"""Whether the steps of a run follow its motion: how far velocities turn in a step, weighed by the mass.
+
+Of a vibration of the rate w a method turns the velocities in a step of length h by an angle p, and the
+kinetic energies of their changes sum up to 4 sin^2(p/2) of those of the velocities.  The trapezoidal rule has
+tan(p/2) = w h/2: it keeps the energy however long its steps are, so that no energy tells.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..errors import ModelError
+from ..system.core import inertia
+from .faces import History
+
+#: Steps of a period below which it is said, stored states that are looked at, and those that say nothing yet.
+PERIOD, MOST, FEWEST = 8.0, 1000, 6
+#: Steps of a period whose period is right to a per cent.
+ENOUGH = 20.0
+
+
+def of_steps(result: History) -> list[str]:
+    """A note on a history of which every step was stored, and whose steps are long for what moves."""
+    settings = result.provenance.get("settings", {})
+    step = settings.get("step")
+    known = step is not None and settings.get("output_step") == step and settings.get("integrator") != "radau"
+    if not known or len(result.t) < FEWEST:
+        return []
+    try:
+        core, size = result.system.core, result.system.size
+    except ModelError:  # a file of another version, whose unknowns are in another order
+        return []
+    changes, whole, momentum = 0.0, 0.0, np.empty(size)
+    for k in np.unique(np.linspace(1, len(result.t) - 1, min(MOST, len(result.t) - 1)).astype(int)).tolist():
+        before, after = np.array(result.v[k - 1]), np.array(result.v[k])
+        inertia(core.batches, core.ws, after - before, momentum)
+        changes += float(momentum @ (after - before))
+        inertia(core.batches, core.ws, after, momentum)
+        whole += float(momentum @ after)
+    if not whole > 0.0 or changes < 4.0 * math.sin(math.pi / PERIOD) ** 2 * whole:
+        return []
+    half = math.asin(min(0.5 * math.sqrt(changes / whole), 1.0))
+    period = math.pi * step / max(math.tan(half), 1e-9)
+    return [
+        f"steps of {step:g} s are long for what moves: most kinetic energy is that of vibrations with a "
+        f"period of about {period:.2g} s, {period / step:.2g} steps; take {period / ENOUGH:.1g} s"
+    ]

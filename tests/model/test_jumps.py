@@ -1,0 +1,118 @@
+"""Given motions that jump, in value or rate: found where they are, and said; smooth ones are not."""
+
+import numpy as np
+import pytest
+
+import ancf
+from ancf.errors import SolveError
+from ancf.model.jumps import jumps
+
+WIRE = ancf.Section(EA=1e6, EI=1.0, rhoA=1.0)
+
+
+def beam(**clamped):
+    model = ancf.Model()
+    rod = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=4, section=WIRE)
+    model.clamp(rod.start, **clamped)
+    return model
+
+
+def found(motion, end=1.0, step=1e-3, name="rotation"):
+    return jumps(beam(**{name: motion}), 0.0, end, step)
+
+
+def late(t):
+    return 0 if t < 0.1 else 6.28 * (t - 0.1)
+
+
+class TestFound:
+    @pytest.mark.parametrize("end", [0.2, 1.0, 37.0, 1000.0])
+    def test_a_rate_that_begins_at_once(self, end):
+        [jump] = found(late, end)
+        assert not jump.of_value
+        assert (jump.time, jump.size) == pytest.approx((0.1, 6.28), abs=1e-4)
+        assert str(jump).startswith(
+            "clamp(beam.start).rotation: its rate jumps by 6.28 rad/s at t = 0.1 s, an impulse whose size"
+        )
+
+    @pytest.mark.parametrize(
+        ("motion", "size"),
+        [("step(t-0.1)", 1.0), (lambda t: float(t > 0.1), 1.0), (lambda t: 1e-3 * (t >= 0.1), 1e-3)],
+    )
+    def test_a_jump_of_the_value(self, motion, size):
+        [jump] = found(motion)
+        assert jump.of_value
+        assert jump.time == pytest.approx(0.1, abs=1e-5)
+        assert jump.size == pytest.approx(size)
+
+    def test_of_a_vector(self):
+        """The size of both components together, in metres."""
+        [jump] = found(lambda t: (3 * abs(t - 0.4), 0, 4 * abs(t - 0.4)), name="displacement")
+        assert (jump.time, jump.size, jump.unit) == (pytest.approx(0.4, abs=1e-5), pytest.approx(10.0), "m")
+
+    def test_straight_lines_of_a_table(self):
+        [jump] = found({"t": [0, 0.5, 1], "value": [0, 1, 1]})
+        assert (jump.time, jump.size) == pytest.approx((0.5, 2.0), abs=1e-5)
+
+    def test_of_a_sliding_joint(self):
+        model = beam()
+        bead = model.add_point_mass("bead", at=(0.2, 0, 0), mass=1.0)
+        model.slide(bead, along="beam", motion=lambda t: 0.2 + max(0, t - 0.3))
+        [jump] = jumps(model, 0.0, 0.8, 1e-3)
+        assert (jump.time, jump.size) == pytest.approx((0.3, 1.0), abs=1e-5)
+
+
+class TestSmooth:
+    @pytest.mark.parametrize(
+        "motion",
+        [
+            "45*t",
+            "ramp(t, 0.2, 0.3)",
+            "where(t<0.5, t**2, t - 0.25)",
+            lambda t: 3 * max(0, t - 0.1) ** 2,
+            lambda t: np.sin(2 * np.pi * 200 * t),
+            lambda t: np.tanh((t - 0.5) / 5e-3),
+            ancf.Series(np.linspace(0, 1, 101), np.sin(np.linspace(0, 6, 101))),
+        ],
+    )
+    def test_says_nothing(self, motion):
+        assert found(motion) == []
+
+    def test_exact_derivatives_are_taken_as_they_are(self):
+        zero = lambda t: 0.0  # noqa: E731
+        model = beam(rotation=late, rotation_rate=zero, rotation_acceleration=zero)
+        assert jumps(model, 0.0, 1.0, 1e-3) == []
+
+    def test_a_function_that_fails_later_fails_later(self):
+        def breaks(t):
+            return 1 / (t < 0.5)
+
+        assert found(breaks) == []
+
+
+class TestSaid:
+    def test_before_a_run_and_after_it(self, tmp_path):
+        with pytest.warns(UserWarning, match=r"its rate jumps by 6\.28 rad/s at t = 0\.1 s"):
+            run = ancf.simulate(beam(rotation=late), t_end=0.12, step=1e-3)
+        assert "its rate jumps by 6.28 rad/s" in run.notes[0]
+        assert "rate jumps" in str(run)
+        run.save(tmp_path / "run.h5")
+        assert ancf.load(tmp_path / "run.h5").notes == run.notes
+
+    def test_a_step_that_fails_there(self):
+        """The jump is the cause: no smaller step helps, and none is advised."""
+        with pytest.warns(UserWarning, match="its value jumps by 1 rad"), pytest.raises(SolveError) as caught:
+            ancf.simulate(beam(rotation="step(t-0.1)"), t_end=0.3, step=1e-3)
+        assert caught.value.hint.startswith(
+            "clamp(beam.start).rotation: its value jumps by 1 rad at t = 0.1 s"
+        )
+        assert "try a step" not in str(caught.value)
+        assert caught.value.hint in str(caught.value)
+
+    def test_noise_is_among_the_notes(self):
+        t = np.arange(0, 2, 0.01)
+        shaken = 5e-3 + 0.03 * np.sin(2 * np.pi * t) + 3e-4 * np.random.default_rng(0).standard_normal(len(t))
+        model = beam(displacement=(ancf.Series(t, shaken, relative=True), 0, 0))
+        with pytest.warns(UserWarning, match="noise"):
+            run = ancf.simulate(model, t_end=0.01, step=1e-3)
+        assert any("a noise of about" in note for note in run.notes)

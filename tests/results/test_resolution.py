@@ -1,0 +1,140 @@
+"""Steps that are long for what moves are said, with the period of beam theory; results of long runs, room."""
+
+import numpy as np
+import pytest
+
+import ancf
+from ancf.errors import ModelError
+from ancf.results import room
+
+LENGTH, EI, RHO_A = 0.8, 1.0, 0.6
+
+
+def cantilever(gravity=0.1):
+    """Swings in its first mode, a little."""
+    model = ancf.Model(gravity=(0, 0, -gravity))
+    section = ancf.Section(EA=1e6, EI=EI, rhoA=RHO_A)
+    beam = model.add_beam("beam", start=(0, 0, 0), end=(LENGTH, 0, 0), elements=6, section=section)
+    model.clamp(beam.start)
+    return model
+
+
+PERIOD = 2 * np.pi / (1.8751040687**2 * np.sqrt(EI / (RHO_A * LENGTH**4)))
+
+
+def said(run):
+    return [note for note in run.notes if note.startswith("steps of")]
+
+
+class TestSteps:
+    @pytest.mark.parametrize("steps", [7.0, 3.0, 1.0])
+    def test_long_ones(self, steps):
+        """The trapezoidal rule keeps the energy however long they are: the period is that of beam theory."""
+        run = ancf.simulate(cantilever(), t_end=60 * PERIOD / steps, step=PERIOD / steps)
+        [note] = said(run)
+        words = note.split()
+        assert float(words[words.index("about") + 1]) == pytest.approx(PERIOD, rel=0.1)
+        assert "are long for what moves" in " ".join(str(run).split())
+
+    @pytest.mark.parametrize("steps", [20.0, 12.0])
+    def test_short_ones(self, steps):
+        assert said(ancf.simulate(cantilever(), t_end=5 * PERIOD, step=PERIOD / steps)) == []
+
+    def test_what_only_moves_on(self):
+        """A fall has no period, however few its steps."""
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        model.add_beam(
+            "beam", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=ancf.Section(EA=1e4, EI=1.0, rhoA=1.0)
+        )
+        assert said(ancf.simulate(model, t_end=1.0, step=0.1)) == []
+
+    def test_states_that_were_left_out_tell_nothing(self):
+        run = ancf.simulate(cantilever(), t_end=20 * PERIOD, step=PERIOD / 3, output_step=PERIOD)
+        assert said(run) == []
+
+    def test_a_file_says_so_too(self, call, tmp_path):
+        """The same in the summary of a run from a file."""
+        text = f"""
+title = "swings"
+gravity = [0, 0, -0.1]
+[sections.rod]
+EA = 1e6
+EI = {EI}
+rhoA = {RHO_A}
+[[bodies]]
+type = "beam"
+name = "beam"
+section = "rod"
+start = [0, 0, 0]
+end = [{LENGTH}, 0, 0]
+elements = 6
+[[supports]]
+type = "clamp"
+point = "beam.start"
+[simulation]
+t_end = {20 * PERIOD / 3}
+step = {PERIOD / 3}
+"""
+        (tmp_path / "swings.toml").write_text(text)
+        ran = call("run", str(tmp_path / "swings.toml"), "-o", str(tmp_path / "out"))
+        assert ran.code == 0
+        assert "note: steps of" in ran.out
+        assert "at most" in ran.out
+        assert "(end " in ran.out
+
+
+class TestDrift:
+    def test_has_one_meaning(self):
+        """By size at most, and at the end."""
+        run = ancf.simulate(cantilever(9.81), t_end=0.5, step=2e-3)
+        drift = run.energy.drift
+        shown = f"at most {np.max(np.abs(drift)):.2g} (end {drift[-1]:.2g}) J"
+        assert f"drift of the balance {shown}" in str(run)
+
+
+class TestRoom:
+    def test_more_states_than_memory(self):
+        with pytest.raises(ModelError, match=r"1e\+09 stored states take about 0\.\d+ TB") as caught:
+            ancf.simulate(cantilever(), t_end=1e6, step=1e-3)
+        assert "output_step=" in caught.value.hint
+        assert "file=" in caught.value.hint
+
+    def test_more_samples_than_memory(self, monkeypatch):
+        monkeypatch.setattr(room, "memory_there", lambda: 1e5)
+        given = {"t_end": 1.0, "step": 1e-3, "output_step": 0.5}
+        with pytest.raises(
+            ModelError, match=r"1e\+03 samples of the sensors take about 0\.\d+ MB, the memory has 0\.1 MB"
+        ):
+            ancf.simulate(cantilever(), **given, sensors=["beam.end"])
+        assert ancf.simulate(cantilever(), **given).status == "complete"
+
+    def test_a_file_needs_none(self, monkeypatch, tmp_path):
+        monkeypatch.setattr(room, "memory_there", lambda: 1e3)
+        run = ancf.simulate(cantilever(), t_end=0.1, step=1e-3, file=tmp_path / "run.h5")
+        assert len(run.t) == 101
+
+    def test_limits_of_a_container(self, monkeypatch, tmp_path):
+        (tmp_path / "limit").write_text("5000000\n")
+        (tmp_path / "none").write_text("max\n")
+        monkeypatch.setattr(
+            room, "LIMITS", (str(tmp_path / "limit"), str(tmp_path / "none"), str(tmp_path / "gone"))
+        )
+        assert room.memory_there() == 5e6
+
+    def test_memory_that_is_full_within(self, monkeypatch):
+        """What was computed until then goes with the error."""
+        from ancf.results.store import MemoryStore
+
+        append, count = MemoryStore.append, []
+
+        def full(self, *arrays):
+            if count:
+                raise MemoryError
+            count.append(1)
+            append(self, *arrays)
+
+        monkeypatch.setattr(MemoryStore, "append", full)
+        with pytest.raises(ancf.SolveError, match=r"t = .* s: the memory is full") as caught:
+            ancf.simulate(cantilever(), t_end=0.1, step=1e-3)
+        assert caught.value.result.status == "failed"
+        assert len(caught.value.result.t) >= 1
