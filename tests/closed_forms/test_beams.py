@@ -62,6 +62,16 @@ class TestDiscreteValues:
         assert tips[0][1] > 0.5
         assert tips[1] == pytest.approx(tips[0][[0, 2, 1]], abs=1e-10)
 
+    @pytest.mark.parametrize("nu", [0.0, 0.2, 0.4])
+    @pytest.mark.parametrize("height", [0.01, 0.02])
+    def test_ring_does_not_close(self, nu, height):
+        """By (7/15 - nu/2) (kappa h)^2 L on any mesh: Green's strain of a section that stretches."""
+        model, beam = beam_model(64, width=0.03, height=height, nu=nu, element="nonlocking", end=(1, 0, 0))
+        model.clamp(beam.start)
+        model.add_moment(beam.end, (0, -2 * np.pi * beam.section.EI_y, 0))
+        gap = np.linalg.norm(ancf.equilibrium(model, load_steps=16).position(beam.end))
+        assert gap == pytest.approx((7 / 15 - nu / 2) * (2 * np.pi * height) ** 2, rel=0.015)
+
     def test_limit_of_the_roll_up(self):
         fine = REFERENCE["elastica.moment1.ho.n64"]
         assert fine == pytest.approx(REFERENCE["elastica.moment1.exact.solid3d"], abs=2e-6)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 
 import numpy as np
 import pytest
@@ -328,6 +329,16 @@ class TestGiven:
     def test_what_does_not_fit(self, method, ends, given, what):
         with pytest.raises(ancf.ModelError, match=what):
             getattr(self.bodies(), method)(*ends, **given)
+
+    @pytest.mark.parametrize("point", ["rope.end", "rod.start", "hub", "hub.at(0.1, 0, 0)", "bob"])
+    def test_a_hint_that_can_be_followed(self, point):
+        """Of a weld to the ground: what it proposes is accepted."""
+        model = self.bodies()
+        with pytest.raises(ancf.ModelError, match="is a position in space") as caught:
+            model.weld(point, (1, 0, 0))
+        method, held = re.match(r".*?model\.(\w+)\((.+?)\)(?: |;|$)", caught.value.hint).groups()
+        getattr(model, method)(held)
+        assert [s.point.body.name for s in model.supports] == [point.split(".")[0]]
 
     @pytest.mark.parametrize("pair", list(itertools.permutations(["rod.start", "hub"])))
     def test_a_second_joint_of_the_same_points(self, pair):

@@ -21,6 +21,13 @@ ASKED = {
     "restart": "howto/read_results",
     "Knot": "howto/touching",
     "Monte Carlo": "howto/studies",
+    "how to cite": "index",
+    "cite": "index",
+    "GPU": "limits",
+    "gravity off": "howto/statics_and_modes",
+    "large deformation": "howto/choose_element",
+    "motor": "howto/supports_and_loads",
+    "reaction moment": "howto/supports_and_loads",
 }
 
 
@@ -43,6 +50,19 @@ def test_a_word_finds_its_page(call, word, page):
     assert "<!--" not in ran.out
     for mark in ("{index}", "{figure}", "[](", "\n% "):
         assert mark not in ran.out
+
+
+def test_words_are_whole(tmp_path, monkeypatch):
+    """A word is looked for at its beginning, a short one alone; of several the page with most."""
+    (tmp_path / "limits.md").write_text("# One\n\nit is excited by a command\n", encoding="utf-8")
+    (tmp_path / "two.md").write_text("# Two\n\nwho cites it, in mm, of springs, a rope\n", encoding="utf-8")
+    (tmp_path / "three.md").write_text("# Three\n\nof a spring in the middle of a hinge\n", encoding="utf-8")
+    monkeypatch.setattr(docs, "PLACES", (tmp_path,))
+    assert docs.ranked("cite") == ["two"]
+    assert docs.ranked("mm") == ["two"]
+    assert docs.ranked("spring") == ["three", "two"]
+    assert docs.ranked("the hinge of a spring") == ["three", "two"]
+    assert docs.ranked("rope with a winch") == ["two"]
 
 
 @pytest.mark.parametrize("word", ["warpdrive", "", "  "])

@@ -27,6 +27,16 @@ def test_a_copy_runs_from_where_it_is(call):
     assert call("examples", "--copy", ".").code == 0
 
 
+def test_a_file_that_is_not_there_is_said_to_come_with_the_package(call):
+    """What the README runs, where the package was installed without its sources; the hint works."""
+    ran = call("run", "examples/cantilever.toml", "-o", "out")
+    assert ran.code == 2
+    assert "ancf examples --copy examples" in ran.said
+    assert call("examples", "--copy", "examples").code == 0
+    assert Path("examples/cantilever.toml").is_file()
+    assert "examples --copy" not in call("run", "mine.toml", "-o", "out").said
+
+
 def test_what_was_changed_stays(call):
     call("examples", "--copy", "mine")
     Path("mine/line.toml").write_text("mine", encoding="utf-8")

@@ -415,6 +415,9 @@ class TestSupports:
         model.hold(beam.end, position="x")
         model.hold(beam.end, position="z", slope="z")
         refused("hold(beam.end).point", "both hold position z", model.hold, beam.end, position="yz")
+        again = '"clamp at beam.start" clamps beam.start already'
+        refused("clamp(beam.start).point", again, model.clamp, beam.start)
+        refused('clamp("two").point', again, model.clamp, beam.at(0), name="two")
         assert [s.name for s in model.supports] == [
             "clamp at beam.start",
             "hold at beam.end",

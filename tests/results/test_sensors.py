@@ -463,7 +463,12 @@ class TestCommandLine:
         assert values[-1, 0] == pytest.approx(0.049, abs=1.5e-3)
 
     def test_places_in_the_file(self):
-        for bad, what in (("droper", "unknown point"), ("wire.at(9)", "outside"), ("wire", "is no point")):
+        for bad, what in (
+            ("droper", "unknown point"),
+            ("wire.at(9)", "outside"),
+            ("wire", "is no point"),
+            ("wire.mid", '"wire.mid" is no point, a point is written like'),
+        ):
             data = tomllib.loads(STUDY + f'sensors = ["bob", "{bad}"]\n')
             with pytest.raises(ancf.ModelError, match=what) as caught:
                 parse_study(data)

@@ -112,6 +112,8 @@ def make_universal(where: str, name: str, a: Point, b: End, axes: tuple[Any, Any
 def make_weld(where: str, name: str, a: Point, b: End, size: float) -> Weld:
     """Check what ``Model.weld`` was given; `size` is the size of the model in m."""
     if not isinstance(b, Point):
+        if isinstance(a.body, PointMass):
+            raise ModelError(f"{where}.b", "is a position in space", f"model.pin({a}) holds it there")
         held = a.body.name if isinstance(a.body, RigidBody) else a
         hint = f"a clamp is a weld to the ground: model.clamp({held}); results have its reaction_moment"
         raise ModelError(f"{where}.b", "is a position in space", hint)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,7 @@ from ..system.redundancy import independent
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 from . import accuracy, motions, remembered, tension
+from .comparison import Comparison, compare
 from .momenta import Momenta
 from .motions import Motions
 from .overview import line_of_result, of_result
@@ -224,6 +225,28 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
         made = State(self._system, float(self.t[index]), q, v, self.stats, known)
         made.derivatives = {name: item.state(index) for name, item in self.derivatives.items()}
         return made
+
+    def compare(self, other: Result, points: Sequence[Any] | None = None) -> Comparison:
+        """Largest differences of positions from another result, at the times that both have stored.
+
+        Parameters
+        ----------
+        other : Result
+            Of the same bodies, on another mesh, with another step, method or parameter.
+        points : sequence of points or names, optional
+            Default start, middle and end of beams and cables, masses and centres of bodies.
+
+        Returns
+        -------
+        Comparison
+            Prints as a table; ``.largest`` has ``point``, ``distance`` in m and ``t`` in s.
+
+        Raises
+        ------
+        ModelError
+            A body or point is missing in one of them, or they have no time in common.
+        """
+        return compare(self, other, points)
 
     def sensitivity(self, name: str) -> Any:
         """Derivatives by a parameter of everything that the result answers, per unit of it.

@@ -3,23 +3,30 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import ancf
 
-from .case import EI, LENGTH, MODULUS, NU, RHO_A, SIDE, Case, cable, solid
+from .case import DENSITY, EI, LENGTH, MODULUS, NU, RHO_A, SIDE, Case, cable, solid
 
 if TYPE_CHECKING:
     from ... import State
 
 WEIGHT = 9.81 * RHO_A  # N/m
 SPAN, ARC = 10.0, 10.5  # m, of the catenaries
+#: Elements that are rolled up to rings: their heights, m, number, Poisson's ratio, and what mesh and higher
+#: orders of kappa h leave.
+RINGS = (
+    ("nonlocking", 0.02, 64, 0.0, 5e-3),
+    ("nonlocking", 0.02, 64, 0.3, 5e-3),
+    ("original", 0.04, 256, 0.0, 2e-2),
+)
 SMALL = 2e-4  # N, bends by about 1e-4 of the length: linear to 1e-8
 
 
 def cases() -> list[Case]:
     """All of them."""
-    bent = [_tip_force(), _two_supports(), *_elastica(), *_roll_up()]
+    bent = [_tip_force(), _two_supports(), *_elastica(), *_roll_up(), *_ring()]
     return [*bent, _hanging_bar(), *_catenary(), *_chain(), _shear(), _twist()]
 
 
@@ -84,12 +91,32 @@ def _roll_up() -> list[Case]:
     ]
 
 
-def rolled_up(elements: int) -> State:
-    """A cable under an end moment of pi EI/L, which bends it to half a circle without stretching."""
+def rolled_up(elements: int, halves: float = 1.0) -> State:
+    """A cable under an end moment of pi EI/L, which bends it to so many half circles without stretching."""
     model, beam = cable(elements)
     model.clamp(beam.start)
-    model.add_moment(beam.end, (0.0, -math.pi * EI / LENGTH, 0.0))
+    model.add_moment(beam.end, (0.0, -halves * math.pi * EI / LENGTH, 0.0))
     return ancf.equilibrium(model, load_steps=8)
+
+
+def _ring() -> list[Case]:
+    """Rolled up by 2 pi EI/L: the cable closes, a beam with a cross-section turns further."""
+    state = rolled_up(64, 2.0)
+    name = "end moment 2π EI/L"
+    across = float(state.position("beam.at(1.0)")[2])
+    found = [Case(f"{name}: diameter", "cable", across, LENGTH / math.pi, 1e-5, "m", "closed ring, L/π")]
+    for element, height, elements, nu, bar in RINGS:
+        section = ancf.Section.rectangle(height, height, E=MODULUS, rho=DENSITY, nu=nu)
+        model = ancf.Model()
+        given: dict[str, Any] = {"elements": elements, "element": element, "section": section}
+        beam = model.add_beam("beam", start=(0.0, 0.0, 0.0), end=(LENGTH, 0.0, 0.0), **given)
+        model.clamp(beam.start)
+        model.add_moment(beam.end, (0.0, 0.0, 2.0 * math.pi * section.EI_z / LENGTH))
+        gap = math.hypot(*ancf.equilibrium(model, load_steps=16).position(beam.end).tolist())
+        wanted = (7.0 / 15.0 - 0.5 * nu) * (2.0 * math.pi * height / LENGTH) ** 2 * LENGTH
+        text = f"{name}, h = L/{LENGTH / height:.0f}, nu = {nu:g}: gap of the ring"
+        found.append(Case(text, element, gap, wanted, bar, "m", "(7/15 - nu/2) (kappa h)^2 L, Green strain"))
+    return found
 
 
 def _hanging_bar() -> Case:

@@ -1,0 +1,76 @@
+"""Numbers that look like those of other units: said of results, equilibria, modes and by ``ancf check``."""
+
+import pytest
+
+import ancf
+from ancf.model.doubts import doubts
+
+
+def beam(**material):
+    model = ancf.Model()
+    section = ancf.Section.rectangle(0.01, 0.01, **material)
+    rod = model.add_beam("rod", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
+    model.clamp(rod.start)
+    return model
+
+
+@pytest.mark.parametrize(
+    ("E", "rho", "said"),
+    [
+        (210.0, 7850.0, "E = 210 N/m^2 is softer than any solid"),
+        (2.1e11, 7.85, "rho = 7.85 kg/m^3 is lighter than any solid"),
+        (2.1e11, 7.85e6, "rho = 7.85e+06 kg/m^3 is heavier than any solid"),
+        (2.1e11, 7850.0, None),
+        (1e4, 20.0, None),  # a foam
+        (5e11, 22_600.0, None),  # osmium
+    ],
+)
+def test_materials(E, rho, said):
+    model = beam(E=E, rho=rho)
+    found = doubts(model)
+    assert len(found) == (said is not None)
+    if said is None:
+        return
+    assert said in found[0]
+    assert found[0].startswith('"rod": ')
+    assert found[0] in ancf.simulate(model, t_end=1e-3, step=1e-3).notes
+    assert found[0] in ancf.equilibrium(model).notes
+    assert found[0] in ancf.modes(model, count=1).notes
+
+
+def test_numbers_without_a_material_say_nothing():
+    model = ancf.Model()
+    model.add_beam(
+        "rope", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=ancf.Section(EA=1, EI=0, rhoA=1e-3)
+    )
+    assert doubts(model) == []
+
+
+def test_check_says_so(call, tmp_path):
+    text = """
+[sections.steel]
+shape = "rectangle"
+width = 0.01
+height = 0.01
+E = 210
+rho = 7850
+[[bodies]]
+type = "beam"
+name = "rod"
+section = "steel"
+start = [0, 0, 0]
+end = [1, 0, 0]
+elements = 2
+[[supports]]
+type = "clamp"
+point = "rod.start"
+rotation = "step(t - 0.1)"
+[simulation]
+t_end = 1.0
+step = 1e-3
+"""
+    (tmp_path / "rod.toml").write_text(text)
+    ran = call("check", str(tmp_path / "rod.toml"))
+    assert ran.code == 0
+    assert "softer than any solid" in ran.said + ran.out
+    assert "its value jumps by 1 rad at t = 0.1 s" in ran.said + ran.out
