@@ -275,6 +275,8 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
     with expected(model):
         system = independent(model)
         q, v = given_state(system, about, "modes.about")
+        joined = len(np.intersect1d(system.free, system.multipliers))
+        checks.integer(count, "modes.count", 1, len(system.free) - 2 * joined)
         notes = _looked_at(system, q, about, "modes.about") + of_motion(system, q, v)
         notes += doubts(system.model)
         given = about is not None

@@ -382,7 +382,7 @@ class TestSignals:
                 Deleted()
 
         def run():
-            ancf.simulate(hanging(), t_end=1e6, step=0.01, progress=progress)
+            ancf.simulate(hanging(), t_end=1e4, step=0.01, progress=progress)
 
         if command:
             with pytest.raises(typer.Exit) as end, reported():

@@ -63,6 +63,17 @@ class TestFound:
 
 
 class TestSmooth:
+    def test_a_full_turn_of_a_rotation_vector(self):
+        """From pi about an axis to -pi about it nothing turns; a kink of the angle is one of the axes."""
+
+        def wraps(t):
+            angle = 7.0 * t
+            return (0, 0, angle if angle < np.pi else angle - 2 * np.pi)
+
+        assert found(wraps, name="rotation_vector") == []
+        [jump] = found(lambda t: (0, 0, 2.0 * abs(t - 0.3)), name="rotation_vector")
+        assert (jump.time, jump.size) == pytest.approx((0.3, 4.0), abs=1e-3)
+
     @pytest.mark.parametrize(
         "motion",
         [

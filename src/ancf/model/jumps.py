@@ -8,8 +8,8 @@ together, elsewhere it goes with their distance, and at a jump of the value it g
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple, TypeGuard
 
 import numpy as np
 
@@ -17,6 +17,8 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from .functions import TimeFunction
 from .joints import Slide
+
+Table = Callable[[FloatArray], FloatArray]
 
 #: Times at which a motion is looked at, of the first steps and of the whole, and corners looked at closer.
 FIRST, MOST = 400, 4
@@ -43,6 +45,14 @@ class Jump(NamedTuple):
         return f"{self.where}: {text}, an impulse whose size depends on the step; round the corner off"
 
 
+class Motion(NamedTuple):
+    """Values of a given motion at times (n,), shape (n, k), with its place in the model and its unit."""
+
+    where: str
+    unit: str
+    table: Table
+
+
 def jumps(model: Any, start: float, end: float, step: float) -> list[Jump]:
     """The largest jump of each given motion of a model between two times, s.
 
@@ -51,60 +61,72 @@ def jumps(model: Any, start: float, end: float, step: float) -> list[Jump]:
     if not (math.isfinite(end) and end - start > 2.0 * step):
         return []
     found = []
-    for function, unit in _motions(model):
+    for motion in _motions(model):
         try:
-            found += _of_motion(function, unit, start, end, step)
+            found += _of_motion(motion, start, end, step)
         except ModelError:  # the run says at which step
             continue
     return found
 
 
-def _motions(model: Any) -> Iterator[tuple[TimeFunction, str]]:
+def _turned(function: TimeFunction) -> Table:
+    """Axes that a rotation vector turns, by angles in rad: it may jump by a full turn, they do not."""
+    from scipy.spatial.transform import Rotation
+
+    def table(times: FloatArray) -> FloatArray:
+        axes: FloatArray = Rotation.from_rotvec(function.table(times)).as_matrix().reshape(-1, 9)
+        return axes / math.sqrt(2.0)
+
+    return table
+
+
+def _motions(model: Any) -> Iterator[Motion]:
     for support in model.supports:
         exact = getattr(support, "rotation_rate", None) is not None
-        keys = [("displacement", "m"), ("rotation_vector", "rad"), ("length", "m")]
-        keys += [] if exact else [("rotation", "rad")]
-        for key, unit in keys:
-            yield from _varies(getattr(support, key, None), unit)
+        for key, unit in (("displacement", "m"), ("length", "m"), ("rotation", "rad")):
+            function = None if exact and key == "rotation" else getattr(support, key, None)
+            if _varies(function):
+                yield Motion(function.where, unit, function.table)
+        if _varies(function := getattr(support, "rotation_vector", None)):
+            yield Motion(function.where, "rad", _turned(function))
     for joint in model.connections:
-        if isinstance(joint, Slide):
-            yield from _varies(joint.motion, "m")
+        if isinstance(joint, Slide) and _varies(joint.motion):
+            yield Motion(joint.motion.where, "m", joint.motion.table)
 
 
-def _varies(function: Any, unit: str) -> Iterator[tuple[TimeFunction, str]]:
-    if isinstance(function, TimeFunction) and not (function.constant or function.inputs or function.missing):
-        yield function, unit
+def _varies(function: Any) -> TypeGuard[TimeFunction]:
+    known = isinstance(function, TimeFunction) and not (function.inputs or function.missing)
+    return known and not function.constant
 
 
-def _of_motion(function: TimeFunction, unit: str, start: float, end: float, step: float) -> list[Jump]:
+def _of_motion(motion: Motion, start: float, end: float, step: float) -> list[Jump]:
     """The largest jump, among the first steps and over all of the time."""
     steps = round((end - start) / step)
-    found = _between(function, unit, start, end, step, int(np.clip(steps, 8, FIRST)))
+    found = _between(motion, start, end, step, int(np.clip(steps, 8, FIRST)))
     if steps > 2 * FIRST:
-        found += _between(function, unit, start, start + FIRST * step, step, FIRST)
+        found += _between(motion, start, start + FIRST * step, step, FIRST)
     return [max(found, key=lambda jump: (jump.of_value, jump.size))] if found else []
 
 
-def _between(
-    function: TimeFunction, unit: str, start: float, end: float, step: float, count: int
-) -> list[Jump]:
+def _between(motion: Motion, start: float, end: float, step: float, count: int) -> list[Jump]:
+    """Corners between two times that stay corners from close by."""
     t = np.linspace(start, end, count + 1)
-    rates = np.diff(function.table(t), axis=0) / (t[1] - t[0])
+    rates = np.diff(motion.table(t), axis=0) / (t[1] - t[0])
     changes = np.linalg.norm(np.diff(rates, axis=0), axis=1)
     largest = float(np.max(np.linalg.norm(rates, axis=1)))
     near = np.pad(changes, 2, mode="edge")
     sharp = changes - np.maximum(near[:-4], near[4:])  # beyond that of the neighbours
     places = [int(k) for k in np.argsort(sharp)[::-1][:MOST] if sharp[k] > SHARE * largest]
-    found = [_closer(function, unit, float(t[k]), float(t[k + 2]), step) for k in places]
+    found = [_closer(motion, float(t[k]), float(t[k + 2]), step) for k in places]
     return [jump for jump in found if jump is not None and (jump.of_value or jump.size > SHARE * largest)]
 
 
-def _closer(function: TimeFunction, unit: str, low: float, high: float, step: float) -> Jump | None:
+def _closer(motion: Motion, low: float, high: float, step: float) -> Jump | None:
     """Move together around the sharpest corner; None if there is none."""
     coarse = None
     while True:
         t = np.linspace(low, high, 5)
-        values = function.table(t)
+        values = motion.table(t)
         change = np.diff(np.diff(values, axis=0), axis=0) / (t[1] - t[0])
         sizes: FloatArray = np.linalg.norm(change, axis=1)
         k = int(np.argmax(sizes))
@@ -116,7 +138,7 @@ def _closer(function: TimeFunction, unit: str, low: float, high: float, step: fl
             break
     if now > GROWS * coarse:
         whole = float(np.linalg.norm(values[k + 2] - values[k]))
-        return Jump(function.where, True, float(t[k + 1]), whole, unit)
+        return Jump(motion.where, True, float(t[k + 1]), whole, motion.unit)
     if now > STAYS * coarse:
-        return Jump(function.where, False, float(t[k + 1]), now, unit)
+        return Jump(motion.where, False, float(t[k + 1]), now, motion.unit)
     return None
