@@ -68,7 +68,7 @@ class TestSaid:
     def test_long_lines(self):
         line = read_line("en50318-2002")
         long = replace(line, spans=line.spans[:1] * 250, stagger=0.0, system_height=1.2)
-        assert "250 spans; ancf catenary form finds it" in told(long)[0]
+        assert "of 250 spans and 2250 droppers; ancf catenary form finds it" in told(long)[0]
 
 
 class TestCommand:

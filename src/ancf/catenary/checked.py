@@ -17,6 +17,8 @@ from .route import Route
 
 #: Spans of a line up to which its form is found to be looked at; that of 200 takes some seconds.
 MOST_FORMED = 200
+#: And droppers in a span, on the average, for each of which the wires have nodes.
+MOST_DROPPERS = 50
 #: Share of its length by which a dropper stretches at rest from which on units are to be looked at.
 STRETCH = 0.01
 #: Least pull of a hinged arm in loads that it carries: at less it hangs steeper than 1 to this.
@@ -30,7 +32,7 @@ def at_rest(line: Line | Route) -> list[str]:
     -------
     list of str
         Warnings: staggers at supports beyond strips of the usual length, arms that pull little, droppers
-        that stretch much. Of a line of more than 200 spans that it is not looked at.
+        that stretch much. Of a line of more than 200 spans, or 50 droppers a span, that it is not looked at.
 
     Raises
     ------
@@ -39,11 +41,10 @@ def at_rest(line: Line | Route) -> list[str]:
 
     """
     said = list(_wide(line))
-    if len(line.spans) > MOST_FORMED:
-        return [
-            *said,
-            f"line: its form is not looked at, of {len(line.spans)} spans; ancf catenary form finds it",
-        ]
+    spans, droppers = len(line.spans), line.dropper_x.size
+    if spans > MOST_FORMED or droppers > MOST_DROPPERS * spans:
+        text = f"line: its form is not looked at, of {spans} spans and {droppers} droppers"
+        return [*said, f"{text}; ancf catenary form finds it"]
     found = form(line)
     starts = np.cumsum([0, *(len(part.supports) for part in line.parts)])
     for part, first in zip(found.shifted, starts.tolist(), strict=False):
