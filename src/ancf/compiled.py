@@ -228,6 +228,9 @@ class Traits:
         ``late(batch)``: what an equilibrium brings on when all else is there, as the friction of a ground: a
         function of the batch and of q that renews it and returns by how much, relative, it has changed; or
         None.
+    laid : function, optional
+        ``laid(batch, q)``: lets such friction hold from the state q on, as if all that touches had come there
+        without it.
     early : function, optional
         ``early(batch, q, holds)``: lets friction hold what touches in the initial shape q of an equilibrium,
         while the loads come on, or takes it away; returns whether there is friction.
@@ -267,6 +270,7 @@ class Traits:
     memory: tuple[str, ...] = ()
     follows: Callable[[Any], bool] | None = None
     late: Callable[[Any], Callable[[Any, Any], float] | None] | None = None
+    laid: Callable[[Any, Any], None] | None = None
     early: Callable[[Any, Any, bool], bool] | None = None
     free: Callable[[Any, Any, bool], int] | None = None
     turning_mass: Callable[[Any], bool] | None = None

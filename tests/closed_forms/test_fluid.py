@@ -284,6 +284,41 @@ class TestMotion:
         way = state.position(cable.end) - state.position(cable.start)
         assert way[0] / np.linalg.norm(way) == pytest.approx(cosine, rel=1e-4)
 
+    @pytest.mark.parametrize("elements", [3, 20])
+    @pytest.mark.parametrize("speed", [0.5, 1.0, 2.0, 4.0])
+    @pytest.mark.parametrize("EI", [0.0, 1.0])
+    def test_critical_angle_from_a_cable_that_hangs(self, speed, elements, EI):
+        """However strong the current is beside the weight: drag follows the cable, and no matrix has all of it."""
+        D, drag, weight = 0.03, 1.5, (2.0 - 1025.0 * np.pi * 0.03**2 / 4) * G
+        model = ancf.Model(gravity=(0, 0, -G))
+        section = ancf.Section(EA=1e7, EI=EI, rhoA=2.0, diameter=D, drag=(drag, 0.01))
+        cable = model.add_beam("cable", start=(0, 0, -50), end=(0, 0, 0), elements=elements, section=section)
+        model.pin(cable.end)
+        model.add_fluid("sea", 1025.0, velocity=(-speed, 0, 0))
+        state = ancf.equilibrium(model)
+        c = 0.5 * 1025.0 * D * drag * speed**2 / weight
+        cosine = (np.sqrt(1 + 4 * c * c) - 1) / (2 * c)
+        way = state.position(cable.start) - state.position(cable.end)
+        assert -way[0] / np.linalg.norm(way) == pytest.approx(cosine, rel=1e-6)
+        assert way[2] < 0
+
+    @pytest.mark.parametrize("length", [66.0, 80.0])
+    def test_waves_that_have_not_begun_are_calm_water(self, length):
+        """A slack line between two ends finds its place under them as without them."""
+        found = []
+        for waves in (None, ancf.Waves.regular(height=4.0, period=9.0, depth=60.0)):
+            model = ancf.Model(gravity=(0, 0, -G))
+            section = ancf.Section(EA=1e7, EI=20.0, rhoA=12.0, diameter=D, drag=DRAG)
+            line = model.add_beam(
+                "line", start=(0, 0, -50), end=(40, 0, -5), length=length, elements=24, section=section
+            )
+            model.clamp(line.start)
+            model.clamp(line.end)
+            model.add_fluid("water", RHO, below=0.0, waves=waves)
+            state = ancf.equilibrium(model)
+            found.append(np.array([state.position(line.at(x)) for x in np.linspace(0, length, 15)]))
+        assert found[1] == pytest.approx(found[0], abs=1e-7)
+
     def test_a_ball_in_an_oscillating_flow(self):
         """Without drag the flow drags it along by (1 + C_A) rho V of its own and the added mass."""
         model = ancf.Model()

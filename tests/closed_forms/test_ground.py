@@ -293,6 +293,16 @@ class TestMoorPy:
         assert along == pytest.approx(row["HF"], rel=1e-4)
         assert up == pytest.approx(row["VF"], rel=1e-4)
 
+    @pytest.mark.parametrize("friction", [0.3, 0.7, 2.0])
+    @pytest.mark.parametrize("length", [520.0, 560.0])
+    def test_friction_presses_no_slack_line(self, length, friction):
+        """More of it than the tension can bear pulls no harder at the fairlead, and the anchor never pushes."""
+        _, fairlead, up = catenary(0.0, length=length)
+        anchor, along, held = catenary(friction, length=length)
+        assert anchor > -1e-3 * fairlead
+        assert along == pytest.approx(fairlead, rel=5e-3)
+        assert held == pytest.approx(up, rel=1e-3)
+
     def test_a_slack_line_needs_a_fine_mesh(self):
         """Its curvature jumps where it touches down: the order comes near two."""
         gaps = [abs(catenary(0.0, elements=n, length=520.0)[1] / 54331.751 - 1.0) for n in (50, 100, 200)]

@@ -342,6 +342,21 @@ def let_rub(batch, q):
     return change / most if most > 0.0 else 0.0
 
 
+@kernel
+def lie_down(batch, q):
+    """The anchors to where the points are, without friction so far."""
+    for e in range(batch.base.shape[0]):
+        for p in range(batch.weight.shape[1]):
+            at = place_at(batch, e, p, q)
+            batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = at[0], at[1], at[2]
+            batch.limit[e, p] = 0.0
+
+
+def lay(batch, q):
+    """Let friction hold from the state q on."""
+    lie_down(Located(batch), q)
+
+
 implements(
     GroundBatch,
     force=ground_force,
@@ -352,4 +367,5 @@ implements(
     memory=("anchor", "limit", "drift", "since"),
     follows=lambda batch: False,
     late=lambda batch: let_rub if np.any(batch.grounds[:, FRICTION]) else None,
+    laid=lay,
 )

@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..compiled import traits
 from ..errors import SolveError
-from ..later import SuperLU, splu
+from ..later import LinearOperator, SuperLU, gmres, splu
 from ..linalg.sparse import to_sparse
 from ..model.beam import Beam
 from ..model.joints import Slide
@@ -38,6 +38,8 @@ LEAST_MU = 1e-15  # of the ratio of stiffness to mass
 MORE_MU, MOST_MU = 5.0, 60  # factor by which mu grows until the matrix will do, and how often
 NEUTRAL_MU = 1e-13  # up to which mu may only make up for round-off
 NEUTRAL_MU_JOINTS = 1e-10  # NEUTRAL_MU with the stiffness that the rows of joints add
+PROBE, NOTHING = 1e-7, 1e-300  # of differences, positions in sizes of the model; no correction at all
+LEFT_OVER, DIRECTIONS = 1e-3, 40  # of the residual by GMRES, and how many directions it looks in
 COUNTED_MU = 1e-9  # with which pivots are counted where a body has no stiffness of its own
 
 
@@ -55,6 +57,7 @@ class Iteration:
     jacobians: int = 0
     mu: float = 0.0
     held: bool = False  # whether surfaces and friction hold what they touch
+    plain: bool = True  # whether an indefinite matrix is taken as it is where loads follow
 
     def __post_init__(self) -> None:
         self.zero = np.zeros_like(self.q)
@@ -166,7 +169,8 @@ class Iteration:
             self.mu = 0.0
         elif negative and bool(self.spin):
             negative = self.factorise(self.mu)
-        if self.spinning or negative == 0 or (negative > 0 and self.mu == 0.0 and self.follows):
+        plain = self.follows and self.plain and self.mu == 0.0
+        if self.spinning or negative == 0 or (negative > 0 and plain):
             return self.solve(r)
         self.mu = max(self.mu, LEAST_MU * self.ratio)
         for _ in range(MOST_MU):
@@ -174,6 +178,24 @@ class Iteration:
                 return self.solve(r)
             self.mu *= MORE_MU
         raise SolveError("equilibrium", "no regularisation makes the stiffness positive definite")
+
+    def followed(self, dq: FloatArray, r: FloatArray, share: float) -> FloatArray:
+        """The correction with the derivative of loads that follow, which no symmetric matrix has.
+
+        GMRES from ``dq`` on, preconditioned by the last factorisation; its products are differences.
+        """
+
+        def product(x: FloatArray) -> FloatArray:
+            s = PROBE / max(self.length(x), NOTHING)
+            behind, ahead = (self.out_of_balance(self.moved(x, t), share) for t in (-s, s))
+            found: FloatArray = (behind - ahead) / (2.0 * s)
+            return found
+
+        shape = len(r), len(r)
+        derivative, inverse = (LinearOperator(shape, way, dtype=float) for way in (product, self.solve))
+        limits: dict[str, Any] = {"rtol": LEFT_OVER, "restart": DIRECTIONS, "maxiter": 1}
+        found: FloatArray = gmres(derivative, r, dq, M=inverse, **limits)[0]
+        return found
 
     def _short_correction(self, r: FloatArray) -> FloatArray:
         """The same, and mu is also large enough to keep the correction short.

@@ -25,6 +25,7 @@ NO_MOTION = 1e-300  # of a correction: the share that LONGEST leaves of it is wh
 REDUCED = 0.5  # of the residual: what a correction leaves when round-off has not been reached
 BALANCED = 1e-6  # of a correction: there is an equilibrium, which may be unstable
 DISTURBANCE = 1e-3  # along the softest mode, to leave an unstable equilibrium
+SLOW = 0.2  # of the correction before, where loads that follow keep the symmetric matrix from converging
 NEAR = 1e-2  # of a correction: mu is no longer needed
 LESS_MU = 0.1  # factor of mu after LONG_STEP of a correction; MORE_MU after less than SHORT_STEP of it
 LONG_STEP, SHORT_STEP = 0.3, 0.05
@@ -64,13 +65,15 @@ def settle(it: Iteration, share: float) -> str | None:
     """Newton iterations for one share of the loads; None, or what went wrong."""
     r = it.out_of_balance(it.q, share)
     it.mixed.correct(it.zero)
-    disturbed = False
+    disturbed, norm = False, np.inf
     for number in range(MAX_ITERATIONS):
         if not np.all(np.isfinite(r)):
             return "the forces are not finite"
         regular = it.mu == 0.0
         dq = it.correction(r)
         it.iterations += 1
+        if it.follows and it.mu == 0.0 and it.length(dq) > SLOW * norm:
+            dq = it.followed(dq, r, share)
         norm = it.length(dq)
         accepted = max(it.accepted, SPUN) if it.spinning else it.accepted
         settled = norm <= TOLERANCE or (norm <= accepted and _stalled(it, dq, r, share))

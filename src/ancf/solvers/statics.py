@@ -11,6 +11,7 @@ Because only positive definite matrices are accepted, the result is a stable equ
 from __future__ import annotations
 
 import time as clock
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from ..system.core import Core, apply_load, first_event, keep_memory, place_supp
 from ..system.system import System
 from .events import happen
 from .floating import check_supported
+from .pressed import least_stretch
 from .record import Stats
 from .slack import LET_OUT, Slack
 from .static_iteration import Iteration
@@ -31,6 +33,7 @@ from .static_path import follow_path, settle
 STENCIL_STEP = 1e-3  # of the differences that give rates of given motions, s
 RENEWED, MOST_RENEWED = 1e-9, 240  # change of what comes last that is none, and rounds
 UNMOVED = 1e-10  # correction after it that is round-off, positions in sizes of the model
+PRESSED = 1e-9  # by which friction may shorten a cable
 MOST_RELEASES = 30  # rounds in which surfaces let go what they pull
 MOST_EVENTS = 4  # openings and closings of a contact
 FINER = 1, 7, 31  # times as many steps of the loads where something touches and no equilibrium was found
@@ -81,8 +84,30 @@ def bring_on(it: Iteration, slack: Slack, load_steps: int) -> int:
         halvings += follow_path(it, slack.let_out, LET_OUT, "of the slack")
         halvings += follow_path(it, slack.stiffen, slack.steps, "of the axial stiffness")
     settle_contacts(it)
-    bring_late(it)
+    lay(it)
     return halvings
+
+
+def lay(it: Iteration) -> None:
+    """Friction from the initial shape; or from where cables come down without it, if it would press one.
+
+    A slack line that was drawn straight is far from where it lies: friction that opposes all of that way is
+    more than its tension can bear, and a line on the ground buckles under less than elements can show.
+    """
+    ways = [(batch, own) for batch in it.core.batches if (own := traits(batch).laid) is not None]
+    before, mu = it.q, it.mu
+    try:
+        bring_late(it)
+    except SolveError:
+        if not ways:
+            raise
+    else:
+        if not ways or least_stretch(it.system, it.q) > min(least_stretch(it.system, before), 1.0) - PRESSED:
+            return
+    it.q, it.mu = before, mu
+    for batch, way in ways:
+        way(batch, it.q)
+    bring_late(it)
 
 
 def grips(core: Core, q: FloatArray, holds: bool) -> bool:
@@ -100,8 +125,8 @@ def attempt(it: Iteration, slack: Slack, load_steps: int) -> int:
     together until it buckles.
     """
     first, q = None, it.q.copy()
-    for finer, holds in _attempts(it.core, q):
-        it.q, it.mu, it.held = q.copy(), 0.0, holds
+    for (finer, holds), plain in product(_attempts(it.core, q), _plain(it)):
+        it.q, it.mu, it.held, it.plain = q.copy(), 0.0, holds, plain
         grips(it.core, it.q, holds)
         try:
             halvings = bring_on(it, slack, finer * load_steps)
@@ -114,6 +139,17 @@ def attempt(it: Iteration, slack: Slack, load_steps: int) -> int:
     grips(it.core, q, False)
     assert first is not None
     raise first
+
+
+def _plain(it: Iteration) -> tuple[bool, ...]:
+    """Whether an indefinite matrix is taken as it is, one attempt after the other.
+
+    A cable that hangs in a current has a stable equilibrium that a regularised iteration finds, and others;
+    beams under moments may have one whose symmetric matrix is indefinite.
+    """
+    if not it.follows:
+        return (True,)
+    return (False, True) if it.system.model.fluids else (True, False)
 
 
 def _attempts(core: Core, q: FloatArray) -> list[tuple[int, bool]]:
