@@ -11,9 +11,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
 import numba
-from numba import types
 from numba.core import codegen, compiler
-from numba.core.errors import TypingError
 from numba.core.targetconfig import TargetConfig
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -71,18 +69,8 @@ def part(function: F, settings: Any) -> F:
     def keep(compiled: Any) -> None:
         dispatcher.overloads[tuple(compiled.signature.args)] = compiled
 
-    template = dispatcher.get_call_template
-    kind_of: Any = types.unliteral
-
-    def of_kinds(arguments: Any, keywords: Any) -> Any:
-        try:
-            return template(tuple(map(kind_of, arguments)), keywords)
-        except TypingError:  # it needs the number itself, as a place in a tuple
-            return template(arguments, keywords)
-
-    # numba would jump to the entry that is not there, and translate it anew for each number in a call
+    # numba would jump to the entry that is not there
     dispatcher._compile_for_args, dispatcher.add_overload = refuse, keep
-    dispatcher.get_call_template = of_kinds
     return cast(F, dispatcher)
 
 

@@ -288,7 +288,7 @@ class TestMotion:
     @pytest.mark.parametrize("speed", [0.5, 1.0, 2.0, 4.0])
     @pytest.mark.parametrize("EI", [0.0, 1.0])
     def test_critical_angle_from_a_cable_that_hangs(self, speed, elements, EI):
-        """However strong the current is beside the weight: drag follows the cable, and no matrix has all of it."""
+        """However strong the current is: drag follows the cable, and no symmetric matrix has all of it."""
         D, drag, weight = 0.03, 1.5, (2.0 - 1025.0 * np.pi * 0.03**2 / 4) * G
         model = ancf.Model(gravity=(0, 0, -G))
         section = ancf.Section(EA=1e7, EI=EI, rhoA=2.0, diameter=D, drag=(drag, 0.01))

@@ -296,7 +296,7 @@ class TestMoorPy:
     @pytest.mark.parametrize("friction", [0.3, 0.7, 2.0])
     @pytest.mark.parametrize("length", [520.0, 560.0])
     def test_friction_presses_no_slack_line(self, length, friction):
-        """More of it than the tension can bear pulls no harder at the fairlead, and the anchor never pushes."""
+        """More of it than its tension bears pulls no harder at the fairlead, and the anchor never pushes."""
         _, fairlead, up = catenary(0.0, length=length)
         anchor, along, held = catenary(friction, length=length)
         assert anchor > -1e-3 * fairlead

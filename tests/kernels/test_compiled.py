@@ -95,27 +95,3 @@ def test_compiling_is_announced_once():
         assert said in ([], ["compiling"])
         numba.njit(function)(2.0)
         assert said == ["compiling"]
-
-
-@inline_kernel
-def number_at(x, k):
-    return x[k]
-
-
-@inline_kernel
-def member(of, k):
-    return of[k]
-
-
-def test_numbers_in_calls_are_of_one_kind():
-    """A function is translated once for all numbers; where it needs one, as a place in a tuple, for that."""
-
-    @kernel
-    def some(x):
-        pair = (x.shape[0], 0.5)
-        numbers = number_at(x, 0) + number_at(x, 1) + number_at(x, x.shape[0] - 1)
-        return numbers + member(pair, 0) + member(pair, 1)
-
-    assert some(np.array([1.0, 10.0, 100.0])) == 111.0 + 3.0 + 0.5
-    assert len(number_at.overloads) == 1
-    assert len(member.overloads) == 2
