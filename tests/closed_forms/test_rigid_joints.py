@@ -177,6 +177,57 @@ class TestWeld:
         assert ancf.equilibrium(model).position(whip.end)[1] == pytest.approx(1e-4 * 0.5**3 / 0.3, rel=1e-3)
 
 
+class TestPieces:
+    """Cables in line that are welded, with numbers as people write them."""
+
+    @staticmethod
+    def hanging(cuts, off=0.0, reverse=False, EI=20.0):
+        """A cable between two clamps along a line, in pieces whose ends are off it by an angle."""
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        section = ancf.Section(EA=1e5, EI=EI, rhoA=1.0)
+        places = [np.array([6.0 * x, 2.0 * x, 0.0]) for x in cuts]
+        for k in range(1, len(cuts) - 1):
+            places[k] = places[k] + [0.0, 0.0, off * (-1) ** k]
+        pieces = []
+        for k, (a, b) in enumerate(itertools.pairwise(places)):
+            count = round(24 * (cuts[k + 1] - cuts[k]))
+            ends = (b, a) if reverse and k % 2 else (a, b)
+            length = 1.002 * (cuts[k + 1] - cuts[k]) * np.hypot(6.0, 2.0)
+            pieces.append(
+                model.add_beam(
+                    f"piece {k}",
+                    start=ends[0],
+                    end=ends[1],
+                    length=length,
+                    elements=count,
+                    section=section,
+                    natural_shape="straight",
+                )
+            )
+        ends = [(p.end, p.start) if reverse and k % 2 else (p.start, p.end) for k, p in enumerate(pieces)]
+        for one, two in itertools.pairwise(ends):
+            model.weld(one[1], two[0])
+        model.clamp(ends[0][0])
+        model.clamp(ends[-1][1])
+        return ancf.equilibrium(model), ends
+
+    @pytest.mark.parametrize("cuts", [(0, 0.5, 1), (0, 1 / 3, 2 / 3, 1), (0, 0.25, 0.5, 0.75, 1)])
+    @pytest.mark.parametrize("off", [1e-9, 1e-6, 1e-4])
+    @pytest.mark.parametrize("reverse", [False, True])
+    def test_hang_as_one_cable(self, cuts, off, reverse):
+        whole, ends = self.hanging((0, 1))
+        state, pieces = self.hanging(cuts, off, reverse)
+        for cut, (_, end) in zip(cuts[1:-1], pieces, strict=False):
+            wanted = whole.position(ends[0][0].body.at(cut * ends[0][0].body.length))
+            assert state.position(end) == pytest.approx(
+                wanted, abs=1e-6 + 0.3 * off
+            )  # clamps keep the pieces' ways
+
+    def test_a_corner_that_is_meant_is_refused(self):
+        with pytest.raises(ancf.ModelError, match=r"meet at .* degrees; they have no torsion"):
+            self.hanging((0, 0.5, 1), off=0.06)
+
+
 class TestGuide:
     @pytest.mark.parametrize(
         ("element", "elements", "within"),

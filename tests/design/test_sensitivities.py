@@ -383,3 +383,29 @@ def test_numbers_known_to_be_linear_are_found_to_be(case):
             wanted = two.of(question)
             most = np.max(np.abs(wanted))
             assert np.allclose(one.of(question), wanted, rtol=1e-7, atol=1e-8 * loose * most), name
+
+
+@pytest.mark.parametrize("elements", [60, 90])
+@pytest.mark.parametrize("far", [800.0, 824.0])
+def test_a_mooring_line_of_great_stiffness(far, elements):
+    """Round-off of forces of a line of 500 MN is more than what a change of its length leaves of them."""
+
+    def line(length):
+        model = ancf.Model(gravity=(0, 0, -9.80665))
+        chain = ancf.Section(
+            EA=493.27e6, EI=0.0, rhoA=114.94, diameter=0.1368, drag=(1.33, 0.2), added_mass=(1.0, 0.07)
+        )
+        rope = model.add_beam(
+            "line", start=(0, 0, -200), end=(far, 0, -20), length=length, elements=elements, section=chain
+        )
+        model.pin(rope.start)
+        model.pin(rope.end)
+        model.add_fluid("sea", density=1025.0, below=0.0)
+        model.add_ground("seabed", height=-200.0, stiffness=3e6, damping=3e5)
+        return model, rope
+
+    model, rope = line(850.0)
+    found = ancf.equilibrium(model, sensitivities=["line.length"]).sensitivity("line.length")
+    gap = 1e-3
+    ends = [ancf.equilibrium(model).tension(rope.end) for model, rope in (line(850 + gap), line(850 - gap))]
+    assert found.tension(rope.end) == pytest.approx((ends[0] - ends[1]) / (2 * gap), rel=2e-4)

@@ -22,6 +22,8 @@ from .tables import numbers
 
 #: Cosine of the angle of two directions up to which they are normal to each other, sine of parallel ones.
 NORMAL = PARALLEL = 1e-9
+#: Sine of the angle up to which two cables that are welded lie along one curve.
+STRAIGHT = 0.01
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -125,7 +127,7 @@ def make_weld(where: str, name: str, a: Point, b: End, size: float) -> Weld:
             require_node(end, f"{where}.{key}")
     check_pair(where, a, b, size)
     if _is_cable(a) and _is_cable(b):
-        _check_cables(where, a, b)
+        _join_cables(where, a, b)
     return Weld(name, a, b)
 
 
@@ -137,14 +139,27 @@ def make_guided(where: str, name: str, point: Point, axis: Any) -> Guide:
     return Guide(name, point, direction)
 
 
-def _check_cables(where: str, a: Point, b: Point) -> None:
-    """Without torsion a corner of two cables has no plane: only a right angle is one condition."""
+def _join_cables(where: str, a: Point, b: Point) -> None:
+    """Without torsion a corner of two cables has no plane: only a right angle is one condition.
+
+    Pieces of one curve meet at a small angle, by rounded numbers or splines: the second takes the first
+    one's direction there.
+    """
     one, two = tangent(a), tangent(b)
-    if np.linalg.norm(np.cross(one, two)) > PARALLEL and not _across(a, b):
+    sine = float(np.linalg.norm(np.cross(one, two)))
+    if sine <= PARALLEL or _across(a, b):
+        return
+    if sine > STRAIGHT:
         angle = float(np.degrees(np.arccos(np.clip(one @ two, -1, 1))))
         what = f"two cables meet at {angle:.4g} degrees; they have no torsion that would hold such a corner"
         hint = 'element = "nonlocking" for one of them, or clamp both to a rigid body: clamp(point, to=body)'
         raise ModelError(f"{where}.b", what, hint)
+    beam, node = b.body, require_node(b, f"{where}.b")
+    along = one if one @ two > 0.0 else -one
+    beam.node_tangent, beam.node_y = beam.node_tangent.copy(), beam.node_y.copy()
+    beam.node_tangent[node] = along
+    side = beam.node_y[node] - (beam.node_y[node] @ along) * along
+    beam.node_y[node] = side / np.linalg.norm(side)
 
 
 def _is_cable(point: Point) -> bool:

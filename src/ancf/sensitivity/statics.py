@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ..arrays import FloatArray
@@ -92,12 +94,25 @@ def _solver(system: System, core: Core, q: FloatArray):  # type: ignore[no-untyp
             x, _ = gmres(whole, b, x0=x, M=before, rtol=AIMED, restart=DIRECTIONS, maxiter=AGAIN)
         else:
             x += lu.solve(b - times(x))
-        if not float(np.linalg.norm(times(x) - b)) <= ACCEPTED * max(size, float(np.linalg.norm(x))):
+        if not _is_solution(times(x) - b, lu.solve, x, size):
             raise _neutral(name)
         s[:n] = x
         return s
 
     return solve
+
+
+def _is_solution(
+    left: FloatArray, solve: Callable[[FloatArray], FloatArray], x: FloatArray, size: float
+) -> bool:
+    """Whether what is left of a right-hand side of some size is nothing, or changes the solution by nothing.
+
+    It may be round-off of forces much larger than the right-hand side.
+    """
+    large = float(np.linalg.norm(x))
+    if float(np.linalg.norm(left)) <= ACCEPTED * max(size, large):
+        return True
+    return float(np.linalg.norm(solve(left))) <= ACCEPTED * large
 
 
 def _neutral(name: str = "") -> SolveError:
