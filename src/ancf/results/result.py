@@ -24,6 +24,7 @@ from ..system.redundancy import independent
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 from . import accuracy, motions, remembered, tension
+from .below import of_bodies
 from .comparison import Comparison, compare
 from .momenta import Momenta
 from .motions import Motions
@@ -194,14 +195,16 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
     @property
     def notes(self) -> list[str]:
         """What to know of the run that nobody asked for, one line each: motions that jump or are noisy,
-        numbers that look like those of other units, cables that were pressed, and when, energy that came from
-        nowhere, steps that are long for what vibrates, joints of which others hold a part already.
+        numbers that look like those of other units, cables that were pressed, and when, bodies below a
+        ground, energy that came from nowhere, steps that are long for what vibrates, joints of which others
+        hold a part.
 
         All stored states are looked at, when it is asked for.
         """
         pressed = tension.notes(tension.compressions(self))
         given = [str(text) for text in self._header.get("notes", [])]
-        return [*given, *pressed, *accuracy.of_energy(self), *of_steps(self), *accuracy.of_joints(self)]
+        below = [*of_bodies(self), *accuracy.of_energy(self)]
+        return [*given, *pressed, *below, *of_steps(self), *accuracy.of_joints(self)]
 
     @property
     def stats(self) -> Stats:

@@ -18,7 +18,8 @@ from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import accuracy, motions
+from . import accuracy, motions, tension
+from .below import of_bodies
 from .momenta import Momenta
 from .motions import Motions
 from .overview import line_of_state, of_state
@@ -145,11 +146,12 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
 
     @property
     def notes(self) -> list[str]:
-        """What to know of an equilibrium that nobody asked for: cables so stiff that they bend too little.
+        """What to know of an equilibrium that nobody asked for: cables that are pressed harder than they can
+        stand, bodies below a ground, cables so stiff that they bend too little.
 
         It takes about as long as an iteration of the equilibrium, when it is asked for.
         """
-        return accuracy.of_state(self)
+        return [*tension.notes(tension.compressions(self)), *of_bodies(self), *accuracy.of_state(self)]
 
     def sensitivity(self, name: str) -> Any:
         """Derivatives by a parameter of everything that the state answers, per unit of it.

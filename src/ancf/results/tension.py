@@ -16,7 +16,6 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..elements.shapes import gauss, hermite
 from ..model.beam import Beam
-from .faces import History
 
 Vectors = tuple[FloatArray, FloatArray, FloatArray]
 
@@ -59,6 +58,8 @@ class Compression:
 
     def __str__(self) -> str:
         where = f'"{self.body}" is pressed: {self.tension:.4g} N at {self.point}, t = {self.t:.6g} s'
+        if self.half_wave == 0.0:
+            return f"{where}; without bending stiffness it can bear none: it is slack there"
         wave = f"its largest force is {self.largest:.4g} N; a piece of {self.half_wave:.3g} m would buckle"
         if self.half_wave < 2 * self.element:
             return f"{where}; {wave}, which elements of {self.element:.3g} m cannot show"
@@ -69,19 +70,19 @@ class Compression:
         return asdict(self)
 
 
-def compressions(result: History) -> list[Compression]:
+def compressions(known: Any) -> list[Compression]:
     """The largest compression of each cable that is pressed harder than it can stand, the worst first.
 
-    Middles of the elements at the stored times; of a history with more than two million forces at times that
-    are evenly spaced.
+    Middles of the elements in a state, or at the stored times of a history; of one with more than two million
+    forces at times that are evenly spaced.
     """
-    beams = cables(result)
+    beams, times = cables(known), np.atleast_1d(known.t)
     low = {beam.name: _Lowest() for beam in beams}
-    states, elements = len(result.t), sum(beam.elements for beam in beams)
-    for rows, forces in _pieces(result, beams, every=max(1, -(-states * elements // MOST))):
+    states, elements = len(times), sum(beam.elements for beam in beams)
+    for rows, forces in _pieces(known, beams, every=max(1, -(-states * elements // MOST))):
         for name, force in forces.items():
             low[name].see(rows, force)
-    found = [_compression(result, beam, low[beam.name]) for beam in beams if states]
+    found = [_compression(times, beam, low[beam.name]) for beam in beams if states]
     return sorted((item for item in found if item is not None), key=lambda item: item.tension)
 
 
@@ -144,12 +145,12 @@ class _Lowest:
             self.low, self.row, self.element = float(force[row, element]), int(rows[row]), element
 
 
-def _compression(result: History, beam: Beam, seen: _Lowest) -> Compression | None:
+def _compression(times: FloatArray, beam: Beam, seen: _Lowest) -> Compression | None:
     section, pressure = beam.section, -seen.low
     if not pressure > max(np.pi**2 * section.EI / beam.length**2, NOISE * section.EA, SMALL * seen.high):
         return None
     x, h = middles(beam)[seen.element], float(np.diff(beam.node_x)[seen.element])
-    wave, t = float(np.pi * np.sqrt(section.EI / pressure)), float(result.t[seen.row])
+    wave, t = float(np.pi * np.sqrt(section.EI / pressure)), float(times[seen.row])
     return Compression(beam.name, str(beam.at(x)), x, t, seen.low, seen.high, wave, h)
 
 
