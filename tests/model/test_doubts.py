@@ -38,6 +38,35 @@ def test_materials(E, rho, said):
     assert found[0] in ancf.modes(model, count=1).notes
 
 
+@pytest.mark.parametrize(
+    ("density", "diameter", "direction", "said"),
+    [
+        (1.025, 0.1, 0.0, '"sea": 1.025 kg/m^3 with a surface at z = 0 m: water has 1000 to 1030'),
+        (1025.0, 100.0, 0.0, '"rope": displaces 8.05e+06 kg/m of "sea" and has 20 kg/m'),
+        (1025.0, 0.1, 90.0, '"sea": its waves run in the direction of 90 rad'),
+        (1025.0, 0.5, 1.5, None),  # a buoy
+        (1025.0, 0.03, -3.0, None),
+    ],
+)
+def test_what_is_in_water(density, diameter, direction, said):
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e6, EI=0.0, rhoA=20.0, diameter=diameter)
+    rope = model.add_beam("rope", start=(0, 0, -50), end=(60, 0, 0), elements=3, section=section)
+    model.pin(rope.start)
+    waves = ancf.Waves.regular(height=1.0, period=6.0, depth=60.0, direction=direction)
+    model.add_fluid("sea", density, below=0.0, waves=waves)
+    found = doubts(model)
+    assert len(found) == (said is not None)
+    if said is not None:
+        assert found[0].startswith(said)
+
+
+def test_air_is_no_water():
+    model = ancf.Model()
+    model.add_fluid("air", 1.225, velocity=(10.0, 0, 0))
+    assert doubts(model) == []
+
+
 def test_numbers_without_a_material_say_nothing():
     model = ancf.Model()
     model.add_beam(
