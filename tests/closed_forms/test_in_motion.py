@@ -210,7 +210,7 @@ class TestSlidingJoint:
         assert np.linalg.norm(tangents, axis=1).max() > 1.01
         assert np.abs(along).max() > 0.1
         assert run.sliding_friction(joint) == pytest.approx(along, abs=1e-6)
-        with pytest.raises(ModelError, match="carrier was not recorded"):
+        with pytest.raises(ModelError, match="have not recorded the shape of its carrier"):
             run.sensors.normal_force(joint)
 
 

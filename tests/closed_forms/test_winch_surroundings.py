@@ -78,6 +78,7 @@ class TestPulledOverTheGround:
     force falls by the root of 4 EA f times what was paid out.
     """
 
+    @pytest.mark.filterwarnings("ignore:winch")  # the table has corners
     @pytest.mark.parametrize("at_start", [True, False])
     def test_force_of_what_sticks_and_slips(self, at_start):
         EA, w, mu, length = 2e3, 10.0, 0.5, 20.0

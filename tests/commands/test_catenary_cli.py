@@ -78,6 +78,7 @@ def test_quiet_run_prints_nothing(call):
     assert (code, out, err) == (0, "", "")
 
 
+@pytest.mark.filterwarnings("ignore:run.window")
 def test_run_of_two_different_pantographs(call):
     both = ("--pantograph", "benchmark-2015", "--pantograph", "dsa380", "--spacing", "30")
     place = ("--start", "10", "--window", "60", "80")

@@ -47,7 +47,12 @@ class TestMotion:
         """Not at seven times for each step, which the differences of its rates need."""
         calls = []
         model, _ = moved(calls)
-        ancf.simulate(model, t_end=1.0, step=1e-3, controller=lambda run: None, control_step=1e-3)
+
+        def begin(run):  # it was looked through for jumps before
+            if run.t == 0.0:
+                calls.clear()
+
+        ancf.simulate(model, t_end=1.0, step=1e-3, controller=begin, control_step=1e-3)
         assert 1000 <= len(calls) <= 1300
 
     def test_inputs_count_from_the_next_step_on(self):
