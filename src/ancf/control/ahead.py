@@ -12,6 +12,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
 from ..model.expression import Expression
 from ..results.store import MemoryStore
+from ..solvers.far import LOOKED
 from ..solvers.quick import DONE, PACKED, Quick
 from ..solvers.status import EVENT, OK, SLOW, TURN
 from ..solvers.stepping import Run
@@ -50,6 +51,8 @@ class Ahead:
         self.quick = Quick(bundle)
         self.step = self.quick.step
         self.stride = int(np.clip(ROWS // (inputs.pieces + 1), 1, STRIDE))
+        if self.stride > LOOKED:
+            self.stride -= self.stride % LOOKED
         slow = bool(self.inputs.drives) or any(f.uses_t for *_, f in self.led)
         self.cells = None if slow else self._cells()
         self.row: Any = self.tables.value.reshape(-1).data
@@ -170,7 +173,9 @@ class Ahead:
         if rows == ROWS and self.inputs.pieces > 1:
             run = self.run
             times = run.time(run.done + rows), run.h, rows, run.t_start, run.t_end
-            self.coming, self.rows = self.inputs.piecewise(*times), self.stride
+            self.coming = self.inputs.piecewise(*times)
+            # in the middle between steps in which parts of a line turn: no step has to wait for both
+            self.rows = self.stride + (LOOKED // 2 - self.base - self.stride) % LOOKED
 
     def tabled(self, wanted: int) -> Tables:
         """Tables of as many of the next steps as can be made at once."""
