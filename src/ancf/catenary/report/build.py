@@ -153,7 +153,7 @@ def _acceptance(content: Content, lists: Sequence[Sequence[Quantity]]) -> Elemen
         tables.tags([q for one in lists for q in one]),
         element("p", limits, class_="faint"),
         *(element("p", text, class_="faint") for text in notes),
-        element("h3", "Time above a force"),
+        element("h3", "Time above a force, % of the time evaluated"),
         tables.times_above(content),
     )
 
