@@ -283,3 +283,36 @@ class TestMotion:
             run.advance(10)
             run.save(tmp_path / "now.h5")
         assert np.array_equal(run.position(rope.at(5.0)), one.position(rope.at(5.0))[-1])
+
+
+@pytest.mark.parametrize("depth", [None, 15.0])
+@pytest.mark.parametrize("kind", ["regular", "sea"])
+@pytest.mark.parametrize("stretching", ["wheeler", "none"])
+@pytest.mark.parametrize("direction", [0.0, 2.1])
+class TestQuestions:
+    """Waves are asked for velocities and accelerations, in Python."""
+
+    def test_as_in_a_run(self, depth, kind, stretching, direction):
+        """Also while they grow, above the surface and at the bottom."""
+        waves = kinds(depth, stretching=stretching, direction=direction, ramp=8.0)[kind]
+        for place in ((0.0, 0.0, -3.0), (7.0, -4.0, 0.2), (-20.0, 9.0, -14.9)):
+            for t in (0.0, 3.3, 50.0):
+                v, a, _ = asked(waves, t, np.array(place))
+                assert waves.velocity(t, *place)[0] == pytest.approx(v, abs=1e-12)
+                assert waves.acceleration(t, *place)[0] == pytest.approx(a, abs=1e-12)
+
+    def test_rates_and_continuity(self, depth, kind, stretching, direction):
+        """Far below the surface: accelerations are rates, the water keeps its volume and does not turn."""
+        waves = kinds(depth, stretching="none", direction=direction, ramp=0.0)[kind]
+        times, place, h = np.linspace(3.0, 40.0, 25), np.array([5.0, -2.0, -4.0]), 1e-5
+        rate = (waves.velocity(times + h, *place) - waves.velocity(times - h, *place)) / (2 * h)
+        assert waves.acceleration(times, *place) == pytest.approx(rate, abs=1e-8)
+        grad = np.stack(
+            [
+                (waves.velocity(times, *(place + e)) - waves.velocity(times, *(place - e))) / (2 * h)
+                for e in h * np.eye(3)
+            ],
+            axis=-1,
+        )
+        assert np.trace(grad, axis1=1, axis2=2) == pytest.approx(np.zeros(25), abs=1e-8)
+        assert grad == pytest.approx(grad.transpose(0, 2, 1), abs=1e-8)

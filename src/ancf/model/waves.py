@@ -239,6 +239,20 @@ class Waves:
         ]
         return np.array(rows).reshape(len(t), *s.shape)
 
+    def velocity(self, t: Any, x: float = 0.0, y: float = 0.0, z: float = 0.0, g: float = 9.81) -> FloatArray:
+        """Velocity of the water, m/s, at times t (n,) in s at one place, shape (n, 3).
+
+        ``z`` is the height over the mean level, m.  Above the surface it is that at the surface; what is
+        moved there is said by ``stretching``.
+        """
+        return particles(self, t, (x, y, z), g)[0]
+
+    def acceleration(
+        self, t: Any, x: float = 0.0, y: float = 0.0, z: float = 0.0, g: float = 9.81
+    ) -> FloatArray:
+        """Its rate at that place, m/s^2, as :meth:`velocity`."""
+        return particles(self, t, (x, y, z), g)[1]
+
     def refuse_breaking(self, where: str, g: float) -> None:
         """Raise ModelError if such a wave would break under the gravity g."""
         k = float(wave_numbers(np.array([2.0 * math.pi / self.period]), self.depth, g)[0])
@@ -264,6 +278,32 @@ def grown(t: float, ramp: float) -> tuple[float, float]:
         return 0.0, 0.0
     s = t / ramp
     return s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s) / ramp
+
+
+def particles(
+    waves: Waves, t: Any, place: tuple[float, float, float], g: float
+) -> tuple[FloatArray, FloatArray]:
+    """Velocities and accelerations (n, 3) of the water at a place, by linear theory as in a run."""
+    times, k, h = np.atleast_1d(np.asarray(t, dtype=np.float64)), waves.numbers(g), waves.depth
+    way = np.array([math.cos(waves.direction), math.sin(waves.direction)])
+    psi = k * float(way @ place[:2]) - np.outer(times, waves.omega) + waves.phase
+    share, growth = np.array([grown(float(now), waves.ramp) for now in times]).T
+    at = np.full(len(times), float(place[2]))
+    if waves.stretching == "wheeler":
+        eta = share * (np.cos(psi) @ waves.amplitude)
+        at = at - eta if math.isinf(h) else h * (at - eta) / (h + eta)
+    at = np.clip(at, -h, 0.0)[:, None]
+    mirrored = np.exp(-2.0 * k * (at + h))  # by the bottom
+    speed = waves.amplitude * waves.omega * np.exp(k * at) / (1.0 - np.exp(-2.0 * k * h))
+    level, lift = speed * (1.0 + mirrored), speed * (1.0 - mirrored)
+    cos, sin = np.cos(psi), np.sin(psi)
+    parts = [level * cos, lift * sin, waves.omega * level * sin, -waves.omega * lift * cos]
+    u, w, du, dw = (part.sum(axis=1) for part in parts)
+    rates = share * du + growth * u, share * dw + growth * w
+    first, second = (
+        np.stack([one * way[0], one * way[1], up], axis=1) for one, up in ((share * u, share * w), rates)
+    )
+    return first, second
 
 
 def spectrum_of(omega: FloatArray, peak: float, gamma: float) -> FloatArray:
