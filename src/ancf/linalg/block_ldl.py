@@ -4,8 +4,9 @@ A chain of cable elements couples each node with the next, so its matrix is bloc
 that run side by side give a narrow block band, nets a general sparse pattern.  One code serves all:
 L keeps exactly the blocks that the ordering fills (see :mod:`ancf.linalg.ordering`).  6x6 blocks keep
 the inner loops free of indices.  There is no pivoting between blocks, which is safe for the positive
-definite matrices of a time step; pivots are chosen inside the diagonal blocks and the number of
-negative ones tells how far from positive definite the matrix is (Sylvester's law of inertia).
+definite matrices of a time step; inside the diagonal blocks pivots are chosen where their own order
+will not do (:mod:`ancf.linalg.block`), and the number of negative ones tells how far from positive
+definite the matrix is (Sylvester's law of inertia).
 
 Values: block k of a matrix is ``A[36 k : 36 k + 36]``, row by row; the diagonal blocks come first,
 then the blocks below the diagonal, row by row.  The six unknowns of a node are one value, as the

@@ -14,10 +14,8 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..elements.shapes import gauss, hermite
+from ..elements.slopes import Vectors, mean_strain, slope, vectors_of
 from ..model.beam import Beam
-
-Vectors = tuple[FloatArray, FloatArray, FloatArray]
 
 #: Element forces that are computed at once, and in all: of a longer history every second, third, ... state.
 CHUNK, MOST = 100_000, 2_000_000
@@ -117,17 +115,17 @@ def element_forces(
     winch, see :func:`ancf.system.probe.lengths_of`.
     """
     section, strain = beam.section, beam.strain
-    vectors = _vectors(beam, slots, q)
+    vectors = vectors_of(beam.node_x, slots, q)
     if length[0] >= 0:
         vectors = _of_material(vectors, beam.length / q[:, length[0]][:, None])
-    force: FloatArray = section.EA * (_mean_strain(beam, vectors) - _natural(beam))
+    force: FloatArray = section.EA * (mean_strain(vectors, strain) - _natural(beam))
     if strain == "material" and not section.axial_damping:
         return force
-    r_x = [_slope(part) for part in vectors]
+    r_x = [slope(part) for part in vectors]
     stretch = np.sqrt(sum(x * x for x in r_x))
     if section.axial_damping and v is not None:
-        rates = _vectors(beam, slots, v) if length[0] < 0 else _rates(beam, slots, q, v, *length)
-        rate = sum(x * _slope(part) for x, part in zip(r_x, rates, strict=True))
+        rates = vectors_of(beam.node_x, slots, v) if length[0] < 0 else _rates(beam, slots, q, v, *length)
+        rate = sum(x * slope(part) for x, part in zip(r_x, rates, strict=True))
         force += section.axial_damping * (rate / stretch if strain == "material" else rate)
     return force if strain == "material" else force * stretch
 
@@ -182,15 +180,6 @@ def middles(beam: Beam) -> list[float]:
     return places
 
 
-def _vectors(beam: Beam, slots: IntArray, states: FloatArray) -> list[Vectors]:
-    """Chord per length and slopes at both ends of the elements: three components of three (n_t, n)."""
-    h, made = np.diff(beam.node_x), []
-    for k in range(3):
-        place, slope = (np.take(states, slots[:, vector] + k, axis=1) for vector in (0, 1))
-        made.append((np.diff(place, axis=1) / h, slope[:, :-1], slope[:, 1:]))
-    return made
-
-
 def _of_material(vectors: list[Vectors], factor: FloatArray) -> list[Vectors]:
     return [(factor * chord, factor * first, factor * last) for chord, first, last in vectors]
 
@@ -201,7 +190,7 @@ def _rates(
     """Rates of r_x at the material of a cable with a winch, see :mod:`ancf.elements.winched`."""
     h, x, made = np.diff(beam.node_x), beam.node_x - far, []
     mu = (v[:, unknown] / q[:, unknown])[:, None]
-    places = zip(_vectors(beam, slots, q), _vectors(beam, slots, v), strict=True)
+    places = zip(vectors_of(beam.node_x, slots, q), vectors_of(beam.node_x, slots, v), strict=True)
     for k, ((chord, first, last), (v_chord, v_first, v_last)) in enumerate(places):
         slope = np.take(q, slots[:, 1] + k, axis=1)
         bend = (6 * chord - 4 * first - 2 * last) / h, (2 * first + 4 * last - 6 * chord) / h
@@ -215,30 +204,6 @@ def _rates(
     return _of_material(made, beam.length / q[:, unknown][:, None])
 
 
-def _factors(xi: float) -> tuple[float, float, float]:
-    """r_x of the cubic as a sum of the chord and the two slopes."""
-    _, first, chord, last = hermite(xi, 1.0, 1).tolist()
-    return chord, first, last
-
-
-def _slope(part: Vectors, xi: float = 0.5) -> FloatArray:
-    """A component of r_x in the elements, shape (n_t, n)."""
-    chord, first, last = _factors(xi)
-    total: FloatArray = chord * part[0] + first * part[1] + last * part[2]
-    return total
-
-
-def _mean_strain(beam: Beam, vectors: list[Vectors]) -> FloatArray:
-    """Mean axial strain of each element, shape (n_t, n): its projection in the middle."""
-    paper = beam.strain == "paper"
-    total: FloatArray = np.zeros_like(vectors[0][0])
-    for xi, weight in zip(*(x.tolist() for x in gauss(5)), strict=True):
-        square = sum(np.square(_slope(part, xi)) for part in vectors)
-        total += 0.5 * weight * square if paper else weight * np.sqrt(square)
-    total -= 0.5 if paper else 1.0
-    return total
-
-
 def _natural(beam: Beam) -> FloatArray:
     """Mean axial strains of the natural shape, shape (n,)."""
     natural = beam.natural
@@ -246,5 +211,5 @@ def _natural(beam: Beam) -> FloatArray:
         return np.zeros(beam.elements)
     row = np.stack([natural.node_position / natural.stretch, natural.node_tangent], axis=1).reshape(1, -1)
     slots = 3 * np.arange(2 * (beam.elements + 1)).reshape(-1, 2)
-    strain: FloatArray = _mean_strain(beam, _vectors(beam, slots, row))[0]
+    strain: FloatArray = mean_strain(vectors_of(beam.node_x, slots, row), beam.strain)[0]
     return strain

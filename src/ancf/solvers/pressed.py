@@ -5,11 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
-from ..elements.shapes import gauss, hermite
+from ..elements.slopes import mean_strain, vectors_of
 from ..system.system import System
-
-#: Gauss points of a mean over an element.
-POINTS = 5
 
 
 def least_stretch(system: System, q: FloatArray) -> float:
@@ -22,10 +19,6 @@ def least_stretch(system: System, q: FloatArray) -> float:
     for name, slots in system.slots.items():
         if slots.shape[1] != 2 or name in system.lengths:  # r and r_x are the unknowns of a cable's node
             continue
-        nodes = q[slots[..., None] + np.arange(3)]
-        sides = np.concatenate([nodes[:-1], nodes[1:]], axis=1)
-        xi, weight = gauss(POINTS)
-        size, places = np.broadcast_arrays(np.diff(system.model.beams[name].node_x)[:, None], xi)
-        slopes = np.einsum("egk,ekc->egc", hermite(places, size, 1), sides)
-        found.append(float(np.min(np.linalg.norm(slopes, axis=-1) @ weight)))
+        vectors = vectors_of(system.model.beams[name].node_x, slots, q[None])
+        found.append(1.0 + float(np.min(mean_strain(vectors, "material"))))
     return min(found)

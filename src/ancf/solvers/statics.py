@@ -5,7 +5,8 @@ matrix K is not positive definite or the corrections are too long: a slack cable
 stiffness against falling, a compressed one a negative one.  mu goes to zero as the iteration settles,
 so that the last corrections are Newton's own.  Corrections are capped; when they do not settle, a line
 search looks for the place along the correction where the out-of-balance force does no more work.
-Because only positive definite matrices are accepted, the result is a stable equilibrium.
+Because only positive definite matrices are accepted, the result is a stable equilibrium; but for loads that
+follow the motion, whose derivatives GMRES takes where the symmetric matrix converges slowly.
 """
 
 from __future__ import annotations
