@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from ._version import __version__
-from .errors import Interrupted, ModelError, SolveError
+from .errors import ArgumentError, Interrupted, ModelError, SolveError
 
 if TYPE_CHECKING:
     from .analysis import damped_modes, equilibrium, load, modes, simulate, stable_step
@@ -79,7 +79,11 @@ _LATER = {
     "verify": "verification",
 }
 
+# what a controller calls in each step is called directly
+_EACH_STEP = ("Stepper",)
+
 __all__ = [
+    "ArgumentError",
     "Capsule",
     "Cylinder",
     "DampedModes",
@@ -139,6 +143,8 @@ def __getattr__(name: str) -> Any:
     if name not in _LATER:
         raise AttributeError(f"module 'ancf' has no attribute {name!r}")
     value = getattr(import_module(f".{_LATER[name]}", __name__), name)
+    if name not in _EACH_STEP:
+        value = import_module(".model.keywords", __name__).guarded(value)
     globals()[name] = value
     return value
 

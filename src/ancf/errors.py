@@ -34,6 +34,10 @@ class ModelError(ValueError):
         return _error, (type(self), self.where, self.what, self.hint, self.__dict__)
 
 
+class ArgumentError(ModelError, TypeError):
+    """A call has an argument that there is not, lacks one or has too many; ``where`` is what was called."""
+
+
 class SolveError(RuntimeError):
     """A solve stopped; what was computed until then is kept.
 

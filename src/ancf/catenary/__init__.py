@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..model.keywords import guard
 from .acceptance import acceptance, time_above
 from .arm_loads import ArmLoad, arm_loads
 from .auxiliary import Auxiliary, LongDroppers
@@ -124,3 +125,6 @@ __all__ = [
     "write_run",
     "write_validation",
 ]
+
+# what a controller calls in each step is called directly
+guard(globals(), (name for name in __all__ if name not in ("LineStepper", "Touching")))

@@ -8,6 +8,7 @@ from .functions import TimeFunction
 from .guides import Cylindrical, Planar, Prismatic
 from .gusts import Gusts
 from .joints import Fixation, Revolute, Slide, Spherical
+from .keywords import guard
 from .loads import DistributedLoad, Force, Moment
 from .model import Model
 from .points import Point
@@ -49,3 +50,5 @@ __all__ = [
     "Waves",
     "Weld",
 ]
+
+guard(globals(), __all__)
