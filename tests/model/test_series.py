@@ -231,3 +231,73 @@ def test_nothing_is_said_of_a_model_without_series():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert noises(model) == []
+
+
+class TestRamp:
+    """first + (value - first) s with s of the minimum-jerk polynomial: 1/2 midway, flat at both ends."""
+
+    @pytest.mark.parametrize("interpolation", ["linear", "spline"])
+    @pytest.mark.parametrize("relative", [False, True])
+    @pytest.mark.parametrize(("begin", "ramp"), [(0.0, 0.5), (-1.0, 0.8), (0.3, 1.7)])
+    def test_sets_in_from_rest(self, begin, ramp, relative, interpolation):
+        t = np.linspace(begin, 4.0, 4001)
+        value = 2.0 + 0.3 * np.sin(7 * t + 0.4)
+        plain = Series(t, value, interpolation=interpolation)
+        found = Series(t, value, interpolation=interpolation, relative=relative, ramp=ramp)
+        start = max(begin, 0.0)
+        first = plain(np.array([start]))[0, 0]
+        low = first if relative else 0.0
+        at = np.array([start - 0.1, start, start + ramp / 2, start + ramp, 3.7, 5.0])
+        share = np.array([0, 0, 0.5, 1, 1, 1])
+        assert found(at)[:, 0] == pytest.approx(first - low + share * (plain(at)[:, 0] - first), abs=1e-12)
+        near = start + 1e-3 * ramp * np.arange(3)
+        # of the third order: neither a rate nor an acceleration at the beginning
+        assert np.abs(np.diff(found(near)[:, 0])).max() < 1e-6 * 0.3
+
+    @pytest.mark.parametrize("size", [1, 3])
+    def test_derivatives_are_those_of_the_values(self, size):
+        t = np.linspace(-0.5, 3.0, 200)
+        value = np.column_stack([np.sin(4 * t), t**2, np.cos(t)])
+        found = Series(t, value if size == 3 else value[:, 0], ramp=1.2, cutoff=5.0)
+        at, d = np.array([-0.2, 0.1, 0.6, 1.1, 2.0]), 1e-4
+        high, low, here = found(at + d), found(at - d), found(at)
+        assert found(at, 1) == pytest.approx((high - low) / (2 * d), abs=1e-5)
+        assert found(at, 2) == pytest.approx((high - 2 * here + low) / d**2, abs=1e-4)
+
+    def test_is_read_and_written(self, tmp_path):
+        rows = "\n".join(f"{k / 20},{np.sin(k / 3)}" for k in range(60))
+        (tmp_path / "a.csv").write_text("t,x\n" + rows, "utf-8")
+        entry = '[{ csv = "a.csv", column = "x", relative = true, ramp = 1.5 }, 0, 0]'
+        model = study(tmp_path, entry).model
+        [series] = model.supports[0].displacement.series
+        assert series.ramp == 1.5
+        again = ancf.Model.from_dict(model.to_dict()).supports[0].displacement
+        at = np.linspace(0, 3, 50)
+        assert np.array_equal(again.table(at), model.supports[0].displacement.table(at))
+        copy = pickle.loads(pickle.dumps(series))
+        assert np.array_equal(copy(at), series(at))
+        assert "ramp=1.5 s" in repr(series)
+        assert '"ramp"' in json.dumps(schema()["$defs"]["PinEntry"]["properties"]["displacement"])
+
+    @pytest.mark.parametrize(
+        ("first", "ramp", "says"),
+        [(0.0, 5.0, "ends 2 s after t = 0"), (-3.0, 1.0, "ends 0 s"), (0.0, -1.0, "must be > 0")],
+    )
+    def test_longer_than_the_series(self, first, ramp, says):
+        with pytest.raises(ancf.ModelError, match=r"Series\.ramp") as caught:
+            Series([first, first + 1.0, first + 2.0], [0, 1, 0], ramp=ramp)
+        assert says in caught.value.what
+
+    @pytest.mark.parametrize("step", [2e-3, 5e-4])
+    @pytest.mark.parametrize("ramp", [None, 0.5, 1.0])
+    def test_what_is_moved_begins_at_rest(self, ramp, step):
+        """With the rate of the measurement itself without a ramp."""
+        t = np.linspace(0.0, 2.0, 401)
+        motion = Series(t, 0.03 * np.sin(2 * np.pi * t), relative=True, ramp=ramp)
+        model = ancf.Model()
+        mass = model.add_point_mass("mass", at=(0, 0, 0), mass=2.0)
+        model.hold(mass, position="xyz", displacement=(motion, 0, 0))
+        run = ancf.simulate(model, t_end=0.4, step=step)
+        first = run.velocity(mass)[0, 0]
+        assert first == pytest.approx(0.03 * 2 * np.pi if ramp is None else 0.0, rel=1e-3, abs=1e-9)
+        assert run.position(mass)[:, 0] == pytest.approx(motion(np.asarray(run.t))[:, 0], abs=1e-12)

@@ -26,8 +26,8 @@ UNITS = {
 }  # fmt: skip
 INTERPOLATIONS = ("linear", "spline")
 #: Keys of a series in a description, and in a file that names a CSV file.
-KEYS = ("t", "value", "interpolation", "cutoff", "relative")
-FILE_KEYS = ("csv", "column", "unit", "time", "time_unit", "interpolation", "cutoff", "relative")
+KEYS = ("t", "value", "interpolation", "cutoff", "relative", "ramp")
+FILE_KEYS = ("csv", "column", "unit", "time", "time_unit", "interpolation", "cutoff", "relative", "ramp")
 #: A motion is noisy if its acceleration above this share of half the sampling rate exceeds the rest and this.
 HIGH, LEAST = 0.25, 1.0
 
@@ -54,7 +54,11 @@ class Series:
         A smoothing spline instead: of a vibration of this frequency it keeps the 0.71th part (-3 dB), of one
         of twice the frequency the 0.13th, of one of half of it 0.975, without a lag.
     relative : bool
-        Count from the value at the first time, as displacements do.
+        Count from the value at the first time, as displacements do; with a ramp from that where it begins.
+    ramp : float, s, optional
+        Time in which it sets in: from the value at t = 0, or at the first time if that is later, by
+        ``first + (value - first) (10 x^3 - 15 x^4 + 6 x^5)``, so that rates and accelerations begin with
+        zero, as those of a model at rest do.
 
     Raises
     ------
@@ -62,7 +66,7 @@ class Series:
         Times do not increase, a value is no finite number, there are too few, or a unit is unknown.
     """
 
-    __slots__ = ("_curve", "cutoff", "interpolation", "relative", "t", "value")
+    __slots__ = ("_curve", "cutoff", "interpolation", "ramp", "relative", "t", "value")
 
     def __init__(
         self,
@@ -75,6 +79,7 @@ class Series:
         interpolation: str = "spline",
         cutoff: float | None = None,
         relative: bool = False,
+        ramp: float | None = None,
         where: str = "Series",
     ) -> None:
         self.t = checks.array(t, f"{where}.t", (None,)) * factor(time_unit, f"{where}.time_unit")
@@ -87,7 +92,15 @@ class Series:
         if len(self.value) != self.t.size:
             raise ModelError(f"{where}.value", f"has {len(self.value)} values for {self.t.size} times")
         self._check_cutoff(where)
+        self.ramp = None if ramp is None else self._checked_ramp(ramp, f"{where}.ramp")
         self._curve = self._fitted()
+
+    def _checked_ramp(self, ramp: Any, where: str) -> float:
+        found, left = checks.positive(ramp, where), float(self.t[-1]) - self.begin
+        if found > left:
+            what = f"is {found:g} s, the series ends {max(left, 0.0):.6g} s after t = {self.begin:g} s"
+            raise ModelError(where, what, "it sets in from t = 0 on, or from the first time if that is later")
+        return found
 
     def _check_cutoff(self, where: str) -> None:
         if self.cutoff is None:
@@ -130,8 +143,30 @@ class Series:
         """1 or 3."""
         return 1 if self.value.ndim == 1 else 3
 
+    @property
+    def begin(self) -> float:
+        """Time at which a ramp begins, s."""
+        return max(float(self.t[0]), 0.0)
+
     def __call__(self, times: FloatArray, derivative: int = 0) -> FloatArray:
         """Values (n, size) at times (n,), or their first or second derivative."""
+        if self.ramp is None:
+            return self._whole(times, derivative)
+        first = self._whole(np.array([self.begin]))
+        share = _rise((times - self.begin) / self.ramp, self.ramp)
+        above = self._whole(times) - first
+        if derivative == 0:
+            grown: FloatArray = above * share[0] + (0.0 if self.relative else first)
+            return grown
+        rate = self._whole(times, 1)
+        if derivative == 1:
+            value: FloatArray = rate * share[0] + above * share[1]
+            return value
+        bend: FloatArray = self._whole(times, 2) * share[0] + 2.0 * rate * share[1] + above * share[2]
+        return bend
+
+    def _whole(self, times: FloatArray, derivative: int = 0) -> FloatArray:
+        """As given, without a ramp."""
         held = np.clip(times, self.t[0], self.t[-1])
         if callable(self._curve):
             found: FloatArray = np.asarray(self._curve(held, derivative)).reshape(len(held), -1)
@@ -151,14 +186,16 @@ class Series:
         plain["interpolation"] = self.interpolation
         if self.cutoff is not None:
             plain["cutoff"] = self.cutoff
-        return plain | ({"relative": True} if self.relative else {})
+        plain |= {"relative": True} if self.relative else {}
+        return plain | ({"ramp": self.ramp} if self.ramp is not None else {})
 
     @classmethod
     def of(cls, plain: Mapping[str, Any], where: str, size: int | None = None) -> Series:
         """From a table in a description or a file: straight lines, if it does not say otherwise."""
         if set(plain) - set(KEYS) or not {"t", "value"} <= set(plain):
             what = f'a table has the keys "t" and "value", not {sorted(map(str, plain))}'
-            hint = 'also "interpolation", "cutoff", "relative"; { csv = "file.csv", column = "x" } in a file'
+            hint = 'also "interpolation", "cutoff", "relative", "ramp"; '
+            hint += '{ csv = "file.csv", column = "x" } in a file'
             raise ModelError(where, what, hint)
         smooth = "spline" if "cutoff" in plain else "linear"
         return cls(**{"interpolation": smooth, **plain}, where=where, size=size)
@@ -168,6 +205,7 @@ class Series:
 
     def __repr__(self) -> str:
         more = f", cutoff={self.cutoff:g} Hz" if self.cutoff else ""
+        more += f", ramp={self.ramp:g} s" if self.ramp else ""
         return (
             f"Series({self.t.size} values from {self.t[0]:g} to {self.t[-1]:g} s, {self.interpolation}{more})"
         )
@@ -210,6 +248,14 @@ class Series:
             return curve
         first = curve(self.t[0])
         return lambda times, derivative=0: curve(times, derivative) - (first if derivative == 0 else 0.0)
+
+
+def _rise(x: FloatArray, length: float) -> FloatArray:
+    """What a ramp has reached at shares x (n,) of its length, and its rates, shape (3, n, 1)."""
+    x = np.clip(x, 0.0, 1.0)[:, None]
+    rest = 1.0 - x
+    value = x**3 * (10.0 - 15.0 * x + 6.0 * x**2)
+    return np.stack([value, 30.0 * (x * rest) ** 2 / length, 60.0 * x * rest * (rest - x) / length**2])
 
 
 def _smoothed(t: FloatArray, values: FloatArray, cutoff: float) -> Any:

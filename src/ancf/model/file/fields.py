@@ -125,6 +125,11 @@ _HOW: dict[str, Any] = {
         "description": "Frequency of which a smoothing spline keeps the 0.71th part [Hz].",
     },
     "relative": {"type": "boolean", "description": "Count from the value at the first time [-]."},
+    "ramp": {
+        "type": "number",
+        "exclusiveMinimum": 0,
+        "description": "Time in which it sets in smoothly, from t = 0 or the first time on [s].",
+    },
 }
 
 
