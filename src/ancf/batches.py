@@ -39,7 +39,7 @@ from .compiled import (
     strain_energy,
     touched,
 )
-from .records import RecordType, words_of
+from .records import RecordType, begin_of, words_of
 
 
 @separate_kernel
@@ -124,6 +124,7 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     add_number_work: (number_work_at, (_V, _V, _V, _V, _V, _V), types.none),
 }
 _COLUMNS = 1 + len(OPERATIONS)
+_NONE = np.zeros((0, _COLUMNS), dtype=np.int64)
 FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER, RATES, TOUCHED, NUMBERS = range(
     1, _COLUMNS
 )
@@ -144,8 +145,12 @@ class Batches(_Table):
     def __new__(cls, batches: Iterable[Any] = ()) -> Batches:
         """From batches of any kinds."""
         kept = tuple(batches)
+        if not kept:
+            self = super().__new__(cls, _NONE)
+            self._batches, self._records = (), []
+            return self
         rows = [_row(batch) for batch in kept]
-        numbers = [(words.ctypes.data, *found) for words, found in rows]
+        numbers = [(begin_of(words), *found) for words, found in rows]
         self = super().__new__(cls, np.array(numbers, dtype=np.int64).reshape(len(rows), _COLUMNS))
         self._batches, self._records = kept, [words for words, _ in rows]
         return self

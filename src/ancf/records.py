@@ -66,7 +66,7 @@ def recorded(kind: type[T]) -> type[T]:
         return RecordType(types.NamedTuple([typeof(item) for item in value], made))
 
     def address(value: Any) -> int:
-        return int(value.record.ctypes.data)
+        return begin_of(value.record)
 
     record = cached_property(lambda value: words_of(value))
     about: dict[str, Any] = {
@@ -99,7 +99,7 @@ class Located:
 
     def __init__(self, value: Any) -> None:
         self.value, self._words = value, words_of(value)
-        self.address = int(self._words.ctypes.data)
+        self.address = begin_of(self._words)
 
 
 @typeof_impl.register(Located)
@@ -123,7 +123,7 @@ def words_of(value: Any) -> NDArray[np.int64]:
 
 
 def _asked(array: Any) -> int:
-    """Address of the numbers of an array."""
+    """Address of the numbers of an array, from where NumPy tells it."""
     return int(array.__array_interface__["data"][0])
 
 
@@ -135,7 +135,8 @@ def _looked_up(array: Any) -> int:
 _number: Any = ctypes.c_ssize_t.from_address
 _HEAD = object.__basicsize__
 _sample = np.zeros(3)
-_begin = _looked_up if _looked_up(_sample) == _asked(_sample) else _asked
+#: Address of the numbers of an array.
+begin_of = _looked_up if _looked_up(_sample) == _asked(_sample) else _asked
 
 
 def _add(value: Any, words: list[int]) -> None:
@@ -143,7 +144,7 @@ def _add(value: Any, words: list[int]) -> None:
     for item in tuple.__iter__(value):  # the fields, whatever a class lets one see
         kind = type(item)
         if kind is np.ndarray:
-            words.append(_begin(item))
+            words.append(begin_of(item))
             words += item.shape
             words += item.strides
         elif hasattr(kind, "address"):

@@ -101,6 +101,7 @@ class TestRoom:
 
     def test_more_samples_than_memory(self, monkeypatch):
         monkeypatch.setattr(room, "memory_there", lambda: 1e5)
+        monkeypatch.setattr(room, "ALWAYS", 1e4)
         given = {"t_end": 1.0, "step": 1e-3, "output_step": 0.5}
         with pytest.raises(
             ModelError, match=r"1e\+03 samples of the sensors take about 0\.\d+ MB, the memory has 0\.1 MB"

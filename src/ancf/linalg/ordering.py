@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -38,10 +38,16 @@ def fill_pattern(pairs: IntArray, n: int) -> tuple[IntArray, IntArray]:
     return row_start, column
 
 
+def _keys(pairs: IntArray, n: int) -> IntArray:
+    """Row times n plus column of each pair of two blocks, ascending, each once."""
+    one, other = pairs[:, 0], pairs[:, 1]
+    high, low = np.maximum(one, other), np.minimum(one, other)
+    return np.unique((high * n + low)[high > low])
+
+
 def _rows(pairs: IntArray, n: int) -> Iterator[list[int]]:
     """Columns of the blocks of L, row by row, in no order."""
-    high, low = pairs.max(axis=1), pairs.min(axis=1)
-    key = np.unique((high * n + low)[high > low])
+    key = _keys(pairs, n)
     first = np.searchsorted(key, n * np.arange(n + 1)).tolist()
     left = (key % max(n, 1)).tolist()
     parent, passed = [-1] * n, [-1] * n
@@ -83,8 +89,7 @@ def order(pairs: IntArray, n: int) -> tuple[IntArray, str]:
         ``"as given"``, ``"band"`` or ``"minimum degree"``.
     """
     given = np.arange(n)
-    high, low = pairs.max(axis=1), pairs.min(axis=1)
-    least = len(np.unique((high * n + low)[high > low]))
+    least = len(_keys(pairs, n))
     if _count(pairs, n, NEAR * least) <= NEAR * least:  # no other order can be better by more
         return given, "as given"
     candidates = {"as given": given, "band": band(pairs, n)}
@@ -98,7 +103,7 @@ def order(pairs: IntArray, n: int) -> tuple[IntArray, str]:
     return candidates[name], name
 
 
-def behind(rank: IntArray, pairs: IntArray, later: IntArray, last: list[int]) -> IntArray:
+def behind(rank: IntArray, pairs: IntArray, later: Sequence[int], last: Sequence[int]) -> IntArray:
     """Order in which some blocks come right behind all that they are coupled with, others at the end.
 
     Blocks of multipliers have no entries of their own on the diagonal: what stands there is the result of
@@ -117,6 +122,8 @@ def behind(rank: IntArray, pairs: IntArray, later: IntArray, last: list[int]) ->
     -------
     ndarray, shape (n,)
     """
+    if not (len(later) or last):
+        return rank
     key = rank.astype(np.float64)
     for block in later:
         met = np.unique(pairs[(pairs == block).any(axis=1)])

@@ -35,7 +35,7 @@ def first_axis(y_axis: Any, tangent: FloatArray, where: str) -> FloatArray:
 
     """
     if y_axis is None:
-        across = np.cross([0.0, 0.0, 1.0], tangent)
+        across = np.array([0.0 - tangent[1], tangent[0], 0.0])  # e_z x tangent
         near = np.array([0.0, 1.0, 0.0]) if np.linalg.norm(across) <= PARALLEL else across
     else:
         near = checks.direction(y_axis, where)

@@ -8,7 +8,7 @@ process do not change, and are never kept.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from ..batches import Batches
 from ..errors import ModelError
+from ..records import begin_of
 from ..system.system import System
 
 Arrays = dict[str, NDArray[Any]]
@@ -41,33 +42,37 @@ class Snapshot:
     arrays: Arrays
 
 
-def arrays_in(item: Any, place: str) -> Iterator[tuple[str, NDArray[Any]]]:
-    """All arrays that are not empty in tuples, named tuples, batches and dicts, with their places."""
+def distinct(roots: Mapping[str, Any]) -> Arrays:
+    """Arrays that are not empty below some roots, by place; one that is reached twice has its first place.
+
+    They are looked for in tuples, named tuples, batches, lists and dicts.
+    """
+    found: Arrays = {}
+    seen: set[tuple[int, int]] = set()
+    for name, root in roots.items():
+        _find(root, name, found, seen)
+    return found
+
+
+def _find(item: Any, place: str, found: Arrays, seen: set[tuple[int, int]]) -> None:
+    """Add the arrays in an item; whoever makes a thousand short runs waits for this a thousand times."""
     if isinstance(item, np.ndarray):
         if item.size:
-            yield place, item
-    elif isinstance(item, Batches) or (isinstance(item, tuple | list) and not hasattr(item, "_fields")):
-        for k, part in enumerate(item):
-            yield from arrays_in(part, f"{place}.{k}")
-    elif isinstance(item, Mapping):
-        for name, part in item.items():
-            yield from arrays_in(part, f"{place}.{name}")
-    elif isinstance(item, tuple):
-        for name in item._fields:  # type: ignore[attr-defined]
-            yield from arrays_in(getattr(item, name), f"{place}.{name}")
-
-
-def distinct(roots: Mapping[str, Any]) -> Arrays:
-    """Arrays below some roots by place; one that is reached twice has its first place."""
-    found: Arrays = {}
-    seen = set()
-    for name, root in roots.items():
-        for place, array in arrays_in(root, name):
-            key = array.__array_interface__["data"][0], array.nbytes
+            key = begin_of(item), item.nbytes
             if key not in seen:
                 seen.add(key)
-                found[place] = array
-    return found
+                found[place] = item
+    elif isinstance(item, Batches):
+        for k, part in enumerate(item):
+            _find(part, f"{place}.{k}", found, seen)
+    elif isinstance(item, tuple | list):
+        names = getattr(item, "_fields", None) or range(len(item))
+        for name, part in zip(names, item, strict=True):
+            if not isinstance(part, int | float):
+                _find(part, f"{place}.{name}", found, seen)
+    elif isinstance(item, Mapping):
+        for name, part in item.items():
+            _find(part, f"{place}.{name}", found, seen)
 
 
 def copies(roots: Mapping[str, Any]) -> Arrays:

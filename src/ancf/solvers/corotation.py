@@ -54,15 +54,19 @@ def allocate(
     """
     attached = np.zeros(0, dtype=np.int64) if attached is None else attached
     slots = [s for s in slots if s.shape[1] > 1]
-    positions = np.concatenate([np.zeros(0, dtype=np.int64), *[s[:, 0] for s in slots]])
-    places, count = np.unique(positions, return_counts=True)
-    shared = places[count > 1]
+    size = 3 + max((int(s.max()) for s in slots if s.size), default=0)
+    still = np.zeros(max(size, 1 + int(np.max(held, initial=0))), dtype=np.bool_)
+    still[held] = True
+    joined = np.zeros(max(size, 1 + int(np.max(attached, initial=0))), dtype=np.bool_)
+    joined[attached[attached >= 0]] = True
+    ends = np.zeros(size, dtype=np.int64)
+    for s in slots:
+        np.add.at(ends, s[:, 0], 1)
     nodes: list[IntArray] = []
     for s in slots:
-        count_held = np.isin(s[:, :, None] + np.arange(3), held).sum(axis=2)
+        count_held = still[s[:, :, None] + np.arange(3)].sum(axis=2)
         fixed = ((count_held == 1) | (count_held == 2)).any(axis=1)
-        joined = np.isin(s, attached).any(axis=1)
-        nodes += list(s[~fixed & ~joined & ~np.isin(s[:, 0], shared)])
+        nodes += list(s[~fixed & ~joined[s].any(axis=1) & (ends[s[:, 0]] < 2)])
     chunks = _chunks(nodes)
     every = np.concatenate([np.zeros((0, LANES), dtype=np.int64), *[c for c, _ in chunks]])
     places = np.zeros((every.size, 0), dtype=np.int64) if tail is None else tail(every.ravel())
@@ -99,12 +103,13 @@ def turning_nodes(system: System) -> Frames:
     joints = system.parts.get("joints")
     attached = np.zeros(0, dtype=np.int64) if joints is None else joints.slot
 
+    renewed = 6 * np.arange(system.core.joints.first, system.numbering.blocks)
+
     def tail(slots: IntArray) -> IntArray:
-        first = 6 * np.arange(system.core.joints.first, system.numbering.blocks)
-        return system.places.of(first[None, :], slots[:, None]).astype(np.int64)
+        return system.places.of(renewed[None, :], slots[:, None])
 
     slots = [system.numbering.each(name) for name in system.numbering.slots]
-    return allocate(slots, system.core.supports.held, attached, tail)
+    return allocate(slots, system.core.supports.held, attached, tail if len(renewed) else None)
 
 
 def flies(system: System) -> bool:

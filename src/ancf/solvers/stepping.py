@@ -239,13 +239,17 @@ class Run(Asleep):
         """Time after so many steps, s."""
         return self.t_start + done * self.h if done < self.steps else self.t_end
 
+    def times(self, done: NDArray[np.int64]) -> FloatArray:
+        """The same after some numbers of steps."""
+        return np.where(done < self.steps, self.t_start + done * self.h, self.t_end)
+
     def _block(self, done: int, count: int, recorder: Recorder) -> None:
         """Steps done + 1 ... done + count; a failed one is bridged by smaller steps."""
         h = self.h if done < self.full else self.rest
-        number = np.arange(done + 1, done + count + 1)
-        keep = (number % self.every == 0) | (number == self.steps)
-        row = np.where(keep, np.cumsum(keep) - 1, -1)
-        out = self.room(int(keep.sum()), count)
+        kept = self.kept(done, count)
+        row = np.full(count, -1)
+        row[kept - (done + 1)] = np.arange(len(kept))
+        out = self.room(len(kept), count)
         cpu = clock.process_time()
         first, most, self.tabled = 0, count, None
         try:
@@ -271,12 +275,17 @@ class Run(Asleep):
                     first += 1
         finally:
             self.seconds += clock.process_time() - cpu
-            stored = int(keep[:first].sum())
             if self.sampling.width:
-                times = np.array([self.time(int(k)) for k in number[:first]])
-                recorder.record(times, out.samples[:first])
-            times = np.array([self.time(int(k)) for k in number[keep]])
-            recorder.append(times[:stored], out.q[:stored], out.v[:stored], out.work[:stored])
+                recorder.record(self.times(np.arange(done + 1, done + first + 1)), out.samples[:first])
+            times = self.times(kept[kept <= done + first])
+            stored = len(times)
+            recorder.append(times, out.q[:stored], out.v[:stored], out.work[:stored])
+
+    def kept(self, done: int, count: int) -> NDArray[np.int64]:
+        """Numbers of the steps done + 1 ... done + count whose states are stored."""
+        last = done + count
+        found = np.arange((done // self.every + 1) * self.every, last + 1, self.every)
+        return np.append(found, last) if last == self.steps and last % self.every else found
 
     def store(self, k: int, n: int, out: Output) -> None:
         """The state now as row k of the outputs, -1: not wanted, and its samples as row n of theirs."""

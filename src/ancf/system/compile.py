@@ -155,16 +155,20 @@ def order_blocks(parts: Parts, numbering: Numbering) -> tuple[IntArray, IntArray
     plain = block_pairs([b for own, b in couples if own is None])
     pairs = np.concatenate([plain, *(own(b) for own, b in couples if own is not None)])
     rank, ordering = order(pairs, numbering.blocks)
-    joints = np.unique(numbering.all_multipliers() // 6)
-    behind_bodies = np.setdiff1d(joints, numbering.sliding)
-    band = behind(rank, pairs, behind_bodies, numbering.sliding)
-    spread = int(np.max(np.abs(np.diff(band[pairs], axis=1)), initial=0))
+    joints = set((numbering.all_multipliers() // 6).tolist())
+    behind_bodies = sorted(joints - set(numbering.sliding))
+    spread = _spread(behind(rank, pairs, behind_bodies, numbering.sliding), pairs)
     if ordering != MINIMUM_DEGREE and not _is_line(parts):
-        rank = from_both_ends(rank, int(np.max(np.abs(np.diff(rank[pairs], axis=1)), initial=0)))
+        rank = from_both_ends(rank, _spread(rank, pairs))
     rank = behind(rank, pairs, behind_bodies, numbering.sliding)
     numbering.renumber(rank)
     moving = [own(b) for b in last if (own := traits(b).couples) is not None]
     return rank, rank[np.concatenate([pairs, *moving])], ordering, 6 * (spread + 1) - 1
+
+
+def _spread(rank: IntArray, pairs: IntArray) -> int:
+    """Largest difference of the places of two blocks that are coupled."""
+    return int(np.max(np.abs(rank[pairs[:, 0]] - rank[pairs[:, 1]]), initial=0))
 
 
 def bind_parts(parts: Parts, rank: IntArray, constraints: Constraints, places: Places) -> Parts:

@@ -67,6 +67,8 @@ class Inputs:
         Loads that depend on them.
     drives : list of Drive
         Lengths that follow from step to step.
+    still : bool
+        Nothing depends on time, inputs or the state.
     """
 
     def __init__(
@@ -80,6 +82,7 @@ class Inputs:
         own = {drive.row for drive in self.drives}
         self.led = [k for k, function in enumerate(loads) if function.inputs and k not in own]
         self.rotations = [r for r in constraints.rotations if r.moves]
+        self.still = not (self.motions or self.rotations) and all(f.constant for f in loads)
         self.prescribed = np.array([i for m in self.motions for i in m.unknowns], dtype=np.int64)
 
     def give(self, name: str, value: float) -> None:
@@ -104,6 +107,9 @@ class Inputs:
         between them.  ``here``: state vectors q, v from which lengths follow that are driven; ``still``: they
         stay as they are there.
         """
+        if self.still:
+            value = _amplitudes(self.loads, np.zeros(steps), self.given)
+            return Tables(value, np.zeros((steps, 0, 3)), np.zeros((steps, 0, 3, 3, 3)))
         times = on_grid(start, step, np.arange(1, steps + 1), first)
         motion = [self._motion(k, times, step, first, last) for k in range(len(self.motions))]
         rotation = [self._rotation(r, times, step, first, last) for r in self.rotations]

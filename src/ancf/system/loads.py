@@ -175,8 +175,7 @@ def gravity(model: Model, slots: dict[str, IntArray], size: int) -> FloatArray:
             weight = factor * body.section.rhoA
         else:
             at, weight = slots[body.name][0, :1], np.array([body.mass])
-        for c in range(3):
-            np.add.at(f, at + c, weight * model.gravity[c])
+        np.add.at(f, at[:, None] + np.arange(3), weight[:, None] * model.gravity)
     return f
 
 

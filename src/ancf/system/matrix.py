@@ -39,24 +39,21 @@ class Places:
 
     def of(self, i: IntArray, j: IntArray) -> IntArray:
         """Places of the entries (i, j) of unknowns, -1 above the diagonal blocks or for i, j < 0."""
-        bi, bj = i // 6, j // 6
+        (bi, ri), (bj, cj) = divmod(i, 6), divmod(j, 6)
         k = np.searchsorted(self.key, bi * self.n + bj)
-        block = np.where(bi == bj, bi, self.n + k)
-        place = 36 * block + 6 * (i % 6) + j % 6
-        return np.where((bi >= bj) & (i >= 0) & (j >= 0), place, -1)
+        place = 36 * np.where(bi == bj, bi, self.n + k) + (6 * ri + cj)
+        return np.where((bi >= bj) & (bj >= 0), place, -1)
 
     def dest(self, slots: IntArray) -> IntArray:
         """Places of all 3x3 blocks of elements with these slots, shape (n, k*k)."""
         n, k = slots.shape
-        i = np.repeat(slots, k, axis=1)
-        j = np.tile(slots, (1, k))
-        return np.ascontiguousarray(self.of(i, j).reshape(n, k * k))
+        return self.of(slots[:, :, None], slots[:, None, :]).reshape(n, k * k)
 
     @cached_property
     def by_column(self) -> tuple[IntArray, IntArray]:
         """Stored blocks below the diagonal, column by column, and where each column begins among them."""
-        first = np.searchsorted(np.sort(self.column), np.arange(self.n + 1))
-        return np.argsort(self.column, kind="stable"), first
+        order = np.argsort(self.column, kind="stable")
+        return order, np.searchsorted(self.column[order], np.arange(self.n + 1))
 
     def blocks_of(self, b: int) -> tuple[IntArray, IntArray]:
         """Numbers of the stored blocks in row b (diagonal included) and below in column b."""

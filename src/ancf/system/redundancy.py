@@ -37,7 +37,7 @@ def spare_multipliers(system: System) -> IntArray:
         singular position of a loop, or sliding joints hold what others hold.
     """
     none = np.zeros(0, dtype=np.int64)
-    if not len(np.setdiff1d(system.multipliers, system.core.supports.held)):
+    if not len(system.multipliers) or not len(np.setdiff1d(system.multipliers, system.held)):
         return none
     rows = held_rows(system, system.initial_shape())
     size = np.linalg.norm(rows.C, axis=1)
