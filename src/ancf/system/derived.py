@@ -80,12 +80,11 @@ class Derived:
         """What changes of the unknowns are measured in: one over the sizes of these."""
         weight, size = np.ones(self.n), self.model.size
         for slots in self.numbering.slots.values():
-            for c in range(3):
-                weight[slots[:, 0] + c] = 1.0 / size
+            weight[slots[:, :1] + np.arange(3)] = 1.0 / size
         for name, beam in self.model.beams.items():
-            internal = self.numbering.slots[name][:-1, self.numbering.shared[name] :]
-            for c in range(3):
-                weight[internal + c] = np.diff(beam.node_x)[:, None]
+            internal = self.numbering.slots[name][:-1, self.numbering.shared[name] :, None]
+            if internal.size:
+                weight[internal + np.arange(3)] = np.diff(beam.node_x)[:, None, None]
         weight[self.numbering.all_multipliers()] = 0.0
         weight[list(self.numbering.arcs.values())] = 1.0 / size
         weight[list(self.numbering.lengths.values())] = 1.0 / size
