@@ -22,6 +22,7 @@ from .model.doubts import doubts
 from .model.integrators import INTEGRATORS, Integrator, Radau, Trapezoidal
 from .model.jumps import jumps
 from .model.model import Model
+from .model.periods import few_steps
 from .model.series import noises
 from .model.settings import steps_between
 from .model.supports import Support
@@ -109,11 +110,13 @@ def compiled(
     system.sensors = _sensors(system, sensors, not isinstance(method, Radau), ends)
     if not checks.flag(energy, f"{where}.energy"):
         system.skip_energies()
-    said = [*noises(model), *map(str, jumps(model, t_start, t_end, step))]
+    found = jumps(model, t_start, t_end, step)
+    said = [*noises(model), *map(str, found)]
     for text in said:
         warnings.warn(text, UserWarning, stacklevel=4)
     header = header_of(system, method, t_start, t_end, step, output_step)
-    header["notes"] = [*said, *doubts(model)]
+    quick = [] if isinstance(method, Radau) else few_steps(model, t_start, t_end, step, found)
+    header["notes"] = [*said, *quick, *doubts(model)]
     return Prepared(system, run_of(method, system, t_start, t_end, step, every), header, method)
 
 

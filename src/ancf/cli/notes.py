@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 from ..errors import ModelError
 from ..model.doubts import doubts
 from ..model.file import Study
+from ..model.integrators import Radau
 from ..model.jumps import jumps
 from ..model.model import Model
+from ..model.periods import few_steps
 from ..model.series import noises
 from .summary import node_count
 
@@ -62,7 +64,10 @@ def _stretched(model: Model) -> Iterator[str]:
 def _jumps(study: Study) -> Iterator[str]:
     settings = study.simulation
     if settings is not None:
-        yield from map(str, jumps(study.model, 0.0, settings.t_end, settings.step))
+        found = jumps(study.model, 0.0, settings.t_end, settings.step)
+        yield from map(str, found)
+        if not isinstance(settings.integrator, Radau):
+            yield from few_steps(study.model, 0.0, settings.t_end, settings.step, found)
 
 
 def _size(study: Study) -> Iterator[str]:

@@ -51,6 +51,7 @@ class Motion(NamedTuple):
     where: str
     unit: str
     table: Table
+    straight: bool = False
 
 
 def jumps(model: Any, start: float, end: float, step: float) -> list[Jump]:
@@ -61,7 +62,7 @@ def jumps(model: Any, start: float, end: float, step: float) -> list[Jump]:
     if not (math.isfinite(end) and end - start > 2.0 * step):
         return []
     found = []
-    for motion in _motions(model):
+    for motion in motions(model):
         try:
             found += _of_motion(motion, start, end, step)
         except ModelError:  # the run says at which step
@@ -80,13 +81,15 @@ def _turned(function: TimeFunction) -> Table:
     return table
 
 
-def _motions(model: Any) -> Iterator[Motion]:
+def motions(model: Any) -> Iterator[Motion]:
+    """Given motions of supports, winches and sliding joints that vary, without those that a run is led by."""
     for support in model.supports:
         exact = getattr(support, "rotation_rate", None) is not None
         for key, unit in (("displacement", "m"), ("length", "m"), ("rotation", "rad")):
             function = None if exact and key == "rotation" else getattr(support, key, None)
             if _varies(function):
-                yield Motion(function.where, unit, function.table)
+                straight = any(series.interpolation == "linear" for series in function.series)
+                yield Motion(function.where, unit, function.table, straight)
         if _varies(function := getattr(support, "rotation_vector", None)):
             yield Motion(function.where, "rad", _turned(function))
     for joint in model.connections:
