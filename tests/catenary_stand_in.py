@@ -97,6 +97,8 @@ def form(spans=SPANS):
     )
     made.arm_load = made.arm_force
     made.shifted = (made,)
+    made.contact.wire = made.line.contact_wire
+    made.contacts = (made.contact,)
     return made
 
 

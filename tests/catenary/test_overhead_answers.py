@@ -149,13 +149,13 @@ class TestClampStrain:
         """At an overlap each wire is bent by what it gets."""
         n, split = run.t.size, np.array([80.0, 20.0])
         made = of(run, force=np.full(n, 100.0), by_wire=np.tile(split, (n, 1)))
-        alone = run.form.line.parts
-        run.form.line.parts = (*alone, *alone)
+        alone = run.form.shifted
+        run.form.shifted = (*alone, *alone)
         try:
             found = strain_below_strip(made, 0)
         finally:
-            run.form.line.parts = alone
-        assert found == pytest.approx(80.0 * strain_of_force(alone[0].contact_wire, run.speed))
+            run.form.shifted = alone
+        assert found == pytest.approx(80.0 * strain_of_force(run.form.line.contact_wire, run.speed))
 
     def test_weight_of_the_clamp(self, run):
         still = of(run, force=np.zeros(run.t.size))

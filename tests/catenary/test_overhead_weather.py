@@ -8,7 +8,18 @@ import pytest
 
 import ancf
 from ancf import ModelError
-from ancf.catenary import Conditions, Span, assemble, dropper_errors, form, height_errors, run
+from ancf.catenary import (
+    Butterworth,
+    Conditions,
+    Span,
+    assemble,
+    clamp_strains,
+    dropper_errors,
+    form,
+    height_errors,
+    run,
+)
+from ancf.catenary.clamp_strain import edge, hanging, strain_below_strip
 from overhead_lines import COARSE, STEP, collector, short_line
 
 
@@ -145,3 +156,44 @@ class TestIrregular:
         with pytest.raises(ModelError) as caught:
             make()
         assert caught.value.where == where
+
+
+class TestStrain:
+    """At the clamps the wire has the tension, stiffness and mass of its state, not those of the design."""
+
+    @pytest.mark.parametrize(
+        ("anchors", "given"),
+        [
+            ("tension", {"contact_tension": 9e3}),
+            ("tension", {"contact_tension": 14e3, "wear": 0.3}),
+            ("tension", {"temperature": 40.0}),
+            ("fixed", {"temperature": -15.0}),
+            ("fixed", {"temperature": 30.0, "wear": 0.1}),
+            ("fixed", {"ice": 0.4}),
+        ],
+    )
+    def test_of_a_state(self, anchors, given):
+        line = short_line(anchors=anchors, conditions=Conditions(**given))
+        wire, air = line.contact_wire, line.conditions
+        done = run(form(line, COARSE), speed=25.0, pantograph=collector(), step=STEP)
+        [hung] = hanging(done)
+        # of weights what they pull, of ends that stay EA times what the heat does not stretch, sag aside
+        pull = air.contact_tension or wire.tension
+        if anchors == "fixed":
+            assert hung.tension == pytest.approx(float(np.mean(done.form.pull[0])), rel=1e-3)
+            degrees = line.temperature if air.temperature is None else air.temperature
+            cooled = wire.EA * (1.0 - air.wear) * wire.expansion * (line.temperature - degrees)
+            assert np.sign(hung.tension - pull) == np.sign(cooled + 10.0 * air.ice)
+            pull = hung.tension
+        assert hung.tension == pytest.approx(pull, rel=1e-3)
+        EI = (1.0 - air.wear) ** 2 * wire.EI
+        one = clamp_strains(done)[2]
+        j = int(np.flatnonzero(done.form.line.dropper_x == one.position)[0])
+        droppers = line.droppers
+        weight = line.gravity * (droppers.clamp_contact + 0.5 * droppers.mass * done.form.dropper_length[j])
+        bent = edge(hung) / (2.0 * np.sqrt(EI * pull))
+        assert one.rest == pytest.approx((done.form.dropper_load[j] - weight) * bent, rel=2e-3)
+        below = strain_below_strip(done, 0)
+        moving = edge(hung) / (2.0 * np.sqrt(EI * (pull - hung.mass * 625.0)))
+        force = Butterworth().low_pass(done.recordings[0].force, 1.0 / STEP)
+        assert below[100] == pytest.approx(force[100] * moving, rel=1e-2)

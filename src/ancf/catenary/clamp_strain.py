@@ -3,6 +3,7 @@
 A force F bends a wire under the tension T within some lambda = sqrt(EI/T), a decimetre, which elements of a
 run do not resolve. The beam under tension has it in closed form: EI w'''' - T w'' = F delta has
 w'' = -F exp(-|x|/lambda) / (2 sqrt(EI T)), and of a force that moves with v the same with T - rhoA v^2 for T.
+T is the tension that the wire has at rest under the conditions of the line: warm, worn, in the wind.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from .line import Line
     from .route import Route
     from .run_data import Run
+    from .wire import Wire
 
 #: Bending strain that a pantograph may cause in contact wires of all alloys, by the rule of RTRI (Ohara and
 #: Yamashita, Quarterly Report of RTRI 66 (2025) 84-89, who tell its origin in tests of hard-drawn copper).
@@ -72,8 +74,12 @@ def strained(run: Run) -> bool:
     if not bends(run.form.line):
         return False
     speeds = [_speed(run, k) for k in range(len(run.recordings))]
-    wires = [part.contact_wire for part in run.form.line.parts]
-    return all(np.isfinite(strain_of_force(wire, speed)) for wire in wires for speed in speeds)
+    return all(np.isfinite(strain_of_force(wire, speed)) for wire in hanging(run) for speed in speeds)
+
+
+def hanging(run: Run) -> list[Wire]:
+    """All contact wires as they hang: with the tension, mass and stiffness of their state."""
+    return [shape.wire for form in run.form.shifted for shape in form.contacts]
 
 
 def edge(wire: Any) -> float:
@@ -98,10 +104,9 @@ def strain_below_strip(run: Run, pantograph: int) -> FloatArray:
     """
     recording, rate, butterworth = run.recordings[pantograph], sample_rate(run.t), Butterworth()
     speed = _speed(run, pantograph)
-    wires = [part.contact_wire for part in run.form.line.parts for _ in range(part.contact_wires)]
     strains = [
         strain_of_force(wire, speed) * butterworth.low_pass(recording.force_on(k), rate)
-        for k, wire in enumerate(wires)
+        for k, wire in enumerate(hanging(run))
     ]
     return np.asarray(np.max(strains, axis=0), dtype=np.float64)
 
@@ -118,26 +123,28 @@ def clamp_strains(run: Run, over: tuple[float, float] | None = None) -> list[Cla
         return []
     low, high = run.window if over is None else over
     rate, butterworth, found, first, before = sample_rate(run.t), Butterworth(), [], 0, 0
+    wires = hanging(run)
     for part in run.form.line.parts:
         on_wires = [
             [butterworth.low_pass(one.force_on(before + wire), rate) for one in run.recordings]
             for wire in range(part.contact_wires)
         ]
-        before += part.contact_wires
         places = dropper_places(run)[first : first + len(part.dropper_x)]
         for j, (span, number, x) in enumerate(places, start=first):
             if low <= x <= high:
-                contact = on_wires[int(part.dropper_wire[j - first])]
-                history, rest = _history(run, part, contact, j, x)
+                own = int(part.dropper_wire[j - first])
+                history, rest = _history(run, part, wires[before + own], on_wires[own], j, x)
                 extremes = float(np.max(history)), float(np.min(history))
                 found.append(ClampStrain(span, number, x, rest, *extremes, rainflow(history)))
-        first += len(part.dropper_x)
+        first, before = first + len(part.dropper_x), before + part.contact_wires
     return found
 
 
-def _history(run: Run, part: Line, contact: list[FloatArray], j: int, x: float) -> tuple[FloatArray, float]:
+def _history(
+    run: Run, part: Line, wire: Wire, contact: list[FloatArray], j: int, x: float
+) -> tuple[FloatArray, float]:
     """Strain at a clamp at the steps and at the passings of strips, and at rest."""
-    wire, droppers = part.contact_wire, part.droppers
+    droppers = part.droppers
     half = 0.5 * droppers.mass * float(run.form.dropper_length[j])
     weight, standing = part.gravity * (droppers.clamp_contact + half), strain_of_force(wire)
     moments = [_passings(run, k, x) for k in range(len(run.recordings))]
