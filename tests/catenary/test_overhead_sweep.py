@@ -212,6 +212,39 @@ class TestCommand:
         assert "en50318-2002 (2)" in (tmp_path / "report.html").read_text()
 
     @pytest.mark.parametrize(
+        ("changes", "said"),
+        [
+            ((), ["as designed, 10 °C, fixed ends", "contact wire 20000 N (designed 20000)"]),
+            (
+                ("anchors=tension", "conditions.contact_tension=15e3", "conditions.wear=0.2"),
+                [
+                    "contact wire worn by 20 %",
+                    "pulled by weights",
+                    "contact wire 15000 N (designed 20000)",
+                ],
+            ),
+            (
+                ("anchors=fixed", "conditions.temperature=-20", "conditions.wind=12"),
+                ["-20 °C, wind 12 m/s, fixed ends", "N (designed 16000)"],
+            ),
+        ],
+    )
+    def test_says_the_conditions_of_the_line(self, path, tmp_path, changes, said):
+        """On the screen and in the report, whose title has what is not as designed."""
+        line = path.with_name("wide.toml")
+        line.write_text(LINE.replace("mass = 1", "diameter = 0.013, mass = 1"))
+        options = ["--speed", "150", "--step", "0.002", "--mesh", "2.5", "5", "-j", "1", "--to", "html"]
+        sets = [word for change in changes for word in ("--set", change)]
+        done = self.sweep(line, *options, *sets, "--window", "80", "90", "--until", "95", "-o", tmp_path)
+        assert done.exit_code == 0, done.output
+        report = (tmp_path / "report.html").read_text("utf-8")
+        for text in said:
+            assert text in " ".join(done.output.split())
+            assert text in report
+        title = report.partition("<title>")[2].partition("</title>")[0]
+        assert title.startswith("Short line: sweep" if not changes else "Short line, ")
+
+    @pytest.mark.parametrize(
         ("arguments", "said"),
         [
             (("--speed", "300:100:20"), "--speed"),

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
+from ..errors import ModelError, SolveError
 from .guard import FAILED
 from .screen import Screen, console, table
 from .summary import plural
@@ -14,7 +16,7 @@ from .summary import plural
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from ..catenary import Line, Route
+    from ..catenary import Line, Mesh, Route
 
 #: Quantities on the screen, and their digits.
 SHOWN = (("mean_force", 1), ("deviation", 1), ("minimum", 1), ("arcing", 2), ("uplift", 1))
@@ -65,8 +67,10 @@ def sweep_line(
         error.add_note(f"what has ended is kept in {folder}: the same command goes on")
         raise
     names = [units[min(k, len(units) - 1)].name for k in range(2 if apart else 1)]
-    files = _report(line, done, names, folder, formats)
+    told = _state(line, given.get("mesh", Mesh()))
+    files = _report(line, done, names, told, folder, formats)
     if not quiet:
+        console().print("; at rest ".join(text for _, text in told), soft_wrap=True)
         _show(done, len(names))
         console().print("written: " + ", ".join(map(str, [folder / "table.csv", *files])), soft_wrap=True)
         _tell_warnings(done)
@@ -77,16 +81,34 @@ def sweep_line(
         raise typer.Exit(FAILED)
 
 
+def _state(line: Line | Route, mesh: Mesh) -> list[tuple[str, str]]:
+    """The conditions that all cases share, and the tensions at rest, as reports of runs have them."""
+    from ..catenary import form
+    from ..catenary.state import at_rest, state
+
+    told = [("State", state(line))]
+    with suppress(ModelError, SolveError):  # each case says why
+        told.append(("At rest", at_rest(form(line, mesh))))
+    return told
+
+
 def _report(
-    line: Line | Route, done: DataFrame, names: list[str], folder: Path, formats: tuple[str, ...]
+    line: Line | Route,
+    done: DataFrame,
+    names: list[str],
+    state: list[tuple[str, str]],
+    folder: Path,
+    formats: tuple[str, ...],
 ) -> list[Path]:
     from ..catenary.report.sweep import Sweep, write_sweep
+    from ..catenary.state import titled
     from ..design.sweep import SPACING, SPEED
 
     told = names if len(set(names)) == len(names) else [f"{name} ({k + 1})" for k, name in enumerate(names)]
     rows = [{str(key): value for key, value in row.items()} for row in done.to_dict("records")]
-    settings = [("Pantographs, the first ahead" if len(told) > 1 else "Pantograph", ", ".join(told))]
-    return write_sweep(Sweep(line.title, rows, SPEED, SPACING, told, settings), folder, formats)
+    first = "Pantographs, the first ahead" if len(told) > 1 else "Pantograph"
+    settings = [*state, (first, ", ".join(told))]
+    return write_sweep(Sweep(titled(line), rows, SPEED, SPACING, told, settings), folder, formats)
 
 
 def _show(done: DataFrame, count: int) -> None:
