@@ -24,7 +24,7 @@ def springs(model: Model, locate: Callable[[Point], Any]) -> SpringBatch:
     base = np.full((n, 2 * k), -1, dtype=np.int64)
     factor, offset, data = np.zeros((n, 2 * k)), np.zeros((n, 3)), np.zeros((n, 7))
     for e, spring in enumerate(items):
-        data[e, :4] = spring.stiffness, spring.damping, spring.length, spring.slack
+        data[e, :4] = _numbers(spring)
         data[e, 4:6] = spring.friction, spring.friction_velocity
         for end, first, sign in ((spring.a, 0, -1.0), (spring.b, k, 1.0)):
             if isinstance(end, Point):
@@ -48,6 +48,24 @@ def springs(model: Model, locate: Callable[[Point], Any]) -> SpringBatch:
         wanted=np.zeros(0, dtype=np.int64),
         found=np.zeros((0, 2)),
     )
+
+
+def renumbered(batch: SpringBatch, before: Model, model: Model) -> SpringBatch:
+    """The batch of a System of the model ``before`` with the numbers of springs of another one.
+
+    They have other stiffnesses, dampings and lengths alone.
+    """
+    data = batch.data.copy()
+    pairs = zip(before.connections, model.connections, strict=True)
+    springs = ((one, other) for one, other in pairs if isinstance(one, Spring))
+    for e, (one, other) in enumerate(springs):
+        if other is not one:
+            data[e, :4] = _numbers(other)
+    return batch._replace(data=data)
+
+
+def _numbers(spring: Any) -> tuple[float, float, float, bool]:
+    return spring.stiffness, spring.damping, spring.length, spring.slack
 
 
 def _slots(spring: Spring) -> int:

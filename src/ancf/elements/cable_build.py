@@ -12,16 +12,30 @@ from ..arrays import FloatArray, IntArray
 from ..model.beam import Beam
 from ..simd import LANES
 from .cable import CableBatch
-from .cable_columns import AXIALLY, IN_BENDING, IN_SLOPE, VISCOUSLY
+from .cable_columns import (
+    AXIAL,
+    AXIALLY,
+    BEGIN,
+    BENDING,
+    CURVED,
+    DAMPED,
+    END,
+    IN_BENDING,
+    IN_SLOPE,
+    PAPER,
+    VISCOUSLY,
+)
 from .cable_slack import slack
 from .cable_strain import gauss_table
 from .chunks import in_lanes
 from .measures import axial_strain, curvature
 from .shapes import gauss, hermite
 
-__all__ = ["BATCH", "build", "initial_vectors", "reference_strains", "shape", "slack"]
+__all__ = ["BATCH", "build", "initial_vectors", "reference_strains", "renumbered", "shape", "slack"]
 
 BATCH = CableBatch
+#: Constants of an element that stay in lanes without one, where all others are zero.
+LENGTHS = 2
 
 
 def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> CableBatch:
@@ -54,7 +68,7 @@ def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> CableBatch:
         first=bounds,
         lane_base=in_lanes(base, bounds).astype(np.int64),
         nodal=np.zeros(len(bounds) - 1, dtype=np.bool_),
-        lane_data=in_lanes(data, bounds, empty=2),
+        lane_data=in_lanes(data, bounds, empty=LENGTHS),
         lane_slope=in_lanes(slope, bounds, empty=0),
         lane_reference=in_lanes(reference, bounds),
         groups=np.array(groups, dtype=np.int64).reshape(-1, 8),
@@ -62,6 +76,42 @@ def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> CableBatch:
         lane_block=np.zeros((len(bounds) - 1, 3, LANES), dtype=np.int64),
         order=np.zeros(len(bounds) - 1, dtype=np.int64),
     )
+
+
+def renumbered(batch: CableBatch, beam: Beam, slot: IntArray) -> CableBatch | None:
+    """The batch of a System with other constants of one of its beams; None where that lies among others.
+
+    Parameters
+    ----------
+    batch : CableBatch
+    beam : Beam
+        With the constants, as many elements and Gauss points.
+    slot : ndarray, shape (nodes, 2)
+        Its slots there.
+    """
+    key, base, *constants = _part(beam, slot)
+    found = np.flatnonzero((batch.base[:, 0] == base[0, 0]) & (batch.base[:, 2] == base[0, 2]))
+    if len(found) != 1:
+        return None
+    first, last = int(found[0]), int(found[0]) + len(base)
+    begin, end = np.searchsorted(batch.first, (first, last - 1), side="right") - (1, 0)
+    [group] = np.flatnonzero((batch.groups[:, BEGIN] <= begin) & (begin < batch.groups[:, END]))
+    if batch.groups[group, [PAPER, AXIAL, BENDING, CURVED]].tolist() != [*key[:3], key[4]]:
+        return None
+    groups = batch.groups.copy()
+    groups[group, DAMPED] |= key[3]  # of others in it that is a number, which is zero
+    bounds, lane = batch.first[begin : end + 1], np.arange(LANES)
+    element = bounds[:-1, None] + np.minimum(lane, np.diff(bounds)[:, None] - 1)
+    chunk, lanes = np.nonzero((element >= first) & (element < last))
+    there = element[chunk, lanes] - first
+    empty = lanes >= np.diff(bounds)[chunk]
+    made = [array.copy() for array in (batch.lane_data, batch.lane_slope, batch.lane_reference)]
+    for array, values, kept in zip(made, constants, (LENGTHS, 0, None), strict=True):
+        rows = values[there]
+        if kept is not None:
+            rows[empty, kept:] = 0.0
+        array[begin + chunk, :, lanes] = rows
+    return batch._replace(groups=groups, lane_data=made[0], lane_slope=made[1], lane_reference=made[2])
 
 
 def shape(

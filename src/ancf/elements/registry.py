@@ -43,7 +43,7 @@ class Element(Protocol):
 
 
 class Optional(Protocol):
-    """What such a module may offer beyond that; equilibria ask for it, see :func:`offered`."""
+    """What such a module may offer beyond that, see :func:`offered`."""
 
     #: Type of the batch that ``build`` returns.
     BATCH: type
@@ -57,6 +57,12 @@ class Optional(Protocol):
     def quadratic_strains(self, batch: Any) -> Any:
         """Of elements whose strains are quadratic in the unknowns: ``batch``, one whose stresses
         ``leave_out(change)`` makes linear in the last change of the state vector.
+        """
+
+    def renumbered(self, batch: Any, beam: Beam, slot: Any) -> Any:
+        """The batch of a System with the constants of another beam in the place of one of its own.
+
+        ``slot``: as for ``build``, of the System; None where the batch would be another one.
         """
 
 

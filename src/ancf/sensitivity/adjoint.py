@@ -17,7 +17,7 @@ from ..arrays import FloatArray
 from ..errors import SolveError
 from ..preparation import Prepared
 from ..results.state import State
-from ..solvers.adjoint import back_steps
+from ..solvers.adjoint import back_start, back_steps
 from ..solvers.ahead import ahead_of
 from ..solvers.checkpoint import Snapshot
 from ..solvers.record import Stats
@@ -31,7 +31,7 @@ from .family import Family
 from .follow import Trail, check_method, given_start, refuse_breaks, when_cut
 from .nearby import Nearby
 from .parameters import Parameter
-from .start import starts
+from .start import Start
 from .weighed import Weighed
 
 #: Bytes of states up to which all are kept and no step is taken again, and those of a block.
@@ -77,7 +77,9 @@ class Collector:
 
     def taken(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Times and states since the last time."""
-        made = tuple(np.concatenate(parts) for parts in (self.t, self.q, self.v))
+        made = tuple(
+            np.concatenate(parts) if len(parts) > 1 else parts[0] for parts in (self.t, self.q, self.v)
+        )
         self.t, self.q, self.v = [], [], []
         return made  # type: ignore[return-value]
 
@@ -122,7 +124,7 @@ class Adjoint:
     ) -> None:
         check_method(made, where)
         self.run: Any = made.run
-        self.system = System(made.system.model)
+        self.system = System(made.system.model, like=made.system)
         check_differentiable(self.system, where)
         self.families = [Family(parameter, self.system, shifts=True) for parameter in parameters]
         self.nearby = Nearby(self.families, self.system, shifts=True)
@@ -130,7 +132,7 @@ class Adjoint:
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
         self.ahead = ahead_of(self.system.core, self.m)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
-        self.asked, self.keys, self.unknowns = asked, keys, np.asarray(unknowns)
+        self.asked, self.keys, self.unknowns = asked, keys, np.unique(unknowns)
         self._linear = self._of_units([key for key in keys if key[0] in LINEAR])
         self.blocks: list[Block] = []
         refuse_breaks(self.run)
@@ -177,26 +179,31 @@ class Adjoint:
             lost, turned = np.zeros(system.size), np.zeros((self.weighed.turning, 3, 3))
             sums = mu, lam, lost, turned
             _, status = back_steps(
-                system.core, self.m, self.ahead, tables, way, wanted, block.h, run.scheme, *sums
+                *(system.core, self.m, self.ahead, tables, way, wanted, self.unknowns),
+                *(block.h, run.scheme, *sums),
             )
             if status != OK:
                 raise SolveError("gradient", "the equations of the adjoint cannot be solved", "smaller steps")
-            still += np.sum(wanted[:, 0], axis=0) - lost
+            still -= lost
+            still[self.unknowns] += np.sum(wanted[:, 0], axis=0)
             self._add_axes(way, wanted, turned)
             total += self._pushed(way, when, tables, wanted, lam, turned)
             total += self._explicit(way.q, way.v, own)
             block.way = None
+        total += self._of_start({key: slope[:1] for key, slope in slopes.items()}, mu, still)
         for k, shift in self.nearby.shifts.items():
             total[k] += still @ self._followed(shift)
-        return total + self._of_start({key: slope[:1] for key, slope in slopes.items()}, mu)
+        return total
 
     def _add_axes(self, way: Way, wanted: FloatArray, turned: FloatArray) -> None:
         """Take from ``turned`` the derivatives of the number by local axes through the states there."""
         supports = self.system.core.supports
         for k in range(len(turned)):
             i, j = supports.rot_slot[k], supports.rot_shadow[k]
-            for n, x in enumerate((way.q, way.v)):
-                turned[k] -= wanted[:, n, j : j + 3].T @ x[:, i : i + 3]
+            for c in range(3):
+                for m in np.flatnonzero(self.unknowns == j + c):
+                    for n, x in enumerate((way.q, way.v)):
+                        turned[k, c] -= wanted[:, n, m] @ x[:, i : i + 3]
 
     def _pushed(
         self, way: Way, when: Any, tables: Any, wanted: FloatArray, lam: FloatArray, turned: FloatArray
@@ -207,7 +214,8 @@ class Adjoint:
             family = self.families[k]
             family.know(self.system)
             found = family.at_steps(*way, when, gaps=False)
-            made[k] += np.sum(np.moveaxis(found.held[:2], 0, 1) * wanted) - np.sum(lam * found.push)
+            held = np.moveaxis(found.held[:2], 0, 1)[:, :, self.unknowns]
+            made[k] += np.sum(held * wanted) - np.sum(lam * found.push)
         return made
 
     def _followed(self, shift: FloatArray) -> FloatArray:
@@ -216,16 +224,25 @@ class Adjoint:
         follow_supports(self.system.core.supports, moved, *still)
         return moved
 
-    def _of_start(self, slopes: dict[Any, FloatArray], mu: FloatArray) -> FloatArray:
+    def _of_start(self, slopes: dict[Any, FloatArray], mu: FloatArray, still: FloatArray) -> FloatArray:
+        """What parameters do to the start; ``still`` is added to."""
         run, system = self.run, self.system
-        q, v, _ = self.first
-        wanted = self._wanted(q[None].copy(), v[None].copy(), slopes)[0]
+        first = self.first
+        wanted = self._wanted(first[0][None].copy(), first[1][None].copy(), slopes)
         when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
-        total = np.zeros(len(self.families))
-        found = starts(system, self.m, self.nearby, self.given, self.first, when)
-        for k, (s, held) in enumerate(found):
-            total[k] = np.sum(mu * s) + np.sum(wanted * (s[:2] + held))
-        return total + self._explicit(q[None], v[None], slopes)
+        begin = Start(system, self.m, *first, when)
+        lam, lost = np.zeros_like(begin.q), np.zeros_like(begin.q)
+        turned = np.zeros((self.weighed.turning, 3, 3))
+        y = begin.q, begin.v, begin.a
+        back_start(system.core, self.m, y, wanted[0], self.unknowns, mu, lam, lost, turned)
+        still -= lost
+        still[self.unknowns] += wanted[0, 0]
+        way = Way(*(x[None] for x in y))
+        self._add_axes(way, wanted, turned)
+        tables = system.inputs.tables(*when[:2], 1, *when[2:])
+        total = self._pushed(way, when, tables, wanted, lam[None], turned)
+        total += [float(mu[0] @ dq + mu[1] @ dv) for dq, dv in self.given]
+        return total + self._explicit(first[0][None], first[1][None], slopes)
 
     def _take(self, count: int, store: Collector) -> None:
         run = self.run
@@ -275,25 +292,25 @@ class Adjoint:
         return total
 
     def _wanted(self, q: FloatArray, v: FloatArray, slopes: dict[Any, FloatArray]) -> FloatArray:
-        """Derivatives of the number by the states (n, size), (n, 2, size), from those by the answers."""
-        made = np.zeros((len(q), 2, q.shape[1]))
+        """Those of the number by the unknowns of states (n, size), (n, 2, k), from those by the answers."""
+        made = np.zeros((len(q), 2, len(self.unknowns)))
         for key, units in self._linear.items():
             slope = slopes[key].reshape(len(q), -1)
-            made[:, :, self.unknowns] += np.einsum("nc,kic->nki", slope, units)
+            made += np.einsum("nc,kic->nki", slope, units)
         others = [key for key in slopes if key not in self._linear]
         if not others:
             return made
         weight = np.ones(q.shape[1])
         weight[: self.system.n] = self.system.core.weight
         for k, x in enumerate((q, v)):
-            for i in self.unknowns.tolist():
+            for n, i in enumerate(self.unknowns.tolist()):
                 e, before = MOVED / (weight[i] if weight[i] > 0.0 else 1.0), x[:, i].copy()
                 for place, w in PLACES:
                     x[:, i] = before + place * e
                     found = self.asked(Face(self.system, q, v, 0.0), others)
                     for key in others:
                         change = (w / e * slopes[key] * found[key]).reshape(len(q), -1)
-                        made[:, k, i] += change.sum(axis=1)
+                        made[:, k, n] += change.sum(axis=1)
                 x[:, i] = before
         return made
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, ClassVar
 from weakref import WeakKeyDictionary, ref
 
 import numpy as np
 
 from ..arrays import FloatArray
+from ..batches import Batches
 from ..compiled import Role, traits
-from ..solvers.checkpoint import Arrays, distinct
 from ..system.core import Tables
 from ..system.system import System
 
@@ -36,7 +37,6 @@ class Known:
 
     def __init__(self, system: System) -> None:
         self.tables = _tables(system)
-        self.arrays = {name: _arrays(batch) for name, batch in system.parts.items()}
         self._system = ref(system)
         self._states: dict[float, tuple[FloatArray, FloatArray]] = {}
         self._shape: FloatArray | None = None
@@ -83,10 +83,23 @@ def _tables(system: System) -> list[Tables]:
     return [system.inputs.tables(time, 1e-3, 1, time, np.inf) for time in TIMES]
 
 
-def _arrays(batch: Any) -> Arrays:
-    """Arrays of a batch that may depend on a parameter."""
-    found = distinct({"b": batch})
-    return {key: array for key, array in found.items() if key.rsplit(".", 1)[-1] not in OWN}
+def differ(mine: Any, other: Any, key: str = "") -> bool:
+    """Whether arrays of two batches, or of fields of them, that may depend on a parameter are others."""
+    if mine is other or key in OWN:
+        return False
+    if isinstance(mine, np.ndarray):
+        return not np.array_equal(mine, other, equal_nan=True)
+    return any(differ(a, b, name) for name, a, b in _pairs(mine, other))
+
+
+def _pairs(mine: Any, other: Any) -> list[tuple[str, Any, Any]]:
+    """What two collections of the same kind have in common, by the names of fields."""
+    if isinstance(mine, Mapping):
+        return [(name, mine[name], other[name]) for name in mine]
+    if not isinstance(mine, tuple | list):
+        return []
+    names = [""] * len(mine) if isinstance(mine, Batches) else getattr(mine, "_fields", [""] * len(mine))
+    return list(zip(names, mine, other, strict=True))
 
 
 def changed(base: System, system: System) -> set[str]:
@@ -94,14 +107,12 @@ def changed(base: System, system: System) -> set[str]:
     found: set[str] = set()
     if system is base:
         return found
-    mine = Known.of(base).arrays
     same = _same_functions(base, system)
     for name, batch in system.parts.items():
-        if batch is base.parts[name]:
+        mine = base.parts[name]
+        if batch is mine:
             continue
-        other = _arrays(batch)
-        differ = any(not np.array_equal(mine[name][key], other[key], equal_nan=True) for key in mine[name])
-        if differ or (Role.EXTERNAL in traits(batch).role and not same):
+        if differ(mine, batch) or (Role.EXTERNAL in traits(batch).role and not same):
             found.add(name)
     return found
 
@@ -148,11 +159,15 @@ def alike(a: System, b: System) -> bool:
         same = a.slots.keys() == b.slots.keys()
         same = same and all(np.array_equal(a.slots[key], b.slots[key]) for key in a.slots)
     same = same and (a.held is b.held or np.array_equal(a.held, b.held))
-    return same and all(
-        x.shape == y.shape
-        for key in a.parts
-        if a.parts[key] is not b.parts[key]
-        for x, y in zip(
-            distinct({"b": a.parts[key]}).values(), distinct({"b": b.parts[key]}).values(), strict=False
-        )
-    )
+    return same and all(fit(batch, b.parts[key]) for key, batch in a.parts.items())
+
+
+def fit(mine: Any, other: Any) -> bool:
+    """Whether the arrays of two batches have the same shapes."""
+    if mine is other:
+        return True
+    if isinstance(mine, np.ndarray):
+        return bool(mine.shape == other.shape)
+    if isinstance(mine, tuple | list) and len(mine) != len(other):
+        return False
+    return all(fit(x, y) for _, x, y in _pairs(mine, other))

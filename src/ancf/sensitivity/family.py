@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,7 +26,7 @@ from ..system.system import System
 from .alike import Known, alike, changed, same_inputs, same_loads
 from .parameters import Parameter
 from .trial import Trial
-from .turns import axes_rates
+from .turns import axes_rates, moves_ends, slopes_local, slopes_rates, stands
 from .values import few_of, gaps_of, quiet_state
 
 #: Step of the differences, relative, and of a parameter that is zero, in its unit or the size of the model.
@@ -87,13 +88,17 @@ class Family:
     ) -> None:
         self.parameter, self.base, self.shifts = parameter, base, shifts
         p = parameter.value
-        unit = self._unit = abs(p) if p != 0.0 else min(1.0, base.model.size)
+        unit = abs(p) if p != 0.0 else min(1.0, base.model.size)
+        self._unit = unit = min(unit, base.model.size) if moves_ends(parameter.acts) else unit
         self._wide: list[tuple[System, float]] = []
         self._made: dict[float, System] = {}
         self._differ: dict[int, set[str]] = {}  # names of batches by system
         self._begun: dict[int, tuple[FloatArray, FloatArray]] = {}  # initial states by system
-        self.linear = False
-        if parameter.quadratic:
+        self.straight = shifts and not thorough and moves_ends(parameter.acts) and stands(base)
+        self.linear = self.straight  # but for axes, see _look
+        if self.linear:
+            self._take_line(3.0 * STEP * unit)
+        elif parameter.quadratic:
             self._take(TINY, *PAIR)
         else:
             self._choose(STEP * unit, TINY * unit, thorough)
@@ -118,7 +123,7 @@ class Family:
                 return None
             if not thorough and self._steady_inputs() == (True, True):
                 self._take(h, *FOUR)
-                if self._trial().smooth():
+                if known or self._trial().smooth():
                     return None
             return self._take(h, *BOTH)
         except ModelError:
@@ -202,13 +207,16 @@ class Family:
     def _look(self) -> None:
         """See what of the model depends on the parameter."""
         base = self.base
-        names = self.changed = self._names()
-        *self._few, self._own = few_of([*self.systems, base], names)
+        self.changed = self._names()
         still, self._fed = self._steady_inputs()
         plain = still and all(self._has_own(system) for system in self.systems)
-        shift, turn = np.zeros(base.size), axes_rates(base, self.systems, self.weights)
+        moved = np.zeros(base.size)
         for weight, shape in zip(self.weights, self._shape, strict=True):
-            shift[base.held] += weight * shape[base.held]
+            moved += weight * shape
+        shift = np.zeros(base.size)
+        shift[base.held] = moved[base.held]
+        own = self.systems, self.weights
+        turn: Any = slopes_rates(base, moved) if self.straight else axes_rates(base, *own)
         if turn is None or (np.any(turn) and len(base.multipliers)):
             plain, turn = False, np.zeros((0, 3, 3))
         self.plain = plain and not np.any(shift) and not np.any(turn)
@@ -217,6 +225,11 @@ class Family:
         self._loads = any(not same_loads(base, s) for s in self.systems)
         self._steady: list[FloatArray] | None = None
         self.constant = all(f.constant for s in self.systems for f in s.inputs.loads)
+
+    @cached_property
+    def _batches(self) -> list[Batches]:
+        """Those that the parameter changes, of each system and of the model itself."""
+        return few_of([*self.systems, self.base], self.changed)
 
     def _has_own(self, system: System) -> bool:
         """Whether no batch that the parameter changes has inputs, or rows of constraints, of the system's."""
@@ -234,9 +247,10 @@ class Family:
 
         Where two values do, one of them and that of the model, which all parameters share.
         """
-        if not self.linear:
-            return list(zip(self.weights, self._few, strict=True))
-        return [(1.0 / self.offsets[-1], self._few[-1]), (-1.0 / self.offsets[-1], self._own)]
+        if not self.linear or self.systems[-1] is self.base:
+            return list(zip(self.weights, self._batches[:-1], strict=True))
+        last, own = self._batches[-2:]
+        return [(1.0 / self.offsets[-1], last), (-1.0 / self.offsets[-1], own)]
 
     def loads_used(
         self, when: tuple[float, float, float, float], tables: Tables
@@ -305,7 +319,7 @@ class Family:
             states = self._moved(k, q), v.copy(), a.copy()
             place_rows(system.core, tables, *states)
             moved = any(not np.array_equal(x, y) for x, y in zip(states, (q, v, a), strict=True))
-            core = system.core if moved else system.core._replace(batches=self._few[k])
+            core = system.core if moved else system.core._replace(batches=self._batches[k])
             r = np.empty_like(q)
             stage_residuals(core, tables, *states, np.empty(system.size), r)
             made.push[...] += weight * r
@@ -356,6 +370,8 @@ class Family:
         for weight, state in zip(self.weights, both, strict=True):
             q += weight * (state[0] - here[0])  # what does not change leaves no round-off
             v += weight * (state[1] - here[1])
+        if self.straight:  # the lengths of slopes are not linear
+            q[: self.base.n] = slopes_local(self.base, q)[: self.base.n]
         return q, v
 
     def of_motion(self, q: FloatArray, dq: FloatArray, time: float) -> FloatArray:

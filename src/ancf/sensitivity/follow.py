@@ -88,7 +88,7 @@ class Following:
         check_method(made, where)
         self.made, self.store, self.every = made, store, every
         self.run: Any = made.run
-        self.system = System(made.system.model)
+        self.system = System(made.system.model, like=made.system)
         check_differentiable(self.system, where)
         check_shift(made, start, where)
         self.families = [Family(parameter, self.system, shifts=True) for parameter in parameters]

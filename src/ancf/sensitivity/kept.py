@@ -61,7 +61,7 @@ class Kept(Mapping[str, Any]):
         """
         if name not in self._families:
             [parameter] = parameters_of(self._base.model, [name], "load.sensitivities")
-            self._families[name] = Family(parameter, self._base)
+            self._families[name] = Family(parameter, self._base, shifts=True)  # as of the run
         return self._families[name]
 
     @cached_property

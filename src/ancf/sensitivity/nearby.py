@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -47,9 +48,13 @@ class Nearby:
         own = self.shifts.keys() | self.turns.keys()
         self.plain = [k for k, family in enumerate(families) if family.plain or k in own]
         self.others = [k for k in range(len(families)) if k not in self.plain]
-        self._uses, self._turn = uses_of(families, self.plain), self._turns_of(self.plain)
         self._work, self._kept = np.zeros(system.size), np.zeros(0)
         self._weights: dict[int, Any] = {}  # derivatives of steady loads
+
+    @cached_property
+    def _plainly(self) -> tuple[Uses, FloatArray]:
+        """What the plain ones ask for, see :func:`ancf.solvers.pushes.add_pushes`."""
+        return uses_of(self.families, self.plain), self._turns_of(self.plain)
 
     def _turns_of(self, chosen: list[int]) -> FloatArray:
         """Derivatives of the local axes by the chosen parameters, (p, k, 3, 3), if any turns; else none."""
@@ -116,7 +121,7 @@ class Nearby:
             for weight, loads, value in self.families[k].loads_used(when, tables):
                 add_loads(loads, value, weight, self._work, rows[row])
         if self.plain:
-            add_pushes(self.system.core, self._uses, self._turn, tables, way, self._work, rows)
+            add_pushes(self.system.core, *self._plainly, tables, way, self._work, rows)
 
     def _steady_loads(self, k: int, when: tuple[float, float, float, float], tables: Any) -> Any:
         """Derivative of dead loads by a parameter, (size,) or 0, if it is the same at all times, or None."""

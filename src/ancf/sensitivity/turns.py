@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
+from ..system.beside import Acts
 from ..system.system import System
 from .alike import Known
 
@@ -34,3 +35,41 @@ def axes_rates(base: System, systems: list[System], weights: list[float]) -> Flo
     for system, weight in others:
         turn += weight * (axes_of(base, system) - here)
     return turn
+
+
+def moves_ends(acts: Acts | None) -> bool:
+    """Whether a parameter is known to move the nodes of a straight cable in proportion, and nothing else."""
+    return acts is not None and acts.moves and not acts.shapes
+
+
+def stands(base: System) -> bool:
+    """Whether supports of a model do not move, and no joint has rows."""
+    return not (base.inputs.motions or base.inputs.rotations or len(base.multipliers))
+
+
+def slopes_rates(base: System, moved: FloatArray) -> FloatArray:
+    """Derivatives of local axes along slopes of cables, (k, 3, 3), whose initial shape changes by ``moved``.
+
+    The others are as in :func:`axes_of`.
+    """
+    along, change, size = _slopes(base, moved)
+    turn = np.zeros((len(along), 3, 3))
+    turn[:, :, 0] = (change - along * np.sum(along * change, axis=1, keepdims=True)) / size
+    return turn
+
+
+def slopes_local(base: System, moved: FloatArray) -> FloatArray:
+    """The change ``moved`` with that of such slopes along their axes: their lengths change alone."""
+    made = moved.copy()
+    along, change, _ = _slopes(base, moved)
+    slots = base.supports.rot_slot
+    made[slots], made[slots + 1], made[slots + 2] = np.sum(along * change, axis=1), 0.0, 0.0
+    return made
+
+
+def _slopes(base: System, moved: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Directions of the slopes in the initial shape, their changes, (k, 3), and sizes, (k, 1)."""
+    shadow = base.supports.rot_shadow[:, None] + np.arange(3)
+    slope = Known.of(base).initial_shape()[shadow]
+    size: FloatArray = np.linalg.norm(slope, axis=1, keepdims=True)
+    return slope / size, moved[shadow], size

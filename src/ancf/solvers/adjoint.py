@@ -12,13 +12,14 @@ for a part of K, W = -W^T, which is not in the factors and is made up for by ite
 
 from __future__ import annotations
 
+from ..batches import add_tangents
 from ..compiled import inline_kernel, kernel
 from ..linalg.eight import factor_of
 from ..simd import LANES
 from ..system.core import drive, onto_shadows, solve_matrix, to_local
 from .ahead import look_ahead
 from .scheme import coefficients
-from .sensitivity import ENOUGH, MOST, is_done, product, twisted_product
+from .sensitivity import ENOUGH, MOST, is_done, product, stiffnesses, twisted_product
 from .status import OK, SINGULAR, SLOW
 
 
@@ -39,16 +40,27 @@ def folded(supports, x, moved):
 
 
 @inline_kernel
-def take_wanted(supports, wanted, mu, x, moved):
-    """Add the derivatives of the number by the state at the end of a step, (2, size), to mu."""
-    for i in range(mu.shape[1]):
-        x[0, i] = moved[0, i] = wanted[0, i]
-        x[1, i] = moved[1, i] = wanted[1, i]
-        x[2, i] = 0.0
+def take_wanted(supports, wanted, unknowns, mu, x, moved):
+    """Add the derivatives of the number by entries of the state at the end of a step, (2, k), to mu."""
+    for k in range(supports.rot_slot.shape[0]):
+        for c in range(3):
+            j = supports.rot_shadow[k] + c
+            x[0, j] = x[1, j] = x[2, j] = 0.0
+    for k in range(unknowns.shape[0]):
+        i = unknowns[k]
+        if supports.rot_slot.shape[0] > 0 and i >= supports.rot_shadow[0]:
+            x[0, i], x[1, i] = wanted[0, k], wanted[1, k]
+        else:
+            mu[0, i] += wanted[0, k]
+            mu[1, i] += wanted[1, k]
     folded(supports, x, moved)
-    for i in range(mu.shape[1]):
-        mu[0, i] += moved[0, i]
-        mu[1, i] += moved[1, i]
+    for k in range(supports.rot_slot.shape[0]):
+        for c in range(3):
+            i = supports.rot_slot[k] + c
+            mu[0, i] += moved[0, i]
+            mu[1, i] += moved[1, i]
+    for k in range(supports.held.shape[0]):
+        mu[0, supports.held[k]] = mu[1, supports.held[k]] = 0.0
 
 
 @inline_kernel
@@ -107,16 +119,77 @@ def add_turns(supports, x, y, turned):
                     turned[k, m, c] += x[n, j + m] * y[n][i + c]
 
 
+@inline_kernel
+def taken_back(core, m, matrices, y, lam, still, turned):
+    """Fill ``m.work[1:3]`` with what lambda takes from mu_q and mu_v: K^T lambda and C^T lambda.
+
+    ``matrices``: K, C and W; ``y``: the state.  Sums are added to ``still`` and ``turned``.
+    """
+    (K, C, W), back, w, x = matrices, m.work[1:3], m.work[3:5], m.work[5:8]
+    for i in range(lam.shape[0]):
+        x[0, i] = x[1, i] = x[2, i] = 0.0
+    product(core, K, lam, x[0], w)
+    twisted_product(core, W, -1.0, lam, x[0], w)
+    if m.damped:
+        product(core, C, lam, x[1], w)
+    if core.supports.rot_slot.shape[0] > 0:
+        product(core, m.M, lam, x[2], w)
+        add_turns(core.supports, x, y, turned)
+    for i in range(lam.shape[0]):
+        back[0, i], back[1, i] = x[0, i], x[1, i]
+        still[i] += x[0, i]
+    folded(core.supports, x, back)
+
+
 @kernel
-def back_steps(core, m, ahead, tables, way, wanted, h, scheme, mu, out, still, turned):
+def back_start(core, m, y, wanted, unknowns, mu, lam, still, turned):
+    """Carry the adjoint through the accelerations of a consistent start, M s_a + C s_v + K s_q + R_p = 0.
+
+    Parameters
+    ----------
+    core, m : Core, Matrices
+        The factors of the core are those of the masses.
+    y : (q, v, a)
+        The state.
+    wanted, unknowns, mu, lam, still, turned
+        As of :func:`back_steps`, of one state; mu_a and mu_b are used up.
+    """
+    n, none = core.weight.shape[0], m.work[0]
+    take_wanted(core.supports, wanted, unknowns, mu, m.work[5:8], m.work[1:3])
+    for i in range(none.shape[0]):
+        none[i] = 0.0
+    stiffnesses(core, m, m.K, m.W, y[0], y[1], none)
+    for i in range(m.C.shape[0]):
+        m.C[i] = 0.0
+    add_tangents(m.exact, y[0], y[1], m.C, 0.0, 1.0, 0.0, core.ws)
+    for i in range(n):
+        lam[i] = mu[2, i] + mu[3, i]
+    for k in range(core.supports.held.shape[0]):
+        lam[core.supports.held[k]] = 0.0
+    solve_matrix(core.factor, lam)
+    for i in range(n, lam.shape[0]):
+        lam[i] = 0.0
+    onto_shadows(core.supports, lam)
+    taken_back(core, m, (m.K, m.C, m.W), y, lam, still, turned)
+    for i in range(n):
+        mu[0, i], mu[1, i] = mu[0, i] - m.work[1, i], mu[1, i] - m.work[2, i]
+        mu[2, i] = mu[3, i] = 0.0
+    for i in range(n, lam.shape[0]):
+        mu[0, i] = mu[1, i] = mu[2, i] = mu[3, i] = lam[i] = 0.0
+
+
+@kernel
+def back_steps(core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned):
     """Carry the adjoint back through the steps of a block.
 
     Parameters
     ----------
     core, m, ahead, tables, way : Core, Matrices, Ahead, Tables, Way
         See :func:`ancf.solvers.abreast.follow_steps`.
-    wanted : (steps, 2, size)
+    wanted : (steps, 2, k)
         Derivatives of the number by q and v at the ends of the steps.
+    unknowns : (k,)
+        The entries of these by which it has some, each once.
     mu : (4, size)
         mu_q, mu_v, mu_a, mu_b at the end of the block; changed to those at its start.
     out : (steps, size)
@@ -134,7 +207,7 @@ def back_steps(core, m, ahead, tables, way, wanted, h, scheme, mu, out, still, t
     am, af, beta, gamma = scheme.alpha_m, scheme.alpha_f, scheme.beta, scheme.gamma
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
     n, size = core.weight.shape[0], mu.shape[1]
-    back, w, x = m.work[1:3], m.work[3:5], m.work[5:8]
+    back, x = m.work[1:3], m.work[5:8]
     for step in range(way.q.shape[0]):
         at = way.q.shape[0] - 1 - step
         k = at % LANES
@@ -143,23 +216,13 @@ def back_steps(core, m, ahead, tables, way, wanted, h, scheme, mu, out, still, t
             return step, SINGULAR
         drive(core.supports, core.loads.value, tables, at, way.q[at], way.v[at], way.a[at])
         lam = out[at]
-        take_wanted(core.supports, wanted[at], mu, x, back)
+        take_wanted(core.supports, wanted[at], unknowns, mu, x, back)
         factor, W = factor_of(core.factor, ahead.eight, k), ahead.W[k]
         status = factors(core, factor, W, mu, c1, B, G, lam, m.work)
         if status != OK:
             return step, status
-        for i in range(size):
-            x[0, i] = x[1, i] = x[2, i] = 0.0
-        product(core, ahead.K[k], lam, x[0], w)
-        twisted_product(core, W, -1.0, lam, x[0], w)
-        product(core, m.M, lam, x[2], w)
-        if m.damped:
-            product(core, ahead.C[k], lam, x[1], w)
-        add_turns(core.supports, x, (way.q[at], way.v[at], way.a[at]), turned)
-        for i in range(size):
-            back[0, i], back[1, i] = x[0, i], x[1, i]
-            still[i] += x[0, i]
-        folded(core.supports, x, back)
+        matrices = (ahead.K[k], ahead.C[k], W)
+        taken_back(core, m, matrices, (way.q[at], way.v[at], way.a[at]), lam, still, turned)
         for i in range(n):
             eq, ev = mu[0, i] - back[0, i], mu[1, i] - back[1, i]
             eb = mu[3, i] + h * h * beta * eq + h * gamma * ev

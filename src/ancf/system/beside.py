@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..connections.spring_build import springs
+from ..connections.spring_build import renumbered, springs
+from ..elements.registry import ELEMENTS as ELEMENTS_OF
+from ..elements.registry import offered
+from ..model.beam import Beam
 from ..model.model import Model
 from ..model.points import Point
-from .compile import Parts, bind_parts, build_bodies, build_elements
+from .compile import Parts, beams_by_kind, bind_parts, build_bodies, has_mass_of_its_own
 from .inputs import Inputs
 from .probe import Probe, locate
 from .supports import collect
@@ -48,19 +51,55 @@ def beside(system: System, model: Model, acts: Acts) -> System:
         made.constraints.held |= set(system.spare.tolist())
         made.inputs = Inputs(system.inputs.loads, made.constraints, system.inputs.given)
         made._like = system
-    slots, parts = system.numbering.slots, Parts()
+    bound, parts = _renumbered(system, model, acts), _built(system, model, acts)
+    if bound or parts:
+        rank = np.arange(system.numbering.blocks, dtype=np.int64)
+        made.parts = system.parts | bound | bind_parts(parts, rank, system.constraints, system.places)
+    return made
+
+
+def _renumbered(system: System, model: Model, acts: Acts) -> Parts:
+    """Parts in which nothing but numbers is another one."""
+    found = Parts()
+    if ELEMENTS in acts.parts:
+        found |= {kind: _elements(system, kind, beams) for kind, beams in _others(system, model).items()}
+    if SPRINGS in acts.parts and not acts.shapes:
+        found[SPRINGS] = renumbered(system.parts[SPRINGS], system.model, model)
+    return found
+
+
+def _others(system: System, model: Model) -> dict[str, list[Beam]]:
+    """Beams of kinds some of which are others."""
+    mine = system.model.bodies
+    kinds = beams_by_kind(model).items()
+    return {kind: beams for kind, beams in kinds if any(beam is not mine[beam.name] for beam in beams)}
+
+
+def _elements(system: System, kind: str, beams: list[Beam]) -> Any:
+    """The batch of elements of a kind."""
+    batch, slots = system.parts[kind], system.numbering.slots
+    own = offered(batch, "renumbered")
+    for beam in beams:
+        if own is not None and batch is not None and beam is not system.model.bodies[beam.name]:
+            batch = own(batch, beam, slots[beam.name])
+    if own is not None and batch is not None:
+        return batch
+    parts = {kind: ELEMENTS_OF[kind].build(beams, [slots[beam.name] for beam in beams])}
+    rank = np.arange(system.numbering.blocks, dtype=np.int64)
+    return bind_parts(parts, rank, system.constraints, system.places)[kind]
+
+
+def _built(system: System, model: Model, acts: Acts) -> Parts:
+    """Parts that have to be made again, in the slots of the nodes."""
+    slots, mine, parts = system.numbering.slots, system.model.bodies, Parts()
 
     def find(point: Point) -> Probe:
         return locate(point, slots[point.body.name], system.lengths.get(point.body.name, (-1, 0.0)))
 
-    if ELEMENTS in acts.parts:
-        parts |= build_elements(model, slots)
-    if SPRINGS in acts.parts:
+    if SPRINGS in acts.parts and acts.shapes and len(system.parts[SPRINGS].base):
         parts[SPRINGS] = springs(model, find)
-    if BODIES in acts.parts:
+    changed = [body for name, body in model.bodies.items() if body is not mine[name]]
+    changed += [mine[body.name] for body in changed]
+    if BODIES in acts.parts and any(has_mass_of_its_own(body) for body in changed):
         parts |= build_bodies(model, slots)
-    if not parts:
-        return made
-    rank = np.arange(system.numbering.blocks, dtype=np.int64)
-    made.parts = system.parts | bind_parts(parts, rank, system.constraints, system.places)
-    return made
+    return parts

@@ -39,6 +39,7 @@ from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
 from ..model.points import Point
+from ..model.section_inertia import of_cable
 from ..model.surfaces import SurfaceContact
 from ..model.torsion import TorsionSpring
 from ..model.winches import by_body
@@ -105,14 +106,25 @@ def build_parts(
 
 def build_elements(model: Model, slots: dict[str, IntArray]) -> Parts:
     """Batches of elements by their kind, those of cables with a winch apart."""
+    return {
+        kind: ELEMENTS[kind].build(beams, [slots[b.name] for b in beams])
+        for kind, beams in beams_by_kind(model).items()
+    }
+
+
+def beams_by_kind(model: Model) -> dict[str, list[Beam]]:
+    """Those without a winch by the kind of their elements."""
     kinds: dict[str, list[Beam]] = {}
     winches = by_body(model)
     for name, beam in model.beams.items():
         if name not in winches:
             kinds.setdefault(beam.element, []).append(beam)
-    return {
-        kind: ELEMENTS[kind].build(beams, [slots[b.name] for b in beams]) for kind, beams in kinds.items()
-    }
+    return kinds
+
+
+def has_mass_of_its_own(body: Any) -> bool:
+    """Whether it is in the batch of masses, see :func:`build_bodies`."""
+    return not isinstance(body, Beam) or (not body.has_section and bool(of_cable(body.section)))
 
 
 def build_bodies(model: Model, slots: dict[str, IntArray]) -> Parts:
