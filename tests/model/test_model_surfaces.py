@@ -26,6 +26,9 @@ SHAPE_OF = {
 }
 
 
+ROPE = ancf.Section(EA=1e4, EI=0.01, rhoA=0.5, diameter=0.02)
+
+
 def roped(diameter=0.02):
     model = ancf.Model(gravity=(0, 0, -9.81))
     section = ancf.Section(EA=1e4, EI=0.01, rhoA=0.5, **({"diameter": diameter} if diameter else {}))
@@ -190,6 +193,38 @@ class TestRefused:
         else:
             match = r'"ball" is 0\.\d+ m inside "rope" at about x = 1\.25 m .*0.01 m'
             refused(match, lambda: System(model))
+
+    @pytest.mark.parametrize("power", [1.0, 2.0, 3.0])
+    @pytest.mark.parametrize("place", [0.3, 0.7, 2.2])
+    def test_where_it_is_on_an_uneven_mesh(self, power, place):
+        model, nodes = ancf.Model(), 2.5 * np.linspace(0.0, 1.0, 26) ** power
+        rope = model.add_beam("rope", start=(0, 0, 0), end=(2.5, 0, 0), nodes=nodes, section=ROPE)
+        model.add_surface("ball", ancf.Sphere(0.3, at=(place, 0.0, -0.2)))
+        model.add_contact(rope, "ball", stiffness=1e5)
+        with pytest.raises(ancf.ModelError) as said:
+            System(model)
+        found = float(re.search(r"at about x = (\S+) m", str(said.value))[1])
+        longest = np.diff(nodes)[np.searchsorted(nodes, place) - 1]
+        assert found == pytest.approx(place, abs=0.5 * longest)
+        assert "shorter ones" not in str(said.value)
+
+    @pytest.mark.parametrize("wheel", [0.5, 2.0, 12.0])
+    @pytest.mark.parametrize("start", ["left", "right"])
+    def test_an_element_that_cuts_a_curve(self, wheel, start):
+        """The nodes are where they should be: what helps is said."""
+        sag = 0.3 * wheel if start == "left" else -0.3 * wheel
+        ends = {"start": (-4 * wheel, 0, -sag), "end": (4 * wheel, 0, -sag)}
+        centre = (0, 0, -wheel if start == "left" else wheel)
+        over = ancf.Reeving([(centre, wheel + 0.01, start)], axis=(0, 1, 0), **ends)
+        for elements, fits in ((5, False), (200, True)):
+            model = ancf.Model()
+            rope = model.add_beam("rope", path=over, elements=elements, section=ROPE)
+            model.add_surface("wheel", ancf.Cylinder(radius=wheel, at=centre, axis=(0, 1, 0)))
+            model.add_contact(rope, "wheel", stiffness=1e5)
+            if fits:
+                System(model)
+            else:
+                refused("element 2 between them is .* m long: give shorter ones", lambda m=model: System(m))
 
     def test_questions(self):
         model, rope, _ = roped()

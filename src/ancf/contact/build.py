@@ -124,14 +124,21 @@ def _places(item: SurfaceContact) -> FloatArray:
 
 def _refuse_sunk(item: SurfaceContact) -> None:
     """ModelError where the surface is inside of the beam in the initial shape."""
-    places = _places(item).reshape(-1, 3)
+    places, beam = _places(item).reshape(-1, 3), item.body
     depth = item.radius - distances(item.surface.shape, places)
     k = int(np.argmax(depth))
-    if depth[k] > SUNK * item.radius:
-        at = (k // POINTS + gauss(POINTS)[0][k % POINTS]) / item.body.elements * item.body.length
-        what = f'"{item.surface.name}" is {depth[k]:.4g} m inside "{item.body.name}" at about x = {at:.4g} m'
-        hint = f"its axis begins at least {item.radius:.4g} m, its radius, away from the surface"
-        raise ModelError(item.name, what, hint)
+    if depth[k] <= SUNK * item.radius:
+        return
+    e, at = k // POINTS, gauss(POINTS)[0][k % POINTS]
+    x, h = beam.node_x[e], beam.node_x[e + 1] - beam.node_x[e]
+    ends = item.surface.body_axes(beam.node_position[e : e + 2])
+    what = (
+        f'"{item.surface.name}" is {depth[k]:.4g} m inside "{beam.name}" at about x = {float(x + at * h):.4g} m'
+    )
+    hint = f"its axis begins at least {item.radius:.4g} m, its radius, away from the surface"
+    if np.max(item.radius - distances(item.surface.shape, ends)) <= SUNK * item.radius:
+        hint += f"; the nodes do, but element {e} between them is {h:.4g} m long: give shorter ones there"
+    raise ModelError(item.name, what, hint)
 
 
 def _reach(fields: dict[str, NDArray[Any]], items: Sequence[SurfaceContact]) -> FloatArray:
