@@ -132,9 +132,8 @@ def _refuse_sunk(item: SurfaceContact) -> None:
     e, at = k // POINTS, gauss(POINTS)[0][k % POINTS]
     x, h = beam.node_x[e], beam.node_x[e + 1] - beam.node_x[e]
     ends = item.surface.body_axes(beam.node_position[e : e + 2])
-    what = (
-        f'"{item.surface.name}" is {depth[k]:.4g} m inside "{beam.name}" at about x = {float(x + at * h):.4g} m'
-    )
+    there = f"{float(x + at * h):.4g} m"
+    what = f'"{item.surface.name}" is {depth[k]:.4g} m inside "{beam.name}" at about x = {there}'
     hint = f"its axis begins at least {item.radius:.4g} m, its radius, away from the surface"
     if np.max(item.radius - distances(item.surface.shape, ends)) <= SUNK * item.radius:
         hint += f"; the nodes do, but element {e} between them is {h:.4g} m long: give shorter ones there"
