@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import garbage
 from ..analysis import simulate
 from ..arrays import FloatArray
 from ..errors import ModelError
@@ -126,6 +127,7 @@ def _forward(
     return value, made
 
 
+@garbage.without
 def _backward(
     made: Any, formula: Formula, parameters: list[Parameter], start: State | None
 ) -> tuple[float, dict[str, float]]:

@@ -274,7 +274,7 @@ def stiffness(batch, group, chunk, x, ws, c_damping, c_stiffness, along, across)
     ea, da = along * (c_stiffness * load(data, chunk, EA_L)), along * (c_damping * load(data, chunk, DA_L))
     ei, db = across * (c_stiffness * load(data, chunk, EI_L)), across * (c_damping * load(data, chunk, DB_L))
     if c_stiffness != 0.0 or damped & AXIALLY:
-        add_elastic(batch, group, chunk, differences(x), ws, ea, ei, da)
+        add_elastic(batch, group, chunk, differences(x), ws, ea, ei, da, c_stiffness != 0.0)
     if damped & IN_BENDING:
         inv_l = load(data, chunk, INV_L)
         for g in range(first, first + group[BENDING]):

@@ -224,12 +224,16 @@ def add_blocks(ws, x, R, H):
 
 
 @inline_kernel
-def add_elastic(batch, group, chunk, x, ws, ea, ei, da):
-    """Add the tangents of both strains in the shape x = (d, u1, u2), and the axial damping, to the blocks."""
+def add_elastic(batch, group, chunk, x, ws, ea, ei, da, bends):
+    """Add the tangents of both strains in the shape x = (d, u1, u2), and the axial damping, to the blocks.
+
+    ``bends``: ei is not zero.
+    """
     none, G = every(0.0), products(x)
     R = none, none, none, none, none, none
     three = none, none, none
     H = (*three, *three), (none, none, *three), (none, *three), three, (none, none), (none,)
     R, H = axial_part(batch, group, chunk, G, (R, H), ea, da)
-    R, H = bending_part(batch, group, chunk, G, (R, H), ei)
+    if bends:
+        R, H = bending_part(batch, group, chunk, G, (R, H), ei)
     add_blocks(ws, x, R, H)

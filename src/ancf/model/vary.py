@@ -83,10 +83,10 @@ def varied(model: Model, name: str, value: float) -> Model:
     return made
 
 
-def renewal(model: Model, name: str) -> Callable[[float], Model]:
-    """The same as a function of the value, for models that are only read: they share what does not change."""
-    make: Callable[[float], Model] = _resolve(model, name, renewed)[1]
-    return lambda value: make(checks.number(value, name))
+def renewal(model: Model, name: str) -> tuple[float, Callable[[float], Model]]:
+    """The number, and the same as a function of it for models that are only read: they share what stays."""
+    now, make = _resolve(model, name, renewed)
+    return now, lambda value: make(checks.number(value, name))
 
 
 def names_of(model: Model) -> list[str]:
@@ -267,9 +267,9 @@ def _of_length(put: Put, beam: Beam, length: float) -> Any:
 def _of_end(put: Put, beam: Beam, name: str, key: str, part: str | None) -> tuple[float, Any]:
     """One end of a straight beam, the other one and the natural length stay."""
     ends = {"start": beam.node_position[0].copy(), "end": beam.node_position[-1].copy()}
-    if np.max(np.linalg.norm(np.cross(beam.node_tangent, ends["end"] - ends["start"]), axis=1)) > 1e-9 * (
-        beam.length * beam.stretch
-    ):
+    between = ends["end"] - ends["start"]
+    across = between - beam.node_tangent * (beam.node_tangent @ between)[:, None]
+    if np.max(np.sum(across**2, axis=1)) > (1e-9 * beam.length * beam.stretch) ** 2:
         raise ModelError(name, "is an end of a curve", "a function that builds the model, or a model file")
 
     def use(place: Any) -> Any:

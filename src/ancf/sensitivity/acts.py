@@ -18,6 +18,8 @@ from ..system.beside import BODIES, ELEMENTS, SPRINGS, Acts
 FORCES, MASSES = {"EA", "EI", "E", *DAMPINGS}, {"rhoA", "rho"}
 #: Numbers of all bodies on which nothing but the initial motion depends.
 MOTION = {"velocity", "angular_velocity"}
+#: Of supports, what moves them: else they stay where they are when a beam keeps its initial shape.
+MOTIONS = "displacement", "rotation", "rotation_vector"
 
 
 def acts_of(model: Model, name: str) -> Acts | None:
@@ -44,7 +46,8 @@ def acts_of(model: Model, name: str) -> Acts | None:
     if key in ("start", "end"):
         return Acts(moves=True)
     everything = frozenset((ELEMENTS, SPRINGS, BODIES))
-    return Acts(everything, weighs=True, moves=True, shapes=True) if key == "length" else None
+    moves = any(getattr(one, way, None) is not None for one in model.supports for way in MOTIONS)
+    return Acts(everything, weighs=True, moves=moves, shapes=True) if key == "length" else None
 
 
 def _is_bare(model: Model) -> bool:

@@ -35,7 +35,7 @@ from .start import Start
 from .weighed import Weighed
 
 #: Bytes of states up to which all are kept and no step is taken again, and those of a block.
-KEPT, BLOCK = 320e6, 16e6
+KEPT, BLOCK = 320e6, 4e6
 #: Change of an unknown, in its own size, of the differences of what is asked.
 MOVED = 1e-4
 #: Answers that nothing but the state and the shape functions has a part in.
@@ -168,13 +168,14 @@ class Adjoint:
         run, system = self.run, self.system
         total, mu = np.zeros(len(self.families)), np.zeros((4, system.size))
         still = np.zeros(system.size)  # by derivatives of q that are the same at all times
+        room = np.zeros((max(block.count for block in self.blocks), system.size))
         for block in reversed(self.blocks):
             rows = slice(block.done + 1, block.done + block.count + 1)
             own = {key: slope[rows] for key, slope in slopes.items()}
             way = self._way(block)
             wanted = self._wanted(way.q, way.v, own)
             when = run.time(block.done), block.h, run.t_start, run.t_end
-            lam = np.zeros_like(way.q)
+            lam = room[: len(way.q)]
             tables = system.inputs.tables(*when[:2], block.count, *when[2:])
             lost, turned = np.zeros(system.size), np.zeros((self.weighed.turning, 3, 3))
             sums = mu, lam, lost, turned
@@ -278,7 +279,7 @@ class Adjoint:
 
     def _explicit(self, q: FloatArray, v: FloatArray, slopes: dict[Any, FloatArray]) -> FloatArray:
         """What parameters do to the answers of fixed states."""
-        total, here = np.zeros(len(self.families)), self._asked(q, v)
+        total, here = np.zeros(len(self.families)), None
         for k, family in enumerate(self.families):
             acts = family.parameter.acts
             if acts is not None and not acts.shapes and all(key[0] in SHAPES for key in self.keys):
@@ -286,6 +287,8 @@ class Adjoint:
             for system, weight in zip(family.systems, family.weights, strict=True):
                 if system is self.system:
                     continue
+                if here is None:
+                    here = self._asked(q, v)
                 found = self.asked(Face(system, q, v, 0.0), self.keys)
                 changes = (np.sum(slope * (found[key] - here[key])) for key, slope in slopes.items())
                 total[k] += weight * float(sum(changes))

@@ -37,6 +37,7 @@ class Known:
 
     def __init__(self, system: System) -> None:
         self.tables = _tables(system)
+        self.size = float(system.model.size)
         self._system = ref(system)
         self._states: dict[float, tuple[FloatArray, FloatArray]] = {}
         self._shape: FloatArray | None = None

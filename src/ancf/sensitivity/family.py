@@ -88,8 +88,9 @@ class Family:
     ) -> None:
         self.parameter, self.base, self.shifts = parameter, base, shifts
         p = parameter.value
-        unit = abs(p) if p != 0.0 else min(1.0, base.model.size)
-        self._unit = unit = min(unit, base.model.size) if moves_ends(parameter.acts) else unit
+        size = Known.of(base).size
+        unit = abs(p) if p != 0.0 else min(1.0, size)
+        self._unit = unit = min(unit, size) if moves_ends(parameter.acts) else unit
         self._wide: list[tuple[System, float]] = []
         self._made: dict[float, System] = {}
         self._differ: dict[int, set[str]] = {}  # names of batches by system
@@ -112,7 +113,7 @@ class Family:
             step = tiny if self.parameter.kinked else h
             return self._take_line(3.0 * step if p >= 0.0 else -3.0 * step)
         acts = self.parameter.acts
-        known = acts is not None and acts.moves  # not to be linear
+        known = acts is not None and (acts.moves or acts.shapes)  # not to be linear
         try:
             self._take(h, *(FOUR if known else PAIR))
             if p != 0.0 and not thorough and (self._names() & KINKED or self._moves_kinks()):
@@ -123,7 +124,7 @@ class Family:
                 return None
             if not thorough and self._steady_inputs() == (True, True):
                 self._take(h, *FOUR)
-                if known or self._trial().smooth():
+                if (acts is not None and acts.shapes) or self._trial().smooth():  # powers of a length are
                     return None
             return self._take(h, *BOTH)
         except ModelError:
@@ -179,7 +180,8 @@ class Family:
         if self.parameter.linear:  # in it nothing but forces changes
             self._shape = [np.zeros(base.size)] * len(systems)
         else:
-            shape = Known.of(base).initial_state(0.0)[0]
+            self._begun[id(base)] = Known.of(base).initial_state(0.0)
+            shape = self._begun[id(base)][0]
             for system in systems:
                 if id(system) not in self._begun:
                     self._begun[id(system)] = quiet_state(system)

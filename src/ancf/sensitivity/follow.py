@@ -6,6 +6,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from .. import garbage
 from ..arrays import BoolArray, FloatArray
 from ..errors import ModelError, SolveError
 from ..model.integrators.base import NewmarkFamily
@@ -81,6 +82,7 @@ class Following:
         The model or the method has no sensitivities, or the start does not know its own.
     """
 
+    @garbage.without
     def __init__(
         self, made: Prepared, parameters: list[Parameter], start: State | None, store: Any, every: int
     ) -> None:

@@ -112,9 +112,7 @@ class Nearby:
         self, way: Way, when: tuple[float, float, float, float], tables: Any, rows: FloatArray
     ) -> None:
         for row, k in enumerate(self.plain):
-            if k not in self._weights:
-                self._weights[k] = self._steady_loads(k, when, tables)
-            steady = self._weights[k]
+            steady = self.steady_loads(k, when, tables)
             if steady is not None:
                 rows[row] -= steady
                 continue
@@ -123,8 +121,13 @@ class Nearby:
         if self.plain:
             add_pushes(self.system.core, *self._plainly, tables, way, self._work, rows)
 
-    def _steady_loads(self, k: int, when: tuple[float, float, float, float], tables: Any) -> Any:
+    def steady_loads(self, k: int, when: tuple[float, float, float, float], tables: Any) -> Any:
         """Derivative of dead loads by a parameter, (size,) or 0, if it is the same at all times, or None."""
+        if k not in self._weights:
+            self._weights[k] = self._loads(k, when, tables)
+        return self._weights[k]
+
+    def _loads(self, k: int, when: tuple[float, float, float, float], tables: Any) -> Any:
         total: Any = 0.0
         for weight, loads, value in self.families[k].loads_used(when, tables):
             if len(loads.hung_slot) or (len(loads.start) > 1 and not self.families[k].constant):

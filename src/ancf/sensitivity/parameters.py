@@ -14,7 +14,7 @@ from ..model.bodies import PointMass
 from ..model.connections import Spring
 from ..model.model import Model
 from ..model.section import DAMPINGS
-from ..model.vary import renewal, value_of
+from ..model.vary import renewal
 from ..model.winches import by_body
 from ..system.beside import Acts
 from .acts import acts_of
@@ -41,10 +41,15 @@ class Named:
 
     def __call__(self, value: float) -> Model:
         """The model with this value."""
-        return self._make(value)
+        return self._found[1](value)
+
+    @property
+    def value(self) -> float:
+        """The number now."""
+        return self._found[0]
 
     @cached_property
-    def _make(self) -> Callable[[float], Model]:
+    def _found(self) -> tuple[float, Callable[[float], Model]]:
         return renewal(self.model, self.name)
 
     def __reduce__(self) -> Any:
@@ -124,8 +129,9 @@ def parameters_of(model: Model, given: Any, where: str) -> list[Parameter]:
         what = f"must be a list of names of numbers, is {checks.shown(given)}"
         raise ModelError(where, what, 'such as ["beam.EI", "gravity"], or {name: (value, build)}')
     made: list[Parameter] = []
+    kept = model.snapshot()
     for k, item in enumerate(given):
-        found = item if isinstance(item, Parameter) else _named(model, item, f"{where}[{k}]")
+        found = item if isinstance(item, Parameter) else _named(kept, item, f"{where}[{k}]")
         if found.name in [one.name for one in made]:
             raise ModelError(f"{where}[{k}]", f'"{found.name}" stands there twice')
         made.append(found)
@@ -142,8 +148,10 @@ def check_known(start: Any, parameters: list[Parameter], where: str) -> None:
 
 
 def _named(model: Model, name: Any, where: str) -> Parameter:
+    """Of a model that stays as it is."""
     clean = checks.text(name, where)
-    value, build = value_of(model, clean), Named(model.snapshot(), clean)
+    build = Named(model, clean)
+    value = build.value
     spring, acts = _of_spring(model, clean), acts_of(model, clean)
     if spring is not None:
         return Parameter(clean, value, build, linear=True, kinked=spring.slack, acts=acts)

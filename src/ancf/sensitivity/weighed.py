@@ -50,7 +50,8 @@ class Weighed:
         batch = self.system.parts[name]
         for k in self.rates:
             for system in self.nearby.families[k].systems:
-                batch = joined(batch, system.parts[name])
+                if system.parts[name] is not self.system.parts[name]:
+                    batch = joined(batch, system.parts[name])
         return batch
 
     def at_steps(
@@ -77,6 +78,10 @@ class Weighed:
         for k, found in self.rates.items():
             made[k] += sum(float(numbers[self.place[name]] @ rate) for name, rate in found.items())
         for k in self.nearby.plain:
+            steady = self.nearby.steady_loads(k, when, tables)
+            if steady is not None:
+                made[k] -= np.sum(steady * total)
+                continue
             for weight, loads, value in families[k].loads_used(when, tables):
                 if len(loads.start) == 1 or len(value) == 1:  # the same at all times
                     made[k] -= weight * weigh_loads(loads, value[:1], work, total[None])
