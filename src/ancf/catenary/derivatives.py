@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from copy import deepcopy
+from copy import copy
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
 from ..sensitivity.parameters import Parameter
+from ..system.beside import BODIES, SPRINGS, Acts
 from .assemble import Assembled
 from .form import Form
 from .passing import in_window, uplift_in_window
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 
 WHERE = "run.sensitivities"
 MM = 1e3
+#: What lengths of droppers act on: these, their clamps and the weight of both.
+LENGTHS = Acts(frozenset((SPRINGS, BODIES)), weighs=True)
 
 
 @dataclass(frozen=True)
@@ -68,16 +71,17 @@ class Longer:
     droppers: tuple[Lengthened, ...]
 
     def __call__(self, by: float) -> ancf.Model:
-        """The model with natural lengths that are longer by this, m."""
-        made = deepcopy(self.model)
+        """The model with natural lengths that are longer by this, m; it shares with it what stays."""
+        made = self.model.snapshot()
         own = {dropper.name: dropper for dropper in self.droppers}
         for k, item in enumerate(made.connections):
             if item.name in own:
                 made.connections[k] = _longer(item, own[item.name], by)
         for dropper in self.droppers:
             for name in dropper.clamps:
-                body = made.bodies[name]
+                body = copy(made.bodies[name])
                 object.__setattr__(body, "mass", body.mass + dropper.mass * by)  # type: ignore[union-attr]
+                made.bodies[name] = body
         return made
 
 
@@ -105,7 +109,7 @@ def parameters(overhead: Assembled, model: ancf.Model, given: Mapping[str, Seque
         if len(set(labels)) < len(labels):
             raise ModelError(where, "a dropper stands there twice")
         droppers = tuple(_lengthened(overhead, model, label, where) for label in labels)
-        made.append(Parameter(name, 0.0, Longer(model.snapshot(), droppers), quadratic=True))
+        made.append(Parameter(name, 0.0, Longer(model.snapshot(), droppers), quadratic=True, acts=LENGTHS))
     return made
 
 
