@@ -29,7 +29,7 @@ def summarise(
     study: Study, path: Path, result: Result, seconds: dict[str, float], error: BaseException | None
 ) -> dict[str, Any]:
     """Everything worth keeping of a run, ready for JSON."""
-    from ..results import accuracy, sharp_bends
+    from ..results import accuracy, sharp_bends, slackness
     from ..results.resolution import of_steps
     from ..results.tension import compressions, notes
 
@@ -50,6 +50,7 @@ def summarise(
         "outputs": {label: at_point(model, state, label) for label in outputs(study)},
         "energy": energies(result),
         "compression": [item.as_dict() for item in pressed],
+        "slack": [item.as_dict() for item in slackness.of_ropes(result)],
         "notes": [
             *result.provenance.get("notes", []),
             *notes(pressed),

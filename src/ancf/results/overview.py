@@ -171,19 +171,19 @@ def _drift(result: History, settings: dict[str, Any]) -> str:
     largest = float(np.max(np.abs(np.concatenate([energy, work], axis=1))))
     last = float(balance[-1] - balance[0])
     drift = (
-        at_most(float(np.max(np.abs(result.energy.drift))), last) if _short(result) else f"{last:.2g} (end)"
+        at_most(float(np.max(np.abs(result.energy.drift))), last) if is_short(result) else f"{last:.2g} (end)"
     )
     return f"drift of the balance {drift} J, largest part {largest:.3g} J"
 
 
-def _short(result: History) -> bool:
+def is_short(result: History) -> bool:
     """Whether all states are looked at: print must not read gigabytes."""
     return bool(len(result.t)) and result.q.shape[0] * result.q.shape[1] <= MOST_READ
 
 
 def _notes(result: History) -> list[str]:
     """Notes of a history that is not long; of a long one those that were there before it began."""
-    return result.notes if _short(result) else [str(text) for text in result.provenance.get("notes", [])]
+    return result.notes if is_short(result) else [str(text) for text in result.provenance.get("notes", [])]
 
 
 def _names(names: list[str]) -> str:

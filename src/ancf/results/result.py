@@ -35,6 +35,7 @@ from .remembered import Remembered
 from .resolution import of_steps
 from .sensitivities import sensitivity_of
 from .sensors import Sensors
+from .slackness import SlackInterval, slack_intervals
 from .state import Energy, State
 from .store import FileStore, MemoryStore
 
@@ -251,6 +252,31 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
             A body or point is missing in one of them, or they have no time in common.
         """
         return compare(self, other, points)
+
+    def slack_intervals(self, of: Any = None, below: float = 0.0) -> list[SlackInterval]:
+        """When and where cables are slack, and springs that only pull, ordered by their starts.
+
+        A cable is slack while the smallest tension of its elements is not above a limit.
+
+        Parameters
+        ----------
+        of : cable, spring, name or a sequence of them, optional
+            Default all cables and all springs with ``slack=True``.
+        below : float, N
+            The limit, >= 0, such as a tenth of the tension at rest.
+
+        Returns
+        -------
+        list of SlackInterval
+            Each with ``name``, ``start`` and ``end`` in s, the smallest ``tension`` in N, its time ``t`` and
+            ``point``. They are as fine as the stored times, see ``output_step``.
+
+        Raises
+        ------
+        ModelError
+            There is no such cable or spring, or the limit is negative.
+        """
+        return slack_intervals(self, of, below)
 
     def sensitivity(self, name: str) -> Any:
         """Derivatives by a parameter of everything that the result answers, per unit of it.

@@ -77,7 +77,7 @@ def compressions(known: Any) -> list[Compression]:
     beams, times = cables(known), np.atleast_1d(known.t)
     low = {beam.name: _Lowest() for beam in beams}
     states, elements = len(times), sum(beam.elements for beam in beams)
-    for rows, forces in _pieces(known, beams, every=max(1, -(-states * elements // MOST))):
+    for rows, forces in pieces(known, beams, every=max(1, -(-states * elements // MOST))):
         for name, force in forces.items():
             low[name].see(rows, force)
     found = [_compression(times, beam, low[beam.name]) for beam in beams if states]
@@ -98,7 +98,7 @@ def cables(known: Any) -> list[Beam]:
 def extremes(known: Any, beams: list[Beam], parts: int = 1) -> dict[str, tuple[float, float]]:
     """Smallest and largest force by cable over a history, N, averaged over so many elements in a row."""
     found = {beam.name: (np.inf, -np.inf) for beam in beams}
-    for _, forces in _pieces(known, beams):
+    for _, forces in pieces(known, beams):
         for name, force in forces.items():
             mean = force.reshape(len(force), -1, parts).mean(axis=-1)
             low, high = found[name]
@@ -152,9 +152,7 @@ def _compression(times: FloatArray, beam: Beam, seen: _Lowest) -> Compression | 
     return Compression(beam.name, str(beam.at(x)), x, t, seen.low, seen.high, wave, h)
 
 
-def _pieces(
-    known: Any, beams: list[Beam], every: int = 1
-) -> Iterator[tuple[IntArray, dict[str, FloatArray]]]:
+def pieces(known: Any, beams: list[Beam], every: int = 1) -> Iterator[tuple[IntArray, dict[str, FloatArray]]]:
     """Rows of a history, or the one of a state, and the forces of each cable there, part after part."""
     single, damped = len(known.q.shape) == 1, any(beam.section.axial_damping for beam in beams)
     chosen = np.zeros(1, dtype=np.int64) if single else np.arange(0, known.q.shape[0], every)
