@@ -11,6 +11,7 @@ import numpy as np
 
 from ..control.stepper import Stepper
 from ..model.beam import Beam
+from ..model.supports import Clamp
 from ..results.state import State
 
 #: Questions with their units, and the names of their parts.
@@ -19,6 +20,10 @@ OF_LINE = {"tension": "N"}
 OF_SPRING = {"spring_force": "N", "spring_length": "m"}
 OF_JOINT = {"multiplier": "N"}
 OF_SUPPORT = {"reaction": "N"}
+#: Of joints that do not slide, and of clamps.
+MOMENT_OF_JOINT, MOMENT_OF_CLAMP = {"joint_moment": "N m"}, {"reaction_moment": "N m"}
+#: Questions whose parts are along x, y and z.
+ALONG_AXES = (*OF_POINT, *OF_SUPPORT, *MOMENT_OF_JOINT, *MOMENT_OF_CLAMP)
 OF_CONTACT = {"contact_force": "N", "contact_gap": "m", "arc_length": "m"}
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*")
 
@@ -58,6 +63,7 @@ def outputs_of(run: Stepper) -> list[Output]:
 
 def _questions(run: Stepper) -> Iterator[tuple[Any, str, str]]:
     listing = run.system.sensors
+    clamps = {item.name for item in run.model.supports if isinstance(item, Clamp)}
     for point in listing.points:
         questions = OF_POINT | (OF_LINE if isinstance(point.body, Beam) else {})
         yield from ((point, question, unit) for question, unit in questions.items())
@@ -66,8 +72,11 @@ def _questions(run: Stepper) -> Iterator[tuple[Any, str, str]]:
         questions = questions | (OF_JOINT if name in run.joints else {})
         if name in run.arcs:
             questions = questions | {"arc_length": "m"}
+        elif name in run.joints:
+            questions = questions | MOMENT_OF_JOINT
         questions = questions | (OF_CONTACT if name in listing.columns else {})
         questions = questions | (OF_SUPPORT if name in listing.held else {})
+        questions = questions | (MOMENT_OF_CLAMP if name in clamps else {})
         yield from ((name, question, unit) for question, unit in questions.items())
 
 
@@ -75,11 +84,7 @@ def _parts(run: Stepper, of: str, question: str, unit: str) -> Iterator[Output]:
     count = np.size(getattr(run, question)(of))
     word = question.removeprefix("spring_").removeprefix("contact_")
     for k in range(count):
-        part = (
-            f".{'xyz'[k]}"
-            if question in OF_POINT | OF_SUPPORT
-            else (f"[{k + 1}]" if question in OF_JOINT else "")
-        )
+        part = f".{'xyz'[k]}" if question in ALONG_AXES else (f"[{k + 1}]" if question in OF_JOINT else "")
         yield Output(f"{structured(of)}.{word}{part}", question, of, k, unit)
 
 

@@ -28,6 +28,7 @@ def write_listing(file: Any, listing: Listing) -> None:
     held = {name: places.tolist() for name, places in listing.held.items()}
     listed = {"points": points, "connections": listing.connections, "columns": columns, "held": held}
     listed["springs"] = [*listing.springs]
+    listed["turned"] = {name: places.tolist() for name, places in listing.turned.items()}
     group.attrs["listed"] = json.dumps(listed)
     group["index"], group["entries"] = listing.index, listing.entries
     group["moved"], group["pushed"] = listing.moved, listing.pushed
@@ -49,6 +50,10 @@ def read_listing(group: Any, bodies: dict[str, Body]) -> Listing:
     springs = {name: columns.pop(name) for name in listed.get("springs", [])}
     connections = tuple(listed["connections"])
     held = {name: np.array(places, dtype=np.int64) for name, places in listed.get("held", {}).items()}
+    turned = {
+        name: np.array(rows, dtype=np.int64).reshape(-1, 2) for name, rows in listed.get("turned", {}).items()
+    }
     moved, pushed = (group[key][:] if key in group else np.zeros(0, np.int64) for key in ("moved", "pushed"))
     index, entries = group["index"][:], group["entries"][:]
-    return Listing(tuple(points), connections, index, entries, columns, moved, pushed, held, springs)
+    where = index, entries, columns, moved, pushed, held, springs, turned
+    return Listing(tuple(points), connections, *where)

@@ -13,13 +13,13 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError, named
-from ..model.beam import Beam
 from ..model.joints import Slide
 from ..model.kind import body_of
 from ..model.kinds import kind_of
 from ..model.points import Point
 from ..model.supports import Support
 from ..system.core import residual
+from ..system.sensors import turning
 from ..system.system import System
 
 
@@ -33,10 +33,8 @@ def of_support(system: System, item: Support, q: FloatArray, forces: FloatArray)
     q, forces : ndarray, shape (..., size)
         State vectors, and what they leave out of balance.
     """
-    body = item.point.body
-    node = (item.point.body.node_at(item.point.x) or 0) if isinstance(body, Beam) else 0
-    slots = system.slots[body.name][node, 1 : system.numbering.shared[body.name]]
-    return _turning(q, forces, slots)
+    vectors = turning(system, item)
+    return turned(q, forces, vectors, vectors)
 
 
 def of_joint(system: System, item: Any, q: FloatArray) -> FloatArray:
@@ -85,7 +83,8 @@ def _of_joint(system: System, item: Any, q: FloatArray) -> FloatArray:
     about = system.probe(first).field(q) if isinstance(first, Point) else first.position
     places = slots[:, :1] + np.arange(3)
     arms, pulled = q[places] - about, received[places]
-    moment: FloatArray = np.cross(arms, pulled).sum(axis=0) + _turning(q, received, slots[:, 1:].ravel())
+    vectors = slots[:, 1:].ravel()
+    moment: FloatArray = np.cross(arms, pulled).sum(axis=0) + turned(q, received, vectors, vectors)
     return sign * moment
 
 
@@ -96,9 +95,9 @@ def _internal(system: System, q: FloatArray) -> FloatArray:
     return r
 
 
-def _turning(q: FloatArray, forces: FloatArray, slots: IntArray) -> FloatArray:
-    """Sum of d x F of the vectors at these slots, shape (..., 3)."""
+def turned(q: FloatArray, forces: FloatArray, vectors: IntArray, acting: IntArray) -> FloatArray:
+    """Sum of d x F, shape (..., 3), of vectors d at places in the last axis of q, and F in that of forces."""
     total: FloatArray = np.zeros((*q.shape[:-1], 3))
-    for slot in slots.tolist():
-        total = total + np.cross(q[..., slot : slot + 3], forces[..., slot : slot + 3])
+    for slot, place in zip(vectors.tolist(), acting.tolist(), strict=True):
+        total = total + np.cross(q[..., slot : slot + 3], forces[..., place : place + 3])
     return total

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,11 @@ from ..model.connections import Spring
 from ..model.points import Point
 from ..system.contact_fields import ContactFields
 from ..system.probe import BeamProbe, Probe, R, locate
-from ..system.sensors import Listing
+from ..system.redundancy import independent
+from ..system.sensors import Listing, unknowns_of
 from ..system.spring_fields import SpringFields
+from ..system.system import System
+from . import moments
 from .pictures import Plotted
 from .sensitivities import sensitivity_of
 
@@ -111,12 +115,47 @@ class Sensors(SpringFields, ContactFields, Plotted):
         raise _not_recorded(joint, "the shape of its carrier")
 
     def reaction_moment(self, support: Any) -> FloatArray:
-        """Not recorded: ask the result."""
-        raise _not_recorded(support, "its moment")
+        """Moment of the ground on the node or body of a support, N m, shape (n, 3), see :meth:`ancf.Result`.
+
+        Raises
+        ------
+        ModelError
+            The support was not recorded, or by an earlier version.
+        """
+        name = self._support(support)
+        if name not in self.listing.turned:
+            raise _not_recorded(support, "its moment")
+        vectors, places = self.listing.turned[name].T
+        forces = self._pushed([int(place) + k for place in places for k in range(3)])
+        acting = 3 * np.arange(len(places))
+        return moments.turned(self.q[...], forces, self.listing.places(vectors), acting)
 
     def joint_moment(self, joint: Any) -> FloatArray:
-        """Not recorded: ask the result."""
-        raise _not_recorded(joint, "its moment")
+        """Moment that the second end of a joint receives, N m, shape (n, 3), see :meth:`ancf.Result`.
+
+        Raises
+        ------
+        ModelError
+            The joint was not recorded, or by an earlier version; or it is a sliding one.
+        """
+        system = self._system
+        item = moments.checked_joint(system, joint)
+        if item.name not in self._joints:
+            raise ModelError(named(item.name), "was not recorded by the sensors", self._recorded())
+        if not np.all(np.isin(unknowns_of(system, item), self.listing.index)):
+            raise _not_recorded(joint, "its moment")
+        # what the joint does not touch is the same with and without its forces: it stays as it starts
+        whole = np.tile(system.initial_state()[0], (len(self.t), 1))
+        whole[:, self.listing.index] = self.q[...]
+        return moments.of_joint(system, item, whole)
+
+    @cached_property
+    def _system(self) -> System:
+        """One that no run uses, with the numbers of that which was recorded."""
+        try:
+            return independent(self.model)
+        except ModelError:  # functions of time that a file does not keep
+            return System(self.model)
 
     def held_supports(self) -> list[str]:
         """Names of the supports whose reactions were recorded."""
@@ -130,14 +169,24 @@ class Sensors(SpringFields, ContactFields, Plotted):
         ModelError
             The support was not recorded.
         """
-        name = getattr(support, "name", support)
-        if name not in self.listing.held:
-            raise ModelError(named(name), "is no support that the sensors have recorded", self._recorded())
-        first = len(self.listing.entries) + len(self.listing.moved)
-        measured, force = self._arrays()["measured"], np.zeros((len(self.t), 3))
-        for place, component in self.listing.held[name].tolist():
-            force[:, component] = measured[..., first + place]
+        name = self._support(support)
+        places, components = self.listing.held[name].T
+        force = np.zeros((len(self.t), 3))
+        force[:, components] = self._pushed(places.tolist())
         return force
+
+    def _pushed(self, places: list[int]) -> FloatArray:
+        """Forces (n, k) of the ground on unknowns, by their places in what was listed."""
+        first = len(self.listing.entries) + len(self.listing.moved)
+        measured = self._arrays()["measured"]
+        forces = [measured[..., first + place] for place in places]
+        return np.stack(forces, axis=-1) if forces else np.zeros((len(self.t), 0))
+
+    def _support(self, support: Any) -> str:
+        name = getattr(support, "name", support)
+        if not isinstance(name, str) or name not in self.listing.held:
+            raise ModelError(named(name), "is no support that the sensors have recorded", self._recorded())
+        return name
 
     def _whole_probe(self, probe: Probe) -> Probe:
         """Where a point is in whole state vectors."""

@@ -12,6 +12,10 @@ from ..arrays import IntArray
 from ..connections.torsion_build import torsion_springs
 from ..model.beam import Beam
 from ..model.connections import Connection, Spring
+from ..model.contact import Contact
+from ..model.joints import Slide
+from ..model.kind import body_of
+from ..model.kinds import kind_of
 from ..model.points import Point
 from ..model.supports import Support
 from ..model.torsion import TorsionSpring
@@ -41,12 +45,15 @@ class Listing:
     moved : ndarray, shape (m,)
         Entries of the accelerations, ascending.
     pushed : ndarray, shape (p,)
-        Held unknowns whose reactions are recorded.
+        Unknowns of supported nodes whose reactions are recorded.
     held : dict of str to ndarray
         Place in ``pushed`` and component of what a support holds, shape (c, 2), by its name.
     springs : dict of str to ndarray
         Places in ``entries`` of force and length of a spring, shape (2,), by its name; those of others
         follow from the unknowns of their ends.
+    turned : dict of str to ndarray
+        Of the vectors that turn with the node of a support, shape (d, 2): entry of the state vectors and
+        place in ``pushed`` of the first of their three components, by its name.
     """
 
     points: tuple[Point, ...] = ()
@@ -58,6 +65,7 @@ class Listing:
     pushed: IntArray = field(default_factory=_none)
     held: dict[str, IntArray] = field(default_factory=dict)
     springs: dict[str, IntArray] = field(default_factory=dict)
+    turned: dict[str, IntArray] = field(default_factory=dict)
 
     @property
     def width(self) -> int:
@@ -91,6 +99,7 @@ class Probed(Protocol):
     slots: dict[str, IntArray]
     measures: dict[str, IntArray]
     constraints: Any
+    numbering: Any
 
     @property
     def lengths(self) -> dict[str, tuple[int, float]]:
@@ -119,6 +128,7 @@ def listing(
     columns: dict[str, IntArray] = {}
     springs: dict[str, IntArray] = {}
     held: dict[str, IntArray] = {}
+    turned: dict[str, IntArray] = {}
     for point in points:
         probe = system.probe(point)
         wanted.append(_triples(probe.slots))
@@ -136,11 +146,22 @@ def listing(
             unknowns = np.array(system.constraints.positions[name], dtype=np.int64)
             first = sum(map(len, pushed))
             held[name] = np.stack([first + np.arange(len(unknowns)), unknowns % 3], axis=1)
-            pushed.append(unknowns)
+            slots = turning(system, item)
+            turned[name] = np.stack([slots, first + len(unknowns) + 3 * np.arange(len(slots))], axis=1)
+            pushed += [unknowns, _triples(slots)]
+            wanted.append(_triples(slots))
     index = np.unique(np.concatenate(wanted)).astype(np.int64)
     rates = np.unique(np.concatenate(moved)).astype(np.int64) if accelerations else _none()
     measured, reactions = np.concatenate(entries), np.concatenate(pushed)
-    return Listing(points, tuple(joined), index, measured, columns, rates, reactions, held, springs)
+    return Listing(points, tuple(joined), index, measured, columns, rates, reactions, held, springs, turned)
+
+
+def turning(system: Probed, item: Support) -> IntArray:
+    """First unknowns (d,) of the vectors that turn with the node or body of a support: slopes, directors."""
+    body = item.point.body
+    node = (body.node_at(item.point.x) or 0) if isinstance(body, Beam) else 0
+    slots: IntArray = system.slots[body.name][node, 1 : system.numbering.shared[body.name]]
+    return slots
 
 
 def _moving(system: Probed, item: Connection | Support, ends: bool) -> list[IntArray]:
@@ -153,8 +174,25 @@ def _moving(system: Probed, item: Connection | Support, ends: bool) -> list[IntA
         slots = torsion_springs([item], system.slots).base
         found.append(_triples(slots[slots >= 0]))
     if item.name in system.joints:
-        found.append(system.joints[item.name])
+        found.append(unknowns_of(system, item))
     return found
+
+
+def unknowns_of(system: Probed, joint: Any) -> IntArray:
+    """Entries of the state vectors that say what a joint carries: its own, and what it turns at its ends."""
+    own = system.joints[joint.name]
+    if isinstance(joint, Slide | Contact):
+        return own
+    ends = [_triples(_slots_of(system, end)) for end in kind_of(joint).ends_of(joint)]
+    return np.concatenate([own, *ends]).astype(np.int64)
+
+
+def _slots_of(system: Probed, end: Any) -> IntArray:
+    """Slots of all that a joint turns at one of its ends; none of a fixed position."""
+    if isinstance(end, Point):
+        return system.probe(end).slots
+    body = body_of(end)
+    return _none() if body is None else system.slots[body.name].ravel()
 
 
 def by_ends(listed: Listing, connections: Iterable[Connection]) -> bool:
