@@ -81,7 +81,7 @@ def prepared(
         remembered.begin(system, q, v, None if start is None else start.known)
         check_gaps(system, q, f"{where}.start")
         for text in unresolved(system, q, method, step):
-            warnings.warn(text, UserWarning, stacklevel=3)
+            warnings.warn(text, UserWarning, stacklevel=4)
             made.header["notes"].append(text)
         made.run.start(q, v)
     return made
@@ -113,7 +113,7 @@ def compiled(
     found = jumps(model, t_start, t_end, step)
     said = [*noises(model), *map(str, found)]
     for text in said:
-        warnings.warn(text, UserWarning, stacklevel=4)
+        warnings.warn(text, UserWarning, stacklevel=6)
     header = header_of(system, method, t_start, t_end, step, output_step)
     quick = [] if isinstance(method, Radau) else few_steps(model, t_start, t_end, step, found)
     header["notes"] = [*said, *quick, *doubts(model)]
@@ -169,7 +169,7 @@ def carried_out(
             run.stopped(store)
             raise Interrupted(finished("interrupted")) from stop
         if run.caution:
-            warnings.warn(run.caution, UserWarning, stacklevel=3)
+            warnings.warn(run.caution, UserWarning, stacklevel=4)
         return finished("complete")
 
 

@@ -119,7 +119,7 @@ def _anew(
 ) -> Result:
     """Start from the last stored state, as of any result."""
     text = f'"{path}" has no checkpoint: the run starts anew from its last state, with new accelerations'
-    warnings.warn(text, UserWarning, stacklevel=3)
+    warnings.warn(text, UserWarning, stacklevel=4)
     last = float(old.t[-1])
     made = prepared(
         given[0],

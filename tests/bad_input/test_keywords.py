@@ -15,7 +15,7 @@ from ancf.model import keywords
 PACKAGE = Path(ancf.__file__).parent
 MODULES = ("ancf", "ancf.model", "ancf.results", "ancf.catenary")
 #: Called in each step, and so without the way round; what Python says of them is as clear.
-DIRECT = {"Stepper", "LineStepper", "Touching", "Sensors", "Energy", "Stats", "Progress"}
+DIRECT = {"Stepper", "LineStepper", "Touching", "Sensors", "Energy", "Stats", "Progress", "TimeFunction"}
 
 
 def offered():
@@ -128,3 +128,16 @@ def test_functions_and_classes_go_to_other_processes():
         assert pickle.loads(pickle.dumps(value)) is value
     assert list(inspect.signature(ancf.simulate).parameters)[:3] == ["model", "t_end", "step"]
     assert ancf.simulate.__doc__.startswith("Simulate a model")
+
+
+@pytest.mark.parametrize("frequency", [1.0, 3.0])
+def test_warnings_name_the_line_that_called(frequency, recwarn):
+    """Not one of the package."""
+    model = ancf.Model()
+    rope = model.add_beam(
+        "rope", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=ancf.Section(EA=1e4, EI=0.1, rhoA=0.1)
+    )
+    model.pin(rope.start, displacement=[0, 0, f"abs(sin({frequency}*(t - 0.02)))"])
+    ancf.simulate(model, t_end=0.03, step=1e-3)
+    found = [item for item in recwarn if "its rate jumps" in str(item.message)]
+    assert [Path(item.filename).name for item in found] == [Path(__file__).name]

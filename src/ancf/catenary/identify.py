@@ -148,7 +148,7 @@ def identify_pantograph(
     more = {"name": "identified", "static_force": static_force, **more}
     found = _best(f, stiffness, counts, tolerance, more)
     for text in _cautions(found, frequency, response, kind):
-        warnings.warn(text, UserWarning, stacklevel=2)
+        warnings.warn(text, UserWarning, stacklevel=3)
     return found
 
 

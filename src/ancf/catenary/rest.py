@@ -89,7 +89,7 @@ def _of_line(line: Line, mesh: Mesh | None, section: int = 0) -> Form:
     if line.conditions != Conditions():
         found = in_conditions(found)
         for text in pushed(found):
-            warnings.warn(f"line.conditions: in them at {text}: it can only pull", UserWarning, stacklevel=4)
+            warnings.warn(f"line.conditions: in them at {text}: it can only pull", UserWarning, stacklevel=5)
     return found
 
 

@@ -177,7 +177,7 @@ def run(
 def _warn(texts: Iterator[str]) -> None:
     """Warnings at the line that called :func:`run`."""
     for text in texts:
-        warnings.warn(text, UserWarning, stacklevel=3)
+        warnings.warn(text, UserWarning, stacklevel=4)
 
 
 def relaxed(plan: Plan, sleeps: bool) -> Plan:
