@@ -28,6 +28,7 @@ from .compiled import (
     add_inertia,
     add_number_work,
     add_rate_stiffness,
+    add_rate_work,
     add_tangent,
     does_something,
     find_event,
@@ -97,6 +98,12 @@ def rate_stiffness_at(record, q, v, S, W, ws):
 
 
 @separate_kernel
+def rate_work_at(record, q, v, x, out, ws):
+    """``add_rate_work`` of the batch at an address."""
+    add_rate_work(record, q, v, x, out, ws)
+
+
+@separate_kernel
 def touched_at(record, q, out):
     """``touched`` of the batch at an address."""
     return touched(record, q, out)
@@ -122,14 +129,14 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     add_rate_stiffness: (rate_stiffness_at, (_V, _V, _V, _V, _V), types.none),
     touched: (touched_at, (_V, _V), types.int64),
     add_number_work: (number_work_at, (_V, _V, _V, _V, _V, _V), types.none),
+    add_rate_work: (rate_work_at, (_V, _V, _V, _V, _V), types.none),
 }
 _COLUMNS = 1 + len(OPERATIONS)
 _NONE = np.zeros((0, _COLUMNS), dtype=np.int64)
-FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER, RATES, TOUCHED, NUMBERS = range(
-    1, _COLUMNS
-)
+FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, 9)
+RATES, TOUCHED, NUMBERS, WORKS = range(9, _COLUMNS)
 #: Operations compiled for those who ask for them, see :mod:`ancf.solvers.rare`, and their columns.
-RARE = {add_rate_stiffness: RATES, touched: TOUCHED, add_number_work: NUMBERS}
+RARE = {add_rate_stiffness: RATES, touched: TOUCHED, add_number_work: NUMBERS, add_rate_work: WORKS}
 
 
 class _Table(NamedTuple):
@@ -264,9 +271,7 @@ def _each(of_tuple: Callable[..., Any], of_batches: Callable[..., Any], default:
 
     @overload(stub, jit_options=PART, strict=False)
     def _choose(batches, *arguments):
-        if batches is _TYPE:
-            return of_batches
-        return of_tuple if len(batches) else nothing
+        return of_batches if batches is _TYPE else (of_tuple if len(batches) else nothing)
 
     return stub
 
@@ -312,8 +317,7 @@ def _energies_of_tuple(batches, q, ws):
 
 
 def _energies(batches, q, ws):
-    energy = 0.0
-    table = batches.table
+    energy, table = 0.0, batches.table
     for k in range(table.shape[0]):
         energy += _energy(table[k, ENERGY], table[k, 0], (q, ws))
     return energy
@@ -328,8 +332,7 @@ def _events_of_tuple(batches, q):
 
 
 def _events(batches, q):
-    code = -1
-    table = batches.table
+    code, table = -1, batches.table
     for k in range(table.shape[0]):
         if code < 0:
             code = _event(table[k, EVENT], table[k, 0], (q,))
@@ -346,8 +349,7 @@ def _inverted_of_tuple(batches, q, ws):
 
 
 def _inverted_of_batches(batches, q, ws):
-    slot = -1
-    table = batches.table
+    slot, table = -1, batches.table
     for k in range(table.shape[0]):
         found = _inverted(table[k, INVERTED], table[k, 0], (q, ws))
         if found >= 0:

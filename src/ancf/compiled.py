@@ -153,6 +153,11 @@ def add_rate_stiffness(batch, q, v, S, W, ws):
     raise TypeError(f"{type(batch).__name__} does not know how velocities change its stiffness")
 
 
+def add_rate_work(batch, q, v, x, out, ws):
+    """Add the derivative of x . force by q to ``out``, of what :func:`add_rate_stiffness` is about."""
+    raise TypeError(f"{type(batch).__name__} does not know how velocities change its stiffness")
+
+
 def touched(batch, q, out):
     """Write the unknowns and shadows on which the batch's forces depend in and near the state q, and on which
     alone they act, to ``out``, some perhaps twice; their number, up to MOST_TOUCHED for each part.
@@ -318,6 +323,7 @@ def implements(
     measure: Callable[..., Any] | None = None,
     remember: Callable[..., Any] | None = None,
     rate_stiffness: Callable[..., Any] | None = None,
+    rate_work: Callable[..., Any] | None = None,
     touches: Callable[..., Any] | None = None,
     number_work: Callable[..., Any] | None = None,
     **given: Any,
@@ -337,6 +343,7 @@ def implements(
         _measure: measure,
         _remember: remember,
         add_rate_stiffness: rate_stiffness,
+        add_rate_work: rate_work,
         touched: touches,
         add_number_work: number_work,
     }
@@ -359,7 +366,8 @@ def _choose_by_kind(stub: Callable[..., Any]) -> None:
 
 def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
     """Whether an operation of a kind of batch does anything; all kinds have all but :func:`measure`,
-    :func:`remember`, :func:`add_rate_stiffness`, :func:`touched` and :func:`add_number_work`.
+    :func:`remember`, :func:`add_rate_stiffness`, :func:`add_rate_work`, :func:`touched` and
+    :func:`add_number_work`.
     """
     if (batch_type, add_force) not in _DOES:
         raise TypeError(f"no operations for {batch_type.__name__}")
@@ -380,6 +388,7 @@ for _stub in (
     measure,
     remember,
     add_rate_stiffness,
+    add_rate_work,
     touched,
     add_number_work,
 ):

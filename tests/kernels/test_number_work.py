@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-import ancf
 from ancf.batches import Batches
 from ancf.compiled import add_number_work, does_something, traits
 from ancf.elements.cable_columns import VISCOUS
@@ -12,45 +11,7 @@ from ancf.solvers.rare import knowing
 from ancf.solvers.sensitivity import Way
 from ancf.system.core import residual
 from ancf.system.system import System
-
-SECTIONS = {
-    "plain": {},
-    "axial": {"axial_damping": 5.0},
-    "bending": {"bending_damping": 0.5},
-    "all": {"axial_damping": 5.0, "bending_damping": 0.5, "damping": 0.3, "slope_damping": 0.2},
-}
-
-
-def cable(strain, elements, shape, **damping):
-    model = ancf.Model()
-    section = ancf.Section(EA=100.0, EI=1.0, rhoA=0.1, **damping)
-    given = {"elements": elements, "section": section, "strain": strain}
-    if shape == "straight":
-        return model, model.add_beam("beam", start=(0, 0, 0), end=(1.2, 0.3, 0), **given)
-
-    def arc(s):
-        return np.array([np.sin(s), 1.0 - np.cos(s), 0.0])
-
-    return model, model.add_beam("beam", path=arc, **given)
-
-
-def sprung():
-    """Springs with and without dampers, curves, friction, slack and stretched."""
-    model, beam = cable("material", 3, "straight")
-    places = {"stiffness": 10.0, "length": 0.3}
-    model.add_spring(beam.at(0.77), (0.5, 0.5, 1), damping=30.0, **places)
-    model.add_spring(beam.end, (0.5, 0.5, 1), friction=2.0, friction_velocity=0.4, **places)
-    model.add_spring(beam.at(0.2), beam.at(0.9), stiffness=7.0, length=0.2, slack=True)
-    model.add_spring(beam.at(0.3), (0, 0, 0.1), stiffness=7.0, length=5.0, slack=True)
-    return model
-
-
-def states(system, seed):
-    """A strained shape, velocities, accelerations and x, and where they come from."""
-    rng = np.random.default_rng(seed)
-    used = np.append(system.numbering.used(), np.zeros(system.size - system.n))
-    q, v, a, x = (by * used * rng.uniform(-1, 1, system.size) for by in (0.02, 0.5, 500.0, 1.0))
-    return q + system.initial_shape(), v, a, x, rng
+from strained import SECTIONS, cable, sprung, states
 
 
 def found_by_kernel(system, batch, q, v, a, x):

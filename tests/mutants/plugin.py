@@ -20,6 +20,7 @@ _OPERATIONS = {
     "measure": "measure",
     "remember": "remember",
     "rate_stiffness": "add_rate_stiffness",
+    "rate_work": "add_rate_work",
     "touches": "touched",
     "number_work": "add_number_work",
 }

@@ -170,6 +170,27 @@ def spring_rate_stiffness(batch, q, v, S, W, ws):
 
 
 @inline_kernel
+def spring_rate_work(batch, q, v, x, out, ws):
+    """See :func:`ancf.compiled.add_rate_work`."""
+    for e in range(batch.base.shape[0]):
+        n, length, rate, _, carries = spring_state(batch, e, q, v)
+        if not carries:
+            continue
+        c = spring_slopes(batch, e, length, rate)[1]
+        if c == 0.0:
+            continue
+        dx, dy, dz = spring_vector(batch, e, x, 0.0)
+        f = c * (n[0] * dx + n[1] * dy + n[2] * dz) / length
+        vx, vy, vz = spring_vector(batch, e, v, 0.0)
+        y = (f * (vx - rate * n[0]), f * (vy - rate * n[1]), f * (vz - rate * n[2]))
+        for k in range(batch.base.shape[1]):
+            i = batch.base[e, k]
+            if i >= 0:
+                for m in range(3):
+                    out[i + m] += batch.factor[e, k] * y[m]
+
+
+@inline_kernel
 def spring_number_work(batch, q, v, a, x, out, ws):
     """See :func:`ancf.compiled.add_number_work`: the numbers of a spring act on its tension alone."""
     columns = batch.data.shape[1]
@@ -247,6 +268,7 @@ implements(
     energy=spring_energy,
     measure=spring_measure,
     rate_stiffness=spring_rate_stiffness,
+    rate_work=spring_rate_work,
     number_work=spring_number_work,
     numbers=lambda batch: batch.data.ravel(),
     numbered=("data",),

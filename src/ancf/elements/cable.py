@@ -46,6 +46,7 @@ from .cable_columns import (
 from .cable_damping import axial_damping, bending_damping, bending_damping_tangent, slope_damping
 from .cable_hessian import add_elastic
 from .cable_numbers import elements_work, joined, numbers
+from .cable_rate_work import rate_work
 from .cable_rates import TWIST, rate_blocks, store_twists
 from .cable_strain import (
     WEIGHT,
@@ -321,6 +322,20 @@ def cable_rate_stiffness(batch, q, v, S, W, ws):
 
 
 @inline_kernel
+def cable_rate_work(batch, q, v, x, out, ws):
+    """See :func:`ancf.compiled.add_rate_work`."""
+    for n in range(batch.groups.shape[0]):
+        group = batch.groups[n]
+        if group[DAMPED] & (AXIALLY | IN_BENDING) == 0:
+            continue
+        for chunk in range(group[BEGIN], group[END]):
+            states = shape(batch, q, chunk), shape(batch, v, chunk), shape(batch, x, chunk)
+            d, t1, t2 = rate_work(batch, group, chunk, *states)
+            d = load(batch.lane_data, chunk, INV_L) * d
+            add_to_nodes(batch, out, chunk, (-1.0 * d, t1, d, t2))
+
+
+@inline_kernel
 def cable_number_work(batch, q, v, a, x, out, ws):
     """See :func:`ancf.compiled.add_number_work`."""
     for n in range(batch.groups.shape[0]):
@@ -370,6 +385,7 @@ implements(
     tangent=cable_tangent,
     energy=cable_energy,
     rate_stiffness=cable_rate_stiffness,
+    rate_work=cable_rate_work,
     number_work=cable_number_work,
     numbers=numbers,
     numbered=("lane_data", "lane_slope"),

@@ -129,7 +129,7 @@ class Adjoint:
         self.families = [Family(parameter, self.system, shifts=True) for parameter in parameters]
         self.nearby = Nearby(self.families, self.system, shifts=True)
         self.weighed = Weighed(self.nearby)
-        self.m = matrices_of(self.system.core, self.system.size, moving=True)
+        self.m = matrices_of(self.system.core, self.system.size, moving=True, back=True)
         self.ahead = ahead_of(self.system.core, self.m)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
         self.asked, self.keys, self.unknowns = asked, keys, np.unique(unknowns)
@@ -320,5 +320,5 @@ class Adjoint:
 
 def reversible(system: System) -> bool:
     """Whether a model has an adjoint: its matrices are all exact, and no joint has multipliers."""
-    m = matrices_of(system.core, system.size, moving=True)
+    m = matrices_of(system.core, system.size, moving=True, back=True)
     return not len(m.rough) and not len(m.lossy) and not m.turning and not len(system.multipliers)

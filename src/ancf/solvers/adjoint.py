@@ -7,7 +7,8 @@ end of a step, by what comes later, and J = M/B + (G/B) C + K,
 
 at the free unknowns; the number changes by -lambda . R_p, and mu_q - K^T lambda and mu_v - C^T lambda go back
 through q~ and v~ to the start of the step.  For models whose matrices are all exact: they are symmetric but
-for a part of K, W = -W^T, which is not in the factors and is made up for by iteration.
+for what velocities add to K, which is not in the factors; its products with lambda are made up for by
+iteration.
 """
 
 from __future__ import annotations
@@ -18,8 +19,9 @@ from ..linalg.eight import factor_of
 from ..simd import LANES
 from ..system.core import drive, onto_shadows, solve_matrix, to_local
 from .ahead import look_ahead
+from .rare import add_rate_works
 from .scheme import coefficients
-from .sensitivity import ENOUGH, MOST, is_done, product, stiffnesses, twisted_product
+from .sensitivity import ENOUGH, MOST, is_done, product, stiffnesses
 from .status import OK, SINGULAR, SLOW
 
 
@@ -64,28 +66,41 @@ def take_wanted(supports, wanted, unknowns, mu, x, moved):
 
 
 @inline_kernel
-def solve_twisted(core, factor, W, lam, d, r, w):
-    """Solve with the transposed matrix, whose antisymmetric half W is not in the factors; a status."""
-    n, before = core.weight.shape[0], 0.0
+def hold(supports, x):
+    """Set x to zero where it is held."""
+    for k in range(supports.held.shape[0]):
+        x[supports.held[k]] = 0.0
+
+
+@inline_kernel
+def solve_stirred(core, m, factor, y, lam):
+    """Solve with the transposed matrix, in whose factors what velocities do to K at y is not; a status.
+
+    What they add to K^T lambda is left in ``m.work[9]``.
+    """
+    n, d, r, sums, before = core.weight.shape[0], m.work[0], m.work[8], m.work[9], 0.0
     solve_matrix(factor, lam)
-    if W.shape[0] == 0:
+    if m.stirred.table.shape[0] == 0:
         return OK
     for i in range(n):
         d[i] = lam[i]
         before = max(before, abs(lam[i]))  # the first of the corrections, each of which follows from the last
+    for i in range(r.shape[0]):
+        sums[i] = 0.0
     for _ in range(MOST):
         onto_shadows(core.supports, d)
         for i in range(r.shape[0]):
             r[i] = 0.0
-        twisted_product(core, W, 1.0, d, r, w)
+        add_rate_works(m.stirred, y[0], y[1], d, r, core.ws)
+        for i in range(r.shape[0]):
+            sums[i] += r[i]
         to_local(core.supports, r)
-        for k in range(core.supports.held.shape[0]):
-            r[core.supports.held[k]] = 0.0
+        hold(core.supports, r)
         solve_matrix(factor, r)
         norm, size = 0.0, 0.0
         for i in range(n):
-            lam[i] += r[i]
-            d[i] = r[i]
+            lam[i] -= r[i]
+            d[i] = -r[i]
             norm, size = max(norm, abs(r[i])), max(size, abs(lam[i]))
         if is_done(norm, size, before, ENOUGH):
             return OK
@@ -94,14 +109,13 @@ def solve_twisted(core, factor, W, lam, d, r, w):
 
 
 @inline_kernel
-def factors(core, factor, W, mu, c1, B, G, lam, work):
+def factors(core, m, factor, y, mu, c1, B, G, lam):
     """Fill lambda at the unknowns and, as forces of the residual, at the shadows; a status."""
     supports, n = core.supports, core.weight.shape[0]
     for i in range(n):
         lam[i] = mu[0, i] + (G * mu[1, i] + c1 * mu[3, i] + mu[2, i]) / B
-    for k in range(supports.held.shape[0]):
-        lam[supports.held[k]] = 0.0
-    status = solve_twisted(core, factor, W, lam, work[0], work[8], work[3:5])
+    hold(supports, lam)
+    status = solve_stirred(core, m, factor, y, lam)
     for i in range(n, lam.shape[0]):
         lam[i] = 0.0
     onto_shadows(supports, lam)
@@ -123,13 +137,16 @@ def add_turns(supports, x, y, turned):
 def taken_back(core, m, matrices, y, lam, still, turned):
     """Fill ``m.work[1:3]`` with what lambda takes from mu_q and mu_v: K^T lambda and C^T lambda.
 
-    ``matrices``: K, C and W; ``y``: the state.  Sums are added to ``still`` and ``turned``.
+    ``matrices``: K and C, without what velocities add to K^T lambda: that is ``m.work[9]``; ``y``: the state.
+    Sums are added to ``still`` and ``turned``.
     """
-    (K, C, W), back, w, x = matrices, m.work[1:3], m.work[3:5], m.work[5:8]
+    (K, C), back, w, x = matrices, m.work[1:3], m.work[3:5], m.work[5:8]
     for i in range(lam.shape[0]):
         x[0, i] = x[1, i] = x[2, i] = 0.0
     product(core, K, lam, x[0], w)
-    twisted_product(core, W, -1.0, lam, x[0], w)
+    if m.stirred.table.shape[0] > 0:
+        for i in range(lam.shape[0]):
+            x[0, i] += m.work[9, i]
     if m.damped:
         product(core, C, lam, x[1], w)
     if core.supports.rot_slot.shape[0] > 0:
@@ -164,13 +181,15 @@ def back_start(core, m, y, wanted, unknowns, mu, lam, still, turned):
     add_tangents(m.exact, y[0], y[1], m.C, 0.0, 1.0, 0.0, core.ws)
     for i in range(n):
         lam[i] = mu[2, i] + mu[3, i]
-    for k in range(core.supports.held.shape[0]):
-        lam[core.supports.held[k]] = 0.0
+    hold(core.supports, lam)
     solve_matrix(core.factor, lam)
     for i in range(n, lam.shape[0]):
         lam[i] = 0.0
     onto_shadows(core.supports, lam)
-    taken_back(core, m, (m.K, m.C, m.W), y, lam, still, turned)
+    for i in range(lam.shape[0]):
+        m.work[9, i] = 0.0
+    add_rate_works(m.stirred, y[0], y[1], lam, m.work[9], core.ws)
+    taken_back(core, m, (m.K, m.C), y, lam, still, turned)
     for i in range(n):
         mu[0, i], mu[1, i] = mu[0, i] - m.work[1, i], mu[1, i] - m.work[2, i]
         mu[2, i] = mu[3, i] = 0.0
@@ -217,12 +236,11 @@ def back_steps(core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out
         drive(core.supports, core.loads.value, tables, at, way.q[at], way.v[at], way.a[at])
         lam = out[at]
         take_wanted(core.supports, wanted[at], unknowns, mu, x, back)
-        factor, W = factor_of(core.factor, ahead.eight, k), ahead.W[k]
-        status = factors(core, factor, W, mu, c1, B, G, lam, m.work)
+        factor, y = factor_of(core.factor, ahead.eight, k), (way.q[at], way.v[at], way.a[at])
+        status = factors(core, m, factor, y, mu, c1, B, G, lam)
         if status != OK:
             return step, status
-        matrices = (ahead.K[k], ahead.C[k], W)
-        taken_back(core, m, matrices, (way.q[at], way.v[at], way.a[at]), lam, still, turned)
+        taken_back(core, m, (ahead.K[k], ahead.C[k]), y, lam, still, turned)
         for i in range(n):
             eq, ev = mu[0, i] - back[0, i], mu[1, i] - back[1, i]
             eb = mu[3, i] + h * h * beta * eq + h * gamma * ev

@@ -7,10 +7,11 @@ from typing import Any
 
 from numba import typeof
 
-from ..batches import NUMBERS, RARE, RATES, TOUCHED, Batches, address_of, caller_of
-from ..compiled import add_number_work, add_rate_stiffness, inline_kernel, touched
+from ..batches import NUMBERS, RARE, RATES, TOUCHED, WORKS, Batches, address_of, caller_of
+from ..compiled import add_number_work, add_rate_stiffness, add_rate_work, inline_kernel, touched
 
 _rate, _touched, _numbers = caller_of(add_rate_stiffness), caller_of(touched, 0), caller_of(add_number_work)
+_work = caller_of(add_rate_work)
 
 
 def knowing(stub: Any, batches: Iterable[Any]) -> Batches:
@@ -27,6 +28,14 @@ def add_rate_stiffnesses(batches, q, v, S, W, ws):
     table = batches.table
     for k in range(table.shape[0]):
         _rate(table[k, RATES], table[k, 0], (q, v, S, W, ws))
+
+
+@inline_kernel
+def add_rate_works(batches, q, v, x, out, ws):
+    """What velocities do to x . force by q of all of the batches, see ``add_rate_work``."""
+    table = batches.table
+    for k in range(table.shape[0]):
+        _work(table[k, WORKS], table[k, 0], (q, v, x, out, ws))
 
 
 @inline_kernel

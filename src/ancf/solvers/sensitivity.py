@@ -59,7 +59,7 @@ class Matrices(NamedTuple):
     turning: bool  # axes of supports turn, which the factors of a step do not know
     damped: bool  # C is not zero
     moved: float  # change of a state, in sizes of the model, of differences
-    work: FloatArray  # (9, size)
+    work: FloatArray  # (10, size)
     near: FloatArray  # (4, unknowns) of what rough batches touch: unknown, s_q, s_v, s_a
 
 

@@ -1,0 +1,56 @@
+"""What velocities do to x . force by the shape: the kernels against differences of the forces."""
+
+import numpy as np
+import pytest
+
+from ancf.batches import Batches
+from ancf.compiled import kernel
+from ancf.sensitivity.base import matrices_of
+from ancf.solvers.directions import products_along
+from ancf.solvers.rare import add_rate_works
+from ancf.system.core import residual
+from ancf.system.system import System
+from strained import SECTIONS, cable, sprung, states
+
+
+@kernel
+def all_works(batches, q, v, x, out, ws):
+    add_rate_works(batches, q, v, x, out, ws)
+
+
+def check(system, seed):
+    """Along a random change of the shape: differences of order six, without what is in the matrices."""
+    core, size = system.core, system.size
+    q, v, a, x, rng = states(system, seed)
+    change = 0.02 * np.where(q != 0.0, 1.0, 0.0) * rng.uniform(-1, 1, size)
+    m = matrices_of(core, size, moving=True, back=True)
+    assert len(m.stirred)
+    assert not len(m.rough) + len(m.lossy)
+
+    def force(e):
+        r = np.empty(size)
+        residual(Batches(system.parts.values()), core.ws, q + e * change, v, a, np.zeros(size), r)
+        return x @ r
+
+    one, two, three = ((force(e) - force(-e)) / (2 * e) for e in (1e-3, 2e-3, 3e-3))
+    still, known, out = np.zeros(size), np.empty(size), np.zeros(size)
+    along = np.stack([change, still, still])
+    products_along(core, m, q, v, a, along, np.zeros((0, 3, 3)), still, known)
+    all_works(m.stirred, q, v, x, out, core.ws)
+    wanted = 1.5 * one - 0.6 * two + 0.1 * three - x @ known
+    terms = np.abs(out * change).sum()
+    assert abs(out @ change - wanted) <= 1e-8 * terms + 1e-11 * np.abs(x * known).sum()
+    assert terms > 1e-6 * np.abs(x * known).sum()
+
+
+@pytest.mark.parametrize("elements", [3, 9])
+@pytest.mark.parametrize("shape", ["straight", "curved"])
+@pytest.mark.parametrize("strain", ["material", "paper"])
+@pytest.mark.parametrize("damping", ["axial", "bending", "all"])
+def test_of_cables(damping, strain, shape, elements):
+    check(System(cable(strain, elements, shape, **SECTIONS[damping])[0]), 1)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_of_springs(seed):
+    check(System(sprung()), seed)
