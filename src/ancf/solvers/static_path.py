@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ..arrays import FloatArray
+from ..errors import SolveError
 from ..system.core import find_inverted
 from .failures import inverted
 from .free_spin import softest_mode
@@ -70,7 +71,12 @@ def settle(it: Iteration, share: float) -> str | None:
         if not np.all(np.isfinite(r)):
             return "the forces are not finite"
         regular = it.mu == 0.0
-        dq = it.correction(r)
+        try:
+            dq = it.correction(r)
+        except SolveError as error:
+            if it.arcs:  # it says at which end
+                raise
+            return error.what
         it.iterations += 1
         if it.follows and it.mu == 0.0 and it.length(dq) > SLOW * norm:
             dq = it.followed(dq, r, share)
@@ -93,7 +99,7 @@ def settle(it: Iteration, share: float) -> str | None:
             s, r = line_search(it, dq, r, share, longest)
         before, it.q = it.q, it.moved(dq, s)
         it.mixed.correct(it.q - before)
-        it.mu = relax(it.mu, s, norm)
+        it.mu = relax(it.mu, s, norm, it.ratio) if it.mu > 0.0 else 0.0
     return f"Newton's method did not converge in {MAX_ITERATIONS} iterations, last correction {norm:.2e}"
 
 
@@ -114,9 +120,13 @@ def _stalled(it: Iteration, dq: FloatArray, r: FloatArray, share: float) -> bool
     return bool(np.linalg.norm(ahead) >= REDUCED * np.linalg.norm(r))
 
 
-def relax(mu: float, s: float, norm: float) -> float:
-    """Next regularisation: less after a long step, more after a short one."""
-    if mu == 0.0 or (s == 1.0 and norm < NEAR):
+def relax(mu: float, s: float, norm: float, ratio: float) -> float:
+    """Next regularisation: less after a long step, more after a short one, none near the equilibrium.
+
+    Above the largest ratio of stiffness to mass the correction is one down the slope, and short because mu is
+    large: it says nothing of how near that is.
+    """
+    if s == 1.0 and norm < NEAR and mu < ratio:
         return 0.0
     return LESS_MU * mu if s > LONG_STEP else (mu if s > SHORT_STEP else MORE_MU * mu)
 
