@@ -26,6 +26,7 @@ from .model.periods import few_steps
 from .model.series import noises
 from .model.settings import steps_between
 from .model.supports import Support
+from .model.winch import Winch
 from .results import remembered
 from .results.impacts import unresolved
 from .results.provenance import versions
@@ -224,6 +225,10 @@ def _sensors(system: System, given: Any, accelerations: bool, ends: bool) -> Lis
         what = f"must be a list of points, springs, joints and supports, is {checks.shown(given)}"
         raise ModelError(where, what, 'such as sensors=["wire.at(3)", dropper]')
     items = [system.model.sensor(item, f"{where}[{k}]") for k, item in enumerate(given)]
+    for item in items:
+        if isinstance(item, Winch):
+            what = f'"{item.name}" is a winch, which is no point and has no reaction'
+            raise ModelError(where, what, "list the end of its cable, which has tension and natural_length")
     held = next((item for item in items if isinstance(item, Support)), None)
     if held is not None and not accelerations:
         what = f'"{held.name}" is a support, and with Radau the steps have no accelerations'

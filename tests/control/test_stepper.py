@@ -394,3 +394,18 @@ class TestFailures:
         ):
             with pytest.raises(ancf.ModelError, match=what):
                 ancf.simulate(pushed(), **given, **more)
+
+
+@pytest.mark.parametrize("name", ["drum", "windlass"])
+def test_a_winch_is_no_sensor(name):
+    """It is said, with what has its length."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e4, EI=0.1, rhoA=0.2)
+    rope = model.add_beam("rope", start=(0, 0, 0), end=(0, 0, -2), elements=3, section=section)
+    model.pin(rope.start)
+    model.winch(rope.start, length="2 - 0.1*t", name=name)
+    with pytest.raises(ancf.ModelError, match=f'"{name}" is a winch') as caught:
+        ancf.simulate(model, t_end=0.01, step=1e-3, sensors=["rope.end", name])
+    assert "natural_length" in caught.value.hint
+    run = ancf.simulate(model, t_end=0.01, step=1e-3, sensors=[rope.end])
+    assert run.sensors.natural_length(rope)[-1] == pytest.approx(1.999, abs=1e-9)
