@@ -95,6 +95,7 @@ def test_the_sum_over_the_steps(case):
     wanted, size = np.sum(push * lam, axis=(1, 2)), np.sum(np.abs(push * lam), axis=(1, 2))
     turned = np.zeros((weighed.turning, 3, 3))
     found = weighed.at_steps(Way(*(x.copy() for x in way)), when, tables, lam.copy(), turned)
+    found += weighed.in_all(when, tables)
     assert nearby.plain
     for k in nearby.plain:
         assert abs(found[k] - wanted[k]) <= 2e-9 * size[k], names[k]

@@ -7,7 +7,7 @@ bit, and the adjoint goes back through them (:mod:`ancf.solvers.adjoint`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -134,6 +134,7 @@ class Adjoint:
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
         self.asked, self.keys, self.unknowns = asked, keys, np.unique(unknowns)
         self._linear = self._of_units([key for key in keys if key[0] in LINEAR])
+        self._sums: dict[Key, Any] = {}  # of states with the derivatives by linear answers, (2, c, size)
         self.blocks: list[Block] = []
         refuse_breaks(self.run)
 
@@ -242,8 +243,9 @@ class Adjoint:
         self._add_axes(way, wanted, turned)
         tables = system.inputs.tables(*when[:2], 1, *when[2:])
         total = self._pushed(way, when, tables, wanted, lam[None], turned)
+        total -= self.weighed.in_all(when, tables)
         total += [float(mu[0] @ dq + mu[1] @ dv) for dq, dv in self.given]
-        return total + self._explicit(first[0][None], first[1][None], slopes)
+        return total + self._explicit(first[0][None], first[1][None], slopes) + self._of_sums()
 
     def _take(self, count: int, store: Collector) -> None:
         run = self.run
@@ -278,21 +280,40 @@ class Adjoint:
         return {key: made.reshape(2, k, -1) for key, made in found.items()}
 
     def _explicit(self, q: FloatArray, v: FloatArray, slopes: dict[Any, FloatArray]) -> FloatArray:
-        """What parameters do to the answers of fixed states."""
+        """What parameters do to the answers of fixed states; of linear ones these are summed up."""
         total, here = np.zeros(len(self.families)), None
+        others = [key for key in slopes if key not in self._linear]
+        for key in self._linear:
+            weights = slopes[key].reshape(len(q), -1).T
+            self._sums[key] = self._sums.get(key, 0.0) + np.stack([weights @ q, weights @ v])
+        for k, system, weight in self._others() if others else ():
+            here = self.asked(Face(self.system, q, v, 0.0), others) if here is None else here
+            found = self.asked(Face(system, q, v, 0.0), others)
+            total[k] += weight * float(sum(np.sum(slopes[key] * (found[key] - here[key])) for key in others))
+        return total
+
+    def _of_sums(self) -> FloatArray:
+        """What parameters do to linear answers of all states: each component of that of its own sum."""
+        total = np.zeros(len(self.families))
+
+        def answers(system: System) -> float:
+            each = ((key, Face(system, sums[0], sums[1], 0.0)) for key, sums in self._sums.items())
+            found = (self.asked(face, [key])[key] for key, face in each)
+            return float(sum(np.trace(made.reshape(len(made), -1)) for made in found))
+
+        here = answers(self.system)
+        for k, system, weight in self._others():
+            total[k] += weight * (answers(system) - here)
+        return total
+
+    def _others(self) -> Iterator[tuple[int, System, float]]:
+        """Systems around parameters that may answer otherwise, their weights and the numbers of these."""
+        shapes = all(key[0] in SHAPES for key in self.keys)
         for k, family in enumerate(self.families):
             acts = family.parameter.acts
-            if acts is not None and not acts.shapes and all(key[0] in SHAPES for key in self.keys):
-                continue
-            for system, weight in zip(family.systems, family.weights, strict=True):
-                if system is self.system:
-                    continue
-                if here is None:
-                    here = self._asked(q, v)
-                found = self.asked(Face(system, q, v, 0.0), self.keys)
-                changes = (np.sum(slope * (found[key] - here[key])) for key, slope in slopes.items())
-                total[k] += weight * float(sum(changes))
-        return total
+            if acts is None or acts.shapes or not shapes:
+                each = zip(family.systems, family.weights, strict=True)
+                yield from ((k, system, weight) for system, weight in each if system is not self.system)
 
     def _wanted(self, q: FloatArray, v: FloatArray, slopes: dict[Any, FloatArray]) -> FloatArray:
         """Those of the number by the unknowns of states (n, size), (n, 2, k), from those by the answers."""

@@ -44,6 +44,11 @@ class Weighed:
         self.uses = uses_of(families, self.others)
         self.work = np.zeros(self.system.size)
         self.turning = len(self.system.core.supports.rot_slot) if nearby.turns else 0  # local axes to look at
+        self.turned = np.zeros((self.turning, 3, 3))  # sums over all steps: derivatives by the local axes,
+        self.numbers, self.total = (
+            np.zeros(self.begin[-1]),
+            np.zeros(self.system.size),
+        )  # by numbers, of lambda
 
     def _knowing(self, name: str) -> Any:
         """The batch of the model of this name, which knows of all numbers that a parameter changes."""
@@ -62,31 +67,39 @@ class Weighed:
         lam: FloatArray,
         turned: FloatArray,
     ) -> FloatArray:
-        """For the steps of a block and their lambda, (p,); see ``Nearby.at_steps``.
+        """For the steps of a block and their lambda, (p,), without what :meth:`in_all` has of them.
 
-        ``turned``: derivatives of lambda . R by the local axes so far, (k, 3, 3).
+        See ``Nearby.at_steps``; ``turned``: derivatives of lambda . R by the local axes so far, (k, 3, 3).
         """
         families = self.nearby.families
         made, pushed = np.zeros(len(families)), np.zeros(len(self.others))
-        numbers, total = np.zeros(self.begin[-1]), np.zeros(self.system.size)
-        core, work = self.system.core, self.work
-        sums = pushed, numbers, turned, total
+        core, work, total = self.system.core, self.work, np.zeros(self.system.size)
+        sums = pushed, self.numbers, turned, total
         weigh_pushes(core, self.uses, self.known, self.begin, tables, way, lam, work, *sums)
         made[self.others] = pushed
-        for k, turn in self.nearby.turns.items():
-            made[k] += float(np.sum(turn * turned))
-        for k, found in self.rates.items():
-            made[k] += sum(float(numbers[self.place[name]] @ rate) for name, rate in found.items())
+        self.turned += turned
+        self.total += total
         for k in self.nearby.plain:
-            steady = self.nearby.steady_loads(k, when, tables)
-            if steady is not None:
-                made[k] -= np.sum(steady * total)
+            if self.nearby.steady_loads(k, when, tables) is not None:
                 continue
             for weight, loads, value in families[k].loads_used(when, tables):
                 if len(loads.start) == 1 or len(value) == 1:  # the same at all times
                     made[k] -= weight * weigh_loads(loads, value[:1], work, total[None])
                 else:
                     made[k] -= weight * weigh_loads(loads, value, work, lam)
+        return made
+
+    def in_all(self, when: tuple[float, float, float, float], tables: Any) -> FloatArray:
+        """What is summed up over all steps once for all parameters, (p,); as :meth:`at_steps` after these."""
+        made = np.zeros(len(self.nearby.families))
+        for k, turn in self.nearby.turns.items():
+            made[k] += float(np.sum(turn * self.turned))
+        for k, found in self.rates.items():
+            made[k] += sum(float(self.numbers[self.place[name]] @ rate) for name, rate in found.items())
+        for k in self.nearby.plain:
+            steady = self.nearby.steady_loads(k, when, tables)
+            if steady is not None:
+                made[k] -= float(np.sum(steady * self.total))
         return made
 
 
