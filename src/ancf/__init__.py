@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -141,7 +142,8 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     if name not in _LATER:
-        raise AttributeError(f"module 'ancf' has no attribute {name!r}")
+        said = f"module 'ancf' has no attribute {name!r}"
+        raise AttributeError(said, name=name, obj=sys.modules[__name__])
     value = getattr(import_module(f".{_LATER[name]}", __name__), name)
     if name not in _EACH_STEP:
         value = import_module(".model.keywords", __name__).guarded(value)

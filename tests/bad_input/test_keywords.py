@@ -11,6 +11,7 @@ import pytest
 import ancf
 from ancf import catenary
 from ancf.model import keywords
+from ancf.model.kinds import all_kinds
 
 PACKAGE = Path(ancf.__file__).parent
 MODULES = ("ancf", "ancf.model", "ancf.results", "ancf.catenary")
@@ -119,7 +120,7 @@ def test_type_errors_from_inside_stay():
 
     for depth in (0, 1, 5):
         with pytest.raises(TypeError, match=r"len\(\) takes exactly one argument") as caught:
-            keywords._guarded(deep, "deep")(depth)
+            keywords.called_as(deep, "deep")(depth)
         assert not isinstance(caught.value, ancf.ArgumentError)
 
 
@@ -141,3 +142,21 @@ def test_warnings_name_the_line_that_called(frequency, recwarn):
     ancf.simulate(model, t_end=0.03, step=1e-3)
     found = [item for item in recwarn if "its rate jumps" in str(item.message)]
     assert [Path(item.filename).name for item in found] == [Path(__file__).name]
+
+
+def test_methods_that_kinds_bring():
+    """Those that a model finds by its kinds, and those that several classes share, by their own names."""
+    model = ancf.Model()
+    brought = {kind.method for kind in all_kinds() if kind.add is not None}
+    assert {"add_follower_force", "add_pressure"} <= brought
+    for name in brought:
+        called = model.__getattr__(name)
+        if names_of(called) is not None:
+            with pytest.raises(ancf.ArgumentError, match=f'^{name}: unknown argument "stiffnes"'):
+                called(stiffnes=1)
+    with pytest.raises(ancf.ArgumentError, match=r'^plot: unknown argument "quantiy".*mean "quantity"'):
+        ancf.Result.plot(None, quantiy="speed")
+    with pytest.raises(AttributeError) as caught:
+        ancf.simulat  # noqa: B018
+    # with these the interpreter names the near one
+    assert (caught.value.name, caught.value.obj) == ("simulat", ancf)

@@ -40,7 +40,7 @@ def guarded(value: T) -> T:
         return value
     if not isinstance(value, FunctionType) or value.__code__ is _CODE or not _ours(value.__module__):
         return value
-    made: Any = _guarded(value, value.__name__)
+    made: Any = called_as(value, value.__name__)
     setattr(sys.modules[value.__module__], value.__name__, made)
     return made  # type: ignore[no-any-return]
 
@@ -53,7 +53,7 @@ def _guard_methods(cls: type) -> None:
         for name, member in list(vars(kind).items()):
             inner = getattr(member, "__func__", member)
             if isinstance(inner, FunctionType) and inner.__code__ is not _CODE and _is_public(name):
-                made = _guarded(inner, _called(kind, name))
+                made = called_as(inner, _called(cls, name, kind is cls))
                 setattr(kind, name, made if inner is member else type(member)(made))
 
 
@@ -61,18 +61,20 @@ def _is_public(name: str) -> bool:
     return name == "__init__" or not name.startswith("_")
 
 
-def _called(kind: type, name: str) -> str:
-    """How messages name a method: add_beam of models, Section, Section.circle, Result.position."""
+def _called(cls: type, name: str, own: bool) -> str:
+    """How messages name a method: add_beam of models, Section, Section.circle; plot of what several have."""
     if name == "__init__":
-        return kind.__name__
-    return name if kind.__name__ == "Model" else f"{kind.__name__}.{name}"
+        return cls.__name__
+    return f"{cls.__name__}.{name}" if own and cls.__name__ != "Model" else name
 
 
 def _ours(module: str) -> bool:
     return module.partition(".")[0] == "ancf"
 
 
-def _guarded(function: Callable[..., Any], where: str) -> Callable[..., Any]:
+def called_as(function: Callable[..., Any], where: str) -> Callable[..., Any]:
+    """A function whose wrong calls are said of ``where``."""
+
     @wraps(function)
     def call(*arguments: Any, **keywords: Any) -> Any:
         try:
@@ -89,7 +91,7 @@ def _guarded(function: Callable[..., Any], where: str) -> Callable[..., Any]:
     return call
 
 
-_CODE = _guarded(len, "").__code__
+_CODE = called_as(len, "").__code__
 
 
 def _refused(

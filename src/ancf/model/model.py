@@ -10,6 +10,7 @@ from . import auto_elements, checks, describe, followers, rebuild
 from .beam import Beam
 from .connecting import PointLike
 from .functions import check_inputs
+from .keywords import called_as
 from .kinds import GROUPS, SURROUNDINGS, all_kinds, kind_of
 from .layout import make_beam
 from .loads import DistributedLoad, Force, Load, Moment, make_distributed, make_moment
@@ -67,7 +68,7 @@ class Model(Supporting, Readable):
             """The method of a kind that is not written in this class, see :class:`ancf.model.kind.Kind`."""
             for kind in all_kinds():
                 if kind.method == name and kind.add is not None:
-                    return partial(kind.add, self)
+                    return partial(called_as(kind.add, name), self)
             raise AttributeError(f"Model has no attribute {name!r}", name=name, obj=self)
 
     def __dir__(self) -> list[str]:

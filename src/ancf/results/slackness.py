@@ -80,7 +80,8 @@ def of_ropes(known: Any) -> list[SlackInterval]:
         for name, seen in _lowest(known, beams, springs)
         if isinstance(seen.item, Spring) or _is_rope(seen.item, float(np.max(seen.high)))
     }
-    return _found(np.asarray(known.t), lowest, 0.0)
+    # what begins without a stretch is slack at the start alone
+    return [item for item in _found(np.asarray(known.t), lowest, 0.0) if item.duration > 0.0]
 
 
 def _is_rope(beam: Beam, largest: float) -> bool:
