@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.model.section import DAMPINGS
 from ancf.model.vary import names_of, renewal, value_of, varied
 from ancf.sensitivity.acts import acts_of
 from ancf.sensitivity.alike import OWN
@@ -69,7 +70,9 @@ def test_they_are_those_made_anew(build):
             continue
         seen.append(name)
         value = value_of(model, name)
-        other = renewal(model, name)(1.01 * value + 0.001)
+        if value == 0.0 and name.rpartition(".")[2] in DAMPINGS:
+            continue  # the elements stay where they are, see test_a_damping_of_zero_beside_another_one
+        other = renewal(model, name)[1](1.01 * value + 0.001)
         mine, whole = arrays(beside(base, other, acts)), arrays(System(other, like=base))
         assert mine.keys() == whole.keys()
         for key in mine:
@@ -84,7 +87,7 @@ def test_models_that_share_say_the_same(name):
     """Compiled, the model with all items copied and that which shares some are one."""
     model = hung()
     value = 1.02 * value_of(model, name) + 0.001
-    shared, apart = renewal(model, name)(value), varied(model, name, value)
+    shared, apart = renewal(model, name)[1](value), varied(model, name, value)
     mine, whole = arrays(System(shared)), arrays(System(apart))
     for key in mine:
         assert np.array_equal(mine[key], whole[key]), key
@@ -94,7 +97,7 @@ def test_models_that_share_say_the_same(name):
 
 def test_a_point_on_the_body_goes_with_it():
     model = hung()
-    made = renewal(model, "a.length")(4.0)
+    made = renewal(model, "a.length")[1](4.0)
     spring = next(one for one in made.connections if one.name == "between")
     assert spring.a.body is made.beams["a"]
     assert spring.a.x == pytest.approx(0.7 * 4.0 / model.beams["a"].length)
