@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..results.sensors import Sensors
-from ..solvers.sampling import sample_rows, sampling_of
+from ..solvers.sampling import sample_rows, sample_slopes, sampling_of
 from ..solvers.sensitivity import LEAST
 from ..system.sensors import Listing
 from ..system.system import System
@@ -51,32 +51,32 @@ class Samples:
             return
         s, count = self.sampling, len(q)
         k, j, moved = len(s.unknowns), len(s.entries), len(s.moved)
-        for p, family in enumerate(self.families):
+        q, v, made = (np.ascontiguousarray(x) for x in (q, v, made))
+        here = self._rows(s, q, v) if j else np.zeros((count, s.width))
+        for p in range(len(self.families)):
             row = self.rows[p, self.done : self.done + count]
             row[:, :k] = made[p, :, 0][:, s.unknowns]
             row[:, k : 2 * k] = made[p, :, 1][:, s.unknowns]
             if j:
-                row[:, 2 * k : 2 * k + j] = self._measured(p, family, q, v, made[p])[:, 2 * k : 2 * k + j]
+                row[:, 2 * k : 2 * k + j] = self._measured(p, (q, v), made[p], here)[:, 2 * k : 2 * k + j]
             row[:, 2 * k + j : 2 * k + j + moved] = made[p, :, 2][:, s.moved]
         self.done += count
 
-    def _measured(self, p: int, family: Family, q: FloatArray, v: FloatArray, made: FloatArray) -> FloatArray:
-        total, here = np.zeros((len(q), self.sampling.width)), self._rows(self.sampling, q, v)
+    def _measured(
+        self, p: int, states: tuple[FloatArray, FloatArray], made: FloatArray, here: FloatArray
+    ) -> FloatArray:
+        """Derivatives of the samples ``here`` of states by parameter p."""
+        total, family = np.zeros_like(here), self.families[p]
         for sampling, weight, own in zip(self.near[p], family.weights, family.systems, strict=True):
-            if own is family.base:
-                continue
-            total += weight * (self._rows(sampling, q, v) - here)
-        still = np.zeros_like(q)
-        for dq, dv, d in ((made[:, 0], still, made[:, 0]), (still, made[:, 1], made[:, 1])):
-            size = np.max(np.abs(d[:, : len(self.weight)]), axis=1, keepdims=True)
-            e = NEAR / np.where(size > LEAST, size, 1.0)
-            for x, w in PLACES:
-                total += w / e * self._rows(self.sampling, q + x * e * dq, v + x * e * dv)
+            if own is not family.base:
+                total += weight * (self._rows(sampling, *states) - here)
+        room = np.zeros((2, states[0].shape[1])), np.zeros(self.sampling.width)
+        sample_slopes(self.sampling, *states, made, len(self.weight), NEAR, np.array(PLACES), *room, total)
         return total
 
     def _rows(self, sampling: Any, q: FloatArray, v: FloatArray) -> FloatArray:
         rows = np.zeros((len(q), sampling.width))
-        sample_rows(sampling, np.ascontiguousarray(q), np.ascontiguousarray(v), rows)
+        sample_rows(sampling, q, v, rows)
         return rows
 
 

@@ -15,6 +15,7 @@ from ..simd import LANES, every, load, store
 from ..system.core import constraint_rows, drive, solve_sparse, to_local
 from .abreast_room import add_push, follow_abreast, kept, predicted, sizes_of, turn_abreast
 from .ahead import look_ahead
+from .foreseen import foresee
 from .local import add_local, add_locals, look_near
 from .scheme import coefficients
 from .sensitivity import DIFFERENCED, ENOUGH, LEAST, MOST, add_lossy, add_rough, extent, is_done
@@ -225,6 +226,7 @@ def solved(core, m, factor, matrices, x, turn, push, gap, n, first, joined, at_o
     projects = joined.projects and joints.multipliers.shape[0] > 0
     enough = DIFFERENCED if rough else ENOUGH
     again = matrices[2].shape[0] > 0 or rough
+    foresees = rough and known and not projects
     for k in range(LANES):
         room.before[k], room.open[k], room.shift[k] = np.inf, 1.0 if k < count else 0.0, 0.0
     for round in range(MOST):
@@ -234,6 +236,8 @@ def solved(core, m, factor, matrices, x, turn, push, gap, n, first, joined, at_o
             moves = not at_once or turn.shape[0] > 0
             out_of_balance(core, m, matrices, x, turn, push, n, first, moves, room)
         solve_abreast(factor, room.r)
+        if foresees:
+            foresee(room, core.weight, round)
         correct(core, room, B, G)
         if at_once:
             return OK

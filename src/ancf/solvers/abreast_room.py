@@ -26,15 +26,18 @@ class Abreast(NamedTuple):
     norm: FloatArray  # (8,) sizes of corrections, and of what they correct
     size: FloatArray  # (8,)
     shift: FloatArray  # (8,) sizes of shifts onto the constraints
+    last: FloatArray  # (size, 8) corrections before, see foreseen
+    ratio: FloatArray  # (8,) by which corrections shrink
+    used: FloatArray  # (8,) what of it the last ones have foreseen
     place: IntArray  # (1, 8) where the lanes of eight parameters begin in an array of all
 
 
 def room_for(size: int) -> Abreast:
     """Room for the unknowns of a model."""
-    d, r, seen = (np.zeros((*shape, LANES)) for shape in ((3, size), (size,), (size,)))
-    before, open, norm, sizes, shift = np.zeros((5, LANES))
+    d, r, seen, last = (np.zeros((*shape, LANES)) for shape in ((3, size), (size,), (size,), (size,)))
+    before, open, norm, sizes, shift, ratio, used = np.zeros((7, LANES))
     place = np.zeros((1, LANES), dtype=np.int64)
-    return Abreast(d, r, seen, before, open, norm, sizes, shift, place)
+    return Abreast(d, r, seen, before, open, norm, sizes, shift, last, ratio, used, place)
 
 
 @formula

@@ -99,3 +99,37 @@ def sample_rows(sampling: Sampling, q: FloatArray, v: FloatArray, rows: FloatArr
     """Fill rows of samples, shape (m, width), from states of shape (m, size)."""
     for n in range(rows.shape[0]):
         sample(sampling, q[n], v[n], rows[n])
+
+
+@kernel
+def sample_slopes(
+    sampling: Sampling,
+    q: FloatArray,
+    v: FloatArray,
+    d: FloatArray,
+    n: int,
+    near: float,
+    places: FloatArray,
+    room: FloatArray,
+    row: FloatArray,
+    out: FloatArray,
+) -> None:
+    """Add to rows of samples, (m, width), their derivatives along changes of states q, v of shape (m, size).
+
+    Differences along s_q, then along s_v, which are d[:, 0] and d[:, 1], by so much that of the first n
+    unknowns the one that changes most does by ``near``; ``places``, (k, 2): where they are taken, weights.
+    ``room`` and ``row``, (2, size) and (width,), are workspace.
+    """
+    for m in range(q.shape[0]):
+        for part in range(2):
+            size = 0.0
+            for i in range(n):
+                size = max(size, abs(d[m, part, i]))
+            e = near / size if size > 0.0 else 1.0
+            for k in range(places.shape[0]):
+                for i in range(q.shape[1]):
+                    room[0, i], room[1, i] = q[m, i], v[m, i]
+                    room[part, i] += places[k, 0] * e * d[m, part, i]
+                sample(sampling, room[0], room[1], row)
+                for i in range(row.shape[0]):
+                    out[m, i] += places[k, 1] / e * row[i]
