@@ -39,7 +39,7 @@ else:
 class Entry(BaseModel):
     """A table: strict types, no unknown keys, finite numbers or formulas of parameters."""
 
-    model_config = ConfigDict(strict=True, extra="forbid", allow_inf_nan=False, frozen=True)
+    model_config = ConfigDict(strict=True, extra="forbid", allow_inf_nan=False, frozen=True, defer_build=True)
 
     @field_validator("*", mode="before")
     @classmethod
