@@ -10,7 +10,7 @@ import inspect
 import sys
 from collections.abc import Callable, Iterable
 from functools import wraps
-from types import FunctionType
+from types import CodeType, FunctionType
 from typing import Any, TypeVar
 
 from ..errors import ArgumentError
@@ -73,9 +73,12 @@ def _ours(module: str) -> bool:
 
 
 def called_as(function: Callable[..., Any], where: str) -> Callable[..., Any]:
-    """A function whose wrong calls are said of ``where``."""
+    """A function whose wrong calls are said of ``where``; with the names of the module of the other one.
 
-    @wraps(function)
+    There its annotations are looked up.
+    """
+    refusal = _refused
+
     def call(*arguments: Any, **keywords: Any) -> Any:
         try:
             return function(*arguments, **keywords)
@@ -83,15 +86,13 @@ def called_as(function: Callable[..., Any], where: str) -> Callable[..., Any]:
             # with a frame further down it comes from inside
             if error.__traceback__ is None or error.__traceback__.tb_next is not None:
                 raise
-            refused = _refused(function, where, arguments, keywords)
+            refused = refusal(function, where, arguments, keywords)
             if refused is None:
                 raise
         raise refused
 
-    return call
-
-
-_CODE = called_as(len, "").__code__
+    own = FunctionType(call.__code__, function.__globals__, closure=call.__closure__)
+    return wraps(function)(own)
 
 
 def _refused(
@@ -120,3 +121,6 @@ def _refused(
         if twice
         else None
     )
+
+
+_CODE: CodeType = called_as(guard, "").__code__
