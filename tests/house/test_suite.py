@@ -37,6 +37,15 @@ def test_no_timeout_is_shorter_than_five_minutes():
             assert least >= FIVE_MINUTES, f"{path.name}, line {node.lineno}"
 
 
+def test_no_two_files_of_tests_have_one_name():
+    """They are modules by their name alone, of which each worker imports one."""
+    names = defaultdict(list)
+    for path in FILES:
+        if path.name.startswith("test_"):
+            names[path.name].append(str(path.relative_to(TESTS)))
+    assert not [paths for paths in names.values() if len(paths) > 1]
+
+
 def test_helpers_are_written_once():
     found = defaultdict(list)
     for path, tree in trees():
