@@ -27,7 +27,7 @@ from .cable_columns import (
 )
 from .cable_slack import slack
 from .cable_strain import gauss_table
-from .chunks import in_lanes
+from .chunks import elements_in, in_lanes
 from .measures import axial_strain, curvature
 from .shapes import gauss, hermite
 
@@ -100,11 +100,9 @@ def renumbered(batch: CableBatch, beam: Beam, slot: IntArray) -> CableBatch | No
         return None
     groups = batch.groups.copy()
     groups[group, DAMPED] |= key[3]  # of others in it that is a number, which is zero
-    bounds, lane = batch.first[begin : end + 1], np.arange(LANES)
-    element = bounds[:-1, None] + np.minimum(lane, np.diff(bounds)[:, None] - 1)
+    element, without = elements_in(batch.first[begin : end + 1])
     chunk, lanes = np.nonzero((element >= first) & (element < last))
-    there = element[chunk, lanes] - first
-    empty = lanes >= np.diff(bounds)[chunk]
+    there, empty = element[chunk, lanes] - first, without[chunk, lanes]
     made = [array.copy() for array in (batch.lane_data, batch.lane_slope, batch.lane_reference)]
     for array, values, kept in zip(made, constants, (LENGTHS, 0, None), strict=True):
         rows = values[there]

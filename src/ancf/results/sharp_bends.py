@@ -14,7 +14,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..elements.slopes import Vectors, vectors_of
 from ..model.beam import Beam
-from .tension import cables
+from .tension import cables, parts
 
 #: Curvature times length of an element above which it is said, and that of the elements that are advised.
 SHARP, ADVISED = 1.0, 0.5
@@ -65,15 +65,10 @@ def sharp_bends(known: Any) -> list[SharpBend]:
     """
     beams = [beam for beam in cables(known) if beam.section.EI > 0.0]
     times = np.atleast_1d(known.t)
-    elements = sum(beam.elements for beam in beams)
-    if not elements or not len(times):
-        return []
-    single = len(known.q.shape) == 1
-    every, count = max(1, -(-len(times) * elements // MOST)), max(1, CHUNK // elements)
+    every = max(1, -(-len(times) * sum(beam.elements for beam in beams) // MOST))
     found: dict[str, SharpBend] = {}
-    for begin in range(0, len(times), every * count):
-        rows = slice(begin, min(begin + every * count, len(times)), every)
-        q = np.atleast_2d(known.q[...] if single else known.q[rows])
+    for rows, place in parts(known, beams, every, CHUNK):
+        q = np.atleast_2d(known.q[place])
         for beam in beams:
             bend = _sharpest(beam, bends(vectors_of(beam.node_x, known.slots[beam.name], q)), times[rows])
             if bend.bend > max(SHARP, found[bend.body].bend if bend.body in found else 0.0):

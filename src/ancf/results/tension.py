@@ -154,12 +154,8 @@ def _compression(times: FloatArray, beam: Beam, seen: _Lowest) -> Compression | 
 
 def pieces(known: Any, beams: list[Beam], every: int = 1) -> Iterator[tuple[IntArray, dict[str, FloatArray]]]:
     """Rows of a history, or the one of a state, and the forces of each cable there, part after part."""
-    single, damped = len(known.q.shape) == 1, any(beam.section.axial_damping for beam in beams)
-    chosen = np.zeros(1, dtype=np.int64) if single else np.arange(0, known.q.shape[0], every)
-    count = max(1, CHUNK // max(1, sum(beam.elements for beam in beams)))
-    for begin in range(0, len(chosen) if beams else 0, count):
-        rows = chosen[begin : begin + count]
-        place = ... if single else slice(int(rows[0]), int(rows[-1]) + 1, every)
+    damped = any(beam.section.axial_damping for beam in beams)
+    for rows, place in parts(known, beams, every, CHUNK):
         q, v = np.atleast_2d(known.q[place]), np.atleast_2d(known.v[place]) if damped else None
         yield (
             rows,
@@ -170,6 +166,19 @@ def pieces(known: Any, beams: list[Beam], every: int = 1) -> Iterator[tuple[IntA
                 for beam in beams
             },
         )
+
+
+def parts(known: Any, beams: list[Beam], every: int, most: int) -> Iterator[tuple[IntArray, Any]]:
+    """Rows of a history, or the one of a state, and where they are in its arrays: part after part.
+
+    Every so many rows, and in a part so many that they have ``most`` elements of the beams in all.
+    """
+    single = len(known.q.shape) == 1
+    chosen = np.zeros(1, dtype=np.int64) if single else np.arange(0, known.q.shape[0], every)
+    count = max(1, most // max(1, sum(beam.elements for beam in beams)))
+    for begin in range(0, len(chosen) if beams else 0, count):
+        rows = chosen[begin : begin + count]
+        yield rows, ... if single else slice(int(rows[0]), int(rows[-1]) + 1, every)
 
 
 def middles(beam: Beam) -> list[float]:
