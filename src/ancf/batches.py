@@ -30,6 +30,7 @@ from .compiled import (
     add_rate_stiffness,
     add_rate_work,
     add_tangent,
+    add_work_slopes,
     does_something,
     find_event,
     inline_kernel,
@@ -110,6 +111,12 @@ def touched_at(record, q, out):
 
 
 @separate_kernel
+def work_slopes_at(record, q, v, a, x, by_q, by_v, by_a, ws):
+    """``add_work_slopes`` of the batch at an address."""
+    add_work_slopes(record, q, v, a, x, by_q, by_v, by_a, ws)
+
+
+@separate_kernel
 def number_work_at(record, q, v, a, x, out, ws):
     """``add_number_work`` of the batch at an address."""
     add_number_work(record, q, v, a, x, out, ws)
@@ -130,13 +137,20 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     touched: (touched_at, (_V, _V), types.int64),
     add_number_work: (number_work_at, (_V, _V, _V, _V, _V, _V), types.none),
     add_rate_work: (rate_work_at, (_V, _V, _V, _V, _V), types.none),
+    add_work_slopes: (work_slopes_at, (_V, _V, _V, _V, _V, _V, _V, _V), types.none),
 }
 _COLUMNS = 1 + len(OPERATIONS)
 _NONE = np.zeros((0, _COLUMNS), dtype=np.int64)
 FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, 9)
-RATES, TOUCHED, NUMBERS, WORKS = range(9, _COLUMNS)
+RATES, TOUCHED, NUMBERS, WORKS, SLOPES = range(9, _COLUMNS)
 #: Operations compiled for those who ask for them, see :mod:`ancf.solvers.rare`, and their columns.
-RARE = {add_rate_stiffness: RATES, touched: TOUCHED, add_number_work: NUMBERS, add_rate_work: WORKS}
+RARE = {
+    add_rate_stiffness: RATES,
+    touched: TOUCHED,
+    add_number_work: NUMBERS,
+    add_rate_work: WORKS,
+    add_work_slopes: SLOPES,
+}
 
 
 class _Table(NamedTuple):

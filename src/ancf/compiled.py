@@ -170,6 +170,14 @@ def add_number_work(batch, q, v, a, x, out, ws):
     raise TypeError(f"{type(batch).__name__} does not know what its numbers do")
 
 
+def add_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
+    """Add the derivatives of x . force by q, v and a to ``by_q``, ``by_v`` and ``by_a``.
+
+    Without what joints add to their forces that vanishes where their rows are zero.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know the slopes of the work of its forces")
+
+
 def inverted(batch, q, ws):
     """Slot of r_y at the start of the first element with a collapsed or inverted section, else -1."""
     raise TypeError(f"no check of {type(batch).__name__}")
@@ -326,6 +334,7 @@ def implements(
     rate_work: Callable[..., Any] | None = None,
     touches: Callable[..., Any] | None = None,
     number_work: Callable[..., Any] | None = None,
+    work_slopes: Callable[..., Any] | None = None,
     **given: Any,
 ) -> None:
     """Register the operations of a kind of batch (see the functions above) and its :class:`Traits`.
@@ -346,6 +355,7 @@ def implements(
         add_rate_work: rate_work,
         touched: touches,
         add_number_work: number_work,
+        add_work_slopes: work_slopes,
     }
     for stub, function in operations.items():
         if function is not None:
@@ -366,8 +376,8 @@ def _choose_by_kind(stub: Callable[..., Any]) -> None:
 
 def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
     """Whether an operation of a kind of batch does anything; all kinds have all but :func:`measure`,
-    :func:`remember`, :func:`add_rate_stiffness`, :func:`add_rate_work`, :func:`touched` and
-    :func:`add_number_work`.
+    :func:`remember`, :func:`add_rate_stiffness`, :func:`add_rate_work`, :func:`touched`,
+    :func:`add_number_work` and :func:`add_work_slopes`.
     """
     if (batch_type, add_force) not in _DOES:
         raise TypeError(f"no operations for {batch_type.__name__}")
@@ -391,5 +401,6 @@ for _stub in (
     add_rate_work,
     touched,
     add_number_work,
+    add_work_slopes,
 ):
     _choose_by_kind(_stub)

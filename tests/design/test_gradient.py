@@ -9,6 +9,8 @@ from ancf.design.formulas import Formula, Vocabulary
 from ancf.design.gradient import OF_RUN, Histories, slopes_of
 from ancf.paper import cantilever
 from ancf.sensitivity import adjoint
+from ancf.sensitivity.adjoint import Adjoint
+from ancf.sensitivity.adjoint_joints import adjoint_of
 from ancf.system.system import System
 from ancf.viz.pictures.questions import ask
 from slopes import extrapolated
@@ -77,7 +79,7 @@ def test_damped_models_go_backwards():
     """The adjoint, whose matrix has the antisymmetric half with the other sign, against differences."""
     model, objective = damped(), OBJECTIVES[1]
     names = ["beam.EI", "beam.bending_damping", "beam.axial_damping", "stay.damping"]
-    assert adjoint.reversible(System(model))
+    assert adjoint_of(System(model)) is Adjoint
     _, slope = ancf.gradient(model, objective, names, **settings())
     for name in slope:
         wanted = extrapolated(lambda m: ancf.gradient(m, objective, [], **settings())[0], model, name, 2e-2)
@@ -175,11 +177,13 @@ def test_bad_objectives():
         ancf.gradient(model, "max(weight(beam.end))", ["gravity"], t_end=0.01, step=1e-3)
 
 
-def test_joints_go_forwards():
-    """A pendulum of a rigid body: it has multipliers, and the gradient takes sensitivities instead."""
+def test_moments_go_forwards():
+    """A pendulum of a rigid body with a moment, whose matrix is not exact: it takes sensitivities instead."""
     model = ancf.Model(gravity=(0.0, 0.0, -9.81))
     hub = model.add_rigid_body("hub", at=(0.5, 0, 0), mass=1.0, inertia=(0.01, 0.1, 0.1))
     model.hinge(hub.at(-0.5, 0, 0), (0.0, 0.0, 0.0), axis=(0, 1, 0), name="hinge")
+    model.add_moment(hub.centre, (0.0, "0.3*t", 0.1))
+    assert adjoint_of(System(model)) is None
     text, given = "integral(position(hub.centre)[2])", {"t_end": 0.1, "step": 2e-3, "integrator": INDEX2}
     _, slope = ancf.gradient(model, text, ["gravity", "hub.inertia"], **given)
     for name in slope:

@@ -23,6 +23,7 @@ _OPERATIONS = {
     "rate_work": "add_rate_work",
     "touches": "touched",
     "number_work": "add_number_work",
+    "work_slopes": "add_work_slopes",
 }
 _DEFAULTS = {
     "inertia": compiled.no_inertia,

@@ -104,10 +104,32 @@ def joint_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                         A[place + 6 * i + j] += alpha * w * d[i] * e[j]
 
 
+@inline_kernel
+def joint_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
+    """See :func:`ancf.compiled.add_work_slopes`; alpha has no part in it."""
+    w0, w1, w2 = batch.level[0], batch.level[1], batch.level[2]
+    for n in range(batch.unknown.shape[0]):
+        i = batch.unknown[n]
+        d1, d2 = sums(batch, n, q, 1.0)
+        v1, v2 = sums(batch, n, v, 0.0)
+        a1, a2 = sums(batch, n, a, 0.0)
+        x1, x2 = sums(batch, n, x, 0.0)
+        lam, y = q[i], x[i]
+        by_q[i] += dot(x1, d2) + dot(d1, x2)
+        for k in range(batch.start[n], batch.start[n + 1]):
+            m, f = batch.slot[k], batch.factor[k]
+            d, rate, second, along = (d2, v2, a2, x2) if batch.second[k] == 0 else (d1, v1, a1, x1)
+            for c in range(3):
+                by_q[m + c] += f * (lam * along[c] + y * (w0 * d[c] + w1 * rate[c] + w2 * second[c]))
+                by_v[m + c] += f * y * (w1 * d[c] + 2.0 * w2 * rate[c])
+                by_a[m + c] += f * y * w2 * d[c]
+
+
 implements(
     JointBatch,
     force=joint_force,
     tangent=joint_tangent,
+    work_slopes=joint_slopes,
     role=Role.CONSTRAINS,
     slots=("unknown", "slot"),
     couples=joint_pairs,

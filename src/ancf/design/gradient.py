@@ -9,16 +9,19 @@ import numpy as np
 
 from .. import garbage
 from ..analysis import simulate
-from ..arrays import FloatArray
+from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
 from ..model import checks
+from ..model.joints import Slide
 from ..model.model import Model
 from ..preparation import method_of, prepared
 from ..results.state import State
-from ..sensitivity.adjoint import Adjoint, Key, reversible
+from ..sensitivity.adjoint import Adjoint, Key
+from ..sensitivity.adjoint_joints import adjoint_of
 from ..sensitivity.answers import Face
 from ..sensitivity.parameters import Parameter, parameters_of
 from ..system.sensors import listing
+from ..system.system import System
 from ..viz.pictures.questions import QUANTITIES, ask
 from .backwards import gradient_of
 from .cases import check_asked
@@ -27,6 +30,8 @@ from .formulas import Formula, Vocabulary
 #: What an objective may name.
 OF_RUN = Vocabulary(("t",), tuple(QUANTITIES))
 WHERE = "gradient.objective"
+#: Quantities of sliding joints that depend on the direction of the carrier.
+ALONG_CARRIER = "normal_force", "sliding_friction"
 
 
 def gradient(
@@ -41,11 +46,11 @@ def gradient(
 ) -> tuple[float, dict[str, float]]:
     """A number of a simulation and its exact derivatives by parameters of the model.
 
-    Models of cables, undamped solid beams, springs and masses, with loads and supports as functions of time,
-    have an adjoint: the derivatives by all parameters together take about as much as a few runs, and memory
-    that does not grow with their number, nor much with that of the steps. Others, with joints or contacts or
-    damped solid beams, take the sensitivities of :func:`ancf.simulate`, whose cost grows with the number of
-    parameters. The numbers are the same.
+    Models of cables, undamped solid beams, springs, masses, rigid bodies and joints, sliding ones as well,
+    with loads and supports as functions of time, have an adjoint: the derivatives by all parameters together
+    take about as much as a few runs, and memory that does not grow with their number, nor much with that of
+    the steps. Others, with contacts, moments, fluids or damped solid beams, take the sensitivities of
+    :func:`ancf.simulate`, whose cost grows with the number of parameters. The numbers are the same.
 
     Parameters
     ----------
@@ -86,10 +91,11 @@ def gradient(
         energy=True,
         where="gradient",
     )
-    if not reversible(made.system):
+    way = adjoint_of(made.system)
+    if way is None:
         settings = {"t_end": t_end, "step": step, "start": start, "integrator": integrator}
         return _forward(model, formula, wanted, settings)
-    return _backward(made, formula, wanted, start)
+    return _backward(way, made, formula, wanted, start)
 
 
 class Histories:
@@ -127,18 +133,31 @@ def _forward(
     return value, made
 
 
+def unknowns_of(system: System, pairs: list[Key]) -> IntArray:
+    """Entries of the state vectors on which histories depend; those of sliding joints on their carriers."""
+    items = [system.model.sensor(item) for _, item in pairs]
+    found = [listing(system, items, False, ends=True).index]
+    slides = [item for item in system.model.connections if isinstance(item, Slide)]
+    for (asked, _), item in zip(pairs, items, strict=True):
+        if asked not in ALONG_CARRIER or not isinstance(item, Slide):
+            continue
+        batch, j = system.parts["slides"], slides.index(item)
+        slots = np.unique(batch.line_slot[batch.first[j] : batch.first[j + 1]])
+        found.append((slots[slots >= 0, None] + np.arange(3)).ravel())
+    return np.unique(np.concatenate(found)).astype(np.int64)
+
+
 @garbage.without
 def _backward(
-    made: Any, formula: Formula, parameters: list[Parameter], start: State | None
+    way: type[Adjoint], made: Any, formula: Formula, parameters: list[Parameter], start: State | None
 ) -> tuple[float, dict[str, float]]:
     pairs = list(dict.fromkeys(formula.asked))
-    items = [made.system.model.sensor(item) for _, item in pairs]
-    unknowns = listing(made.system, items, False, ends=True).index
+    unknowns = unknowns_of(made.system, pairs)
 
     def asked(face: Face, pairs: Iterable[Key]) -> dict[Key, FloatArray]:
         return {pair: np.asarray(ask(face, *pair)) for pair in pairs}
 
-    run = Adjoint(made, parameters, start, asked, pairs, unknowns, "gradient")
+    run = way(made, parameters, start, asked, pairs, unknowns, "gradient")
     t, found = run.forwards()
     value, slopes = gradient_of(formula, Histories(t, found))
     total = run.backwards({pair: slopes[pair] for pair in pairs})

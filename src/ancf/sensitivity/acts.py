@@ -8,11 +8,12 @@ from ..model.beam import Beam
 from ..model.bodies import PointMass
 from ..model.connections import Spring
 from ..model.functions import TimeFunction
+from ..model.joints import Slide, Spherical
 from ..model.loads import DistributedLoad, Force
 from ..model.model import Model
 from ..model.section import DAMPINGS
 from ..model.winches import by_body
-from ..system.beside import BODIES, ELEMENTS, SPRINGS, Acts
+from ..system.beside import BODIES, ELEMENTS, SLIDES, SPRINGS, Acts
 
 #: Of sections, those on which the forces of elements alone depend, and those on which weights do, too.
 FORCES, MASSES = {"EA", "EI", "E", *DAMPINGS}, {"rhoA", "rho"}
@@ -44,19 +45,23 @@ def acts_of(model: Model, name: str) -> Acts | None:
     if not _is_bare(model) or body.has_section:
         return None
     if key in ("start", "end"):
-        return Acts(moves=True)
-    everything = frozenset((ELEMENTS, SPRINGS, BODIES))
+        return Acts(moves=True) if all(isinstance(one, Spring) for one in model.connections) else None
+    slides = any(isinstance(one, Slide) for one in model.connections)
+    everything = frozenset((ELEMENTS, SPRINGS, BODIES, *((SLIDES,) if slides else ())))
     moves = any(getattr(one, way, None) is not None for one in model.supports for way in MOTIONS)
     return Acts(everything, weighs=True, moves=moves, shapes=True) if key == "length" else None
 
 
 def _is_bare(model: Model) -> bool:
-    """Whether there are dead forces alone, and no connections but springs."""
+    """Whether there are dead forces alone, and no connections but springs, shared nodes, sliding joints."""
     around = model.fluids or model.grounds or model.surfaces or by_body(model)
     return (
         not around
         and all(isinstance(_given(load), TimeFunction) for load in model.loads)
-        and all(isinstance(one, Spring) for one in model.connections)
+        and all(
+            isinstance(one, Spring | Slide) or (isinstance(one, Spherical) and one.shared)
+            for one in model.connections
+        )
     )
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -41,6 +41,9 @@ MOVED = 1e-4
 #: Answers that nothing but the state and the shape functions has a part in.
 SHAPES = ("position", "velocity", "slope")
 PLACES = ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12))
+
+#: What a gradient that cannot be had says.
+FAILS = "gradient", "the equations of the adjoint cannot be solved", "smaller steps"
 
 #: A question: a quantity and of what.
 Key = tuple[str, str]
@@ -112,6 +115,8 @@ class Adjoint:
         Entries of the state vectors on which that depends.
     """
 
+    Near: ClassVar[type[Nearby]] = Nearby
+
     def __init__(
         self,
         made: Prepared,
@@ -127,7 +132,7 @@ class Adjoint:
         self.system = System(made.system.model, like=made.system)
         check_differentiable(self.system, where)
         self.families = [Family(parameter, self.system, shifts=True) for parameter in parameters]
-        self.nearby = Nearby(self.families, self.system, shifts=True)
+        self.nearby = self.Near(self.families, self.system, shifts=True)
         self.weighed = Weighed(self.nearby)
         self.m = matrices_of(self.system.core, self.system.size, moving=True, back=True)
         self.ahead = ahead_of(self.system.core, self.m)
@@ -135,6 +140,7 @@ class Adjoint:
         self.asked, self.keys, self.unknowns = asked, keys, np.unique(unknowns)
         self._linear = self._of_units([key for key in keys if key[0] in LINEAR])
         self._sums: dict[Key, Any] = {}  # of states with the derivatives by linear answers, (2, c, size)
+        self._shifts: FloatArray | None = None  # factors of C of joints at the steps of a block, (n, size)
         self.blocks: list[Block] = []
         refuse_breaks(self.run)
 
@@ -179,13 +185,8 @@ class Adjoint:
             lam = room[: len(way.q)]
             tables = system.inputs.tables(*when[:2], block.count, *when[2:])
             lost, turned = np.zeros(system.size), np.zeros((self.weighed.turning, 3, 3))
-            sums = mu, lam, lost, turned
-            _, status = back_steps(
-                *(system.core, self.m, self.ahead, tables, way, wanted, self.unknowns),
-                *(block.h, run.scheme, *sums),
-            )
-            if status != OK:
-                raise SolveError("gradient", "the equations of the adjoint cannot be solved", "smaller steps")
+            if self._back(way, block.h, tables, wanted, (mu, lam, lost, turned)) != OK:
+                raise SolveError(*FAILS)
             still -= lost
             still[self.unknowns] += np.sum(wanted[:, 0], axis=0)
             self._add_axes(way, wanted, turned)
@@ -196,6 +197,12 @@ class Adjoint:
         for k, shift in self.nearby.shifts.items():
             total[k] += still @ self._followed(shift)
         return total
+
+    def _back(self, way: Way, h: float, tables: Any, wanted: FloatArray, sums: Any) -> int:
+        """Carry the adjoint back through a block, see :func:`back_steps` for the sums; a status."""
+        given = self.system.core, self.m, self.ahead, tables, way, wanted, self.unknowns
+        _, status = back_steps(*given, h, self.run.scheme, *sums)
+        return int(status)
 
     def _add_axes(self, way: Way, wanted: FloatArray, turned: FloatArray) -> None:
         """Take from ``turned`` the derivatives of the number by local axes through the states there."""
@@ -215,9 +222,11 @@ class Adjoint:
         for k in self.nearby.others:
             family = self.families[k]
             family.know(self.system)
-            found = family.at_steps(*way, when, gaps=False)
+            found = family.at_steps(*way, when, gaps=self._shifts is not None)
             held = np.moveaxis(found.held[:2], 0, 1)[:, :, self.unknowns]
             made[k] += np.sum(held * wanted) - np.sum(lam * found.push)
+            if self._shifts is not None:
+                made[k] -= np.sum(self._shifts * found.gap)
         return made
 
     def _followed(self, shift: FloatArray) -> FloatArray:
@@ -232,20 +241,30 @@ class Adjoint:
         first = self.first
         wanted = self._wanted(first[0][None].copy(), first[1][None].copy(), slopes)
         when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
-        begin = Start(system, self.m, *first, when)
-        lam, lost = np.zeros_like(begin.q), np.zeros_like(begin.q)
+        total = self._back_start(Start(system, self.m, *first, when), when, wanted, mu, still)
+        still[self.unknowns] += wanted[0, 0]
+        total -= self.weighed.in_all(when, system.inputs.tables(*when[:2], 1, *when[2:]))
+        total += [float(mu[0] @ dq + mu[1] @ dv) for dq, dv in self.given]
+        return total + self._explicit(first[0][None], first[1][None], slopes) + self._of_sums()
+
+    def _back_start(
+        self,
+        begin: Start,
+        when: tuple[float, float, float, float],
+        wanted: FloatArray,
+        mu: FloatArray,
+        still: FloatArray,
+    ) -> FloatArray:
+        """Carry the adjoint through what makes a start consistent; what parameters do to that."""
+        system, lam, lost = self.system, np.zeros_like(begin.q), np.zeros_like(begin.q)
         turned = np.zeros((self.weighed.turning, 3, 3))
         y = begin.q, begin.v, begin.a
         back_start(system.core, self.m, y, wanted[0], self.unknowns, mu, lam, lost, turned)
         still -= lost
-        still[self.unknowns] += wanted[0, 0]
         way = Way(*(x[None] for x in y))
         self._add_axes(way, wanted, turned)
         tables = system.inputs.tables(*when[:2], 1, *when[2:])
-        total = self._pushed(way, when, tables, wanted, lam[None], turned)
-        total -= self.weighed.in_all(when, tables)
-        total += [float(mu[0] @ dq + mu[1] @ dv) for dq, dv in self.given]
-        return total + self._explicit(first[0][None], first[1][None], slopes) + self._of_sums()
+        return self._pushed(way, when, tables, wanted, lam[None], turned)
 
     def _take(self, count: int, store: Collector) -> None:
         run = self.run
@@ -326,6 +345,7 @@ class Adjoint:
             return made
         weight = np.ones(q.shape[1])
         weight[: self.system.n] = self.system.core.weight
+        here = self.asked(Face(self.system, q, v, 0.0), others)  # what does not change leaves no round-off
         for k, x in enumerate((q, v)):
             for n, i in enumerate(self.unknowns.tolist()):
                 e, before = MOVED / (weight[i] if weight[i] > 0.0 else 1.0), x[:, i].copy()
@@ -333,13 +353,7 @@ class Adjoint:
                     x[:, i] = before + place * e
                     found = self.asked(Face(self.system, q, v, 0.0), others)
                     for key in others:
-                        change = (w / e * slopes[key] * found[key]).reshape(len(q), -1)
+                        change = (w / e * slopes[key] * (found[key] - here[key])).reshape(len(q), -1)
                         made[:, k, n] += change.sum(axis=1)
                 x[:, i] = before
         return made
-
-
-def reversible(system: System) -> bool:
-    """Whether a model has an adjoint: its matrices are all exact, and no joint has multipliers."""
-    m = matrices_of(system.core, system.size, moving=True, back=True)
-    return not len(m.rough) and not len(m.lossy) and not m.turning and not len(system.multipliers)

@@ -7,7 +7,15 @@ from typing import Any
 import numpy as np
 
 from ..batches import Batches
-from ..compiled import MOST_TOUCHED, add_rate_stiffness, add_rate_work, does_something, touched, traits
+from ..compiled import (
+    MOST_TOUCHED,
+    add_rate_stiffness,
+    add_rate_work,
+    add_work_slopes,
+    does_something,
+    touched,
+    traits,
+)
 from ..errors import ModelError
 from ..solvers.directions import exact_masses
 from ..solvers.rare import knowing
@@ -33,8 +41,10 @@ def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matr
     resting = [batch for batch in exact if not any(batch is one for one in known)]
     K, C, M = (np.zeros_like(core.A) for _ in range(3))
     W = np.zeros(core.A.size if known and not back else 0)
-    local = all(does_something(type(batch), touched) for batch in rough)
+    local = not back and all(does_something(type(batch), touched) for batch in rough)
     others = knowing(touched, rough) if local else Batches(rough)
+    if back and all(does_something(type(batch), add_work_slopes) for batch in rough):
+        others = knowing(add_work_slopes, rough)
     kinds = Batches(exact), Batches(resting), knowing(rate, known), Batches(lossy), others
     near = np.zeros((4, MOST_TOUCHED * sum(len(batch[0]) for batch in rough) if local else 0))
     flags = local, turning, bool(core.damped)

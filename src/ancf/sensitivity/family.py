@@ -11,7 +11,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -20,14 +20,14 @@ from ..batches import Batches
 from ..compiled import Role, traits
 from ..errors import ModelError
 from ..solvers.stages import place_rows, stage_residuals
-from ..system.beside import beside
+from ..system.beside import SLIDES, beside
 from ..system.core import Core, Tables, apply_load, apply_supports, place_supports, residual
 from ..system.system import System
 from .alike import Known, alike, changed, same_inputs, same_loads
 from .parameters import Parameter
 from .trial import Trial
 from .turns import axes_rates, moves_ends, slopes_local, slopes_rates, stands
-from .values import few_of, gaps_of, quiet_state
+from .values import Push, few_of, gaps_of, quiet_state
 
 #: Step of the differences, relative, and of a parameter that is zero, in its unit or the size of the model.
 STEP = 1e-3
@@ -44,14 +44,6 @@ TINY = 1e-7
 KINKED = {"springs", "contacts", "pressing", "rubbing", "crossing", "gripping", "bumping", "rolling"}
 #: The same where all is linear; energies are quadratic then.
 PAIR = ((-3.0, 3.0), (-1 / 6, 1 / 6))
-
-
-class Push(NamedTuple):
-    """What a parameter does to states at fixed free unknowns, per unit of it."""
-
-    push: FloatArray  # (n, size) to the residual, as the solve wants it, zero at held unknowns
-    gap: FloatArray  # (n, size) to C of joints, in the rows of the multipliers
-    held: FloatArray  # (3, n, size) to held unknowns and shadows of q, v and a
 
 
 class Family:
@@ -74,6 +66,8 @@ class Family:
     shift, turn : ndarray
         Derivatives of the state where it is held, (size,), and of the local axes of supports, (k, 3, 3), if
         these are all that keeps it from being plain; else, and where they are zero, empty.
+    joined : bool
+        It is plain but for rows of joints that depend on the parameter.
     constant : bool
         No dead load of the model changes with time.
 
@@ -114,15 +108,16 @@ class Family:
             return self._take_line(3.0 * step if p >= 0.0 else -3.0 * step)
         acts = self.parameter.acts
         known = acts is not None and (acts.moves or acts.shapes)  # not to be linear
+        steep = acts is not None and SLIDES in acts.parts  # powers of lengths whose effects nearly cancel
         try:
-            self._take(h, *(FOUR if known else PAIR))
+            self._take(h, *(BOTH if steep else FOUR if known else PAIR))
             if p != 0.0 and not thorough and (self._names() & KINKED or self._moves_kinks()):
                 self._forget()
                 return self._take(tiny, *PAIR)
             if not thorough and not known and self._trial().linear():
                 self.linear = True
                 return None
-            if not thorough and self._steady_inputs() == (True, True):
+            if not (thorough or steep) and self._steady_inputs() == (True, True):
                 self._take(h, *FOUR)
                 if (acts is not None and acts.shapes) or self._trial().smooth():  # powers of a length are
                     return None
@@ -212,6 +207,7 @@ class Family:
         self.changed = self._names()
         still, self._fed = self._steady_inputs()
         plain = still and all(self._has_own(system) for system in self.systems)
+        rows = any(Role.CONSTRAINS in traits(base.parts[name]).role for name in self.changed)
         moved = np.zeros(base.size)
         for weight, shape in zip(self.weights, self._shape, strict=True):
             moved += weight * shape
@@ -221,9 +217,10 @@ class Family:
         turn: Any = slopes_rates(base, moved) if self.straight else axes_rates(base, *own)
         if turn is None or (np.any(turn) and len(base.multipliers)):
             plain, turn = False, np.zeros((0, 3, 3))
-        self.plain = plain and not np.any(shift) and not np.any(turn)
-        self.shift = shift if plain and np.any(shift) else shift[:0]
-        self.turn = turn if plain and np.any(turn) else turn[:0]
+        moves = bool(np.any(shift) or np.any(turn))
+        self.plain, self.joined = plain and not (moves or rows), plain and rows and not moves
+        self.shift = shift if plain and not rows and np.any(shift) else shift[:0]
+        self.turn = turn if plain and not rows and np.any(turn) else turn[:0]
         self._loads = any(not same_loads(base, s) for s in self.systems)
         self._steady: list[FloatArray] | None = None
         self.constant = all(f.constant for s in self.systems for f in s.inputs.loads)
@@ -234,7 +231,7 @@ class Family:
         return few_of([*self.systems, self.base], self.changed)
 
     def _has_own(self, system: System) -> bool:
-        """Whether no batch that the parameter changes has inputs, or rows of constraints, of the system's."""
+        """Whether no batch that the parameter changes has inputs of the system's."""
         few = [batch for name, batch in system.parts.items() if name in self.changed]
         shared = (
             np.may_share_memory(x, system.value)
@@ -242,16 +239,17 @@ class Family:
             for x in b
             if isinstance(x, np.ndarray) and x.size
         )
-        return not any(shared) and not any(Role.CONSTRAINS in traits(b).role for b in few)
+        return not any(shared)
 
-    def used(self) -> list[tuple[float, Batches]]:
-        """Weights and the batches that the parameter changes at each value.
+    def used(self, names: set[str] | None = None) -> list[tuple[float, Batches]]:
+        """Weights and the batches that the parameter changes at each value, or those of them by these names.
 
         Where two values do, one of them and that of the model, which all parameters share.
         """
+        batches = self._batches if names is None else few_of([*self.systems, self.base], names)
         if not self.linear or self.systems[-1] is self.base:
-            return list(zip(self.weights, self._batches[:-1], strict=True))
-        last, own = self._batches[-2:]
+            return list(zip(self.weights, batches[:-1], strict=True))
+        last, own = batches[-2:]
         return [(1.0 / self.offsets[-1], last), (-1.0 / self.offsets[-1], own)]
 
     def loads_used(

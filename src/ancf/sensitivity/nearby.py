@@ -137,11 +137,14 @@ class Nearby:
         return total
 
 
-def uses_of(families: list[Family], chosen: list[int]) -> Uses:
-    """Batches around the values of the chosen parameters, whose rows are counted among these."""
+def uses_of(families: list[Family], chosen: list[int], names: dict[int, set[str]] | None = None) -> Uses:
+    """Batches around the values of the chosen parameters, whose rows are counted among these.
+
+    ``names``: of the batches, where not all that a parameter changes are asked for.
+    """
     found: dict[int, tuple[Any, list[tuple[int, float]]]] = {}
     for row, k in enumerate(chosen):
-        for weight, changed in families[k].used():
+        for weight, changed in families[k].used(names[k] if names else None):
             for batch in changed:
                 found.setdefault(id(batch), (batch, []))[1].append((row, weight))
     uses = [use for _, own in found.values() for use in own]

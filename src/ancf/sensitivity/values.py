@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,6 +13,14 @@ from ..compiled import traits
 from ..solvers.stages import stage_residuals
 from ..system.system import System
 from .alike import OWN
+
+
+class Push(NamedTuple):
+    """What a parameter does to states at fixed free unknowns, per unit of it."""
+
+    push: FloatArray  # (n, size) to the residual, as the solve wants it, zero at held unknowns
+    gap: FloatArray  # (n, size) to C of joints, in the rows of the multipliers
+    held: FloatArray  # (3, n, size) to held unknowns and shadows of q, v and a
 
 
 def quiet_state(system: System) -> tuple[FloatArray, FloatArray]:

@@ -1,7 +1,7 @@
 """What lambda of an adjoint makes of what parameters do to residuals: lambda . R_p, summed over the steps.
 
-Where a parameter changes nothing but numbers of batches that know what these do (``Traits.numbers``), the
-derivatives by these numbers are summed up, once for all parameters; what the numbers change by is a
+Where a parameter changes nothing of a batch but numbers of which it knows what they do (``Traits.numbers``),
+the derivatives by these numbers are summed up, once for all parameters; what the numbers change by is a
 difference of arrays.  Forces of other batches are evaluated at the values around a parameter and weighed.
 """
 
@@ -33,15 +33,16 @@ class Weighed:
         self.nearby, self.system = nearby, nearby.system
         families = nearby.families
         rates = {k: rates_of(families[k]) for k in nearby.plain}
-        self.rates = {k: found for k, found in rates.items() if found is not None}
+        left = {k: families[k].changed - found.keys() for k, found in rates.items()}
+        self.rates = {k: found for k, found in rates.items() if found or not left[k]}
         names = sorted({name for found in self.rates.values() for name in found})
         batches = [self._knowing(name) for name in names]
         sizes = [len(next(found[name] for found in self.rates.values() if name in found)) for name in names]
         self.begin = np.cumsum([0, *sizes]).astype(np.int64)
         self.place = {name: slice(*self.begin[k : k + 2]) for k, name in enumerate(names)}
         self.known = knowing(add_number_work, batches)
-        self.others = [k for k in nearby.plain if k not in self.rates]
-        self.uses = uses_of(families, self.others)
+        self.others = [k for k in nearby.plain if left[k]]
+        self.uses = uses_of(families, self.others, left)
         self.work = np.zeros(self.system.size)
         self.turning = len(self.system.core.supports.rot_slot) if nearby.turns else 0  # local axes to look at
         self.turned = np.zeros((self.turning, 3, 3))  # sums over all steps: derivatives by the local axes,
@@ -103,14 +104,14 @@ class Weighed:
         return made
 
 
-def rates_of(family: Family) -> dict[str, FloatArray] | None:
-    """Derivatives of the numbers of batches by a parameter, by name, if that is all it does to forces."""
+def rates_of(family: Family) -> dict[str, FloatArray]:
+    """Derivatives of the numbers of batches by a parameter, by name, where that is all it does to them."""
     found = {}
     for name in family.changed:
         batch, each = family.base.parts[name], [system.parts[name] for system in family.systems]
         numbers, keys = traits(batch).numbers, traits(batch).numbered
         if numbers is None or any(not _has_other(batch, other, keys) for other in each):
-            return None
+            continue
         here = numbers(batch)
         changes = [w * (numbers(one) - here) for w, one in zip(family.weights, each, strict=True)]
         found[name] = np.sum(changes, axis=0)

@@ -7,11 +7,18 @@ from typing import Any
 
 from numba import typeof
 
-from ..batches import NUMBERS, RARE, RATES, TOUCHED, WORKS, Batches, address_of, caller_of
-from ..compiled import add_number_work, add_rate_stiffness, add_rate_work, inline_kernel, touched
+from ..batches import NUMBERS, RARE, RATES, SLOPES, TOUCHED, WORKS, Batches, address_of, caller_of
+from ..compiled import (
+    add_number_work,
+    add_rate_stiffness,
+    add_rate_work,
+    add_work_slopes,
+    inline_kernel,
+    touched,
+)
 
 _rate, _touched, _numbers = caller_of(add_rate_stiffness), caller_of(touched, 0), caller_of(add_number_work)
-_work = caller_of(add_rate_work)
+_work, _slopes = caller_of(add_rate_work), caller_of(add_work_slopes)
 
 
 def knowing(stub: Any, batches: Iterable[Any]) -> Batches:
@@ -36,6 +43,14 @@ def add_rate_works(batches, q, v, x, out, ws):
     table = batches.table
     for k in range(table.shape[0]):
         _work(table[k, WORKS], table[k, 0], (q, v, x, out, ws))
+
+
+@inline_kernel
+def add_all_slopes(batches, q, v, a, x, by_q, by_v, by_a, ws):
+    """Derivatives of x . force by q, v and a of all of the batches, see ``add_work_slopes``."""
+    table = batches.table
+    for k in range(table.shape[0]):
+        _slopes(table[k, SLOPES], table[k, 0], (q, v, a, x, by_q, by_v, by_a, ws))
 
 
 @inline_kernel

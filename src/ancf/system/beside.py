@@ -12,20 +12,20 @@ from ..elements.registry import offered
 from ..model.beam import Beam
 from ..model.model import Model
 from ..model.points import Point
-from .compile import Parts, beams_by_kind, bind_parts, build_bodies, has_mass_of_its_own
+from .compile import Parts, beams_by_kind, bind_parts, build_bodies, build_slides, has_mass_of_its_own
 from .inputs import Inputs
 from .probe import Probe, locate
 from .supports import collect
 from .system import System
 
 #: Parts that can be made alone: elements, as one.
-ELEMENTS, SPRINGS, BODIES = "elements", "springs", "bodies"
+ELEMENTS, SPRINGS, BODIES, SLIDES = "elements", "springs", "bodies", "slides"
 
 
 class Acts(NamedTuple):
     """What of a system a number of a model acts on, besides the initial shape and motion."""
 
-    parts: frozenset[str] = frozenset()  # ELEMENTS, SPRINGS, BODIES
+    parts: frozenset[str] = frozenset()  # ELEMENTS, SPRINGS, BODIES, SLIDES
     weighs: bool = False  # dead loads
     moves: bool = False  # places and axes of supports
     shapes: bool = False  # shape functions, and where points are on their bodies
@@ -98,6 +98,8 @@ def _built(system: System, model: Model, acts: Acts) -> Parts:
 
     if SPRINGS in acts.parts and acts.shapes and len(system.parts[SPRINGS].base):
         parts[SPRINGS] = springs(model, find)
+    if SLIDES in acts.parts:
+        parts |= build_slides(model, system.numbering, system.level, find)
     changed = [body for name, body in model.bodies.items() if body is not mine[name]]
     changed += [mine[body.name] for body in changed]
     if BODIES in acts.parts and any(has_mass_of_its_own(body) for body in changed):

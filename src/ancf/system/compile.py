@@ -141,11 +141,16 @@ def _joints(model: Model, numbering: Numbering, level: FloatArray, find: Callabl
         rows = [row for rows in numbering.rows.values() for row in rows]
         unknowns = np.concatenate([numbering.multipliers[name] for name in numbering.rows])
         parts["joints"] = joint_build.batch(rows, unknowns.tolist(), level)
+    return parts | build_slides(model, numbering, level, find)
+
+
+def build_slides(
+    model: Model, numbering: Numbering, level: FloatArray, find: Callable[[Point], Probe]
+) -> Parts:
+    """Batch of sliding joints, if there are any."""
     slides = [joint for joint in model.connections if isinstance(joint, Slide)]
-    if slides:
-        first = [int(numbering.multipliers[joint.name][0]) for joint in slides]
-        parts["slides"] = sliding(slides, first, level, find, numbering.slots)
-    return parts
+    first = [int(numbering.multipliers[joint.name][0]) for joint in slides]
+    return {"slides": sliding(slides, first, level, find, numbering.slots)} if slides else {}
 
 
 def order_blocks(parts: Parts, numbering: Numbering) -> tuple[IntArray, IntArray, str, int]:

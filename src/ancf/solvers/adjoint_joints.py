@@ -1,0 +1,344 @@
+"""The adjoint of the steps of models whose joints have multipliers, see :mod:`ancf.solvers.adjoint`.
+
+The rows of the joints are rows of R, and their multipliers unknowns without rates.  With T_q, T_v and T_a the
+derivatives of R by q, v and a, a step of a sensitivity solves
+
+    T_a s_a + T_v s_v + T_q s_q + R_p = 0,      s_q = q~ + B s_a + W gamma,      s_v = v~ + G s_a,
+
+where gamma is there if the formulation shifts positions: W holds the columns of the inverse of the step's
+matrix A for the multipliers, and gamma is such that C_q s_q + C_p = 0.  Transposed, with rho for the latter,
+
+    (T_q + (G/B) T_v + T_a/B)^T lambda = mu_q + (G mu_v + c_1 mu_b + mu_a)/B - C_q^T rho,
+    W^T (mu_q - T_q^T lambda - C_q^T rho) = 0.
+
+The number changes by -lambda . R_p - rho . C_p, and mu_q - T_q^T lambda - C_q^T rho and mu_v - T_v^T lambda
+go to the start of the step.  A is symmetric and lacks of the transposed matrix what velocities add to the
+rows: corrections make up for it.  A^-1 C_q^T rho is (0, rho): so lambda follows a change of rho at once.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..batches import add_tangents
+from ..compiled import inline_kernel, kernel
+from ..linalg.eight import factor_of
+from ..simd import LANES
+from ..system.core import drive, onto_shadows, solve_matrix, to_local
+from .adjoint import folded, hold, take_wanted
+from .ahead import look_ahead
+from .rare import add_all_slopes, add_rate_works
+from .scheme import coefficients
+from .sensitivity import ENOUGH, LEAST, MOST, NOISY, ROUGH, product, stiffnesses
+from .status import OK, SINGULAR, SLOW
+
+#: Vectors of room: T_q^T, T_v^T, T_a^T lambda and C_q^T rho, what is to be solved for, corrections, products.
+ROOM = 11
+#: Part of lambda below which corrections end when the next one would be smaller.
+LEFT = 1e-11
+#: By how much more than in the first step of a block corrections may be thought to shrink less in others.
+WARY = 10.0
+
+
+@inline_kernel
+def at_level(core, w0, w1, w2):
+    """Let these be the weights of the rows."""
+    level = core.joints.level
+    level[0], level[1], level[2] = w0, w1, w2
+
+
+@inline_kernel
+def clear(x):
+    """Set vectors to zero."""
+    for k in range(x.shape[0]):
+        for i in range(x.shape[1]):
+            x[k, i] = 0.0
+
+
+@inline_kernel
+def add_products(core, m, matrices, y, d, sums, w):
+    """Add T_q^T d, T_v^T d and T_a^T d in the state y to the sums; d has its shadows filled."""
+    K, C = matrices
+    product(core, K, d, sums[0], w)
+    if m.damped:
+        product(core, C, d, sums[1], w)
+    product(core, m.M, d, sums[2], w)
+    add_rate_works(m.stirred, y[0], y[1], d, sums[0], core.ws)
+    add_all_slopes(m.rough, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
+
+
+@inline_kernel
+def change_of(joints, d, x, multipliers):
+    """Size of the change d in x, relative: of its multipliers, or of all others."""
+    change, size = 0.0, 0.0
+    for i in range(joints.mask.shape[0]):
+        if (joints.mask[i] > 0.0) == multipliers:
+            change, size = max(change, abs(d[i])), max(size, abs(x[i]))
+    return change / size if size > LEAST else 0.0
+
+
+@inline_kernel
+def corrected(core, factor, d, x):
+    """Replace d, what is out of balance, by the correction, and add it to x; its size, relative."""
+    n = core.weight.shape[0]
+    hold(core.supports, d)
+    solve_matrix(factor, d)
+    for i in range(n):
+        x[i] += d[i]
+    for i in range(n, d.shape[0]):
+        d[i] = 0.0
+    onto_shadows(core.supports, d)
+    return max(change_of(core.joints, d, x, True), change_of(core.joints, d, x, False))
+
+
+@inline_kernel
+def lifted(core, factor, goal, taken, rho, d):
+    """d = the multipliers of A^-1 (goal - taken) without its rows, and add them to rho; their size, relative.
+
+    ``taken``: in physical components; changed to those of the solve.
+    """
+    joints, n = core.joints, core.weight.shape[0]
+    to_local(core.supports, taken)
+    for i in range(n):
+        d[i] = (goal[i] - taken[i]) * (1.0 - joints.mask[i])
+    hold(core.supports, d)
+    solve_matrix(factor, d)
+    for i in range(n):
+        d[i] *= joints.mask[i]
+        rho[i] += d[i]
+    for i in range(n, d.shape[0]):
+        d[i] = 0.0
+    return change_of(joints, d, rho, True)
+
+
+@inline_kernel
+def shifted_back(core, m, factor, y, goal, joined, lam, rho, room):
+    """Correct rho, and lambda with it, for the shift of the positions; the size of the change, relative."""
+    sums, z, d, r, none = room[0:3], room[3], room[5], room[6], room[9:11]
+    for i in range(r.shape[0]):
+        r[i] = sums[0, i] + z[i]
+    change = lifted(core, factor, goal, r, rho, d)
+    at_level(core, 1.0, 0.0, 0.0)
+    add_all_slopes(m.rough, y[0], y[1], y[2], d, z, none[0], none[1], core.ws)
+    at_level(core, joined.w0, joined.w1, joined.w2)
+    for i in range(core.weight.shape[0]):
+        d[i] = -d[i]
+        lam[i] += d[i]
+    add_all_slopes(m.rough, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
+    return change
+
+
+@inline_kernel
+def may_end(change, before, rate, enough):
+    """Whether corrections may end with one of this size, relative, that are thought to shrink by a rate."""
+    if rate * change <= enough or change < LEAST or (change <= NOISY and change >= 0.5 * before):
+        return True
+    return change <= ROUGH and change >= 0.9 * before
+
+
+@inline_kernel
+def begun(core, m, y, joined, known, later, rho_later, lam, rho, room):
+    """Begin with the multipliers that those of ``known`` later steps lead to, and what they take."""
+    sums, z, d, none, joints = room[0:3], room[3], room[5], room[9:11], core.joints
+    first, second = (1.0 if known == 1 else 2.0), -1.0
+    clear(room[0:4])
+    for i in range(lam.shape[0]):
+        lam[i] = rho[i] = d[i] = 0.0
+    if known == 0:
+        return
+    for k in range(joints.multipliers.shape[0]):
+        i = joints.multipliers[k]
+        lam[i], rho[i] = first * later[0, i], first * rho_later[0, i]
+        if known > 1:
+            lam[i] += second * later[1, i]
+            rho[i] += second * rho_later[1, i]
+        d[i] = lam[i]
+    add_all_slopes(m.rough, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
+    if joined.projects:
+        at_level(core, 1.0, 0.0, 0.0)
+        add_all_slopes(m.rough, y[0], y[1], y[2], rho, z, none[0], none[1], core.ws)
+        at_level(core, joined.w0, joined.w1, joined.w2)
+
+
+@inline_kernel
+def factors(core, m, factor, matrices, y, mu, c1, B, G, joined, known, lam, rho, rate, room):
+    """Correct lambda and rho, and the sums in ``room`` of what they take; a status.
+
+    ``known``: later steps whose multipliers they began with.  ``rate``: by what the corrections of a step
+    that began with none shrink.
+    """
+    sums, z, goal, d, r, w = room[0:3], room[3], room[4], room[5], room[6], room[7:9]
+    n, before = core.weight.shape[0], np.inf
+    for i in range(n):
+        goal[i] = mu[0, i] + (G * mu[1, i] + c1 * mu[3, i] + mu[2, i]) / B
+    for round in range(MOST):
+        for i in range(r.shape[0]):
+            r[i] = sums[0, i] + z[i] + (G / B) * sums[1, i] + sums[2, i] / B
+        to_local(core.supports, r)
+        for i in range(n):
+            d[i] = goal[i] - r[i]
+        change = corrected(core, factor, d, lam)
+        add_products(core, m, matrices, y, d, sums, w)
+        if joined.projects:
+            change = max(change, shifted_back(core, m, factor, y, mu[0], joined, lam, rho, room))
+        if round == 1 and known == 0:
+            rate[0] = min(WARY * change / before, 1.0)
+        shrinks = min(change / before, 1.0) if round > 0 else 1.0
+        if may_end(change, before, rate[0] if known > 0 and round < 2 else shrinks, LEFT):
+            return OK
+        before = change
+    return SLOW
+
+
+@inline_kernel
+def take(core, sums, mu, back, still):
+    """Take the sums, derivatives by q, v and a in physical components, from mu; add to ``still``."""
+    joints = core.joints
+    for i in range(still.shape[0]):
+        back[0, i], back[1, i] = sums[0, i], sums[1, i]
+        still[i] += sums[0, i]
+    folded(core.supports, sums, back)
+    for i in range(core.weight.shape[0]):
+        mu[0, i] -= back[0, i]
+        mu[1, i] -= back[1, i]
+    hold(core.supports, mu[0])
+    hold(core.supports, mu[1])
+    for k in range(joints.multipliers.shape[0]):
+        mu[0, joints.multipliers[k]] = mu[1, joints.multipliers[k]] = 0.0
+
+
+@kernel
+def back_joined_steps(
+    core, m, ahead, tables, way, wanted, unknowns, h, scheme, joined, mu, out, shifts, still, rate, room
+):
+    """Carry the adjoint back through the steps of a block.
+
+    Parameters
+    ----------
+    core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out, still
+        See :func:`ancf.solvers.adjoint.back_steps`.
+    joined : Constraining
+    shifts : (steps, size)
+        rho, zero unless the formulation shifts positions.
+    rate : (1,)
+        By what corrections shrink, see :func:`factors`.
+    room : (ROOM, size)
+
+    Returns
+    -------
+    Steps done and the status of the last one.
+    """
+    B, G = coefficients(h, scheme)
+    am, af, beta, gamma = scheme.alpha_m, scheme.alpha_f, scheme.beta, scheme.gamma
+    c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
+    n, size = core.weight.shape[0], mu.shape[1]
+    at_level(core, joined.w0, joined.w1, joined.w2)
+    for step in range(way.q.shape[0]):
+        at = way.q.shape[0] - 1 - step
+        k = at % LANES
+        fresh = step == 0 or k == LANES - 1
+        if fresh and look_ahead(core, m, ahead, tables, way, at - k, B, G, True) >= 0:
+            return step, SINGULAR
+        drive(core.supports, core.loads.value, tables, at, way.q[at], way.v[at], way.a[at])
+        lam, y = out[at], (way.q[at], way.v[at], way.a[at])
+        take_wanted(core.supports, wanted[at], unknowns, mu, m.work[5:8], m.work[1:3])
+        factor, matrices = factor_of(core.factor, ahead.eight, k), (ahead.K[k], ahead.C[k])
+        rho, known = shifts[at], min(step, 2)
+        begun(core, m, y, joined, known, out[at + 1 :], shifts[at + 1 :], lam, rho, room)
+        own = (joined, known, lam, rho, rate, room)
+        status = factors(core, m, factor, matrices, y, mu, c1, B, G, *own)
+        if status != OK:
+            return step, status
+        for i in range(size):
+            room[0, i] += room[3, i]
+        take(core, room[0:3], mu, m.work[1:3], still)
+        for i in range(n):
+            eq, ev = mu[0, i], mu[1, i]
+            eb = mu[3, i] + h * h * beta * eq + h * gamma * ev
+            mu[0, i], mu[1, i], mu[2, i] = eq, h * eq + ev, c2 * eb
+            mu[3, i] = c3 * eb + h * h * (0.5 - beta) * eq + h * (1.0 - gamma) * ev
+        for i in range(n, size):
+            mu[0, i] = mu[1, i] = mu[2, i] = mu[3, i] = lam[i] = 0.0
+    return way.q.shape[0], OK
+
+
+@inline_kernel
+def accelerations_back(core, m, y, mu, lam, room):
+    """Fill lambda of the accelerations and multipliers of a consistent start, and the sums; a status."""
+    sums, d, r, w, mask = room[0:3], room[5], room[6], room[7:9], core.joints.mask
+    n, before = core.weight.shape[0], np.inf
+    at_level(core, 0.0, 0.0, 1.0)
+    clear(sums)
+    for _ in range(MOST):
+        for i in range(r.shape[0]):
+            r[i] = sums[2, i]
+        to_local(core.supports, r)
+        for i in range(n):
+            here = mu[2, i] + mu[3, i] - r[i]
+            d[i] = here if mask[i] == 0.0 else mu[0, i] - sums[0, i]
+        change = corrected(core, core.factor, d, lam)
+        add_products(core, m, (m.K, m.C), y, d, sums, w)
+        if may_end(change, before, min(change / before, 1.0) if before < np.inf else 1.0, ENOUGH):
+            return OK
+        before = change
+    return SLOW
+
+
+@inline_kernel
+def shift_back(core, m, y, mu, k, rho, room):
+    """Fill rho of the shift of mu[k], positions (0) or velocities (1), onto their constraints; a status."""
+    sums, d, r, before = room[0:3], room[5], room[6], np.inf
+    at_level(core, 1.0 - k, 1.0 * k, 0.0)
+    clear(sums)
+    for _ in range(MOST):
+        for i in range(r.shape[0]):
+            r[i] = sums[k, i]
+        change = lifted(core, core.factor, mu[k], r, rho, d)
+        add_all_slopes(m.rough, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
+        if may_end(change, before, min(change / before, 1.0) if before < np.inf else 1.0, ENOUGH):
+            return OK
+        before = change
+    return SLOW
+
+
+@kernel
+def back_joined_start(core, m, y, wanted, unknowns, mu, lam, still, room):
+    """Carry the adjoint through a consistent start: accelerations, shifts of velocities and of positions.
+
+    Parameters
+    ----------
+    core, m : Core, Matrices
+        The factors of the core are those of the masses, with the rows for accelerations.
+    y : (q, v, a)
+        The state.
+    wanted, unknowns, mu, still, room
+        As of :func:`back_joined_steps`, of one state; mu_a and mu_b are used up.
+    lam : (3, size)
+        lambda, and rho of positions and of velocities.
+
+    Returns
+    -------
+    A status.
+    """
+    none = room[9]
+    clear(room[9:10])
+    take_wanted(core.supports, wanted, unknowns, mu, m.work[5:8], m.work[1:3])
+    stiffnesses(core, m, m.K, m.W, y[0], y[1], none)
+    for i in range(m.C.shape[0]):
+        m.C[i] = 0.0
+    add_tangents(m.exact, y[0], y[1], m.C, 0.0, 1.0, 0.0, core.ws)
+    clear(lam)
+    status = accelerations_back(core, m, y, mu, lam[0], room)
+    if status != OK:
+        return status
+    take(core, room[0:3], mu, m.work[1:3], still)
+    for k in (1, 0):
+        status = shift_back(core, m, y, mu, k, lam[1 + k], room)
+        if status != OK:
+            return status
+        take(core, room[0:3], mu, m.work[1:3], still)
+    for i in range(mu.shape[1]):
+        mu[2, i] = mu[3, i] = 0.0
+    for i in range(core.weight.shape[0], mu.shape[1]):
+        mu[0, i] = mu[1, i] = lam[0, i] = 0.0
+    return OK

@@ -1,0 +1,177 @@
+"""Gradients through joints: the adjoint against forward sensitivities and differences, all formulations."""
+
+import numpy as np
+import pytest
+from jointed import arms, machine, methods
+
+import ancf
+from ancf.design.formulas import Formula
+from ancf.design.gradient import OF_RUN, slopes_of
+from ancf.model.vary import value_of
+from ancf.paper import sliding
+from ancf.sensitivity import adjoint
+from ancf.sensitivity.adjoint import Adjoint
+from ancf.sensitivity.adjoint_joints import JoinedAdjoint, adjoint_of
+from ancf.system.system import System
+from ancf.viz.pictures.questions import ask
+from slopes import extrapolated, remainder_slopes
+
+ARMS = ["gravity", "hub.inertia", "arm.mass", "hub.mass", "hinge.b[2]"]
+OF_ARMS = [
+    "integral(position(arm.centre)[2])",
+    "integral(norm(multiplier(hinge))**2)",
+    "last(velocity(arm.centre)[0]) + mean(t * multiplier(elbow)[2])",
+    "integral(multiplier(elbow)[4]**2)",
+]
+PARTS = ["wire.EI", "wire.axial_damping", "hub.mass", "tip.mass", "gravity", "stay.length", "wire.start[1]"]
+PARTS += ["coil.stiffness", "ring.viscous"]
+OF_PARTS = [
+    "integral(norm(velocity(bob))**2)",
+    "integral(norm(multiplier(hinge))**2) + integral(norm(multiplier(clamp))**2)",
+    "integral(normal_force(ring)[2]**2)",
+    "last(position(tip)[2]) + 10 * last(arc_rate(bead)) + last(arc_length(ring))",
+]
+BEAMS = [f"{body}.{name}" for body in ("carrier", "slider") for name in ("E", "rho", "length")]
+BEAMS += ["tip.mass", "gravity[2]"]
+
+
+def settings(method, steps=31):
+    return {"t_end": 1e-3 * steps + 4e-4, "step": 1e-3, "integrator": method}
+
+
+def forward(model, text, names, **given):
+    """The same by sensitivities that follow the run."""
+    result = ancf.simulate(model, sensitivities=names, **given)
+    _, slopes = slopes_of(Formula(text, "test", OF_RUN), result.t, result)
+    return {
+        name: sum(
+            np.sum(x * result.sensitivity(name).answer(lambda f, p=pair: ask(f, *p)))
+            for pair, x in slopes.items()
+        )
+        for name in names
+    }
+
+
+def apart(model, found, wanted):
+    """Largest difference, each by the size of its parameter, relative to the largest derivative so."""
+    size = {name: abs(value_of(model, name)) or 1.0 for name in found}
+    largest = max(abs(wanted[name]) * size[name] for name in wanted)
+    return max(abs(found[name] - wanted[name]) * size[name] for name in wanted) / largest
+
+
+def differences(model, text, names, **given):
+    return {
+        name: extrapolated(lambda m: ancf.gradient(m, text, [], **given)[0], model, name, 2e-2)
+        for name in names
+    }
+
+
+@pytest.mark.parametrize("method", methods())
+@pytest.mark.parametrize("text", OF_ARMS)
+def test_rows(text, method):
+    """Hinges and rigid bodies, by numbers of masses and of the rows themselves."""
+    model, given = arms(), settings(methods()[method])
+    _, slope = ancf.gradient(model, text, ARMS, **given)
+    enough = 1e-6 if "index3" in method or "[4]" in text else 1e-9  # of what forwards is differenced
+    assert apart(model, slope, forward(model, text, ARMS, **given)) < enough
+
+
+@pytest.mark.parametrize("method", methods())
+@pytest.mark.parametrize(
+    "sliding", [{}, {"friction": 0.4, "friction_velocity": 0.2}, {"release": (0, 1, 0)}, {"damped": False}]
+)
+def test_mechanisms(sliding, method):
+    """Damped cables, clamps, local axes, a driven support, sliding joints with mass and friction."""
+    model, given = machine(**sliding), settings(methods()[method])
+    chosen = {"trapezoidal ggl": OF_PARTS, "generalized index3": OF_PARTS[:3]}
+    for text in chosen.get(method, OF_PARTS[::3]):
+        names = [name for name in PARTS if sliding.get("damped", True) or "damping" not in name]
+        _, slope = ancf.gradient(model, text, names, **given)
+        assert apart(model, slope, forward(model, text, names, **given)) < 2e-6, text
+
+
+@pytest.mark.parametrize("method", ["trapezoidal index2", "generalized index3", "trapezoidal index1"])
+@pytest.mark.parametrize("text", OF_PARTS[:3])
+def test_against_differences(text, method):
+    names, given = ["wire.EI", "hub.mass", "gravity"], settings(methods()[method])
+    _, slope = ancf.gradient(machine(), text, names, **given)
+    assert apart(machine(), slope, differences(machine(), text, names, **given)) < 1e-8
+
+
+@pytest.mark.parametrize("text", OF_ARMS)
+def test_shifted_positions_against_differences(text):
+    """GGL of rigid bodies; that the shifts go through the factors of a step is a part of the derivative."""
+    names, given = ["hub.inertia", "gravity", "arm.mass"], settings(methods()["trapezoidal ggl"])
+    _, slope = ancf.gradient(arms(), text, names, **given)
+    assert apart(arms(), slope, differences(arms(), text, names, **given)) < 1e-7
+
+
+@pytest.mark.parametrize("method", ["trapezoidal index2", "generalized index3"])
+def test_example_of_the_paper(method):
+    """Example 7.4, while the joint slides over an end of an element, against differences."""
+    model, text = sliding.build(4, 1), "integral(norm(velocity(slider.end))**2) + last(arc_length(joint))"
+    given = {"t_end": 0.2, "step": 2e-3, "integrator": methods()[method]}
+    _, slope = ancf.gradient(model, text, BEAMS, **given)
+    assert apart(model, slope, differences(model, text, BEAMS, **given)) < 1e-7
+
+
+@pytest.mark.parametrize("name", ["hub.inertia", "gravity", "arm.mass"])
+def test_taylor(name):
+    """What a derivative leaves falls with the square of the change."""
+    given = settings(methods()["generalized index2"])
+    _, slope = ancf.gradient(arms(), OF_ARMS[1], [name], **given)
+
+    def value(model):
+        return ancf.gradient(model, OF_ARMS[1], [], **given)[0]
+
+    found = remainder_slopes(value, arms(), name, slope[name], noise=1e-12)
+    assert len(found) == 0 or np.all(np.abs(found - 2.0) < 0.05)
+
+
+@pytest.mark.parametrize("steps", [1, 2, 7, 8, 17])
+def test_any_number_of_steps(steps):
+    """Multipliers of a step begin with those of later ones, of which the last step has none."""
+    model, given = machine(), settings(methods()["trapezoidal ggl"], steps)
+    _, slope = ancf.gradient(model, OF_PARTS[1], PARTS, **given)
+    assert apart(model, slope, forward(model, OF_PARTS[1], PARTS, **given)) < 2e-6
+
+
+def test_steps_taken_again_give_the_same(monkeypatch):
+    given = settings(ancf.Trapezoidal(), 90)
+    first = ancf.gradient(machine(), OF_PARTS[1], PARTS, **given)
+    monkeypatch.setattr(adjoint, "KEPT", 0.0)
+    again = ancf.gradient(machine(), OF_PARTS[1], PARTS, **given)
+    assert again[0] == first[0]
+    assert again[1] == pytest.approx(first[1], rel=1e-8)
+
+
+def test_from_an_equilibrium():
+    model, names = sliding.build(4, 1), ["carrier.E", "tip.mass", "carrier.length"]
+    text, given = "integral(norm(velocity(slider.end))**2)", settings(methods()["generalized index3"])
+
+    def value(other, names=()):
+        start = ancf.equilibrium(other, of=["carrier"], sensitivities=names)
+        return ancf.gradient(other, text, names, start=start, **given)
+
+    _, slope = value(model, names)
+    wanted = {name: extrapolated(lambda m: value(m)[0], model, name, 2e-2) for name in names}
+    assert apart(model, slope, wanted) < 1e-7
+
+
+def test_which_models_have_one():
+    """Rows of joints, but nothing that differences are taken of, and no joint that has come to an end."""
+    assert adjoint_of(System(arms())) is JoinedAdjoint
+    assert adjoint_of(System(machine())) is JoinedAdjoint
+    assert adjoint_of(System(sliding.build())) is JoinedAdjoint
+    model = machine()
+    model.add_moment(model.bodies["hub"], (0.0, "0.1*t", 0.0), name="turn")
+    assert adjoint_of(System(model)) is None
+    hung = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    rope = hung.add_beam(
+        "rope", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=ancf.Section(EA=9.0, EI=1.0, rhoA=1.0)
+    )
+    hung.clamp(rope.start)
+    assert adjoint_of(System(hung)) is Adjoint
+    ended = System(sliding.build())
+    ended.parts["slides"].mode[:] = 1
+    assert adjoint_of(ended) is None
