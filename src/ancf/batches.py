@@ -23,7 +23,6 @@ from . import addresses
 from .addresses import call_at
 from .compiled import (
     PART,
-    VECTOR,
     add_force,
     add_inertia,
     add_number_work,
@@ -37,108 +36,12 @@ from .compiled import (
     inverted,
     measure,
     remember,
-    separate_kernel,
     strain_energy,
     touched,
 )
+from .operations import OPERATIONS
 from .records import RecordType, begin_of, words_of
 
-
-@separate_kernel
-def force_at(record, q, v, a, r, ws):
-    """``add_force`` of the batch at an address."""
-    add_force(record, q, v, a, r, ws)
-
-
-@separate_kernel
-def inertia_at(record, a, r, ws):
-    """``add_inertia`` of the batch at an address."""
-    add_inertia(record, a, r, ws)
-
-
-@separate_kernel
-def tangent_at(record, q, v, A, c_mass, c_damping, c_stiffness, ws):
-    """``add_tangent`` of the batch at an address."""
-    add_tangent(record, q, v, A, c_mass, c_damping, c_stiffness, ws)
-
-
-@separate_kernel
-def energy_at(record, q, ws):
-    """``strain_energy`` of the batch at an address."""
-    return 1.0 * strain_energy(record, q, ws)
-
-
-@separate_kernel
-def event_at(record, q):
-    """``find_event`` of the batch at an address."""
-    return find_event(record, q)
-
-
-@separate_kernel
-def inverted_at(record, q, ws):
-    """``inverted`` of the batch at an address."""
-    return inverted(record, q, ws)
-
-
-@separate_kernel
-def measure_at(record, q, v):
-    """``measure`` of the batch at an address."""
-    measure(record, q, v)
-
-
-@separate_kernel
-def remember_at(record, q, v):
-    """``remember`` of the batch at an address."""
-    remember(record, q, v)
-
-
-@separate_kernel
-def rate_stiffness_at(record, q, v, S, W, ws):
-    """``add_rate_stiffness`` of the batch at an address."""
-    add_rate_stiffness(record, q, v, S, W, ws)
-
-
-@separate_kernel
-def rate_work_at(record, q, v, x, out, ws):
-    """``add_rate_work`` of the batch at an address."""
-    add_rate_work(record, q, v, x, out, ws)
-
-
-@separate_kernel
-def touched_at(record, q, out):
-    """``touched`` of the batch at an address."""
-    return touched(record, q, out)
-
-
-@separate_kernel
-def work_slopes_at(record, q, v, a, x, by_q, by_v, by_a, ws):
-    """``add_work_slopes`` of the batch at an address."""
-    add_work_slopes(record, q, v, a, x, by_q, by_v, by_a, ws)
-
-
-@separate_kernel
-def number_work_at(record, q, v, a, x, out, ws):
-    """``add_number_work`` of the batch at an address."""
-    add_number_work(record, q, v, a, x, out, ws)
-
-
-_V, _x = VECTOR, types.float64
-#: Kernels of the operations on a record, the types of what they take besides it, and what they return.
-OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
-    add_force: (force_at, (_V, _V, _V, _V, _V), types.none),
-    add_inertia: (inertia_at, (_V, _V, _V), types.none),
-    add_tangent: (tangent_at, (_V, _V, _V, _x, _x, _x, _V), types.none),
-    strain_energy: (energy_at, (_V, _V), types.float64),
-    find_event: (event_at, (_V,), types.int64),
-    inverted: (inverted_at, (_V, _V), types.int64),
-    measure: (measure_at, (_V, _V), types.none),
-    remember: (remember_at, (_V, _V), types.none),
-    add_rate_stiffness: (rate_stiffness_at, (_V, _V, _V, _V, _V), types.none),
-    touched: (touched_at, (_V, _V), types.int64),
-    add_number_work: (number_work_at, (_V, _V, _V, _V, _V, _V), types.none),
-    add_rate_work: (rate_work_at, (_V, _V, _V, _V, _V), types.none),
-    add_work_slopes: (work_slopes_at, (_V, _V, _V, _V, _V, _V, _V, _V), types.none),
-}
 _COLUMNS = 1 + len(OPERATIONS)
 _NONE = np.zeros((0, _COLUMNS), dtype=np.int64)
 FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, 9)

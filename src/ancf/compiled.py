@@ -59,6 +59,7 @@ def stamped() -> list[Path]:
         root / "parts.py",
         root / "records.py",
         root / "addresses.py",
+        root / "operations.py",
         root / "batches.py",
         root / "choices.py",
         root / "vectors.py",
@@ -171,10 +172,7 @@ def add_number_work(batch, q, v, a, x, out, ws):
 
 
 def add_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
-    """Add the derivatives of x . force by q, v and a to ``by_q``, ``by_v`` and ``by_a``.
-
-    Without what joints add to their forces that vanishes where their rows are zero.
-    """
+    """Add the derivatives of x . force by q, v and a, without what vanishes where rows of joints are zero."""
     raise TypeError(f"{type(batch).__name__} does not know the slopes of the work of its forces")
 
 
@@ -389,18 +387,7 @@ _NOTHING = {no_inertia, no_energy, no_event, never_inverted}
 _DOES: dict[tuple[Any, Any], Callable[..., Any]] = {}
 _inverted, _measure, _remember = inverted, measure, remember  # the parameters of implements hide the names
 for _stub in (
-    add_force,
-    add_inertia,
-    add_tangent,
-    strain_energy,
-    find_event,
-    inverted,
-    measure,
-    remember,
-    add_rate_stiffness,
-    add_rate_work,
-    touched,
-    add_number_work,
-    add_work_slopes,
+    *(add_force, add_inertia, add_tangent, strain_energy, find_event, inverted, measure, remember),
+    *(add_rate_stiffness, add_rate_work, touched, add_number_work, add_work_slopes),
 ):
     _choose_by_kind(_stub)

@@ -23,7 +23,7 @@ LAYERS = (
     {"compiled"},
     {"choices"},
     {"vectors"},
-    {"records"},
+    {"records", "operations"},
     {"batches"},
     {"simd"},
     {"model"},
