@@ -60,7 +60,20 @@ def arrays(system):
     return {key: array for key, array in found.items() if key.rsplit(".", 1)[-1] not in OWN}
 
 
-@pytest.mark.parametrize("build", [hung, jointed])
+def slid():
+    """Two cables, one of which slides on the other, with a mass that is tied to it."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e4, EI=2.0, rhoA=0.3)
+    a = model.add_beam("a", start=(0, 0, 0), end=(2, 0, 0), elements=4, section=section)
+    b = model.add_beam("b", start=(1, 0, 0), end=(1, 0, 1), elements=2, section=section)
+    model.pin(a.start)
+    model.pin(a.end)
+    model.slide(b.start, along=a, friction=0.2, friction_velocity=0.1, release=(0, 1, 0))
+    model.connect(model.add_point_mass("m", at=(1, 0, 1), mass=0.5), b.end)
+    return model
+
+
+@pytest.mark.parametrize("build", [hung, jointed, slid])
 def test_they_are_those_made_anew(build):
     model, seen = build(), []
     base = System(model)
@@ -77,9 +90,10 @@ def test_they_are_those_made_anew(build):
         assert mine.keys() == whole.keys()
         for key in mine:
             assert np.array_equal(mine[key], whole[key]), (name, key)
-    known = ("gravity[0]", "a.EA", "a.rhoA" if build is hung else "b.rho", "a.velocity[1]")
+    known = ("gravity[0]", "a.EA", "b.rho" if build is jointed else "a.rhoA", "a.velocity[1]")
     assert set(known) <= set(seen)
-    assert ("a.length" in seen) == (build is hung)
+    assert ("a.length" in seen) == (build is not jointed)
+    assert ("a.start[0]" in seen) == (build is hung)
 
 
 @pytest.mark.parametrize("name", ["a.length", "a.start[2]", "b.EI", "m.mass", "between.stiffness", "m.at[0]"])
