@@ -269,6 +269,9 @@ class Traits:
     joined : function, optional
         ``joined(batch, other)``: the batch as it knows what all numbers do that one of both has, as dampings
         that are zero in the other; default the batch itself.
+    change : function, optional
+        ``change(batch, other, factor)``: a batch whose forces are ``factor`` times the difference of those of
+        another one and its own; None where forces are not linear in what differs.
     """
 
     role: Role = Role.NONE
@@ -292,6 +295,7 @@ class Traits:
     numbers: Callable[[Any], Any] | None = None
     numbered: tuple[str, ...] = ()
     joined: Callable[[Any, Any], Any] | None = None
+    change: Callable[[Any, Any, float], Any] | None = None
 
 
 _TRAITS: dict[type, Traits] = {}

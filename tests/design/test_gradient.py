@@ -41,6 +41,38 @@ NAMES = ["beam.EI", "beam.rhoA", "beam.damping", "beam.length", "gravity", "push
 NAMES += ["beam.start[1]"]
 
 
+def strongly_damped(elements, stays):
+    """A cable on springs whose dampings are stiff beside a step: velocities add much to its stiffness."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section(EA=500.0, EI=0.5, rhoA=0.2, axial_damping=5.0, bending_damping=0.05, damping=0.1)
+    beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=elements, section=section)
+    beam.set_motion(angular_velocity=(0.0, 3.0, 2.0))
+    model.pin(beam.start)
+    for k in range(stays):
+        model.add_spring(
+            beam.at(1 - 0.2 * k), (1, 0, 0.8), stiffness=50.0, length=0.7, damping=3.0, name=f"s{k}"
+        )
+    return model
+
+
+@pytest.mark.parametrize("method", [TIGHT, ancf.GeneralizedAlpha(rho_inf=0.7, newton=TIGHT.newton)])
+@pytest.mark.parametrize(("elements", "stays", "steps"), [(3, 0, 90), (9, 1, 45), (4, 3, 60)])
+def test_strong_damping(elements, stays, steps, method):
+    """Corrections that begin with a guess from the steps before end where those without one would."""
+    model, names = strongly_damped(elements, stays), ["beam.EI", "beam.axial_damping", "beam.bending_damping"]
+    names += ["beam.length", "gravity[2]", *(f"s{k}.damping" for k in range(stays))]
+    given = {"t_end": steps * 2e-3, "step": 2e-3, "integrator": method}
+    objective = "integral(norm(velocity(beam.end))**2)"
+    _, slope = ancf.gradient(model, objective, names, **given)
+    result = ancf.simulate(model, sensitivities=names, **given)
+    _, slopes = slopes_of(Formula(objective, "test", OF_RUN), result.t, result)
+    size = max(map(abs, slope.values()))
+    for name in names:
+        own = result.sensitivity(name)
+        wanted = sum(np.sum(x * own.of(lambda f, p=pair: ask(f, *p))) for pair, x in slopes.items())
+        assert slope[name] == pytest.approx(wanted, rel=1e-9, abs=1e-11 * size), name
+
+
 def settings(method=TIGHT):
     return {"t_end": 0.0307, "step": 1e-3, "integrator": method}
 

@@ -11,11 +11,13 @@ from ancf.simd import (
     decay,
     every,
     gather,
+    gather_lanes,
     gather_nodes,
     greatest,
     load,
     load_six,
     put,
+    put_lanes,
     put_nodes,
     replaced,
     scatter,
@@ -90,6 +92,12 @@ def written(x, places, r):
     put(gather(x, places, 0, 1), r, places, 1, 0)
 
 
+@kernel
+def turned_about(x, places, r):
+    a, b, c, d, e, f, g, h = gather_lanes(x, places, 1)
+    put_lanes(h, a + b, c, d, 2.0 * e, f, g, b, r, places, 0)
+
+
 @pytest.mark.parametrize("x", [RNG.standard_normal(LANES), SPECIAL], ids=["random", "special"])
 def test_operators_of_lanes(x):
     """To the last bit, but the division, which may be a product with the inverse."""
@@ -139,6 +147,21 @@ def test_from_places_and_back(kind):
     written(x, places, r)
     written.py_func(x, places, wanted)
     np.testing.assert_array_equal(r, wanted)
+
+
+@pytest.mark.parametrize("kind", ["apart", "overlapping", "anywhere"])
+def test_eight_rows_are_columns_and_rows_again(kind):
+    lane = np.arange(LANES)
+    first = {"apart": 9 * lane, "overlapping": 3 * lane[::-1], "anywhere": RNG.permutation(90)[:LANES]}[kind]
+    places, x = np.stack([first, 2 * lane + 1]), RNG.standard_normal(100)
+    found = gather_lanes(x, places, 0)
+    for k in range(LANES):
+        np.testing.assert_array_equal(found[k], x[first + k])
+    r, wanted = np.zeros((2, 100))
+    turned_about(x, places, r)
+    turned_about.py_func(x, places, wanted)
+    np.testing.assert_array_equal(r, wanted)
+    assert np.any(r)
 
 
 @kernel

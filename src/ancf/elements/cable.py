@@ -45,7 +45,7 @@ from .cable_columns import (
 )
 from .cable_damping import axial_damping, bending_damping, bending_damping_tangent, slope_damping
 from .cable_hessian import add_elastic
-from .cable_numbers import elements_work, joined, numbers
+from .cable_numbers import change, elements_work, joined, numbers
 from .cable_rate_work import rate_work
 from .cable_rates import TWIST, rate_blocks, store_twists
 from .cable_strain import (
@@ -390,6 +390,7 @@ implements(
     numbers=numbers,
     numbered=("lane_data", "lane_slope"),
     joined=joined,
+    change=change,
     role=Role.DISSIPATES,
     slots=("base", "lane_base"),
     bind=bind,

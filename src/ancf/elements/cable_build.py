@@ -18,11 +18,19 @@ from .cable_columns import (
     BEGIN,
     BENDING,
     CURVED,
+    DA_L,
     DAMPED,
+    DB_L,
+    EA_L,
+    EI_L,
     END,
     IN_BENDING,
     IN_SLOPE,
+    INV_L,
+    LENGTH,
+    MASS,
     PAPER,
+    VISCOUS,
     VISCOUSLY,
 )
 from .cable_slack import slack
@@ -89,6 +97,9 @@ def renumbered(batch: CableBatch, beam: Beam, slot: IntArray) -> CableBatch | No
     slot : ndarray, shape (nodes, 2)
         Its slots there.
     """
+    straight = beam.natural is None or _is_straight(beam.natural)
+    if len(batch.base) == beam.elements and straight and not batch.groups[0, CURVED]:
+        return _all_renumbered(batch, beam)
     key, base, *constants = _part(beam, slot)
     found = np.flatnonzero((batch.base[:, 0] == base[0, 0]) & (batch.base[:, 2] == base[0, 2]))
     if len(found) != 1:
@@ -110,6 +121,22 @@ def renumbered(batch: CableBatch, beam: Beam, slot: IntArray) -> CableBatch | No
             rows[empty, kept:] = 0.0
         array[begin + chunk, :, lanes] = rows
     return batch._replace(groups=groups, lane_data=made[0], lane_slope=made[1], lane_reference=made[2])
+
+
+def _all_renumbered(batch: CableBatch, beam: Beam) -> CableBatch | None:
+    """The same where the beam is the only one, without natural strains."""
+    if batch.groups[0, [PAPER, AXIAL, BENDING]].tolist() != [beam.strain == "paper", *beam.gauss]:
+        return None
+    values, slope, damped = _constants(beam)
+    element, without = elements_in(batch.first)
+    rows, slopes = values[:, element].transpose(1, 0, 2), slope[element]  # (chunks, constants, lanes)
+    if without[-1, -1]:
+        rows[:, LENGTHS:][np.broadcast_to(without[:, None], rows[:, LENGTHS:].shape)] = 0.0
+        slopes[without] = 0.0
+    groups = batch.groups.copy()
+    groups[0, DAMPED] |= damped
+    data = np.ascontiguousarray(rows)
+    return batch._replace(groups=groups, lane_data=data, lane_slope=slopes[:, None])
 
 
 def shape(
@@ -166,25 +193,21 @@ def _is_straight(beam: Beam) -> bool:
 
 def _part(beam: Beam, slot: IntArray) -> tuple[tuple[int, ...], IntArray, FloatArray, FloatArray, FloatArray]:
     """Key of the group, base, constants, slope damping and reference strains of one beam."""
-    s, h = beam.section, np.diff(beam.node_x)
-    one = np.ones_like(h)
-    data = np.stack(
-        [
-            h,
-            1 / h,
-            s.EA * h,
-            s.EI * h,
-            s.axial_damping * h,
-            s.bending_damping * h,
-            s.rhoA * h / 420,
-            s.damping / s.rhoA * one,
-        ],
-        axis=1,
-    )
+    data, slope, damped = _constants(beam)
     eps0, kappa0 = reference_strains(beam)
-    kinds = (VISCOUSLY, s.damping), (AXIALLY, s.axial_damping), (IN_BENDING, s.bending_damping)
-    damped = sum(bit for bit, value in (*kinds, (IN_SLOPE, s.slope_damping)) if value)
-    slope = s.slope_damping * h[:, None] / 30
     curved = bool(np.any(eps0) or np.any(kappa0))
     key = (int(beam.strain == "paper"), *beam.gauss, damped, int(curved))
-    return key, np.hstack([slot[:-1], slot[1:]]), data, slope, np.hstack([eps0, kappa0])
+    base, reference = np.hstack([slot[:-1], slot[1:]]), np.hstack([eps0, kappa0])
+    return key, base, np.ascontiguousarray(data.T), slope[:, None], reference
+
+
+def _constants(beam: Beam) -> tuple[FloatArray, FloatArray, int]:
+    """Constants of a beam's elements, (8, n), their slope damping, (n,), and which damping there is."""
+    s, h = beam.section, np.diff(beam.node_x)
+    data = np.empty((8, len(h)))
+    data[LENGTH], data[INV_L], data[EA_L], data[EI_L] = h, 1 / h, s.EA * h, s.EI * h
+    data[DA_L], data[DB_L] = s.axial_damping * h, s.bending_damping * h
+    data[MASS], data[VISCOUS] = s.rhoA * h / 420, s.damping / s.rhoA
+    kinds = (VISCOUSLY, s.damping), (AXIALLY, s.axial_damping), (IN_BENDING, s.bending_damping)
+    damped = sum(bit for bit, value in (*kinds, (IN_SLOPE, s.slope_damping)) if value)
+    return data, s.slope_damping * h / 30, damped

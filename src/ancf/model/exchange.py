@@ -45,7 +45,9 @@ def renewed(model: Any, old: Any, new: Any, factor: float = 1.0) -> Any:
                 memo[id(value)] = _carried(value, new, factor)
     made.bodies = {name: _renewed(body, memo) for name, body in model.bodies.items()}
     for key in (*GROUPS, *SURROUNDINGS):
-        setattr(made, key, [_renewed(item, memo) for item in getattr(model, key)])
+        items = getattr(model, key)
+        if items:
+            setattr(made, key, [_renewed(item, memo) for item in items])
     _stretch(made, old, new, factor)
     return made
 

@@ -64,7 +64,8 @@ class Lookup:
 
     def snapshot(self) -> Self:
         """Return the model as it is now: what is added to one later is not in the other."""
-        other = copy(self)
+        other = object.__new__(type(self))  # many are made; copy asks each for its ways to be copied first
+        other.__dict__.update(self.__dict__)
         other.bodies, other._names = dict(self.bodies), copy(self._names)
         other.inputs = dict(self.inputs)
         for key in (*GROUPS, *SURROUNDINGS):

@@ -160,7 +160,7 @@ def alike(a: System, b: System) -> bool:
         same = a.slots.keys() == b.slots.keys()
         same = same and all(np.array_equal(a.slots[key], b.slots[key]) for key in a.slots)
     same = same and (a.held is b.held or np.array_equal(a.held, b.held))
-    return same and all(fit(batch, b.parts[key]) for key, batch in a.parts.items())
+    return same and all(batch is b.parts[key] or fit(batch, b.parts[key]) for key, batch in a.parts.items())
 
 
 def fit(mine: Any, other: Any) -> bool:

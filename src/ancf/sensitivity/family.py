@@ -19,15 +19,15 @@ from ..arrays import FloatArray
 from ..batches import Batches
 from ..compiled import Role, traits
 from ..errors import ModelError
-from ..solvers.stages import place_rows, stage_residuals
 from ..system.beside import SLIDES, beside
-from ..system.core import Core, Tables, apply_load, apply_supports, place_supports, residual
+from ..system.core import Tables
 from ..system.system import System
 from .alike import Known, alike, changed, same_inputs, same_loads
 from .parameters import Parameter
+from .pushing import Pushing
 from .trial import Trial
-from .turns import axes_rates, moves_ends, slopes_local, slopes_rates, stands
-from .values import Push, few_of, gaps_of, quiet_state
+from .turns import axes_rates, ends_rates, moves_ends, slopes_local, slopes_rates, stands
+from .values import few_of, quiet_state
 
 #: Step of the differences, relative, and of a parameter that is zero, in its unit or the size of the model.
 STEP = 1e-3
@@ -46,7 +46,7 @@ KINKED = {"springs", "contacts", "pressing", "rubbing", "crossing", "gripping", 
 PAIR = ((-3.0, 3.0), (-1 / 6, 1 / 6))
 
 
-class Family:
+class Family(Pushing):
     """The systems of a model at values of a parameter around its own.
 
     Parameters
@@ -89,8 +89,14 @@ class Family:
         self._made: dict[float, System] = {}
         self._differ: dict[int, set[str]] = {}  # names of batches by system
         self._begun: dict[int, tuple[FloatArray, FloatArray]] = {}  # initial states by system
+        self._steady: list[FloatArray] | None = None
+        self._flags: list[tuple[Any, str, str]] = []
+        self.changed: set[str] = set()
         self.straight = shifts and not thorough and moves_ends(parameter.acts) and stands(base)
         self.linear = self.straight  # but for axes, see _look
+        self._ends = self._ends_at(3.0 * STEP * unit) if self.straight else None
+        if self._ends is not None:
+            return self._see_ends(self._ends[0])
         if self.linear:
             self._take_line(3.0 * STEP * unit)
         elif parameter.quadratic:
@@ -99,6 +105,22 @@ class Family:
             self._choose(STEP * unit, TINY * unit, thorough)
         self._look()
         self._forget()
+
+    @cached_property
+    def systems(self) -> list[System]:
+        """Of the model at the values; where all that they are asked is known, they are made when needed."""
+        return [self._compiled(self.offsets[0]), self.base]
+
+    def _ends_at(self, offset: float) -> tuple[FloatArray, FloatArray] | None:
+        """Derivatives of the initial state from an end at this offset, see :func:`ends_rates`, or None."""
+        self.offsets, self.weights = [offset, 0.0], [1.0 / offset, -1.0 / offset]
+        return ends_rates(self.base, self.parameter.at(self.parameter.value + offset), offset)
+
+    def _see_ends(self, moved: FloatArray) -> None:
+        """An end of a cable moves what supports hold, and no number of a batch and no load."""
+        self._fed, self._loads = True, False
+        self.constant = all(f.constant for f in self.base.inputs.loads)
+        self._see_held(moved, slopes_rates(self.base, moved), True)
 
     def _choose(self, h: float, tiny: float, thorough: bool) -> None:
         """Take values h apart, two or six, or two that are tiny steps apart where forces have kinks."""
@@ -208,22 +230,33 @@ class Family:
         still, self._fed = self._steady_inputs()
         plain = still and all(self._has_own(system) for system in self.systems)
         rows = any(Role.CONSTRAINS in traits(base.parts[name]).role for name in self.changed)
+        self._see_supports(plain, rows)
+        self._loads = any(not same_loads(base, s) for s in self.systems)
+        self.constant = all(f.constant for s in self.systems for f in s.inputs.loads)
+
+    def _see_supports(self, plain: bool, rows: bool) -> None:
+        """See whether what supports hold shifts or turns with the parameter; or ``rows`` of joints change."""
+        base, none = self.base, np.zeros((0, 3, 3))
+        if self.parameter.linear and all(system.supports is base.supports for system in self.systems):
+            self._see_held(np.zeros(base.size), none, plain, rows)
+            return
         moved = np.zeros(base.size)
         for weight, shape in zip(self.weights, self._shape, strict=True):
             moved += weight * shape
-        shift = np.zeros(base.size)
-        shift[base.held] = moved[base.held]
         own = self.systems, self.weights
         turn: Any = slopes_rates(base, moved) if self.straight else axes_rates(base, *own)
         if turn is None or (np.any(turn) and len(base.multipliers)):
-            plain, turn = False, np.zeros((0, 3, 3))
+            plain, turn = False, none
+        self._see_held(moved, turn, plain, rows)
+
+    def _see_held(self, moved: FloatArray, turn: FloatArray, plain: bool, rows: bool = False) -> None:
+        """Keep what is held that shifts, as the state is ``moved``, and turns."""
+        shift = np.zeros(self.base.size)
+        shift[self.base.held] = moved[self.base.held]
         moves = bool(np.any(shift) or np.any(turn))
         self.plain, self.joined = plain and not (moves or rows), plain and rows and not moves
         self.shift = shift if plain and not rows and np.any(shift) else shift[:0]
         self.turn = turn if plain and not rows and np.any(turn) else turn[:0]
-        self._loads = any(not same_loads(base, s) for s in self.systems)
-        self._steady: list[FloatArray] | None = None
-        self.constant = all(f.constant for s in self.systems for f in s.inputs.loads)
 
     @cached_property
     def _batches(self) -> list[Batches]:
@@ -233,24 +266,41 @@ class Family:
     def _has_own(self, system: System) -> bool:
         """Whether no batch that the parameter changes has inputs of the system's."""
         few = [batch for name, batch in system.parts.items() if name in self.changed]
-        shared = (
-            np.may_share_memory(x, system.value)
-            for b in few
-            for x in b
-            if isinstance(x, np.ndarray) and x.size
-        )
-        return not any(shared)
+        arrays = (x for b in few for x in b) if system.value.size else ()
+        own = (x for x in arrays if isinstance(x, np.ndarray) and x.size)
+        return not any(np.may_share_memory(x, system.value) for x in own)
 
     def used(self, names: set[str] | None = None) -> list[tuple[float, Batches]]:
         """Weights and the batches that the parameter changes at each value, or those of them by these names.
 
-        Where two values do, one of them and that of the model, which all parameters share.
+        Where two values do, one of them and that of the model, which all parameters share; or one batch, of
+        kinds that know what their forces change by.
         """
-        batches = self._batches if names is None else few_of([*self.systems, self.base], names)
+        names = self.changed if names is None else names
+        if not names:
+            return []
+        change = self._change(names)
+        if change is not None:
+            return [(1.0, change)]
+        batches = few_of([*self.systems, self.base], names)
         if not self.linear or self.systems[-1] is self.base:
             return list(zip(self.weights, batches[:-1], strict=True))
         last, own = batches[-2:]
         return [(1.0 / self.offsets[-1], last), (-1.0 / self.offsets[-1], own)]
+
+    def _change(self, names: set[str]) -> Batches | None:
+        """Batches whose forces are the derivatives of those by these names, if all of them can be had."""
+        system, offset, made = self.systems[0], self.offsets[0], []
+        if self.systems[-1] is not self.base:
+            return None
+        for name in sorted(names):
+            mine = self.base.parts[name]
+            own = traits(mine).change
+            found = None if own is None else own(mine, system.parts[name], 1.0 / offset)
+            if found is None:
+                return None
+            made.append(found)
+        return Batches(made)
 
     def loads_used(
         self, when: tuple[float, float, float, float], tables: Tables
@@ -297,71 +347,19 @@ class Family:
 
     def know(self, system: System) -> None:
         """Let all systems be as one that runs: its joints, and the weights of their rows."""
-        for own in self.systems:
+        for own in self.systems if "systems" in self.__dict__ else ():
             own.level[:] = system.level
             if len(system.measured):
                 own.measured[...] = system.measured
         for mine, name, key in self._flags:
             mine[...] = getattr(system.parts[name], key)
 
-    def at_steps(
-        self, q: FloatArray, v: FloatArray, a: FloatArray, when: tuple[float, float, float, float], gaps: bool
-    ) -> Push:
-        """What the parameter does to states (n, size) at the ends of steps.
-
-        ``when``: start, step, first and last time, as ``Inputs.tables`` takes them.
-        """
-        start, step, first, last = when
-        made = Push(np.zeros_like(q), np.zeros_like(q), np.zeros((3, *q.shape)))
-        for k, weight in enumerate(self.weights):
-            system = self.systems[k]
-            tables = system.inputs.tables(start, step, len(q), first, last)
-            states = self._moved(k, q), v.copy(), a.copy()
-            place_rows(system.core, tables, *states)
-            moved = any(not np.array_equal(x, y) for x, y in zip(states, (q, v, a), strict=True))
-            core = system.core if moved else system.core._replace(batches=self._batches[k])
-            r = np.empty_like(q)
-            stage_residuals(core, tables, *states, np.empty(system.size), r)
-            made.push[...] += weight * r
-            for x, y, here in zip(made.held, states, (q, v, a), strict=True):
-                x += weight * (y - here)
-            if gaps:
-                made.gap[...] += weight * gaps_of(system, tables, states)
-        self._finish(made)
-        return made
-
-    def at_rest(self, core: Core, q: FloatArray, when: tuple[float, float]) -> Push:
-        """The same of one state (size,) without motion at a time, of ``core`` what is held.
-
-        ``when``: time and a step with which rates of given motions are found.
-        """
-        time, h = when
-        made = Push(np.zeros((1, q.size)), np.zeros((1, q.size)), np.zeros((3, 1, q.size)))
-        for k, weight in enumerate(self.weights):
-            system = self.systems[k]
-            tables = system.inputs.tables(time - h, h, 1, time, np.inf)
-            x, zero, force, r = (
-                self._moved(k, q[None])[0],
-                np.zeros_like(q),
-                np.empty_like(q),
-                np.empty_like(q),
-            )
-            place_supports(system.core.supports, system.core.loads.value, tables, 0, x, zero, zero.copy())
-            apply_load(system.core.loads, tables.value[0], force)
-            still = np.zeros_like(q)
-            residual(system.core.batches, system.core.ws, x, still, still, force, r)
-            apply_supports(system.core.supports, r)
-            r[core.supports.held] = 0.0
-            made.push[0] += weight * r
-            made.held[0, 0] += weight * (x - q)
-        self._finish(made)
-        made.held[1:] = 0.0
-        return made
-
     def of_states(self, time: float) -> tuple[FloatArray, FloatArray]:
         """Derivatives of the initial shape and motion, (size,) each."""
         if self.parameter.linear:
             return np.zeros(self.base.size), np.zeros(self.base.size)
+        if self._ends is not None:
+            return self._ends
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # what holds against a given motion was said of the model itself
             here = Known.of(self.base).initial_state(time)
@@ -382,17 +380,3 @@ class Family:
             rates = [weight * own.motion(q + offset * dq, time) for own, offset, weight in each]
         found: FloatArray = np.sum(rates, axis=0)
         return found
-
-    def _moved(self, k: int, q: FloatArray) -> FloatArray:
-        """States (n, size) with what supports hold without moving it where it is in system k."""
-        held = self.base.held
-        moved = q.copy()
-        moved[:, held] += self._shape[k][held]
-        return moved
-
-    def _finish(self, made: Push) -> None:
-        n = self.base.n
-        made.push[:, n:] = made.gap[:, n:] = 0.0
-        free = np.ones(made.push.shape[1], dtype=bool)
-        free[self.base.held], free[n:] = False, False
-        made.held[..., free] = 0.0

@@ -15,7 +15,7 @@ from ..results.state import State
 from ..results.store import FileStore
 from ..simd import LANES
 from ..solvers.abreast import follow_steps
-from ..solvers.abreast_room import room_for
+from ..solvers.abreast_room import abreast, room_for
 from ..solvers.ahead import ahead_of
 from ..solvers.checkpoint import Snapshot
 from ..solvers.record import Stats
@@ -158,13 +158,10 @@ class Following:
         system.measured[...] = run.system.measured
         when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
         states = run.memory.q.copy(), run.memory.v.copy(), run.memory.a.copy()
-        self.s = np.zeros((-(-len(self.families) // LANES), 4, system.size, LANES))
-        first = np.zeros((len(self.families), 1, 3, system.size))
-        found = starts(system, self.m, self.nearby, self.given, states, when)
-        for k, (s, held) in enumerate(found):
-            self.s[k // LANES, :, :, k % LANES] = s
-            first[k, 0] = s[:3]
-            first[k, 0, :2] += held
+        found, held = starts(system, self.m, self.nearby, self.given, states, when)
+        self.s = abreast(found)
+        first = found[:, None, :3].copy()
+        first[:, 0, :2] += held
         self._keep(first[:, :, :2])
         self.samples.take(states[0][None], states[1][None], first)
         self.trail = Trail(run)
@@ -185,12 +182,16 @@ class Following:
         run, h = self.run, self.run.h if self.taken < self.run.full else self.run.rest
         self.taken += len(q)
         when_cut(run, self.taken)
-        self.waiting.append((q.copy(), v.copy(), self.trail.accelerations(v, h, last=True)))
+        self.waiting.append((q, v, self.trail.accelerations(v, h, last=True)))
         ready = sum(len(one[0]) for one in self.waiting)
         if ready >= LANES or self.taken in (run.full, run.steps):
-            q, v, a = (np.concatenate(parts) for parts in zip(*self.waiting, strict=True))
+            whole = len(self.waiting) == 1
+            parts = zip(*self.waiting, strict=True)
+            q, v, a = self.waiting[0] if whole else (np.concatenate(own) for own in parts)
             self.waiting.clear()
             self._follow(q, v, a, h)
+        else:
+            self.waiting[-1] = q.copy(), v.copy(), self.waiting[-1][2]
 
     def _follow(self, q: FloatArray, v: FloatArray, a: FloatArray, h: float) -> None:
         """Carry on over steps of a length, and store those to keep."""

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arrays import FloatArray
+from ..arrays import BoolArray, FloatArray
 from ..batches import Batches
 from ..simd import LANES
 from ..solvers.pushes import Uses, add_loads, add_pushes
@@ -50,6 +50,7 @@ class Nearby:
         self.others = [k for k in range(len(families)) if k not in self.plain]
         self._work, self._kept = np.zeros(system.size), np.zeros(0)
         self._weights: dict[int, Any] = {}  # derivatives of steady loads
+        self._first: tuple[FloatArray, BoolArray] | None = None  # the same of all plain ones
 
     @cached_property
     def _plainly(self) -> tuple[Uses, FloatArray]:
@@ -65,6 +66,13 @@ class Nearby:
                 turn[row] = self.turns[k]
         return turn
 
+    @cached_property
+    def turn(self) -> FloatArray:
+        """Derivatives of the local axes by all parameters, (p, k, 3, 3), or (p, 0, 3, 3) if none turns."""
+        if self.turns:
+            return self._turns_of(list(range(len(self.families))))
+        return np.zeros((len(self.families), 0, 3, 3))
+
     def turn_abreast(self) -> FloatArray:
         """The same of all parameters as their sensitivities lie, (p/8 rounded up, k, 3, 3, 8)."""
         turn, groups = self._turns_of(list(range(len(self.families)))), -(-len(self.families) // LANES)
@@ -73,13 +81,11 @@ class Nearby:
         return np.ascontiguousarray(np.moveaxis(lanes.reshape(groups, LANES, *turn.shape[1:]), 1, -1))
 
     def _room(self, count: int) -> FloatArray:
-        """Zeros (p, count, size), in the memory of the block before: pages that are new cost time."""
+        """Room (p, count, size), in the memory of the block before: pages that are new cost time."""
         wanted = len(self.families) * count * self.system.size
         if wanted > self._kept.size:
             self._kept = np.zeros(wanted)
-        room = self._kept[:wanted].reshape(len(self.families), count, self.system.size)
-        room[...] = 0.0
-        return room
+        return self._kept[:wanted].reshape(len(self.families), count, self.system.size)
 
     def at_steps(self, way: Way, when: tuple[float, float, float, float], tables: Any, gaps: bool) -> Pushes:
         """Of the states at the ends of the steps of a block.
@@ -104,22 +110,30 @@ class Nearby:
 
     def plain_at_steps(self, way: Way, when: tuple[float, float, float, float], tables: Any) -> FloatArray:
         """Pushes of the plain families, (p, n, size)."""
-        rows = np.zeros((len(self.plain), *way.q.shape))
+        rows = np.empty((len(self.plain), *way.q.shape))
         self._add_plain(way, when, tables, rows)
         return rows
 
     def _add_plain(
         self, way: Way, when: tuple[float, float, float, float], tables: Any, rows: FloatArray
     ) -> None:
-        for row, k in enumerate(self.plain):
-            steady = self.steady_loads(k, when, tables)
-            if steady is not None:
-                rows[row] -= steady
-                continue
-            for weight, loads, value in self.families[k].loads_used(when, tables):
+        first, loaded = self._steadily(when, tables)
+        for row in np.flatnonzero(loaded).tolist():
+            rows[row] = 0.0
+            for weight, loads, value in self.families[self.plain[row]].loads_used(when, tables):
                 add_loads(loads, value, weight, self._work, rows[row])
         if self.plain:
-            add_pushes(self.system.core, *self._plainly, tables, way, self._work, rows)
+            add_pushes(self.system.core, *self._plainly, first, loaded, tables, way, self._work, rows)
+
+    def _steadily(self, when: tuple[float, float, float, float], tables: Any) -> tuple[FloatArray, BoolArray]:
+        """What steady loads do to the residual by plain parameter, (p, size), and which have others, (p,)."""
+        if self._first is None:
+            each = [self.steady_loads(k, when, tables) for k in self.plain]
+            first = np.zeros((len(each), self.system.size))
+            for row, steady in zip(first, each, strict=True):
+                row -= 0.0 if steady is None else steady
+            self._first = first, np.array([steady is None for steady in each], dtype=bool)
+        return self._first
 
     def steady_loads(self, k: int, when: tuple[float, float, float, float], tables: Any) -> Any:
         """Derivative of dead loads by a parameter, (size,) or 0, if it is the same at all times, or None."""
@@ -132,6 +146,9 @@ class Nearby:
         for weight, loads, value in self.families[k].loads_used(when, tables):
             if len(loads.hung_slot) or (len(loads.start) > 1 and not self.families[k].constant):
                 return None
+            if len(loads.start) == 1:
+                total = total + weight * loads.gravity
+                continue
             apply_load(loads, value[0], self._work)
             total = total + weight * self._work
         return total

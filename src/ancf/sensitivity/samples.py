@@ -36,11 +36,13 @@ class Samples:
 
     def __init__(self, families: list[Family], system: System, listing: Listing, steps: int) -> None:
         self.families, self.listing, self.done = families, listing, 0
-        every = [system, *(own for family in families for own in family.systems)]
-        for one in every:
-            one.sensors = listing
+        system.sensors = listing
         self.sampling = sampling_of(system)
-        self.near = [[sampling_of(own) for own in family.systems] for family in families]
+        self.near: list[list[Any]] = []
+        for family in families if self.sampling.width else ():
+            for own in family.systems:
+                own.sensors = listing
+            self.near.append([sampling_of(own) for own in family.systems])
         rows = steps + 1 if self.sampling.width else 0
         self.rows = np.zeros((len(families), rows, self.sampling.width))
         self.weight = system.core.weight

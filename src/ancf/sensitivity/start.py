@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import SolveError
-from ..solvers.directions import products_along, rows_along
-from ..solvers.sensitivity import ABAR, ENOUGH, MOST, NOISY, A, Matrices, Q, V, Way
+from ..solvers.directions import accelerate_along, rows_along
+from ..solvers.sensitivity import ABAR, MOST, NOISY, A, Matrices, Q, V, Way
 from ..system.core import (
     apply_supports,
     assemble,
@@ -52,30 +52,20 @@ class Start:
         if factorise_matrix(core.A, core.factor) < 0:
             raise SolveError("sensitivities at the start", "the mass matrix is singular")
 
-    def sensitivity(
-        self,
-        dq: FloatArray,
-        dv: FloatArray,
-        push: Any,
-        gap: Any,
-        shift: FloatArray | None = None,
-        turn: FloatArray | None = None,
-    ) -> FloatArray:
-        """Derivatives of q, v, a and the algorithmic acceleration, (4, size), from those that are asked for.
+    def shapes(self, given: tuple[FloatArray, FloatArray], gap: Any, shift: FloatArray | None) -> FloatArray:
+        """Derivatives of q and v at the start, and zeros for a, (3, size).
 
         Parameters
         ----------
-        dq, dv : (size,)
+        given : (2, size)
             Of the initial state, before constraints hold.
-        push, gap : function of the level of the constraints
-            Derivatives of the residual, and of the rows of the constraints, at fixed free unknowns.
+        gap : function of the level of the constraints
+            Derivatives of their rows at fixed free unknowns.
         shift : (size,), optional
             Derivatives of q that are not in these, where it is held.
-        turn : (k, 3, 3), optional
-            Those of the local axes of supports.
         """
         d = np.zeros((3, self.system.size))
-        d[0], d[1] = self._free(dq), self._free(dv)
+        d[0], d[1] = self._free(given[0]), self._free(given[1])
         if shift is not None:
             d[0] += shift
         lam = self.system.multipliers
@@ -83,9 +73,25 @@ class Start:
         if len(lam):
             self._shift(d, 0, (1.0, 0.0, 0.0), gap)
             self._shift(d, 1, (0.0, 1.0, 0.0), gap)
-        self._accelerate(d, push((0.0, 0.0, 1.0)), np.zeros((0, 3, 3)) if turn is None else turn)
-        made = np.zeros((4, self.system.size))
-        made[Q], made[V], made[A], made[ABAR] = d[0], d[1], d[2], d[2]
+        return d
+
+    def accelerated(self, d: FloatArray, push: FloatArray, turn: FloatArray) -> FloatArray:
+        """Derivatives of q, with multipliers, v, a and the algorithmic acceleration, (p, 4, size).
+
+        Parameters
+        ----------
+        d : (p, 3, size)
+            See :meth:`shapes`; changed.
+        push : (p, size)
+            Derivatives of the residual at fixed free unknowns.
+        turn : (p, k, 3, 3)
+            Those of the local axes of supports, or k = 0.
+        """
+        room = np.zeros((2, self.system.size))
+        self.system.level[:] = 0.0, 0.0, 1.0
+        accelerate_along(self.system.core, self.m, self.q, self.v, self.a, d, turn, push, *room)
+        made = np.empty((len(d), 4, self.system.size))
+        made[:, [Q, V, A]], made[:, ABAR] = d, d[:, 2]
         return made
 
     def _free(self, x: FloatArray) -> FloatArray:
@@ -112,30 +118,6 @@ class Start:
             if np.max(np.abs(r)) <= NOISY * np.max(np.abs(d[k]), initial=0.0):
                 return
 
-    def _accelerate(self, d: FloatArray, push: FloatArray, turn: FloatArray) -> None:
-        """Accelerations and multipliers, and the shadows of all."""
-        system, core = self.system, self.system.core
-        system.level[:] = 0.0, 0.0, 1.0
-        r, still, before = np.empty(system.size), np.zeros(system.size), np.inf
-        for _ in range(MOST):
-            products_along(core, self.m, self.q, self.v, self.a, d, turn, still, r)
-            r += push
-            r[core.supports.held] = 0.0
-            solve_matrix(core.factor, r)
-            r[system.n :] = 0.0
-            d[0, system.multipliers] -= r[system.multipliers]
-            r[system.multipliers] = 0.0
-            d[2] -= r
-            norm, size = float(np.max(np.abs(r))), float(np.max(np.abs(d[2]), initial=0.0))
-            if norm <= ENOUGH * size or (norm <= NOISY * size and norm >= 0.5 * before):
-                break
-            before = norm
-        follow_supports(core.supports, *d)
-        for k, R in enumerate(turn):
-            i, j = core.supports.rot_slot[k], core.supports.rot_shadow[k]
-            for s, x in zip(d, (self.q, self.v, self.a), strict=True):
-                s[j : j + 3] += R @ x[i : i + 3]
-
 
 def starts(
     system: System,
@@ -144,8 +126,8 @@ def starts(
     given: list[tuple[FloatArray, FloatArray]],
     states: Any,
     when: Any,
-) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """For each family the derivatives of a consistent start, see :meth:`Start.sensitivity`, and held ones.
+) -> tuple[FloatArray, FloatArray]:
+    """For each family the derivatives of a consistent start, see :meth:`Start.accelerated`, and held ones.
 
     Parameters
     ----------
@@ -159,30 +141,26 @@ def starts(
     when : tuple
         See :class:`Start`.
 
-    Yields
-    ------
-    made : (4, size)
-    held : (2, size)
+    Returns
+    -------
+    made : (p, 4, size)
+    held : (p, 2, size)
         Derivatives of q and v where supports hold them.
     """
     first, step, *limits = when
     q, v, a = states
     begin = Start(system, m, q, v, a, when)
     way, tables = Way(*(x[None].copy() for x in states)), system.inputs.tables(first, step, 1, *limits)
-    pushes = nearby.plain_at_steps(way, when, tables).copy()
-    still = np.zeros((2, system.size))
-    rows = {k: row for row, k in enumerate(nearby.plain)}
-    for k, family in enumerate(nearby.families):
-        if k in rows:  # it does nothing to rows of joints
-            own = pushes[rows[k], 0]
-            moved = nearby.shifts.get(k), nearby.turns.get(k)
-            made = begin.sensitivity(*given[k], lambda _, own=own: own, lambda _: 0.0, *moved)
-            yield made, still
-        else:
-            at = _at_level(system, family, states, when)
-            made = begin.sensitivity(*given[k], at, at)
-            here = Way(*(x[None].copy() for x in states))
-            yield made, family.at_steps(*here, when, gaps=False).held[:2, 0]
+    pushes, held, rows = (np.zeros((len(nearby.families), k, system.size)) for k in (1, 2, 3))
+    pushes[nearby.plain] = nearby.plain_at_steps(way, when, tables)  # they do nothing to rows of joints
+    for k in nearby.plain:
+        rows[k] = begin.shapes(given[k], lambda _: 0.0, nearby.shifts.get(k))
+    for k in nearby.others:
+        at = _at_level(system, nearby.families[k], states, when)
+        rows[k], pushes[k, 0] = begin.shapes(given[k], at, None), at((0.0, 0.0, 1.0))
+        here = Way(*(x[None].copy() for x in states))
+        held[k] = nearby.families[k].at_steps(*here, when, gaps=False).held[:2, 0]
+    return begin.accelerated(rows, pushes[:, 0], nearby.turn), held
 
 
 def _at_level(system: System, family: Family, states: Any, when: Any) -> Callable[[Any], FloatArray]:

@@ -5,7 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
+from ..model.beam import Beam
+from ..model.model import Model
 from ..system.beside import Acts
+from ..system.initial_motion import at_rest, spin_of, spun
+from ..system.nodes import start_vectors
 from ..system.system import System
 from .alike import Known
 
@@ -45,6 +49,48 @@ def moves_ends(acts: Acts | None) -> bool:
 def stands(base: System) -> bool:
     """Whether supports of a model do not move, and no joint has rows."""
     return not (base.inputs.motions or base.inputs.rotations or len(base.multipliers))
+
+
+def ends_rates(base: System, model: Model, offset: float) -> tuple[FloatArray, FloatArray] | None:
+    """Derivatives of the initial state, (size,) each, by an end of a straight cable, without a system for it.
+
+    Parameters
+    ----------
+    base : System
+        That stands, see :func:`stands`.
+    model : Model
+        Of which the end is elsewhere, by ``offset``, m.
+
+    Returns
+    -------
+    Of q and v; None if these are not known without one: bodies move, and local axes turn, or there are
+    velocities along a body.
+    """
+    dq, dv, moves = np.zeros(base.size), np.zeros(base.size), False
+    for name, body in model.bodies.items():
+        mine = base.model.bodies[name]
+        moves = moves or not at_rest(body)
+        if body is mine:
+            continue
+        if not isinstance(body, Beam) or not isinstance(mine, Beam):
+            return None
+        change = (start_vectors(body) - start_vectors(mine)) / offset
+        slots, own = base.slots[name], base.numbering.slots[name]
+        shape = change.copy()
+        if not at_rest(body):
+            if body.along.size:
+                return None
+            change[:, 0] -= (body.about - mine.about) / offset
+        for k in range(slots.shape[1]):
+            rate = spun(spin_of(body), change[:, k])
+            for c in range(3):
+                dq[slots[:, k] + c], dv[own[:, k] + c] = shape[:, k, c], rate[:, c]
+    if base.constraints.rotations:
+        dq = slopes_local(base, dq)
+        if moves:
+            return None
+    dv[base.held] = 0.0
+    return dq, dv
 
 
 def slopes_rates(base: System, moved: FloatArray) -> FloatArray:

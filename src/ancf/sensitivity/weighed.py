@@ -54,7 +54,7 @@ class Weighed:
     def _knowing(self, name: str) -> Any:
         """The batch of the model of this name, which knows of all numbers that a parameter changes."""
         batch = self.system.parts[name]
-        for k in self.rates:
+        for k in (k for k, found in self.rates.items() if name in found):
             for system in self.nearby.families[k].systems:
                 if system.parts[name] is not self.system.parts[name]:
                     batch = joined(batch, system.parts[name])
@@ -112,9 +112,11 @@ def rates_of(family: Family) -> dict[str, FloatArray]:
         numbers, keys = traits(batch).numbers, traits(batch).numbered
         if numbers is None or any(not _has_other(batch, other, keys) for other in each):
             continue
-        here = numbers(batch)
-        changes = [w * (numbers(one) - here) for w, one in zip(family.weights, each, strict=True)]
-        found[name] = np.sum(changes, axis=0)
+        here, total = numbers(batch), 0.0
+        for weight, one in zip(family.weights, each, strict=True):
+            if one is not batch:
+                total = total + weight * (numbers(one) - here)
+        found[name] = np.asarray(total)
     return found
 
 
@@ -126,7 +128,7 @@ def joined(batch: Any, other: Any) -> Any:
 
 def _has_other(batch: Any, other: Any, keys: tuple[str, ...]) -> bool:
     """Whether nothing but these numbers differs, and which of them there are."""
-    return all(
+    return batch is other or all(
         mine is theirs or np.array_equal(mine, theirs)
         for key, mine, theirs in zip(batch._fields, joined(batch, other), joined(other, batch), strict=True)
         if key not in keys and key not in OWN

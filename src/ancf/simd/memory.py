@@ -78,6 +78,21 @@ def put_nodes(first: Any, second: Any, x: Any, slots: Any, *place: Any) -> None:
         x[i : i + 6] = np.append(first[:, m], second[:, m])
 
 
+def gather_lanes(x: Any, slots: Any, *place: Any) -> Any:
+    """Eight values: the numbers x[i + k] for the eight i = slots[place], k from 0 to 7."""
+    return tuple(x[slots[place][None] + np.arange(LANES)[:, None]])
+
+
+def put_lanes(a: Any, b: Any, c: Any, d: Any, e: Any, f: Any, g: Any, h: Any, x: Any, *place: Any) -> None:
+    """Write eight values to where :func:`gather_lanes` would take them from, lane after lane.
+
+    ``place``: the slots, and the place in them.
+    """
+    slots, *row = place
+    for i, values in zip(slots[tuple(row)], np.stack([a, b, c, d, e, f, g, h], axis=1), strict=True):
+        x[i : i + LANES] = values
+
+
 def _is_rows(array: Any, place: Any, dtype: Any = types.float64) -> bool:
     """Whether rows of eight of an array can be taken at a place."""
     fits = isinstance(array, types.Array) and array.dtype == dtype and array.layout == "C"
@@ -245,6 +260,44 @@ def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     return context.make_tuple(
         builder, signature.return_type, (whole(builder, parts[:3]), whole(builder, parts[3:]))
     )
+
+
+#: What is taken of two vectors of eight in three rounds: every other number, then every other pair.
+EVEN, ODD = (0, 8, 2, 10, 4, 12, 6, 14), (1, 9, 3, 11, 5, 13, 7, 15)
+OUTER, INNER = (0, 1, 4, 5, 8, 9, 12, 13), (2, 3, 6, 7, 10, 11, 14, 15)
+
+
+def _turned(builder: Any, x: list[Any]) -> list[Any]:
+    """Eight vectors of eight, rows for columns."""
+    even = [_shuffle(builder, x[k], x[k + 1], *EVEN) for k in (0, 2, 4, 6)]
+    odd = [_shuffle(builder, x[k], x[k + 1], *ODD) for k in (0, 2, 4, 6)]
+    columns: dict[int, Any] = {}
+    for first, four in enumerate((even, odd)):
+        for second, mask in enumerate((OUTER, INNER)):
+            halves = [_shuffle(builder, four[k], four[k + 1], *mask) for k in (0, 2)]
+            for third, own in enumerate((OUTER, INNER)):
+                columns[first + 2 * second + 4 * third] = _shuffle(builder, *halves, *own)
+    return [columns[k] for k in range(LANES)]
+
+
+@in_kernels(
+    gather_lanes,
+    lambda x, slots, *place: (
+        types.UniTuple(lanes, LANES) if _is_vector(x) and _is_rows(slots, place, types.int64) else None
+    ),
+)
+def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    begins = _begins(context, builder, signature.args, arguments)
+    rows = [builder.load(_at(builder, begin, 0, LANES), align=8) for begin in begins]
+    return context.make_tuple(builder, signature.return_type, _turned(builder, rows))
+
+
+@in_kernels(put_lanes, _takes(*[lanes] * LANES))
+def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    begins = _begins(context, builder, signature.args[LANES:], arguments[LANES:])
+    for begin, row in zip(begins, _turned(builder, list(arguments[:LANES])), strict=True):
+        builder.store(row, _at(builder, begin, 0, LANES), align=8)
+    return context.get_dummy_value()
 
 
 def _node_writer(plain: Any, adds: bool) -> None:

@@ -11,7 +11,8 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..compiled import formula, inline_kernel
-from ..simd import LANES, absolute, every, gather_nodes, load, put_nodes, store, vector
+from ..linalg.eight import lane_rows
+from ..simd import LANES, absolute, every, gather_lanes, load, put_lanes, store
 from .sensitivity import ABAR, A, Q, V
 
 
@@ -34,10 +35,22 @@ class Abreast(NamedTuple):
 
 def room_for(size: int) -> Abreast:
     """Room for the unknowns of a model."""
-    d, r, seen, last = (np.zeros((*shape, LANES)) for shape in ((3, size), (size,), (size,), (size,)))
+    d = lane_rows(3 * size).reshape(3, size, LANES)
+    r, seen, last = lane_rows(size), lane_rows(size), lane_rows(size)
     before, open, norm, sizes, shift, ratio, used = np.zeros((7, LANES))
     place = np.zeros((1, LANES), dtype=np.int64)
     return Abreast(d, r, seen, before, open, norm, sizes, shift, last, ratio, used, place)
+
+
+def abreast(rows: FloatArray) -> FloatArray:
+    """Vectors (p, k, size) as they are followed, one in each lane, (p/8 rounded up, k, size, 8)."""
+    count, *shape = rows.shape
+    groups = -(-count // LANES)
+    made = lane_rows(groups * shape[0] * shape[1]).reshape(groups, *shape, LANES)
+    for k in range(groups):
+        own = rows[k * LANES : (k + 1) * LANES]
+        made[k, ..., : len(own)] = np.moveaxis(own, 0, -1)
+    return made
 
 
 @formula
@@ -114,13 +127,11 @@ def add_push(room, push, n, first, count):
     r, size, open = room.r, push.shape[2], load(room.open, 0)
     rows = push.reshape(-1)
     lanes_at(room.place, first, count, push.shape[1] * size, n * size)
-    whole = size - size % 6
-    for i in range(0, whole, 6):
-        x, y = gather_nodes(rows[i:], room.place, 0)
-        for c in range(3):
-            store(open * (load(r, i + c) + (x[0] if c == 0 else (x[1] if c == 1 else x[2]))), r, i + c)
-            other = y[0] if c == 0 else (y[1] if c == 1 else y[2])
-            store(open * (load(r, i + 3 + c) + other), r, i + 3 + c)
+    whole = size - size % LANES
+    for i in range(0, whole, LANES):
+        x = gather_lanes(rows[i:], room.place, 0)
+        for c in range(LANES):
+            store(open * (load(r, i + c) + x[c]), r, i + c)
     for i in range(whole, size):
         for k in range(LANES):
             own = push[first + k, n, i] if k < count else 0.0
@@ -130,10 +141,11 @@ def add_push(room, push, n, first, count):
 @inline_kernel
 def turned_out(room, k, rows, whole):
     """Write the first ``whole`` rows of the k-th sensitivity to the eight places of ``rows``."""
-    for i in range(0, whole, 6):
-        x = vector(load(room.d, k, i), load(room.d, k, i + 1), load(room.d, k, i + 2))
-        y = vector(load(room.d, k, i + 3), load(room.d, k, i + 4), load(room.d, k, i + 5))
-        put_nodes(x, y, rows[i:], room.place, 0)
+    d = room.d
+    for i in range(0, whole, LANES):
+        x0, x1, x2, x3 = load(d, k, i), load(d, k, i + 1), load(d, k, i + 2), load(d, k, i + 3)
+        x4, x5, x6, x7 = load(d, k, i + 4), load(d, k, i + 5), load(d, k, i + 6), load(d, k, i + 7)
+        put_lanes(x0, x1, x2, x3, x4, x5, x6, x7, rows[i:], room.place, 0)
 
 
 @inline_kernel
@@ -150,7 +162,7 @@ def kept(room, s, scheme, out, row, first):
     size, count, whole = s.shape[1], min(LANES, out.shape[0] - first), 0
     for k in range(out.shape[2]):
         if count == LANES:
-            whole, each = size - size % 6, out.shape[1] * out.shape[2] * size
+            whole, each = size - size % LANES, out.shape[1] * out.shape[2] * size
             lanes_at(room.place, first, count, each, (row * out.shape[2] + k) * size)
             turned_out(room, k, out.reshape(-1), whole)
         for p in range(first, first + count):

@@ -14,15 +14,19 @@ iteration.
 from __future__ import annotations
 
 from ..batches import add_tangents
-from ..compiled import inline_kernel, kernel
+from ..compiled import formula, inline_kernel, kernel
 from ..linalg.eight import factor_of
 from ..simd import LANES
 from ..system.core import drive, onto_shadows, solve_matrix, to_local
 from .ahead import look_ahead
 from .rare import add_rate_works
 from .scheme import coefficients
-from .sensitivity import ENOUGH, MOST, is_done, product, stiffnesses
+from .sensitivity import LEAST, MOST, is_done, product, stiffnesses
 from .status import OK, SINGULAR, SLOW
+
+#: Part of lambda below which its corrections end when the next one would be smaller: what is left out of a
+#: step goes on to all before it.
+SURE = 1e-15
 
 
 @inline_kernel
@@ -72,25 +76,40 @@ def hold(supports, x):
         x[supports.held[k]] = 0.0
 
 
+@formula
+def foreseen(last, known, sums):
+    """What velocities will add to K^T lambda, on a line through what they did in the steps before."""
+    for i in range(sums.shape[0]):
+        sums[i] = 0.0 if known == 0 else (last[0, i] if known == 1 else 2.0 * last[0, i] - last[1, i])
+
+
 @inline_kernel
-def solve_stirred(core, m, factor, y, lam):
+def solve_stirred(core, m, ahead, factor, y, lam, known):
     """Solve with the transposed matrix, in whose factors what velocities do to K at y is not; a status.
 
-    What they add to K^T lambda is left in ``m.work[9]``.
+    What they add to K^T lambda is left in ``m.work[9]``, as a guess for the next steps, of which ``known``
+    have been solved.  A guess leaves little to correct, and no ratio of corrections: the largest so far
+    tells what one more would be.
     """
-    n, d, r, sums, before = core.weight.shape[0], m.work[0], m.work[8], m.work[9], 0.0
-    solve_matrix(factor, lam)
     if m.stirred.table.shape[0] == 0:
+        solve_matrix(factor, lam)
         return OK
+    n, d, r, sums, last, before = core.weight.shape[0], m.work[0], m.work[8], m.work[9], ahead.last, 0.0
+    foreseen(last, known, sums)
+    for i in range(r.shape[0]):
+        r[i] = sums[i]
+    to_local(core.supports, r)
+    hold(core.supports, r)
+    for i in range(n):
+        lam[i] -= r[i]
+    solve_matrix(factor, lam)
     for i in range(n):
         d[i] = lam[i]
-        before = max(before, abs(lam[i]))  # the first of the corrections, each of which follows from the last
+        before = max(before, abs(lam[i]))  # without a guess the first of the corrections
     for i in range(r.shape[0]):
-        sums[i] = 0.0
-    for _ in range(MOST):
+        r[i] = -sums[i]
+    for round in range(MOST):
         onto_shadows(core.supports, d)
-        for i in range(r.shape[0]):
-            r[i] = 0.0
         add_rate_works(m.stirred, y[0], y[1], d, r, core.ws)
         for i in range(r.shape[0]):
             sums[i] += r[i]
@@ -102,20 +121,29 @@ def solve_stirred(core, m, factor, y, lam):
             lam[i] -= r[i]
             d[i] = -r[i]
             norm, size = max(norm, abs(r[i])), max(size, abs(lam[i]))
-        if is_done(norm, size, before, ENOUGH):
+        if round > 0 and norm > 0.0:
+            ahead.rate[0] = max(ahead.rate[0], norm / before)
+        elif known > 0:
+            before = norm / max(ahead.rate[0], LEAST)
+        if is_done(norm, size, before, SURE):
+            for i in range(r.shape[0]):
+                last[1, i] = last[0, i]
+                last[0, i] = sums[i]
             return OK
         before = norm
+        for i in range(r.shape[0]):
+            r[i] = 0.0
     return SLOW
 
 
 @inline_kernel
-def factors(core, m, factor, y, mu, c1, B, G, lam):
+def factors(core, m, ahead, factor, y, mu, c1, B, G, lam, known):
     """Fill lambda at the unknowns and, as forces of the residual, at the shadows; a status."""
     supports, n = core.supports, core.weight.shape[0]
     for i in range(n):
         lam[i] = mu[0, i] + (G * mu[1, i] + c1 * mu[3, i] + mu[2, i]) / B
     hold(supports, lam)
-    status = solve_stirred(core, m, factor, y, lam)
+    status = solve_stirred(core, m, ahead, factor, y, lam, known)
     for i in range(n, lam.shape[0]):
         lam[i] = 0.0
     onto_shadows(supports, lam)
@@ -227,6 +255,7 @@ def back_steps(core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
     n, size = core.weight.shape[0], mu.shape[1]
     back, x = m.work[1:3], m.work[5:8]
+    ahead.rate[0] = 0.0
     for step in range(way.q.shape[0]):
         at = way.q.shape[0] - 1 - step
         k = at % LANES
@@ -237,7 +266,7 @@ def back_steps(core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out
         lam = out[at]
         take_wanted(core.supports, wanted[at], unknowns, mu, x, back)
         factor, y = factor_of(core.factor, ahead.eight, k), (way.q[at], way.v[at], way.a[at])
-        status = factors(core, m, factor, y, mu, c1, B, G, lam)
+        status = factors(core, m, ahead, factor, y, mu, c1, B, G, lam, min(step, 2))
         if status != OK:
             return step, status
         taken_back(core, m, (ahead.K[k], ahead.C[k]), y, lam, still, turned)

@@ -22,12 +22,15 @@ class Ahead(NamedTuple):
     C: FloatArray  # (8, values)
     W: FloatArray  # (8, values or none), see Matrices
     eight: Eight  # all of M/B + (G/B) C + K
+    last: FloatArray  # (2, size) what velocities added to K^T lambda in the last steps of an adjoint
+    rate: FloatArray  # (1,) by which corrections of lambda shrink, at most
 
 
 def ahead_of(core: Core, m: Matrices) -> Ahead:
     """Room for the matrices of a model."""
     K, C = np.zeros((2, LANES, core.A.size))
-    return Ahead(K, C, np.zeros((LANES, m.W.size)), allocate_eight(core.factor))
+    last = np.zeros((2, m.work.shape[1]))
+    return Ahead(K, C, np.zeros((LANES, m.W.size)), allocate_eight(core.factor), last, np.zeros(1))
 
 
 @inline_kernel

@@ -45,7 +45,7 @@ def add_turned(supports, turn, r, row):
 
 
 @kernel
-def add_pushes(core, uses, turn, tables, way, work, push):
+def add_pushes(core, uses, turn, first, loaded, tables, way, work, push):
     """Add the forces of the batches to the pushes, and bring these into the form that the solve wants.
 
     Parameters
@@ -55,18 +55,30 @@ def add_pushes(core, uses, turn, tables, way, work, push):
     uses : Uses
     turn : (rows, k, 3, 3)
         Derivatives of the local axes, or no rows.
+    first : (rows, size)
+        What steady loads do, in physical components.
+    loaded : (rows,)
+        Whether other loads do something as well.
     tables : Tables
         At the ends of the steps.
     way : Way
         States there.
     work : (size,)
     push : (rows, steps, size)
-        What loads do already, in physical components.
+        Filled; at the start what other loads do, in the same.
     """
     n, size = core.weight.shape[0], work.shape[0]
     for step in range(way.q.shape[0]):
         q, v, a = way.q[step], way.v[step], way.a[step]
         drive(core.supports, core.loads.value, tables, step, q, v, a)
+        for p in range(push.shape[0]):
+            row, steady = push[p, step], first[p]
+            if loaded[p]:
+                for i in range(size):
+                    row[i] += steady[i]
+            else:
+                for i in range(size):
+                    row[i] = steady[i]
         for k in range(uses.start.shape[0] - 1):
             for i in range(size):
                 work[i] = 0.0

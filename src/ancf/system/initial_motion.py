@@ -6,8 +6,26 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..model.beam import Beam
+from ..model.bodies import Body, PointMass
 from ..model.initial_velocity import rates_at
 from .nodes import layout
+
+
+def spin_of(body: Body) -> FloatArray:
+    """Initial angular velocity, rad/s."""
+    return np.zeros(3) if isinstance(body, PointMass) else body.angular_velocity
+
+
+def at_rest(body: Body) -> bool:
+    """Whether it has no initial velocity."""
+    shaped = isinstance(body, Beam) and body.along.size > 0
+    return not (shaped or np.any(body.velocity) or np.any(spin_of(body)))
+
+
+def spun(spin: FloatArray, arms: FloatArray) -> FloatArray:
+    """Product of a vector and each of the arms, (n, 3); for a few of them numpy takes ten times as long."""
+    (w0, w1, w2), (x, y, z) = spin.tolist(), arms.T
+    return np.array([w1 * z - w2 * y, w2 * x - w0 * z, w0 * y - w1 * x]).T
 
 
 def shape_rates(beam: Beam) -> FloatArray:

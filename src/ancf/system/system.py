@@ -14,7 +14,7 @@ from ..connections.spring_damper import gauges
 from ..errors import ModelError
 from ..linalg.ordering import fill_pattern
 from ..model.beam import Beam
-from ..model.bodies import PointMass, RigidBody
+from ..model.bodies import PointMass
 from ..model.body_contact import BodyContact
 from ..model.cable_contact import CableContact
 from ..model.connections import Spring
@@ -29,7 +29,7 @@ from . import loads
 from .compile import bind_parts, build_parts, held_arrays, order_blocks
 from .core import Core, place_supports
 from .derived import Derived
-from .initial_motion import shape_rates
+from .initial_motion import at_rest, shape_rates, spin_of, spun
 from .inputs import Inputs
 from .joints import set_scales, share_scales
 from .matrix import Places
@@ -278,6 +278,8 @@ class System(Derived):
 
     def place(self, time: float, q: FloatArray, v: FloatArray, a: FloatArray) -> None:
         """Put supports where they are at ``time``, and inputs of loads; fills the shadows."""
+        if self.inputs.still and not len(self.value) and not self.constraints.rotations:
+            return  # nothing moves, and nothing is seen along other axes
         h = 1e-3
         tables = self.inputs.tables(time - h, h, 1, time, np.inf, (q, v), still=True)
         place_supports(self.supports, self.value, tables, 0, q, v, a)
@@ -285,7 +287,7 @@ class System(Derived):
     def _set_motion(self, q: FloatArray, v: FloatArray, a: FloatArray, time: float) -> None:
         """Initial rigid motions of the bodies; what a support holds follows the support."""
         wanted = v.copy()
-        moving = [b for b in self.model.bodies.values() if _moves(b)]
+        moving = [b for b in self.model.bodies.values() if not at_rest(b)]
         for body in moving:
             slots = self.slots[body.name]
             shaped = shape_rates(body) if isinstance(body, Beam) and body.along.size else None
@@ -293,7 +295,7 @@ class System(Derived):
                 arm = np.stack([q[slots[:, k] + c] for c in range(3)], axis=1)
                 if k == 0 and not isinstance(body, PointMass):
                     arm -= body.about
-                rate = np.cross(_spin(body), arm) + (body.velocity if k == 0 else 0.0)
+                rate = spun(spin_of(body), arm) + (body.velocity if k == 0 else 0.0)
                 if shaped is not None:
                     rate += shaped[:, k]
                 for c in range(3):
@@ -336,15 +338,6 @@ def _again(
     if not accounted:
         made.skip_energies()
     return made
-
-
-def _moves(body: Beam | PointMass | RigidBody) -> bool:
-    shaped = isinstance(body, Beam) and body.along.size > 0
-    return shaped or bool(np.any(body.velocity)) or bool(np.any(_spin(body)))
-
-
-def _spin(body: Beam | PointMass | RigidBody) -> FloatArray:
-    return np.zeros(3) if isinstance(body, PointMass) else body.angular_velocity
 
 
 def _joint_unknowns(numbering: Numbering) -> dict[str, IntArray]:
