@@ -35,7 +35,7 @@ from .start import Start
 from .weighed import Weighed
 
 #: Bytes of states up to which all are kept and no step is taken again, and those of a block.
-KEPT, BLOCK = 320e6, 4e6
+KEPT, BLOCK = 320e6, 8e6
 #: Change of an unknown, in its own size, of the differences of what is asked.
 MOVED = 1e-4
 #: Answers that nothing but the state and the shape functions has a part in.
