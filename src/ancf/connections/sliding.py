@@ -27,7 +27,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..compiled import Role, formula, implements, inline_kernel
-from ..vectors import dot
+from ..vectors import both, dot, plus, without
 from .in_matrix import bind_sliding, sliding_pairs
 
 #: Most vectors of unknowns that a point of a body depends on.
@@ -278,19 +278,6 @@ def keep_back(batch, j, x):
 
 
 @formula
-def without(x, u):
-    """x without its part along u, which is a unit vector or zero."""
-    d = dot(u, x)
-    return x[0] - d * u[0], x[1] - d * u[1], x[2] - d * u[2]
-
-
-@formula
-def both(f, x, g, y):
-    """f x + g y."""
-    return f * x[0] + g * y[0], f * x[1] + g * y[1], f * x[2] + g * y[2]
-
-
-@formula
 def friction_slopes(batch, j, t, lam, rate):
     """Derivatives of :func:`friction` by t and lam are sums of both: two factors for each."""
     c, mu = batch.data[j, VISCOUS], batch.data[j, MU]
@@ -318,20 +305,26 @@ def sliding_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
         xi = (q[i + 3] - batch.x[e, 0]) / batch.x[e, 1]
         lam = keep(batch, j, (q[i], q[i + 1], q[i + 2]))
         z = keep_back(batch, j, (x[i], x[i + 1], x[i + 2]))
-        t, bend, third = line(batch, e, xi, q, 1), line(batch, e, xi, q, 2), line(batch, e, xi, q, 3)
-        p, o = slider(batch, j, x, 0.0), line(batch, e, xi, x, 0)
+        t = bend = third = moved = turned = d = dn = da = (0.0, 0.0, 0.0)
+        for k in range(COLUMNS):
+            n = batch.line_slot[e, k]
+            if n >= 0:
+                s1, s2 = shape(batch, e, k, xi, 1), shape(batch, e, k, xi, 2)
+                t, bend, d = plus(t, s1, q, n), plus(bend, s2, q, n), plus(d, s1, v, n)
+                moved, turned = plus(moved, shape(batch, e, k, xi, 0), x, n), plus(turned, s1, x, n)
+                if w2 != 0.0:
+                    third = plus(third, shape(batch, e, k, xi, 3), q, n)
+                    dn, da = plus(dn, s2, v, n), plus(da, s1, a, n)
         by_t, lam_by_t, by_lam, t_by_lam = friction_slopes(batch, j, t, lam, rate)
         _, by_rate = friction(batch, j, t, lam, rate)
         by_t, lam_by_t, by_lam, t_by_lam = y * by_t, y * (lam_by_t - 1.0), y * by_lam, y * (t_by_lam - 1.0)
         along = both(by_lam, lam, t_by_lam, t)
-        gap = keep_back(batch, j, both(1.0, both(1.0, p, -1.0, o), 1.0, along))
+        gap = keep_back(batch, j, both(1.0, both(1.0, slider(batch, j, x, 0.0), -1.0, moved), 1.0, along))
         for c in range(3):
             by_q[i + c] += gap[c] - FREED * (x[i + c] - z[c])
         pull = both(by_t, t, lam_by_t, lam)
-        d, dn, da = line(batch, e, xi, v, 1), line(batch, e, xi, v, 2), line(batch, e, xi, a, 1)
         ahead, bent = dot(z, t), dot(z, bend)
-        by_q[i + 3] += dot(pull, bend) - dot(lam, line(batch, e, xi, x, 1)) - w0 * ahead
-        by_q[i + 3] -= w1 * (dot(z, d) + bent * rate)
+        by_q[i + 3] += dot(pull, bend) - dot(lam, turned) - w0 * ahead - w1 * (dot(z, d) + bent * rate)
         by_q[i + 3] -= w2 * (
             dot(z, da) + 2.0 * rate * dot(z, dn) + rate * rate * dot(z, third) + rate2 * bent
         )
@@ -346,8 +339,7 @@ def sliding_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
                     by_a[m + c] += w2 * batch.factor[j, k] * z[c]
             if n >= 0:
                 s0, s1 = shape(batch, e, k, xi, 0), shape(batch, e, k, xi, 1)
-                s2 = shape(batch, e, k, xi, 2)
-                f = w0 * s0 + w1 * s1 * rate + w2 * (s2 * rate * rate + s1 * rate2)
+                f = w0 * s0 + w1 * s1 * rate + w2 * (shape(batch, e, k, xi, 2) * rate * rate + s1 * rate2)
                 for c in range(3):
                     by_q[n + c] += s1 * pull[c] - f * z[c]
                     by_v[n + c] -= (w1 * s0 + 2.0 * w2 * s1 * rate) * z[c]

@@ -39,6 +39,8 @@ ABOVE = (
     (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0),
     (-147 / 60, 360 / 60, -450 / 60, 400 / 60, -225 / 60, 72 / 60, -10 / 60),
 )
+#: The same, as a share of these steps, where powers of lengths have effects that nearly cancel.
+STEEP = 0.2
 #: The step where forces have kinks, which no value may reach: a taut dropper is stretched by 0.1 mm.
 TINY = 1e-7
 KINKED = {"springs", "contacts", "pressing", "rubbing", "crossing", "gripping", "bumping", "rolling"}
@@ -130,16 +132,16 @@ class Family(Pushing):
             return self._take_line(3.0 * step if p >= 0.0 else -3.0 * step)
         acts = self.parameter.acts
         known = acts is not None and (acts.moves or acts.shapes)  # not to be linear
-        steep = acts is not None and SLIDES in acts.parts  # powers of lengths whose effects nearly cancel
+        h *= STEEP if acts is not None and SLIDES in acts.parts else 1.0
         try:
-            self._take(h, *(BOTH if steep else FOUR if known else PAIR))
+            self._take(h, *(FOUR if known else PAIR))
             if p != 0.0 and not thorough and (self._names() & KINKED or self._moves_kinks()):
                 self._forget()
                 return self._take(tiny, *PAIR)
             if not thorough and not known and self._trial().linear():
                 self.linear = True
                 return None
-            if not (thorough or steep) and self._steady_inputs() == (True, True):
+            if not thorough and self._steady_inputs() == (True, True):
                 self._take(h, *FOUR)
                 if (acts is not None and acts.shapes) or self._trial().smooth():  # powers of a length are
                     return None

@@ -22,22 +22,26 @@ import numpy as np
 
 from ..batches import add_tangents
 from ..compiled import inline_kernel, kernel
+from ..linalg.block import times
 from ..linalg.eight import factor_of
-from ..simd import LANES
+from ..simd import LANES, load_six, store_six, total
 from ..system.core import drive, onto_shadows, solve_matrix, to_local
 from .adjoint import folded, hold, take_wanted
 from .ahead import look_ahead
 from .rare import add_all_slopes, add_rate_works
 from .scheme import coefficients
-from .sensitivity import ENOUGH, LEAST, MOST, NOISY, ROUGH, product, stiffnesses
+from .sensitivity import ENOUGH, LEAST, MOST, NOISY, ROUGH, seen, stiffnesses, to_shadows
 from .status import OK, SINGULAR, SLOW
 
 #: Vectors of room: T_q^T, T_v^T, T_a^T lambda and C_q^T rho, what is to be solved for, corrections, products.
 ROOM = 11
 #: Part of lambda below which corrections end when the next one would be smaller.
-LEFT = 1e-11
-#: By how much more than in the first step of a block corrections may be thought to shrink less in others.
-WARY = 10.0
+LEFT = 1e-10
+#: In the first step of a block, which begins with nothing, corrections shrink faster than in later ones by at
+#: most so much.
+WARY = 2.0
+#: Steps that lead to the first guess of rho.
+PAST = 5
 
 
 @inline_kernel
@@ -56,13 +60,31 @@ def clear(x):
 
 
 @inline_kernel
+def add_product(core, values, x, r, w):
+    """Add a symmetric matrix without rows of sliding joints times x to r, both in physical components."""
+    factor, n, y = core.factor, core.factor.row_start.shape[0] - 1, w[1]
+    seen(core.supports, x, w[0])
+    for i in range(r.shape[0]):
+        y[i] = 0.0
+    for i in range(core.joints.first):
+        store_six(load_six(y, 6 * i) + times(values, 36 * i, w[0], 6 * i), y, 6 * i)
+        for k in range(factor.row_start[i], factor.row_start[i + 1]):
+            j, o = 6 * factor.column[k], 36 * (n + k)
+            other = load_six(w[0], j)
+            for c in range(6):
+                y[6 * i + c] += total(load_six(values, o + 6 * c) * other)
+            store_six(load_six(y, j) + times(values, o, w[0], 6 * i), y, j)
+    to_shadows(core.supports, r, w)
+
+
+@inline_kernel
 def add_products(core, m, matrices, y, d, sums, w):
     """Add T_q^T d, T_v^T d and T_a^T d in the state y to the sums; d has its shadows filled."""
     K, C = matrices
-    product(core, K, d, sums[0], w)
+    add_product(core, K, d, sums[0], w)
     if m.damped:
-        product(core, C, d, sums[1], w)
-    product(core, m.M, d, sums[2], w)
+        add_product(core, C, d, sums[1], w)
+    add_product(core, m.M, d, sums[2], w)
     add_rate_works(m.stirred, y[0], y[1], d, sums[0], core.ws)
     add_all_slopes(m.rough, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
 
@@ -137,10 +159,19 @@ def may_end(change, before, rate, enough):
 
 
 @inline_kernel
+def led_to(later, order, i):
+    """Where entry i of so many later steps leads by a polynomial."""
+    value, weight = 0.0, 1.0 * order
+    for n in range(order):
+        value += weight * later[n, i]
+        weight *= -(order - 1.0 - n) / (n + 2.0)
+    return value
+
+
+@inline_kernel
 def begun(core, m, y, joined, known, later, rho_later, lam, rho, room):
     """Begin with the multipliers that those of ``known`` later steps lead to, and what they take."""
     sums, z, d, none, joints = room[0:3], room[3], room[5], room[9:11], core.joints
-    first, second = (1.0 if known == 1 else 2.0), -1.0
     clear(room[0:4])
     for i in range(lam.shape[0]):
         lam[i] = rho[i] = d[i] = 0.0
@@ -148,11 +179,8 @@ def begun(core, m, y, joined, known, later, rho_later, lam, rho, room):
         return
     for k in range(joints.multipliers.shape[0]):
         i = joints.multipliers[k]
-        lam[i], rho[i] = first * later[0, i], first * rho_later[0, i]
-        if known > 1:
-            lam[i] += second * later[1, i]
-            rho[i] += second * rho_later[1, i]
-        d[i] = lam[i]
+        lam[i] = led_to(later, min(known, 2), i)  # it swings from step to step
+        rho[i], d[i] = led_to(rho_later, known, i), lam[i]
     add_all_slopes(m.rough, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
     if joined.projects:
         at_level(core, 1.0, 0.0, 0.0)
@@ -243,7 +271,7 @@ def back_joined_steps(
         lam, y = out[at], (way.q[at], way.v[at], way.a[at])
         take_wanted(core.supports, wanted[at], unknowns, mu, m.work[5:8], m.work[1:3])
         factor, matrices = factor_of(core.factor, ahead.eight, k), (ahead.K[k], ahead.C[k])
-        rho, known = shifts[at], min(step, 2)
+        rho, known = shifts[at], min(step, PAST)
         begun(core, m, y, joined, known, out[at + 1 :], shifts[at + 1 :], lam, rho, room)
         own = (joined, known, lam, rho, rate, room)
         status = factors(core, m, factor, matrices, y, mu, c1, B, G, *own)
