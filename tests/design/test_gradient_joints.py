@@ -1,5 +1,7 @@
 """Gradients through joints: the adjoint against forward sensitivities and differences, all formulations."""
 
+import itertools
+
 import numpy as np
 import pytest
 from jointed import arms, machine, methods
@@ -12,6 +14,7 @@ from ancf.paper import sliding
 from ancf.sensitivity import adjoint
 from ancf.sensitivity.adjoint import Adjoint
 from ancf.sensitivity.adjoint_joints import JoinedAdjoint, adjoint_of
+from ancf.solvers.status import SLOW
 from ancf.system.system import System
 from ancf.viz.pictures.questions import ask
 from slopes import extrapolated, remainder_slopes
@@ -156,6 +159,37 @@ def test_from_an_equilibrium():
     _, slope = value(model, names)
     wanted = {name: extrapolated(lambda m: value(m)[0], model, name, 2e-2) for name in names}
     assert apart(model, slope, wanted) < 1e-7
+
+
+def chain(links):
+    """Rigid bodies on hinges in a row, whose factors have lost digits at its end."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    bodies = [
+        model.add_rigid_body(f"b{k}", at=(k + 0.5, 0, 0), mass=1.0, inertia=(0.01, 0.1, 0.1))
+        for k in range(links)
+    ]
+    model.hinge(bodies[0].at(-0.5, 0, 0), (0.0, 0.0, 0.0), axis=(0, 1, 0), name="first")
+    for mine, other in itertools.pairwise(bodies):
+        model.hinge(mine.at(0.5, 0, 0), other.at(-0.5, 0, 0), axis=(0, 1, 0))
+    return model
+
+
+@pytest.mark.parametrize("links", [3, 10])
+@pytest.mark.parametrize("method", ["trapezoidal ggl", "generalized index3"])
+def test_chains(links, method):
+    """Round-off of multipliers that hardly count does not keep corrections from their end."""
+    model, names, given = chain(links), ["b0.mass", "b2.mass", "gravity[2]"], settings(methods()[method], 300)
+    for text in (f"integral(position(b{links - 1}.centre)[2])", "integral(norm(multiplier(first))**2)"):
+        _, slope = ancf.gradient(model, text, names, **given)
+        assert apart(model, slope, forward(model, text, names, **given)) < 1e-6, text
+
+
+def test_what_it_cannot_solve_goes_forwards(monkeypatch):
+    given = settings(methods()["trapezoidal ggl"])
+    wanted = forward(arms(), OF_ARMS[0], ARMS, **given)
+    monkeypatch.setattr(JoinedAdjoint, "_back", lambda *_: SLOW)
+    _, slope = ancf.gradient(arms(), OF_ARMS[0], ARMS, **given)
+    assert slope == pytest.approx(wanted, rel=1e-12)
 
 
 def test_which_models_have_one():

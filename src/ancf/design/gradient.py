@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from ..model.joints import Slide
 from ..model.model import Model
 from ..preparation import method_of, prepared
 from ..results.state import State
-from ..sensitivity.adjoint import Adjoint, Key
+from ..sensitivity.adjoint import Adjoint, Key, UnsolvedError
 from ..sensitivity.adjoint_joints import adjoint_of
 from ..sensitivity.answers import Face
 from ..sensitivity.parameters import Parameter, parameters_of
@@ -92,10 +93,11 @@ def gradient(
         where="gradient",
     )
     way = adjoint_of(made.system)
-    if way is None:
-        settings = {"t_end": t_end, "step": step, "start": start, "integrator": integrator}
-        return _forward(model, formula, wanted, settings)
-    return _backward(way, made, formula, wanted, start)
+    if way is not None:
+        with suppress(UnsolvedError):  # what it cannot solve, sensitivities may
+            return _backward(way, made, formula, wanted, start)
+    settings = {"t_end": t_end, "step": step, "start": start, "integrator": integrator}
+    return _forward(model, formula, wanted, settings)
 
 
 class Histories:

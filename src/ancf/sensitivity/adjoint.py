@@ -42,13 +42,17 @@ MOVED = 1e-4
 SHAPES = ("position", "velocity", "slope")
 PLACES = ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12))
 
-#: What a gradient that cannot be had says.
-FAILS = "gradient", "the equations of the adjoint cannot be solved", "smaller steps"
-
 #: A question: a quantity and of what.
 Key = tuple[str, str]
 #: ``asked(face, keys)``: the histories of these questions, by key, of states (n, size).
 Asked = Callable[[Face, Iterable[Key]], dict[Key, FloatArray]]
+
+
+class UnsolvedError(SolveError):
+    """The equations of an adjoint cannot be solved."""
+
+    def __init__(self) -> None:
+        super().__init__("gradient", "the equations of the adjoint cannot be solved", "smaller steps")
 
 
 class Collector:
@@ -186,7 +190,7 @@ class Adjoint:
             tables = system.inputs.tables(*when[:2], block.count, *when[2:])
             lost, turned = np.zeros(system.size), np.zeros((self.weighed.turning, 3, 3))
             if self._back(way, block.h, tables, wanted, (mu, lam, lost, turned)) != OK:
-                raise SolveError(*FAILS)
+                raise UnsolvedError
             still -= lost
             still[self.unknowns] += np.sum(wanted[:, 0], axis=0)
             self._add_axes(way, wanted, turned)

@@ -10,7 +10,6 @@ from ..arrays import FloatArray
 from ..batches import Batches
 from ..compiled import Role, add_work_slopes, does_something, traits
 from ..connections.sliding import SLIDES
-from ..errors import SolveError
 from ..preparation import Prepared
 from ..results.state import State
 from ..solvers.adjoint_joints import ROOM, back_joined_start, back_joined_steps
@@ -18,7 +17,7 @@ from ..solvers.pushes import weigh_pushes
 from ..solvers.sensitivity import Constraining, Matrices, Way
 from ..solvers.status import OK
 from ..system.system import System
-from .adjoint import FAILS, Adjoint, Asked, Key
+from .adjoint import Adjoint, Asked, Key, UnsolvedError
 from .base import matrices_of
 from .family import Family
 from .follow import check_shift
@@ -117,7 +116,7 @@ class JoinedAdjoint(Adjoint):
         y = begin.q, begin.v, begin.a
         given = system.core, self.m, y, wanted[0], self.unknowns
         if back_joined_start(*given, mu, lam, lost, self._room) != OK:
-            raise SolveError(*FAILS)
+            raise UnsolvedError
         still -= lost
         way, tables = Way(*(x[None] for x in y)), system.inputs.tables(*when[:2], 1, *when[2:])
         system.level[:] = 0.0, 0.0, 1.0

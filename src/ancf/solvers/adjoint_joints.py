@@ -40,6 +40,8 @@ LEFT = 1e-10
 #: In the first step of a block, which begins with nothing, corrections shrink faster than in later ones by at
 #: most so much.
 WARY = 2.0
+#: Part of what is solved for below which what is left of it is round-off.
+NOTHING = 1e-13
 #: Steps that lead to the first guess of rho.
 PAST = 5
 
@@ -100,17 +102,25 @@ def change_of(joints, d, x, multipliers):
 
 
 @inline_kernel
-def corrected(core, factor, d, x):
-    """Replace d, what is out of balance, by the correction, and add it to x; its size, relative."""
-    n = core.weight.shape[0]
+def corrected(core, factor, goal, d, x):
+    """Replace d, what of the goal is left, by the correction, and add it to x.
+
+    Returns
+    -------
+    The size of the correction, and that of what was left, relative.
+    """
+    n, left, whole = core.weight.shape[0], 0.0, 0.0
     hold(core.supports, d)
+    for i in range(n):
+        left, whole = max(left, abs(d[i])), max(whole, abs(goal[i]))
     solve_matrix(factor, d)
     for i in range(n):
         x[i] += d[i]
     for i in range(n, d.shape[0]):
         d[i] = 0.0
     onto_shadows(core.supports, d)
-    return max(change_of(core.joints, d, x, True), change_of(core.joints, d, x, False))
+    change = max(change_of(core.joints, d, x, True), change_of(core.joints, d, x, False))
+    return change, left / whole if whole > LEAST else 0.0
 
 
 @inline_kernel
@@ -151,9 +161,14 @@ def shifted_back(core, m, factor, y, goal, joined, lam, rho, room):
 
 
 @inline_kernel
-def may_end(change, before, rate, enough):
-    """Whether corrections may end with one of this size, relative, that are thought to shrink by a rate."""
-    if rate * change <= enough or change < LEAST or (change <= NOISY and change >= 0.5 * before):
+def may_end(change, before, rate, enough, left):
+    """Whether corrections may end with one of this size, relative, that are thought to shrink by a rate.
+
+    Those that do not shrink are round-off, if they are small or what was ``left`` is.
+    """
+    if rate * change <= enough or change < LEAST:
+        return True
+    if change >= 0.5 * before and (change <= NOISY or left <= NOTHING):
         return True
     return change <= ROUGH and change >= 0.9 * before
 
@@ -205,14 +220,14 @@ def factors(core, m, factor, matrices, y, mu, c1, B, G, joined, known, lam, rho,
         to_local(core.supports, r)
         for i in range(n):
             d[i] = goal[i] - r[i]
-        change = corrected(core, factor, d, lam)
+        change, left = corrected(core, factor, goal, d, lam)
         add_products(core, m, matrices, y, d, sums, w)
         if joined.projects:
             change = max(change, shifted_back(core, m, factor, y, mu[0], joined, lam, rho, room))
         if round == 1 and known == 0:
             rate[0] = min(WARY * change / before, 1.0)
         shrinks = min(change / before, 1.0) if round > 0 else 1.0
-        if may_end(change, before, rate[0] if known > 0 and round < 2 else shrinks, LEFT):
+        if may_end(change, before, rate[0] if known > 0 and round < 2 else shrinks, LEFT, left):
             return OK
         before = change
     return SLOW
@@ -291,22 +306,26 @@ def back_joined_steps(
 
 
 @inline_kernel
-def accelerations_back(core, m, y, mu, lam, room):
-    """Fill lambda of the accelerations and multipliers of a consistent start, and the sums; a status."""
+def start_back(core, m, y, goal, lam, room):
+    """Fill lambda of accelerations and multipliers, with the rows for these, and the sums; a status.
+
+    ``goal``: what is to be solved for, of multipliers by T_q^T, of all others by T_a^T.
+    """
     sums, d, r, w, mask = room[0:3], room[5], room[6], room[7:9], core.joints.mask
     n, before = core.weight.shape[0], np.inf
-    at_level(core, 0.0, 0.0, 1.0)
     clear(sums)
+    for i in range(lam.shape[0]):
+        lam[i] = 0.0
+    at_level(core, 0.0, 0.0, 1.0)
     for _ in range(MOST):
         for i in range(r.shape[0]):
             r[i] = sums[2, i]
         to_local(core.supports, r)
         for i in range(n):
-            here = mu[2, i] + mu[3, i] - r[i]
-            d[i] = here if mask[i] == 0.0 else mu[0, i] - sums[0, i]
-        change = corrected(core, core.factor, d, lam)
+            d[i] = goal[i] - (r[i] if mask[i] == 0.0 else sums[0, i])
+        change, left = corrected(core, core.factor, goal, d, lam)
         add_products(core, m, (m.K, m.C), y, d, sums, w)
-        if may_end(change, before, min(change / before, 1.0) if before < np.inf else 1.0, ENOUGH):
+        if may_end(change, before, min(change / before, 1.0) if before < np.inf else 1.0, ENOUGH, left):
             return OK
         before = change
     return SLOW
@@ -314,19 +333,20 @@ def accelerations_back(core, m, y, mu, lam, room):
 
 @inline_kernel
 def shift_back(core, m, y, mu, k, rho, room):
-    """Fill rho of the shift of mu[k], positions (0) or velocities (1), onto their constraints; a status."""
-    sums, d, r, before = room[0:3], room[5], room[6], np.inf
+    """Fill rho of the shift of mu[k], positions (0) or velocities (1), onto their rows, and the sums.
+
+    A shift goes through the factors of the masses: rho has the multipliers of accelerations due to mu[k].
+    """
+    goal, mask = room[4], core.joints.mask
+    for i in range(core.weight.shape[0]):
+        goal[i] = mu[k, i] * (1.0 - mask[i])
+    status = start_back(core, m, y, goal, rho, room)
+    for i in range(rho.shape[0]):
+        rho[i] *= mask[i]
+    clear(room[0:3])
     at_level(core, 1.0 - k, 1.0 * k, 0.0)
-    clear(sums)
-    for _ in range(MOST):
-        for i in range(r.shape[0]):
-            r[i] = sums[k, i]
-        change = lifted(core, core.factor, mu[k], r, rho, d)
-        add_all_slopes(m.rough, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
-        if may_end(change, before, min(change / before, 1.0) if before < np.inf else 1.0, ENOUGH):
-            return OK
-        before = change
-    return SLOW
+    add_all_slopes(m.rough, y[0], y[1], y[2], rho, room[0], room[1], room[2], core.ws)
+    return status
 
 
 @kernel
@@ -355,8 +375,9 @@ def back_joined_start(core, m, y, wanted, unknowns, mu, lam, still, room):
     for i in range(m.C.shape[0]):
         m.C[i] = 0.0
     add_tangents(m.exact, y[0], y[1], m.C, 0.0, 1.0, 0.0, core.ws)
-    clear(lam)
-    status = accelerations_back(core, m, y, mu, lam[0], room)
+    for i in range(core.weight.shape[0]):
+        room[4, i] = mu[2, i] + mu[3, i] if core.joints.mask[i] == 0.0 else mu[0, i]
+    status = start_back(core, m, y, room[4], lam[0], room)
     if status != OK:
         return status
     take(core, room[0:3], mu, m.work[1:3], still)
