@@ -1,4 +1,4 @@
-"""What has been compiled of the package, for copies of it whose kernels are the same."""
+"""What has been compiled of the package, for copies whose kernels are the same; kernels of the tests."""
 
 import importlib
 import shutil
@@ -8,6 +8,7 @@ from numba.core.dispatcher import Dispatcher
 
 import ancf
 from ancf import compiled
+from ancf.batches import strain_energies
 
 PACKAGE = Path(ancf.__file__).parent
 
@@ -23,3 +24,9 @@ def take_kernels(copy):
             kept.mkdir(exist_ok=True)
             for file in Path(cache).glob("*.nb?"):
                 shutil.copy(file, kept)
+
+
+@compiled.kernel
+def total_strain_energy(batches, ws, q):
+    """Strain energy of all batches, J."""
+    return strain_energies(batches, q, ws)

@@ -10,6 +10,7 @@ import ancf
 from ancf import compilation
 from ancf.cli import warmup
 from ancf.compiled import _DOES, add_force
+from ancf.records import RecordType
 from ancf.solvers.newmark import advance
 from commands import python
 
@@ -117,5 +118,6 @@ def test_warmup_has_every_kind():
     found = set()
     for made in (warmup._cable, warmup._beams, warmup._joints, warmup._bead, warmup._surrounded):
         operations = compilation.needed(made(), None).operations
-        found |= {signature[0].batch.instance_class for _, signature in operations}
+        records = [signature[0] for _, signature in operations if isinstance(signature[0], RecordType)]
+        found |= {record.batch.instance_class for record in records}
     assert {kind.__name__ for kind, stub in _DOES if stub is add_force} - {c.__name__ for c in found} <= RARE

@@ -17,8 +17,9 @@ from ancf.elements.measures import axial_strain, curvature
 from ancf.elements.registry import ELEMENTS
 from ancf.elements.shapes import gauss, hermite
 from ancf.model.elements import KINDS
-from ancf.system.core import find_inverted, inertia, total_strain_energy
+from ancf.system.core import find_inverted, inertia
 from ancf.system.system import System
+from compiled_kernels import total_strain_energy
 from helpers import (
     BY_DIFFERENCES,
     BY_ROUND_OFF,

@@ -81,6 +81,17 @@ class TestLoads:
         potential = energies(system, states, still)[:, 2]
         assert np.diff(potential) == pytest.approx((SOFT["rhoA"] * beam.length + 0.4) * 9.81 * 2.0)
 
+    @pytest.mark.parametrize("count", [1, 11, 40])
+    def test_energies_are_sums_over_all_unknowns(self, count):
+        """However many pieces a sum has: against the whole mass matrix and the weight."""
+        model = ancf.Model(gravity=(1.0, 2.0, -9.81))
+        model.add_beam("rope", start=(0, 0, 0), end=(2, 0, 1), elements=count, section=ancf.Section(**SOFT))
+        system = System(model)
+        q, v = shaken(system), np.random.default_rng(4).uniform(-1, 1, system.size)
+        kinetic, _, potential = energies(system, q[None], v[None])[0]
+        assert kinetic == pytest.approx(0.5 * v @ matrix(system, q, mass=1.0) @ v, rel=1e-13)
+        assert potential == pytest.approx(-system.core.loads.gravity @ q, rel=1e-13)
+
     def test_moments_on_cables_and_sections_are_kept_apart(self):
         """Given in turn, each works where it stands: a torque only on the beam with a section."""
         model, a = cable("straight", elements=1, name="a")

@@ -15,14 +15,18 @@ products of a block and a vector add up its columns; for them L is kept by colum
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from functools import cache
+from typing import Any, NamedTuple
 
 import numpy as np
+from numba import types
 from numpy.typing import NDArray
 
+from .. import addresses
+from ..addresses import caller
 from ..arrays import FloatArray
-from ..compiled import formula, inline_kernel
-from ..records import recorded
+from ..compiled import VECTOR, formula, inline_kernel, separate_kernel
+from ..records import recorded, type_of
 from ..simd import load_six, store_six
 from .block import (
     combined,
@@ -49,13 +53,14 @@ class Factor(NamedTuple):
     D_inv: FloatArray  # (36 n,)
     T: FloatArray  # (36 longest row,) workspace, L D of one row
     place: NDArray[np.int64]  # (n,) workspace, place of a column in the row at hand
+    fill: int  # address of factorise_at
 
 
 def allocate(row_start: NDArray[np.int64], column: NDArray[np.int64]) -> Factor:
     """Factor with the pattern of L given by rows, values not yet computed."""
     n = len(row_start) - 1
     longest = int(np.max(np.diff(row_start), initial=1))
-    return Factor(
+    factor = Factor(
         np.ascontiguousarray(row_start, dtype=np.int64),
         np.ascontiguousarray(column, dtype=np.int64),
         np.zeros(36 * len(column)),
@@ -63,7 +68,16 @@ def allocate(row_start: NDArray[np.int64], column: NDArray[np.int64]) -> Factor:
         np.zeros(36 * n),
         np.zeros(36 * max(longest, 1)),
         np.full(n, -1, dtype=np.int64),
+        0,
     )
+    return factor._replace(fill=addresses.address_of(factorise_at, _given(), types.int64))
+
+
+@cache
+def _given() -> tuple[Any, ...]:
+    """Types of what :func:`factorise_at` takes: to ask each factor for its own takes longer than all else."""
+    index, vector = np.zeros(0, dtype=np.int64), np.zeros(0)
+    return VECTOR, type_of(Factor(index, index, *4 * (vector,), index, 0)), types.int64
 
 
 @inline_kernel
@@ -111,6 +125,21 @@ def factorise(A, factor, last):
             return -(i + 1)
         negative += bad
     return negative
+
+
+@separate_kernel
+def factorise_at(A, factor, last):
+    """See :func:`factorise`: one for all that need factors, as it takes long to compile."""
+    return factorise(A, factor, last)
+
+
+_fill = caller(types.int64)
+
+
+@formula
+def fill(A, factor, last):
+    """:func:`factorise` by its address."""
+    return _fill(factor.fill, (A, factor, last))
 
 
 @formula

@@ -26,7 +26,7 @@ from ..compiled import formula, inline_kernel, kernel
 from ..records import recorded, type_of
 from ..simd import every, load_six, store_six
 from .block import combined, copy, is_zero, put_six, six, sixfold, subtract_product, times, turn
-from .block_ldl import Factor, allocate, factorise, solve_rows
+from .block_ldl import Factor, allocate, fill, solve_rows
 
 #: Blocks whose columns are kept for each row besides those that it may have at a time.
 SPARE = 2
@@ -200,7 +200,7 @@ def make_border(border, A, factor):
         subtract_inverse(border, t, t, 36 * t)
         for h in range(t):
             subtract_inverse(border, t, h, 36 * (rows + border.small.row_start[t] + h))
-    return factorise(border.S, border.small, rows)
+    return fill(border.S, border.small, rows)
 
 
 @inline_kernel

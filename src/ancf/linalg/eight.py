@@ -290,7 +290,8 @@ def factorise_lanes(factor, e, definite, both):
 @formula
 def factor_of(factor, e, m):
     """The factors of matrix m."""
-    return Factor(factor.row_start, factor.column, e.L[m], e.LT[m], e.D_inv[m], factor.T, factor.place)
+    own = e.L[m], e.LT[m], e.D_inv[m]
+    return Factor(factor.row_start, factor.column, *own, factor.T, factor.place, factor.fill)
 
 
 @kernel

@@ -12,7 +12,7 @@ from ..addresses import caller
 from ..batches import add_tangents
 from ..compiled import formula, separate_kernel
 from ..linalg.border import clear_rows, forget_columns, renew_border
-from ..records import type_of
+from ..records import recorded, type_of
 from ..system.core import (
     Core,
     assemble,
@@ -39,6 +39,7 @@ from .status import FACTORIZATIONS, JACOBIANS
 HELD = 0.1
 
 
+@recorded
 class Apart(NamedTuple):
     """Addresses; 0 where a model does not need it."""
 

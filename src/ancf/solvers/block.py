@@ -21,41 +21,41 @@ from .scheme import Scheme
 
 #: What a block of steps returns: how many were done, and the status of the last one.
 BLOCK = types.UniTuple(types.int64, 2)
-_TABLES = Tables(np.zeros((0, 0, 3)), np.zeros((0, 0, 3)), np.zeros((0, 0, 3, 3, 3)))
-_RULE = Rule(0.0, 0.0, 0, True, True, 0.0, 0.0, 0.0, True, 0.0, 0, 0)
-_BEGIN = type_of(_TABLES), types.float64
-_END = type_of(Output.of(0, 0, 0, 0)), type_of(Apart(*[0] * len(Apart._fields)))
-_KEPT = types.Array(types.int64, 1, "C")
+_TABLES = type_of(Tables(np.zeros((0, 0, 3)), np.zeros((0, 0, 3)), np.zeros((0, 0, 3, 3, 3))))
+_KEPT, _OUT = types.Array(types.int64, 1, "C"), type_of(Output.of(0, 0, 0, 0))
+_SCHEME, _APART = type_of(Scheme(0.0, 0.0, 0.0, 0.0)), type_of(Apart(*[0] * len(Apart._fields)))
+_RULE = type_of(Rule(0.0, 0.0, 0, True, True, 0.0, 0.0, 0.0, True, 0.0, 0, 0))
 
 
-def implicit_types(core: Any, memory: Any, sampling: Any) -> tuple[Any, ...]:
+def implicit_types(
+    core: Any, memory: Any, sampling: Any, scheme: Any = _SCHEME, rule: Any = _RULE, apart: Any = _APART
+) -> tuple[Any, ...]:
     """Of what :func:`ancf.solvers.newmark.advance` takes, with these of the records."""
-    settings = type_of(Scheme(0.0, 0.0, 0.0, 0.0)), type_of(_RULE)
-    return core, memory, *_BEGIN, *settings, _KEPT, sampling, *_END
+    return core, memory, _TABLES, types.float64, scheme, rule, _KEPT, sampling, _OUT, apart
 
 
-def explicit_types(core: Any, memory: Any, sampling: Any) -> tuple[Any, ...]:
+def explicit_types(core: Any, memory: Any, sampling: Any, apart: Any = _APART) -> tuple[Any, ...]:
     """The same of :func:`ancf.solvers.explicit.advance_explicit`."""
-    return core, memory, *_BEGIN, types.boolean, _KEPT, sampling, *_END
+    return core, memory, _TABLES, types.float64, types.boolean, _KEPT, sampling, _OUT, apart
 
 
-_ANY = (types.voidptr,) * 3
 #: Call steps by their address.
-take_implicit = caller(BLOCK, implicit_types(*_ANY))
-take_explicit = caller(BLOCK, explicit_types(*_ANY))
+take_implicit = caller(BLOCK, implicit_types(*6 * (types.voidptr,)))
+take_explicit = caller(BLOCK, explicit_types(*4 * (types.voidptr,)))
 
 
 @kernel
 def implicit_block(steps, core, memory, tables, h, scheme, rule, keep, sampling, out, apart):
-    """Call :func:`ancf.solvers.newmark.advance`; numbers are addresses, of core, memory and sampling too."""
+    """Call :func:`ancf.solvers.newmark.advance`; all but tables, h, keep and out are addresses."""
     core, memory, sampling = pointer(core), pointer(memory), pointer(sampling)
+    scheme, rule, apart = pointer(scheme), pointer(rule), pointer(apart)
     return take_implicit(steps, (core, memory, tables, h, scheme, rule, keep, sampling, out, apart))
 
 
 @kernel
 def explicit_block(steps, core, memory, tables, h, turning, keep, sampling, out, apart):
     """The same for :func:`ancf.solvers.explicit.advance_explicit`."""
-    core, memory, sampling = pointer(core), pointer(memory), pointer(sampling)
+    core, memory, sampling, apart = pointer(core), pointer(memory), pointer(sampling), pointer(apart)
     return take_explicit(steps, (core, memory, tables, h, turning, keep, sampling, out, apart))
 
 

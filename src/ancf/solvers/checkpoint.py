@@ -56,23 +56,27 @@ def distinct(roots: Mapping[str, Any]) -> Arrays:
 
 def _find(item: Any, place: str, found: Arrays, seen: set[tuple[int, int]]) -> None:
     """Add the arrays in an item; whoever makes a thousand short runs waits for this a thousand times."""
-    if isinstance(item, np.ndarray):
+    kind = type(item)
+    if kind is np.ndarray:
         if item.size:
             key = begin_of(item), item.nbytes
             if key not in seen:
                 seen.add(key)
                 found[place] = item
-    elif isinstance(item, Batches):
+    elif kind is Batches:
         for k, part in enumerate(item):
             _find(part, f"{place}.{k}", found, seen)
     elif isinstance(item, tuple | list):
-        names = getattr(item, "_fields", None) or range(len(item))
-        for name, part in zip(names, item, strict=True):
-            if not isinstance(part, int | float):
+        for name, part in zip(getattr(kind, "_fields", None) or range(len(item)), item, strict=True):
+            if type(part) not in _NUMBERS:
                 _find(part, f"{place}.{name}", found, seen)
     elif isinstance(item, Mapping):
         for name, part in item.items():
             _find(part, f"{place}.{name}", found, seen)
+
+
+#: What the tuples hold besides arrays.
+_NUMBERS = frozenset((int, float, bool))
 
 
 def copies(roots: Mapping[str, Any]) -> Arrays:

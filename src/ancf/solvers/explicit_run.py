@@ -95,7 +95,10 @@ class ExplicitRun(Run):
 
     def _take(self, tables: Tables, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
         steps, apart = self.kernels
-        where, rest = (place(self.system.core), place(self.memory)), (row, place(self.sampling), out, apart)
+        where, rest = (
+            (place(self.system.core), place(self.memory)),
+            (row, place(self.sampling), out, place(apart)),
+        )
         n, status = explicit_block(steps, *where, tables, h, self.turning, *rest)
         return n, status
 

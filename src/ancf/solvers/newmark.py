@@ -26,6 +26,7 @@ import numpy as np
 
 from ..batches import find_events, remember_all
 from ..compiled import formula, inline_kernel, separate_kernel
+from ..records import recorded
 from ..system.core import (
     drive,
     external_force,
@@ -96,6 +97,7 @@ FURTHEST, UNLIMITED = 0.5, 1e300
 JOINTED, FINEST = 1e-6, 1e-15
 
 
+@recorded
 class Rule(NamedTuple):
     """Newton's rule: see :class:`ancf.Newton`."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ..compiled import formula
+from ..records import recorded
 from .memory import H_PREV, KNOWN
 from .status import STEPS
 
@@ -12,6 +13,7 @@ from .status import STEPS
 FAMILIAR = 3.0
 
 
+@recorded
 class Scheme(NamedTuple):
     """Coefficients of the Newmark family."""
 

@@ -2,30 +2,50 @@
 
 from __future__ import annotations
 
-import numpy as np
+from typing import Any, NamedTuple
 
+import numpy as np
+from numba import types
+
+from .. import addresses
+from ..addresses import caller, pointer
 from ..arrays import FloatArray
+from ..compiled import formula, kernel, separate_kernel
 from ..errors import SolveError
+from ..records import place, recorded, type_of
 from ..system.core import (
+    Core,
     Tables,
-    apply_load,
-    apply_supports,
     assemble,
-    constraints,
+    constraint_rows,
+    drive,
+    external_force,
     factorise_matrix,
-    follow_supports,
-    place_supports,
+    follow,
     residual,
     restrict,
-    solve_matrix,
+    solve_sparse,
+    to_local,
 )
 from ..system.system import System
+from .status import NOT_FINITE, OK
 
 #: Sweeps of refinement: the rows of joints have small pivots, friction depends on the normal force.
 SWEEPS = 4
+HUGE = 1e300
 
 
-NO_START = "the initial state has no finite accelerations"
+@recorded
+class Start(NamedTuple):
+    """What the start takes; vectors have the length of the state vectors."""
+
+    core: Core
+    tables: Tables  # whose first row is the start
+    q: FloatArray
+    v: FloatArray
+    a: FloatArray
+    r: FloatArray  # workspace, as f
+    f: FloatArray
 
 
 def consistent_start(system: System, q: FloatArray, v: FloatArray, tables: Tables) -> FloatArray:
@@ -41,65 +61,113 @@ def consistent_start(system: System, q: FloatArray, v: FloatArray, tables: Table
         State vectors, changed in place.
     tables : Tables
         Functions of time whose first row is the start.
+
+    Raises
+    ------
+    SolveError
+        The mass matrix is singular, or a force is not finite.
     """
-    core = system.core
-    if not (np.all(np.isfinite(q)) and np.all(np.isfinite(v))):
-        raise SolveError("start", NO_START, "check shapes and loads")
-    a = np.zeros(system.size)
-    place_supports(core.supports, core.loads.value, tables, 0, q, v, a)
-    if len(system.multipliers):
-        _shift(system, q, v, a, (1.0, 0.0, 0.0), q)
-        _shift(system, q, v, a, (0.0, 1.0, 0.0), v)
-    return _accelerate(system, q, v, a, tables)
+    a, r, f = np.zeros((3, system.size))
+    given = Start(system.core, tables, q, v, a, r, f)
+    status = _number_at(_address(given), place(given))
+    if status == NOT_FINITE:
+        raise SolveError("start", "the initial state has no finite accelerations", "check shapes and loads")
+    if status != OK:
+        where = f"start, {system.numbering.describe(6 * (-status - 1))}"
+        raise SolveError(where, "the mass matrix is singular", "check masses, inertias and joints")
+    return a
 
 
-def _mass_factors(system: System, q: FloatArray, v: FloatArray) -> None:
-    """Factorise the mass matrix with the constraints for accelerations."""
-    core = system.core
-    system.level[:] = 0.0, 0.0, 1.0
+_types: dict[Any, Any] = {}
+
+
+def _address(given: Start) -> int:
+    """Of the kernel for such arrays: to ask for their types takes longer than the start."""
+    core = type_of(given.core)
+    if core not in _types:
+        _types[core] = type_of(given)
+    return addresses.address_of(start_at, (_types[core],), types.int64)
+
+
+@separate_kernel
+def start_at(given):
+    """See :func:`consistent_start`; OK, NOT_FINITE or -(block + 1)."""
+    core, q, v, a, r = given.core, given.q, given.v, given.a, given.r
+    if not (finite(q) and finite(v)):
+        return NOT_FINITE
+    drive(core.supports, core.loads.value, given.tables, 0, q, v, a)
+    if core.joints.multipliers.shape[0] > 0:
+        bad = shift(core, q, v, a, r)
+        if bad < 0:
+            return bad
+    external_force(core.loads, given.tables.value[0], given.f)
+    return accelerate(core, q, v, a, r, given.f)
+
+
+@formula
+def finite(x):
+    """Whether all entries are."""
+    total = 0.0
+    for i in range(x.shape[0]):
+        total += abs(x[i])
+    return total < HUGE
+
+
+@formula
+def mass_factors(core, q, v):
+    """Factorise the mass matrix with the constraints for accelerations; negative if it is singular."""
+    level = core.joints.level
+    level[0], level[1], level[2] = 0.0, 0.0, 1.0
     assemble(core.batches, core.ws, q, v, core.A, 1.0, 0.0, 0.0)
     restrict(core.supports, core.A)
-    bad = factorise_matrix(core.A, core.factor)
+    return min(factorise_matrix(core.A, core.factor), 0)
+
+
+@formula
+def shift(core, q, v, a, r):
+    """Correct q such that C = 0, then v such that dC/dt = 0."""
+    level, n, mask = core.joints.level, core.weight.shape[0], core.joints.mask
+    for k in range(2 * SWEEPS):
+        of_velocity = k >= SWEEPS
+        bad = mass_factors(core, q, v)
+        if bad < 0:
+            return bad
+        level[0], level[1], level[2] = (0.0, 1.0, 0.0) if of_velocity else (1.0, 0.0, 0.0)
+        constraint_rows(core.joints, q, v, a, r, core.ws)
+        to_local(core.supports, r)
+        solve_sparse(core.factor, r, np.int64(0))
+        x = v if of_velocity else q
+        for i in range(n):
+            x[i] -= r[i] * (1.0 - mask[i])
+        follow(core.supports, q, v, a)
+    return OK
+
+
+@formula
+def accelerate(core, q, v, a, r, f):
+    """Accelerations and multipliers from M a + C_q^T lambda = f - internal forces."""
+    joints = core.joints
+    for k in range(joints.multipliers.shape[0]):
+        q[joints.multipliers[k]] = v[joints.multipliers[k]] = 0.0
+    bad = mass_factors(core, q, v)
     if bad < 0:
-        where = f"start, {system.numbering.describe(6 * (-bad - 1))}"
-        raise SolveError(where, "the mass matrix is singular", "check masses, inertias and joints")
-
-
-def _shift(
-    system: System,
-    q: FloatArray,
-    v: FloatArray,
-    a: FloatArray,
-    level: tuple[float, float, float],
-    x: FloatArray,
-) -> None:
-    """Correct x, which is q or v, such that the constraints of this level hold."""
-    core, r = system.core, np.zeros(system.size)
-    for _ in range(SWEEPS):
-        _mass_factors(system, q, v)
-        system.level[:] = level
-        constraints(core.joints, q, v, a, r, core.ws)
-        apply_supports(core.supports, r)
-        solve_matrix(core.factor, r)
-        r[system.multipliers] = 0.0
-        x[: system.n] -= r[: system.n]
-        follow_supports(core.supports, q, v, a)
-
-
-def _accelerate(system: System, q: FloatArray, v: FloatArray, a: FloatArray, tables: Tables) -> FloatArray:
-    core, r, f = system.core, np.zeros(system.size), np.zeros(system.size)
-    lam = system.multipliers
-    apply_load(core.loads, tables.value[0], f)
-    q[lam] = v[lam] = 0.0
-    _mass_factors(system, q, v)
-    for _ in range(SWEEPS if len(lam) else 1):
+        return bad
+    for _ in range(SWEEPS if joints.multipliers.shape[0] > 0 else 1):
         residual(core.batches, core.ws, q, v, a, f, r)
-        apply_supports(core.supports, r)
-        if not np.all(np.isfinite(r)):
-            raise SolveError("start", NO_START, "check shapes and loads")
-        solve_matrix(core.factor, r)
-        q[lam] -= r[lam]
-        r[lam] = 0.0
-        a[: system.n] -= r[: system.n]
-        follow_supports(core.supports, q, v, a)
-    return a
+        to_local(core.supports, r)
+        if not finite(r):
+            return NOT_FINITE
+        solve_sparse(core.factor, r, np.int64(0))
+        for i in range(core.weight.shape[0]):
+            q[i] -= r[i] * joints.mask[i]
+            a[i] -= r[i] * (1.0 - joints.mask[i])
+        follow(core.supports, q, v, a)
+    return OK
+
+
+_number = caller(types.int64, (types.voidptr,))
+
+
+@kernel
+def _number_at(function, record):
+    return _number(function, (pointer(record),))

@@ -85,6 +85,7 @@ class Run(Asleep):
     def use(self, integrator: Any) -> None:
         """Take what the steps need from the settings of a method of the Newmark family."""
         self.scheme = Scheme(*integrator.coefficients())
+        self.rules: dict[tuple[float, int, int, float], Rule] = {}
         n = integrator.newton
         corotate = n.corotate and not flies(self.system)
         self.newton = (n.tolerance, n.contraction, n.max_iterations, n.modified, corotate)
@@ -92,8 +93,11 @@ class Run(Asleep):
 
     def rule(self, h: float, first: int = 0, last: int = 0, furthest: float = UNLIMITED) -> Rule:
         """Newton's rule, the formulation of the constraints for a step h and which attempts to make."""
-        weights = self.formulation.weights(*self.scheme.of(h), h)
-        return Rule(*self.newton, *weights, self.formulation.projects, furthest, first, last)
+        asked = h, first, last, furthest
+        if asked not in self.rules:
+            weights = self.formulation.weights(*self.scheme.of(h), h)
+            self.rules[asked] = Rule(*self.newton, *weights, self.formulation.projects, furthest, first, last)
+        return self.rules[asked]
 
     @property
     def stats(self) -> Stats:
@@ -126,8 +130,10 @@ class Run(Asleep):
     ) -> tuple[int, int]:
         """Steps of a length h with a rule of Newton's: how many were done, and the status of the last one."""
         steps, apart = self.kernels
-        where, rest = (place(core), place(self.memory)), (row, place(self.sampling), out, apart)
-        n, status = implicit_block(steps, *where, tables, h, self.scheme, rule, *rest)
+        where, how = (place(core), place(self.memory)), (place(self.scheme), place(rule))
+        n, status = implicit_block(
+            steps, *where, tables, h, *how, row, place(self.sampling), out, place(apart)
+        )
         return n, status
 
     def snapshot(self) -> Snapshot:

@@ -18,9 +18,12 @@ from ..batches import (
     strain_energies,
 )
 from ..compiled import formula, inline_kernel, inlined_kernel, kernel
-from ..linalg.block_ldl import Factor, factorise, solve_rows
+from ..linalg.block_ldl import Factor, fill, solve_rows
 from ..linalg.border import Border, apply_border
 from ..records import recorded
+
+#: Entries of a vector that are summed up by themselves.
+PIECE = 64
 
 
 @recorded
@@ -252,13 +255,13 @@ def restrict(supports, A):
 @kernel
 def factorise_matrix(A, factor):
     """Factorise A; number of negative pivots, or -(block + 1) when singular there."""
-    return factorise(A, factor, factor.row_start.shape[0] - 1)
+    return fill(A, factor, factor.row_start.shape[0] - 1)
 
 
 @kernel
 def factorise_head(A, factor, last):
     """Factorise the rows before block ``last`` alone; see :func:`factorise_matrix`."""
-    return factorise(A, factor, last)
+    return fill(A, factor, last)
 
 
 @inline_kernel
@@ -318,10 +321,25 @@ def inertia(batches, ws, a, r):
     add_inertias(batches, a, r, ws)
 
 
+@formula
+def product(x, y):
+    """x . y, summed up in pieces, so that round-off does not grow with all entries."""
+    total, n = 0.0, x.shape[0]
+    for first in range(0, n, PIECE):
+        part = 0.0
+        for i in range(first, min(first + PIECE, n)):
+            part += x[i] * y[i]
+        total += part
+    return total
+
+
 @kernel
-def total_strain_energy(batches, ws, q):
-    """Strain energy of all batches, J."""
-    return strain_energies(batches, q, ws)
+def energies_of(batches, ws, still, q, v, momentum, out):
+    """Kinetic, strain and potential energy of a state, J; ``momentum`` is workspace."""
+    for i in range(momentum.shape[0]):
+        momentum[i] = 0.0
+    add_inertias(batches, v, momentum, ws)
+    out[0], out[1], out[2] = 0.5 * product(momentum, v), strain_energies(batches, q, ws), -product(still, q)
 
 
 @formula

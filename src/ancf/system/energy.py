@@ -6,7 +6,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..elements.winched_build import momenta
-from .core import inertia, total_strain_energy
+from .core import energies_of
 from .system import System
 from .torsion_fields import angles
 
@@ -29,10 +29,7 @@ def energies(system: System, q: FloatArray, v: FloatArray) -> FloatArray:
     core, turned = system.core, system.parts.get("torsion springs")
     last = turned.last.copy() if turned else None
     for k in reversed(range(len(q))):  # full turns are counted from the present state backwards
-        inertia(core.batches, core.ws, v[k], momentum)
-        strain = total_strain_energy(core.batches, core.ws, q[k])
-        # no BLAS: its threads would go on spinning beside the next block of steps
-        out[k] = 0.5 * np.sum(momentum * v[k]), strain, -np.sum(core.loads.still * q[k])
+        energies_of(core.batches, core.ws, core.loads.still, q[k], v[k], momentum, out[k])
         if "winched" in system.parts:
             out[k] += _of_winched(system, q[k], v[k])
         if turned:
