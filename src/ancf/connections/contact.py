@@ -123,6 +123,8 @@ def add_row(batch, j, e, xi, m, weight, r):
     """Add ``weight`` times the gradient of the overlap to r."""
     for k in range(COLUMNS):
         i, o = batch.slot[j, k], batch.line_slot[e, k]
+        if i < 0 and o < 0:
+            break
         if i >= 0:
             w = weight * batch.factor[j, k]
             for c in range(3):

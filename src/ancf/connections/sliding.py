@@ -50,13 +50,13 @@ class SlidingBatch(NamedTuple):
     unknown: IntArray  # (n,) first unknown of the joint's block: lambda (3), then s
     level: FloatArray  # (3,) weights of C, dC/dt, d2C/dt2 in the residual, shared with the System
     own: IntArray  # (n,) place of the joint's diagonal block
-    slot: IntArray  # (n, COLUMNS) slots of the sliding point, -1: none
+    slot: IntArray  # (n, COLUMNS) slots of the sliding point, behind them -1: none
     factor: FloatArray  # (n, COLUMNS)
     place: IntArray  # (n, COLUMNS) places of the 3x3 pieces (lambda, slot)
     offset: FloatArray  # (n, 3) constant part of the sliding point's position
     first: IntArray  # (n + 1,) elements of the carrier of each joint
     x: FloatArray  # (m, 2) start and length of the element, m
-    line_slot: IntArray  # (m, COLUMNS)
+    line_slot: IntArray  # (m, COLUMNS) the same of the carrier
     line_poly: FloatArray  # (m, COLUMNS, 4) factors as powers of xi = (s - start)/length
     line_place: IntArray  # (m, COLUMNS) places of the pieces (lambda, slot)
     data: FloatArray  # (n, 4) MASS, VISCOUS, MU, V0
@@ -104,11 +104,12 @@ def line(batch, e, xi, q, derivative):
     x, y, z = 0.0, 0.0, 0.0
     for k in range(COLUMNS):
         i = batch.line_slot[e, k]
-        if i >= 0:
-            w = shape(batch, e, k, xi, derivative)
-            x += w * q[i]
-            y += w * q[i + 1]
-            z += w * q[i + 2]
+        if i < 0:
+            break
+        w = shape(batch, e, k, xi, derivative)
+        x += w * q[i]
+        y += w * q[i + 1]
+        z += w * q[i + 2]
     return x, y, z
 
 
@@ -118,11 +119,12 @@ def slider(batch, j, q, fixed):
     x, y, z = fixed * batch.offset[j, 0], fixed * batch.offset[j, 1], fixed * batch.offset[j, 2]
     for k in range(COLUMNS):
         i = batch.slot[j, k]
-        if i >= 0:
-            w = batch.factor[j, k]
-            x += w * q[i]
-            y += w * q[i + 1]
-            z += w * q[i + 2]
+        if i < 0:
+            break
+        w = batch.factor[j, k]
+        x += w * q[i]
+        y += w * q[i + 1]
+        z += w * q[i + 2]
     return x, y, z
 
 
@@ -190,6 +192,8 @@ def sliding_force(batch, q, v, a, r, ws):
         lam = keep(batch, j, whole)
         for k in range(COLUMNS):
             m, n = batch.slot[j, k], batch.line_slot[e, k]
+            if m < 0 and n < 0:
+                break
             if m >= 0:
                 for c in range(3):
                     r[m + c] += batch.factor[j, k] * lam[c]
@@ -240,6 +244,8 @@ def sliding_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
         lam = keep(batch, j, (q[i], q[i + 1], q[i + 2]))
         slides = batch.mode[j] == SLIDES
         for k in range(COLUMNS):
+            if batch.slot[j, k] < 0 and batch.line_slot[e, k] < 0:
+                break
             if batch.slot[j, k] >= 0:
                 add_piece(A, batch.place[j, k], scale * batch.factor[j, k], batch, j)
             if batch.line_slot[e, k] >= 0:

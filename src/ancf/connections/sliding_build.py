@@ -93,4 +93,6 @@ def beam_line(
         poly[h == length, : used.shape[1]] = (inverse @ values).T
     if y == 0.0 and z == 0.0:  # columns that do not contribute
         line[np.all(poly == 0.0, axis=2)] = -1
+    order = np.argsort(line < 0, axis=1, kind="stable")  # what is not used comes last
+    line, poly = np.take_along_axis(line, order, axis=1), np.take_along_axis(poly, order[:, :, None], axis=1)
     return np.column_stack([body.node_x[:-1], h]), line, poly

@@ -13,7 +13,7 @@ from ..simd import absolute, every, load_six, replaced, store_columns, store_six
 
 #: A pivot below this fraction of its original diagonal entry counts as zero.
 SINGULAR = 1e-14
-#: Above this fraction pivots are taken in the order of the unknowns, as long as they are positive.
+#: Above this fraction pivots are taken in the order of the unknowns.
 CLEAR = 1e-8
 
 
@@ -133,22 +133,32 @@ def swept(rows, p):
 
 
 @formula
-def invert_definite(A, o, original):
-    """Invert the block at ``A[o]`` in place if all pivots are positive in their order; whether they are."""
+def clear(pivot, original):
+    """Whether a pivot still has the sign of its original diagonal entry, and is not what cancellation left."""
+    return pivot * original > CLEAR * original * original
+
+
+@formula
+def invert_in_order(A, o, original):
+    """Invert the block at ``A[o]`` in place if all pivots are clear in their order; whether they are.
+
+    They are in a definite block, and in one of multipliers and what these hold, whose diagonal entries have
+    two signs: there no order loses digits by cancellation.
+    """
     # a plain 0 is a type of its own for numba, for which it would translate everything anew
     rows = six(A, o)
-    clear = rows[0][0] > CLEAR * original[o]
+    good = clear(rows[0][0], original[o])
     rows = swept(rows, np.int64(0))
-    clear = clear and rows[1][1] > CLEAR * original[o + 7]
+    good = good and clear(rows[1][1], original[o + 7])
     rows = swept(rows, np.int64(1))
-    clear = clear and rows[2][2] > CLEAR * original[o + 14]
+    good = good and clear(rows[2][2], original[o + 14])
     rows = swept(rows, np.int64(2))
-    clear = clear and rows[3][3] > CLEAR * original[o + 21]
+    good = good and clear(rows[3][3], original[o + 21])
     rows = swept(rows, np.int64(3))
-    clear = clear and rows[4][4] > CLEAR * original[o + 28]
+    good = good and clear(rows[4][4], original[o + 28])
     rows = swept(rows, np.int64(4))
-    clear = clear and rows[5][5] > CLEAR * original[o + 35]
-    if not clear:
+    good = good and clear(rows[5][5], original[o + 35])
+    if not good:
         return False
     x0, x1, x2, x3, x4, x5 = swept(rows, np.int64(5))
     put_six((-x0, -x1, -x2, -x3, -x4, -x5), A, o)
@@ -159,9 +169,11 @@ def invert_definite(A, o, original):
 @inline_kernel
 def invert_symmetric(A, o, original):
     """Invert the 6x6 block at ``A[o]`` in place by sweeps; number of negative pivots, -1 if singular."""
-    if invert_definite(A, o, original):
-        return 0
     negative = 0
+    if invert_in_order(A, o, original):
+        for i in range(o, o + 36, 7):
+            negative += original[i] < 0.0
+        return negative
     done = 0
     for _ in range(6):
         p, largest = -1, -1.0
