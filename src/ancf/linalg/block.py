@@ -134,7 +134,7 @@ def swept(rows, p):
 
 @formula
 def clear(pivot, original):
-    """Whether a pivot still has the sign of its original diagonal entry, and is not what cancellation left."""
+    """Whether a pivot has the sign of its original diagonal entry, and is not what cancellation left."""
     return pivot * original > CLEAR * original * original
 
 

@@ -24,12 +24,14 @@ from ..addresses import caller
 from ..arrays import FloatArray, IntArray
 from ..compiled import formula, inline_kernel, kernel
 from ..records import recorded, type_of
-from ..simd import every, load_six, store_six
+from ..simd import LANES, every, load, load_six, store, store_six
 from .block import combined, copy, is_zero, put_six, six, sixfold, subtract_product, times, turn
 from .block_ldl import Factor, allocate, fill, solve_rows
 
 #: Blocks whose columns are kept for each row besides those that it may have at a time.
 SPARE = 2
+#: Numbers of a block of these columns: to read eight at a time takes half as long as six.
+WIDE = 6 * LANES
 
 
 @recorded
@@ -37,7 +39,7 @@ class Border(NamedTuple):
     """t rows of blocks behind the n blocks of K, with at most w blocks each; room for m blocks of columns."""
 
     block: IntArray  # (m,) block of K whose columns are kept, -1: none
-    inverse: FloatArray  # (m, 36 n) six columns of K^-1, for each block one after the other
+    inverse: FloatArray  # (m, WIDE n) six columns of K^-1, for each block one after the other, LANES apart
     number: IntArray  # (t,) blocks in each row now
     kept: IntArray  # (t, w) which of the m they are
     place: IntArray  # (t, w) where they stand in the matrix
@@ -47,6 +49,7 @@ class Border(NamedTuple):
     small: Factor  # of it
     y: FloatArray  # (6 t,) workspace
     part: FloatArray  # (36,) workspace
+    turned: FloatArray  # (6 t w,) workspace, R^T y block by block
     make: int  # addresses of make_border and solve_border, 0 without rows
     solve: int
 
@@ -67,7 +70,7 @@ def _room(head: int, rows: int, widest: int) -> Border:
     column = np.concatenate([np.zeros(0, dtype=np.int64), *(np.arange(t) for t in range(rows))])
     border = Border(
         block=np.full(kept, -1, dtype=np.int64),
-        inverse=np.zeros((kept, 36 * head if rows else 0)),
+        inverse=_aligned(kept, WIDE * head if rows else 0),
         number=np.zeros(rows, dtype=np.int64),
         kept=np.zeros((rows, widest), dtype=np.int64),
         place=np.zeros((rows, widest), dtype=np.int64),
@@ -77,6 +80,7 @@ def _room(head: int, rows: int, widest: int) -> Border:
         small=allocate(start.astype(np.int64), column.astype(np.int64)),
         y=np.zeros(6 * rows),
         part=np.zeros(36),
+        turned=np.zeros(6 * rows * widest),
         make=0,
         solve=0,
     )
@@ -89,25 +93,53 @@ def _room(head: int, rows: int, widest: int) -> Border:
     )
 
 
+def _aligned(rows: int, columns: int) -> FloatArray:
+    """Zeros that begin with a line of the cache: eight numbers are never on two."""
+    whole = np.zeros(rows * columns + LANES)
+    first = -(whole.ctypes.data // whole.itemsize) % LANES
+    return whole[first : first + rows * columns].reshape(rows, columns)
+
+
 @inline_kernel
 def unit_columns(factor, n, block, Z):
     """Z = K^-1 times the unit vectors of a block of the n blocks of K."""
     row_start, column, L, LT, D_inv = factor.row_start, factor.column, factor.L, factor.LT, factor.D_inv
-    for i in range(36 * n):
+    for i in range(WIDE * n):
         Z[i] = 0.0
     for c in range(6):
-        Z[36 * block + 7 * c] = 1.0
+        Z[WIDE * block + LANES * c + c] = 1.0
     for i in range(block + 1, n):
         for k in range(row_start[i], row_start[i + 1]):
             if column[k] >= block:
-                subtract_product(Z, 36 * i, Z, 36 * column[k], LT, 36 * k)
+                subtract_wide(Z, WIDE * i, WIDE * column[k], LT, 36 * k)
     for i in range(block, n):
         rows = six(D_inv, 36 * i)
-        for c in range(36 * i, 36 * i + 36, 6):
-            store_six(combined(rows, sixfold(Z, c)), Z, c)
+        for c in range(WIDE * i, WIDE * i + WIDE, LANES):
+            store(combined(rows, sixfold(Z, c)), Z, c)
     for i in range(n - 1, -1, -1):
         for k in range(row_start[i], row_start[i + 1]):
-            subtract_product(Z, 36 * column[k], Z, 36 * i, L, 36 * k)
+            subtract_wide(Z, WIDE * column[k], WIDE * i, L, 36 * k)
+
+
+@formula
+def subtract_wide(Z, to, of, B, o):
+    """Subtract from six columns of a block the products of B with those of another one."""
+    rows = six(B, o)
+    for c in range(0, WIDE, LANES):
+        store(load(Z, to + c) - combined(rows, sixfold(Z, of + c)), Z, to + c)
+
+
+@formula
+def columns(Z, o):
+    """Six columns of a block."""
+    return (
+        load(Z, o),
+        load(Z, o + LANES),
+        load(Z, o + 2 * LANES),
+        load(Z, o + 3 * LANES),
+        load(Z, o + 4 * LANES),
+        load(Z, o + 5 * LANES),
+    )
 
 
 @inline_kernel
@@ -135,19 +167,27 @@ def columns_of(border, factor, n, block):
 
 
 @inline_kernel
+def find_rows(border, A, factor):
+    """Find where the rows have blocks in the matrix now that are not zero."""
+    rows, blocks = border.number.shape[0], factor.row_start.shape[0] - 1
+    for t in range(rows):
+        border.number[t] = 0
+        for k in range(factor.row_start[blocks - rows + t], factor.row_start[blocks - rows + t + 1]):
+            a = 36 * (blocks + k)
+            if factor.column[k] < blocks - rows and not is_zero(A, a):
+                border.place[t, border.number[t]], border.kept[t, border.number[t]] = a, -1
+                border.number[t] += 1
+
+
+@inline_kernel
 def read_row(border, A, factor, n, t):
     """Blocks of row t, from the matrix."""
     blocks, width = factor.row_start.shape[0] - 1, border.kept.shape[1]
-    for k in range(factor.row_start[n + t], factor.row_start[n + t + 1]):
-        a = 36 * (blocks + k)
-        if factor.column[k] >= n or is_zero(A, a):
-            continue
-        u = border.number[t]
-        o = 36 * (t * width + u)
+    for u in range(border.number[t]):
+        a, o = border.place[t, u], 36 * (t * width + u)
         copy(A, a, border.R, o)
         turn(A, a, border.RT, o)
-        border.place[t, u], border.kept[t, u] = a, columns_of(border, factor, n, factor.column[k])
-        border.number[t] = u + 1
+        border.kept[t, u] = columns_of(border, factor, n, factor.column[a // 36 - blocks])
 
 
 @inline_kernel
@@ -155,10 +195,10 @@ def subtract_inverse(border, t, h, o):
     """S -= R_t K^-1 R_h^T, for the block of S at ``o``."""
     width, part, R, none = border.kept.shape[1], border.part, border.R, every(0.0)
     for w in range(border.number[h]):
-        at = 36 * border.block[border.kept[h, w]]
+        at = WIDE * border.block[border.kept[h, w]]
         s0, s1, s2, s3, s4, s5 = none, none, none, none, none, none
         for u in range(border.number[t]):
-            rows, r = six(border.inverse[border.kept[t, u]], at), 36 * (t * width + u)
+            rows, r = columns(border.inverse[border.kept[t, u]], at), 36 * (t * width + u)
             s0, s1 = s0 + combined(rows, sixfold(R, r)), s1 + combined(rows, sixfold(R, r + 6))
             s2, s3 = s2 + combined(rows, sixfold(R, r + 12)), s3 + combined(rows, sixfold(R, r + 18))
             s4, s5 = s4 + combined(rows, sixfold(R, r + 24)), s5 + combined(rows, sixfold(R, r + 30))
@@ -186,11 +226,12 @@ def clear_rows(border, A, n):
 
 @kernel
 def make_border(border, A, factor):
-    """Take the rows from the matrix and factorise S; number of negative pivots, or -(row + 1) if singular."""
+    """Take the rows, which :func:`find_rows` has found, from the matrix and factorise S.
+
+    Returns the number of negative pivots, or -(row + 1) if S is singular.
+    """
     rows = border.number.shape[0]
     n = factor.row_start.shape[0] - 1 - rows
-    for t in range(rows):
-        border.number[t] = 0
     for t in range(rows):
         read_row(border, A, factor, n, t)
     for i in range(border.S.shape[0]):
@@ -217,14 +258,18 @@ def across(border, x, y):
 @inline_kernel
 def spread(border, y, x):
     """x -= K^-1 R^T y."""
-    width = border.kept.shape[1]
+    width, turned = border.kept.shape[1], border.turned
     for t in range(border.number.shape[0]):
         for u in range(border.number[t]):
-            Z, part = border.inverse[border.kept[t, u]], border.part
-            store_six(times(border.R, 36 * (t * width + u), y, 6 * t), part, 0)
-            factors = sixfold(part, 0)
-            for i in range(Z.shape[0] // 36):
-                store_six(load_six(x, 6 * i) - combined(six(Z, 36 * i), factors), x, 6 * i)
+            k = t * width + u
+            store_six(times(border.R, 36 * k, y, 6 * t), turned, 6 * k)
+    for i in range(border.inverse.shape[1] // WIDE):
+        s = load_six(x, 6 * i)
+        for t in range(border.number.shape[0]):
+            for u in range(border.number[t]):
+                Z = border.inverse[border.kept[t, u]]
+                s = s - combined(columns(Z, WIDE * i), sixfold(turned, 6 * (t * width + u)))
+        store_six(s, x, 6 * i)
 
 
 @inline_kernel
@@ -237,7 +282,7 @@ def solve_small(border, y):
 def solve_border(border, x):
     """Replace (K^-1 r, s) by the solution (x, y)."""
     y = border.y
-    n = border.inverse.shape[1] // 6
+    n = 6 * (border.inverse.shape[1] // WIDE)
     across(border, x, y)
     for i in range(y.shape[0]):
         y[i] = x[n + i] - y[i]

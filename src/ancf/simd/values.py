@@ -232,7 +232,7 @@ def absolute(x: Any) -> Any:
 
 
 def greatest(x: Any, least: Any) -> Any:
-    """The numbers of x, but this number where they are less or not a number."""
+    """The numbers of x, but ``least``, a number or eight, where they are less or not a number."""
     return np.fmax(x, least)
 
 
@@ -255,7 +255,10 @@ _called(sqrt, "sqrt")
 _called(absolute, "fabs")
 
 
-@in_kernels(greatest, lambda x, least: lanes if x is lanes and isinstance(least, types.Number) else None)
+@in_kernels(
+    greatest,
+    lambda x, least: lanes if x is lanes and (least is lanes or isinstance(least, types.Number)) else None,
+)
 def _(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     x, least = (
         parts_of(context, builder, *given)[0] for given in zip(signature.args, arguments, strict=True)

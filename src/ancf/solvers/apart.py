@@ -11,7 +11,7 @@ from .. import addresses
 from ..addresses import caller
 from ..batches import add_tangents
 from ..compiled import formula, separate_kernel
-from ..linalg.border import clear_rows, forget_columns, renew_border
+from ..linalg.border import clear_rows, find_rows, forget_columns, renew_border
 from ..records import recorded, type_of
 from ..system.core import (
     Core,
@@ -25,6 +25,7 @@ from ..system.core import (
 )
 from .balance import balance
 from .corotation import remember, turn_forth, turn_rows
+from .corrections import shift
 from .far import begin_far, end_far, show_far
 from .far_awake import asleep, iterate_awake, matrix_awake
 from .low_rank import correct_rows, forget
@@ -82,6 +83,7 @@ def new_matrix(core, s, h, B, G, awake):
     remember(s.frames, s.q)
     if bad >= 0 and has_rows(core.joints):
         forget_columns(core.joints.border)
+        find_rows(core.joints.border, core.A, core.factor)
         bad = min(renew_border(core.joints.border, core.A, core.factor), 0)
         bad -= core.joints.first if bad < 0 else 0
     if bad < 0:
@@ -100,8 +102,9 @@ def renew_tail(core, s, corotate, B, G):
     clear_rows(joints.border, A, joints.first)
     add_tangents(joints.tail, s.q, s.v, A, 1.0 / B, G / B, 1.0, core.ws)
     restrict(joints.supports, A)
+    find_rows(joints.border, A, core.factor)
     if corotate:
-        turn_rows(s.frames, A)
+        turn_rows(s.frames, joints.border, A)
     return renew_border(joints.border, A, core.factor) >= 0
 
 
@@ -121,12 +124,7 @@ def project(core, s, tolerance, corotate, w0, w1, w2):
     solve_kept(core, s.r, min(joints.lowest, joints.first))
     if corotate:
         turn_forth(s.frames, s.r)
-    norm = 0.0
-    for i in range(core.weight.shape[0]):
-        d = s.r[i] * (1.0 - joints.mask[i])
-        s.q[i] -= d
-        norm = max(norm, abs(d) * core.weight[i])
-    return norm
+    return shift(s.q, s.r, joints.mask, core.weight)
 
 
 @formula

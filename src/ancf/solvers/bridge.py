@@ -11,8 +11,9 @@ from ..system.core import Core, Tables, apply_load
 from ..system.energy import energies
 from ..system.system import System
 from .balance import begin_account
+from .corrections import UNLIMITED
 from .memory import H_FACTOR, KNOWN, VECTORS, Memory
-from .newmark import FURTHEST, LAST, UNLIMITED, Rule
+from .newmark import FURTHEST, LAST, Rule
 from .rescue import Rescue
 from .sampling import Output, Sampling
 from .scheme import Scheme

@@ -19,7 +19,6 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..compiled import formula, inline_kernel
-from ..linalg.block import is_zero
 from ..records import recorded
 from ..simd import LANES, gather, gather_nodes, greatest, load, put, put_nodes, sqrt, store, vector
 from ..system.system import System
@@ -34,7 +33,8 @@ class Frames(NamedTuple):
     slot: IntArray  # (rows, LANES) slots of all vectors of the nodes: r, r_x, and perhaps r_y, ...
     nodes: IntArray  # (chunks,) nodes of each chunk
     paired: BoolArray  # (chunks,) whether r_x follows r in the state vector, r_z follows r_y, ...
-    tail: IntArray  # (rows, LANES, k) places of 6x3 pieces in the rows that are renewed in every step, or -1
+    under: IntArray  # (blocks, 2) nodes over the halves of blocks in the rows that are renewed in every step
+    begin: int  # number of the first of these blocks in the matrix
     axes: FloatArray  # (chunks, 6, LANES) unit tangent and unit normal towards r_y when the matrix was made
     Q: FloatArray  # (chunks, 9, LANES) rotation since then, row by row
 
@@ -50,7 +50,7 @@ def allocate(
     A vector that is held as a whole turns like a free one: its correction is zero.  Nodes that hold
     single components, share their position with others or have one of the slots ``attached``, to which
     joints are attached whose rows are kept with the matrix, are left out.  ``tail`` finds the
-    places of the pieces that stand under these slots in the rows that are not kept.
+    places of the 6x3 pieces that stand under slots in the rows that are not kept, -1: none.
     """
     attached = np.zeros(0, dtype=np.int64) if attached is None else attached
     slots = [s for s in slots if s.shape[1] > 1]
@@ -69,16 +69,33 @@ def allocate(
         nodes += list(s[~fixed & ~joined[s].any(axis=1) & (ends[s[:, 0]] < 2)])
     chunks = _chunks(nodes)
     every = np.concatenate([np.zeros((0, LANES), dtype=np.int64), *[c for c, _ in chunks]])
+    first = np.cumsum([0, *[len(c) for c, _ in chunks]]).astype(np.int64)
     places = np.zeros((every.size, 0), dtype=np.int64) if tail is None else tail(every.ravel())
+    under, begin = _under(places, first)
     return Frames(
-        first=np.cumsum([0, *[len(c) for c, _ in chunks]]).astype(np.int64),
+        first=first,
         slot=np.ascontiguousarray(every),
         nodes=np.array([count for _, count in chunks], dtype=np.int64),
         paired=np.array([_paired(c) for c, _ in chunks], dtype=np.bool_),
-        tail=places.reshape(*every.shape, -1) if every.size else np.zeros((0, LANES, 0), dtype=np.int64),
+        under=under,
+        begin=begin,
         axes=np.zeros((len(chunks), 6, LANES)),
         Q=np.zeros((len(chunks), 9, LANES)),
     )
+
+
+def _under(places: IntArray, first: IntArray) -> tuple[IntArray, int]:
+    """See :class:`Frames`, from the places of pieces under all slots of all lanes, (rows LANES, k)."""
+    chunk = np.repeat(np.arange(len(first) - 1), np.diff(first))
+    node = np.broadcast_to((LANES * chunk[:, None] + np.arange(LANES)).reshape(-1, 1), places.shape)
+    there = places >= 0
+    if not there.any():
+        return np.zeros((0, 2), dtype=np.int64), 0
+    block, half = places[there] // 36, places[there] % 36 // 3
+    begin = int(block.min())
+    under = np.full((int(block.max()) - begin + 1, 2), -1, dtype=np.int64)
+    under[block - begin, half] = node[there]
+    return under, begin
 
 
 def _chunks(nodes: list[IntArray]) -> list[tuple[IntArray, int]]:
@@ -243,26 +260,15 @@ def turn_forth(frames, r):
 
 
 @inline_kernel
-def turn_rows(frames, A):
+def turn_rows(frames, border, A):
     """C -> C Q for the rows that are not kept: a joint's row then fits the matrix that is."""
-    for k in range(frames.nodes.shape[0]):
-        for t in range(frames.tail.shape[2]):
-            for lane in range(frames.nodes[k]):
-                turn_row(frames, A, k, lane, t)
-
-
-@inline_kernel
-def turn_row(frames, A, k, lane, t):
-    """The pieces of one of these rows under one node: of most nodes they are zero."""
-    block, empty = -1, True
-    for m in range(frames.first[k], frames.first[k + 1]):
-        place = frames.tail[m, lane, t]
-        if place >= 0:
-            if place - place % 36 != block:
-                block = place - place % 36
-                empty = is_zero(A, block)
-            if not empty:
-                turn_piece(frames.Q, k, lane, A, place)
+    for t in range(border.number.shape[0]):
+        for u in range(border.number[t]):
+            place = border.place[t, u]
+            for half in range(2):
+                node = frames.under[place // 36 - frames.begin, half]
+                if node >= 0:
+                    turn_piece(frames.Q, node // LANES, node % LANES, A, place + 3 * half)
 
 
 @inline_kernel

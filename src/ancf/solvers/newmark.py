@@ -22,8 +22,6 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from ..batches import find_events, remember_all
 from ..compiled import formula, inline_kernel, separate_kernel
 from ..records import recorded
@@ -49,6 +47,7 @@ from .apart import (
 )
 from .carry import carry, unbalanced
 from .corotation import turn
+from .corrections import UNLIMITED, largest, update
 from .entwined import hold, let_go, solve_apart, solve_entwined
 from .far_awake import asleep, finish_awake, load_awake, predict_awake, restore_awake
 from .low_rank import move_on
@@ -90,7 +89,7 @@ PATIENT = 12
 LAST = 2
 
 #: Largest change of a slope, or of a position in sizes of the model, in a step that is looked at closely.
-FURTHEST, UNLIMITED = 0.5, 1e300
+FURTHEST = 0.5
 
 #: Error of the accelerations that is left in a step with constraints: what is left in q returns divided
 #: by B, with one sign, where a joint keeps it from being felt as a displacement.  And the least tolerance.
@@ -116,35 +115,11 @@ class Rule(NamedTuple):
 
 
 @formula
-def update(s, weight, gb, ib):
-    """Take the correction in s.r from q, v, a; returns its norm (NaN when it is not finite)."""
-    norm, total = 0.0, 0.0
-    for i in range(weight.shape[0]):
-        d = s.r[i]
-        s.q[i] -= d
-        s.v[i] -= gb * d
-        s.a[i] -= ib * d
-        x = abs(d) * weight[i]
-        total += x
-        norm = max(norm, x)
-    return norm if total < UNLIMITED else np.nan
-
-
-@formula
 def still(joints, v, a):
     """Multipliers have no rates."""
     for k in range(joints.multipliers.shape[0]):
         v[joints.multipliers[k]] = 0.0
         a[joints.multipliers[k]] = 0.0
-
-
-@formula
-def largest(x, weight):
-    """Largest entry by size, weighted."""
-    size = 0.0
-    for i in range(weight.shape[0]):
-        size = max(size, abs(x[i]) * weight[i])
-    return size
 
 
 @inline_kernel

@@ -27,11 +27,12 @@ from .bridge import Bridge
 from .checkpoint import Snapshot, Watched, copies, refill
 from .control import Control
 from .corotation import flies, turning_nodes
+from .corrections import UNLIMITED
 from .events import happen
 from .formulations import FORMULATIONS
 from .low_rank import room_for_patches
 from .memory import H_FACTOR, H_PREV, KNOWN, WORST, Memory, allocate
-from .newmark import UNLIMITED, Rule
+from .newmark import Rule
 from .quick import Direct, Implicit, shared
 from .record import Progress, Recorder, Stats
 from .sampling import Output, note_now, sample, sampling_of
