@@ -24,14 +24,12 @@ from ..addresses import caller
 from ..arrays import FloatArray, IntArray
 from ..compiled import formula, inline_kernel, kernel
 from ..records import recorded, type_of
-from ..simd import LANES, every, load, load_six, store, store_six
+from ..simd import every, load_six, store_six
 from .block import combined, copy, is_zero, put_six, six, sixfold, subtract_product, times, turn
 from .block_ldl import Factor, allocate, fill, solve_rows
 
 #: Blocks whose columns are kept for each row besides those that it may have at a time.
 SPARE = 2
-#: Numbers of a block of these columns: to read eight at a time takes half as long as six.
-WIDE = 6 * LANES
 
 
 @recorded
@@ -39,7 +37,7 @@ class Border(NamedTuple):
     """t rows of blocks behind the n blocks of K, with at most w blocks each; room for m blocks of columns."""
 
     block: IntArray  # (m,) block of K whose columns are kept, -1: none
-    inverse: FloatArray  # (m, WIDE n) six columns of K^-1, for each block one after the other, LANES apart
+    inverse: FloatArray  # (m, 36 n) six columns of K^-1, for each block one after the other
     number: IntArray  # (t,) blocks in each row now
     kept: IntArray  # (t, w) which of the m they are
     place: IntArray  # (t, w) where they stand in the matrix
@@ -70,7 +68,7 @@ def _room(head: int, rows: int, widest: int) -> Border:
     column = np.concatenate([np.zeros(0, dtype=np.int64), *(np.arange(t) for t in range(rows))])
     border = Border(
         block=np.full(kept, -1, dtype=np.int64),
-        inverse=_aligned(kept, WIDE * head if rows else 0),
+        inverse=np.zeros((kept, 36 * head if rows else 0)),
         number=np.zeros(rows, dtype=np.int64),
         kept=np.zeros((rows, widest), dtype=np.int64),
         place=np.zeros((rows, widest), dtype=np.int64),
@@ -93,53 +91,25 @@ def _room(head: int, rows: int, widest: int) -> Border:
     )
 
 
-def _aligned(rows: int, columns: int) -> FloatArray:
-    """Zeros that begin with a line of the cache: eight numbers are never on two."""
-    whole = np.zeros(rows * columns + LANES)
-    first = -(whole.ctypes.data // whole.itemsize) % LANES
-    return whole[first : first + rows * columns].reshape(rows, columns)
-
-
 @inline_kernel
 def unit_columns(factor, n, block, Z):
     """Z = K^-1 times the unit vectors of a block of the n blocks of K."""
     row_start, column, L, LT, D_inv = factor.row_start, factor.column, factor.L, factor.LT, factor.D_inv
-    for i in range(WIDE * n):
+    for i in range(36 * n):
         Z[i] = 0.0
     for c in range(6):
-        Z[WIDE * block + LANES * c + c] = 1.0
+        Z[36 * block + 7 * c] = 1.0
     for i in range(block + 1, n):
         for k in range(row_start[i], row_start[i + 1]):
             if column[k] >= block:
-                subtract_wide(Z, WIDE * i, WIDE * column[k], LT, 36 * k)
+                subtract_product(Z, 36 * i, Z, 36 * column[k], LT, 36 * k)
     for i in range(block, n):
         rows = six(D_inv, 36 * i)
-        for c in range(WIDE * i, WIDE * i + WIDE, LANES):
-            store(combined(rows, sixfold(Z, c)), Z, c)
+        for c in range(36 * i, 36 * i + 36, 6):
+            store_six(combined(rows, sixfold(Z, c)), Z, c)
     for i in range(n - 1, -1, -1):
         for k in range(row_start[i], row_start[i + 1]):
-            subtract_wide(Z, WIDE * column[k], WIDE * i, L, 36 * k)
-
-
-@formula
-def subtract_wide(Z, to, of, B, o):
-    """Subtract from six columns of a block the products of B with those of another one."""
-    rows = six(B, o)
-    for c in range(0, WIDE, LANES):
-        store(load(Z, to + c) - combined(rows, sixfold(Z, of + c)), Z, to + c)
-
-
-@formula
-def columns(Z, o):
-    """Six columns of a block."""
-    return (
-        load(Z, o),
-        load(Z, o + LANES),
-        load(Z, o + 2 * LANES),
-        load(Z, o + 3 * LANES),
-        load(Z, o + 4 * LANES),
-        load(Z, o + 5 * LANES),
-    )
+            subtract_product(Z, 36 * column[k], Z, 36 * i, L, 36 * k)
 
 
 @inline_kernel
@@ -195,10 +165,10 @@ def subtract_inverse(border, t, h, o):
     """S -= R_t K^-1 R_h^T, for the block of S at ``o``."""
     width, part, R, none = border.kept.shape[1], border.part, border.R, every(0.0)
     for w in range(border.number[h]):
-        at = WIDE * border.block[border.kept[h, w]]
+        at = 36 * border.block[border.kept[h, w]]
         s0, s1, s2, s3, s4, s5 = none, none, none, none, none, none
         for u in range(border.number[t]):
-            rows, r = columns(border.inverse[border.kept[t, u]], at), 36 * (t * width + u)
+            rows, r = six(border.inverse[border.kept[t, u]], at), 36 * (t * width + u)
             s0, s1 = s0 + combined(rows, sixfold(R, r)), s1 + combined(rows, sixfold(R, r + 6))
             s2, s3 = s2 + combined(rows, sixfold(R, r + 12)), s3 + combined(rows, sixfold(R, r + 18))
             s4, s5 = s4 + combined(rows, sixfold(R, r + 24)), s5 + combined(rows, sixfold(R, r + 30))
@@ -263,12 +233,12 @@ def spread(border, y, x):
         for u in range(border.number[t]):
             k = t * width + u
             store_six(times(border.R, 36 * k, y, 6 * t), turned, 6 * k)
-    for i in range(border.inverse.shape[1] // WIDE):
+    for i in range(border.inverse.shape[1] // 36):
         s = load_six(x, 6 * i)
         for t in range(border.number.shape[0]):
             for u in range(border.number[t]):
                 Z = border.inverse[border.kept[t, u]]
-                s = s - combined(columns(Z, WIDE * i), sixfold(turned, 6 * (t * width + u)))
+                s = s - times(Z, 36 * i, turned, 6 * (t * width + u))
         store_six(s, x, 6 * i)
 
 
@@ -282,7 +252,7 @@ def solve_small(border, y):
 def solve_border(border, x):
     """Replace (K^-1 r, s) by the solution (x, y)."""
     y = border.y
-    n = 6 * (border.inverse.shape[1] // WIDE)
+    n = border.inverse.shape[1] // 6
     across(border, x, y)
     for i in range(y.shape[0]):
         y[i] = x[n + i] - y[i]
