@@ -6,7 +6,14 @@ import pytest
 import ancf
 from ancf.compiled import kernel
 from ancf.linalg.block_ldl import allocate
-from ancf.linalg.border import clear_rows, forget_columns, make_border, room_for_border, solve_border
+from ancf.linalg.border import (
+    clear_rows,
+    find_rows,
+    forget_columns,
+    make_border,
+    room_for_border,
+    solve_border,
+)
 from ancf.linalg.ordering import fill_pattern
 from ancf.linalg.sparse import to_sparse
 from ancf.solvers.low_rank import correct, room_for_patches
@@ -17,6 +24,13 @@ from ancf.system.system import System
 RNG = np.random.default_rng(15)
 HEAD = 14  # blocks before the border
 COUPLED = {"chain": 1, "band": 3}  # how far blocks are coupled
+
+
+@kernel
+def renewed(border, A, factor):
+    """The rows from the matrix; number of negative pivots."""
+    find_rows(border, A, factor)
+    return make_border(border, A, factor)
 
 
 class Bordered:
@@ -100,7 +114,7 @@ def test_joints_that_travel(reach, rows):
             for t in range(rows)
         ]
         system.new_rows([[j for j in blocks if j < HEAD] for blocks in at])
-        negative = make_border(system.border, system.values(system.whole), system.factor)
+        negative = renewed(system.border, system.values(system.whole), system.factor)
         assert negative == 6 * rows  # multipliers
         assert system.error() < 1e-10
 
@@ -111,7 +125,7 @@ def test_columns_are_kept_and_forgotten(reach):
     border, first = system.border, None
     for blocks in ([3, 4, 9], [4, 5, 9], [3, 4, 9], [10, 11, 9]):
         system.new_rows([blocks])
-        make_border(border, system.values(system.whole), system.factor)
+        renewed(border, system.values(system.whole), system.factor)
         inverse = np.linalg.inv(system.whole[: 6 * HEAD, : 6 * HEAD])
         assert set(border.block[border.kept[0, :3]]) == set(blocks)
         for m in border.kept[0, :3]:
@@ -122,10 +136,10 @@ def test_columns_are_kept_and_forgotten(reach):
         first = nine if first is None else first
         assert nine == first
     border.inverse[first] += 1.0  # it is taken as it is while the factors are kept
-    make_border(border, system.values(system.whole), system.factor)
+    renewed(border, system.values(system.whole), system.factor)
     assert system.error() > 1e-3
     system.new_head(system.near)
-    make_border(border, system.values(system.whole), system.factor)
+    renewed(border, system.values(system.whole), system.factor)
     assert system.error() < 1e-10
 
 
@@ -133,7 +147,7 @@ def test_rows_are_cleared_where_they_were(reach):
     system = Bordered(reach, 2)
     system.new_rows([[2, 3, 7], [5, 6]])
     A = system.values(system.whole)
-    make_border(system.border, A, system.factor)
+    renewed(system.border, A, system.factor)
     clear_rows.py_func(system.border, A, HEAD)
     left = system.whole.copy()
     left[6 * HEAD :, :] = left[:, 6 * HEAD :] = 0.0
@@ -144,7 +158,7 @@ def test_a_row_that_holds_nothing_is_singular(reach):
     system = Bordered(reach, 2)
     system.new_rows([[2, 3], [5]])
     system.whole[6 * HEAD + 6 :, :] = 0.0
-    assert make_border(system.border, system.values(system.whole), system.factor) == -2
+    assert renewed(system.border, system.values(system.whole), system.factor) == -2
 
 
 @kernel
@@ -174,7 +188,7 @@ def test_springs_beside_the_border(slack):
     restrict(core.supports, core.A)
     assert factorise_head(core.A, core.factor, core.joints.first) == 0
     forget_columns.py_func(core.joints.border)
-    assert make_border(core.joints.border, core.A, core.factor) >= 0
+    assert renewed(core.joints.border, core.A, core.factor) >= 0
     now = q.copy()
     for k in slack:  # up, so that they carry nothing
         now[system.slots["wire"][k + 2, 0] + 2] += 0.3

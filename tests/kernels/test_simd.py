@@ -56,8 +56,9 @@ def of_lanes(x, y, s, out):
         sqrt(absolute(a)),
         every(s),
         greatest(a, 0.1),
+        greatest(a, b),
     )
-    for k in range(16):
+    for k in range(17):
         store(found[k], out, k)
 
 
@@ -102,12 +103,12 @@ def turned_about(x, places, r):
 def test_operators_of_lanes(x):
     """To the last bit, but the division, which may be a product with the inverse."""
     y, s = RNG.standard_normal((2, 2, LANES)), 0.7
-    out, plain = np.zeros((2, 16, LANES))
+    out, plain = np.zeros((2, 17, LANES))
     of_lanes(x, y, s, out)
     with np.errstate(all="ignore"):
         of_lanes.py_func(x, y, s, plain)
     np.testing.assert_allclose(out, plain, rtol=3e-16, atol=0)
-    exact = [0, 1, 2, 4, 5, 6, 7, 8, 9, 12, 13, 14, 15]
+    exact = [0, 1, 2, 4, 5, 6, 7, 8, 9, 12, 13, 14, 15, 16]
     np.testing.assert_array_equal(out[exact], plain[exact])
 
 

@@ -1,5 +1,7 @@
 """Parts of a step: predictor, elimination of the patches, turning frames, what is left, rates of motions."""
 
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 
@@ -9,10 +11,12 @@ from ancf.elements.shapes import gauss
 from ancf.elements.solid import SolidBatch
 from ancf.elements.solid_shapes import shape
 from ancf.elements.solid_strains import quadratic_part
+from ancf.linalg.border import room_for_border
 from ancf.simd import LANES
 from ancf.solvers import corotation as turning
 from ancf.solvers.carry import carry
 from ancf.solvers.corotation import remember, turn, turn_back, turn_forth, turn_rows
+from ancf.solvers.corrections import largest, shift, update
 from ancf.solvers.low_rank import eliminate
 from ancf.solvers.memory import FIRST_LIMIT, H_FACTOR, H_PREV, KNOWN, LIMIT, aligned, allocate
 from ancf.solvers.newmark import worst_unknown
@@ -149,8 +153,8 @@ def forth(frames, r):
 
 
 @kernel
-def rows(frames, A):
-    turn_rows(frames, A)
+def rows(frames, border, A):
+    turn_rows(frames, border, A)
 
 
 class TestFrames:
@@ -194,20 +198,25 @@ class TestFrames:
         assert there == pytest.approx(r.ravel(), abs=1e-14)
 
     def test_rows_that_are_not_kept(self):
-        """C -> C Q where a piece stands under a slot of a node that turns."""
+        """C -> C Q where a piece stands under a slot of a node that turns, in blocks that are not zero."""
         q, slots = self.state(2)
-        places = {0: 40, 3: -1, 6: 3, 9: -1}
+        places = {0: 36, 3: 39, 6: 75, 9: -1}
         tail = lambda s: np.array([[places[int(i)]] for i in s])  # noqa: E731
         frames = turning.allocate([slots], np.zeros(0, dtype=np.int64), tail=tail)
         turned(frames, q.ravel(), (q @ self.R.T).ravel())
-        A = RNG.standard_normal(100)
+        border = room_for_border(3, 1, 2)
+        border.number[0], border.place[0] = 2, (36, 72)
+        A = RNG.standard_normal(120)
         wanted = A.copy()
-        for node, place in ((0, 40), (1, 3)):
+        for node, place in ((0, 36), (0, 39), (1, 75)):
             Q = frames.Q[0, :, node].reshape(3, 3)
             for o in range(place, place + 36, 6):
                 wanted[o : o + 3] = A[o : o + 3] @ Q
-        rows(frames, A)
+        rows(frames, border, A)
         assert pytest.approx(wanted, abs=1e-14) == A
+        border.number[0], before = 1, A.copy()
+        rows(frames, border, A)
+        np.testing.assert_array_equal(A[72:], before[72:])
 
     def test_left_out(self):
         """Nodes that hold single components, share their position, or have a joint; not those held whole."""
@@ -247,6 +256,63 @@ class TestFrames:
         np.testing.assert_array_equal(there[others], r[others])
         back(frames, there)
         assert there == pytest.approx(r, abs=1e-13)
+
+
+class Moving(NamedTuple):
+    q: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+    r: np.ndarray
+
+
+@kernel
+def corrected(s, weight):
+    return update(s, weight, 3.0, 7.0)
+
+
+@kernel
+def shifted(s, mask, weight):
+    return shift(s.q, s.r, mask, weight)
+
+
+@kernel
+def largest_of(x, weight):
+    return largest(x, weight)
+
+
+class TestCorrections:
+    """A correction is taken from all unknowns, however many are left over from eight at a time."""
+
+    @pytest.fixture(params=[6, 8, 12, 18, 30])
+    def given(self, request):
+        n = request.param
+        q, v, a, r, weight = RNG.uniform(0.5, 1.5, (5, n + 3))  # shadows behind the unknowns stay as they are
+        return Moving(q, v, a, r * RNG.choice([-1, 1], n + 3)), weight[:n].copy(), n
+
+    def test_of_a_step(self, given):
+        s, weight, n = given
+        before = Moving(*(x.copy() for x in s))
+        size = corrected(s, weight)
+        for name, factor in (("q", 1.0), ("v", 3.0), ("a", 7.0)):
+            now, old = getattr(s, name), getattr(before, name)
+            assert now[:n] == pytest.approx(old[:n] - factor * s.r[:n], rel=1e-14)
+            np.testing.assert_array_equal(now[n:], old[n:])
+        assert size == np.max(np.abs(s.r[:n]) * weight)
+        assert largest_of(s.r, weight) == size
+
+    @pytest.mark.parametrize("bad", [np.nan, np.inf])
+    def test_that_is_not_finite(self, given, bad):
+        s, weight, n = given
+        s.r[RNG.integers(n)] = bad
+        assert np.isnan(corrected(s, weight))
+
+    def test_of_positions_alone(self, given):
+        s, weight, n = given
+        mask, before = RNG.integers(0, 2, n + 3).astype(float), s.q.copy()
+        size = shifted(s, mask, weight)
+        taken = s.r[:n] * (1 - mask[:n])
+        assert s.q[:n] == pytest.approx(before[:n] - taken, rel=1e-14)
+        assert size == np.max(np.abs(taken) * weight)
 
 
 @kernel

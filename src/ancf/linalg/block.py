@@ -13,8 +13,10 @@ from ..simd import absolute, every, load_six, replaced, store_columns, store_six
 
 #: A pivot below this fraction of its original diagonal entry counts as zero.
 SINGULAR = 1e-14
-#: Above this fraction pivots are taken in the order of the unknowns.
+#: Above this fraction pivots are taken in the order of the unknowns, as long as they are positive.
 CLEAR = 1e-8
+#: Of any sign as long as they are above this fraction of what their entries ever were.
+FIRM = 1e-2
 
 
 @formula
@@ -133,32 +135,22 @@ def swept(rows, p):
 
 
 @formula
-def clear(pivot, original):
-    """Whether a pivot has the sign of its original diagonal entry, and is not what cancellation left."""
-    return pivot * original > CLEAR * original * original
-
-
-@formula
-def invert_in_order(A, o, original):
-    """Invert the block at ``A[o]`` in place if all pivots are clear in their order; whether they are.
-
-    They are in a definite block, and in one of multipliers and what these hold, whose diagonal entries have
-    two signs: there no order loses digits by cancellation.
-    """
+def invert_definite(A, o, original):
+    """Invert the block at ``A[o]`` in place if all pivots are positive in their order; whether they are."""
     # a plain 0 is a type of its own for numba, for which it would translate everything anew
     rows = six(A, o)
-    good = clear(rows[0][0], original[o])
+    clear = rows[0][0] > CLEAR * original[o]
     rows = swept(rows, np.int64(0))
-    good = good and clear(rows[1][1], original[o + 7])
+    clear = clear and rows[1][1] > CLEAR * original[o + 7]
     rows = swept(rows, np.int64(1))
-    good = good and clear(rows[2][2], original[o + 14])
+    clear = clear and rows[2][2] > CLEAR * original[o + 14]
     rows = swept(rows, np.int64(2))
-    good = good and clear(rows[3][3], original[o + 21])
+    clear = clear and rows[3][3] > CLEAR * original[o + 21]
     rows = swept(rows, np.int64(3))
-    good = good and clear(rows[4][4], original[o + 28])
+    clear = clear and rows[4][4] > CLEAR * original[o + 28]
     rows = swept(rows, np.int64(4))
-    good = good and clear(rows[5][5], original[o + 35])
-    if not good:
+    clear = clear and rows[5][5] > CLEAR * original[o + 35]
+    if not clear:
         return False
     x0, x1, x2, x3, x4, x5 = swept(rows, np.int64(5))
     put_six((-x0, -x1, -x2, -x3, -x4, -x5), A, o)
@@ -166,14 +158,53 @@ def invert_in_order(A, o, original):
     return True
 
 
+@formula
+def stage(rows, tops, p):
+    """A sweep on pivot p: rows, the largest that diagonal entries were, whether p is firm, and negative."""
+    a, b, c, d, e, f = rows
+    tops = (
+        max(tops[0], abs(a[0])),
+        max(tops[1], abs(b[1])),
+        max(tops[2], abs(c[2])),
+        max(tops[3], abs(d[3])),
+        max(tops[4], abs(e[4])),
+        max(tops[5], abs(f[5])),
+    )
+    pivot = rows[p][p]
+    return swept(rows, p), tops, abs(pivot) > FIRM * tops[p], pivot < 0.0
+
+
+@formula
+def invert_firm(A, o):
+    """Invert the block at ``A[o]`` in the order of its unknowns, if none of its pivots has lost digits.
+
+    None has in a block of multipliers and what these hold: its diagonal entries have two signs, and each
+    sweep adds to those of the other sign.  Returns the number of negative pivots, -1 if nothing was done.
+    """
+    rows, tops = six(A, o), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    rows, tops, firm0, n0 = stage(rows, tops, np.int64(0))
+    rows, tops, firm1, n1 = stage(rows, tops, np.int64(1))
+    rows, tops, firm2, n2 = stage(rows, tops, np.int64(2))
+    rows, tops, firm3, n3 = stage(rows, tops, np.int64(3))
+    rows, tops, firm4, n4 = stage(rows, tops, np.int64(4))
+    rows, tops, firm5, n5 = stage(rows, tops, np.int64(5))
+    if not (firm0 and firm1 and firm2 and firm3 and firm4 and firm5):
+        return -1
+    x0, x1, x2, x3, x4, x5 = rows
+    put_six((-x0, -x1, -x2, -x3, -x4, -x5), A, o)
+    mirror(A, o)
+    return n0 + n1 + n2 + n3 + n4 + n5
+
+
 @inline_kernel
 def invert_symmetric(A, o, original):
     """Invert the 6x6 block at ``A[o]`` in place by sweeps; number of negative pivots, -1 if singular."""
-    negative = 0
-    if invert_in_order(A, o, original):
-        for i in range(o, o + 36, 7):
-            negative += original[i] < 0.0
+    if A[o] > 0.0 and invert_definite(A, o, original):
+        return 0
+    negative = invert_firm(A, o)
+    if negative >= 0:
         return negative
+    negative = 0
     done = 0
     for _ in range(6):
         p, largest = -1, -1.0
