@@ -285,7 +285,7 @@ class TestMotion:
         assert way[0] / np.linalg.norm(way) == pytest.approx(cosine, rel=1e-4)
 
     @pytest.mark.parametrize("elements", [3, 20])
-    @pytest.mark.parametrize("speed", [0.5, 1.0, 2.0, 4.0])
+    @pytest.mark.parametrize("speed", [0.5, 1.0, 2.0, pytest.param(4.0, marks=pytest.mark.slow)])
     @pytest.mark.parametrize("EI", [0.0, 1.0])
     def test_critical_angle_from_a_cable_that_hangs(self, speed, elements, EI):
         """However strong the current is: drag follows the cable, and no symmetric matrix has all of it."""

@@ -293,8 +293,17 @@ class TestMoorPy:
         assert along == pytest.approx(row["HF"], rel=1e-4)
         assert up == pytest.approx(row["VF"], rel=1e-4)
 
-    @pytest.mark.parametrize("friction", [0.3, 0.7, 2.0])
-    @pytest.mark.parametrize("length", [520.0, 560.0])
+    @pytest.mark.parametrize(
+        ("length", "friction"),
+        [
+            (520.0, 2.0),
+            (560.0, 0.7),
+            *(
+                pytest.param(*pair, marks=pytest.mark.slow)
+                for pair in ((520.0, 0.3), (520.0, 0.7), (560.0, 0.3), (560.0, 2.0))
+            ),
+        ],
+    )
     def test_friction_presses_no_slack_line(self, length, friction):
         """More of it than its tension bears pulls no harder at the fairlead, and the anchor never pushes."""
         _, fairlead, up = catenary(0.0, length=length)
