@@ -25,9 +25,9 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..compiled import Role, formula, implements, inline_kernel, kernel
 from ..vectors import dot
+from .carrier import COLUMNS, element_at, line, shape, slider
 from .curves import looked_up
 from .in_matrix import no_pairs, no_places
-from .sliding import COLUMNS, element_at, line, shape, slider
 
 # columns of ContactBatch.data
 STIFFNESS, DAMPING = range(2)

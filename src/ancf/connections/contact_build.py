@@ -10,10 +10,10 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..model.contact import Contact
 from ..model.points import Point
+from .carrier import COLUMNS
 from .contact import ARC, ContactBatch
 from .curves import curves
 from .joint_build import place_of
-from .sliding import COLUMNS
 from .sliding_build import beam_line
 
 

@@ -13,8 +13,9 @@ from ..model.beam import Beam
 from ..model.bodies import RigidBody
 from ..model.joints import Slide
 from ..model.points import Point
+from .carrier import COLUMNS
 from .joint_build import place_of
-from .sliding import COLUMNS, SlidingBatch
+from .sliding import SlidingBatch
 
 
 def sliding(

@@ -17,7 +17,7 @@ by its derivative S while Newton's method moves the boundary, and then the modes
 from __future__ import annotations
 
 from ..compiled import inline_kernel, separate_kernel
-from ..connections.sliding import slider
+from ..connections.carrier import slider
 from ..connections.spring_damper import spring_state
 from ..simd import LANES, every, load, store
 from ..system.far import (
