@@ -15,8 +15,6 @@ from ..simd import absolute, every, load_six, replaced, store_columns, store_six
 SINGULAR = 1e-14
 #: Above this fraction pivots are taken in the order of the unknowns, as long as they are positive.
 CLEAR = 1e-8
-#: Of any sign as long as they are above this fraction of what their entries ever were.
-FIRM = 1e-2
 
 
 @formula
@@ -158,52 +156,11 @@ def invert_definite(A, o, original):
     return True
 
 
-@formula
-def stage(rows, tops, p):
-    """A sweep on pivot p: rows, the largest that diagonal entries were, whether p is firm, and negative."""
-    a, b, c, d, e, f = rows
-    tops = (
-        max(tops[0], abs(a[0])),
-        max(tops[1], abs(b[1])),
-        max(tops[2], abs(c[2])),
-        max(tops[3], abs(d[3])),
-        max(tops[4], abs(e[4])),
-        max(tops[5], abs(f[5])),
-    )
-    pivot = rows[p][p]
-    return swept(rows, p), tops, abs(pivot) > FIRM * tops[p], pivot < 0.0
-
-
-@formula
-def invert_firm(A, o):
-    """Invert the block at ``A[o]`` in the order of its unknowns, if none of its pivots has lost digits.
-
-    None has in a block of multipliers and what these hold: its diagonal entries have two signs, and each
-    sweep adds to those of the other sign.  Returns the number of negative pivots, -1 if nothing was done.
-    """
-    rows, tops = six(A, o), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    rows, tops, firm0, n0 = stage(rows, tops, np.int64(0))
-    rows, tops, firm1, n1 = stage(rows, tops, np.int64(1))
-    rows, tops, firm2, n2 = stage(rows, tops, np.int64(2))
-    rows, tops, firm3, n3 = stage(rows, tops, np.int64(3))
-    rows, tops, firm4, n4 = stage(rows, tops, np.int64(4))
-    rows, tops, firm5, n5 = stage(rows, tops, np.int64(5))
-    if not (firm0 and firm1 and firm2 and firm3 and firm4 and firm5):
-        return -1
-    x0, x1, x2, x3, x4, x5 = rows
-    put_six((-x0, -x1, -x2, -x3, -x4, -x5), A, o)
-    mirror(A, o)
-    return n0 + n1 + n2 + n3 + n4 + n5
-
-
 @inline_kernel
 def invert_symmetric(A, o, original):
     """Invert the 6x6 block at ``A[o]`` in place by sweeps; number of negative pivots, -1 if singular."""
-    if A[o] > 0.0 and invert_definite(A, o, original):
+    if invert_definite(A, o, original):
         return 0
-    negative = invert_firm(A, o)
-    if negative >= 0:
-        return negative
     negative = 0
     done = 0
     for _ in range(6):

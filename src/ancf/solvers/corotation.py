@@ -265,10 +265,12 @@ def turn_rows(frames, border, A):
     for t in range(border.number.shape[0]):
         for u in range(border.number[t]):
             place = border.place[t, u]
-            for half in range(2):
-                node = frames.under[place // 36 - frames.begin, half]
-                if node >= 0:
-                    turn_piece(frames.Q, node // LANES, node % LANES, A, place + 3 * half)
+            k = place // 36 - frames.begin
+            if 0 <= k < frames.under.shape[0]:  # beside these blocks no node turns
+                for half in range(2):
+                    node = frames.under[k, half]
+                    if node >= 0:
+                        turn_piece(frames.Q, node // LANES, node % LANES, A, place + 3 * half)
 
 
 @inline_kernel
