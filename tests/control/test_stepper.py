@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.control.delay import Delayed
 from motions import pendulum, rod_on_a_hinge
 from runs_to_continue import RUNS, adaptive
 
@@ -378,7 +379,7 @@ class TestFailures:
         given = {"t_end": 0.01, "step": 1e-3}
 
         def wrong(run):
-            return 1 / (run.t - 0.004)
+            run.inputs["thrust"] = 1 / (run.t - 0.004)
 
         with pytest.raises(
             ancf.ModelError, match=r"at t = 0\.004 s the controller raised ZeroDivision"
@@ -394,6 +395,16 @@ class TestFailures:
         ):
             with pytest.raises(ancf.ModelError, match=what):
                 ancf.simulate(pushed(), **given, **more)
+
+    @pytest.mark.parametrize("late", [False, True])
+    @pytest.mark.parametrize("value", [5.0, {"thrust": 1.0}, 0.0, False])
+    def test_a_controller_that_returns_something(self, value, late):
+        """As of other packages: here nothing takes it, and the run says what does."""
+        name = next(iter(pushed().inputs))
+        controller = Delayed(lambda run: value, 1e-3) if late else lambda run: value
+        with pytest.raises(ancf.ModelError, match=r"returned .* at t = 0 s, which nothing takes") as caught:
+            ancf.simulate(pushed(), t_end=0.01, step=1e-3, controller=controller)
+        assert f'run.inputs["{name}"] = ...' in str(caught.value)
 
 
 @pytest.mark.parametrize("name", ["drum", "windlass"])

@@ -41,15 +41,16 @@ class Delayed:
         name = getattr(self.controller, "__name__", type(self.controller).__name__)
         return f"{name}, {self.delay:g} s late"
 
-    def __call__(self, run: Any) -> None:
-        """Ask the controller, and give what is due."""
+    def __call__(self, run: Any) -> Any:
+        """Ask the controller, and give what is due; returns what the controller does, as a rule nothing."""
         seen = _Seen(run, dict(run.inputs) | self.wanted)
-        self.controller(seen)
+        found = self.controller(seen)
         self.wanted = seen.inputs
         self.due.append((float(run.t) + self.delay, dict(seen.inputs)))
         while self.due and self.due[0][0] <= float(run.t) + SAME:
             for name, value in self.due.popleft()[1].items():
                 run.inputs[name] = value
+        return found
 
 
 class _Seen:

@@ -48,12 +48,16 @@ def led(made: Prepared, controller: Controller, every: int, where: str) -> Prepa
     def call() -> None:
         live.look()
         try:
-            controller(live)
+            found = controller(live)
         except (ModelError, SolveError):
             raise
         except Exception as error:
             what = f"at t = {live.t:.6g} s the controller raised {type(error).__name__}: {error}"
             raise ModelError(f"{where}.controller", what) from error
+        if found is not None:
+            what = f"returned {checks.shown(found)} at t = {live.t:.6g} s, which nothing takes"
+            name = next(iter(live.inputs), "thrust")
+            raise ModelError(f"{where}.controller", what, f'give inputs instead: run.inputs["{name}"] = ...')
 
     made.run.control = Control(every, call)
     led_by = {"controller": name, "control_step": every * settings["step"]}
