@@ -225,7 +225,8 @@ def _judge(mutant: Mutant, copies: Copies, copy: Path, failing: set[str]) -> Ver
 
 def _outcome(mutant: Mutant, copies: Copies, copy: Path, how: str) -> tuple[str, str]:
     """Outcome and what pytest said."""
-    code, text = copies.run(list(mutant.tests), copy, how, "-x")
+    slow = ["--slow"] if any(test.endswith("]") for test in mutant.tests) else []  # one case: it is to run
+    code, text = copies.run(list(mutant.tests), copy, how, "-x", *slow)
     if code is None:
         return KILLED, "the tests hang"
     if code < 0:
