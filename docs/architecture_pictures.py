@@ -38,7 +38,7 @@ FLOORS = (
     ("model", "the description: bodies, kinds, integrators"),
     ("simd", "eight elements as one value in kernels"),
     ("batches", "batches of all kinds under one type"),
-    ("records  operations", "batches, and what is done with them, at an address"),
+    ("records  operations", "batches and operations at an address"),
     ("vectors", "arithmetic of three numbers in kernels"),
     ("choices", "kernels by the type of what they take"),
     ("compiled", "kernels, and operations by type of batch"),
