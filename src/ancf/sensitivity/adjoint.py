@@ -131,7 +131,7 @@ class Adjoint:
         unknowns: Any,
         where: str,
     ) -> None:
-        check_method(made, where)
+        self._check(made, start, where)
         self.run: Any = made.run
         self.system = System(made.system.model, like=made.system)
         check_differentiable(self.system, where)
@@ -147,6 +147,14 @@ class Adjoint:
         self._shifts: FloatArray | None = None  # factors of C of joints at the steps of a block, (n, size)
         self.blocks: list[Block] = []
         refuse_breaks(self.run)
+        self._prepare()
+
+    def _check(self, made: Prepared, start: State | None, where: str) -> None:
+        """Raise ModelError if the method, or how the run begins, has no adjoint."""
+        check_method(made, where)
+
+    def _prepare(self) -> None:
+        """What else a kind of adjoint has."""
 
     def forwards(self) -> tuple[FloatArray, dict[Any, FloatArray]]:
         """Take all steps; times and histories of what is asked."""

@@ -17,12 +17,11 @@ from ..solvers.pushes import weigh_pushes
 from ..solvers.sensitivity import Constraining, Matrices, Way
 from ..solvers.status import OK
 from ..system.system import System
-from .adjoint import Adjoint, Asked, Key, UnsolvedError
+from .adjoint import Adjoint, UnsolvedError
 from .base import matrices_of
 from .family import Family
 from .follow import check_shift
 from .nearby import Nearby, uses_of
-from .parameters import Parameter
 from .start import Start
 
 #: Weights of the rows for which the positions and the velocities of a start are shifted.
@@ -51,18 +50,11 @@ class JoinedAdjoint(Adjoint):
     Near = JoinedNearby
     nearby: JoinedNearby
 
-    def __init__(
-        self,
-        made: Prepared,
-        parameters: list[Parameter],
-        start: State | None,
-        asked: Asked,
-        keys: list[Key],
-        unknowns: Any,
-        where: str,
-    ) -> None:
+    def _check(self, made: Prepared, start: State | None, where: str) -> None:
         check_shift(made, start, where)
-        super().__init__(made, parameters, start, asked, keys, unknowns, where)
+        super()._check(made, start, where)
+
+    def _prepare(self) -> None:
         mine, theirs = self.system.parts.get("slides"), self.run.system.parts.get("slides")
         if mine is not None and theirs is not None:
             mine.mode[...], mine.open[...] = theirs.mode, theirs.open
