@@ -28,7 +28,6 @@ from .results.out_of_balance import explain_unstable, notes_of_balance, of_motio
 from .results.result import Result
 from .results.room import check_room
 from .results.state import State
-from .results.store import FileStore, MemoryStore
 from .sensitivity.compute import of_state, with_sensitivities
 from .sensitivity.kept import with_kept
 from .sensitivity.modal import of_modes
@@ -202,7 +201,7 @@ def simulate(
         made.header["settings"]["sensitivities"] = [one.name for one in parameters if one.named]
     if file is None:
         check_room(made.system, made.header["settings"])
-    store = MemoryStore(made.system) if file is None else FileStore(file, made.system, made.header)
+    store = made.store(file)
     try:
         if parameters:
             return with_sensitivities(made, parameters, start, store, output_step, progress)

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import asdict
 from datetime import UTC, datetime
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,13 +29,14 @@ from .model.settings import steps_between
 from .model.supports import Support
 from .model.winch import Winch
 from .results import remembered
+from .results.given import Given
 from .results.impacts import unresolved
 from .results.provenance import versions
 from .results.read_store import ReadStore
 from .results.result import Result, load, read
 from .results.room import ROOM
 from .results.state import State
-from .results.store import MemoryStore
+from .results.store import FileStore, MemoryStore
 from .solvers.record import Progress
 from .solvers.runs import AnyRun, run_of
 from .system.consistency import check_gaps
@@ -50,6 +52,19 @@ class Prepared(NamedTuple):
     run: AnyRun
     header: dict[str, Any]
     method: Integrator
+    given: Given | None = None  # what the inputs are, of a run that is led
+
+    def store(self, file: str | Path | None) -> MemoryStore | FileStore:
+        """Where what is computed goes: a results file, or the memory.
+
+        Raises
+        ------
+        ModelError
+            The file cannot be written.
+        """
+        if file is None:
+            return MemoryStore(self.system, self.given)
+        return FileStore(file, self.system, self.header, self.given)
 
 
 def prepared(
@@ -139,7 +154,7 @@ def carried_out(
     SolveError, StorageError, ModelError, Interrupted
         With what was computed until then.
     """
-    system, run, header, _ = made
+    system, run, header = made.system, made.run, made.header
 
     def finished(status: str) -> Result:
         store.update(run.stats, status)

@@ -19,8 +19,9 @@ from .model import checks
 from .model.describe import point
 from .model.integrators import Integrator, integrator_from
 from .model.model import Model
-from .preparation import carried_out, compiled, prepared
+from .preparation import Prepared, carried_out, compiled, prepared
 from .results.checkpoints import Checkpoint
+from .results.given import gone_on
 from .results.provenance import versions
 from .results.read_store import ReadStore
 from .results.result import Result, load
@@ -100,12 +101,23 @@ def resume(
     except (ModelError, LookupError, TypeError, ValueError) as error:
         what = "has a checkpoint that does not fit its model"
         raise ModelError(str(path), f"{what}: {error}", "resume with the version that made it") from None
-    if controller is not None:
-        made = led(made, controller, round(settings["control_step"] / settings["step"]), "resume")
+    made = _led(made, old, checkpoint.snapshot.t, controller)
     header = _header(old, made.header, checkpoint.snapshot.t)
     with writing(path), drafted(path) as draft:
-        _copy(old, FileStore(draft, made.system, header), checkpoint.rows, checkpoint.samples, checkpoint)
-    return carried_out(made, FileStore.reopened(path, made.system), progress)
+        store = FileStore(draft, made.system, header, made.given)
+        _copy(old, store, checkpoint.rows, checkpoint.samples, checkpoint)
+    return carried_out(made, FileStore.reopened(path, made.system, made.given), progress)
+
+
+def _led(made: Prepared, old: Result, t: float, controller: Callable[[Live], Any] | None) -> Prepared:
+    """A simulation that goes on at t, with what its inputs were and its controller."""
+    settings = old.provenance["settings"]
+    now = made.system.inputs.given
+    given = gone_on(old._store.given, settings["t_start"], t, now, controller is not None)
+    made = made._replace(given=given)
+    if controller is None:
+        return made
+    return led(made, controller, round(settings["control_step"] / settings["step"]), "resume")
 
 
 def _anew(
@@ -133,15 +145,15 @@ def _anew(
         where="resume",
         ends=_by_ends(old),
     )
-    if controller is not None:
-        made = led(made, controller, round(settings["control_step"] / settings["step"]), "resume")
+    made = _led(made, old, last, controller)
     header = _header(old, made.header, last)
     samples = 0
     if settings["sensors"]:  # some may be ahead of the states
         samples = int(np.searchsorted(old._store.samples["time"], last, side="right"))
     with writing(path), drafted(path) as draft:
-        _copy(old, FileStore(draft, made.system, header), len(old.t), samples)
-    return carried_out(made, Continued(FileStore.reopened(path, made.system), old), progress)
+        _copy(old, FileStore(draft, made.system, header, made.given), len(old.t), samples)
+    store = Continued(FileStore.reopened(path, made.system, made.given), old)
+    return carried_out(made, store, progress)
 
 
 class Continued:

@@ -171,7 +171,7 @@ class TestFiles:
             ([{"name": "t"}], (1, 0, 0), "inputs[0].name"),
             ([{"name": "u", "value": "x"}], ("u", 0, 0), "inputs[0].value"),
             ([{"value": 1.0}], (1, 0, 0), "inputs[0].name"),
-            ([{"name": "u", "unit": "N"}], (1, 0, 0), "inputs[0].unit"),
+            ([{"name": "u", "unt": "N"}], (1, 0, 0), "inputs[0].unt"),
             ("u", (1, 0, 0), "inputs"),
             ([3], (1, 0, 0), "inputs[0]"),
         ],

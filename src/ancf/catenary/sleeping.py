@@ -19,7 +19,6 @@ from ..model import checks
 from ..model.points import Point
 from ..preparation import Prepared, carried_out, prepared
 from ..results.result import Result
-from ..results.store import FileStore, MemoryStore
 from ..solvers.far_arrays import FarPlan
 from ..solvers.far_spans import FarSpans
 from ..system.nodes import node_of
@@ -136,7 +135,7 @@ def simulated(
     spans = reduced(made, overhead, sleep)
     if controller is not None:
         made = led(made, controller, every, "run")
-    store = MemoryStore(made.system) if file is None else FileStore(file, made.system, made.header)
+    store = made.store(file)
     return carried_out(made, store, progress), spans
 
 

@@ -56,6 +56,7 @@ def _facts(result: Result, plain: dict[str, Any]) -> list[tuple[str, str]]:
         ("status", f"{STATUS.get(result.status, result.status)}{_how_far(result, plain)}"),
         ("times", f"{plural(len(t), 'state')}, t = {t[0]:g} ... {t[-1]:g} s" if len(t) else "none"),
         *_sensors(plain),
+        *([("inputs", ", ".join(said))] if (said := result._inputs_said()) else []),
         ("counters", ", ".join(f"{key} {value:g}" for key, value in counters.items())),
         ("versions", ", ".join(f"{key} {value}" for key, value in versions.items())),
     ]

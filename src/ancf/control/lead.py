@@ -9,6 +9,7 @@ from ..errors import ModelError, SolveError
 from ..model import checks
 from ..model.settings import FITS, MOST_STEPS
 from ..preparation import Prepared
+from ..results.given import Given
 from ..solvers.control import Control
 from .foreseen import Foreseen
 from .live import Live
@@ -42,6 +43,8 @@ def led(made: Prepared, controller: Controller, every: int, where: str) -> Prepa
     settings = made.header["settings"]
     refuse_adaptive(made.method, where)
     made.system.inputs = Foreseen(made.system.inputs)
+    if made.given is None:
+        made = made._replace(given=Given.begun(made.run.t_start, made.system.inputs.given))
     live = Live(made)
     name = getattr(controller, "__name__", type(controller).__name__)
 

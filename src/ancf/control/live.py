@@ -13,10 +13,12 @@ from ..model import checks
 from ..model.names import unknown
 from ..preparation import Prepared
 from ..results import motions, remembered
+from ..results.given import Given
 from ..results.overview import line_of_state
 from ..results.remembered import Remembered
 from ..results.state import Energy, State
 from ..solvers.record import Stats
+from ..solvers.runs import AnyRun
 from ..solvers.stepping import Run
 from ..system.energy import energies
 from ..system.inputs import Inputs
@@ -30,10 +32,14 @@ class InputValues(MutableMapping[str, float]):
     Parameters
     ----------
     inputs : Inputs
+    run : AnyRun
+        Knows the time.
+    history : Given, optional
+        Takes what is given.
     """
 
-    def __init__(self, inputs: Inputs) -> None:
-        self._inputs = inputs
+    def __init__(self, inputs: Inputs, run: AnyRun, history: Given | None = None) -> None:
+        self._inputs, self._run, self._history = inputs, run, history
 
     def __getitem__(self, name: str) -> float:
         if name not in self._inputs.given:
@@ -45,7 +51,12 @@ class InputValues(MutableMapping[str, float]):
             raise unknown("inputs", "input", name, self._inputs.given)
         if type(value) is not float or not math.isfinite(value):
             value = checks.number(value, f'inputs["{name}"]')
+        if self._inputs.given[name] == value:
+            return
         self._inputs.give(name, value)
+        if self._history is not None:
+            run = self._run
+            self._history.note(run.t_start + run.done * run.h, self._inputs.given)
 
     def __delitem__(self, name: str) -> None:
         raise ModelError(f'inputs["{name}"]', "cannot be deleted: the model has it")
@@ -73,7 +84,7 @@ class Live(State):
 
     def __init__(self, made: Prepared) -> None:
         self.system, self.model, self._run = made.system, made.system.model, made.run
-        self.inputs = InputValues(made.system.inputs)
+        self.inputs = InputValues(made.system.inputs, made.run, made.given)
         self._bodies, self._slots = self.model.bodies, self.system.slots
         self._joints, self._arcs = self.system.joints, self.system.numbering.arcs
         self._lengths = self.system.lengths

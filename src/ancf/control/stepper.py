@@ -16,6 +16,7 @@ from ..model.model import Model
 from ..model.settings import MOST_STEPS
 from ..preparation import Prepared, compiled, method_of, prepared
 from ..results.checkpoints import Checkpoint
+from ..results.given import Given, gone_on
 from ..results.read_store import ReadStore
 from ..results.sensors import Sensors
 from ..results.state import State
@@ -35,6 +36,8 @@ class Stepper(Live):
 
     def __init__(self, made: Prepared) -> None:
         made.system.inputs = Foreseen(made.system.inputs)
+        if made.given is None and made.system.sensors:  # without them nothing grows with the run
+            made = made._replace(given=Given.begun(made.run.t_start, made.system.inputs.given))
         self._made = made
         self._store = MemoryStore(made.system)
         super().__init__(made)
@@ -116,7 +119,7 @@ class Stepper(Live):
             self._ahead.hand_over()
         header = {**self._made.header, "settings": {**self._made.header["settings"], "t_end": self.t}}
         with writing(file):
-            store = FileStore(file, self.system, header)
+            store = FileStore(file, self.system, header, self._history())
         rows = 0
         if self.system.sensors:
             samples = self._store.samples
@@ -130,6 +133,13 @@ class Stepper(Live):
         store.update(self.stats, "interrupted")
         store.close()
 
+    def _led(self) -> bool:
+        return bool(self.model.inputs)
+
+    def _history(self) -> Given:
+        """What the inputs were; without sensors what they are."""
+        return self._made.given or Given.begun(self.t, self.system.inputs.given)
+
 
 class _Whole:
     """What :class:`ancf.results.sensors.Sensors` asks of a result."""
@@ -137,7 +147,7 @@ class _Whole:
     def __init__(self, run: Stepper) -> None:
         self.model, self.bodies, self.slots = run.model, run.bodies, run.slots
         self.springs, self.joints, self.arcs = run._springs, run._joints, run._arcs
-        self.lengths = run.lengths
+        self.lengths, self._kept, self._led = run.lengths, run._history, run._led
 
 
 def stepper(
@@ -232,6 +242,8 @@ def _gone_on(model: Model, file: str | Path) -> Stepper:
     t_end, ends = t0 + MOST_STEPS * step, by_ends(old.listing(model.bodies), model.connections)
     made = compiled(model, method, t0, t_end, step, None, listed or None, settings["energy"], "stepper", ends)
     made.run.restore(found.snapshot)
+    if listed:
+        made = made._replace(given=gone_on(old.given, t0, found.snapshot.t, made.system.inputs.given, True))
     run = Stepper(made)
     if listed:
         samples = old.samples

@@ -103,7 +103,7 @@ def begun(study: Study, inputs: dict[str, float], sensors: tuple[str, ...] = ())
     """A stepper from the start that a model file asks for, with these inputs."""
     settings, model = settings_of(study), study.model
     if any(model.inputs[name].value != value for name, value in inputs.items()):
-        given = [{"name": name, "value": value} for name, value in inputs.items()]
+        given = [{**model.inputs[name].described(), "value": value} for name, value in inputs.items()]
         model = Model.from_dict({**model.to_dict(), "inputs": given})
     start = None
     if settings.start == "equilibrium":

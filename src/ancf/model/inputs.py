@@ -15,6 +15,8 @@ from .expression import CONSTANTS, FUNCTIONS, STATE
 
 #: A name that can stand in a formula.
 NAME = re.compile(r"[A-Za-z_]\w*")
+#: What stands in square brackets behind a name.
+PRINTED = re.compile(r"[^\[\]\x00-\x1f\x7f]{0,40}")
 #: Names that mean something else there.
 TAKEN = {"t", *STATE, *CONSTANTS, *FUNCTIONS, "and", "or", "not", "in", "is", "if", "else", "lambda"}
 
@@ -88,13 +90,21 @@ class Input(Signal):
     name : str
     value : float
         What it is until something else is given.
+    unit, description : str
+        What tables say of it; "" for nothing.
     """
 
-    __slots__ = ("name", "value")
+    __slots__ = ("description", "name", "unit", "value")
 
-    def __init__(self, name: str, value: float) -> None:
+    def __init__(self, name: str, value: float, unit: str = "", description: str = "") -> None:
         super().__init__(name, {name: value})
         self.name, self.value = name, value
+        self.unit, self.description = unit, description
+
+    def described(self) -> dict[str, Any]:
+        """What a description of the model holds of it."""
+        said = {"unit": self.unit, "description": self.description}
+        return {"name": self.name, "value": self.value} | {key: text for key, text in said.items() if text}
 
     def __repr__(self) -> str:
         return f"Input({self.name!r}, {self.value:g})"
@@ -103,13 +113,20 @@ class Input(Signal):
         return self  # it never changes
 
 
-def make_input(where: str, name: object, value: object, taken: Mapping[str, Any]) -> Input:
+def make_input(
+    where: str,
+    name: object,
+    value: object,
+    taken: Mapping[str, Any],
+    unit: object = "",
+    description: object = "",
+) -> Input:
     """Check what ``Model.add_input`` was given.
 
     Raises
     ------
     ModelError
-        No name that a formula can have, one that is taken, or no number.
+        No name that a formula can have, one that is taken, no number, or no unit.
     """
     clean = checks.text(name, f"{where}.name")
     if not NAME.fullmatch(clean) or clean in TAKEN:
@@ -118,7 +135,11 @@ def make_input(where: str, name: object, value: object, taken: Mapping[str, Any]
         raise ModelError(f"{where}.name", what, hint)
     if clean in taken:
         raise ModelError(f"{where}.name", f'"{clean}" is the name of an input already')
-    return Input(clean, checks.number(value, f"{where}.value"))
+    measured = checks.text(unit, f"{where}.unit").strip()
+    if not PRINTED.fullmatch(measured):
+        raise ModelError(f"{where}.unit", f"is {checks.shown(unit)}, must be such as N or m/s", "no brackets")
+    said = checks.text(description, f"{where}.description").strip()
+    return Input(clean, checks.number(value, f"{where}.value"), measured, said)
 
 
 @contextmanager

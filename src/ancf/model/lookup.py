@@ -72,7 +72,7 @@ class Lookup:
             setattr(other, key, list(getattr(self, key)))
         return other
 
-    def add_input(self, name: str, value: float = 0.0) -> Input:
+    def add_input(self, name: str, value: float = 0.0, *, unit: str = "", description: str = "") -> Input:
         """Add a number that is given while a simulation runs, by :func:`ancf.stepper` or a controller.
 
         It stands wherever a number or a function of time may in loads and drives, also in sums and products:
@@ -84,9 +84,12 @@ class Lookup:
             Unique among inputs; letters, digits and _, and none that formulas have already, such as t.
         value : float
             What it is until something else is given, and in equilibria.
+        unit, description : str
+            For tables and pictures of results, such as ``"N"`` and ``"pull of the winch"``.
 
         """
-        made = make_input(self._where("add_input", name), name, value, self.inputs)
+        where = self._where("add_input", name)
+        made = make_input(where, name, value, self.inputs, unit, description)
         self.inputs[made.name] = made
         return made
 

@@ -230,7 +230,7 @@ class Model(Supporting, Readable):
         """
         plain: dict[str, Any] = {"title": self.title, "gravity": self.gravity.tolist()}
         if self.inputs:
-            plain["inputs"] = [{"name": item.name, "value": item.value} for item in self.inputs.values()]
+            plain["inputs"] = [item.described() for item in self.inputs.values()]
         plain["bodies"] = [describe.body(body) for body in self.bodies.values()]
         for key in GROUPS:
             plain[key] = [describe.other(item, kind_of(item)) for item in getattr(self, key)]
@@ -258,7 +258,8 @@ class Model(Supporting, Readable):
             model._add_body(body)
         for given in table.tables("inputs"):
             with model.located(given.where):
-                model.add_input(given.take("name"), given.take("value"))
+                said = {key: given.given[key] for key in ("unit", "description") if key in given.given}
+                model.add_input(given.take("name"), given.take("value"), **said)
         rebuild.items(model, table)
         return model
 

@@ -54,7 +54,7 @@ def of_model(model: Described) -> Sheet:
     ]
     tables = [
         body_table(bodies),
-        Table(("input", "first value"), [(i.name, number(i.value)) for i in model.inputs.values()]),
+        Table(("input", "first value", "what it is"), [_input(item) for item in model.inputs.values()]),
         Table(("support", "at", "holds"), [_item(item) for item in model.supports]),
         Table(("load", "on", "value"), [_item(item) for item in model.loads]),
         Table(("connection", "kind", "between", "data"), [_connection(item) for item in model.connections]),
@@ -99,6 +99,11 @@ def _body(body: Body) -> tuple[str, ...]:
     name = f"{body.element} beam" if body.has_section else body.element
     sizes = (str(body.elements), number(body.length), number(mass(body)))
     return body.name, name, *sizes, number(s.EA), bending, *ends
+
+
+def _input(item: Input) -> tuple[str, str, str]:
+    """Name, first value and description of an input."""
+    return item.name, f"{number(item.value)} {item.unit}".rstrip(), item.description
 
 
 def _item(item: Any) -> tuple[str, str, str]:

@@ -114,7 +114,7 @@ def _resolve(model: Model, name: Any, exchange: Any) -> tuple[float, Any]:
     if name in model.inputs:
         item = model.inputs[name]
         return float(item.value), lambda x: _with(
-            model, inputs=model.inputs | {name: make_input(name, name, x, {})}
+            model, inputs=model.inputs | {name: make_input(name, name, x, {}, item.unit, item.description)}
         )
     owner, dot, key = name.rpartition(".")
     found = KEY.fullmatch(key)

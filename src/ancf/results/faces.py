@@ -74,6 +74,10 @@ class History(Shaped, Protocol):
         """Model, settings and versions."""
         ...
 
+    def _inputs_said(self) -> list[str]:
+        """What its inputs were, a text for each."""
+        ...
+
     def _end_energies(self) -> tuple[FloatArray, FloatArray]: ...
 
 

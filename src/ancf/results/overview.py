@@ -46,6 +46,7 @@ def of_result(result: History) -> Sheet:
         ("cost", _cost(result)),
         ("energy", _drift(result, settings)),
         ("sensors", _names(settings.get("sensors", []))),
+        ("inputs", _names(result._inputs_said())),
         ("called once a step", _names(settings.get("called once a step", []))),
         *(("note", text) for text in _notes(result)),
     ]

@@ -15,7 +15,7 @@ from ..model.bodies import Body
 from ..model.model import Model
 from ..solvers.record import Stats
 from ..system.sensors import Listing
-from . import checkpoints, derivatives, hdf5, remembered, sound
+from . import checkpoints, derivatives, given, hdf5, remembered, sound
 from .checkpoints import Checkpoint
 from .layout import read_joints, read_slots
 from .layout_sensors import DATA, read_listing
@@ -70,6 +70,7 @@ class ReadStore:
         ):
             raise ValueError("its data sets do not belong together")
         sound.check_times(self._file["time"][: self._rows], "time")
+        self.given = given.read(self._file)
         self.derived = derivatives.read(self._file, widths[0], self._rows)
         checks.array(list(self.stats.as_dict().values()), "stats", (None,))
 

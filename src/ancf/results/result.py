@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -26,6 +27,7 @@ from ..system.system import System
 from . import accuracy, motions, remembered, sharp_bends, tension
 from .below import of_bodies
 from .comparison import Comparison, compare
+from .given import Given, Led, history_of
 from .momenta import Momenta
 from .motions import Motions
 from .overview import line_of_result, of_result
@@ -40,7 +42,7 @@ from .state import Energy, State
 from .store import FileStore, MemoryStore
 
 
-class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
+class Result(SpringFields, ContactFields, Momenta, Motions, Led, Filmed, Readable):
     """History of a simulation: what it was, at any point, joint or support, at all stored times.
 
     ``print(result)`` says how it went; ``model`` is the model that was computed.
@@ -162,7 +164,22 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
         return self._moving
 
     def _known(self, index: int) -> Remembered:
-        return self._last.until(index, self.q, self.v, self._arcs)
+        known = self._last.until(index, self.q, self.v, self._arcs)
+        given = self._kept() if self.model.inputs and not known.inputs else None
+        if given is None:
+            return known
+        acting = given.acting(self.t[[index]])[0]
+        return (
+            known
+            if np.isnan(acting).any()
+            else replace(known, inputs=dict(zip(given.names, acting.tolist(), strict=True)))
+        )
+
+    def _led(self) -> bool:
+        return self._store.given is not None and bool(self.model.inputs)
+
+    def _kept(self) -> Given | None:
+        return history_of(self._store, self.model, self._last, "controller" in self._header["settings"])
 
     @property
     def energy(self) -> Energy:
@@ -313,7 +330,7 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Filmed, Readable):
         if isinstance(self._store, ReadStore):
             _copy(self._store.path, path)
             return
-        file = FileStore(path, self._system, self._header)
+        file = FileStore(path, self._system, self._header, self._store.given)
         try:
             self._fill(file)
         except StorageError as error:

@@ -21,11 +21,12 @@ from ..system.sensors import Listing, unknowns_of
 from ..system.spring_fields import SpringFields
 from ..system.system import System
 from . import moments
+from .given import Given, Led
 from .pictures import Plotted
 from .sensitivities import sensitivity_of
 
 
-class Sensors(SpringFields, ContactFields, Plotted):
+class Sensors(SpringFields, ContactFields, Led, Plotted):
     """What was recorded, at all steps; it answers as a :class:`ancf.Result` does.
 
     Points, springs and joints that were not recorded give a ModelError that lists those that were.
@@ -43,7 +44,7 @@ class Sensors(SpringFields, ContactFields, Plotted):
     def __init__(self, listing: Listing, arrays: Callable[[], dict[str, Any]], whole: Any) -> None:
         self.listing, self._arrays = listing, arrays
         self.model, self._bodies = whole.model, whole.bodies
-        self._whole_slots = whole.slots
+        self._whole_slots, self._source = whole.slots, whole
         self._slots = {name: listing.places(slots) for name, slots in whole.slots.items()}
         self._lengths = {
             name: (int(listing.places(np.array([unknown]))[0]), far)
@@ -63,6 +64,13 @@ class Sensors(SpringFields, ContactFields, Plotted):
         """Times of all steps, s, shape (n,); with the start."""
         t: FloatArray = self._arrays()["time"]
         return t
+
+    def _led(self) -> bool:
+        return bool(self._source._led())
+
+    def _kept(self) -> Given | None:
+        history: Given | None = self._source._kept()
+        return history
 
     @property
     def q(self) -> Any:

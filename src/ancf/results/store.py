@@ -26,8 +26,9 @@ from ..solvers.status import COUNTS
 from ..system.energy import energies
 from ..system.sensors import Listing
 from ..system.system import System
-from . import checkpoints, derivatives, hdf5, remembered
+from . import checkpoints, derivatives, given, hdf5, remembered
 from .checkpoints import Checkpoint
+from .given import Given
 from .layout import write_layout
 from .layout_sensors import DATA, write_listing
 
@@ -58,6 +59,11 @@ class Store(Protocol):
         ...
 
     @property
+    def given(self) -> Given | None:
+        """What the inputs were; None: nobody led the run."""
+        ...
+
+    @property
     def stats(self) -> Stats:
         """Counters."""
         ...
@@ -71,8 +77,8 @@ class Store(Protocol):
 class MemoryStore:
     """States of a run in memory."""
 
-    def __init__(self, system: System) -> None:
-        self._system = system
+    def __init__(self, system: System, given: Given | None = None) -> None:
+        self._system, self.given = system, given
         self._parts: list[tuple[FloatArray, ...]] = []
         self._joined: dict[str, FloatArray] = {}
         self._samples: list[tuple[FloatArray, FloatArray]] = []
@@ -147,6 +153,15 @@ class LazyEnergy:
 class FileStore:
     """States of a run in an HDF5 file, written block by block.
 
+    Parameters
+    ----------
+    path : path
+    system : System
+    header : dict
+        What made the result.
+    inputs : Given, optional
+        What they are, which grows with the run.
+
     Raises
     ------
     ModelError
@@ -155,8 +170,10 @@ class FileStore:
         Later, from any method: it can no longer be written; what has been stored can be read.
     """
 
-    def __init__(self, path: str | Path, system: System, header: dict[str, Any]) -> None:
-        self._system = system
+    def __init__(
+        self, path: str | Path, system: System, header: dict[str, Any], inputs: Given | None = None
+    ) -> None:
+        self._system, self._given, self._noted = system, inputs, 0
         if not isinstance(path, str | Path):
             raise ModelError("file", f"must be a path, is {checks.shown(path)}")
         self.path = Path(path)
@@ -174,10 +191,11 @@ class FileStore:
         self.stats, self.status = Stats(), "running"
 
     @classmethod
-    def reopened(cls, path: Path, system: System) -> FileStore:
-        """A finished file of the same system, to add to it."""
+    def reopened(cls, path: Path, system: System, inputs: Given | None = None) -> FileStore:
+        """A finished file of the same system, to add to it; it holds what its inputs were."""
         store = cls.__new__(cls)
-        store.path, store._system = path, system
+        store.path, store._system, store._given = path, system, inputs
+        store._noted = 0 if inputs is None else inputs.count
         store.stats, store.status = Stats(), "running"
         with writing(path):
             store._file = h5py.File(path, "r+", libver="latest")
@@ -198,6 +216,7 @@ class FileStore:
         write_layout(file, self._system)
         remembered.write(file, remembered.of_system(self._system))
         write_listing(file, self._system.sensors)
+        given.create(file, self._given)
         derivatives.create(file, header["settings"].get("sensitivities", []), size, self._system.sensors)
         checkpoints.Places.make(file)
         file.flush()
@@ -212,6 +231,7 @@ class FileStore:
         """Add states whose energies, shape (m, 3), are known."""
         columns = {"q": q, "v": v, "work": work, "energy": energy, "time": t}
         with self._storing():
+            self._note()
             for name, values in columns.items():
                 _extend(self._file[name], values)
 
@@ -219,8 +239,15 @@ class FileStore:
         """Add samples."""
         columns = _split(samples, self._system.sensors) | {"time": t}
         with self._storing():
+            self._note()
             for name in DATA:
                 _extend(self._file["sensors"][name], columns[name])
+
+    def _note(self) -> None:
+        """Write what inputs were given since; before the times of what came about under them."""
+        if self._given is not None and self._given.names and self._noted < self._given.count:
+            _extend(self._file[given.DATA], self._given.since(self._noted))
+            self._noted = self._given.count
 
     def derive(self, k: int, rows: Sequence[FloatArray]) -> None:
         """Add derivatives by parameter k of states, of their rates and of samples."""
@@ -231,6 +258,7 @@ class FileStore:
         """Counters and status so far; everything until now reaches the disk."""
         self.stats, self.status = stats, status
         with self._storing():
+            self._note()
             self._file["stats"][:] = [getattr(stats, name) for name in COUNTS] + [stats.cpu_seconds]
             self._file["status"][()] = STATUS.index(status)
             remembered.write(self._file, remembered.of_system(self._system))

@@ -116,7 +116,7 @@ class Builder:
 
     def _add_input(self, entry: InputEntry, where: str) -> None:
         with self.model.located(where):
-            self.model.add_input(entry.name, entry.value)
+            self.model.add_input(**entry.given())
 
     def _section_of(self, body: BeamEntry, where: str) -> Section:
         if not isinstance(body.section, str):

@@ -323,6 +323,8 @@ class InputEntry(Entry):
         0.0,
         description="What it is until something else is given [of what it is multiplied with, such as N].",
     )
+    unit: str = Field("", description="Its unit, for tables of results.")
+    description: str = Field("", description="What it is, for tables of results.")
 
 
 class FileEntry(Entry):

@@ -22,7 +22,8 @@ def write_csv(result: Result, folder: str | Path, points: Sequence[str] | None =
 
     ``sensors.csv`` holds what sensors recorded at every step. At the stored times: ``points.csv`` motion, and
     on beams and cables tension and curvature; ``springs.csv`` the forces of all springs; ``joints.csv`` the
-    forces of joints and arc lengths of sliding joints; ``energies.csv``. No table is empty.
+    forces of joints and arc lengths of sliding joints; ``energies.csv``; ``inputs.csv`` what a controller
+    gave. No table is empty.
 
     Parameters
     ----------
@@ -90,6 +91,8 @@ def _tables(result: Result, points: Sequence[str] | None) -> Iterator[tuple[str,
         yield "points", list(tables.point_columns(result, labels))
     if result.springs:
         yield "springs", list(tables.spring_columns(result))
+    if result._led():
+        yield "inputs", [("t [s]", result.t), *tables.input_columns(result)]
     if joints := _joints(result):
         yield "joints", list(tables.joint_columns(result, joints))
     if result.provenance["settings"].get("energy", True):

@@ -20,6 +20,8 @@ from .csv_files import default_points
 EXTRA = "pip install 'ancf[data]'"
 #: Word for the energies among what is asked for.
 ENERGY = "energy"
+#: Kind of the inputs of a model.
+INPUT = "input"
 
 
 def to_pandas(known: Any, items: Sequence[Any] | None) -> Any:
@@ -28,6 +30,8 @@ def to_pandas(known: Any, items: Sequence[Any] | None) -> Any:
     found = dict(_columns(known, _asked(known, items, "to_pandas")))
     frame = pandas.DataFrame(found, index=pandas.Index(_times(known), name="t [s]"))
     frame.attrs = {"title": _title(known), "units": {name: _unit(name) for name in found}}
+    said = {name: _said(known, name.rpartition(" [")[0] or name) for name in found}
+    frame.attrs["descriptions"] = {name: text["long_name"] for name, text in said.items() if text}
     return frame
 
 
@@ -63,7 +67,7 @@ def _title(known: Any) -> str:
 
 
 def _unit(name: str) -> str:
-    return name[name.rindex("[") + 1 : -1]
+    return name[name.rindex("[") + 1 : -1] if name.endswith("]") else ""
 
 
 def _asked(known: Any, items: Sequence[Any] | None, method: str) -> list[tuple[str, str]]:
@@ -78,12 +82,18 @@ def _asked(known: Any, items: Sequence[Any] | None, method: str) -> list[tuple[s
 def _everything(known: Any) -> list[tuple[str, str]]:
     """All that sensors recorded; of a result the ends of its bodies, springs, joints and energies."""
     if isinstance(known, Sensors):
-        return [_kind(known, name, name) for name in known.names]
+        return [*(_kind(known, name, name) for name in known.names), *_inputs(known)]
     found = [(label, "point") for label in default_points(known)]
     found += [(name, "spring") for name in known.springs]
     found += [(name, TORSION) for name in known.torsion_springs]
     found += [(name, "joint") for name in known.joints if name not in known.bodies]
+    found += _inputs(known)
     return [*found, (ENERGY, ENERGY)] if _has_energy(known) else found
+
+
+def _inputs(known: Any) -> list[tuple[str, str]]:
+    """Inputs of a run that was led."""
+    return [(name, INPUT) for name in known.model.inputs] if known._led() else []
 
 
 def _has_energy(known: Any) -> bool:
@@ -105,6 +115,8 @@ def _kind(known: Any, item: Any, where: str) -> tuple[str, str]:
         return label, "contact"
     if isinstance(known, Sensors) and label in known.listing.held:
         return label, "support"
+    if label in known.model.inputs and label not in known.model.bodies:
+        return label, INPUT
     try:
         known.position(item)
     except ModelError as error:
@@ -129,6 +141,8 @@ def _columns(known: Any, asked: list[tuple[str, str]]) -> Iterator[tables.Column
         elif kind == "contact":
             yield f"{label} force [N]", known.contact_force(label)
             yield f"{label} gap [m]", known.contact_gap(label)
+        elif kind == INPUT:
+            yield tables.input_column(known, label)
         elif kind == "support":
             yield from tables.vector_columns(f"{label} reaction", known.reaction(label), "N")
         else:
@@ -154,4 +168,11 @@ def _variables(known: Any, asked: list[tuple[str, str]]) -> Iterator[tuple[str, 
         yield question, (("t", "spring"), values, {"units": unit})
     rest = [(label, kind) for label, kind in asked if kind not in ("point", "spring")]
     for name, values in _columns(known, rest):
-        yield name[: name.rindex(" [")], ("t", values, {"units": _unit(name)})
+        plain = name.rpartition(" [")[0] or name
+        yield plain, ("t", values, {"units": _unit(name)} | _said(known, plain))
+
+
+def _said(known: Any, name: str) -> dict[str, str]:
+    """Description of an input."""
+    item = known.model.inputs.get(name.removeprefix("input "))
+    return {} if item is None or not name.startswith("input ") else {"long_name": item.description or name}

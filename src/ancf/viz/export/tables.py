@@ -68,6 +68,19 @@ def sensor_columns(sensors: Sensors) -> Iterator[Column]:
                 yield f"{name} slipping [-]", sensors.slipping(name)
             else:
                 yield f"{name} s [m]", sensors.arc_length(name)
+    if sensors._led():
+        yield from input_columns(sensors)
+
+
+def input_columns(known: Any) -> Iterator[Column]:
+    """What the inputs of a model were."""
+    return (input_column(known, name) for name in known.model.inputs)
+
+
+def input_column(known: Any, name: str) -> Column:
+    """An input; without a unit where the model does not say it."""
+    unit = known.model.inputs[name].unit
+    return f"input {name}" + (f" [{unit}]" if unit else ""), known.input(name)
 
 
 def torsion_columns(known: Any, name: str) -> Iterator[Column]:

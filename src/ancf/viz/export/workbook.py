@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from ...errors import ModelError
 from ...files import cell, drafted, writing
+from ...model.inputs import Input
 from ...results.result import Result
 from .csv_files import all_tables
 from .frames import library
@@ -18,6 +19,8 @@ from .tables import Column
 ROWS = 1_048_575
 #: Name and unit of a column: "rope.end position x [m]".
 HEAD = re.compile(r"(.*) \[(.*)\]")
+#: That of an input of the model.
+INPUT = "input "
 #: What columns hold, by the end of their names; the first that fits.
 WORDS = (
     (r"t", "time"),
@@ -90,13 +93,16 @@ def _describe(sheet: Any, result: Result, found: list[tuple[str, list[Column]]])
     sheet.append(["sheet", "column", "unit", "what it is"])
     for name, columns in found:
         for head, _ in columns:
-            sheet.append([name, *map(cell, described(head))])
+            sheet.append([name, *map(cell, described(head, result.model.inputs))])
 
 
-def described(head: str) -> tuple[str, str, str]:
-    """Name, unit and meaning of a column."""
+def described(head: str, inputs: Mapping[str, Input] | None = None) -> tuple[str, str, str]:
+    """Name, unit and meaning of a column; what an input is, its model says."""
     parts = HEAD.fullmatch(head)
     name, unit = (parts[1], parts[2]) if parts else (head, "")
+    item = (inputs or {}).get(name.removeprefix(INPUT)) if name.startswith(INPUT) else None
+    if item is not None:
+        return name, unit, item.description or "input, given while the run went on"
     for pattern, words in WORDS:
         if (fits := re.fullmatch(pattern, name)) is not None:
             return name, unit, words.format(*fits.groups())

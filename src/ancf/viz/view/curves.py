@@ -44,6 +44,7 @@ def curves(result: Any, states: Histories, traced: Sequence[Trace], scene: Scene
     found += recorded.joints + recorded.fields
     for _, last in paths:
         found += last
+    found += _inputs(result)
     span = float(scene.t[0]), float(scene.t[-1])
     most = int(np.clip(ALL_POINTS // max(len(found), 1), FEW, POINTS))
     shortened = [_shortened(curve, span, most) for curve in found]
@@ -105,6 +106,19 @@ def _joints(states: Any, said: str = "") -> list[Curve]:
 
 def _springs(t: FloatArray, source: Any, names: Iterable[str], panel: str) -> list[Curve]:
     return _most_varied(t, {name: source.spring_force(name) for name in names}, "N", panel)
+
+
+def _inputs(result: Any) -> list[Curve]:
+    """What a controller gave, a panel for each unit."""
+    if not result._led():
+        return []
+    by_unit: dict[str, dict[str, FloatArray]] = {}
+    for name, item in result.model.inputs.items():
+        by_unit.setdefault(item.unit, {})[name] = result.input(name)
+    found = []
+    for unit, values in by_unit.items():
+        found += _most_varied(result.t, values, unit, f"inputs, {unit}" if unit else "inputs")
+    return found
 
 
 class _Recorded(NamedTuple):
