@@ -24,7 +24,7 @@ PARTS = ("nothing", "mass", "body", "bar", "bead", "head") if SLOW else ("nothin
 UNSAID = 0.1
 #: Processor time, s: after which a run that goes on is stopped as by Ctrl-C (a method that chooses its steps
 #: may need millions), and after which it hangs.
-PATIENCE, LONGEST = 5, 300
+PATIENCE, LONGEST = (5 if SLOW else 2), 300
 
 FORCES = [(0, 0, 0), (0, 0, -1), ["0", "0", "step(t - 1e-3)"], ["sin(1e4*t)", "0", "1"], [0, 0, 1e6]]
 FORCES += [["0", "1/(t - 0.01)", "0"], ["0", "0", "1e3*t"], ["sqrt(0.1 - t)", 0, 0], [1e-12, 0, 0]]

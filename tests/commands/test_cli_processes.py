@@ -137,10 +137,10 @@ def test_a_terminal_that_knows_no_letters(tmp_path):
 @pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals")
 @pytest.mark.parametrize("no_color", ["", "1"])
 def test_bar_in_a_terminal(tmp_path, no_color):
-    text = MODEL + SIMULATION.replace("t_end = 0.4", "t_end = 20.0")
+    text = MODEL + SIMULATION.replace("t_end = 0.4", "t_end = 5.0")
     (tmp_path / "model.toml").write_text(text, encoding="utf-8")
     seen = in_terminal(tmp_path, ["run", "model.toml"], NO_COLOR=no_color, TERM="xterm", COLUMNS="120")
-    assert re.search(r"\d+ %  step \d+ of 80000", seen)
+    assert re.search(r"\d+ %  step \d+ of 20000", seen)
     assert "Traceback" not in seen
     assert "\x1b[?25h" in seen  # the cursor is shown again
     assert bool(re.search(r"\x1b\[(3\d|9\d)[\d;]*m", seen)) != bool(no_color)

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.design.formulas import Formula
+from ancf.design.gradient import OF_RUN, slopes_of
 from ancf.sensitivity.family import Family
 from ancf.sensitivity.nearby import Nearby
 from ancf.sensitivity.parameters import parameters_of
@@ -61,14 +63,25 @@ def test_against_differences(case):
     """Places and slopes of a run, and a gradient, against runs around."""
     model, given = CASES[case](), settings(METHODS[0])
     result = ancf.simulate(model, sensitivities=["beam.EI", *PLACES], **given)
-    _, slope = ancf.gradient(model, ENERGY, PLACES, **given)
+    value, slope = ancf.gradient(model, ENERGY, PLACES, **given)
+
+    def answers(known):
+        return [known.position("beam.end").ravel(), known.slope("beam.start").ravel()]
+
+    def value_of(known):
+        return slopes_of(Formula(ENERGY, "test", OF_RUN), known.t, known)[:1]
+
+    def of_run(changed):
+        known = ancf.simulate(changed, **given)
+        return np.concatenate([*answers(known), value_of(known)])
+
+    assert value == pytest.approx(value_of(result)[0], rel=1e-12)
     for name in ("beam.start[2]", "beam.end[1]"):
-        own = result.sensitivity(name)
-        for answer in (lambda r: r.position("beam.end"), lambda r: r.slope("beam.start")):
-            wanted = extrapolated(lambda m, a=answer: a(ancf.simulate(m, **given)), model, name, 2e-2)
-            assert off(answer(own), wanted) < 1e-7, name
-        wanted = extrapolated(lambda m: ancf.gradient(m, ENERGY, [], **given)[0], model, name, 2e-2)
-        assert abs(slope[name] - wanted) < 1e-7 * abs(wanted), name
+        wanted = extrapolated(of_run, model, name, 2e-2)
+        parts = np.split(wanted[:-1], 2)
+        for found, of_runs in zip(answers(result.sensitivity(name)), parts, strict=True):
+            assert off(found, of_runs) < 1e-7, name
+        assert abs(slope[name] - wanted[-1]) < 1e-7 * abs(wanted[-1]), name
 
 
 def test_more_than_eight_parameters():

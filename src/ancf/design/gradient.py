@@ -92,11 +92,14 @@ def gradient(
         energy=True,
         where="gradient",
     )
+    settings = {"t_end": t_end, "step": step, "start": start, "integrator": integrator}
+    if not wanted:  # the value alone needs no way back
+        result = simulate(model, **settings)
+        return slopes_of(formula, np.asarray(result.t), result)[0], {}
     way = adjoint_of(made.system)
     if way is not None:
         with suppress(UnsolvedError):  # what it cannot solve, sensitivities may
             return _backward(way, made, formula, wanted, start)
-    settings = {"t_end": t_end, "step": step, "start": start, "integrator": integrator}
     return _forward(model, formula, wanted, settings)
 
 
