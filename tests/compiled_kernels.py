@@ -9,6 +9,7 @@ from numba.core.dispatcher import Dispatcher
 import ancf
 from ancf import compiled
 from ancf.batches import strain_energies
+from ancf.parts import Part
 
 PACKAGE = Path(ancf.__file__).parent
 
@@ -18,7 +19,7 @@ def take_kernels(copy):
     for path in compiled.stamped():
         place = path.relative_to(PACKAGE)
         module = importlib.import_module(".".join(("ancf", *place.with_suffix("").parts)))
-        kernels = [x for x in vars(module).values() if isinstance(x, Dispatcher)]
+        kernels = [x for x in vars(module).values() if isinstance(x, Dispatcher | Part)]
         for cache in {k.stats.cache_path for k in kernels if k.__module__ == module.__name__} - {None}:
             kept = (copy / place).parent / "__pycache__"
             kept.mkdir(exist_ok=True)

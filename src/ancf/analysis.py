@@ -28,10 +28,6 @@ from .results.out_of_balance import explain_unstable, notes_of_balance, of_motio
 from .results.result import Result
 from .results.room import check_room
 from .results.state import State
-from .sensitivity.compute import of_state, with_sensitivities
-from .sensitivity.kept import with_kept
-from .sensitivity.modal import of_modes
-from .sensitivity.parameters import check_known, parameters_of
 from .solvers import statics
 from .solvers.damped_modal import damped_modes_about
 from .solvers.modal import natural_modes
@@ -87,8 +83,19 @@ def equilibrium(
     with expected(model):
         state = _at_rest(independent(model), names, load_steps, time)
     if sensitivities:
-        state.derivatives = of_state(state, names, parameters_of(model, sensitivities, SENSITIVITIES[0]))
+        from .sensitivity.compute import of_state
+
+        state.derivatives = of_state(state, names, _parameters(model, sensitivities, SENSITIVITIES[0]))
     return state
+
+
+def _parameters(model: Model, sensitivities: Any, where: str) -> list[Any]:
+    """Numbers of a model by which derivatives are wanted; what computes them is loaded when there are any."""
+    if not sensitivities:
+        return []
+    from .sensitivity.parameters import parameters_of
+
+    return parameters_of(model, sensitivities, where)
 
 
 def equilibria(model: Model, times: Iterable[float]) -> list[State]:
@@ -188,7 +195,7 @@ def simulate(
         energy=energy,
         ends=bool(sensitivities),
     )
-    parameters = parameters_of(model, sensitivities, SENSITIVITIES[1]) if sensitivities else []
+    parameters = _parameters(model, sensitivities, SENSITIVITIES[1])
     if parameters and controller is not None:
         raise ModelError(SENSITIVITIES[1], "a controller has no derivatives", "give one of both")
     if controller is not None:
@@ -204,6 +211,8 @@ def simulate(
     store = made.store(file)
     try:
         if parameters:
+            from .sensitivity.compute import with_sensitivities
+
             return with_sensitivities(made, parameters, start, store, output_step, progress)
         return carried_out(made, store, progress)
     except SolveError as error:
@@ -229,6 +238,8 @@ def load(path: str | Path, system: System | None = None) -> Result:
     ModelError
         There is no such file, or it is not a results file.
     """
+    from .sensitivity.kept import with_kept
+
     return with_kept(results.load(path, system))
 
 
@@ -268,8 +279,10 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
         The state is not a stable equilibrium.
     """
     known = about.derivatives if isinstance(about, State) else {}
-    parameters = parameters_of(model, sensitivities, SENSITIVITIES[2]) if sensitivities else []
-    if isinstance(about, State):
+    parameters = _parameters(model, sensitivities, SENSITIVITIES[2])
+    if parameters and isinstance(about, State):
+        from .sensitivity.parameters import check_known
+
         check_known(about, parameters, SENSITIVITIES[2])
     with expected(model):
         system = independent(model)
@@ -288,7 +301,11 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
                 explain_unstable(error)
             raise
     made = Modes(omega, shapes, about, notes=notes)
-    return replace(made, derivatives=of_modes(made, parameters)) if parameters else made
+    if not parameters:
+        return made
+    from .sensitivity.modal import of_modes
+
+    return replace(made, derivatives=of_modes(made, parameters))
 
 
 def damped_modes(model: Model, *, about: State | None = None, count: int = 10) -> DampedModes:

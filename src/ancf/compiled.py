@@ -90,9 +90,7 @@ def inlined_kernel(function: F) -> F:
 
 def separate_kernel(function: F) -> F:
     """Compile ``function`` for kernels that call it by its address, and cache it like :func:`kernel`."""
-    dispatcher = part(function, _CALLED)
-    kernel_cache.use(dispatcher, _STAMP)
-    return dispatcher
+    return part(function, _CALLED, lambda dispatcher: kernel_cache.use(dispatcher, _STAMP))
 
 
 def inline_kernel(function: F) -> F:

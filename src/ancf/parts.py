@@ -8,9 +8,11 @@ left as it comes from numba, and is optimised with the kernel that has it: a thi
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar, cast
+from functools import cached_property, update_wrapper
+from typing import Any, NoReturn, TypeVar, cast
 
 import numba
+from numba import types
 from numba.core import codegen, compiler
 from numba.core.targetconfig import TargetConfig
 
@@ -59,19 +61,59 @@ class PartCompiler(compiler.Compiler):
         return pipelines
 
 
-def part(function: F, settings: Any) -> F:
-    """Compile ``function`` with these settings of numba where kernels call it; Python cannot call it."""
-    dispatcher: Any = numba.njit(**settings)(function)
+class Part:
+    """A function that only kernels call; numba is asked for it when the first of them is compiled.
 
-    def refuse(*arguments: Any, **keywords: Any) -> None:
-        raise TypeError(f"{function.__name__} is a part of kernels: call one of them, or its py_func")
+    A start from the cache needs few of the hundreds that there are, and numba takes a tenth of a millisecond
+    to look at each.
 
-    def keep(compiled: Any) -> None:
-        dispatcher.overloads[tuple(compiled.signature.args)] = compiled
+    Parameters
+    ----------
+    function : function
+    settings : mapping
+        Of numba.
+    finish : function, optional
+        ``finish(dispatcher)``: what is to be done with numba's object for it.
+    """
 
-    # numba would jump to the entry that is not there
-    dispatcher._compile_for_args, dispatcher.add_overload = refuse, keep
-    return cast(F, dispatcher)
+    def __init__(
+        self, function: Callable[..., Any], settings: Any, finish: Callable[[Any], None] | None = None
+    ) -> None:
+        self.py_func, self._settings, self._finish = function, settings, finish
+        update_wrapper(self, function)
+
+    def __call__(self, *arguments: Any, **keywords: Any) -> NoReturn:
+        """Refuse: there is no entry for Python."""
+        name = self.py_func.__name__
+        raise TypeError(f"{name} is a part of kernels: call one of them, or its py_func")
+
+    @property
+    def _numba_type_(self) -> Any:
+        return types.Dispatcher(self.dispatcher)
+
+    @cached_property
+    def dispatcher(self) -> Any:
+        """Numba's object for it."""
+        dispatcher: Any = numba.njit(**self._settings)(self.py_func)
+
+        def keep(compiled: Any) -> None:  # numba would jump to the entry for Python, which is not there
+            dispatcher.overloads[tuple(compiled.signature.args)] = compiled
+
+        dispatcher.add_overload = keep
+        if self._finish is not None:
+            self._finish(dispatcher)
+        return dispatcher
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return getattr(self.dispatcher, name)
+
+
+def part(function: F, settings: Any, finish: Callable[[Any], None] | None = None) -> F:
+    """Compile ``function`` with these settings of numba where kernels call it; see :class:`Part`."""
+    made: Any = function if numba.config.DISABLE_JIT else Part(function, settings, finish)
+    return cast(F, made)
 
 
 def _values(self: Any) -> dict[str, Any]:

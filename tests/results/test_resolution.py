@@ -5,7 +5,8 @@ import pytest
 
 import ancf
 from ancf.errors import ModelError
-from ancf.results import room
+from ancf.results import resolution, room
+from ancf.results.read_store import Rows
 
 LENGTH, EI, RHO_A = 0.8, 1.0, 0.6
 
@@ -139,3 +140,36 @@ class TestRoom:
             ancf.simulate(cantilever(), t_end=0.1, step=1e-3)
         assert caught.value.result.status == "failed"
         assert len(caught.value.result.t) >= 1
+
+    @pytest.mark.parametrize("steps", [7, 400, 2500])
+    def test_a_file_is_read_a_few_times_not_at_each_step(self, steps, tmp_path, monkeypatch):
+        """The note costs no more than the run: it took longer than all steps of a small model."""
+        read = []
+        take = Rows.__getitem__
+
+        def counted(self, key):
+            read.append(key)
+            return take(self, key)
+
+        run = ancf.simulate(cantilever(), t_end=steps * PERIOD / 3, step=PERIOD / 3, file=tmp_path / "run.h5")
+        monkeypatch.setattr(Rows, "__getitem__", counted)
+        run.t, run.t  # noqa: B018 - the times of a file are read once
+        assert len(said(run)) == 1
+        assert len(read) < 12
+
+
+@pytest.mark.parametrize("at_once", [1, 100, 1_000_000])
+@pytest.mark.parametrize("most", [4, 1000])
+@pytest.mark.parametrize("states", [2, 3, 5, 8, 9, 40])
+def test_pairs_of_rates_are_a_step_apart(states, most, at_once, monkeypatch):
+    """However many are left out between them, and read at once; the first ones are always among them."""
+    monkeypatch.setattr(resolution, "MOST", most)
+    monkeypatch.setattr(resolution, "READ", at_once)
+    rates = np.arange(3.0 * states).reshape(-1, 3)
+    found = [(before[0] / 3, after[0] / 3) for before, after in resolution._pairs(rates, 3)]
+    assert found[0] == (0, 1)
+    assert all(after - before == 1 for before, after in found)
+    firsts = np.array([before for before, _ in found])
+    assert len(firsts) == min(states - 1, len(range(0, states - 1, -(-(states - 1) // most))))
+    assert (np.diff(firsts) == np.diff(firsts)[:1]).all()
+    assert len(firsts) <= most

@@ -155,7 +155,6 @@ class Run:
         return store(self.study, self._equilibrium(self.study.model), self.output.results)
 
     def _finish(self, result: Result, error: BaseException | None = None) -> None:
-        from ..viz.export.tables import sensor_columns, write_table
         from .summary import print_summary, summarise
 
         wall, cpu = time.perf_counter() - self.start[0], time.process_time() - self.start[1]
@@ -164,6 +163,8 @@ class Run:
         self.output.write_summary(summary)
         written = [self.output.results, self.output.summary]
         if self.study.simulation is not None and self.study.simulation.sensors:
+            from ..viz.export.tables import sensor_columns, write_table
+
             write_table(self.output.sensors, sensor_columns(result.sensors))
             written.append(self.output.sensors)
         if error is None and not self.screen.quiet:

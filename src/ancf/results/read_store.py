@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -86,14 +87,14 @@ class ReadStore:
                 raise ValueError(f'the data set "{name}" is not as it should be')
         return rows
 
-    @property
+    @cached_property
     def arrays(self) -> dict[str, Any]:
         """See :class:`Store`; time is written last, so that every row of it is complete."""
         rows = self._rows
         whole = {name: self._file[name] for name in ("q", "v", "work", "energy")}
         return {"time": Rows(self._file["time"], rows)[:], **{k: Rows(d, rows) for k, d in whole.items()}}
 
-    @property
+    @cached_property
     def samples(self) -> dict[str, Any]:
         """See :class:`Store`."""
         rows = self._samples

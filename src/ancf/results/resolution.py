@@ -8,9 +8,12 @@ tan(p/2) = w h/2: it keeps the energy however long its steps are, so that no ene
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 from ..system.core import inertia
 from .faces import History
@@ -19,6 +22,8 @@ from .faces import History
 PERIOD, MOST, FEWEST = 8.0, 1000, 6
 #: Steps of a period whose period is right to a per cent.
 ENOUGH = 20.0
+#: Numbers that are read at once.
+READ = 1_000_000
 
 
 def of_steps(result: History) -> list[str]:
@@ -33,8 +38,7 @@ def of_steps(result: History) -> list[str]:
     except ModelError:  # a file of another version, whose unknowns are in another order
         return []
     changes, whole, momentum = 0.0, 0.0, np.empty(size)
-    for k in np.unique(np.linspace(1, len(result.t) - 1, min(MOST, len(result.t) - 1)).astype(int)).tolist():
-        before, after = np.array(result.v[k - 1]), np.array(result.v[k])
+    for before, after in _pairs(result.v, size):
         inertia(core.batches, core.ws, after - before, momentum)
         changes += float(momentum @ (after - before))
         inertia(core.batches, core.ws, after, momentum)
@@ -47,3 +51,14 @@ def of_steps(result: History) -> list[str]:
         f"steps of {step:g} s are long for what moves: most kinetic energy is that of vibrations with a "
         f"period of about {period:.2g} s, {period / step:.2g} steps; take {period / ENOUGH:.1g} s"
     ]
+
+
+def _pairs(rates: Any, size: int) -> Iterator[tuple[FloatArray, FloatArray]]:
+    """Rates before and after steps all over a history; a file is read a few times, not at each of them."""
+    last = rates.shape[0] - 1
+    stride = -(-last // MOST)
+    at_once = max(READ // (2 * size), 1) * stride
+    for first in range(0, last, at_once):
+        stop = min(first + at_once, last)
+        before = np.array(rates[first:stop:stride])
+        yield from zip(before, np.array(rates[first + 1 : stop + 1 : stride]), strict=True)
