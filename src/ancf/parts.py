@@ -112,7 +112,7 @@ class Part:
 
 def part(function: F, settings: Any, finish: Callable[[Any], None] | None = None) -> F:
     """Compile ``function`` with these settings of numba where kernels call it; see :class:`Part`."""
-    made: Any = function if numba.config.DISABLE_JIT else Part(function, settings, finish)
+    made: Any = function if getattr(numba.config, "DISABLE_JIT", 0) else Part(function, settings, finish)
     return cast(F, made)
 
 

@@ -64,6 +64,7 @@ COMPLETE = {
 def on(monkeypatch, machine):
     for where in (stepping, radau_run):
         monkeypatch.setattr(where, "BLOCK_SECONDS", MACHINES[machine])
+    monkeypatch.setattr(stepping, "WORTH", 0.0)
 
 
 def same_bits(one, two):
@@ -87,6 +88,15 @@ def test_same_run(name, monkeypatch):
     assert blocks[0] > blocks[-1]  # the blocks were different
     for run in runs[1:]:
         same_bits(runs[0], run)
+
+
+@pytest.mark.parametrize(
+    ("told", "worth"), [(0.0, 0.1), (0.01, 0.1), (0.02, 0.18), (0.05, 0.45), (0.06, 0.5), (9.0, 0.5)]
+)
+def test_to_tell_what_is_done_takes_a_tenth_of_the_time(told, worth):
+    """To write a block to a file may take longer than its steps, but nobody waits long for the keyboard."""
+    assert stepping._worth(told) == pytest.approx(worth)
+    assert worth >= stepping.BLOCK_SECONDS
 
 
 def failing(steps, step, EA):

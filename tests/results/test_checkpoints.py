@@ -32,6 +32,7 @@ def often(monkeypatch):
     """Every step is a block, and every block leaves a checkpoint."""
     for where in (stepping, radau_run):
         monkeypatch.setattr(where, "BLOCK_SECONDS", 0.0)
+    monkeypatch.setattr(stepping, "WORTH", 0.0)
     for name in ("APART", "SHARE"):
         monkeypatch.setattr(checkpoints, name, 0.0)
 
@@ -226,6 +227,7 @@ def test_all_that_changes_is_in_a_snapshot(name, monkeypatch):
 def stop_after(steps, monkeypatch):
     for where in (stepping, radau_run):
         monkeypatch.setattr(where, "BLOCK_SECONDS", 0.0)
+    monkeypatch.setattr(stepping, "WORTH", 0.0)
 
     def stop(progress):
         if progress.step >= steps:

@@ -87,14 +87,20 @@ class ReadStore:
                 raise ValueError(f'the data set "{name}" is not as it should be')
         return rows
 
-    @cached_property
+    @property
     def arrays(self) -> dict[str, Any]:
-        """See :class:`Store`; time is written last, so that every row of it is complete."""
-        rows = self._rows
+        """See :class:`Store`; time is written last, so that every row of it is complete.
+
+        Of a file that grows HDF5 reads right what it has just opened alone.
+        """
         whole = {name: self._file[name] for name in ("q", "v", "work", "energy")}
-        return {"time": Rows(self._file["time"], rows)[:], **{k: Rows(d, rows) for k, d in whole.items()}}
+        return {"time": self._times, **{k: Rows(d, self._rows) for k, d in whole.items()}}
 
     @cached_property
+    def _times(self) -> FloatArray:
+        return Rows(self._file["time"], self._rows)[:]
+
+    @property
     def samples(self) -> dict[str, Any]:
         """See :class:`Store`."""
         rows = self._samples

@@ -7,10 +7,12 @@ Whether a unilateral joint is open follows from its gap and is not kept.
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..connections.contact import ARC
@@ -106,25 +108,36 @@ def begin(system: System, q: FloatArray, v: FloatArray, known: Remembered | None
             system.inputs.give(name, value)
 
 
-def write(file: Any, known: Remembered) -> None:
-    """Write the data sets ``modes`` and ``places`` and the group ``memory``, or make them."""
-    for key, values in (("modes", known.modes), ("places", known.places)):
-        row = np.array([*values.values()], dtype=np.int64 if key == "modes" else np.float64)
-        if key in file:
-            file[key][...] = row
-        else:
-            file[key] = row
+def create(file: Any, known: Remembered) -> None:
+    """Make the data sets ``modes`` and ``places`` and the group ``memory``."""
+    for name, values in _rows(known).items():
+        file[name] = values
+    _write_inputs(file, known)
+
+
+def write(file: Any, data: Callable[[str], Any], known: Remembered) -> None:
+    """Renew what :func:`create` has made; ``data`` gives the data sets of the file by their names."""
+    for name, values in _rows(known).items():
+        if values.size:
+            data(name).write_direct(values)
+    _write_inputs(file, known)
+
+
+def _rows(known: Remembered) -> dict[str, NDArray[Any]]:
+    """What is written, by the name of its data set."""
+    modes = np.array([*known.modes.values()], dtype=np.int64)
+    places = np.array([*known.places.values()], dtype=np.float64)
+    memory = {f"memory/{name}": np.ascontiguousarray(x) for name, x in known.memory.items()}
+    return {"modes": modes, "places": places, **memory}
+
+
+def _write_inputs(file: Any, known: Remembered) -> None:
     if known.inputs:
         file.attrs["inputs"] = json.dumps({"values": known.inputs, "led": known.led})
-    for name, x in known.memory.items():
-        if f"memory/{name}" in file:
-            file[f"memory/{name}"][...] = x
-        else:
-            file[f"memory/{name}"] = x
 
 
 def read(file: Any, model: Model) -> Remembered:
-    """What :func:`write` has left, by the names of the model.
+    """What :func:`write` has left there, by the names of the model.
 
     Raises
     ------

@@ -187,6 +187,7 @@ class FileStore:
             except (OSError, RuntimeError) as error:
                 hdf5.abandon(self._file)
                 raise OSError(problem(error) or str(error)) from None
+        self._opened: dict[str, Any] = {}
         self._places = checkpoints.Places(self._file)
         self.stats, self.status = Stats(), "running"
 
@@ -196,7 +197,7 @@ class FileStore:
         store = cls.__new__(cls)
         store.path, store._system, store._given = path, system, inputs
         store._noted = 0 if inputs is None else inputs.count
-        store.stats, store.status = Stats(), "running"
+        store.stats, store.status, store._opened = Stats(), "running", {}
         with writing(path):
             store._file = h5py.File(path, "r+", libver="latest")
             store._file.swmr_mode = True
@@ -214,7 +215,7 @@ class FileStore:
         file.create_dataset("stats", data=np.zeros(len(COUNTS) + 1))
         file.create_dataset("status", data=0)
         write_layout(file, self._system)
-        remembered.write(file, remembered.of_system(self._system))
+        remembered.create(file, remembered.of_system(self._system))
         write_listing(file, self._system.sensors)
         given.create(file, self._given)
         derivatives.create(file, header["settings"].get("sensitivities", []), size, self._system.sensors)
@@ -233,7 +234,7 @@ class FileStore:
         with self._storing():
             self._note()
             for name, values in columns.items():
-                _extend(self._file[name], values)
+                _extend(self._data(name), values)
 
     def record(self, t: FloatArray, samples: FloatArray) -> None:
         """Add samples."""
@@ -241,12 +242,12 @@ class FileStore:
         with self._storing():
             self._note()
             for name in DATA:
-                _extend(self._file["sensors"][name], columns[name])
+                _extend(self._data(f"sensors/{name}"), columns[name])
 
     def _note(self) -> None:
         """Write what inputs were given since; before the times of what came about under them."""
         if self._given is not None and self._given.names and self._noted < self._given.count:
-            _extend(self._file[given.DATA], self._given.since(self._noted))
+            _extend(self._data(given.DATA), self._given.since(self._noted))
             self._noted = self._given.count
 
     def derive(self, k: int, rows: Sequence[FloatArray]) -> None:
@@ -259,9 +260,9 @@ class FileStore:
         self.stats, self.status = stats, status
         with self._storing():
             self._note()
-            self._file["stats"][:] = [getattr(stats, name) for name in COUNTS] + [stats.cpu_seconds]
-            self._file["status"][()] = STATUS.index(status)
-            remembered.write(self._file, remembered.of_system(self._system))
+            self._data("stats")[:] = [getattr(stats, name) for name in COUNTS] + [stats.cpu_seconds]
+            self._data("status")[()] = STATUS.index(status)
+            remembered.write(self._file, self._data, remembered.of_system(self._system))
             self._file.flush()
 
     def due(self) -> bool:
@@ -270,8 +271,8 @@ class FileStore:
 
     def keep(self, snapshot: Snapshot) -> None:
         """Write a checkpoint, see :mod:`ancf.results.checkpoints`."""
-        samples = self._file["sensors/time"].shape[0] if self._system.sensors else 0
-        self.put(Checkpoint(snapshot, self._file["time"].shape[0], samples))
+        samples = self._data("sensors/time").shape[0] if self._system.sensors else 0
+        self.put(Checkpoint(snapshot, self._data("time").shape[0], samples))
 
     def put(self, checkpoint: Checkpoint) -> None:
         """Write a checkpoint of which is known what goes with it."""
@@ -282,6 +283,12 @@ class FileStore:
         """Close the file; the states are read from it from now on."""
         with self._storing():
             self._file.close()
+
+    def _data(self, name: str) -> Any:
+        """A data set; HDF5 looks for one as long as it takes to write a block to it."""
+        if name not in self._opened:
+            self._opened[name] = self._file[name]
+        return self._opened[name]
 
     @contextmanager
     def _storing(self) -> Iterator[None]:

@@ -42,6 +42,8 @@ from .start import consistent_start
 from .status import EVENT, INVERTED, OK, SLOW, TURN
 
 BLOCK_SECONDS = 0.1  # between two looks at the keyboard, the progress and the file
+#: So many times longer than telling what a block has done take its steps, but so many seconds at most.
+WORTH, LONGEST_BLOCK = 9.0, 0.5
 BLOCK_BYTES = 32e6  # of stored states, and of samples
 #: Steps before the first look at the energy, the factor by which the next ones are further apart, and how
 #: far at most: so many steps, and so many unknowns times steps.  A look costs as much as a few steps.
@@ -197,13 +199,13 @@ class Run(Asleep):
             count = min(size, most * self.every, self.look - self.done, self.span.room(self.done))
             if self.control is not None:
                 count = min(count, self.control.ask(self.done))
-            before = clock.perf_counter()
+            before, stepped = clock.perf_counter(), self.seconds
             self.take(count, recorder)
-            seconds = clock.perf_counter() - before
-            size = max(1, min(int(count * BLOCK_SECONDS / max(seconds, 1e-6)), 4 * size))
             self._tell(recorder)
             if progress is not None:
                 progress(Progress(self.done, self.steps, self.time(self.done), self.t_end))
+            seconds, stepped = clock.perf_counter() - before, self.seconds - stepped
+            size = max(1, min(int(count * _worth(seconds - stepped) / max(stepped, 1e-6)), 4 * size))
 
     def take(self, count: int, recorder: Recorder) -> None:
         """The next steps, no further than to the next look at the energy or the end of the whole steps."""
@@ -377,3 +379,8 @@ class Run(Asleep):
 
     def _failure(self, t: float, number: int, reason: str, h: float) -> SolveError:
         return failures.failed(self.system, self.memory.memo, t, number, reason, h)
+
+
+def _worth(told: float) -> float:
+    """Seconds of steps that the next block should have, when to tell what the last one did took `told`."""
+    return max(BLOCK_SECONDS, min(WORTH * told, LONGEST_BLOCK))
