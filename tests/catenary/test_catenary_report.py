@@ -2,6 +2,7 @@
 
 import base64
 import dataclasses
+import io
 import json
 from html.parser import HTMLParser
 from types import SimpleNamespace
@@ -9,6 +10,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from matplotlib.image import imread
 from typer.testing import CliRunner
 
 import catenary_stand_in as stand_in
@@ -17,7 +19,7 @@ from ancf.catenary import Elasticity, MeasuringHead, measure, validate
 from ancf.catenary.quantity import shown
 from ancf.catenary.references import reference_case
 from ancf.catenary.report import Content, write_report
-from ancf.catenary.report.figures import FIGURES, figure_names
+from ancf.catenary.report.figures import FIGURES, figure_names, picture
 from ancf.catenary.statistics import statistics
 from ancf.cli.app import app
 from ancf.viz import style
@@ -150,6 +152,25 @@ class TestReport:
 
     def test_figures_without_elasticity(self, run):
         assert set(FIGURES) - set(figure_names(Content.of(run))) == {"elasticity", "measured"}
+
+    @pytest.mark.parametrize("name", ["form", "force", "histogram", "uplift", "dropper-extremes"])
+    def test_a_figure_is_drawn_once_for_all_formats(self, run, name, monkeypatch):
+        """On paper it looks as if it had been drawn for it."""
+        kind, drawn = FIGURES[name], []
+
+        def draw(content, figure):
+            drawn.append(figure)
+            kind.draw(content, figure)
+
+        alone, content = Content.of(run), Content.of(run)
+        picture(name, alone, style.png)
+        monkeypatch.setitem(FIGURES, name, dataclasses.replace(kind, draw=draw))
+        assert picture(name, content, style.svg).startswith("<?xml")
+        after = imread(io.BytesIO(picture(name, content, style.png)))
+        assert len(drawn) == 1
+        assert np.mean(after[..., :3].min(axis=2) < 0.9) > 0.01  # there is something on it
+        for one, two in zip(alone.drawn[name].axes, content.drawn[name].axes, strict=True):
+            assert one.get_position().bounds == pytest.approx(two.get_position().bounds, abs=0.01)
 
     def test_elasticity(self, text):
         cells = Page(text).texts

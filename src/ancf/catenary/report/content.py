@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ..references import filter_note, second_reading
 from ..statistics import Statistics, statistics
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from ..elasticity import Elasticity
     from ..measuring import Measured
     from ..quantity import Quantity
@@ -32,6 +34,8 @@ class Content:
         Static elasticity along one span.
     measured : sequence of Measured
         What a measuring pantograph would have shown, one for each pantograph; default nothing.
+    drawn : dict
+        Figures by name, each drawn and laid out once for all formats.
 
     """
 
@@ -40,6 +44,7 @@ class Content:
     reference: Reference | None = None
     elasticity: Elasticity | None = None
     measured: tuple[Measured, ...] = ()
+    drawn: dict[str, Figure] = field(default_factory=dict, compare=False, repr=False)
 
     @classmethod
     def of(

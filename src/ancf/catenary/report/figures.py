@@ -124,7 +124,12 @@ def picture(name: str, content: Content, save: Save) -> str | bytes:
         matplotlib is missing.
 
     """
+    if name in content.drawn:
+        return save(content.drawn[name])
     kind = FIGURES[name]
     with style.new_figure(*kind.size(content)) as figure:
         kind.draw(content, figure)
-        return save(figure)
+        made = save(figure)
+    figure.set_layout_engine("none")  # its axes stay where they are: to find their places takes a third
+    content.drawn[name] = figure
+    return made
