@@ -31,6 +31,10 @@ from .formulas import Formula, Vocabulary
 #: What an objective may name.
 OF_RUN = Vocabulary(("t",), tuple(QUANTITIES))
 WHERE = "gradient.objective"
+#: Quantities of runs that have no derivatives, and why.
+UNKNOWN = dict.fromkeys(
+    ("reaction", "reaction_moment"), "it depends on accelerations, which states do not keep"
+)
 #: Quantities of sliding joints that depend on the direction of the carrier.
 ALONG_CARRIER = "normal_force", "sliding_friction"
 
@@ -80,6 +84,7 @@ def gradient(
     """
     formula = Formula(checks.text(objective, WHERE), WHERE, OF_RUN)
     check_asked(model, [formula])
+    check_has_derivative(formula)
     wanted = parameters_of(model, parameters, "gradient.parameters")
     made = prepared(
         model,
@@ -101,6 +106,14 @@ def gradient(
         with suppress(UnsolvedError):  # what it cannot solve, sensitivities may
             return _backward(way, made, formula, wanted, start)
     return _forward(model, formula, wanted, settings)
+
+
+def check_has_derivative(formula: Formula) -> None:
+    """Raise ModelError if a formula asks for what has no derivative in a run."""
+    for quantity, item in formula.asked:
+        if quantity in UNKNOWN:
+            hint = "take the force of a spring or joint there, or the tension beside it"
+            raise ModelError(WHERE, f"{quantity}({item}) has no derivative: {UNKNOWN[quantity]}", hint)
 
 
 class Histories:

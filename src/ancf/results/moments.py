@@ -18,7 +18,6 @@ from ..model.kind import body_of
 from ..model.kinds import kind_of
 from ..model.points import Point
 from ..model.supports import Support
-from ..system.core import residual
 from ..system.sensors import turning
 from ..system.system import System
 
@@ -45,13 +44,21 @@ def of_joint(system: System, item: Any, q: FloatArray) -> FloatArray:
     Parameters
     ----------
     system : System
-        None that a run is using.
     item : connection with multipliers
     q : ndarray, shape (..., size)
     """
-    if q.ndim == 1:
-        return _of_joint(system, item, q)
-    return np.array([_of_joint(system, item, one) for one in q]).reshape(-1, 3)
+    first, *others = kind_of(item).ends_of(item)
+    second = body_of(others[-1]) if others else None
+    body, sign = (body_of(first), -1.0) if second is None else (second, 1.0)
+    assert body is not None
+    received = _received(system, item, q)
+    slots = system.slots[body.name][:, : system.numbering.shared[body.name]]
+    about = system.probe(first).field(q) if isinstance(first, Point) else np.asarray(first.position)
+    places = slots[:, :1] + np.arange(3)
+    arms, pulled = q[..., places] - about[..., None, :], received[..., places]
+    vectors = slots[:, 1:].ravel()
+    moment: FloatArray = np.cross(arms, pulled).sum(axis=-2) + turned(q, received, vectors, vectors)
+    return sign * moment
 
 
 def checked_joint(system: System, joint: Any) -> Any:
@@ -71,28 +78,20 @@ def checked_joint(system: System, joint: Any) -> Any:
     return items[name]
 
 
-def _of_joint(system: System, item: Any, q: FloatArray) -> FloatArray:
-    first, *others = kind_of(item).ends_of(item)
-    second = body_of(others[-1]) if others else None
-    body, sign = (body_of(first), -1.0) if second is None else (second, 1.0)
-    assert body is not None
-    without = q.copy()
-    without[system.joints[item.name]] = 0.0
-    received = _internal(system, without) - _internal(system, q)
-    slots = system.slots[body.name][:, : system.numbering.shared[body.name]]
-    about = system.probe(first).field(q) if isinstance(first, Point) else first.position
-    places = slots[:, :1] + np.arange(3)
-    arms, pulled = q[places] - about, received[places]
-    vectors = slots[:, 1:].ravel()
-    moment: FloatArray = np.cross(arms, pulled).sum(axis=0) + turned(q, received, vectors, vectors)
-    return sign * moment
-
-
-def _internal(system: System, q: FloatArray) -> FloatArray:
-    """Internal forces and constraints of a state at rest, shape (size,)."""
-    none, r = np.zeros(system.size), np.zeros(system.size)
-    residual(system.core.batches, system.core.ws, q, none, none, none, r)
-    return r
+def _received(system: System, item: Any, q: FloatArray) -> FloatArray:
+    """Forces of a joint on the unknowns, shape (..., size): see :mod:`ancf.connections.joint`."""
+    batch, received = system.parts["joints"], np.zeros(q.shape)
+    for n in np.flatnonzero(np.isin(batch.unknown, system.joints[item.name])):
+        entries = range(batch.start[n], batch.start[n + 1])
+        vectors = [batch.constant[n, 3 * k : 3 * k + 3] + np.zeros((*q.shape[:-1], 3)) for k in range(2)]
+        for k in entries:
+            slot = batch.slot[k]
+            vectors[batch.second[k]] = vectors[batch.second[k]] + batch.factor[k] * q[..., slot : slot + 3]
+        strength = q[..., batch.unknown[n], None]
+        for k in entries:
+            slot = batch.slot[k]
+            received[..., slot : slot + 3] -= batch.factor[k] * strength * vectors[1 - batch.second[k]]
+    return received
 
 
 def turned(q: FloatArray, forces: FloatArray, vectors: IntArray, acting: IntArray) -> FloatArray:

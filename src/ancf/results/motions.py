@@ -101,7 +101,7 @@ class Motions:
             There is no such joint, or it is a sliding one.
         """
         item = moments.checked_joint(self.system, joint)
-        return moments.of_joint(self.system.double, item, np.array(self.q[...]))
+        return moments.of_joint(self.system, item, np.array(self.q[...]))
 
     def held_supports(self: Any) -> list[str]:
         """Names of the supports that have a reaction."""

@@ -13,13 +13,14 @@ from ..errors import ModelError
 from ..model import checks
 from ..model.describe import point as point_text
 from ..model.points import Point
+from ..results import moments
 from ..results.momenta import Momenta
 from ..results.state import Energy
 from ..solvers.sensitivity import LEAST
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.probe import Probe
-from ..system.reactions import reaction, support_name
+from ..system.reactions import at_rest, held_part, support_name
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 from .branches import Change, changed, kinks_of
@@ -35,9 +36,13 @@ PLACES = ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12))
 
 
 class Face(SpringFields, ContactFields, Momenta):
-    """What can be asked of state vectors of a system, one (size,) or a history (n, size)."""
+    """What can be asked of state vectors of a system, one (size,) or a history (n, size).
 
-    def __init__(self, system: System, q: FloatArray, v: FloatArray, t: float) -> None:
+    ``beside``: they are changed, or the system is another one, for a difference.
+    """
+
+    def __init__(self, system: System, q: FloatArray, v: FloatArray, t: float, beside: bool = False) -> None:
+        self.beside = beside
         self.system, self.model, self.t = system, system.model, t
         self._q, self._v = q, v
         self._bodies, self._slots = self.model.bodies, system.slots
@@ -58,12 +63,35 @@ class Face(SpringFields, ContactFields, Momenta):
 
     def reaction(self, support: Any) -> FloatArray:
         """See :meth:`ancf.State.reaction`; of states at rest alone."""
+        return self._at_rest(support, "reaction", lambda name, r: held_part(self.system, name, r))
+
+    def reaction_moment(self, support: Any) -> FloatArray:
+        """See :meth:`ancf.State.reaction_moment`; of states at rest alone."""
+
+        def moment(name: str, r: FloatArray) -> FloatArray:
+            item = next(item for item in self.model.supports if item.name == name)
+            return moments.of_support(self.system, item, self.q, r)
+
+        return self._at_rest(support, "reaction_moment", moment)
+
+    def _at_rest(
+        self, support: Any, question: str, of: Callable[[str, FloatArray], FloatArray]
+    ) -> FloatArray:
         name = support_name(self.system, support)
-        force = reaction(self.system, self.q, self.v, self.t, name, True) if self.q.ndim == 1 else None
-        if force is None:
-            what = "derivatives of reactions are known of equilibria only"
-            raise ModelError("sensitivity.reaction", what, "ask the state of ancf.equilibrium")
-        return force
+        checked = None if self.beside else True
+        forces = at_rest(self.system, self.q, self.v, self.t, name, checked) if self.q.ndim == 1 else None
+        if forces is None:
+            raise in_motion(question)
+        return of(name, forces)
+
+    def joint_moment(self, joint: Any) -> FloatArray:
+        """See :meth:`ancf.State.joint_moment`."""
+        return moments.of_joint(self.system, moments.checked_joint(self.system, joint), self.q)
+
+    def acceleration(self, point: Any) -> FloatArray:
+        """Of states it has no derivative: they do not keep it."""
+        hint = "let sensors record the point: result.sensors.sensitivity(...).acceleration(point)"
+        raise ModelError("sensitivity.acceleration", "states do not keep accelerations", hint)
 
     def energies(self) -> FloatArray:
         """Kinetic, strain and potential energy, (..., 3), J."""
@@ -190,12 +218,14 @@ class Sensitivity:
         total: Any = np.zeros_like(here)
         for system, weight in around:
             if system is not family.base:
-                total = total + weight * (np.asarray(question(Face(system, self._q, self._v, t))) - here)
+                total = total + weight * (
+                    np.asarray(question(Face(system, self._q, self._v, t, True))) - here
+                )
         if linear:
             return np.asarray(total + question(Face(family.base, self.dq, self.dv, t)))
         for e, dq, dv in self._moves():
             for x, w in PLACES:
-                near = Face(family.base, self._q + x * e * dq, self._v + x * e * dv, t)
+                near = Face(family.base, self._q + x * e * dq, self._v + x * e * dv, t, True)
                 total = total + w / e * np.asarray(question(near))
         found: FloatArray = np.asarray(total)
         return found
@@ -210,6 +240,13 @@ class Sensitivity:
             if most > LEAST:
                 found.append((MOVED / most, dq, dv))
         return found
+
+
+def in_motion(question: str) -> ModelError:
+    """What is said of a reaction that is asked for in motion."""
+    what = "derivatives of reactions are known of equilibria only"
+    hint = "ask the state of ancf.equilibrium, or in motion for the force of a spring or joint there"
+    return ModelError(f"sensitivity.{question}", what, hint)
 
 
 def text_of(item: Any) -> Any:

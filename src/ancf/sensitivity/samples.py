@@ -8,13 +8,12 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..errors import ModelError
 from ..results.sensors import Sensors
 from ..solvers.sampling import sample_rows, sample_slopes, sampling_of
 from ..solvers.sensitivity import LEAST
 from ..system.sensors import Listing
 from ..system.system import System
-from .answers import LINEAR, MOVED, PLACES, Face, text_of
+from .answers import LINEAR, MOVED, PLACES, Face, in_motion, text_of
 from .family import Family
 
 #: Change of the state of the differences of contact forces, m, and of velocities, m/s.
@@ -136,9 +135,8 @@ class SensorSensitivity:
         ModelError
             What the question itself raises; a reaction.
         """
-        if name == "reaction":
-            what = "derivatives of reactions are known of equilibria only"
-            raise ModelError("sensitivity.reaction", what, "ask the state of ancf.equilibrium")
+        if name in ("reaction", "reaction_moment"):
+            raise in_motion(name)
         here, d = self._sensors._arrays(), self._d
         now = {key: np.asarray(here[key][:]) for key in ("time", "q", "v", "measured")}
         question(self._sensors)

@@ -23,8 +23,23 @@ def reaction(
 ) -> FloatArray | None:
     """Force of a support on its node in an equilibrium, N, shape (3,), global components; None in motion.
 
+    Raises
+    ------
+    ModelError
+        As of :func:`at_rest`.
+    """
+    r = at_rest(system, q, v, time, name, balanced)
+    return None if r is None else held_part(system, name, r)
+
+
+def at_rest(
+    system: System, q: FloatArray, v: FloatArray, time: float, name: str, balanced: bool | None
+) -> FloatArray | None:
+    """What an equilibrium leaves out of balance, shape (size,), for the body of a support; None in motion.
+
     It is what the rows of the held unknowns, which the solver drops, are out of balance.  What is at rest
-    but out of balance is in motion too: it has just been let go.
+    but out of balance is in motion too: it has just been let go.  ``balanced`` None: it is beside an
+    equilibrium, and need not be one.
 
     Raises
     ------
@@ -36,14 +51,12 @@ def reaction(
     if np.max(moving) > AT_REST:
         return None
     r, load = _out_of_balance(system, q.copy(), time)
-    loose = _loose(system, name, r, load)
+    loose = 0.0 if balanced is None else _loose(system, name, r, load)
     if loose > 0.0 and balanced:
         body = next(s for s in system.model.supports if s.name == name).point.body.name
         what = f'"{body}" is not in equilibrium: {loose:.3g} N are out of balance'
         raise ModelError("State.reaction", what, "ask the state of ancf.equilibrium(model)")
-    if loose > 0.0:
-        return None
-    return held_part(system, name, r)
+    return None if loose > 0.0 else r
 
 
 def held_part(system: System, name: str, r: FloatArray) -> FloatArray:
