@@ -42,7 +42,10 @@ FLOORS = (
     ("vectors", "arithmetic of three numbers in kernels"),
     ("choices", "kernels by the type of what they take"),
     ("compiled", "kernels, and operations by type of batch"),
-    ("parts  addresses", "code that kernels take in, or call by its address"),
+    (
+        "asked  parts  addresses",
+        "code that kernels take in or call by its address, operations for sensitivities",
+    ),
     ("files  worker  columns  garbage", "files that are complete or absent, processes"),
     ("errors  arrays  interrupts  later", "messages, arrays, signals, imports that wait"),
 )

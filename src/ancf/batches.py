@@ -24,10 +24,12 @@ from .addresses import call_at
 from .compiled import (
     PART,
     add_force,
+    add_force_slopes,
     add_inertia,
     add_number_work,
     add_rate_stiffness,
     add_rate_work,
+    add_slopes_beside,
     add_tangent,
     add_work_slopes,
     does_something,
@@ -45,7 +47,7 @@ from .records import RecordType, begin_of, words_of
 _COLUMNS = 1 + len(OPERATIONS)
 _NONE = np.zeros((0, _COLUMNS), dtype=np.int64)
 FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, 9)
-RATES, TOUCHED, NUMBERS, WORKS, SLOPES = range(9, _COLUMNS)
+RATES, TOUCHED, NUMBERS, WORKS, SLOPES, ALONG, BESIDE = range(9, _COLUMNS)
 #: Operations compiled for those who ask for them, see :mod:`ancf.solvers.rare`, and their columns.
 RARE = {
     add_rate_stiffness: RATES,
@@ -53,6 +55,8 @@ RARE = {
     add_number_work: NUMBERS,
     add_rate_work: WORKS,
     add_work_slopes: SLOPES,
+    add_force_slopes: ALONG,
+    add_slopes_beside: BESIDE,
 }
 
 

@@ -20,6 +20,15 @@ from numba import types
 from numba.extending import overload
 
 from . import kernel_cache
+from .asked import MOST_TOUCHED as MOST_TOUCHED
+from .asked import OF_SENSITIVITIES
+from .asked import add_force_slopes as add_force_slopes
+from .asked import add_number_work as add_number_work
+from .asked import add_rate_stiffness as add_rate_stiffness
+from .asked import add_rate_work as add_rate_work
+from .asked import add_slopes_beside as add_slopes_beside
+from .asked import add_work_slopes as add_work_slopes
+from .asked import touched as touched
 from .parts import PartCompiler, part
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -44,9 +53,6 @@ FORMULA: Any = {**PART, "forceinline": True}
 #: Type in kernels of the vectors that operations take.
 VECTOR = types.Array(types.float64, 1, "C")
 
-#: Unknowns that a part touches, see :func:`touched`.
-MOST_TOUCHED = 120
-
 #: Folders whose files hold kernels, or constants of kernels.
 FOLDERS = ("simd", "elements", "bodies", "connections", "loads", "contact", "linalg", "system", "solvers")
 
@@ -55,6 +61,7 @@ def stamped() -> list[Path]:
     """Sources that hold kernels: when anything in them has changed, all kernels are compiled anew."""
     root = Path(__file__).parent
     kernels = (
+        root / "asked.py",
         root / "compiled.py",
         root / "parts.py",
         root / "records.py",
@@ -141,37 +148,6 @@ def measure(batch, q, v):
 def remember(batch, q, v):
     """Bring the memory of the batch up to the state q, v of an accepted step."""
     raise TypeError(f"{type(batch).__name__} remembers nothing")
-
-
-def add_rate_stiffness(batch, q, v, S, W, ws):
-    """Add what the derivative of the batch's forces by q has because of v, and the tangent at v has not.
-
-    Its symmetric half goes to the block values ``S``, the antisymmetric one to ``W``, of which the blocks on
-    the other side of the diagonal are the transposed ones with the other sign.
-    """
-    raise TypeError(f"{type(batch).__name__} does not know how velocities change its stiffness")
-
-
-def add_rate_work(batch, q, v, x, out, ws):
-    """Add the derivative of x . force by q to ``out``, of what :func:`add_rate_stiffness` is about."""
-    raise TypeError(f"{type(batch).__name__} does not know how velocities change its stiffness")
-
-
-def touched(batch, q, out):
-    """Write the unknowns and shadows on which the batch's forces depend in and near the state q, and on which
-    alone they act, to ``out``, some perhaps twice; their number, up to MOST_TOUCHED for each part.
-    """
-    raise TypeError(f"{type(batch).__name__} does not know what it touches")
-
-
-def add_number_work(batch, q, v, a, x, out, ws):
-    """Add the derivatives of x . force by the numbers of the batch, ``Traits.numbers``, to ``out``."""
-    raise TypeError(f"{type(batch).__name__} does not know what its numbers do")
-
-
-def add_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
-    """Add the derivatives of x . force by q, v and a, without what vanishes where rows of joints are zero."""
-    raise TypeError(f"{type(batch).__name__} does not know the slopes of the work of its forces")
 
 
 def inverted(batch, q, ws):
@@ -330,19 +306,16 @@ def implements(
     inverted: Callable[..., Any] = never_inverted,
     measure: Callable[..., Any] | None = None,
     remember: Callable[..., Any] | None = None,
-    rate_stiffness: Callable[..., Any] | None = None,
-    rate_work: Callable[..., Any] | None = None,
-    touches: Callable[..., Any] | None = None,
-    number_work: Callable[..., Any] | None = None,
-    work_slopes: Callable[..., Any] | None = None,
     **given: Any,
 ) -> None:
     """Register the operations of a kind of batch (see the functions above) and its :class:`Traits`.
 
-    The first array of a batch has a row for each of its parts: nothing is compiled for one without rows.
+    ``given``: traits, and operations by the names in ``OF_SENSITIVITIES``.  The first array of a batch has a
+    row for each of its parts: nothing is compiled for one without rows.
     """
+    rare = {stub: given.pop(name) for name, stub in OF_SENSITIVITIES.items() if name in given}
     describe(batch_type, **given)
-    operations = {
+    operations: dict[Any, Any] = {
         add_force: force,
         add_inertia: inertia,
         add_tangent: tangent,
@@ -351,11 +324,7 @@ def implements(
         _inverted: inverted,
         _measure: measure,
         _remember: remember,
-        add_rate_stiffness: rate_stiffness,
-        add_rate_work: rate_work,
-        touched: touches,
-        add_number_work: number_work,
-        add_work_slopes: work_slopes,
+        **rare,
     }
     for stub, function in operations.items():
         if function is not None:
@@ -376,8 +345,7 @@ def _choose_by_kind(stub: Callable[..., Any]) -> None:
 
 def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
     """Whether an operation of a kind of batch does anything; all kinds have all but :func:`measure`,
-    :func:`remember`, :func:`add_rate_stiffness`, :func:`add_rate_work`, :func:`touched`,
-    :func:`add_number_work` and :func:`add_work_slopes`.
+    :func:`remember` and those that only sensitivities ask for.
     """
     if (batch_type, add_force) not in _DOES:
         raise TypeError(f"no operations for {batch_type.__name__}")
@@ -388,8 +356,9 @@ def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
 _NOTHING = {no_inertia, no_energy, no_event, never_inverted}
 _DOES: dict[tuple[Any, Any], Callable[..., Any]] = {}
 _inverted, _measure, _remember = inverted, measure, remember  # the parameters of implements hide the names
-for _stub in (
+_STUBS: tuple[Any, ...] = (
     *(add_force, add_inertia, add_tangent, strain_energy, find_event, inverted, measure, remember),
-    *(add_rate_stiffness, add_rate_work, touched, add_number_work, add_work_slopes),
-):
+    *OF_SENSITIVITIES.values(),
+)
+for _stub in _STUBS:
     _choose_by_kind(_stub)

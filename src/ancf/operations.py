@@ -9,10 +9,12 @@ from numba import types
 from .compiled import (
     VECTOR,
     add_force,
+    add_force_slopes,
     add_inertia,
     add_number_work,
     add_rate_stiffness,
     add_rate_work,
+    add_slopes_beside,
     add_tangent,
     add_work_slopes,
     find_event,
@@ -98,12 +100,25 @@ def work_slopes_at(record, q, v, a, x, by_q, by_v, by_a, ws):
 
 
 @separate_kernel
+def force_slopes_at(record, q, v, a, d, r, ws):
+    """``add_force_slopes`` of the batch at an address."""
+    add_force_slopes(record, q, v, a, d, r, ws)
+
+
+@separate_kernel
+def slopes_beside_at(record, q, v, a, d, r, ws):
+    """``add_slopes_beside`` of the batch at an address."""
+    add_slopes_beside(record, q, v, a, d, r, ws)
+
+
+@separate_kernel
 def number_work_at(record, q, v, a, x, out, ws):
     """``add_number_work`` of the batch at an address."""
     add_number_work(record, q, v, a, x, out, ws)
 
 
 _V, _x = VECTOR, types.float64
+_LANES, _VECTORS = types.Array(_x, 2, "C"), types.Array(_x, 3, "C")
 #: Kernels of the operations on a record, the types of what they take besides it, and what they return.
 OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     add_force: (force_at, (_V, _V, _V, _V, _V), types.none),
@@ -119,4 +134,6 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     add_number_work: (number_work_at, (_V, _V, _V, _V, _V, _V), types.none),
     add_rate_work: (rate_work_at, (_V, _V, _V, _V, _V), types.none),
     add_work_slopes: (work_slopes_at, (_V, _V, _V, _V, _V, _V, _V, _V), types.none),
+    add_force_slopes: (force_slopes_at, (_V, _V, _V, _VECTORS, _LANES, _V), types.none),
+    add_slopes_beside: (slopes_beside_at, (_V, _V, _V, _VECTORS, _LANES, _V), types.none),
 }

@@ -122,7 +122,9 @@ def test_example_of_the_paper(method):
     model, text = sliding.build(4, 1), "integral(norm(velocity(slider.end))**2) + last(arc_length(joint))"
     given = {"t_end": 0.2, "step": 2e-3, "integrator": methods()[method]}
     _, slope = ancf.gradient(model, text, BEAMS, **given)
-    assert apart(model, slope, differences(model, text, BEAMS, **given)) < 1e-7
+    wanted = differences(model, text, BEAMS, **given)
+    for name in BEAMS:  # each by itself; steps that end with a tolerance differ by more
+        assert abs(slope[name] - wanted[name]) < 1e-7 * abs(wanted[name]), name
 
 
 @pytest.mark.parametrize("name", ["hub.inertia", "gravity", "arm.mass"])

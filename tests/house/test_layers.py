@@ -19,7 +19,7 @@ ROOT = Path(ancf.__file__).parent
 LAYERS = (
     {"errors", "_version", "kernel_cache", "arrays", "interrupts", "later"},
     {"files", "worker", "columns", "garbage"},
-    {"parts", "addresses"},
+    {"parts", "addresses", "asked"},
     {"compiled"},
     {"choices"},
     {"vectors"},

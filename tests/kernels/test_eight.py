@@ -103,5 +103,5 @@ def test_eight_right_hand_sides(pattern):
     solve_abreast(factor_of.py_func(factor, eight, 2), Y)
     assert pytest.approx(X, abs=1e-11 * np.abs(X).max()) == A @ Y
     Z = X.copy()
-    multiply_abreast(factor, eight.A[0], Y, Z)
+    multiply_abreast(factor, eight.A[0], Y, Z, len(factor.row_start) - 1)
     assert pytest.approx(2.0 * X, abs=1e-11 * np.abs(X).max()) == Z

@@ -24,6 +24,8 @@ _OPERATIONS = {
     "touches": "touched",
     "number_work": "add_number_work",
     "work_slopes": "add_work_slopes",
+    "force_slopes": "add_force_slopes",
+    "slopes_beside": "add_slopes_beside",
 }
 _DEFAULTS = {
     "inertia": compiled.no_inertia,

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from ..arrays import FloatArray, IntArray
 from ..compiled import Role, formula, implements, inline_kernel
+from ..simd import every, lanes_plus, load, store
 from ..vectors import dot
 from .in_matrix import bind_joints, joint_pairs
 
@@ -125,11 +126,71 @@ def joint_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
                 by_a[m + c] += f * y * w2 * d[c]
 
 
+@formula
+def lane_sums(batch, n, d, k):
+    """Rates of d1 and d2 of row n along eight directions, d[k] of q, v or a."""
+    none = every(0.0)
+    first, second = (none, none, none), (none, none, none)
+    for m in range(batch.start[n], batch.start[n + 1]):
+        if batch.second[m] == 0:
+            first = lanes_plus(first, batch.factor[m], d, k, batch.slot[m])
+        else:
+            second = lanes_plus(second, batch.factor[m], d, k, batch.slot[m])
+    return first, second
+
+
+@inline_kernel
+def joint_slopes_along(batch, q, v, a, d, r, ws):
+    """See :func:`ancf.compiled.add_force_slopes`; alpha has no part in it."""
+    w0, w1, w2 = batch.level[0], batch.level[1], batch.level[2]
+    for n in range(batch.unknown.shape[0]):
+        i = batch.unknown[n]
+        d1, d2 = sums(batch, n, q, 1.0)
+        s1, s2 = lane_sums(batch, n, d, 0)
+        g = w0 * (dot(d2, s1) + dot(d1, s2))
+        if w1 != 0.0 or w2 != 0.0:
+            v1, v2 = sums(batch, n, v, 0.0)
+            r1, r2 = lane_sums(batch, n, d, 1)
+            g = g + w1 * (dot(d2, r1) + dot(d1, r2) + dot(v2, s1) + dot(v1, s2))
+            if w2 != 0.0:
+                a1, a2 = sums(batch, n, a, 0.0)
+                b1, b2 = lane_sums(batch, n, d, 2)
+                g = g + w2 * (dot(d2, b1) + dot(d1, b2) + dot(a2, s1) + dot(a1, s2))
+                g = g + (2.0 * w2) * (dot(v2, r1) + dot(v1, r2))
+        store(load(r, i) + g, r, i)
+        lam, y = q[i], load(d, 0, i)
+        for k in range(batch.start[n], batch.start[n + 1]):
+            m, f = batch.slot[k], batch.factor[k]
+            x, s = (d2, s2) if batch.second[k] == 0 else (d1, s1)
+            for c in range(3):
+                store(load(r, m + c) + (f * x[c]) * y + (f * lam) * s[c], r, m + c)
+
+
+@inline_kernel
+def joint_slopes_beside(batch, q, v, a, d, r, ws):
+    """See :func:`ancf.compiled.add_slopes_beside`: what velocities and accelerations do to the rows."""
+    w1, w2 = batch.level[1], batch.level[2]
+    if w1 == 0.0 and w2 == 0.0:
+        return
+    for n in range(batch.unknown.shape[0]):
+        i = batch.unknown[n]
+        v1, v2 = sums(batch, n, v, 0.0)
+        s1, s2 = lane_sums(batch, n, d, 0)
+        g = w1 * (dot(v2, s1) + dot(v1, s2))
+        if w2 != 0.0:
+            a1, a2 = sums(batch, n, a, 0.0)
+            r1, r2 = lane_sums(batch, n, d, 1)
+            g = g + w2 * (dot(a2, s1) + dot(a1, s2)) + (2.0 * w2) * (dot(v2, r1) + dot(v1, r2))
+        store(load(r, i) + g, r, i)
+
+
 implements(
     JointBatch,
     force=joint_force,
     tangent=joint_tangent,
     work_slopes=joint_slopes,
+    force_slopes=joint_slopes_along,
+    slopes_beside=joint_slopes_beside,
     role=Role.CONSTRAINS,
     slots=("unknown", "slot"),
     couples=joint_pairs,

@@ -23,13 +23,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from ..arrays import FloatArray, IntArray
-from ..compiled import Role, formula, implements, inline_kernel
-from ..vectors import both, dot, plus, without
+from ..compiled import formula, inline_kernel
+from ..vectors import dot
 from .carrier import COLUMNS, element_at, line, shape, slider
-from .in_matrix import bind_sliding, sliding_pairs
 
 # columns of SlidingBatch.data
 MASS, VISCOUS, MU, V0 = range(4)
@@ -69,7 +66,7 @@ class SlidingBatch(NamedTuple):
 def keep(batch, j, x):
     """Part of a vector in the directions that the joint holds now."""
     if batch.mode[j] == FREE:
-        return 0.0, 0.0, 0.0
+        return 0.0 * x[0], 0.0 * x[1], 0.0 * x[2]  # zeros of the kind of x, which may be eight lanes
     u = (batch.released[j, 0], batch.released[j, 1], batch.released[j, 2])
     d = dot(u, x)
     x = (x[0] - d * u[0], x[1] - d * u[1], x[2] - d * u[2])
@@ -210,85 +207,6 @@ def sliding_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
         A[own + 21] += c_mass * batch.data[j, MASS] + c_damping * slope - c_stiffness * dot(n, lam)
 
 
-@formula
-def keep_back(batch, j, x):
-    """The transposed of :func:`keep`."""
-    if batch.mode[j] == FREE:
-        return 0.0, 0.0, 0.0
-    if batch.open[j] != 0:
-        x = without(x, (batch.unilateral[j, 0], batch.unilateral[j, 1], batch.unilateral[j, 2]))
-    return without(x, (batch.released[j, 0], batch.released[j, 1], batch.released[j, 2]))
-
-
-@formula
-def friction_slopes(batch, j, t, lam, rate):
-    """Derivatives of :func:`friction` by t and lam are sums of both: two factors for each."""
-    c, mu = batch.data[j, VISCOUS], batch.data[j, MU]
-    by_t, lam_by_t, by_lam, t_by_lam = 2.0 * c * rate, 0.0, 0.0, 0.0
-    if mu != 0.0:
-        a = dot(t, t)
-        size, share = math.sqrt(a), dot(t, lam) / a
-        normal = math.sqrt(max(dot(lam, lam) - share * share * a, 0.0))
-        h = math.tanh(size * rate / batch.data[j, V0])
-        by_t += mu * normal * (h / size + (1.0 - h * h) * rate / batch.data[j, V0])
-        if normal > 0.0:
-            by_lam = mu * size * h / normal
-            t_by_lam = -share * by_lam
-            by_t, lam_by_t = by_t + share * share * by_lam, -share * by_lam
-    return by_t, lam_by_t, by_lam, t_by_lam
-
-
-@inline_kernel
-def sliding_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
-    """See :func:`ancf.compiled.add_work_slopes`; of joints that slide."""
-    w0, w1, w2 = batch.level[0], batch.level[1], batch.level[2]
-    for j in range(batch.unknown.shape[0]):
-        i = batch.unknown[j]
-        e, y, rate, rate2 = element_at(batch, j, q[i + 3]), x[i + 3], v[i + 3], a[i + 3]
-        xi = (q[i + 3] - batch.x[e, 0]) / batch.x[e, 1]
-        lam = keep(batch, j, (q[i], q[i + 1], q[i + 2]))
-        z = keep_back(batch, j, (x[i], x[i + 1], x[i + 2]))
-        t = bend = third = moved = turned = d = dn = da = (0.0, 0.0, 0.0)
-        for k in range(COLUMNS):
-            n = batch.line_slot[e, k]
-            if n >= 0:
-                s1, s2 = shape(batch, e, k, xi, 1), shape(batch, e, k, xi, 2)
-                t, bend, d = plus(t, s1, q, n), plus(bend, s2, q, n), plus(d, s1, v, n)
-                moved, turned = plus(moved, shape(batch, e, k, xi, 0), x, n), plus(turned, s1, x, n)
-                if w2 != 0.0:
-                    third = plus(third, shape(batch, e, k, xi, 3), q, n)
-                    dn, da = plus(dn, s2, v, n), plus(da, s1, a, n)
-        by_t, lam_by_t, by_lam, t_by_lam = friction_slopes(batch, j, t, lam, rate)
-        _, by_rate = friction(batch, j, t, lam, rate)
-        by_t, lam_by_t, by_lam, t_by_lam = y * by_t, y * (lam_by_t - 1.0), y * by_lam, y * (t_by_lam - 1.0)
-        along = both(by_lam, lam, t_by_lam, t)
-        gap = keep_back(batch, j, both(1.0, both(1.0, slider(batch, j, x, 0.0), -1.0, moved), 1.0, along))
-        for c in range(3):
-            by_q[i + c] += gap[c] - FREED * (x[i + c] - z[c])
-        pull = both(by_t, t, lam_by_t, lam)
-        ahead, bent = dot(z, t), dot(z, bend)
-        by_q[i + 3] += dot(pull, bend) - dot(lam, turned) - w0 * ahead - w1 * (dot(z, d) + bent * rate)
-        by_q[i + 3] -= w2 * (
-            dot(z, da) + 2.0 * rate * dot(z, dn) + rate * rate * dot(z, third) + rate2 * bent
-        )
-        by_v[i + 3] += y * by_rate - w1 * ahead - 2.0 * w2 * (dot(z, d) + rate * bent)
-        by_a[i + 3] += y * batch.data[j, MASS] - w2 * ahead
-        for k in range(COLUMNS):
-            m, n = batch.slot[j, k], batch.line_slot[e, k]
-            if m >= 0:
-                for c in range(3):
-                    by_q[m + c] += w0 * batch.factor[j, k] * z[c]
-                    by_v[m + c] += w1 * batch.factor[j, k] * z[c]
-                    by_a[m + c] += w2 * batch.factor[j, k] * z[c]
-            if n >= 0:
-                s0, s1 = shape(batch, e, k, xi, 0), shape(batch, e, k, xi, 1)
-                f = w0 * s0 + w1 * s1 * rate + w2 * (shape(batch, e, k, xi, 2) * rate * rate + s1 * rate2)
-                for c in range(3):
-                    by_q[n + c] += s1 * pull[c] - f * z[c]
-                    by_v[n + c] -= (w1 * s0 + 2.0 * w2 * s1 * rate) * z[c]
-                    by_a[n + c] -= w2 * s0 * z[c]
-
-
 @inline_kernel
 def sliding_event(batch, q):
     """4 j + LEFT, PULLS or TOUCHES of the first joint j to which that happens, else -1."""
@@ -314,18 +232,3 @@ def sliding_event(batch, q):
         if dot(u, (o[0] - p[0], o[1] - p[1], o[2] - p[2])) < 0.0:
             return 4 * j + TOUCHES
     return -1
-
-
-implements(
-    SlidingBatch,
-    force=sliding_force,
-    inertia=sliding_inertia,
-    tangent=sliding_tangent,
-    work_slopes=sliding_slopes,
-    event=sliding_event,
-    role=Role.CONSTRAINS | Role.SLIDES | Role.DISSIPATES,
-    slots=("unknown", "slot", "line_slot"),
-    couples=sliding_pairs,
-    bind=bind_sliding,
-    damped=lambda batch: bool(np.any(batch.data[:, [VISCOUS, MU]])),
-)

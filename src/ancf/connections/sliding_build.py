@@ -8,14 +8,25 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
+from ..compiled import Role, implements
 from ..elements.registry import ELEMENTS
 from ..model.beam import Beam
 from ..model.bodies import RigidBody
 from ..model.joints import Slide
 from ..model.points import Point
 from .carrier import COLUMNS
+from .in_matrix import bind_sliding, sliding_pairs
 from .joint_build import place_of
-from .sliding import SlidingBatch
+from .sliding import (
+    MU,
+    VISCOUS,
+    SlidingBatch,
+    sliding_event,
+    sliding_force,
+    sliding_inertia,
+    sliding_tangent,
+)
+from .sliding_slopes import sliding_slopes, sliding_slopes_along, sliding_slopes_beside
 
 
 def sliding(
@@ -97,3 +108,20 @@ def beam_line(
     order = np.argsort(line < 0, axis=1, kind="stable")  # what is not used comes last
     line, poly = np.take_along_axis(line, order, axis=1), np.take_along_axis(poly, order[:, :, None], axis=1)
     return np.column_stack([body.node_x[:-1], h]), line, poly
+
+
+implements(
+    SlidingBatch,
+    force=sliding_force,
+    inertia=sliding_inertia,
+    tangent=sliding_tangent,
+    work_slopes=sliding_slopes,
+    force_slopes=sliding_slopes_along,
+    slopes_beside=sliding_slopes_beside,
+    event=sliding_event,
+    role=Role.CONSTRAINS | Role.SLIDES | Role.DISSIPATES,
+    slots=("unknown", "slot", "line_slot"),
+    couples=sliding_pairs,
+    bind=bind_sliding,
+    damped=lambda batch: bool(np.any(batch.data[:, [VISCOUS, MU]])),
+)

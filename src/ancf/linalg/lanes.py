@@ -22,10 +22,10 @@ def add_times(block, first, step, x, sign, X, i):
 
 
 @formula
-def multiply(factor, values, above, X, Y):
+def multiply(factor, values, above, X, Y, rows):
     """Add the product of a matrix and X to Y: above the diagonal are the blocks below it, times a sign."""
     n = factor.row_start.shape[0] - 1
-    for i in range(n):
+    for i in range(rows):
         x = six(X, 6 * i)
         add_times(values[36 * i : 36 * i + 36], 6, 1, x, 1.0, Y, 6 * i)
         for k in range(factor.row_start[i], factor.row_start[i + 1]):
@@ -35,15 +35,18 @@ def multiply(factor, values, above, X, Y):
 
 
 @kernel
-def multiply_abreast(factor, values, X, Y):
-    """Add the product of the symmetric matrix of these block values and X to Y."""
-    multiply(factor, values, 1.0, X, Y)
+def multiply_abreast(factor, values, X, Y, rows):
+    """Add the product of the symmetric matrix of these block values and X to Y.
+
+    From block ``rows`` on its rows are zero.
+    """
+    multiply(factor, values, 1.0, X, Y, rows)
 
 
 @kernel
-def multiply_twisted_abreast(factor, values, X, Y):
-    """Add the product of the antisymmetric matrix of these block values and X to Y."""
-    multiply(factor, values, -1.0, X, Y)
+def multiply_twisted_abreast(factor, values, X, Y, rows):
+    """The same of the antisymmetric matrix of these block values."""
+    multiply(factor, values, -1.0, X, Y, rows)
 
 
 @kernel

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -119,8 +119,6 @@ class Adjoint:
         Entries of the state vectors on which that depends.
     """
 
-    Near: ClassVar[type[Nearby]] = Nearby
-
     def __init__(
         self,
         made: Prepared,
@@ -136,7 +134,7 @@ class Adjoint:
         self.system = System(made.system.model, like=made.system)
         check_differentiable(self.system, where)
         self.families = [Family(parameter, self.system, shifts=True) for parameter in parameters]
-        self.nearby = self.Near(self.families, self.system, shifts=True)
+        self.nearby = Nearby(self.families, self.system, shifts=True)
         self.weighed = Weighed(self.nearby)
         self.m = matrices_of(self.system.core, self.system.size, moving=True, back=True)
         self.ahead = ahead_of(self.system.core, self.m)

@@ -8,7 +8,6 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..batches import Batches
-from ..compiled import Role, add_work_slopes, does_something, traits
 from ..connections.sliding import SLIDES
 from ..preparation import Prepared
 from ..results.state import State
@@ -19,36 +18,15 @@ from ..solvers.status import OK
 from ..system.system import System
 from .adjoint import Adjoint, UnsolvedError
 from .base import matrices_of
-from .family import Family
 from .follow import check_shift
-from .nearby import Nearby, uses_of
 from .start import Start
 
 #: Weights of the rows for which the positions and the velocities of a start are shifted.
 LEVELS = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 
 
-class JoinedNearby(Nearby):
-    """Families of which those that are plain but for rows of joints count as plain.
-
-    Attributes
-    ----------
-    rows : list of int
-        Which these are.
-    """
-
-    def __init__(self, families: list[Family], system: System, shifts: bool = False) -> None:
-        super().__init__(families, system, shifts)
-        self.rows = [k for k in self.others if families[k].joined]
-        self.plain = sorted([*self.plain, *self.rows])
-        self.others = [k for k in self.others if k not in self.rows]
-
-
 class JoinedAdjoint(Adjoint):
     """A simulation with joints that is gone through forwards and backwards; see :class:`Adjoint`."""
-
-    Near = JoinedNearby
-    nearby: JoinedNearby
 
     def _check(self, made: Prepared, start: State | None, where: str) -> None:
         check_shift(made, start, where)
@@ -59,8 +37,6 @@ class JoinedAdjoint(Adjoint):
         if mine is not None and theirs is not None:
             mine.mode[...], mine.open[...] = theirs.mode, theirs.open
         self._room, self._rate = np.zeros((ROOM, self.system.size)), np.ones(1)
-        rows = {k: constraining(self.families[k]) for k in self.nearby.rows}
-        self._rows = uses_of(self.families, self.nearby.rows, rows)
 
     def _back(self, way: Way, h: float, tables: Any, wanted: FloatArray, sums: Any) -> int:
         mu, lam, still, _ = sums
@@ -91,7 +67,7 @@ class JoinedAdjoint(Adjoint):
         system.level[:] = level
         for k in self.nearby.rows:
             self.families[k].know(system)
-        given = system.core, self._rows, Batches(), number, tables, way, rho, np.zeros(size), pushed
+        given = system.core, self.nearby.of_rows, Batches(), number, tables, way, rho, np.zeros(size), pushed
         weigh_pushes(*given, nothing, np.zeros((0, 3, 3)), np.zeros(size))
         system.level[:] = before
         return pushed
@@ -124,20 +100,10 @@ class JoinedAdjoint(Adjoint):
         return made
 
 
-def constraining(family: Family) -> set[str]:
-    """Names of the batches with rows that a parameter changes."""
-    parts = family.base.parts
-    return {name for name in family.changed if Role.CONSTRAINS in traits(parts[name]).role}
-
-
 def goes_back(system: System, m: Matrices) -> bool:
     """Whether a model with joints has an adjoint: their rows alone are not in the matrices, and all slide."""
     slides = system.parts.get("slides")
-    known = all(
-        Role.CONSTRAINS in traits(batch).role and does_something(type(batch), add_work_slopes)
-        for batch in m.rough
-    )
-    return known and (slides is None or bool(np.all(slides.mode == SLIDES)))
+    return not len(m.rough) and (slides is None or bool(np.all(slides.mode == SLIDES)))
 
 
 def adjoint_of(system: System) -> type[Adjoint] | None:

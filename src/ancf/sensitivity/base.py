@@ -9,14 +9,19 @@ import numpy as np
 from ..batches import Batches
 from ..compiled import (
     MOST_TOUCHED,
+    Role,
+    add_force_slopes,
     add_rate_stiffness,
     add_rate_work,
+    add_slopes_beside,
     add_work_slopes,
     does_something,
     touched,
     traits,
 )
 from ..errors import ModelError
+from ..linalg.eight import lane_rows
+from ..simd import LANES
 from ..solvers.directions import exact_masses
 from ..solvers.rare import knowing
 from ..solvers.sensitivity import FURTHEST, MOVED, Matrices
@@ -37,18 +42,29 @@ def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matr
     changed = [batch for batch in exact if moving and not _exact(batch, True)]
     known = [batch for batch in changed if does_something(type(batch), rate)]
     lossy = [batch for batch in changed if not any(batch is one for one in known)]
-    rough = [batch for batch in batches if not _exact(batch, False)]
+    others = [batch for batch in batches if not _exact(batch, False)]
+    joints = [batch for batch in others if _is_joint(batch)]
+    rough = [batch for batch in others if not any(batch is one for one in joints)]
     resting = [batch for batch in exact if not any(batch is one for one in known)]
     K, C, M = (np.zeros_like(core.A) for _ in range(3))
     W = np.zeros(core.A.size if known and not back else 0)
     local = not back and all(does_something(type(batch), touched) for batch in rough)
-    others = knowing(touched, rough) if local else Batches(rough)
-    if back and all(does_something(type(batch), add_work_slopes) for batch in rough):
-        others = knowing(add_work_slopes, rough)
-    kinds = Batches(exact), Batches(resting), knowing(rate, known), Batches(lossy), others
+    known_by = (add_work_slopes,) if back else (add_force_slopes, add_slopes_beside)
+    slopes = knowing(known_by[0], joints, *known_by[1:])
+    kinds = Batches(exact), Batches(resting), knowing(rate, known), Batches(lossy), slopes
+    left = knowing(touched, rough) if local else Batches(rough)
     near = np.zeros((4, MOST_TOUCHED * sum(len(batch[0]) for batch in rough) if local else 0))
     flags = local, turning, bool(core.damped)
-    made = Matrices(*kinds, K, C, M, W, *flags, moved_by(core), np.zeros((10, size)), near)
+    rows = size if joints else 0
+    along, found = lane_rows(3 * rows).reshape(3, rows, LANES), lane_rows(rows)
+    stiff = [batch for batch in joints if hasattr(batch, "alpha")]
+    alpha, row = (stiff[0].alpha, stiff[0].unknown) if stiff else (np.zeros(0), np.zeros(0, dtype=np.int64))
+    places = [batch.unknown + 3 for batch in joints if Role.SLIDES in traits(batch).role]
+    edge = np.concatenate([core.joints.multipliers, *places]).astype(np.int64) if joints else row
+    work = np.zeros((10, size))
+    made = Matrices(
+        *kinds, left, K, C, M, W, *flags, moved_by(core), work, near, along, found, alpha, row, edge
+    )
     apart = 1.0 + 0.5 * np.sin(np.arange(size, dtype=np.float64))  # springs between places that are not one
     exact_masses(made, core.ws, apart, np.zeros(size))
     return made
@@ -58,6 +74,13 @@ def moved_by(core: Core) -> float:
     """Change of a state, in sizes of the model, of differences of its forces."""
     least = float(np.min(core.weight[core.weight > 0.0], initial=1.0))  # 1/size, or 1 for a small model
     return min(MOVED, FURTHEST * least)
+
+
+def _is_joint(batch: Any) -> bool:
+    """Whether a batch has rows with multipliers and knows all derivatives of its forces."""
+    slopes = add_work_slopes, add_force_slopes, add_slopes_beside
+    known = all(does_something(type(batch), own) for own in slopes)
+    return known and Role.CONSTRAINS in traits(batch).role
 
 
 def _exact(batch: Any, moving: bool) -> bool:

@@ -18,6 +18,7 @@ from ..solvers.abreast import follow_steps
 from ..solvers.abreast_room import abreast, room_for
 from ..solvers.ahead import ahead_of
 from ..solvers.checkpoint import Snapshot
+from ..solvers.edge import edge_for
 from ..solvers.record import Stats
 from ..solvers.sensitivity import Constraining, Way, accelerations
 from ..solvers.status import OK
@@ -98,6 +99,7 @@ class Following:
         self.turn = self.nearby.turn_abreast()
         self.m = matrices_of(self.system.core, self.system.size, moving=True)
         self.ahead, self.room = ahead_of(self.system.core, self.m), room_for(self.system.size)
+        self.edge = edge_for(self.system.size, len(self.m.edge))
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
         self.taken, self.done, self.stored = 0, 0, 0  # steps taken in and followed, states stored
         self.handed = 0, 0  # states and samples that a file has
@@ -230,8 +232,10 @@ class Following:
         projects = rule.projects and len(system.multipliers) > 0
         tables = system.inputs.tables(*when[:2], count, *when[2:])
         found = self.nearby.at_steps(way, when, tables, projects)
-        rooms, pushes = (system.core, self.m, self.ahead, self.room), (found.push, found.gap, self.turn)
-        n, status = follow_steps(*rooms, tables, way, *pushes, h, run.scheme, joined, self.s, out, place)
+        rooms, pushes = (self.m, self.ahead, self.room, self.edge), (found.push, found.gap, self.turn)
+        n, status = follow_steps(
+            system.core, *rooms, tables, way, *pushes, h, run.scheme, joined, self.s, out, place
+        )
         if status != OK:
             t = run.time(done + int(n) + 1)
             what = "the equations of the sensitivities cannot be solved"

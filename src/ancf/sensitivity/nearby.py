@@ -9,6 +9,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray
 from ..batches import Batches
+from ..compiled import Role, traits
 from ..simd import LANES
 from ..solvers.pushes import Uses, add_loads, add_pushes
 from ..solvers.sensitivity import Way
@@ -39,6 +40,13 @@ class Nearby:
     shifts : bool
         Places of supports that shift, and local axes that turn, are part of the sensitivities themselves,
         and not of the pushes.
+
+    Attributes
+    ----------
+    plain, others : list of int
+        Which families are differentiated so, and which by themselves.
+    rows : list of int
+        The plain ones on which rows of joints depend.
     """
 
     def __init__(self, families: list[Family], system: System, shifts: bool = False) -> None:
@@ -46,9 +54,10 @@ class Nearby:
         self.shifts = {k: family.shift for k, family in enumerate(families) if shifts and family.shift.size}
         self.turns = {k: family.turn for k, family in enumerate(families) if shifts and family.turn.size}
         own = self.shifts.keys() | self.turns.keys()
-        self.plain = [k for k, family in enumerate(families) if family.plain or k in own]
+        self.rows = [k for k, family in enumerate(families) if family.joined and k not in own]
+        self.plain = [k for k, family in enumerate(families) if family.plain or family.joined or k in own]
         self.others = [k for k in range(len(families)) if k not in self.plain]
-        self._work, self._kept = np.zeros(system.size), np.zeros(0)
+        self._work, self._kept = np.zeros(system.size), [np.zeros(0), np.zeros(0)]
         self._weights: dict[int, Any] = {}  # derivatives of steady loads
         self._first: tuple[FloatArray, BoolArray] | None = None  # the same of all plain ones
 
@@ -80,33 +89,61 @@ class Nearby:
         lanes[: len(turn)] = turn
         return np.ascontiguousarray(np.moveaxis(lanes.reshape(groups, LANES, *turn.shape[1:]), 1, -1))
 
-    def _room(self, count: int) -> FloatArray:
+    def _room(self, count: int, which: int = 0) -> FloatArray:
         """Room (p, count, size), in the memory of the block before: pages that are new cost time."""
         wanted = len(self.families) * count * self.system.size
-        if wanted > self._kept.size:
-            self._kept = np.zeros(wanted)
-        return self._kept[:wanted].reshape(len(self.families), count, self.system.size)
+        if wanted > self._kept[which].size:
+            self._kept[which] = np.zeros(wanted)
+        return self._kept[which][:wanted].reshape(len(self.families), count, self.system.size)
 
     def at_steps(self, way: Way, when: tuple[float, float, float, float], tables: Any, gaps: bool) -> Pushes:
         """Of the states at the ends of the steps of a block.
 
         ``when``: start, step, first and last time, as ``Inputs.tables`` takes them, and these tables.
         """
-        for family in self.families:
-            family.know(self.system)
+        self.know()
         push = self._room(len(way.q))
         if not self.others:
             self._add_plain(way, when, tables, push)
         elif self.plain:
             push[self.plain] = self.plain_at_steps(way, when, tables)
-        gap = np.zeros_like(push) if gaps else push
+        gap = self._room(len(way.q), 1) if gaps else push
+        if gaps:
+            gap[self.plain] = 0.0
+            gap[self.rows] = self.rows_at((1.0, 0.0, 0.0), way, tables)
         held = {}
-        for k in self.others:  # plain ones leave the rows of joints as they are
+        for k in self.others:
             found = self.families[k].at_steps(*way, when, gaps=gaps)
             push[k], held[k] = found.push, found.held
             if gaps:
                 gap[k] = found.gap
         return Pushes(push, gap, held)
+
+    def know(self) -> None:
+        """Let systems of families be as the model's: places of contacts, joints, weights of their rows."""
+        asked = range(len(self.families)) if len(self.system.measured) else (*self.rows, *self.others)
+        for k in asked:
+            self.families[k].know(self.system)
+
+    @cached_property
+    def of_rows(self) -> Uses:
+        """Batches with rows of joints that parameters change."""
+        return uses_of(self.families, self.rows, {k: constraining(self.families[k]) for k in self.rows})
+
+    def rows_at(self, level: tuple[float, float, float], way: Way, tables: Any) -> FloatArray:
+        """What parameters do to rows of joints with these weights, (rows, n, size), zero elsewhere."""
+        system, before = self.system, self.system.level.copy()
+        found = np.empty((len(self.rows), *way.q.shape))
+        if self.rows:
+            none = np.zeros((len(found), system.size)), np.zeros(len(found), dtype=bool)
+            system.level[:] = level
+            self.know()
+            given = system.core, self.of_rows, np.zeros((0, 0, 3, 3)), *none
+            add_pushes(*given, tables, way, self._work, found)
+            system.level[:] = before
+            self.know()
+            found *= system.core.joints.mask
+        return found
 
     def plain_at_steps(self, way: Way, when: tuple[float, float, float, float], tables: Any) -> FloatArray:
         """Pushes of the plain families, (p, n, size)."""
@@ -152,6 +189,12 @@ class Nearby:
             apply_load(loads, value[0], self._work)
             total = total + weight * self._work
         return total
+
+
+def constraining(family: Family) -> set[str]:
+    """Names of the batches with rows of joints that a parameter changes."""
+    parts = family.base.parts
+    return {name for name in family.changed if Role.CONSTRAINS in traits(parts[name]).role}
 
 
 def uses_of(families: list[Family], chosen: list[int], names: dict[int, set[str]] | None = None) -> Uses:

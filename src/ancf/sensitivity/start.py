@@ -152,15 +152,32 @@ def starts(
     begin = Start(system, m, q, v, a, when)
     way, tables = Way(*(x[None].copy() for x in states)), system.inputs.tables(first, step, 1, *limits)
     pushes, held, rows = (np.zeros((len(nearby.families), k, system.size)) for k in (1, 2, 3))
-    pushes[nearby.plain] = nearby.plain_at_steps(way, when, tables)  # they do nothing to rows of joints
+    nearby.know()
+    known: dict[Any, FloatArray] = {}
+    pushes[nearby.plain] = nearby.plain_at_steps(way, when, tables)
     for k in nearby.plain:
-        rows[k] = begin.shapes(given[k], lambda _: 0.0, nearby.shifts.get(k))
+        gap = _rows_of(nearby, k, way, tables, known) if k in nearby.rows else lambda _: 0.0
+        rows[k] = begin.shapes(given[k], gap, nearby.shifts.get(k))
     for k in nearby.others:
         at = _at_level(system, nearby.families[k], states, when)
         rows[k], pushes[k, 0] = begin.shapes(given[k], at, None), at((0.0, 0.0, 1.0))
         here = Way(*(x[None].copy() for x in states))
         held[k] = nearby.families[k].at_steps(*here, when, gaps=False).held[:2, 0]
     return begin.accelerated(rows, pushes[:, 0], nearby.turn), held
+
+
+def _rows_of(
+    nearby: Nearby, k: int, way: Way, tables: Any, known: dict[Any, FloatArray]
+) -> Callable[[Any], FloatArray]:
+    """What a family does to rows of joints, by the level, as all are ``known``."""
+
+    def rows(level: tuple[float, float, float]) -> FloatArray:
+        if level not in known:
+            known[level] = nearby.rows_at(level, way, tables)
+        found: FloatArray = known[level][nearby.rows.index(k), 0]
+        return found
+
+    return rows
 
 
 def _at_level(system: System, family: Family, states: Any, when: Any) -> Callable[[Any], FloatArray]:

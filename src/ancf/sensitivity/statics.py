@@ -88,7 +88,7 @@ def _solver(system: System, core: Core, q: FloatArray):  # type: ignore[no-untyp
         if size == 0.0:
             return s
         x = lu.solve(b)
-        if len(m.rough):
+        if len(m.rough) or len(m.joined):
             before = LinearOperator((n, n), matvec=lu.solve, dtype=np.float64)
             whole = LinearOperator((n, n), matvec=times, dtype=np.float64)
             x, _ = gmres(whole, b, x0=x, M=before, rtol=AIMED, restart=DIRECTIONS, maxiter=AGAIN)

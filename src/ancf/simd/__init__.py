@@ -18,6 +18,7 @@ from .memory import (
     store_columns,
     store_six,
 )
+from .sums import lanes_plus
 from .values import LANES, absolute, every, greatest, replaced, sqrt, total, vector, zero
 
 __all__ = [
@@ -30,6 +31,7 @@ __all__ = [
     "gather_lanes",
     "gather_nodes",
     "greatest",
+    "lanes_plus",
     "load",
     "load_six",
     "put",

@@ -12,13 +12,15 @@ from ..compiled import formula, inline_kernel, kernel
 from ..linalg.eight import factor_of
 from ..linalg.lanes import multiply_abreast, multiply_twisted_abreast, solve_abreast
 from ..simd import LANES, every, load, store
-from ..system.core import constraint_rows, drive, solve_sparse, to_local
+from ..system.core import drive
 from .abreast_room import add_push, follow_abreast, kept, predicted, sizes_of, turn_abreast
 from .ahead import look_ahead
+from .edge import corrected_at_edge, edge_anew, solve_rows, to_local_abreast, to_shadows_abreast
 from .foreseen import foresee
 from .local import add_local, add_locals, look_near
+from .rare import add_slopes_along
 from .scheme import coefficients
-from .sensitivity import DIFFERENCED, ENOUGH, LEAST, MOST, add_lossy, add_rough, extent, is_done
+from .sensitivity import DIFFERENCED, ENOUGH, MOST, add_lossy, both_along, is_done
 from .status import OK, SINGULAR, SLOW
 
 
@@ -40,7 +42,7 @@ def add_product(core, values, x, room):
     """Add a matrix times x to r, the rows of shadows where the matrix has them."""
     see(core, x, room)
     own = room.seen if core.supports.rot_slot.shape[0] > 0 else x
-    multiply_abreast(core.factor, values, own, room.r)
+    multiply_abreast(core.factor, values, own, room.r, core.joints.first)
 
 
 @formula
@@ -52,16 +54,12 @@ def products(core, m, K, C, W, moves, room):
     add_product(core, K, d[0], room)
     if W.shape[0] > 0:
         own = room.seen if supports.rot_slot.shape[0] > 0 else d[0]
-        multiply_twisted_abreast(core.factor, W, own, r)
+        multiply_twisted_abreast(core.factor, W, own, r, core.joints.first)
     if moves:
         add_product(core, m.M, d[2], room)
     if m.damped:
         add_product(core, C, d[1], room)
-    for k in range(supports.rot_slot.shape[0]):
-        for c in range(3):
-            i, j = supports.rot_slot[k] + c, supports.rot_shadow[k] + c
-            store(load(r, j) + load(r, i), r, j)
-            store(every(0.0), r, i)
+    to_shadows_abreast(supports, r)
 
 
 @inline_kernel
@@ -82,21 +80,9 @@ def add_others(core, m, x, room, lane):
     if m.lossy.table.shape[0] > 0:
         add_lossy(core, m, x, d, r)
     if m.rough.table.shape[0] > 0 and not m.local:
-        add_rough(core, m, x, d, r)
-        for k in range(core.joints.multipliers.shape[0]):
-            room.r[core.joints.multipliers[k], lane] = 0.0
+        both_along(m.rough, core, m, x, d, r)
     for i in range(r.shape[0]):
         room.r[i, lane] += r[i]
-
-
-@formula
-def to_local_abreast(supports, r):
-    """Components along local axes, as :func:`ancf.system.core.to_local`."""
-    for k in range(supports.rot_slot.shape[0]):
-        i, j = supports.rot_slot[k], supports.rot_shadow[k]
-        for c in range(3):
-            R = supports.rot_R[k, 0]
-            store(R[0, c] * load(r, j) + R[1, c] * load(r, j + 1) + R[2, c] * load(r, j + 2), r, i + c)
 
 
 @inline_kernel
@@ -110,6 +96,7 @@ def out_of_balance(core, m, matrices, x, turn, push, n, first, moves, room):
         for k in range(count):
             if room.open[k] > 0.0:
                 add_others(core, m, x, room, k)
+    add_slopes_along(m.joined, x[0], x[1], x[2], room.d, r, core.ws)
     add_locals(core, m, x, room, count)
     to_local_abreast(core.supports, r)
     add_push(room, push, n, first, count)
@@ -118,30 +105,28 @@ def out_of_balance(core, m, matrices, x, turn, push, n, first, moves, room):
 
 
 @inline_kernel
-def shifted(core, m, factor, x, gap, joined, room, lane):
-    """Shift s_q of a lane onto the derivative of C = 0; the size of the shift."""
-    joints, w, r, d = core.joints, m.work, m.work[0], m.work[1:4]
-    taken(room, lane, d)
-    joints.level[0], joints.level[1], joints.level[2] = 1.0, 0.0, 0.0
-    size = extent(d[0], core.weight)
-    e = m.moved / size if size > LEAST else 1.0
+def shifted(core, m, factor, x, gap, n, first, joined, room):
+    """Shift s_q of the open lanes onto the derivative of C = 0; their ``shift`` is the size of that."""
+    joints, r, d, count = core.joints, room.r, room.d, min(LANES, gap.shape[0] - first)
+    follow_abreast(core.supports, d)
     for i in range(r.shape[0]):
-        r[i] = gap[i]
-    for side in (1.0, -1.0):
-        for i in range(r.shape[0]):
-            w[4][i] = x[0][i] + side * e * d[0][i]
-        constraint_rows(joints, w[4], x[1], x[2], w[5], core.ws)
-        for i in range(r.shape[0]):
-            r[i] += side * w[5][i] / (2.0 * e)
+        store(every(0.0), r, i)
+    joints.level[0], joints.level[1], joints.level[2] = 1.0, 0.0, 0.0
+    add_slopes_along(m.joined, x[0], x[1], x[2], d, r, core.ws)
     joints.level[0], joints.level[1], joints.level[2] = joined.w0, joined.w1, joined.w2
-    to_local(core.supports, r)
-    solve_sparse(factor, r, joints.lowest)
-    norm = 0.0
     for i in range(core.weight.shape[0]):
-        c = r[i] * (1.0 - joints.mask[i])
-        room.d[0, i, lane] -= c
-        norm = max(norm, abs(c) * core.weight[i])
-    return norm
+        if joints.mask[i] == 0.0:
+            store(every(0.0), r, i)
+    for k in range(joints.multipliers.shape[0]):
+        i = joints.multipliers[k]
+        for lane in range(count):
+            r[i, lane] = room.open[lane] * (r[i, lane] + gap[first + lane, n, i])
+    solve_abreast(factor, r)
+    for k in range(joints.multipliers.shape[0]):
+        store(every(0.0), r, joints.multipliers[k])
+    sizes_of(r, core.weight, room.shift)
+    for i in range(core.weight.shape[0]):
+        store(load(d, 0, i) - load(r, i), d, 0, i)
 
 
 @formula
@@ -173,7 +158,7 @@ def out_again(core, m, W, x, room, lanes, B, G):
             store(y, seen, i + c)
             store(y, seen, j + c)
     if W.shape[0] > 0:
-        multiply_twisted_abreast(core.factor, W, seen, r)
+        multiply_twisted_abreast(core.factor, W, seen, r, core.joints.first)
     for k in range(supports.rot_slot.shape[0]):
         i, j = supports.rot_slot[k], supports.rot_shadow[k]
         for c in range(3):
@@ -202,9 +187,8 @@ def turned_back(core, r):
 
 @inline_kernel
 def not_done(room, weight, count, enough):
-    """Number of lanes whose corrections, in r, go on; these stay open."""
+    """Number of lanes whose corrections, of sizes ``norm``, go on; these stay open."""
     left = 0
-    sizes_of(room.r, weight, room.norm)
     sizes_of(room.d[0], weight, room.size)
     for k in range(count):
         if room.open[k] > 0.0:
@@ -218,11 +202,12 @@ def not_done(room, weight, count, enough):
 
 
 @inline_kernel
-def solved(core, m, factor, matrices, x, turn, push, gap, n, first, joined, at_once, room, B, G):
+def solved(core, m, factor, matrices, x, turn, push, gap, n, first, joined, at_once, edge, room, B, G):
     """Corrections of predicted sensitivities, perhaps ``at_once``; a status."""
     joints, count = core.joints, min(LANES, push.shape[0] - first)
     rough = m.rough.table.shape[0] > 0
-    known = m.lossy.table.shape[0] == 0 and not m.turning and (m.local or not rough)
+    jointed = m.joined.table.shape[0] > 0
+    known = m.lossy.table.shape[0] == 0 and not m.turning and (m.local or not rough) and not jointed
     projects = joined.projects and joints.multipliers.shape[0] > 0
     enough = DIFFERENCED if rough else ENOUGH
     again = matrices[2].shape[0] > 0 or rough
@@ -235,35 +220,37 @@ def solved(core, m, factor, matrices, x, turn, push, gap, n, first, joined, at_o
         else:
             moves = not at_once or turn.shape[0] > 0
             out_of_balance(core, m, matrices, x, turn, push, n, first, moves, room)
-        solve_abreast(factor, room.r)
+        if at_once and jointed:
+            corrected_at_edge(core, m, factor, x, gap, n, first, count, joined, edge, room, G / B, 1.0 / B)
+            return OK
+        solve_rows(m, factor, room)
         if foresees:
             foresee(room, core.weight, round)
         correct(core, room, B, G)
         if at_once:
             return OK
+        sizes_of(room.r, core.weight, room.norm)
         if projects:
-            for k in range(count):
-                if room.open[k] > 0.0:
-                    room.shift[k] = shifted(core, m, factor, x, gap[first + k, n], joined, room, k)
+            shifted(core, m, factor, x, gap, n, first, joined, room)
         if not_done(room, core.weight, count, enough) == 0 or (known and not again):
             return OK
     return SLOW
 
 
 @inline_kernel
-def takes_one(core, m, projects):
-    """Whether one correction is all: the factors of a step have all of its matrix, and nothing is shifted."""
+def takes_one(m, edge):
+    """Whether one correction is all: what the factors of a step lack of its matrix is known, or nothing."""
     whole = m.W.shape[0] == 0 and m.lossy.table.shape[0] == 0 and m.rough.table.shape[0] == 0
-    return whole and not m.turning and not (projects and core.joints.multipliers.shape[0] > 0)
+    return whole and not m.turning and (m.joined.table.shape[0] == 0 or edge.c.shape[1] > 0)
 
 
 @kernel
-def follow_steps(core, m, ahead, room, tables, way, push, gap, turn, h, scheme, joined, s, out, place):
+def follow_steps(core, m, ahead, room, edge, tables, way, push, gap, turn, h, scheme, joined, s, out, place):
     """Carry sensitivities through the steps of a block.
 
     Parameters
     ----------
-    core, m, ahead, room : Core, Matrices, Ahead, Abreast
+    core, m, ahead, room, edge : Core, Matrices, Ahead, Abreast, Edge
     tables : Tables
         At the ends of the steps.
     way : Way
@@ -283,28 +270,32 @@ def follow_steps(core, m, ahead, room, tables, way, push, gap, turn, h, scheme, 
     Steps done and the status of the last one.
     """
     B, G = coefficients(h, scheme)
-    at_once = takes_one(core, m, joined.projects)
+    at_once = takes_one(m, edge)
     level = core.joints.level
     level[0], level[1], level[2] = joined.w0, joined.w1, joined.w2
     for n in range(way.q.shape[0]):
         lane = n % LANES
         if lane == 0:
-            bad = look_ahead(core, m, ahead, tables, way, n, B, G, core.joints.multipliers.shape[0] > 0)
+            bad = look_ahead(core, m, ahead, tables, way, n, B, G, False)
             if bad >= 0:
                 return n + bad, SINGULAR
         factor = factor_of(core.factor, ahead.eight, lane)
         matrices = (ahead.K[lane], ahead.C[lane], ahead.W[lane])
         x = (way.q[n], way.v[n], way.a[n])
         drive(core.supports, core.loads.value, tables, n, x[0], x[1], x[2])
+        if at_once and edge.c.shape[1] > 0:
+            own = (joined, edge, room, G / B, 1.0 / B)
+            if not edge_anew(core, m, factor, matrices, x, *own):
+                return n, SINGULAR
         for g in range(s.shape[0]):
             predicted(s[g], room.d, h, scheme, 0.0 if at_once else 1.0)
-            own, first = turn[g], LANES * g
+            axes, first = turn[g], LANES * g
             status = solved(
-                core, m, factor, matrices, x, own, push, gap, n, first, joined, at_once, room, B, G
+                core, m, factor, matrices, x, axes, push, gap, n, first, joined, at_once, edge, room, B, G
             )
             if status != OK:
                 return n, status
             follow_abreast(core.supports, room.d)
-            turn_abreast(core.supports, own, x, room.d)
+            turn_abreast(core.supports, axes, x, room.d)
             kept(room, s[g], scheme, out, place + n, LANES * g)
     return way.q.shape[0], OK

@@ -30,16 +30,17 @@ class Abreast(NamedTuple):
     last: FloatArray  # (size, 8) corrections before, see foreseen
     ratio: FloatArray  # (8,) by which corrections shrink
     used: FloatArray  # (8,) what of it the last ones have foreseen
+    rows: FloatArray  # (size, 8) what rows of joints are out of balance by
     place: IntArray  # (1, 8) where the lanes of eight parameters begin in an array of all
 
 
 def room_for(size: int) -> Abreast:
     """Room for the unknowns of a model."""
     d = lane_rows(3 * size).reshape(3, size, LANES)
-    r, seen, last = lane_rows(size), lane_rows(size), lane_rows(size)
+    r, seen, last, rows = lane_rows(size), lane_rows(size), lane_rows(size), lane_rows(size)
     before, open, norm, sizes, shift, ratio, used = np.zeros((7, LANES))
     place = np.zeros((1, LANES), dtype=np.int64)
-    return Abreast(d, r, seen, before, open, norm, sizes, shift, last, ratio, used, place)
+    return Abreast(d, r, seen, before, open, norm, sizes, shift, last, ratio, used, rows, place)
 
 
 def abreast(rows: FloatArray) -> FloatArray:

@@ -88,7 +88,7 @@ def add_products(core, m, matrices, y, d, sums, w):
         add_product(core, C, d, sums[1], w)
     add_product(core, m.M, d, sums[2], w)
     add_rate_works(m.stirred, y[0], y[1], d, sums[0], core.ws)
-    add_all_slopes(m.rough, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
+    add_all_slopes(m.joined, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
 
 
 @inline_kernel
@@ -151,12 +151,12 @@ def shifted_back(core, m, factor, y, goal, joined, lam, rho, room):
         r[i] = sums[0, i] + z[i]
     change = lifted(core, factor, goal, r, rho, d)
     at_level(core, 1.0, 0.0, 0.0)
-    add_all_slopes(m.rough, y[0], y[1], y[2], d, z, none[0], none[1], core.ws)
+    add_all_slopes(m.joined, y[0], y[1], y[2], d, z, none[0], none[1], core.ws)
     at_level(core, joined.w0, joined.w1, joined.w2)
     for i in range(core.weight.shape[0]):
         d[i] = -d[i]
         lam[i] += d[i]
-    add_all_slopes(m.rough, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
+    add_all_slopes(m.joined, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
     return change
 
 
@@ -196,10 +196,10 @@ def begun(core, m, y, joined, known, later, rho_later, lam, rho, room):
         i = joints.multipliers[k]
         lam[i] = led_to(later, min(known, 2), i)  # it swings from step to step
         rho[i], d[i] = led_to(rho_later, known, i), lam[i]
-    add_all_slopes(m.rough, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
+    add_all_slopes(m.joined, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
     if joined.projects:
         at_level(core, 1.0, 0.0, 0.0)
-        add_all_slopes(m.rough, y[0], y[1], y[2], rho, z, none[0], none[1], core.ws)
+        add_all_slopes(m.joined, y[0], y[1], y[2], rho, z, none[0], none[1], core.ws)
         at_level(core, joined.w0, joined.w1, joined.w2)
 
 
@@ -345,7 +345,7 @@ def shift_back(core, m, y, mu, k, rho, room):
         rho[i] *= mask[i]
     clear(room[0:3])
     at_level(core, 1.0 - k, 1.0 * k, 0.0)
-    add_all_slopes(m.rough, y[0], y[1], y[2], rho, room[0], room[1], room[2], core.ws)
+    add_all_slopes(m.joined, y[0], y[1], y[2], rho, room[0], room[1], room[2], core.ws)
     return status
 
 

@@ -50,6 +50,7 @@ def matrices_at(core, m, K, C, W, A, q, v, B, G):
     else:
         for i in range(K.shape[0]):
             A[i] = K[i] + c_mass * m.M[i]
+    add_tangents(m.joined, q, v, A, 1.0 / B, G / B, 1.0, core.ws)
     add_tangents(m.rough, q, v, A, 1.0 / B, G / B, 1.0, core.ws)
     restrict(core.supports, A)
 

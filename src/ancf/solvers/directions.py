@@ -6,8 +6,8 @@ import numpy as np
 
 from ..batches import add_tangents
 from ..compiled import inline_kernel, kernel
-from ..system.core import constraint_rows, follow, solve_matrix
-from .sensitivity import ENOUGH, LEAST, MOST, NOISY, out_of_balance, stiffnesses, turn_along
+from ..system.core import follow, solve_matrix
+from .sensitivity import ENOUGH, MOST, NOISY, add_joined, out_of_balance, stiffnesses, turn_along
 
 
 @inline_kernel
@@ -79,23 +79,12 @@ def accelerate_along(core, m, q, v, a, d, turn, push, still, r):
 @kernel
 def rows_along(core, m, q, v, a, d, r):
     """r = the derivative of the weighted constraints along d, (3, size), in the rows of the multipliers."""
-    w = m.work
     follow(core.supports, d[0], d[1], d[2])
     for i in range(r.shape[0]):
         r[i] = 0.0
-    most = 0.0
-    for k in range(3):
-        for i in range(r.shape[0]):
-            most = max(most, abs(d[k, i]))
-    e = m.moved / most if most > LEAST else 1.0
-    for side in (1.0, -1.0):
-        for i in range(r.shape[0]):
-            w[1, i] = q[i] + side * e * d[0, i]
-            w[2, i] = v[i] + side * e * d[1, i]
-            w[3, i] = a[i] + side * e * d[2, i]
-        constraint_rows(core.joints, w[1], w[2], w[3], w[4], core.ws)
-        for i in range(r.shape[0]):
-            r[i] += side * w[4, i] / (2.0 * e)
+    add_joined(core, m, (q, v, a), d, r)
+    for i in range(r.shape[0]):
+        r[i] *= core.joints.mask[i]
 
 
 @kernel

@@ -7,11 +7,25 @@ from typing import Any
 
 from numba import typeof
 
-from ..batches import NUMBERS, RARE, RATES, SLOPES, TOUCHED, WORKS, Batches, address_of, caller_of
+from ..batches import (
+    ALONG,
+    BESIDE,
+    NUMBERS,
+    RARE,
+    RATES,
+    SLOPES,
+    TOUCHED,
+    WORKS,
+    Batches,
+    address_of,
+    caller_of,
+)
 from ..compiled import (
+    add_force_slopes,
     add_number_work,
     add_rate_stiffness,
     add_rate_work,
+    add_slopes_beside,
     add_work_slopes,
     inline_kernel,
     touched,
@@ -19,13 +33,15 @@ from ..compiled import (
 
 _rate, _touched, _numbers = caller_of(add_rate_stiffness), caller_of(touched, 0), caller_of(add_number_work)
 _work, _slopes = caller_of(add_rate_work), caller_of(add_work_slopes)
+_along, _beside = caller_of(add_force_slopes), caller_of(add_slopes_beside)
 
 
-def knowing(stub: Any, batches: Iterable[Any]) -> Batches:
-    """Batches whose kinds have an operation that only sensitivities ask for."""
+def knowing(stub: Any, batches: Iterable[Any], *others: Any) -> Batches:
+    """Batches whose kinds have an operation, or several, that only sensitivities ask for."""
     made = Batches(batches)
     for k, batch in enumerate(made):
-        made.table[k, RARE[stub]] = address_of(type(batch), typeof(batch), stub)
+        for own in (stub, *others):
+            made.table[k, RARE[own]] = address_of(type(batch), typeof(batch), own)
     return made
 
 
@@ -51,6 +67,22 @@ def add_all_slopes(batches, q, v, a, x, by_q, by_v, by_a, ws):
     table = batches.table
     for k in range(table.shape[0]):
         _slopes(table[k, SLOPES], table[k, 0], (q, v, a, x, by_q, by_v, by_a, ws))
+
+
+@inline_kernel
+def add_slopes_along(batches, q, v, a, d, r, ws):
+    """Derivatives of the forces of all of the batches along eight directions, see ``add_force_slopes``."""
+    table = batches.table
+    for k in range(table.shape[0]):
+        _along(table[k, ALONG], table[k, 0], (q, v, a, d, r, ws))
+
+
+@inline_kernel
+def add_slopes_beside_all(batches, q, v, a, d, r, ws):
+    """What tangents leave out of all of the batches, see ``add_slopes_beside``."""
+    table = batches.table
+    for k in range(table.shape[0]):
+        _beside(table[k, BESIDE], table[k, 0], (q, v, a, d, r, ws))
 
 
 @inline_kernel

@@ -8,8 +8,9 @@ derivative by a parameter p is linear,
 with the exact mass M, damping C and stiffness K of the step.  Batches that say so (``Traits.exact``) have
 them in the matrix.  Of those that are exact at rest alone, as damped elements are, the change of the damping
 forces with q is missing there: kinds that know it (``add_rate_stiffness``) give it as a symmetric and an
-antisymmetric matrix, of others it is taken by differences along s, and so is all of other batches.  All
-parameters share the factors of a step, see :mod:`ancf.solvers.abreast`.
+antisymmetric matrix, of others it is taken by differences along s.  Joints know the derivatives of their
+forces and rows along s (``add_force_slopes``); all of other batches is taken by differences.  All parameters
+share the factors of a step, see :mod:`ancf.solvers.abreast`.
 
 All vectors are derivatives at the free unknowns, zero at held ones; what a parameter does to these is in R_p.
 """
@@ -20,13 +21,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import FloatArray
+from ..arrays import FloatArray, IntArray
 from ..batches import Batches, add_forces, add_tangents
 from ..compiled import formula, inline_kernel, kernel
 from ..linalg.block import times
 from ..simd import load_six, store_six, total
 from ..system.core import follow, to_local
-from .rare import add_rate_stiffnesses
+from .rare import add_rate_stiffnesses, add_slopes_along
 
 #: Change of a state, in sizes of the model, and of its velocities, in these per second, of the differences;
 #: and its most in m: a contact is pressed by a millimetre, whatever the length of its line.
@@ -50,6 +51,7 @@ class Matrices(NamedTuple):
     resting: Batches  # of them, those whose stiffness is taken at rest
     stirred: Batches  # of them, those that know what velocities add to their stiffness
     lossy: Batches  # of them, those with damping forces that change with q in another way
+    joined: Batches  # joints, which know the derivatives of their forces
     rough: Batches  # all others
     K: FloatArray  # values of the blocks of the exact ones
     C: FloatArray
@@ -61,6 +63,11 @@ class Matrices(NamedTuple):
     moved: float  # change of a state, in sizes of the model, of differences
     work: FloatArray  # (10, size)
     near: FloatArray  # (4, unknowns) of what rough batches touch: unknown, s_q, s_v, s_a
+    along: FloatArray  # (3, size, 8) and (size, 8) directions of joints, and what comes of them; of no joint
+    found: FloatArray  # (0, 0, 8) and (0, 8)
+    alpha: FloatArray  # of rows of joints with such, see joint, (k,)
+    row: IntArray  # their multipliers, (k,)
+    edge: IntArray  # all multipliers, then places of sliding joints, (k,): rows of joints
 
 
 class Way(NamedTuple):
@@ -193,25 +200,16 @@ def both_along(batches, core, m, x, d, r):
 
 
 @inline_kernel
-def add_rough(core, m, x, d, r):
-    """Add the derivative of the forces of rough batches along d to r.
-
-    Without the rows of the constraints first: what they add to the forces of joints with the large factor
-    alpha is zero in the end, but not with the error of a difference.
-    """
-    joints, rows = core.joints, m.work[8]
-    w0, w1, w2 = joints.level[0], joints.level[1], joints.level[2]
-    joints.level[0], joints.level[1], joints.level[2] = 0.0, 0.0, 0.0
-    both_along(m.rough, core, m, x, d, r)
-    joints.level[0], joints.level[1], joints.level[2] = w0, w1, w2
-    if joints.multipliers.shape[0] == 0:
-        return
+def add_joined(core, m, x, d, r):
+    """Add the derivative of the forces and rows of joints along d to r."""
+    lanes, found = m.along, m.found
     for i in range(r.shape[0]):
-        rows[i] = 0.0
-    both_along(joints.batches, core, m, x, d, rows)
-    for k in range(joints.multipliers.shape[0]):
-        i = joints.multipliers[k]
-        r[i] = rows[i]
+        for k in range(3):
+            lanes[k, i, 0] = d[k, i]
+        found[i, 0] = 0.0
+    add_slopes_along(m.joined, x[0], x[1], x[2], lanes, found, core.ws)
+    for i in range(r.shape[0]):
+        r[i] += found[i, 0]
 
 
 @inline_kernel
@@ -265,8 +263,10 @@ def out_of_balance(core, m, x, d, turn, push, r):
         product(core, m.C, d[1], r, m.work[4:6])
     if m.lossy.table.shape[0] > 0:
         add_lossy(core, m, x, d, r)
+    if m.joined.table.shape[0] > 0:
+        add_joined(core, m, x, d, r)
     if m.rough.table.shape[0] > 0:
-        add_rough(core, m, x, d, r)
+        both_along(m.rough, core, m, x, d, r)
     to_local(core.supports, r)
     for i in range(r.shape[0]):
         r[i] += push[i]

@@ -1,0 +1,63 @@
+"""Operations of batches that only sensitivities ask for, see :mod:`ancf.compiled`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+#: Unknowns that a part touches, see :func:`touched`.
+MOST_TOUCHED = 120
+
+
+def add_rate_stiffness(batch, q, v, S, W, ws):
+    """Add what the derivative of the batch's forces by q has because of v, and the tangent at v has not.
+
+    Its symmetric half goes to the block values ``S``, the antisymmetric one to ``W``, of which the blocks on
+    the other side of the diagonal are the transposed ones with the other sign.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know how velocities change its stiffness")
+
+
+def add_rate_work(batch, q, v, x, out, ws):
+    """Add the derivative of x . force by q to ``out``, of what :func:`add_rate_stiffness` is about."""
+    raise TypeError(f"{type(batch).__name__} does not know how velocities change its stiffness")
+
+
+def touched(batch, q, out):
+    """Write the unknowns and shadows on which the batch's forces depend in and near the state q, and on which
+    alone they act, to ``out``, some perhaps twice; their number, up to MOST_TOUCHED for each part.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know what it touches")
+
+
+def add_number_work(batch, q, v, a, x, out, ws):
+    """Add the derivatives of x . force by the numbers of the batch, ``Traits.numbers``, to ``out``."""
+    raise TypeError(f"{type(batch).__name__} does not know what its numbers do")
+
+
+def add_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
+    """Add the derivatives of x . force by q, v and a, without what vanishes where rows of joints are zero."""
+    raise TypeError(f"{type(batch).__name__} does not know the slopes of the work of its forces")
+
+
+def add_force_slopes(batch, q, v, a, d, r, ws):
+    """Add the derivatives of the force along eight directions, d (3, size, 8) of q, v and a, to r (size, 8),
+    without what vanishes where rows of joints are zero.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know the slopes of its forces")
+
+
+def add_slopes_beside(batch, q, v, a, d, r, ws):
+    """Of :func:`add_force_slopes`, what the tangent with 1 for K leaves out where rates go with d[0]."""
+    raise TypeError(f"{type(batch).__name__} does not know the slopes of its forces")
+
+
+#: Operations that only sensitivities ask for, by their names in :func:`implements`.
+OF_SENSITIVITIES: dict[str, Any] = {
+    "rate_stiffness": add_rate_stiffness,
+    "rate_work": add_rate_work,
+    "touches": touched,
+    "number_work": add_number_work,
+    "work_slopes": add_work_slopes,
+    "force_slopes": add_force_slopes,
+    "slopes_beside": add_slopes_beside,
+}
