@@ -171,6 +171,8 @@ def startup(times: dict[str, float]) -> Table:
         "import_ancf": 'python -c "import ancf"',
         "first_run": "ancf run, everything compiled anew",
         "later_run": "ancf run, later",
+        "other_kinds": "ancf run of a hoist after it, its kinds compiled",
+        "other_kinds_later": "ancf run of the hoist, later",
     }
     made = table("Start, wall time in s", "what", "s")
     for key, value in times.items():

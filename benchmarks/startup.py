@@ -1,4 +1,4 @@
-"""How long it takes to start: import, first run with everything compiled anew, later run."""
+"""How long it takes to start: import, first runs with everything compiled anew, later runs."""
 
 from __future__ import annotations
 
@@ -30,6 +30,10 @@ t_end = 0.4
 step = 2.5e-4
 """
 
+HOIST = Path(__file__).parent.parent / "examples" / "hoist.toml"
+#: Python keeps what it has translated of a module, as it does by default.
+_SURROUNDINGS = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+
 
 def seconds(arguments: list[str], **environment: str) -> float:
     """Wall time of a Python process from start to end, s."""
@@ -39,7 +43,7 @@ def seconds(arguments: list[str], **environment: str) -> float:
         check=True,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
-        env={**os.environ, **ONE_THREAD, **environment},
+        env={**_SURROUNDINGS, **ONE_THREAD, **environment},
     )
     return time.perf_counter() - start
 
@@ -59,10 +63,13 @@ def startup(repeats: int, first_run: bool) -> dict[str, Any]:
         model, out = Path(folder) / "model.toml", Path(folder) / "out"
         model.write_text(MODEL, encoding="utf-8")
         run = ["-c", COMMAND, "run", str(model), "-o", str(out)]
+        other = ["-c", COMMAND, "run", str(HOIST), "-o", str(out)]
         if first_run:
             cache = str(Path(folder) / "cache")
             times["first_run"] = seconds(run, NUMBA_CACHE_DIR=cache)
             times["later_run"] = median(repeats, run, NUMBA_CACHE_DIR=cache)
+            times["other_kinds"] = seconds(other, NUMBA_CACHE_DIR=cache)
+            times["other_kinds_later"] = median(repeats, other, NUMBA_CACHE_DIR=cache)
         else:
             times["later_run"] = median(repeats, run)
     return times

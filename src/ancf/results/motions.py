@@ -129,7 +129,8 @@ def of_history(
     system: System, q: Any, v: Any, t: FloatArray, known: list[Remembered]
 ) -> tuple[FloatArray, FloatArray]:
     """The same of many states, shapes (n_t, size)."""
-    pairs = [of_state(system, np.array(q[k]), np.array(v[k]), float(t[k]), known[k]) for k in range(len(t))]
+    q, v = np.array(q[...]), np.array(v[...])  # a file is read once
+    pairs = [of_state(system, q[k], v[k], float(t[k]), known[k]) for k in range(len(t))]
     none = np.zeros((0, system.size))
     a, r = (np.array(column) for column in zip(*pairs, strict=True)) if pairs else (none, none)
     return a, r
