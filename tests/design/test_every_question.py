@@ -29,7 +29,7 @@ OTHERS = {
     "rubs",
 }
 OTHERS |= {"save", "sensitivity", "slack_intervals", "state", "to_csv", "to_excel", "to_pandas", "to_xarray"}
-OTHERS |= {"view"}
+OTHERS |= {"view", "input", "input_changes"}  # inputs are given
 
 
 def twisting():

@@ -425,3 +425,21 @@ def test_places_far_away(name):
         return result.sensitivity(name).position(beam.end)
 
     assert off(clamped(1000.0), clamped(0.0)) < 1e-7
+
+
+@pytest.mark.parametrize("taut", [5e-5, -5e-5, 0.05])
+def test_a_slack_spring_near_its_kink(taut):
+    """The steps of differences do not reach it: of a rope whose length turns the spring by ten times more."""
+    model = rope_and_drum()
+    model.add_spring("rope.at(1.0)", (1.0, 0, 2.0), stiffness=300.0, slack=True, length=9.0, name="near")
+    length = float(ancf.equilibrium(model).spring_length("near")) - taut
+    model = rope_and_drum()
+    model.add_spring("rope.at(1.0)", (1.0, 0, 2.0), stiffness=300.0, slack=True, length=length, name="near")
+    state = ancf.equilibrium(model, sensitivities=["rope.length"])
+
+    def answer(other):
+        return ancf.equilibrium(other).position("rope.at(2.4)")
+
+    wanted = extrapolated(answer, model, "rope.length", 1e-6)
+    found = state.sensitivity("rope.length").position("rope.at(2.4)")
+    assert np.max(np.abs(found - wanted)) < 1e-4 * np.max(np.abs(wanted))

@@ -7,12 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from ..model.connections import Spring
 from ..model.settings import steps_between
 from ..preparation import Prepared, carried_out
 from ..results.result import Result
 from ..results.state import State
 from ..solvers.record import Progress
-from .answers import Sensitivity
+from ..system.system import System
+from .answers import Face, Sensitivity
 from .base import check_differentiable
 from .family import Family
 from .follow import Following
@@ -33,7 +35,13 @@ def of_state(state: State, names: list[str] | None, parameters: list[Parameter])
     """
     system = state.system
     check_differentiable(system, "equilibrium.sensitivities")
-    families = [Family(parameter, system) for parameter in parameters]
+    slack = [item.name for item in system.model.connections if isinstance(item, Spring) and item.slack]
+
+    def branches(beside: System) -> tuple[bool, ...]:
+        face = Face(beside, state.q, state.v, state.t, beside=True)
+        return tuple(bool(face.spring_length(name) > face.springs[name].length) for name in slack)
+
+    families = [Family(parameter, system, branches=branches) for parameter in parameters]
     others = [] if names is None else [name for name in system.model.bodies if name not in names]
     core = system.holding(others) if others else system.core
     found = of_equilibrium(system, core, state.q, state.t, families)

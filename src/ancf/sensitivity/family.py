@@ -9,7 +9,7 @@ alike.  Where it is found to be linear, two values are enough; where that is kno
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from typing import Any
 
@@ -60,6 +60,8 @@ class Family(Pushing):
         Take all values also of a parameter in which the residual is linear, for what is asked of matrices.
     shifts : bool
         What supports hold is not moved in residuals where it shifts.
+    branches : function, optional
+        ``branches(system)``: which slack springs are tight in the one state of which derivatives are asked.
 
     Attributes
     ----------
@@ -80,9 +82,14 @@ class Family(Pushing):
     """
 
     def __init__(
-        self, parameter: Parameter, base: System, thorough: bool = False, shifts: bool = False
+        self,
+        parameter: Parameter,
+        base: System,
+        thorough: bool = False,
+        shifts: bool = False,
+        branches: Callable[[System], tuple[bool, ...]] | None = None,
     ) -> None:
-        self.parameter, self.base, self.shifts = parameter, base, shifts
+        self.parameter, self.base, self.shifts, self._branches = parameter, base, shifts, branches
         p = parameter.value
         size = Known.of(base).size
         unit = abs(p) if p != 0.0 else min(1.0, size)
@@ -135,7 +142,7 @@ class Family(Pushing):
         h *= STEEP if acts is not None and SLIDES in acts.parts else 1.0
         try:
             self._take(h, *(FOUR if known else PAIR))
-            if p != 0.0 and not thorough and (self._names() & KINKED or self._moves_kinks()):
+            if p != 0.0 and not thorough and not self._stays():
                 self._forget()
                 return self._take(tiny, *PAIR)
             if not thorough and not known and self._trial().linear():
@@ -174,6 +181,15 @@ class Family(Pushing):
             if id(system) not in self._differ:
                 self._differ[id(system)] = changed(self.base, system)
         return set().union(*(self._differ[id(system)] for system in self.systems))
+
+    def _stays(self) -> bool:
+        """Whether nothing comes to a kink between the values."""
+        kinked = self._names() & KINKED
+        if self._moves_kinks():
+            return False
+        if self._branches is None or kinked != {"springs"}:
+            return not kinked
+        return len({self._branches(system) for system in (self.base, *self.systems)}) == 1
 
     def _moves_kinks(self) -> bool:
         """Whether supports are moved where something has kinks, whose numbers stay as they are."""
