@@ -115,10 +115,6 @@ def cost() -> str:
         ("first run after installation, compiling included", f"{start['first_run']:.0f} s"),
         ("later runs of `ancf run examples/cantilever.toml`", f"{start['later_run']:.1f} s"),
         (
-            "`ancf run examples/hoist.toml` after it, its contacts and joints compiled; later",
-            f"{start['other_kinds']:.0f} s; {start['other_kinds_later']:.1f} s",
-        ),
-        (
             f"`ancf reproduce all`, {len(checks['checks'])} checks, {checks['jobs']} processes",
             f"{checks['seconds'] / 60:.1f} min",
         ),
