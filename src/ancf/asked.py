@@ -34,6 +34,13 @@ def add_number_work(batch, q, v, a, x, out, ws):
     raise TypeError(f"{type(batch).__name__} does not know what its numbers do")
 
 
+def add_changes(batch, q, v, a, rates, kinds, begin, out, ws):
+    """Add the derivatives of the force along changes of the batch's numbers, ``rates``, one after the other,
+    to where in ``out`` each begins; ``kinds``: see ``Traits.kinds``.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know what its numbers do")
+
+
 def add_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
     """Add the derivatives of x . force by q, v and a, without what vanishes where rows of joints are zero."""
     raise TypeError(f"{type(batch).__name__} does not know the slopes of the work of its forces")
@@ -57,6 +64,7 @@ OF_SENSITIVITIES: dict[str, Any] = {
     "rate_work": add_rate_work,
     "touches": touched,
     "number_work": add_number_work,
+    "changes": add_changes,
     "work_slopes": add_work_slopes,
     "force_slopes": add_force_slopes,
     "slopes_beside": add_slopes_beside,

@@ -23,6 +23,7 @@ from . import addresses
 from .addresses import call_at
 from .compiled import (
     PART,
+    add_changes,
     add_force,
     add_force_slopes,
     add_inertia,
@@ -47,7 +48,7 @@ from .records import RecordType, begin_of, words_of
 _COLUMNS = 1 + len(OPERATIONS)
 _NONE = np.zeros((0, _COLUMNS), dtype=np.int64)
 FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, 9)
-RATES, TOUCHED, NUMBERS, WORKS, SLOPES, ALONG, BESIDE = range(9, _COLUMNS)
+RATES, TOUCHED, NUMBERS, WORKS, SLOPES, ALONG, BESIDE, CHANGES = range(9, _COLUMNS)
 #: Operations compiled for those who ask for them, see :mod:`ancf.solvers.rare`, and their columns.
 RARE = {
     add_rate_stiffness: RATES,
@@ -57,6 +58,7 @@ RARE = {
     add_work_slopes: SLOPES,
     add_force_slopes: ALONG,
     add_slopes_beside: BESIDE,
+    add_changes: CHANGES,
 }
 
 

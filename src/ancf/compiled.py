@@ -22,6 +22,7 @@ from numba.extending import overload
 from . import kernel_cache
 from .asked import MOST_TOUCHED as MOST_TOUCHED
 from .asked import OF_SENSITIVITIES
+from .asked import add_changes as add_changes
 from .asked import add_force_slopes as add_force_slopes
 from .asked import add_number_work as add_number_work
 from .asked import add_rate_stiffness as add_rate_stiffness
@@ -243,6 +244,9 @@ class Traits:
     joined : function, optional
         ``joined(batch, other)``: the batch as it knows what all numbers do that one of both has, as dampings
         that are zero in the other; default the batch itself.
+    kinds : function, optional
+        ``kinds(batch, rates)``: what :func:`add_changes` wants to know of a change of the numbers, (m,), whole
+        numbers (k,), all zero if there is none.
     change : function, optional
         ``change(batch, other, factor)``: a batch whose forces are ``factor`` times the difference of those of
         another one and its own; None where forces are not linear in what differs.
@@ -269,6 +273,7 @@ class Traits:
     numbers: Callable[[Any], Any] | None = None
     numbered: tuple[str, ...] = ()
     joined: Callable[[Any, Any], Any] | None = None
+    kinds: Callable[[Any, Any], Any] | None = None
     change: Callable[[Any, Any, float], Any] | None = None
 
 

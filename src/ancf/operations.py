@@ -8,6 +8,7 @@ from numba import types
 
 from .compiled import (
     VECTOR,
+    add_changes,
     add_force,
     add_force_slopes,
     add_inertia,
@@ -117,7 +118,14 @@ def number_work_at(record, q, v, a, x, out, ws):
     add_number_work(record, q, v, a, x, out, ws)
 
 
+@separate_kernel
+def changes_at(record, q, v, a, rates, kinds, begin, out, ws):
+    """``add_changes`` of the batch at an address."""
+    add_changes(record, q, v, a, rates, kinds, begin, out, ws)
+
+
 _V, _x = VECTOR, types.float64
+_PLACES = types.Array(types.int64, 1, "C")
 _LANES, _VECTORS = types.Array(_x, 2, "C"), types.Array(_x, 3, "C")
 #: Kernels of the operations on a record, the types of what they take besides it, and what they return.
 OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
@@ -136,4 +144,5 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     add_work_slopes: (work_slopes_at, (_V, _V, _V, _V, _V, _V, _V, _V), types.none),
     add_force_slopes: (force_slopes_at, (_V, _V, _V, _VECTORS, _LANES, _V), types.none),
     add_slopes_beside: (slopes_beside_at, (_V, _V, _V, _VECTORS, _LANES, _V), types.none),
+    add_changes: (changes_at, (_V, _V, _V, _V, _PLACES, _PLACES, _V, _V), types.none),
 }

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
-from ..simd import every, gather, gather_nodes, load, scatter, scatter_nodes, total, zero
+from ..simd import every, load, total, zero
+from .cable_changes import cable_changes, kinds_of
 from .cable_columns import (
     AXIAL,
     AXIALLY,
@@ -45,6 +46,7 @@ from .cable_columns import (
 )
 from .cable_damping import axial_damping, bending_damping, bending_damping_tangent, slope_damping
 from .cable_hessian import add_elastic
+from .cable_nodes import add_to_nodes, nodes
 from .cable_numbers import change, elements_work, joined, numbers
 from .cable_rate_work import rate_work
 from .cable_rates import TWIST, rate_blocks, store_twists
@@ -95,19 +97,6 @@ class CableBatch(NamedTuple):
     gp: FloatArray  # (m, 20) coefficients of the Gauss points
     lane_block: NDArray[np.int64]  # (chunks, 3, LANES) places of the 6x6 blocks of the nodes in the matrix
     order: NDArray[np.int64]  # (chunks,) how these lie, see cable_tangent.whole_blocks, 0: dest has to do
-
-
-@formula
-def nodes(batch, x, chunk):
-    """Values x of the four slots r, r_x, r, r_x."""
-    base = batch.lane_base
-    if batch.nodal[chunk]:
-        r1, t1 = gather_nodes(x, base, chunk, 0)
-        r2, t2 = gather_nodes(x, base, chunk, 2)
-    else:
-        r1, t1 = gather(x, base, chunk, 0), gather(x, base, chunk, 1)
-        r2, t2 = gather(x, base, chunk, 2), gather(x, base, chunk, 3)
-    return r1, t1, r2, t2
 
 
 @formula
@@ -222,20 +211,6 @@ def on_nodes(batch, chunk, acceleration, force):
     r2 = m * (54.0 * a1 + 13.0 * s1 + 156.0 * a2 - 22.0 * s2) + fd
     t2 = mh * (4.0 * s2 - 13.0 * a1 - 3.0 * s1 - 22.0 * a2) + f2
     return r1, t1, r2, t2
-
-
-@formula
-def add_to_nodes(batch, r, chunk, value):
-    """Add values of the four slots to r."""
-    r1, t1, r2, t2 = value
-    if batch.nodal[chunk]:
-        scatter_nodes(r1, t1, r, batch.lane_base, chunk, 0)
-        scatter_nodes(r2, t2, r, batch.lane_base, chunk, 2)
-    else:
-        scatter(r1, r, batch.lane_base, chunk, 0)
-        scatter(t1, r, batch.lane_base, chunk, 1)
-        scatter(r2, r, batch.lane_base, chunk, 2)
-        scatter(t2, r, batch.lane_base, chunk, 3)
 
 
 @inline_kernel
@@ -387,10 +362,12 @@ implements(
     rate_stiffness=cable_rate_stiffness,
     rate_work=cable_rate_work,
     number_work=cable_number_work,
+    changes=cable_changes,
     numbers=numbers,
     numbered=("lane_data", "lane_slope"),
     joined=joined,
     change=change,
+    kinds=kinds_of,
     role=Role.DISSIPATES,
     slots=("base", "lane_base"),
     bind=bind,

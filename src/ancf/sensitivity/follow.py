@@ -215,11 +215,12 @@ class Following:
         self.done += count
 
     def _room(self, count: int) -> FloatArray:
-        """Room for the derivatives of q, v and a, (p, count, 3, size), in the memory of the block before."""
-        wanted = len(self.families) * count * 3 * self.system.size
+        """Room for the derivatives of q, v and, of sensors, a, (p, count, 2 or 3, size), used again and again."""
+        kinds = 3 if self.samples.sampling.width else 2
+        wanted = len(self.families) * count * kinds * self.system.size
         if wanted > self._kept.size:
             self._kept = np.zeros(wanted)
-        return self._kept[:wanted].reshape(len(self.families), count, 3, self.system.size)
+        return self._kept[:wanted].reshape(len(self.families), count, kinds, self.system.size)
 
     def _block(self, way: Way, h: float, done: int, out: FloatArray, place: int) -> None:
         """Carry on over the steps of a block; fill the rows of (p, rows, 2 or 3, size) from a place on."""

@@ -9,13 +9,15 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray
 from ..batches import Batches
-from ..compiled import Role, traits
+from ..compiled import Role, add_changes, traits
 from ..simd import LANES
-from ..solvers.pushes import Uses, add_loads, add_pushes
+from ..solvers.pushes import Changes, Uses, add_loads, add_pushes
+from ..solvers.rare import knowing
 from ..solvers.sensitivity import Way
 from ..system.core import apply_load
 from ..system.system import System
 from .family import Family
+from .rates import rates_of
 
 
 class Pushes(NamedTuple):
@@ -62,9 +64,12 @@ class Nearby:
         self._first: tuple[FloatArray, BoolArray] | None = None  # the same of all plain ones
 
     @cached_property
-    def _plainly(self) -> tuple[Uses, FloatArray]:
+    def _plainly(self) -> tuple[Uses, Changes, FloatArray]:
         """What the plain ones ask for, see :func:`ancf.solvers.pushes.add_pushes`."""
-        return uses_of(self.families, self.plain), self._turns_of(self.plain)
+        rates = {k: rates_of(self.families[k], forces=True) for k in self.plain}
+        left = {k: self.families[k].changed - rates[k].keys() for k in self.plain}
+        changes = changes_of(self.system, [rates[k] for k in self.plain])
+        return uses_of(self.families, self.plain, left), changes, self._turns_of(self.plain)
 
     def _turns_of(self, chosen: list[int]) -> FloatArray:
         """Derivatives of the local axes by the chosen parameters, (p, k, 3, 3), if any turns; else none."""
@@ -138,7 +143,7 @@ class Nearby:
             none = np.zeros((len(found), system.size)), np.zeros(len(found), dtype=bool)
             system.level[:] = level
             self.know()
-            given = system.core, self.of_rows, np.zeros((0, 0, 3, 3)), *none
+            given = system.core, self.of_rows, changes_of(system, []), np.zeros((0, 0, 3, 3)), *none
             add_pushes(*given, tables, way, self._work, found)
             system.level[:] = before
             self.know()
@@ -213,4 +218,27 @@ def uses_of(families: list[Family], chosen: list[int], names: dict[int, set[str]
         np.cumsum([0] + [len(own) for _, own in found.values()]),
         np.array([row for row, _ in uses], dtype=np.int64),
         np.array([weight for _, weight in uses], dtype=np.float64),
+    )
+
+
+def changes_of(system: System, rates: list[dict[str, FloatArray]]) -> Changes:
+    """Of the numbers of batches of a system, by parameter and name, see :func:`ancf.sensitivity.rates.rates_of`."""
+    names = sorted({name for found in rates for name in found})
+    rows = [[k for k, found in enumerate(rates) if name in found] for name in names]
+    each = [[rates[k][name] for k in own] for name, own in zip(names, rows, strict=True)]
+    batches = [system.parts[name] for name in names]
+    kinds = [
+        [np.asarray(traits(batch).kinds(batch, rate), dtype=np.int64) for rate in own]  # type: ignore[misc]
+        for batch, own in zip(batches, each, strict=True)
+    ]
+    none = np.zeros(0, dtype=np.int64)
+    return Changes(
+        knowing(add_changes, batches),
+        np.cumsum([0, *map(len, rows)]),
+        np.array([k for own in rows for k in own], dtype=np.int64),
+        np.concatenate([np.zeros(0), *(rate for own in each for rate in own)]),
+        np.cumsum([0, *(sum(map(len, own)) for own in each)]),
+        np.concatenate([none, *(kind for own in kinds for kind in own)]),
+        np.cumsum([0, *(sum(map(len, own)) for own in kinds)]),
+        np.zeros(sum(map(len, rows)), dtype=np.int64),
     )

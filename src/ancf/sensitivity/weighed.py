@@ -12,13 +12,12 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..compiled import add_number_work, traits
+from ..compiled import add_number_work
 from ..solvers.pushes import weigh_loads, weigh_pushes
 from ..solvers.rare import knowing
 from ..solvers.sensitivity import Way
-from .alike import OWN
-from .family import Family
 from .nearby import Nearby, uses_of
+from .rates import joined, rates_of
 
 
 class Weighed:
@@ -102,34 +101,3 @@ class Weighed:
             if steady is not None:
                 made[k] -= float(np.sum(steady * self.total))
         return made
-
-
-def rates_of(family: Family) -> dict[str, FloatArray]:
-    """Derivatives of the numbers of batches by a parameter, by name, where that is all it does to them."""
-    found = {}
-    for name in family.changed:
-        batch, each = family.base.parts[name], [system.parts[name] for system in family.systems]
-        numbers, keys = traits(batch).numbers, traits(batch).numbered
-        if numbers is None or any(not _has_other(batch, other, keys) for other in each):
-            continue
-        here, total = numbers(batch), 0.0
-        for weight, one in zip(family.weights, each, strict=True):
-            if one is not batch:
-                total = total + weight * (numbers(one) - here)
-        found[name] = np.asarray(total)
-    return found
-
-
-def joined(batch: Any, other: Any) -> Any:
-    """The batch as it knows what all numbers do that it or another one has."""
-    own = traits(batch).joined
-    return batch if own is None else own(batch, other)
-
-
-def _has_other(batch: Any, other: Any, keys: tuple[str, ...]) -> bool:
-    """Whether nothing but these numbers differs, and which of them there are."""
-    return batch is other or all(
-        mine is theirs or np.array_equal(mine, theirs)
-        for key, mine, theirs in zip(batch._fields, joined(batch, other), joined(other, batch), strict=True)
-        if key not in keys and key not in OWN
-    )

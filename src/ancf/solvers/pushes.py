@@ -13,7 +13,7 @@ from ..arrays import FloatArray, IntArray
 from ..batches import Batches, add_force_of, add_forces
 from ..compiled import inline_kernel, kernel
 from ..system.core import drive, external_force, onto_shadows, to_local
-from .rare import add_number_work_of
+from .rare import add_changes_of, add_number_work_of
 
 
 class Uses(NamedTuple):
@@ -23,6 +23,19 @@ class Uses(NamedTuple):
     start: IntArray  # (batches + 1,) first use of each
     of: IntArray  # row of the pushes
     weight: FloatArray  # per unit of the parameter
+
+
+class Changes(NamedTuple):
+    """Batches that know what changes of their numbers do, and the changes by which parameters there are."""
+
+    batches: Batches
+    start: IntArray  # (batches + 1,) first change of each
+    of: IntArray  # row of the pushes, by change
+    rates: FloatArray  # of the numbers, change by change
+    rates_from: IntArray  # (batches + 1,) where those of each batch begin
+    kinds: IntArray  # see ``Traits.kinds``, change by change
+    kinds_from: IntArray  # (batches + 1,)
+    begin: IntArray  # (changes,) room: where the rows begin in the pushes of all steps
 
 
 @inline_kernel
@@ -44,15 +57,28 @@ def add_turned(supports, turn, r, row):
                 row[i + c] += turn[k, m, c] * r[j + m]
 
 
+@inline_kernel
+def add_changed(changes, q, v, a, step, push, ws):
+    """Add to the pushes of a step what changes of numbers do."""
+    begin, of, out = changes.begin, changes.of, push.reshape(-1)
+    for m in range(of.shape[0]):
+        begin[m] = (of[m] * push.shape[1] + step) * push.shape[2]
+    for k in range(changes.start.shape[0] - 1):
+        rates = changes.rates[changes.rates_from[k] : changes.rates_from[k + 1]]
+        kinds = changes.kinds[changes.kinds_from[k] : changes.kinds_from[k + 1]]
+        own = begin[changes.start[k] : changes.start[k + 1]]
+        add_changes_of(changes.batches, k, q, v, a, rates, kinds, own, out, ws)
+
+
 @kernel
-def add_pushes(core, uses, turn, first, loaded, tables, way, work, push):
+def add_pushes(core, uses, changes, turn, first, loaded, tables, way, work, push):
     """Add the forces of the batches to the pushes, and bring these into the form that the solve wants.
 
     Parameters
     ----------
     core : Core
         Of the model itself; its supports and inputs are those of all.
-    uses : Uses
+    uses, changes : Uses, Changes
     turn : (rows, k, 3, 3)
         Derivatives of the local axes, or no rows.
     first : (rows, size)
@@ -87,6 +113,7 @@ def add_pushes(core, uses, turn, first, loaded, tables, way, work, push):
                 row, weight = push[uses.of[m], step], uses.weight[m]
                 for i in range(size):
                     row[i] += weight * work[i]
+        add_changed(changes, q, v, a, step, push, core.ws)
         for p in range(push.shape[0]):
             row = push[p, step]
             to_local(core.supports, row)

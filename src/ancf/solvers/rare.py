@@ -10,6 +10,7 @@ from numba import typeof
 from ..batches import (
     ALONG,
     BESIDE,
+    CHANGES,
     NUMBERS,
     RARE,
     RATES,
@@ -21,6 +22,7 @@ from ..batches import (
     caller_of,
 )
 from ..compiled import (
+    add_changes,
     add_force_slopes,
     add_number_work,
     add_rate_stiffness,
@@ -34,6 +36,7 @@ from ..compiled import (
 _rate, _touched, _numbers = caller_of(add_rate_stiffness), caller_of(touched, 0), caller_of(add_number_work)
 _work, _slopes = caller_of(add_rate_work), caller_of(add_work_slopes)
 _along, _beside = caller_of(add_force_slopes), caller_of(add_slopes_beside)
+_changes = caller_of(add_changes)
 
 
 def knowing(stub: Any, batches: Iterable[Any], *others: Any) -> Batches:
@@ -99,3 +102,10 @@ def add_number_work_of(batches, k, q, v, a, x, out, ws):
     """``add_number_work`` of one of the :class:`Batches`."""
     table = batches.table
     _numbers(table[k, NUMBERS], table[k, 0], (q, v, a, x, out, ws))
+
+
+@inline_kernel
+def add_changes_of(batches, k, q, v, a, rates, kinds, begin, out, ws):
+    """``add_changes`` of one of the :class:`Batches`."""
+    table = batches.table
+    _changes(table[k, CHANGES], table[k, 0], (q, v, a, rates, kinds, begin, out, ws))

@@ -1,0 +1,49 @@
+"""What parameters change the numbers of batches by."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..compiled import traits
+from .alike import OWN
+from .family import Family
+
+
+def rates_of(family: Family, forces: bool = False) -> dict[str, FloatArray]:
+    """Derivatives of the numbers of batches by a parameter, by name, where that is all it does to them.
+
+    ``forces``: of batches that know what the forces change by, and not their work alone.
+    """
+    found = {}
+    for name in family.changed:
+        batch = family.base.parts[name]
+        numbers, keys = traits(batch).numbers, traits(batch).numbered
+        if numbers is None or (forces and traits(batch).kinds is None):
+            continue
+        each = [system.parts[name] for system in family.systems]
+        if any(not _has_other(batch, other, keys) for other in each):
+            continue
+        here, total = numbers(batch), 0.0
+        for weight, one in zip(family.weights, each, strict=True):
+            if one is not batch:
+                total = total + weight * (numbers(one) - here)
+        found[name] = np.asarray(total)
+    return found
+
+
+def joined(batch: Any, other: Any) -> Any:
+    """The batch as it knows what all numbers do that it or another one has."""
+    own = traits(batch).joined
+    return batch if own is None else own(batch, other)
+
+
+def _has_other(batch: Any, other: Any, keys: tuple[str, ...]) -> bool:
+    """Whether nothing but these numbers differs, and which of them there are."""
+    return batch is other or all(
+        mine is theirs or np.array_equal(mine, theirs)
+        for key, mine, theirs in zip(batch._fields, joined(batch, other), joined(other, batch), strict=True)
+        if key not in keys and key not in OWN
+    )
