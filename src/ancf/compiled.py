@@ -245,11 +245,8 @@ class Traits:
         ``joined(batch, other)``: the batch as it knows what all numbers do that one of both has, as dampings
         that are zero in the other; default the batch itself.
     kinds : function, optional
-        ``kinds(batch, rates)``: what :func:`add_changes` wants to know of a change of the numbers, (m,), whole
-        numbers (k,), all zero if there is none.
-    change : function, optional
-        ``change(batch, other, factor)``: a batch whose forces are ``factor`` times the difference of those of
-        another one and its own; None where forces are not linear in what differs.
+        ``kinds(batch, rates)``: what :func:`add_changes` wants to know of a change of the numbers, (m,):
+        whole numbers (k,), all zero if there is none.
     """
 
     role: Role = Role.NONE
@@ -274,7 +271,6 @@ class Traits:
     numbered: tuple[str, ...] = ()
     joined: Callable[[Any, Any], Any] | None = None
     kinds: Callable[[Any, Any], Any] | None = None
-    change: Callable[[Any, Any, float], Any] | None = None
 
 
 _TRAITS: dict[type, Traits] = {}

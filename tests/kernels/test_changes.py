@@ -1,71 +1,84 @@
-"""Batches whose forces are the difference of those of two others."""
+"""What changes of the constants of cables do to all forces: the kernel against differences of the forces."""
 
 import numpy as np
 import pytest
 
 from ancf.batches import Batches
-from ancf.compiled import traits
-from ancf.elements.cable_columns import AXIAL, BENDING, DAMPED, EA_L, EI_L, INV_L, MASS, VISCOUS
+from ancf.compiled import add_changes, does_something, traits
+from ancf.elements.cable_columns import DAMPED, INV_L, LENGTH
+from ancf.sensitivity.nearby import changes_of
+from ancf.solvers.pushes import Uses, add_pushes
+from ancf.solvers.sensitivity import Way
 from ancf.system.core import residual
 from ancf.system.system import System
 from strained import SECTIONS, cable, states
 
-ROWS = {
-    "EA": [EA_L],
-    "EI": [EI_L],
-    "mass": [MASS],
-    "drag": [VISCOUS],
-    "dampings": [4, 5, VISCOUS],
-    "all": list(range(2, 8)),
-}
+
+def found_by_kernel(system, rates, way):
+    """Derivatives of the residuals along changes of the numbers, (changes, steps, size)."""
+    count, steps = len(rates), len(way.q)
+    uses = Uses(Batches(), np.zeros(1, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0))
+    changes = changes_of(system, [{"cable": rate} if rate is not None else {} for rate in rates])
+    first, push = np.zeros((count, system.size)), np.full((count, steps, system.size), np.nan)
+    tables = system.inputs.tables(0.0, 0.1, steps, 0.0, 1.0)
+    given = np.zeros((0, 0, 3, 3)), first, np.zeros(count, dtype=bool), tables, way
+    add_pushes(system.core, uses, changes, *given, np.zeros(system.size), push)
+    return push
 
 
-def forces(system, batch, states):
-    r = np.empty(system.size)
-    residual(Batches([batch]), system.core.ws, *states, np.zeros(system.size), r)
-    return r
+def forces(system, batch, way):
+    """What the batch adds to the residuals, (steps, size)."""
+    found = np.empty_like(way.q)
+    for r, q, v, a in zip(found, *way, strict=True):
+        residual(Batches([batch]), system.core.ws, q, v, a, np.zeros(system.size), r)
+    return found
 
 
-def changed(batch, rows, rng, slope=True):
-    """The batch with other constants in these rows; dampings also where there are none."""
-    data, slopes, groups = batch.lane_data.copy(), batch.lane_slope.copy(), batch.groups.copy()
-    size = np.where(data[:, rows] == 0.0, 0.3, data[:, rows])
-    data[:, rows] += size * rng.uniform(0.1, 0.5, data[:, rows].shape)
-    if slope:
-        slopes += rng.uniform(0.1, 0.5, slopes.shape)
-    groups[:, DAMPED] = 15
-    return batch._replace(lane_data=data, lane_slope=slopes, groups=groups)
+def sized(values, rng):
+    """Random changes of the size of values, and of 0.3 where they are zero."""
+    return np.where(values == 0.0, 0.3, values) * rng.uniform(0.2, 1.0, values.shape)
 
 
-@pytest.mark.parametrize("shape", ["straight", "bent"])
-@pytest.mark.parametrize("strain", ["paper", "material"])
-@pytest.mark.parametrize("rows", ROWS)
-@pytest.mark.parametrize("section", SECTIONS)
-def test_forces_are_the_difference(section, rows, strain, shape):
-    model, _ = cable(strain, 11, shape, **SECTIONS[section])
-    system = System(model)
-    batch = system.parts["cable"]
-    q, v, a, _, rng = states(system, 7)
-    other = changed(batch, ROWS[rows], rng, slope=rows == "all")
-    found = traits(batch).change(batch, other, 3.0)
-    mine, theirs = (forces(system, one, (q, v, a)) for one in (batch, other))
-    wanted = 3.0 * (theirs - mine)
-    assert np.any(wanted)
-    width = 1e-11 * np.abs(wanted).max() + 1e-13 * np.abs(theirs).max()
-    np.testing.assert_allclose(forces(system, found, (q, v, a)), wanted, rtol=0, atol=width)
+def slope(of):
+    """By differences of order six."""
+    one, two, three = ((of(e) - of(-e)) / (2 * e) for e in (1e-3, 2e-3, 3e-3))
+    return 1.5 * one - 0.6 * two + 0.1 * three
 
 
-def test_what_does_not_change_is_left_out():
-    system = System(cable("material", 9, "straight", **SECTIONS["all"])[0])
-    batch, rng = system.parts["cable"], np.random.default_rng(1)
-    for rows, axial, bending in (("EA", 5, 0), ("EI", 0, 3), ("mass", 0, 0)):
-        other = changed(batch, ROWS[rows], rng, slope=False)
-        groups = traits(batch).change(batch, other, 1.0).groups
-        assert groups[0, AXIAL] == axial
-        assert groups[0, BENDING] == bending
+@pytest.mark.parametrize("elements", [3, 9])
+@pytest.mark.parametrize("shape", ["straight", "curved"])
+@pytest.mark.parametrize("strain", ["material", "paper"])
+@pytest.mark.parametrize("damping", SECTIONS)
+def test_against_differences(damping, strain, shape, elements):
+    system = System(cable(strain, elements, shape, **SECTIONS[damping])[0])
+    batch, rng = system.parts["cable"], np.random.default_rng(3)
+    way = Way(*(np.stack(rows) for rows in zip(*(states(system, seed)[:3] for seed in (1, 2)), strict=True)))
+    every = batch.groups.copy()
+    every[:, DAMPED] = 15  # also where a constant is zero
+    moves = []
+    for row in range(8):
+        change = np.zeros_like(batch.lane_data)
+        change[:, row] = sized(batch.lane_data[:, row], rng)
+        moves.append({"lane_data": change})
+    moves.append({"lane_slope": sized(batch.lane_slope, rng)})
+    moves.append({"lane_data": sum(move["lane_data"] for move in moves[:8])})
+
+    def moved(move, e):
+        fields = {field: getattr(batch, field) + e * by for field, by in move.items()}
+        return batch._replace(groups=every, **fields)
+
+    numbers = traits(batch).numbers
+    rates = [slope(lambda e, move=move: numbers(moved(move, e))) for move in moves]
+    found = found_by_kernel(system, [None, *rates], way)
+    assert not found[0].any()
+    size = np.abs(forces(system, batch, way)).max()
+    for k, (move, own) in enumerate(zip(moves, found[1:], strict=True)):
+        wanted = slope(lambda e, move=move: forces(system, moved(move, e), way))
+        loose = 1e-9 if k in (LENGTH, INV_L, 9) else 1e-12
+        assert np.abs(own - wanted).max() <= loose * np.abs(wanted).max() + 1e-12 * size, k
 
 
-def test_lengths_are_not_linear():
-    system = System(cable("material", 9, "straight")[0])
-    batch, rng = system.parts["cable"], np.random.default_rng(1)
-    assert traits(batch).change(batch, changed(batch, [INV_L], rng), 1.0) is None
+def test_kinds_that_know_have_kinds():
+    model, _ = cable("material", 3, "straight")
+    for batch in System(model).parts.values():
+        assert does_something(type(batch), add_changes) == (traits(batch).kinds is not None)

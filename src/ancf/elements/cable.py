@@ -47,7 +47,7 @@ from .cable_columns import (
 from .cable_damping import axial_damping, bending_damping, bending_damping_tangent, slope_damping
 from .cable_hessian import add_elastic
 from .cable_nodes import add_to_nodes, nodes
-from .cable_numbers import change, elements_work, joined, numbers
+from .cable_numbers import elements_work, joined, numbers
 from .cable_rate_work import rate_work
 from .cable_rates import TWIST, rate_blocks, store_twists
 from .cable_strain import (
@@ -366,7 +366,6 @@ implements(
     numbers=numbers,
     numbered=("lane_data", "lane_slope"),
     joined=joined,
-    change=change,
     kinds=kinds_of,
     role=Role.DISSIPATES,
     slots=("base", "lane_base"),

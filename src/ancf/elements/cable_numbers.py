@@ -19,7 +19,6 @@ from ..vectors import dot
 from .cable_columns import (
     AXIAL,
     AXIALLY,
-    BEGIN,
     BENDING,
     CURVATURE,
     CURVED,
@@ -28,7 +27,6 @@ from .cable_columns import (
     DB_L,
     EA_L,
     EI_L,
-    END,
     FIRST,
     IN_BENDING,
     IN_SLOPE,
@@ -58,8 +56,6 @@ from .cable_strain import (
 ROWS = 8
 #: Relative change of 1/L, and weights, of the difference of order four of the damping of bending.
 CHANGE = 5e-4
-#: Mass beside its damping where there is none: accelerations are far below the round-off of velocities.
-LIGHT = 1e-60
 CHANGES = ((-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0))
 
 
@@ -77,36 +73,6 @@ def joined(batch, other):
         return batch
     groups[:, DAMPED] |= other.groups[:, DAMPED]
     return batch._replace(groups=groups)
-
-
-def change(batch, other, factor):
-    """The batch whose forces are a difference of forces, see :class:`ancf.compiled.Traits`.
-
-    Stiffnesses, dampings and masses differ; what does not is left out of its sums.
-    """
-    mine, theirs = batch.lane_data, other.lane_data
-    if not (
-        np.array_equal(mine[:, : INV_L + 1], theirs[:, : INV_L + 1])
-        and np.array_equal(batch.lane_reference, other.lane_reference)
-        and np.array_equal(np.delete(batch.groups, DAMPED, 1), np.delete(other.groups, DAMPED, 1))
-    ):
-        return None
-    data, groups = factor * (theirs - mine), batch.groups.copy()
-    data[:, : INV_L + 1] = mine[:, : INV_L + 1]
-    lost = factor * (theirs[:, VISCOUS] * theirs[:, MASS] - mine[:, VISCOUS] * mine[:, MASS])
-    mass = np.where((data[:, MASS] == 0.0) & (lost != 0.0), LIGHT * lost, data[:, MASS])
-    data[:, MASS], data[:, VISCOUS] = mass, lost / np.where(mass == 0.0, 1.0, mass)
-    slope = factor * (other.lane_slope - batch.lane_slope)
-    for group in groups:
-        own = slice(group[BEGIN], group[END])
-        along, across, viscous = (np.any(data[own, row]) for row in (DA_L, DB_L, VISCOUS))
-        bits = (VISCOUSLY, viscous), (AXIALLY, along), (IN_BENDING, across), (IN_SLOPE, np.any(slope[own]))
-        group[DAMPED] = sum(bit for bit, value in bits if value)
-        if not (along or np.any(data[own, EA_L])):
-            group[FIRST], group[AXIAL] = group[FIRST] + group[AXIAL], 0
-        if not (across or np.any(data[own, EI_L])):
-            group[BENDING] = 0
-    return batch._replace(groups=groups, lane_data=data, lane_slope=slope)
 
 
 @formula

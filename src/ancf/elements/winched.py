@@ -31,12 +31,10 @@ from ..compiled import Role, formula, implements, inline_kernel
 from ..simd import every, gather, load, scatter, total, vector
 from ..vectors import dot
 from .cable import (
-    add_to_nodes,
     bind,
     damped_force,
     differences,
     elastic,
-    nodes,
     on_nodes,
     reference,
     stiffness,
@@ -59,6 +57,7 @@ from .cable_columns import (
     VISCOUS,
     VISCOUSLY,
 )
+from .cable_nodes import add_to_nodes, nodes
 from .cable_strain import WEIGHT, a_of, axial_energy, b_of, bending_energy, c_of, forces, products
 from .cable_tangent import BLOCKS, KDD, store_tangent
 from .workspace import clear

@@ -291,34 +291,16 @@ class Family(Pushing):
     def used(self, names: set[str] | None = None) -> list[tuple[float, Batches]]:
         """Weights and the batches that the parameter changes at each value, or those of them by these names.
 
-        Where two values do, one of them and that of the model, which all parameters share; or one batch, of
-        kinds that know what their forces change by.
+        Where two values do, one of them and that of the model, which all parameters share.
         """
         names = self.changed if names is None else names
         if not names:
             return []
-        change = self._change(names)
-        if change is not None:
-            return [(1.0, change)]
         batches = few_of([*self.systems, self.base], names)
         if not self.linear or self.systems[-1] is self.base:
             return list(zip(self.weights, batches[:-1], strict=True))
         last, own = batches[-2:]
         return [(1.0 / self.offsets[-1], last), (-1.0 / self.offsets[-1], own)]
-
-    def _change(self, names: set[str]) -> Batches | None:
-        """Batches whose forces are the derivatives of those by these names, if all of them can be had."""
-        system, offset, made = self.systems[0], self.offsets[0], []
-        if self.systems[-1] is not self.base:
-            return None
-        for name in sorted(names):
-            mine = self.base.parts[name]
-            own = traits(mine).change
-            found = None if own is None else own(mine, system.parts[name], 1.0 / offset)
-            if found is None:
-                return None
-            made.append(found)
-        return Batches(made)
 
     def loads_used(
         self, when: tuple[float, float, float, float], tables: Tables

@@ -215,7 +215,7 @@ class Following:
         self.done += count
 
     def _room(self, count: int) -> FloatArray:
-        """Room for the derivatives of q, v and, of sensors, a, (p, count, 2 or 3, size), used again and again."""
+        """Room for derivatives of q, v and, of sensors, a, (p, count, 2 or 3, size), used again and again."""
         kinds = 3 if self.samples.sampling.width else 2
         wanted = len(self.families) * count * kinds * self.system.size
         if wanted > self._kept.size:

@@ -222,7 +222,7 @@ def uses_of(families: list[Family], chosen: list[int], names: dict[int, set[str]
 
 
 def changes_of(system: System, rates: list[dict[str, FloatArray]]) -> Changes:
-    """Of the numbers of batches of a system, by parameter and name, see :func:`ancf.sensitivity.rates.rates_of`."""
+    """Of the numbers of batches of a system: by parameter what :func:`rates_of` finds."""
     names = sorted({name for found in rates for name in found})
     rows = [[k for k, found in enumerate(rates) if name in found] for name in names]
     each = [[rates[k][name] for k in own] for name, own in zip(names, rows, strict=True)]
