@@ -61,6 +61,21 @@ def test_saved_and_pickled(tmp_path):
 
 
 @pytest.mark.filterwarnings("ignore:.*the support wins")
+@pytest.mark.parametrize("method", [ancf.Trapezoidal(), ancf.GeneralizedAlpha(0.6)], ids=["half", "damped"])
+def test_places_follow_from_velocities(method, tmp_path):
+    """In memory they are computed when they are asked for; a file, which has both, knows them from the steps."""
+    settings = {**RUN, "integrator": method, "sensitivities": NAMES}
+    memory = ancf.simulate(swinging(), **settings)
+    ancf.simulate(swinging(), **settings, file=tmp_path / "run.h5")
+    file = ancf.load(tmp_path / "run.h5")
+    for name in NAMES:
+        one, two = memory.sensitivity(name), file.sensitivity(name)
+        assert np.array_equal(one.dv, two.dv)
+        assert np.allclose(one.dq, two.dq, rtol=0, atol=1e-13 * np.max(np.abs(two.dq)))
+        assert one.dq is one.dq
+
+
+@pytest.mark.filterwarnings("ignore:.*the support wins")
 def test_another_run_starts_from_a_file(tmp_path):
     """From the file of another run, or from the result that made it."""
     first = ancf.simulate(swinging(), **RUN, sensitivities=NAMES[:2], file=tmp_path / "first.h5")

@@ -114,17 +114,30 @@ class Sensitivity:
     q, v : ndarray (n, size) or (size,)
         States.
     dq, dv : ndarray
-        Their derivatives.
+        Their derivatives; of q perhaps a function that computes them when they are asked for.
     """
 
     def __init__(
-        self, family: Family, t: Any, q: FloatArray, v: FloatArray, dq: FloatArray, dv: FloatArray
+        self,
+        family: Family,
+        t: Any,
+        q: FloatArray,
+        v: FloatArray,
+        dq: FloatArray | Callable[[], FloatArray],
+        dv: FloatArray,
     ) -> None:
         self._family, self.t = family, t
-        self._q, self._v, self.dq, self.dv = q, v, dq, dv
+        self._q, self._v, self._dq, self.dv = q, v, dq, dv
+
+    @property
+    def dq(self) -> FloatArray:
+        """Derivatives of q, as the states."""
+        if callable(self._dq):
+            self._dq = self._dq()
+        return self._dq
 
     def __repr__(self) -> str:
-        count = f", {len(self.dq)} times" if self.dq.ndim > 1 else ""
+        count = f", {len(self.dv)} times" if self.dv.ndim > 1 else ""
         return f"Sensitivity({self.name!r}{count})"
 
     def __getattr__(self, name: str) -> Callable[..., FloatArray]:

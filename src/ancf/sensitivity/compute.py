@@ -74,8 +74,8 @@ def with_sensitivities(
     result = carried_out(made, store, progress, following)
     t, q, v = np.array(result.t), result.q[:], result.v[:]
     result.derivatives = {
-        family.name: Sensitivity(family, t, q, v, rows[:, 0], rows[:, 1])
-        for family, rows in zip(following.families, following.found(), strict=True)
+        family.name: Sensitivity(family, t, q, v, *own)
+        for family, own in zip(following.families, following.found(), strict=True)
     }
     if following.samples.sampling.width:
         sensors = result.sensors

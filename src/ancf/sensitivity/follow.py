@@ -25,6 +25,7 @@ from ..solvers.status import OK
 from ..system.system import System
 from .base import check_differentiable, matrices_of
 from .family import Family
+from .histories import Histories
 from .nearby import Nearby
 from .parameters import Parameter, check_known
 from .samples import Samples
@@ -101,19 +102,20 @@ class Following:
         self.ahead, self.room = ahead_of(self.system.core, self.m), room_for(self.system.size)
         self.edge = edge_for(self.system.size, len(self.m.edge))
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
-        self.taken, self.done, self.stored = 0, 0, 0  # steps taken in and followed, states stored
+        self.taken, self.done = 0, 0  # steps taken in and followed
         self.handed = 0, 0  # states and samples that a file has
         self.waiting: list[tuple[FloatArray, FloatArray, FloatArray]] = []  # q, v, a of steps to be followed
         run: Any = self.run
         count = 2 + (run.steps - 1) // every
-        self.rows = np.empty((len(self.families), count, 2, self.system.size))  # at stored times
         self.samples = Samples(self.families, self.system, run.system.sensors, run.steps)
+        led = every == 1 and not self.samples.sampling.width and self._leads()
+        self.histories = Histories(len(self.families), count, self.system.size, led)
         self._kept = np.zeros(0)
         refuse_breaks(self.run)
 
     def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
         """States of a block, see :class:`ancf.solvers.record.Recorder`."""
-        if not self.stored:
+        if not self.histories.stored:
             self._begin()
             self.store.append(t, q, v, work)
             self._hand_on()
@@ -137,12 +139,15 @@ class Following:
         """Give a file the derivatives by numbers of the model that it lacks."""
         if not isinstance(self.store, FileStore):
             return
-        states, samples = slice(self.handed[0], self.stored), slice(self.handed[1], self.samples.done)
+        states, samples = (
+            slice(self.handed[0], self.histories.stored),
+            slice(self.handed[1], self.samples.done),
+        )
         named = [k for k, family in enumerate(self.families) if family.parameter.named]
         for place, k in enumerate(named):
-            dq, dv = self.rows[k, states, 0], self.rows[k, states, 1]
+            dq, dv = np.moveaxis(self.histories.rows[k, states], 1, 0)
             self.store.derive(place, (dq, dv, self.samples.rows[k, samples]))
-        self.handed = self.stored, self.samples.done
+        self.handed = self.histories.stored, self.samples.done
 
     def due(self) -> bool:
         """Never: a run that is gone on with would not know them."""
@@ -162,16 +167,17 @@ class Following:
         states = run.memory.q.copy(), run.memory.v.copy(), run.memory.a.copy()
         found, held = starts(system, self.m, self.nearby, self.given, states, when)
         self.s = abreast(found)
+        self.histories.begin(found, held)
         first = found[:, None, :3].copy()
         first[:, 0, :2] += held
-        self._keep(first[:, :, :2])
         self.samples.take(states[0][None], states[1][None], first)
         self.trail = Trail(run)
 
-    def _keep(self, made: FloatArray) -> None:
-        """Store derivatives (p, n, 2, size)."""
-        self.rows[:, self.stored : self.stored + made.shape[1]] = made
-        self.stored += made.shape[1]
+    def _leads(self) -> bool:
+        """Whether places follow from velocities: of a result in memory, for a file has both."""
+        supports = self.system.core.supports
+        moves = bool(self.nearby.others) or bool(np.any(supports.rot_moving >= 0))
+        return not (moves or len(self.system.multipliers) or isinstance(self.store, FileStore))
 
     def _kept_of(self, done: int, count: int) -> BoolArray:
         """Which of the last steps are stored."""
@@ -205,12 +211,12 @@ class Following:
             rows = slice(begin, min(begin + most, count))
             way = Way(q[rows].copy(), v[rows].copy(), a[rows])
             if self.every == 1 and not self.samples.sampling.width:
-                self._block(way, h, self.done + begin, self.rows, self.stored)
-                self.stored += len(way.q)
+                self._block(way, h, self.done + begin, self.histories.rows, self.histories.stored)
+                self.histories.stored += len(way.q)
                 continue
             made = self._room(len(way.q))
             self._block(way, h, self.done + begin, made, 0)
-            self._keep(made[:, np.flatnonzero(keep[rows]), :2])
+            self.histories.keep(made[:, np.flatnonzero(keep[rows]), :2])
             self.samples.take(way.q, way.v, made)
         self.done += count
 
@@ -244,9 +250,9 @@ class Following:
         for k, held in found.held.items():
             out[k, place : place + count] += np.moveaxis(held[: out.shape[2]], 0, 1)
 
-    def found(self) -> list[FloatArray]:
-        """Derivatives of q and v at the stored times by parameter, (n, 2, size) each."""
-        return list(self.rows[:, : self.stored])
+    def found(self) -> list[tuple[Any, FloatArray]]:
+        """Derivatives of q and v at the stored times by parameter, see :meth:`Histories.found`."""
+        return self.histories.found(self.run)
 
 
 def check_method(made: Prepared, where: str) -> None:

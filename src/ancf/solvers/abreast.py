@@ -261,8 +261,8 @@ def follow_steps(core, m, ahead, room, edge, tables, way, push, gap, turn, h, sc
     h, scheme, joined : float, Scheme, Constraining
     s : (p/8 rounded up, 4, size, 8)
         At the start; changed to the end.
-    out : (p, rows, 2 or 3, size)
-        s_q, s_v and s_a at the ends of the steps, in the rows from ``place`` on.
+    out : (p, rows, 1, 2 or 3, size)
+        s_v, or s_q, s_v and s_a, at the ends of the steps, in the rows from ``place`` on.
     place : int
 
     Returns

@@ -151,7 +151,10 @@ def turned_out(room, k, rows, whole):
 
 @inline_kernel
 def kept(room, s, scheme, out, row, first):
-    """Write s_q, s_v and, if there is room, s_a to a row of what is kept; the next step starts with them."""
+    """Write s_q, s_v and, if there is room, s_a to a row of what is kept, or s_v alone if there is room for one.
+
+    The next step starts with them.
+    """
     am, af = scheme.alpha_m, scheme.alpha_f
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
     for i in range(s.shape[1]):
@@ -162,10 +165,11 @@ def kept(room, s, scheme, out, row, first):
         store(a, s, A, i)
     size, count, whole = s.shape[1], min(LANES, out.shape[0] - first), 0
     for k in range(out.shape[2]):
+        own = k if out.shape[2] > 1 else 1
         if count == LANES:
             whole, each = size - size % LANES, out.shape[1] * out.shape[2] * size
             lanes_at(room.place, first, count, each, (row * out.shape[2] + k) * size)
-            turned_out(room, k, out.reshape(-1), whole)
+            turned_out(room, own, out.reshape(-1), whole)
         for p in range(first, first + count):
             for i in range(whole, size):
-                out[p, row, k, i] = room.d[k, i, p - first]
+                out[p, row, k, i] = room.d[own, i, p - first]

@@ -296,6 +296,32 @@ def stiffnesses(core, m, K, W, q, v, still):
 
 
 @kernel
+def places(v, h, rest, full, scheme, bar, made):
+    """Positions at the ends of steps from the velocities there, as the steps have them.
+
+    Parameters
+    ----------
+    v : (steps + 1, size)
+    h, rest : float
+        Lengths of the first ``full`` steps and of those behind them.
+    full : int
+    scheme : Scheme
+    bar : (size,)
+        The algorithmic acceleration at the start; changed to that at the end.
+    made : (steps + 1, size)
+        Filled from the second row on.
+    """
+    beta, gamma = scheme.beta, scheme.gamma
+    for n in range(1, v.shape[0]):
+        step = h if n <= full else rest
+        for i in range(v.shape[1]):
+            new = ((v[n, i] - v[n - 1, i]) / step - (1.0 - gamma) * bar[i]) / gamma
+            moved = step * v[n - 1, i] + step * step * ((0.5 - beta) * bar[i] + beta * new)
+            made[n, i] = made[n - 1, i] + moved
+            bar[i] = new
+
+
+@kernel
 def accelerations(v, h, scheme, before, made):
     """Accelerations at the ends of steps from the velocities there.
 
