@@ -63,7 +63,7 @@ def test_saved_and_pickled(tmp_path):
 @pytest.mark.filterwarnings("ignore:.*the support wins")
 @pytest.mark.parametrize("method", [ancf.Trapezoidal(), ancf.GeneralizedAlpha(0.6)], ids=["half", "damped"])
 def test_places_follow_from_velocities(method, tmp_path):
-    """In memory they are computed when they are asked for; a file, which has both, knows them from the steps."""
+    """In memory they are computed when they are asked for; a file has what the steps found."""
     settings = {**RUN, "integrator": method, "sensitivities": NAMES}
     memory = ancf.simulate(swinging(), **settings)
     ancf.simulate(swinging(), **settings, file=tmp_path / "run.h5")

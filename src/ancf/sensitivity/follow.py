@@ -139,15 +139,13 @@ class Following:
         """Give a file the derivatives by numbers of the model that it lacks."""
         if not isinstance(self.store, FileStore):
             return
-        states, samples = (
-            slice(self.handed[0], self.histories.stored),
-            slice(self.handed[1], self.samples.done),
-        )
+        ends = self.histories.stored, self.samples.done
+        states, samples = (slice(*own) for own in zip(self.handed, ends, strict=True))
         named = [k for k, family in enumerate(self.families) if family.parameter.named]
         for place, k in enumerate(named):
             dq, dv = np.moveaxis(self.histories.rows[k, states], 1, 0)
             self.store.derive(place, (dq, dv, self.samples.rows[k, samples]))
-        self.handed = self.histories.stored, self.samples.done
+        self.handed = ends
 
     def due(self) -> bool:
         """Never: a run that is gone on with would not know them."""

@@ -1,4 +1,4 @@
-"""Derivatives of the states of a run at its stored times, of velocities alone where those of places follow."""
+"""Derivatives of the states of a run at its stored times; of velocities alone where places follow."""
 
 from __future__ import annotations
 

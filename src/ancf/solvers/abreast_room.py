@@ -151,7 +151,7 @@ def turned_out(room, k, rows, whole):
 
 @inline_kernel
 def kept(room, s, scheme, out, row, first):
-    """Write s_q, s_v and, if there is room, s_a to a row of what is kept, or s_v alone if there is room for one.
+    """Write s_v, s_q and s_v or all three, as there is room, to a row of what is kept.
 
     The next step starts with them.
     """
