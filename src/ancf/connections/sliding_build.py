@@ -28,6 +28,10 @@ from .sliding import (
 )
 from .sliding_slopes import sliding_slopes, sliding_slopes_along, sliding_slopes_beside
 
+#: Places in an element, and what makes a polynomial of its values there.
+FOUR = np.linspace(0.0, 1.0, 4)
+FITTED = np.linalg.inv(np.vander(FOUR, 4, increasing=True))
+
 
 def sliding(
     joints: Sequence[Slide],
@@ -88,6 +92,13 @@ def carrier_line(joint: Slide, slots: dict[str, IntArray]) -> tuple[FloatArray, 
     return beam_line(body, slots[body.name], *joint.offset)
 
 
+def _lengths(h: FloatArray) -> list[tuple[float, IntArray]]:
+    """Lengths and the elements that have them; those that differ by round-off are one."""
+    order = np.argsort(h, kind="stable")
+    ends = np.flatnonzero(np.diff(h[order]) > 4.0 * np.spacing(h[order[1:]])) + 1
+    return [(float(h[own[0]]), own) for own in np.split(order, ends)]
+
+
 def beam_line(
     body: Beam, seen: IntArray, y: float = 0.0, z: float = 0.0
 ) -> tuple[FloatArray, IntArray, FloatArray]:
@@ -98,11 +109,9 @@ def beam_line(
     line = np.full((len(h), COLUMNS), -1)
     line[:, : used.shape[1]] = used
     poly = np.zeros((len(h), COLUMNS, 4))
-    at = np.linspace(0.0, 1.0, 4)
-    inverse = np.linalg.inv(np.vander(at, 4, increasing=True))
-    for length in np.unique(h):
-        values = ELEMENTS[body.element].shape(body.element, at, length, y, z)  # (4, columns)
-        poly[h == length, : used.shape[1]] = (inverse @ values).T
+    for length, own in _lengths(h):
+        values = ELEMENTS[body.element].shape(body.element, FOUR, length, y, z)  # (4, columns)
+        poly[own, : used.shape[1]] = (FITTED @ values).T
     if y == 0.0 and z == 0.0:  # columns that do not contribute
         line[np.all(poly == 0.0, axis=2)] = -1
     order = np.argsort(line < 0, axis=1, kind="stable")  # what is not used comes last
