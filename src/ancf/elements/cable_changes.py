@@ -58,9 +58,12 @@ from .cable_strain import (
     products,
     slope,
 )
+from .workspace import rows, set_rows
 
 #: Bits of the kinds of a change: of the rows of the constants, and of the damping of slopes.
 IN_EA, IN_EI, IN_DA, IN_DB, IN_INV_L, IN_SLOPES = (1 << k for k in (EA_L, EI_L, DA_L, DB_L, INV_L, ROWS))
+#: Places in the workspace of what they do.
+ALONG, ACROSS, DAMPED_ALONG, DAMPED_ACROSS, OF_SLOPES, LONGER = range(6)
 IN_LENGTH, IN_MASS = 1 << LENGTH, (1 << MASS) | (1 << VISCOUS)
 
 
@@ -210,27 +213,37 @@ def longer(batch, group, chunk, q, v):
     return found
 
 
+@formula
+def put(ws, k, x):
+    """Keep the forces of a kind in the workspace."""
+    set_rows(ws, 9 * k, x[0])
+    set_rows(ws, 9 * k + 3, x[1])
+    set_rows(ws, 9 * k + 6, x[2])
+
+
+@formula
+def kept(ws, k):
+    """What :func:`put` has kept."""
+    return rows(ws, 9 * k), rows(ws, 9 * k + 3), rows(ws, 9 * k + 6)
+
+
 @inline_kernel
-def all_forces(batch, group, chunk, q, v, needed):
-    """What a change of each kind that is ``needed`` does on d, t1 and t2: EA L, EI L, D_a L, D_b L, slopes,
-    and the logarithm of 1/L.
-    """
+def all_forces(batch, group, chunk, q, v, needed, ws):
+    """Keep what a change of each kind that is ``needed`` does on d, t1 and t2."""
     inv_l = load(batch.lane_data, chunk, INV_L)
     u, rates = apart(in_elements(q, inv_l)), in_elements(v, inv_l)
-    along = across = axial = bending = slopes = length = nothing()
     if needed & IN_EA:
-        along = stretched(batch, group, chunk, u)
+        put(ws, ALONG, stretched(batch, group, chunk, u))
     if needed & IN_EI:
-        across = bent(batch, group, chunk, u, inv_l)
+        put(ws, ACROSS, bent(batch, group, chunk, u, inv_l))
     if needed & IN_DA:
-        axial = damped_axially(batch, group, u, apart(rates))
+        put(ws, DAMPED_ALONG, damped_axially(batch, group, u, apart(rates)))
     if needed & IN_DB:
-        bending = damped_in_bending(batch, group, q, v, inv_l)
+        put(ws, DAMPED_ACROSS, damped_in_bending(batch, group, q, v, inv_l))
     if needed & IN_SLOPES:
-        slopes = slope_damping(every(1.0), *rates)
+        put(ws, OF_SLOPES, slope_damping(every(1.0), *rates))
     if needed & IN_INV_L:
-        length = longer(batch, group, chunk, q, v)
-    return along, across, axial, bending, slopes, length
+        put(ws, LONGER, longer(batch, group, chunk, q, v))
 
 
 @formula
@@ -271,23 +284,22 @@ def rate(rates, chunk, k):
 
 
 @inline_kernel
-def add_change(batch, group, chunk, states, known, rates, kind, out):
-    """Add what a change of these kinds does; ``known``: what :func:`all_forces` found."""
+def add_change(batch, group, chunk, states, rates, kind, out, ws):
+    """Add what a change of these kinds does, of which :func:`all_forces` keeps the parts."""
     (_, v, a), data, f = states, batch.lane_data, nothing()
-    along, across, axial, bending, slopes, length = known
     h, inv_l = load(data, chunk, LENGTH), load(data, chunk, INV_L)
     if kind & IN_EA:
-        f = plus(f, times(rate(rates, chunk, EA_L), along))
+        f = plus(f, times(rate(rates, chunk, EA_L), kept(ws, ALONG)))
     if kind & IN_EI:
-        f = plus(f, times(rate(rates, chunk, EI_L), across))
+        f = plus(f, times(rate(rates, chunk, EI_L), kept(ws, ACROSS)))
     if kind & IN_DA:
-        f = plus(f, times(rate(rates, chunk, DA_L), axial))
+        f = plus(f, times(rate(rates, chunk, DA_L), kept(ws, DAMPED_ALONG)))
     if kind & IN_DB:
-        f = plus(f, times(rate(rates, chunk, DB_L), bending))
+        f = plus(f, times(rate(rates, chunk, DB_L), kept(ws, DAMPED_ACROSS)))
     if kind & IN_SLOPES:
-        f = plus(f, times(load(rates, LANES * (ROWS * data.shape[0] + chunk)), slopes))
+        f = plus(f, times(load(rates, LANES * (ROWS * data.shape[0] + chunk)), kept(ws, OF_SLOPES)))
     if kind & IN_INV_L:
-        f = plus(f, times(h * rate(rates, chunk, INV_L), length))
+        f = plus(f, times(h * rate(rates, chunk, INV_L), kept(ws, LONGER)))
     end = inv_l * f[0]
     forced = -1.0 * end, f[1], end, f[2]
     if kind & IN_MASS:
@@ -316,8 +328,8 @@ def cable_changes(batch, q, v, a, rates, kinds, begin, out, ws):
             if needed == 0:
                 continue
             states = nodes(batch, q, chunk), nodes(batch, v, chunk), nodes(batch, a, chunk)
-            known = all_forces(batch, group, chunk, states[0], states[1], needed)
+            all_forces(batch, group, chunk, states[0], states[1], needed, ws)
             for p in range(count):
                 kind, own = kinds[p * chunks + chunk], rates[p * numbers : (p + 1) * numbers]
                 if kind != 0:
-                    add_change(batch, group, chunk, states, known, own, kind, out[begin[p] :])
+                    add_change(batch, group, chunk, states, own, kind, out[begin[p] :], ws)

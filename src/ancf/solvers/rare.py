@@ -7,6 +7,7 @@ from typing import Any
 
 from numba import typeof
 
+from .. import addresses
 from ..batches import (
     ALONG,
     BESIDE,
@@ -44,8 +45,16 @@ def knowing(stub: Any, batches: Iterable[Any], *others: Any) -> Batches:
     made = Batches(batches)
     for k, batch in enumerate(made):
         for own in (stub, *others):
-            made.table[k, RARE[own]] = address_of(type(batch), typeof(batch), own)
+            made.table[k, RARE[own]] = _place(batch, own)
     return made
+
+
+def _place(batch: Any, stub: Any) -> int:
+    """Address of an operation, which is looked up by what arrays a batch has: numba takes longer for that."""
+    key = type(batch), stub, *((x.dtype, x.ndim, x.flags.num) for x in batch)
+    if key not in addresses.found:
+        addresses.found[key] = address_of(type(batch), typeof(batch), stub)
+    return int(addresses.found[key])
 
 
 @inline_kernel
