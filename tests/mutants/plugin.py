@@ -23,6 +23,7 @@ _OPERATIONS = {
     "rate_work": "add_rate_work",
     "touches": "touched",
     "number_work": "add_number_work",
+    "changes": "add_changes",
     "work_slopes": "add_work_slopes",
     "force_slopes": "add_force_slopes",
     "slopes_beside": "add_slopes_beside",
