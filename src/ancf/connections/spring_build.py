@@ -19,7 +19,15 @@ CABLE, SOLID = 4, 10  # slots of an element at most
 
 def springs(model: Model, locate: Callable[[Point], Any]) -> SpringBatch:
     """Batch of all springs; ``locate`` finds a point's slots and shape functions."""
-    items = [c for c in model.connections if isinstance(c, Spring)]
+    return _batch([c for c in model.connections if isinstance(c, Spring)], locate)
+
+
+def no_springs() -> SpringBatch:
+    """Batch without springs."""
+    return _batch([], lambda point: None)
+
+
+def _batch(items: list[Spring], locate: Callable[[Point], Any]) -> SpringBatch:
     n, k = len(items), max((_slots(c) for c in items), default=CABLE)
     base = np.full((n, 2 * k), -1, dtype=np.int64)
     factor, offset, data = np.zeros((n, 2 * k)), np.zeros((n, 3)), np.zeros((n, 7))

@@ -173,17 +173,13 @@ def invert_symmetric(A, o, original):
         done |= 1 << p
         d = A[o + 7 * p]
         negative += d < 0.0
+        y = replaced(load_six(A, o + 6 * p), p, -1.0) * (1.0 / d)
         for i in range(6):
             if i != p:
-                f = A[o + 6 * i + p] / d
-                for j in range(i + 1):
-                    if j != p:
-                        A[o + 6 * i + j] -= f * A[o + 6 * p + j]
-                        A[o + 6 * j + i] = A[o + 6 * i + j]
-        for i in range(6):
-            A[o + 6 * i + p] /= d
-            A[o + 6 * p + i] = A[o + 6 * i + p]
-        A[o + 7 * p] = -1.0 / d
-    for i in range(36):
-        A[o + i] = -A[o + i]
+                row = replaced(load_six(A, o + 6 * i), p, 0.0)
+                store_six(row - every(A[o + 6 * p + i]) * y, A, o + 6 * i)
+        store_six(y, A, o + 6 * p)
+    for i in range(0, 36, 6):
+        store_six(-load_six(A, o + i), A, o + i)
+    mirror(A, o)
     return negative

@@ -96,7 +96,7 @@ def arrays_of(
 ) -> Far:
     """All parts as kernels take them."""
     of_kind = [_of_kind(kind) for kind in kinds]
-    springs = system.parts["springs"]
+    springs = system.springs
     of_part = []
     for part, force in zip(parts, forces, strict=True):
         hung = part.springs[springs.data[part.springs, SLACK] != 0.0]

@@ -75,7 +75,7 @@ def parts_of(system: System, cables: CableBatch, cuts: IntArray) -> list[Part]:
     number[cut] = -1
     free = np.zeros(system.size, dtype=bool)
     free[system.free] = True
-    reached = [_blocks_of(batch, n) for batch in (cables, system.parts["springs"])]
+    reached = [_blocks_of(batch, n) for batch in (cables, system.springs)]
     driven = set((system.inputs.prescribed // 6).tolist())
     parts = []
     for k in np.flatnonzero(np.bincount(number[~cut], minlength=1) >= FEWEST):
@@ -115,7 +115,7 @@ def _touching(table: IntArray, mine: BoolArray) -> IntArray:
 def _is_closed(system: System, mine: BoolArray, springs: IntArray, table: IntArray) -> bool:
     """Whether springs and bodies are inside altogether, and the springs carry at rest by their stiffness."""
     within = np.append(mine, True)[table[springs]].all()
-    batch = system.parts["springs"]
+    batch = system.springs
     plain = (
         not batch.data[springs, 4].any()
         and not np.diff(batch.begins)[np.r_[2 * springs, 2 * springs + 1]].any()

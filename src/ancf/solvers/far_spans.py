@@ -207,7 +207,7 @@ class FarSpans:
     def _still(self, k: int) -> None:
         """Take stiffness and mass from the cables of a part, and let its droppers push for themselves."""
         self.kept[k] = sleep(self.cables, self.lanes[k])
-        springs = self.system.parts["springs"].data
+        springs = self.system.springs.data
         springs[self.parts[k].springs, SLACK], springs[self.parts[k].springs, IDLE] = 0.0, 1.0
 
     def _wake(self, k: int) -> None:
@@ -224,7 +224,7 @@ class FarSpans:
             vector[part.inner] = m.a[part.inner]
         wake(self.cables, self.lanes[k], self.kept[k])
         first = far.part[k, HUNG]
-        springs = self.system.parts["springs"].data
+        springs = self.system.springs.data
         springs[far.hung[first : first + far.part[k, DROPPERS]], SLACK] = 1.0
         springs[part.springs, IDLE] = 0.0
         far.part[k, CALM] = 0
@@ -258,7 +258,7 @@ class FarSpans:
 
 def _hung(system: System) -> IntArray:
     """Heights of the ends of all springs: what their forces follow from."""
-    springs = system.parts["springs"]
+    springs = system.springs
     slots: IntArray = springs.base[(springs.base >= 0) & (springs.factor != 0.0)]
     return slots + ACTS
 

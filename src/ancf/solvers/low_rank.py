@@ -66,7 +66,7 @@ class Patches(NamedTuple):
 
 def room_for_patches(system: System) -> tuple[Patches, ...]:
     """Room for the contacts and slack springs of a system, one item; none if it has none."""
-    springs, contacts = system.parts["springs"], system.parts.get("contacts", no_contacts())
+    springs, contacts = system.springs, system.parts.get("contacts", no_contacts())
     size, touching = system.size, len(contacts.slot)
     most = touching + min(MOST, int(np.count_nonzero(springs.data[:, 3])))
     if most == 0:

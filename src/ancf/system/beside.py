@@ -63,7 +63,7 @@ def _renumbered(system: System, model: Model, acts: Acts) -> Parts:
     found = Parts()
     if ELEMENTS in acts.parts:
         found |= {kind: _elements(system, kind, beams) for kind, beams in _others(system, model).items()}
-    if SPRINGS in acts.parts and not acts.shapes:
+    if SPRINGS in acts.parts and SPRINGS in system.parts and not acts.shapes:
         found[SPRINGS] = renumbered(system.parts[SPRINGS], system.model, model)
     return found
 
@@ -96,7 +96,7 @@ def _built(system: System, model: Model, acts: Acts) -> Parts:
     def find(point: Point) -> Probe:
         return locate(point, slots[point.body.name], system.lengths.get(point.body.name, (-1, 0.0)))
 
-    if SPRINGS in acts.parts and acts.shapes and len(system.parts[SPRINGS].base):
+    if SPRINGS in acts.parts and acts.shapes and SPRINGS in system.parts:
         parts[SPRINGS] = springs(model, find)
     if SLIDES in acts.parts:
         parts |= build_slides(model, system.numbering, system.level, find)

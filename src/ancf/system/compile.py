@@ -35,6 +35,7 @@ from ..linalg.ordering import MINIMUM_DEGREE, behind, from_both_ends, order
 from ..model.beam import Beam
 from ..model.body_contact import BodyContact
 from ..model.cable_contact import CableContact
+from ..model.connections import Spring
 from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
@@ -79,7 +80,8 @@ def build_parts(
             [numbering.lengths[w.name] for w in winches.values()],
             model.gravity,
         )
-    parts["springs"] = springs(model, find)
+    if any(isinstance(c, Spring) for c in model.connections):
+        parts["springs"] = springs(model, find)
     twisted = [c for c in model.connections if isinstance(c, TorsionSpring)]
     if twisted:
         parts["torsion springs"] = torsion_springs(twisted, slots)

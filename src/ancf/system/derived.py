@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
+from ..connections.spring_build import no_springs
+from ..connections.spring_damper import SpringBatch
 from . import loads
 from .compile import held_arrays, joined, make_core, rotation_arrays
 from .core import Core, Loads, Supports
@@ -43,6 +45,11 @@ class Derived:
             prescribed=self.inputs.prescribed,
             driven=self._shadowed(driven),
         )
+
+    @property
+    def springs(self: Any) -> SpringBatch:
+        """The batch of springs, which a model without them has not among its parts."""
+        return self.parts["springs"] if "springs" in self.parts else no_springs()
 
     @cached_property
     def patterns(self: Any) -> list[loads.Pattern]:

@@ -90,16 +90,15 @@ def growing(model: Model, rows: int) -> IntArray:
 
 
 def batches(model: Model, locate: Locate, value: FloatArray) -> dict[str, Any]:
-    """Batches of the loads that depend on the state, by name; each has a slice of ``value``, the inputs now.
-
-    There is a batch of moments on sections only where there are sections.
-    """
+    """Batches of the loads that depend on the state, by name; each has a slice of ``value``, the inputs."""
+    found: dict[str, Any] = {}
     first = len(_dead(model))
     cables, sections = _moments(model)
-    own = value[first : first + len(cables)]
-    found: dict[str, Any] = {"moments": _on_slopes([locate(m.point) for m in cables], own)}
+    if cables:
+        own = value[first : first + len(cables)]
+        found["moments"] = _on_slopes([locate(m.point) for m in cables], own)
     first += len(cables)
-    if sections or any(not _is_cable(beam) for beam in model.beams.values()):
+    if sections:
         shares = [_shares(m.point.body) for m in sections]
         own = value[first : first + len(sections)]
         found["section moments"] = _on_sections([locate(m.point) for m in sections], shares, own)

@@ -149,7 +149,7 @@ class System(Derived):
 
         All contacts if there is one among it, and of the springs those alone.
         """
-        listed, springs = self.sensors, self.parts["springs"]
+        listed, springs = self.sensors, self.springs
         batches = with_role(self.core.batches, Role.MEASURES) if listed.columns else ()
         found = tuple(batch for batch in batches if batch is not springs)
         if not listed.springs:
