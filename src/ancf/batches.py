@@ -51,6 +51,7 @@ FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, 9
 RATES, TOUCHED, NUMBERS, WORKS, SLOPES, ALONG, BESIDE, CHANGES = range(9, _COLUMNS)
 #: Operations compiled for those who ask for them, see :mod:`ancf.solvers.rare`, and their columns.
 RARE = {
+    measure: MEASURE,
     add_rate_stiffness: RATES,
     touched: TOUCHED,
     add_number_work: NUMBERS,

@@ -18,18 +18,22 @@ SLIDING = {
     "released": {"release": (0, 1, 0), "viscous": 0.1},
     "bare": {},
 }
+TIED = "tied"
 NAMES = ["wire.EA", "wire.EI", "wire.rhoA", "wire.length", "bead.mass", "gravity"]
 
 
 def beaded(way):
-    """A point mass slides along a cable that swings, over the end of an element."""
+    """A point mass slides along a cable that swings, over the end of an element, or is tied to it."""
     model = ancf.Model(gravity=(0.0, 0.0, -9.81))
     section = ancf.Section(EA=500.0, EI=0.5, rhoA=0.2)
     wire = model.add_beam("wire", start=(0, 0, 0), end=(1, 0, 0), elements=3, section=section)
     model.pin(wire.start)
     bead = model.add_point_mass("bead", at=(0.3335, 0, 0), mass=0.3)
     model.add_force(bead, (-12.0, 5.0, 0.0))
-    model.slide(bead, along=wire, name="ring", **SLIDING[way])
+    if way == TIED:
+        model.connect(bead, wire.at(0.3335), name="knot")
+    else:
+        model.slide(bead, along=wire, name="ring", **SLIDING[way])
     return model
 
 
@@ -65,7 +69,7 @@ def by_rounds(monkeypatch):
 
 
 @pytest.mark.parametrize("method", methods())
-@pytest.mark.parametrize("way", SLIDING)
+@pytest.mark.parametrize("way", [*SLIDING, TIED])
 def test_at_once_is_what_corrections_come_to(way, method, monkeypatch):
     """States, velocities and multipliers, to the end of corrections that go on until round-off."""
     model, names, integrator = beaded(way), names_of(way), methods()[method]

@@ -1,4 +1,4 @@
-"""Operations of batches that only sensitivities ask for; they are compiled when somebody does."""
+"""Operations of batches that sensitivities or sensors alone ask for; they are compiled when somebody does."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ _changes = caller_of(add_changes)
 
 
 def knowing(stub: Any, batches: Iterable[Any], *others: Any) -> Batches:
-    """Batches whose kinds have an operation, or several, that only sensitivities ask for."""
+    """Batches whose kinds have an operation, or several, that not all models need."""
     made = Batches(batches)
     for k, batch in enumerate(made):
         for own in (stub, *others):

@@ -13,10 +13,11 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..batches import Batches, measure_all
-from ..compiled import formula, kernel
+from ..compiled import formula, kernel, measure
 from ..records import recorded
 from ..system.core import residual
 from ..system.system import System
+from .rare import knowing
 
 
 @recorded
@@ -55,7 +56,7 @@ class Output(NamedTuple):
 def sampling_of(system: System) -> Sampling:
     """Sampling of the sensors of a system."""
     listed = system.sensors
-    batches = Batches(system.measuring if len(listed.entries) else ())
+    batches = knowing(measure, system.measuring if len(listed.entries) else ())
     felt = np.zeros((2, system.size))
     return Sampling(listed.index, batches, system.measured, listed.entries, listed.moved, listed.pushed, felt)
 
