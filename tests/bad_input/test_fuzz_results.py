@@ -180,6 +180,8 @@ FOUND = {
     ),
     "modes of two joints": (data("modes", lambda x: np.append(x, x)), "damaged"),
     "a mode that is none": (data("modes", lambda x: x + 3), "modes must each be 0, 1 or 2"),
+    "a table of modes": (data("modes", lambda x: x[None]), "modes has 2 axes"),
+    "a table of places": (data("places", lambda x: x[:, None]), "places has 2 axes"),
     "a mode that is no number": (data("modes", lambda x: np.nan * x), "modes must each be 0, 1 or 2"),
     "stored times": (data("time", lambda t: t[::-1]), "time does not ascend"),
     "counters": (data("stats", lambda x: np.nan * x), "damaged"),

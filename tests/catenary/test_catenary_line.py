@@ -144,6 +144,10 @@ class TestWrongInPython:
     @pytest.mark.parametrize(
         ("make", "where", "what"),
         [
+            (lambda: spans_with(droppers=0), "span.droppers", "must be"),
+            (lambda: spans_with(droppers="rule"), "span.droppers", "must be"),
+            (lambda: spans_with(droppers=np.array(5.0)), "span.droppers", "shape"),
+            (lambda: spans_with(droppers=[[5.0], [5.0, 6.0]]), "span.droppers[0]", ""),
             (lambda: spans_with(droppers=(10.0, 55.0)), "span.droppers[1]", "outside its span of 50 m"),
             (lambda: spans_with(droppers=(0.0, 5.0)), "span.droppers[0]", "outside its span"),
             (lambda: spans_with(droppers=(20.0, 10.0)), "span.droppers[1]", "is at 10 m after one at 20 m"),

@@ -112,7 +112,9 @@ class Span:
         given: Any = self.droppers
         if isinstance(given, DropperRule):
             given = given.places(self.length)
-        droppers = checks.array(given, "span.droppers", (None,)) if len(given) else np.zeros(0)
+        none = isinstance(given, list | tuple) and not given
+        none = none or (isinstance(given, np.ndarray) and given.shape == (0,))
+        droppers = np.zeros(0) if none else checks.array(given, "span.droppers", (None,))
         if self.radius is not None and abs(checks.number(self.radius, "span.radius")) < SHARPEST:
             what = f"is {self.radius:g} m, at least {SHARPEST:g} m either way"
             raise ModelError("span.radius", what, "leave it out on straight track")

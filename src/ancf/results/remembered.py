@@ -142,8 +142,11 @@ def read(file: Any, model: Model) -> Remembered:
     Raises
     ------
     ModelError
-        A mode is none.
+        A mode is none, or there is a table of them.
     """
+    for name in ("modes", "places"):
+        if file[name].ndim != 1:
+            raise ModelError(name, f"has {file[name].ndim} axes, wanted one")
     modes, places = file["modes"][:].tolist(), file["places"][:].tolist()
     if not {*modes} <= {SLIDES, FROZEN, FREE}:
         raise ModelError("modes", f"must each be {SLIDES}, {FROZEN} or {FREE}")
