@@ -24,7 +24,7 @@ from .preparation import carried_out, given_state, method_of, prepared
 from .results import remembered
 from .results import result as results
 from .results.modes import DampedModes, Modes
-from .results.out_of_balance import explain_unstable, notes_of_balance, of_motion
+from .results.out_of_balance import explain_unstable, notes_of_balance, of_bends, of_motion
 from .results.result import Result
 from .results.room import check_room
 from .results.state import State
@@ -300,7 +300,7 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
             if given and not notes:
                 explain_unstable(error)
             raise
-    made = Modes(omega, shapes, about, notes=notes)
+    made = Modes(omega, shapes, about, notes=notes + of_bends(system.model, omega))
     if not parameters:
         return made
     from .sensitivity.modal import of_modes

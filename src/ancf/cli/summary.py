@@ -29,7 +29,7 @@ def summarise(
     study: Study, path: Path, result: Result, seconds: dict[str, float], error: BaseException | None
 ) -> dict[str, Any]:
     """Everything worth keeping of a run, ready for JSON."""
-    from ..results import accuracy, sharp_bends, slackness
+    from ..results import accuracy, sharp_bends, slackness, wavering
     from ..results.resolution import of_steps
     from ..results.tension import compressions, notes
 
@@ -55,6 +55,7 @@ def summarise(
             *result.provenance.get("notes", []),
             *notes(pressed),
             *([] if still else sharp_bends.notes(sharp_bends.sharp_bends(result))),
+            *([] if still else wavering.notes(wavering.waverings(result))),
             *accuracy.of_energy(result),
             *of_steps(result),
         ]

@@ -23,6 +23,7 @@ NATURAL_SHAPES = ("path", "straight")
 MOST_ELEMENTS = 1_000_000
 MOST_GAUSS_POINTS = 10
 NODE_TOLERANCE = 1e-9  # of the length
+BENT = 1e-12  # by which tangents of a shape that is not straight differ
 
 
 @dataclass(slots=True, eq=False, kw_only=True)
@@ -129,6 +130,14 @@ class Beam:
     def natural(self) -> Beam | None:
         """The beam as it lies without forces, but for its stretch; None for a straight one."""
         return {"path": self, "straight": None}.get(self.natural_shape, self.natural_beam)
+
+    @property
+    def turns_its_bend(self) -> bool:
+        """Whether it is a cable that is bent by nature: it does not resist that the bend turns."""
+        natural = self.natural
+        if natural is None or self.has_section:
+            return False
+        return bool(np.any(np.abs(natural.node_tangent - natural.node_tangent[0]) > BENT))
 
     @property
     def start(self) -> Point:

@@ -16,6 +16,7 @@ from ..errors import ModelError, SolveError
 from ..model.beam import Beam
 from ..model.bodies import PointMass
 from ..model.connections import Spring
+from ..model.model import Model
 from ..model.torsion import TorsionSpring
 from ..solvers.damped_modal import rotation_of
 from ..system.core import apply_load, residual
@@ -107,6 +108,15 @@ def of_motion(system: System, q: FloatArray, v: FloatArray) -> list[str]:
     if np.any(rates[given]) or np.any(supports.rot_R[supports.rot_moving >= 0, 1]):
         return ["a support moves in this state: modes() holds it where it is"]
     return []
+
+
+def of_bends(model: Model, omega: FloatArray) -> list[str]:
+    """A note on modes some of which have no frequency because bends of cables turn."""
+    names = [name for name, beam in model.beams.items() if beam.turns_its_bend]
+    if not names or omega[0] > 0.0:
+        return []
+    what = f'"{names[0]}" is bent by nature, and nothing resists that this bend turns'
+    return [f'{what}: frequencies of zero may be that; hold its plane, or take element="nonlocking"']
 
 
 def explain_unstable(error: SolveError) -> None:

@@ -18,7 +18,7 @@ from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import accuracy, motions, sharp_bends, tension
+from . import accuracy, motions, sharp_bends, tension, wavering
 from .below import of_bodies
 from .momenta import Momenta
 from .motions import Motions
@@ -147,14 +147,15 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
     @property
     def notes(self) -> list[str]:
         """What to know of an equilibrium that nobody asked for: cables that are pressed harder than they can
-        stand, that bend too sharply for their elements, or are so stiff that they bend too little, bodies
-        below a ground.
+        stand, that bend too sharply for their elements, whose forces waver within these, or are so stiff that
+        they bend too little, bodies below a ground.
 
         It takes about as long as an iteration of the equilibrium, when it is asked for.
         """
         pressed = tension.notes(tension.compressions(self))
         bent = sharp_bends.notes(sharp_bends.sharp_bends(self))
-        return [*pressed, *bent, *of_bodies(self), *accuracy.of_state(self)]
+        wavers = wavering.notes(wavering.waverings(self))
+        return [*pressed, *bent, *wavers, *of_bodies(self), *accuracy.of_state(self)]
 
     def sensitivity(self, name: str) -> Any:
         """Derivatives by a parameter of everything that the state answers, per unit of it.

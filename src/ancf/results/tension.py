@@ -117,7 +117,7 @@ def element_forces(
     section, strain = beam.section, beam.strain
     vectors = vectors_of(beam.node_x, slots, q)
     if length[0] >= 0:
-        vectors = _of_material(vectors, beam.length / q[:, length[0]][:, None])
+        vectors = of_material(vectors, beam.length / q[:, length[0]][:, None])
     force: FloatArray = section.EA * (mean_strain(vectors, strain) - _natural(beam))
     if strain == "material" and not section.axial_damping:
         return force
@@ -187,7 +187,8 @@ def middles(beam: Beam) -> list[float]:
     return places
 
 
-def _of_material(vectors: list[Vectors], factor: FloatArray) -> list[Vectors]:
+def of_material(vectors: list[Vectors], factor: FloatArray) -> list[Vectors]:
+    """Tangents by the material of a cable with a winch, whose length has changed by 1/factor."""
     return [(factor * chord, factor * first, factor * last) for chord, first, last in vectors]
 
 
@@ -208,15 +209,19 @@ def _rates(
                 v_last - mu * (last + x[1:] * bend[1]),
             )
         )
-    return _of_material(made, beam.length / q[:, unknown][:, None])
+    return of_material(made, beam.length / q[:, unknown][:, None])
 
 
 def _natural(beam: Beam) -> FloatArray:
     """Mean axial strains of the natural shape, shape (n,)."""
+    vectors = natural_vectors(beam)
+    return np.zeros(beam.elements) if vectors is None else mean_strain(vectors, beam.strain)[0]
+
+
+def natural_vectors(beam: Beam) -> list[Vectors] | None:
+    """Tangents of the natural shape, (1, n) each; None where it is straight and has no nodes of its own."""
     natural = beam.natural
     if natural is None:
-        return np.zeros(beam.elements)
+        return None
     row = np.stack([natural.node_position / natural.stretch, natural.node_tangent], axis=1).reshape(1, -1)
-    slots = 3 * np.arange(2 * (beam.elements + 1)).reshape(-1, 2)
-    strain: FloatArray = mean_strain(vectors_of(beam.node_x, slots, row), beam.strain)[0]
-    return strain
+    return vectors_of(beam.node_x, 3 * np.arange(2 * (beam.elements + 1)).reshape(-1, 2), row)

@@ -51,14 +51,18 @@ def follow_path(it: Iteration, load: Callable[[float], float], steps: int, of: s
         it.q, it.mu = before, 0.0
         part, halvings = 0.5 * part, halvings + 1
         if halvings > MOST_HALVINGS:
-            raise it.failure(f"equilibrium at {share:.4g} {of}", problem, _advice(problem))
+            raise it.failure(f"equilibrium at {share:.4g} {of}", problem, _advice(it, problem))
     return halvings
 
 
-def _advice(problem: str) -> str:
+def _advice(it: Iteration, problem: str) -> str:
     """What to do about a path that cannot be followed."""
     if problem.endswith(VANISHED):
         return "the load is too large for EA and EI, or a clamp must hold the stretch"
+    turning = [beam.name for beam in it.system.model.beams.values() if beam.turns_its_bend]
+    if turning:
+        what = f'"{turning[0]}" is bent by nature, and nothing resists that this bend turns'
+        return f'{what}: hold its plane, or take element="nonlocking"'
     return "give more load_steps"
 
 
