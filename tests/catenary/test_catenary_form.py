@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 
 import ancf
 from ancf.catenary import (
+    Conditions,
     Droppers,
     Line,
     Mesh,
@@ -445,6 +446,26 @@ class TestElasticity:
         assert part.x == pytest.approx(whole.x)
         assert part.value == pytest.approx(whole.value, rel=0.03)
         assert part.value[0] == pytest.approx(part.value[0, ::-1], rel=1e-3)
+
+    @pytest.mark.parametrize("changes", [{}, {"conditions": Conditions(temperature=-20.0)}])
+    def test_of_a_form(self, changes):
+        """That of its line, as it was found and on its mesh."""
+        line, mesh = small(**changes), Mesh(contact=2.0, messenger=2.0)
+        made = form(line, mesh)
+        got, wanted = elasticity(made, (100.0,), 4), elasticity(line, (100.0,), 4, mesh=mesh)
+        assert got.value == pytest.approx(wanted.value, rel=1e-9)
+        assert got.form is made
+        for key, value in (("beside", 1), ("mesh", mesh)):
+            with pytest.raises(ModelError, match=f"elasticity.{key}: has no effect"):
+                elasticity(made, **{key: value})
+
+    def test_of_lengths_as_built(self):
+        """Droppers 10 mm longer at the middle of a span change what the wire gives there."""
+        line = small()
+        longer = form(line).dropper_natural + np.where(line.dropper_span == 0, 0.01, 0.0)
+        built = form(replace(line, dropper_lengths=longer))
+        got, wanted = elasticity(built, (100.0,), 4, span=0), elasticity(built.line, (100.0,), 4, span=0)
+        assert got.value == pytest.approx(wanted.value, rel=1e-9)
 
     @pytest.mark.parametrize(
         ("given", "where"),

@@ -67,6 +67,16 @@ class TestLine:
         assert cut.stagger == (-0.2, 0.2, -0.2)
         assert cut.system_height == (1.1, 1.2, 1.3)
 
+    @pytest.mark.parametrize("first", range(-1, 5))
+    @pytest.mark.parametrize("count", range(6))
+    def test_excerpt_of_spans_that_are_there(self, first, count):
+        whole = line(spans=[Span(length=50.0, droppers=(10.0, 25.0))] * 4)
+        if first >= 0 and count >= 1 and first + count <= 4:
+            assert len(whole.excerpt(first, count).spans) == count
+            return
+        with pytest.raises(ModelError, match=r"excerpt\.(first|count)"):
+            whole.excerpt(first, count)
+
     @pytest.mark.parametrize("depth", [0.0, 0.055, 0.1])
     def test_pre_sag_is_a_parabola(self, depth):
         x = np.array([5.0, 12.0, 20.0, 35.0])
@@ -85,6 +95,11 @@ class TestLine:
 
 
 class TestCatalogue:
+    @pytest.mark.parametrize("given", [5, None, 1.5, ["line.toml"], b"line.toml"])
+    def test_neither_name_nor_path(self, given):
+        with pytest.raises(ModelError, match="must be a name of the catalogue or a path"):
+            read_line(given)
+
     def test_names(self):
         assert set(line_names()) >= {"paper-7.5", "en50318-2002", "en50318-2018-ac-simple"}
 

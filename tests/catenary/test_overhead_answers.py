@@ -195,6 +195,25 @@ class TestAcceptance:
         assert found["deviation"].high == pytest.approx(0.3 * found["mean_force"].value, abs=0.05)
         assert all(q.tag for q in found.values() if q.inside is not None)
 
+    @pytest.mark.parametrize("off", [-1e-3, -1e-9, 0.0, 1e-12, 1e-9, 1e-3])
+    def test_a_limit_of_speed_belongs_to_the_slower(self, off):
+        """At 200 and 250 km/h, whatever the round-off of positions; 0.1 km/h more is of the faster."""
+        for kmh, key, limits in ((200.0, "maximum", (300.0, 350.0)), (250.0, "arcing", (0.1, 0.2))):
+            for more, limit in zip((0.0, 0.1), limits, strict=True):
+                run = stand_in.run(speed=(kmh + more + off) / 3.6, count=2, spacing=100.0)
+                assert [by_key(acceptance(run, k))[key].high for k in (0, 1)] == [limit, limit]
+
+    def test_statistics_are_a_mapping(self, run):
+        """Of quantities by their keys, in the order of the table."""
+        found = statistics(run)
+        assert list(found) == [q.key for q in found.quantities]
+        assert tuple(found.values()) == found.quantities
+        assert len(found) == len(found.quantities)
+        assert all(key in found and found.get(key) is found[key] for key in found)
+        assert all(key not in found for key in ("speeds", 0, None))
+        with pytest.raises(KeyError, match="speeds"):
+            found["speeds"]
+
     def test_verdict(self, run):
         """One sentence with value and limit of what is outside, also where they differ by little."""
         assert verdict([q for q in acceptance(run) if q.inside is not False]) == "inside all limits"

@@ -130,6 +130,35 @@ class TestDefaultSide:
         with pytest.warns(UserWarning, match="can only pull"):
             assert form(windy, COARSE).arm_force == pytest.approx(form(given, COARSE).arm_force, abs=1e-6)
 
+    @pytest.mark.parametrize("share", [0.0, 0.5, 0.97, 0.999, 1.0, 1.001, 1.03, 1.5])
+    def test_every_wind_is_a_state(self, share):
+        """Also that in which an arm carries nothing, 0 N between pull and push: its hinge stays."""
+        line, _ = self.blown()
+        rest = form(line, COARSE)
+        before, after = rest.arm_force[3, 1], form(self.windy(line, 15.0), COARSE).arm_force[3, 1]
+        calm = 15.0 * np.sqrt(before / (before - after))  # the load of the wind grows with its square
+        speed = calm * np.sqrt(share)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            found = form(self.windy(line, speed), COARSE)
+            checked = verify(assemble(found))
+        pull = found.arm_force[1:-1, 1] * SENSE
+        loose = np.flatnonzero(pull < 1.0)
+        assert (2 in loose) == (share > 0.99)
+        assert (abs(pull[2]) < 1.0) == (0.99 < share < 1.01)
+        assert len(caught) == len(loose)
+        for warning, k in zip(caught, loose, strict=True):
+            said = str(warning.message)
+            assert said.startswith(f"line.conditions: with wind {-speed:g} m/s at support {k + 2}: ")
+            assert ("hangs loose" in said) == (pull[k] > -1.0)
+        assert checked.place < 2e-6
+        for here, there in zip(assemble(found).arms[1:-1], assemble(rest).arms[1:-1], strict=True):
+            assert np.asarray(here.b)[1:] == pytest.approx(np.asarray(there.b)[1:], abs=1e-12)
+            assert here.length == there.length
+
+    def windy(self, line, speed):
+        return replace(line, conditions=Conditions(wind=-float(speed)))
+
     def test_springs_may_push(self):
         """They stand for arms of any kind: what they do is told, and is no warning."""
         _, windy = self.blown(vertical=300.0)

@@ -111,6 +111,9 @@ class TestRoute:
             elasticity(item, [50.0], points=2, mesh=COARSE) for item in (route(), route().lines[0])
         )
         assert whole.value == pytest.approx(alone.value)
+        lifted = elasticity(found(), [50.0], points=2)
+        assert lifted.span == whole.span
+        assert lifted.value == pytest.approx(whole.value, rel=1e-9)
 
 
 class TestHandOver:

@@ -17,8 +17,10 @@ def found():
     return form(short_line(), COARSE)
 
 
-def planned(found, start, spacing=None):
-    return make_plan(found, make_travel(40.0), collector(), spacing, start, None, None, Touch(), STEP, Door())
+def planned(found, start, spacing=None, window=None, until=None):
+    return make_plan(
+        found, make_travel(40.0), collector(), spacing, start, window, until, Touch(), STEP, Door()
+    )
 
 
 class TestWindow:
@@ -38,6 +40,28 @@ class TestWindow:
         with pytest.raises(ModelError, match="no span is left to evaluate") as caught:
             planned(found, 10.0, spacing=120.0)
         assert "--window" not in caught.value.hint
+
+    @pytest.mark.parametrize("spacing", [None, 15.0])
+    @pytest.mark.parametrize("window", [None, (66.0, 98.0)])
+    @pytest.mark.parametrize("until", [20.0, 60.0, 66.0, 97.9])
+    def test_a_run_that_ends_inside(self, found, until, window, spacing):
+        """Of the window that the run chooses as of one that is given: nothing is computed without it."""
+        with pytest.raises(ModelError, match="inside the window from 66 m to 98 m") as caught:
+            planned(found, 10.0, spacing, window, until)
+        assert caught.value.where == "run.until"
+        assert "run until 98 m or further" in caught.value.hint
+
+    @pytest.mark.parametrize("window", [None, (66.0, 98.0)])
+    @pytest.mark.parametrize("until", [98.0, 110.0, 166.0])
+    def test_a_run_that_ends_behind(self, found, until, window):
+        assert planned(found, 15.0, None, window, until).until == until
+
+    @pytest.mark.parametrize(("low", "high"), [(98.0, 66.0), (66.0, 66.0), (500.0, 66.0)])
+    def test_backwards(self, found, low, high):
+        with pytest.raises(ModelError, match=f"begins at {low:g} m and ends at {high:g} m") as caught:
+            planned(found, 10.0, window=(low, high))
+        assert caught.value.where == "run.window"
+        assert ("the smaller place first: 66 " in caught.value.hint) == (low > high)
 
 
 def test_start_at_a_kink_of_the_gradient():

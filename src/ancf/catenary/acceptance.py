@@ -25,8 +25,11 @@ if TYPE_CHECKING:
     from .statistics import Statistics
 
 KMH, MM = 3.6, 1e3
-#: Speed up to which the slower of two rules holds, km/h.
+#: Speed up to which the slower of two rules holds, this one included, km/h.
 SLOW = 200.0
+#: By which a speed counts as one of those, km/h: what is read off positions has the round-off of these, and
+#: 200 km/h is no short number in m/s.
+SAME_SPEED = 0.01
 #: Least mean force, N: a v^2 (v in km/h) + b by power supply (EN 50367).
 LEAST_MEAN = {"AC": (0.00047, 60.0), "DC 3 kV": (0.00096, 90.0), "DC 1.5 kV": (0.00112, 70.0)}
 #: Largest mean force below SLOW where it is another law: AC.
@@ -110,10 +113,15 @@ def _outwards(limit: float, side: int) -> float:
     return float(np.ceil(tenths) if side > 0 else np.floor(tenths)) / 10.0
 
 
+def _up_to(speed: float, limit: float) -> bool:
+    """Whether a speed is at most the one up to which a rule holds, km/h."""
+    return speed <= limit + SAME_SPEED
+
+
 def _forces(run: Run, k: int, supply: str, found: Statistics) -> Iterator[Quantity]:
     speeds = KMH * passing.speeds_in_window(run, k)
     square = float(np.sqrt(np.mean(speeds**2)))
-    slow = square <= SLOW
+    slow = _up_to(square, SLOW)
     slope, base = LEAST_MEAN[supply]
     least, most = slope * square**2 + base, mean_force_target(square, supply)
     if slow and supply in MOST_MEAN_SLOW:
@@ -137,7 +145,7 @@ def _arcing(run: Run, k: int, supply: str, found: Statistics) -> Quantity:
     lost = at_zero(run.recordings[k].force[found.window], step)
     lengths = step * (lost.bounds[:, 1] - lost.bounds[:, 0])
     share = 100.0 * float(np.sum(lengths[lengths >= ARC - 1e-9])) / (step * lost.count)
-    limit = ARCING[supply][0 if found["speed"].value <= FAST else 1]
+    limit = ARCING[supply][0 if _up_to(found["speed"].value, FAST) else 1]
     name = f"NQ, losses of {1e3 * ARC:g} ms and more"
     return Quantity("arcing", name, "%", share, high=limit, tag="U")
 

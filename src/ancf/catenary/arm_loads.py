@@ -12,7 +12,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..files import writing
-from .fittings import FAINT
+from .fittings import FAINT, hangs
 
 #: Share of the forces by the closed form that droppers and bends may change: less is not judged by it.
 ROUGH = 0.1
@@ -131,13 +131,18 @@ def sides(force: FloatArray) -> tuple[str, ...]:
 def pushed(found: Any) -> list[str]:
     """The same of a Form as texts, for states in which it is a finding and no mistake of the design.
 
-    Springs of which nobody said where they stand may push: they stand for any kind of arm.
+    Springs of which nobody said where they stand may push: they stand for any kind of arm. Hinged arms that
+    carry next to nothing, or more than they pull with, are named too.
     """
     said = []
-    for k, force in enumerate(found.arm_force[:, 1].tolist()):
-        given = found.line.arm(k)
-        if 0 < k < len(found.arm_force) - 1 and (given.hinged or given.side) and found.arm(k).refuses(force):
-            said.append(f"support {k + 1}: {_said(found.arm(k), force)}")
+    for k in range(1, len(found.arm_force) - 1):
+        given, arm, force = found.line.arm(k), found.arm(k), found.arm_force[k]
+        across, up = float(force[1]), abs(float(force[2]) + 0.5 * given.mass * found.line.gravity)
+        if (given.hinged or given.side) and arm.refuses(across):
+            said.append(f"support {k + 1}: {_said(arm, across)}: it can only pull")
+        elif given.hinged and hangs(np.array([0.0, across, up])):
+            text = f"support {k + 1}: the arm pulls with {abs(across):.0f} N and carries {up:.0f} N"
+            said.append(f"{text}: it hangs {'loose' if abs(across) < FAINT else 'steep'}")
     return said
 
 

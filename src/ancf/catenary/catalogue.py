@@ -8,7 +8,7 @@ from typing import Any
 
 from ..errors import ModelError
 from ..files import exists
-from ..model.checks import listed, nearest
+from ..model.checks import listed, nearest, shown
 from .file import read_file
 from .line import Line
 from .route import Route
@@ -58,6 +58,10 @@ def path_of(name_or_path: str | Path) -> Path:
         It is no name of the catalogue and cannot be a file.
 
     """
+    given: object = name_or_path
+    if not isinstance(given, str | Path):
+        what = f"must be a name of the catalogue or a path, is {shown(given)}"
+        raise ModelError("line", what, f"such as {line_names()[0]} or line.toml")
     text = str(name_or_path)
     if text in line_names():
         return line_file(text)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..errors import ModelError
-from .arms import check_hinged
+from .arms import check_hinged, on_arm
 from .form import Form
 from .line import Line
 from .plan import RAISED
@@ -66,10 +66,10 @@ def _wide(line: Line | Route) -> Iterator[str]:
 def _arms(found: Form, line: Line | Route, first: int) -> Iterator[str]:
     for k in range(1, len(found.arm_force) - 1):
         arm = found.arm(k)
-        if not arm.hinged:
+        if not arm.hinged or found.settled:  # finding the form of another state tells of its arms
             continue
         where = line.place_of_support("stagger", first + k)
-        force = found.arm_force[k] + np.array([0.0, 0.0, 0.5 * arm.mass * found.line.gravity])
+        force = on_arm(found, k, found.arm_force)
         try:
             check_hinged(k, force)
         except ModelError as error:

@@ -14,15 +14,17 @@ import ancf
 
 from ..analysis import equilibria
 from ..arrays import FloatArray
+from ..errors import ModelError
 from ..files import writing
 from ..model import checks
 from ..model.points import Point
 from .assemble import Assembled
+from .form import Form
 from .line import Line
 from .mesh import Mesh
 from .rest import assemble, form, track_of
 from .route import Route
-from .route_form import AnyForm
+from .route_form import AnyForm, RouteForm
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +75,7 @@ class Elasticity:
 
 
 def elasticity(
-    line: Line | Route | str | Path,
+    line: Line | Route | AnyForm | str | Path,
     forces: Sequence[float] = (100.0, 200.0),
     points: int = 20,
     span: int | None = None,
@@ -84,8 +86,8 @@ def elasticity(
 
     Parameters
     ----------
-    line : Line, Route, name or path
-        Of a route its longest tension length.
+    line : Line, Route, Form, RouteForm, name or path
+        Of a route its longest tension length. A form is lifted as it was found, all of it on its mesh.
     forces : sequence of float, N
         Upward, > 0.
     points : int
@@ -100,30 +102,48 @@ def elasticity(
     Raises
     ------
     ModelError
-        A force or an index is out of range, or the line has no form.
+        A force or an index is out of range, the line has no form, or `beside` or `mesh` are given beside one.
 
     """
     force = checks.array(list(forces), "elasticity.forces", (None,))
     for k, value in enumerate(force):
         checks.positive(value, f"elasticity.forces[{k}]")
     checks.integer(points, "elasticity.points", 2, 10_000)
+    shape: AnyForm | None = None
+    if isinstance(line, Form | RouteForm):
+        shape, line = line, line.line
     line = track_of(line)
     if isinstance(line, Route):
         longest = int(np.argmax([len(part.spans) for part in line.parts]))
-        found = elasticity(line.parts[longest], forces, points, span, beside, mesh)
+        part = shape.forms[longest] if isinstance(shape, RouteForm) else line.parts[longest]
+        found = elasticity(part, forces, points, span, beside, mesh)
         before = sum(len(part.spans) + 1 for part in line.parts[:longest])
         return replace(found, span=found.span + before)  # its first support among those of all sections
     count = len(line.spans)
     middle = count // 2 if span is None else checks.integer(span, "elasticity.span", 0, count - 1)
     reach = count if beside is None else checks.integer(beside, "elasticity.beside", 0, 1000)
     first, last = max(0, middle - reach), min(count, middle + reach + 1)
-    overhead = assemble(form(line.excerpt(first, last - first), mesh))
+    if shape is None:
+        shape = form(line.excerpt(first, last - first), mesh)
+    else:
+        _check_whole(beside, mesh)
+    overhead = assemble(shape)
     places = np.union1d(
         np.linspace(0.0, 1.0, points + 1) * line.spans[middle].length, line.spans[middle].droppers
     )
     start = float(overhead.form.line.supports[middle - first])
     lift = _lifts(overhead, start + places, force)
     return Elasticity(middle, places, force, lift, overhead.form)
+
+
+def _check_whole(beside: int | None, mesh: Mesh | None) -> None:
+    """Of a form no part is cut out, and it has its mesh."""
+    if beside is not None:
+        raise ModelError(
+            "elasticity.beside", "has no effect: all of a form is lifted", "give the line instead"
+        )
+    if mesh is not None:
+        raise ModelError("elasticity.mesh", "has no effect: a form has its mesh", "give the line instead")
 
 
 def elasticity_beside(line: Line | Route) -> Elasticity:

@@ -7,9 +7,25 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import ModelError
+from ..model import checks
+
 
 def excerpt(line: Any, first: int, count: int) -> Any:
-    """Of a Line the `count` spans from span `first` on, anchored at their own ends."""
+    """Of a Line the `count` spans from span `first` on, anchored at their own ends.
+
+    Raises
+    ------
+    ModelError
+        The line has not these spans.
+
+    """
+    spans = len(line.spans)
+    first = checks.integer(first, "excerpt.first", 0, spans - 1)
+    count = checks.integer(count, "excerpt.count", 1, spans)
+    if first + count > spans:
+        what = f"is {count}, from span {first} on the line has {spans - first} of its {spans} spans"
+        raise ModelError("excerpt.count", what, "spans are counted from 0")
     supports = slice(first, first + count + 1)
     keys = ["system_height", "stagger"]
     keys += [key for key in ("height", "cant") if isinstance(getattr(line, key), tuple)]

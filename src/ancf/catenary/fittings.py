@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
 
 STEEPEST = 0.7  # rad, of a steady arm
 FAINT = 1.0  # N, of forces on arms that are taken for none
 MOST_SEED = 2**32 - 1
+
+
+def hangs(force: FloatArray) -> bool:
+    """Whether a hinged arm hangs down that gives this force (3,) to a wire and to half of its weight, N."""
+    return bool(abs(force[1]) < FAINT or abs(force[2]) > abs(force[1]))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -77,6 +77,9 @@ class Form(Pictured):
     arm_sides : tuple of str
         Of each support the side of the wire on which the hinge of its arm is where the line does not say it:
         that to which it pulls in the design, in every state. "" of ends, and where the design pulls nowhere.
+    arm_hinges : tuple of (supports, 3) m, or None
+        Of a state other than the design where its hinged arms have their hinges, sideways and upwards, and
+        their natural lengths, of each contact wire: those of the design.
     warmer : float, K
         Than in the design, by its conditions.
     made_for : (Line, Mesh)
@@ -114,6 +117,7 @@ class Form(Pictured):
     twin: WireShape | None = None
     twin_arm_force: FloatArray | None = None
     arm_sides: tuple[str, ...] = ()
+    arm_hinges: tuple[FloatArray, ...] | None = None
     warmer: float = 0.0
     made_for: tuple[Line, Mesh] | None = field(default=None, repr=False, compare=False)
 

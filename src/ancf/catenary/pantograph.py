@@ -13,7 +13,7 @@ from pydantic import ValidationError
 
 from ..errors import ModelError
 from ..model import checks
-from ..model.checks import nearest
+from ..model.checks import nearest, shown
 from ..model.file import parameters, read_toml
 from ..model.file.messages import beside, combined, of_validation
 from .stage import Stage, damper_of, spring_of, stops_of
@@ -177,6 +177,10 @@ def find_pantograph(given: Pantograph | str | Path) -> Pantograph:
     if isinstance(given, Pantograph):
         return given
     known = pantographs()
+    unlike: object = given
+    if not isinstance(unlike, str | Path):
+        what = f"must be a Pantograph, a name or a path, is {shown(unlike)}"
+        raise ModelError("pantograph", what, f"there are: {', '.join(known)}")
     if isinstance(given, str) and given in known:
         return known[given]
     if Path(given).suffix == ".toml":

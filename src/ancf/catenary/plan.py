@@ -220,24 +220,37 @@ def _window(
     if until is not None and checks.number(until, "run.until") + train > line.length:
         what = f"is {until:g} m, the first pantograph is then at {until + train:g} m"
         raise ModelError("run.until", what, f"the line ends at {line.length:g} m")
-    if given is None:
-        return _middle(line, first, BEYOND + train)
-    low, high = checks.array(given, "run.window", (2,)).tolist()
-    if not 0.0 <= low < high <= line.length:
-        what = f"is {low:g} m to {high:g} m, the line reaches from 0 to {line.length:g} m"
-        raise ModelError("run.window", what)
-    if first > low:
-        what = f"the first pantograph starts at {first:g} m, behind the start of the window at {low:g} m"
-        raise ModelError("run.start", what, "use a longer line, or a window further on")
+    room = BEYOND + train
+    low, high = _middle(line, first, room) if given is None else _given(line, given, first)
     if until is not None and high > until:
-        raise ModelError("run.until", f"is {until:g} m, inside the window that ends at {high:g} m")
-    ahead = high + BEYOND + train
+        what = f"is {until:g} m, inside the window from {low:g} m to {high:g} m"
+        hint = f"run until {high:g} m or further"
+        if first < until:
+            hint += ", or give a window that ends before"
+        raise ModelError("run.until", what, hint)
+    ahead = high + room
     if until is None and ahead > line.length:
         what = (
             f"the first pantograph is at {ahead:g} m when the last one has passed the window, "
             f"beyond the end of the line at {line.length:g} m"
         )
         raise ModelError("run.window", what, "use a longer line or an earlier window")
+    return low, high
+
+
+def _given(line: Line | Route, given: tuple[float, float], first: float) -> tuple[float, float]:
+    """A window that somebody wants, on the line and ahead of the first pantograph."""
+    low, high = checks.array(given, "run.window", (2,)).tolist()
+    if not low < high:
+        what = f"begins at {low:g} m and ends at {high:g} m"
+        hint = f"the smaller place first: {high:g} {low:g}" if low > high else "two places"
+        raise ModelError("run.window", what, hint)
+    if not 0.0 <= low < high <= line.length:
+        what = f"is {low:g} m to {high:g} m, the line reaches from 0 to {line.length:g} m"
+        raise ModelError("run.window", what)
+    if first > low:
+        what = f"the first pantograph starts at {first:g} m, behind the start of the window at {low:g} m"
+        raise ModelError("run.start", what, "use a longer line, or a window further on")
     return low, high
 
 

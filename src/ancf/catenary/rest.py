@@ -22,6 +22,7 @@ from .route import Route
 from .route_form import AnyForm, RouteForm
 from .route_model import assembled_route
 from .settle import as_built, in_conditions
+from .state import changes
 from .twin import design_twin
 
 
@@ -88,8 +89,10 @@ def _of_line(line: Line, mesh: Mesh | None, section: int = 0) -> Form:
         found = as_built(found, lengths)
     if line.conditions != Conditions():
         found = in_conditions(found)
+    if found.settled:
+        where = "conditions" if line.conditions != Conditions() else "dropper_lengths"
         for text in pushed(found):
-            warnings.warn(f"line.conditions: in them at {text}: it can only pull", UserWarning, stacklevel=5)
+            warnings.warn(f"line.{where}: with {changes(line)} at {text}", UserWarning, stacklevel=5)
     return found
 
 

@@ -11,6 +11,7 @@ import ancf
 
 from ..arrays import BoolArray, FloatArray
 from ..errors import ModelError, SolveError
+from .arms import hinges
 from .assemble import Assembled, assembled
 from .auxiliary import LongDroppers
 from .conditions import Conditions, expansion, warmer
@@ -157,7 +158,7 @@ def _with_friction(built: Form, begun: Form) -> Form:
 
 def _at_rest(built: Form, begun: Form, held: BoolArray | None, mounting: bool = False) -> Form:
     """Equilibria of the whole line, whose supports follow it along the track, until nothing moves."""
-    now, moved = begun, np.inf
+    now, moved = replace(begun, arm_hinges=hinges(built)), np.inf
     for _ in range(MOST_ITERATIONS):
         overhead = assembled(now, held, mounting)
         found = _rested(built, now, overhead, ancf.equilibrium(overhead.model))
@@ -198,7 +199,7 @@ def _rested(built: Form, now: Form, overhead: Assembled, state: ancf.State) -> F
     lift = force * (upper - lower)[:, 2] / np.where(distance > 0.0, distance, 1.0)
     give = now.clamp_give
     load, side = _hangers(built, messenger, overhead, state)
-    arms = [_arms(built, k, shape, overhead, state) for k, shape in enumerate(moved.contacts)]
+    arms = [_arms(built, now, k, shape, overhead, state) for k, shape in enumerate(moved.contacts)]
     return replace(
         moved,
         dropper_force=force,
@@ -248,23 +249,24 @@ def _pull(now: Form, k: int, wire: Strung | None, overhead: Assembled, state: an
     return force
 
 
-def _arms(built: Form, wire: int, contact: WireShape, overhead: Assembled, state: ancf.State) -> FloatArray:
+def _arms(
+    built: Form, now: Form, wire: int, contact: WireShape, overhead: Assembled, state: ancf.State
+) -> FloatArray:
     """Forces (supports, 3) of the steady arms on a contact wire, N, by their laws about the design."""
     line, force = built.line, np.zeros_like(built.arm_force)
     rests = built.contacts[wire].position
     given = built.arm_force if wire == 0 else built.twin_arm_force
     assert given is not None
-    holds = (overhead.arm_holds, overhead.twin_arm_holds)[wire]
+    holds, rods = (overhead.arm_holds, overhead.twin_arm_holds)[wire], hinges(now)[wire]
     for k in range(1, len(force) - 1):
         arm, node = built.arm(k), contact.nodes.support[k]
         rest, here = rests[node], contact.position[node]
         weight = np.array([0.0, 0.0, 0.5 * arm.mass * line.gravity])
         first = given[k] + weight
         if arm.length is not None:
-            size, sense = float(np.linalg.norm(first)), arm.sense(float(first[1]))
-            rod = rest + sense * arm.length * first / size - here
-            rod[0] = 0.0  # the cantilever follows the wire along the track
-            natural, reach = arm.length - sense * size / arm.stiffness, float(np.linalg.norm(rod))
+            y, z, natural = rods[k]
+            rod = np.array([0.0, y - here[1], z - here[2]])  # the cantilever follows the wire along the track
+            reach = float(np.linalg.norm(rod))
             force[k] = arm.stiffness * (reach - natural) * rod / reach - weight
             continue
         force[k, 2] = first[2] - (arm.vertical or 0.0) * (here - rest)[2] - weight[2]

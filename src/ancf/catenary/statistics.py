@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -29,8 +29,8 @@ MEAN_FORCE_LAW = {"AC": (70.0, "V2"), "DC 3 kV": (110.0, "V"), "DC 1.5 kV": (140
 
 
 @dataclass(frozen=True)
-class Statistics:
-    """What is read off a run for one pantograph.
+class Statistics(Mapping[str, Quantity]):
+    """What is read off a run for one pantograph: its quantities by their keys, ``found["mean_force"].value``.
 
     Parameters
     ----------
@@ -64,6 +64,12 @@ class Statistics:
             if quantity.key == key:
                 return quantity
         raise KeyError(key)
+
+    def __iter__(self) -> Iterator[str]:
+        return (quantity.key for quantity in self.quantities)
+
+    def __len__(self) -> int:
+        return len(self.quantities)
 
 
 def statistics(run: Run, pantograph: int = 0, filter: Butterworth | None = None) -> Statistics:

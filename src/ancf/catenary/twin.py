@@ -44,12 +44,18 @@ def design_twin(line: Line, mesh: Mesh | None) -> Form:
         rested = mounted(found)
         wrong = rested.contact_height - line.dropper_height
         if float(np.max(np.abs(wrong), initial=0.0)) < TOLERANCE:
-            return replace(rested, settled=False)
+            return replace(rested, settled=False, arm_hinges=None)
         natural = found.dropper_natural + wrong
         stiffness = found.dropper_stiffness
         if line.droppers.EA is not None:
             stiffness = line.droppers.EA / natural
-        found = replace(rested, dropper_natural=natural, dropper_stiffness=stiffness, settled=False)
+        found = replace(
+            rested,
+            dropper_natural=natural,
+            dropper_stiffness=stiffness,
+            settled=False,
+            arm_hinges=None,
+        )
     what = f"heights of twin contact wires are {float(np.max(np.abs(wrong))):.2e} m off"
     raise SolveError("catenary.form", what, "less contact_spacing, or longer droppers")
 

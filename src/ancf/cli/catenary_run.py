@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import SolveError
+from ..errors import ModelError, SolveError
 from .output import OutputFolder
 from .screen import Screen, console
 
@@ -53,6 +53,8 @@ def run_line(
     from ..viz.printed import chosen
     from ..viz.style import require_matplotlib
 
+    if to is not None and not report:
+        raise ModelError("--to", "has no effect with --no-report", "leave one of both out")
     formats = chosen(to) if report else ()
     speed = positive(speed_kmh, "--speed") / 3.6
     line = read_line(name, assignments(changes))
