@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 import ancf
+from ancf.design.report.figures import _explains
 from ancf.design.statistics import effect, exceedance, percentile, summary
 from design_functions import ISHIGAMI, angles, ishigami
 
@@ -66,7 +67,13 @@ class TestSobol:
         table = table_of(ancf.sample(angles(), method="saltelli", count=8), lambda x1, x2, x3: {"y": 2.0})
         found = said(table)
         assert found["saltelli"]["y"]["indices"] == {}
-        assert found["effects"]["y"]["x1"] == {"bins": [], "share": 0.0}
+        assert found["effects"]["y"]["x1"] == {
+            "bins": [],
+            "share": 0.0,
+            "explained": 0.0,
+            "chance": 0.0,
+            "exact": False,
+        }
 
 
 class TestMorris:
@@ -145,6 +152,80 @@ class TestEffects:
         assert [row["mean"] for row in bins] == pytest.approx(
             [3.0 * row["at"] - 0.5 for row in bins], abs=0.06
         )
+
+    @pytest.mark.parametrize("interaction", [0.0, 0.7, -3.0])
+    @pytest.mark.parametrize("levels", [(3, 2), (2, 2), (4, 3), (12, 5)])
+    def test_shares_of_a_grid_are_exact(self, levels, interaction):
+        """y = a + b/2 + c (a - mean)(b - mean): variances add, of n even steps (n^2 - 1)/12."""
+        values = {name: [float(k) for k in range(n)] for name, n in zip("ab", levels, strict=True)}
+        middle = [(n - 1) / 2 for n in levels]
+        table = table_of(
+            ancf.sample(values, method="grid"),
+            lambda a, b: {"y": a + 0.5 * b + interaction * (a - middle[0]) * (b - middle[1])},
+        )
+        steps = [(n * n - 1) / 12 for n in levels]
+        parts = np.array([steps[0], 0.25 * steps[1], interaction**2 * steps[0] * steps[1]])
+        found = [effect(table, name, "y") for name in "ab"]
+        assert [one["share"] for one in found] == pytest.approx(parts[:2] / parts.sum(), rel=1e-12)
+        assert all(one["exact"] and one["share"] == one["explained"] for one in found)
+
+    def test_shares_of_the_two_effects_of_six_cases(self):
+        """Of a in 0, 1, 2 and b in 0, 1: 2/3 and 1/16 of 35/48."""
+        rows = ancf.sample({"a": [0, 1, 2], "b": [0, 1]}, method="grid")
+        table = table_of(rows, lambda a, b: {"y": a + 0.5 * b})
+        assert [effect(table, name, "y")["share"] for name in "ab"] == pytest.approx([32 / 35, 3 / 35])
+
+    @pytest.mark.parametrize("count", [2, 3, 4])
+    def test_three_parameters_and_words(self, count):
+        """A product is all interaction but for what the means give: of words as of numbers."""
+        rows = ancf.sample({"a": [-1.0, 1.0], "b": [-1.0, 1.0], "word": list("wxyz"[:count])}, method="grid")
+        table = table_of(rows, lambda a, b, word: {"y": a * b + 2.0 * "wxyz".index(word)})
+        own = 4.0 * (count * count - 1) / 12
+        shares = [effect(table, name, "y")["share"] for name in ("a", "b", "word")]
+        assert shares == pytest.approx([0.0, 0.0, own / (own + 1.0)], abs=1e-15)
+
+    @pytest.mark.parametrize("lost", range(6))
+    def test_a_grid_with_a_failed_case_is_an_estimate(self, lost):
+        """Then the report tells what the means explain where chance would explain as much."""
+        rows = ancf.sample({"a": [0, 1, 2], "b": [0, 1]}, method="grid")
+        table = table_of(rows, lambda a, b: {"y": a + 0.5 * b})
+        table.loc[lost, "y"] = np.nan
+        found = [effect(table, name, "y") for name in "ab"]
+        assert not any(one["exact"] for one in found)
+        k, n = np.array([3, 2]), 5
+        eta = np.array([one["explained"] for one in found])
+        wanted = np.maximum(eta - (1.0 - eta) * (k - 1) / (n - k), 0.0)
+        assert [one["share"] for one in found] == pytest.approx(wanted)
+        assert [one["chance"] for one in found] == pytest.approx((k - 1) / (n - 1))
+        for one in found:
+            assert ("not told from chance" in _explains(one)) == (one["share"] == 0.0)
+
+    @pytest.mark.parametrize("groups", [2, 4, 10])
+    def test_chance_is_what_random_groups_explain(self, groups):
+        """On the average over many draws of numbers that know nothing of the parameter."""
+        draw, explained = np.random.default_rng(groups), []
+        for _ in range(400):
+            x = np.arange(40) % groups
+            table = pd.DataFrame({"x": x, "z": draw.random(40), "y": draw.random(40)})
+            table.attrs = {"parameters": ["x", "z"], "outputs": ["y"]}
+            found = effect(table, "x", "y")
+            explained.append(found["explained"])
+        assert found["chance"] == pytest.approx((groups - 1) / 39)
+        assert np.mean(explained) == pytest.approx(found["chance"], rel=0.15)
+
+    @pytest.mark.parametrize(
+        ("share", "said"),
+        [
+            (1.0, "100 %"),
+            (32 / 35, "91 %"),
+            (3 / 35, "8.6 %"),
+            (2e-3, "0.2 %"),
+            (1e-6, "< 0.1 %"),
+            (1e-17, "0 %"),
+        ],
+    )
+    def test_what_matters_is_not_shown_as_0(self, share, said):
+        assert _explains({"share": share, "chance": 0.0}) == f"{said} of the variance"
 
     def test_no_effect_has_no_share(self):
         rows = ancf.sample(dict.fromkeys("xz", ancf.Uniform(0.0, 1.0)), method="random", count=500)

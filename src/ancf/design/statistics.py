@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -141,23 +142,53 @@ def exceedance(values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, 
 
 
 def effect(table: DataFrame, parameter: str, output: str) -> dict[str, Any]:
-    """Mean of an output over one parameter, in bins, and the share of its variance that these means have."""
-    x, y = table[parameter].to_numpy(), column(table, output)
+    """Mean of an output over one parameter, in bins, and the share of its variance that these means have.
+
+    ``explained`` is the variance of the means over that of the output, the correlation ratio: on a full grid,
+    all combinations of the values equally often, that of the analysis of variance, and ``exact``, with a mean
+    for each value: ``share`` is the same there. Elsewhere means differ by chance too, ``chance`` is what as
+    many random groups explain on the average, and ``share`` what ``explained`` has beyond that, not below 0
+    (Kelley's epsilon squared): 0 says that the cases cannot tell the effect from chance.
+    """
+    y = column(table, output)
     good = np.isfinite(y)
-    x, y = x[good], y[good]
+    x, y = table[parameter].to_numpy()[good], y[good]
     bins = [*_bins(x)]
+    exact = is_full(table[good])
     if not bins or np.ptp(y) == 0.0:
-        return {"bins": [], "share": 0.0}
+        return {"bins": [], "share": 0.0, "explained": 0.0, "chance": 0.0, "exact": exact}
     rows = []
     for at, inside in bins:
         part = y[inside]
         error = float(np.std(part, ddof=1) / np.sqrt(len(part))) if len(part) > 1 else None
         rows.append({"at": at, "mean": float(np.mean(part)), "error": error, "count": len(part)})
-    means = np.array([row["mean"] for row in rows])
-    weights = np.array([row["count"] for row in rows]) / len(y)
-    within = (len(rows) - 1) / max(len(y) - len(rows), 1)  # what means of random parts differ by
-    between = float(np.sum(weights * (means - np.mean(y)) ** 2) / np.var(y))
-    return {"bins": rows, "share": max(0.0, between - within * (1.0 - between))}
+    if exact:
+        bins = [(level, x == level) for level in dict.fromkeys(x.tolist())]
+    explained = _explained(y, [y[inside] for _, inside in bins])
+    groups, cases = len(bins), len(y)
+    share, chance = explained, 0.0
+    if not exact:
+        chance = (groups - 1) / (cases - 1)
+        share = max(0.0, explained - (1.0 - explained) * (groups - 1) / max(cases - groups, 1))
+    return {"bins": rows, "share": share, "explained": explained, "chance": chance, "exact": exact}
+
+
+def _explained(y: FloatArray, parts: list[FloatArray]) -> float:
+    """Variance of the means of parts over that of all numbers (n,)."""
+    between = sum(len(part) * (float(np.mean(part)) - float(np.mean(y))) ** 2 for part in parts)
+    return min(1.0, between / (len(y) * float(np.var(y))))
+
+
+def is_full(table: DataFrame) -> bool:
+    """Whether the rows are all combinations of the values that their parameters have, equally often."""
+    codes = [table[name].factorize()[0] for name in parameters_of(table)]
+    if not codes or not len(table):
+        return False
+    combinations = math.prod(int(code.max()) + 1 for code in codes)
+    if len(table) % combinations:
+        return False
+    _, counts = np.unique(np.stack(codes), axis=1, return_counts=True)
+    return len(counts) == combinations and bool(np.all(counts == counts[0]))
 
 
 def _bins(x: Any) -> Iterator[tuple[Any, Any]]:

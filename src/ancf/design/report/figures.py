@@ -107,11 +107,27 @@ def _effects(figure: Figure, table: DataFrame, found: dict[str, Any], name: str)
         axes.errorbar(at, means, yerr=errors, color=style.BLUE, marker="o", ms=3, capsize=2, lw=1.0)
         axes.set_xlabel(key)
         axes.set_ylabel(f"mean of {name}")
-        axes.set_title(f"{100 * found['effects'][name][key]['share']:.0f} % of the variance", fontsize=7)
+        axes.set_title(_explains(found["effects"][name][key]), fontsize=7)
     low = min(axes.get_ylim()[0] for axes in panels[: len(names)])
     high = max(axes.get_ylim()[1] for axes in panels[: len(names)])
     for axes in panels[: len(names)]:
         axes.set_ylim(low, high)
+
+
+def _explains(effect: dict[str, Any]) -> str:
+    """What a parameter explains; of an effect that the cases cannot tell from chance what that explains."""
+    if effect["share"] == 0.0 < effect["chance"]:
+        return f"not told from chance ({_percent(effect['chance'])})"
+    return f"{_percent(effect['share'])} of the variance"
+
+
+def _percent(share: float) -> str:
+    """Of 100 in whole numbers, of 1 in tenths; what is no more than round-off is 0."""
+    if share < 1e-12:
+        return "0 %"
+    if share < 0.0005:
+        return "< 0.1 %"
+    return f"{100.0 * share:.1f} %" if share < 0.0995 else f"{100.0 * share:.0f} %"
 
 
 def _tornado(figure: Figure, table: DataFrame, found: dict[str, Any], name: str) -> None:
@@ -175,7 +191,10 @@ def _morris(figure: Figure, table: DataFrame, found: dict[str, Any], name: str) 
 def _ranked(table: DataFrame, found: dict[str, Any], name: str) -> list[str]:
     """Parameters with an effect, the largest first."""
     effects = found["effects"][name]
-    return sorted((key for key in effects if effects[key]["bins"]), key=lambda key: -effects[key]["share"])
+    return sorted(
+        (key for key in effects if effects[key]["bins"]),
+        key=lambda key: (-effects[key]["share"], -effects[key]["explained"]),
+    )
 
 
 def _panels(
@@ -235,7 +254,8 @@ FIGURES: dict[str, FigureKind] = {
     "effects": FigureKind(
         "Main effects",
         "Mean over the cases with about this value of one parameter, and its standard error; the share of "
-        "the variance that one parameter alone explains.",
+        "the variance that one parameter alone explains: exact on a full grid, else an estimate beyond "
+        "what as many random groups of cases explain.",
         _of_panels,
         _effects,
         _affected,
