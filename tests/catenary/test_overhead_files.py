@@ -85,7 +85,7 @@ class TestOtherCommands:
     def test_a_line_is_no_model(self, path):
         code, said = call("run", path)
         assert code == 2
-        assert "is the file of an overhead line, not of a model" in said
+        assert "is the file of an overhead line, not a model file" in said
         assert "ancf catenary run" in said
 
     def test_view(self, path, tmp_path):

@@ -14,6 +14,7 @@ from ..errors import ModelError
 from ..model import checks
 from ..model.file import parameters, read_toml
 from ..model.file.fields import Entry
+from ..model.file.kinds import LINE, refuse
 from ..model.file.messages import combined, of_validation
 from ..model.file.paths import changed
 from .auxiliary import Auxiliary
@@ -69,7 +70,9 @@ def read_file(path: str | Path, values: Mapping[str, Any] | None = None) -> Line
         The file cannot be read, is no TOML, or describes no valid line; all problems in one error.
 
     """
-    return parse_track(other_values(read_toml(Path(path), "line file"), values or {}), str(path))
+    data = read_toml(Path(path), "line file")
+    refuse(path, data, LINE)
+    return parse_track(other_values(data, values or {}), str(path))
 
 
 def other_values(tables: dict[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:

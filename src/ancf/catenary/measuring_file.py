@@ -11,6 +11,7 @@ from pydantic import Field, ValidationError
 from ..errors import ModelError
 from ..model.file import parameters, read_toml
 from ..model.file.fields import Entry, NonNegative, Parameters, Positive
+from ..model.file.kinds import HEAD, refuse
 from ..model.file.messages import beside, combined, of_validation
 from .measuring import Measured, MeasuringHead
 from .write import write_columns
@@ -45,6 +46,7 @@ def read_measuring_head(path: str | Path) -> MeasuringHead:
 
     """
     data = read_toml(Path(path), "file of a measuring pantograph")
+    refuse(path, data, HEAD)
     try:
         with parameters.given(data, {}):
             entry = MeasuringEntry.model_validate(data)

@@ -15,6 +15,7 @@ from ..errors import ModelError
 from ..model import checks
 from ..model.checks import nearest, shown
 from ..model.file import parameters, read_toml
+from ..model.file.kinds import PANTOGRAPH, refuse
 from ..model.file.messages import beside, combined, of_validation
 from .stage import Stage, damper_of, spring_of, stops_of
 
@@ -201,6 +202,7 @@ def read_pantograph(path: str | Path) -> Pantograph:
     from .entries import PantographEntry
 
     data = read_toml(Path(path), "pantograph file")
+    refuse(path, data, PANTOGRAPH)
     try:
         with parameters.given(data, {}):
             entry = PantographEntry.model_validate(data)

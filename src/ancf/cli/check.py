@@ -1,4 +1,4 @@
-"""``ancf check``: whether a model file, a line file or a results file is right."""
+"""``ancf check``: whether a file is right: a model, a line, a pantograph, a study or results."""
 
 from __future__ import annotations
 
@@ -32,14 +32,22 @@ def check_file(path: Path, given: list[str] | None = None) -> None:
         if given:
             raise ModelError("--set", "changes model files and line files, not results", "leave it out")
         return _check_results(path)
-    from ..model.file import OF_A_LINE, read_toml
+    from ..model.file import read_toml
+    from ..model.file.kinds import LINE, MODEL, kind_of
     from ..model.file.paths import assignments, changed
 
     data = read_toml(path, "model file")
-    if OF_A_LINE & data.keys():
+    kind = kind_of(data)
+    if kind == LINE:
         from ..catenary.file import other_values
 
         return _check_line(path, other_values(data, assignments(given)))
+    if kind not in ("", MODEL):
+        from .other_files import described
+
+        if given:
+            raise ModelError("--set", "changes model files and line files, not others", "leave it out")
+        return _print_right(path, described(path, kind))
     return _check_model(path, changed(data, assignments(given)))
 
 

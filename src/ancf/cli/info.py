@@ -24,15 +24,24 @@ def show_info(path: Path) -> None:
 
 def _show_description(path: Path) -> None:
     """A line file or a model file, by the tables that it has."""
-    from ..model.file import OF_A_LINE, read_toml
-    from .info_line import show_line
-    from .info_model import show_model
+    from ..model.file import read_toml
+    from ..model.file.kinds import LINE, MODEL, kind_of
 
     data = read_toml(path, "model file")
-    if OF_A_LINE & data.keys():
+    kind = kind_of(data)
+    if kind == LINE:
+        from .info_line import show_line
+
         show_line(path, data)
-    else:
+    elif kind in ("", MODEL):
+        from .info_model import show_model
+
         show_model(path)
+    else:
+        from .other_files import described
+        from .screen import console
+
+        console().print(described(path, kind), soft_wrap=True)
 
 
 def is_hdf5(path: Path) -> bool:

@@ -67,10 +67,13 @@ def view_file(
 
 def _line_at_rest(path: Path, target: Path, options: dict[str, Any]) -> Path:
     """The page of an overhead line at rest, in the state of its file."""
-    from ..model.file import OF_A_LINE, read_toml
+    from ..model.file import read_toml
+    from ..model.file.kinds import LINE, MODEL, kind_of, refuse
 
-    if not OF_A_LINE & read_toml(path, "model file").keys():
+    data = read_toml(path, "model file")
+    if kind_of(data) in ("", MODEL):
         raise ModelError(str(path), "is a model file, which has no results yet", f"ancf run {path} -o out")
+    refuse(path, data, LINE)
     import ancf
 
     from .. import catenary

@@ -15,6 +15,7 @@ from ..errors import ModelError
 from ..model import checks
 from ..model.file import read_toml
 from ..model.file.fields import Entry, checked
+from ..model.file.kinds import STUDY, refuse
 from ..model.file.messages import combined, of_validation
 from .cases import ModelCase
 from .distributions import distribution_of
@@ -157,6 +158,7 @@ def read_study_file(path: str | Path) -> StudyFile:
     """
     path = Path(path)
     data = read_toml(path, "study file")
+    refuse(path, data, STUDY)
     try:
         entry = StudyEntry.model_validate(data)
     except ValidationError as error:

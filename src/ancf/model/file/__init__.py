@@ -21,6 +21,7 @@ from . import parameters
 from .build import Builder
 from .entries import FileEntry
 from .histories import with_files
+from .kinds import MODEL, refuse
 from .messages import combined, of_validation
 from .paths import changed
 
@@ -54,8 +55,6 @@ class Study:
 
 #: A number with a decimal comma behind a key.
 DECIMAL_COMMA = re.compile(r"=\s*[-+]?\d+,\d")
-#: Tables that only files of overhead lines have.
-OF_A_LINE = {"contact_wire", "messenger_wire", "spans", "steady_arm"}
 
 
 def read_study(path: str | Path, values: Mapping[str, Any] | None = None) -> Study:
@@ -77,9 +76,7 @@ def read_study(path: str | Path, values: Mapping[str, Any] | None = None) -> Stu
     """
     text, given = _read_text(Path(path), "model file"), dict(values or {})
     data = _toml(text, str(path))
-    if OF_A_LINE & data.keys():
-        hint = f"ancf catenary run {path} --speed 250, ancf catenary form {path}, ancf check {path}"
-        raise ModelError(str(path), "is the file of an overhead line, not of a model", hint)
+    refuse(path, data, MODEL)
     study = parse_study(changed(with_files(data, Path(path).parent), given), str(path))
     return replace(study, source_text=text, values=given)
 
