@@ -1,5 +1,7 @@
 """Formulas of outputs: what they compute, against NumPy, and what they refuse."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -83,6 +85,32 @@ def test_what_is_no_formula(text, phrase):
         Formula(text, "outputs.x", WORDS)
     assert phrase in str(caught.value)
     assert caught.value.where == "outputs.x"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "tension(cable.start)",
+        "position(cable.start)[2]",
+        "position(cable.start)",
+        "2*position(cable.start)",
+        "tension(cable.start) - t",
+        "norm(position(cable.start))",
+        "last(position(cable.start))",
+        "uplift",
+        "2*uplift",
+        "t",
+    ],
+)
+def test_what_is_recommended_is_a_number(text):
+    """Everything that the message names, and never what was written."""
+    with pytest.raises(ancf.ModelError, match="must give one number") as caught:
+        Formula(text, "outputs.x", WORDS)(Case())
+    shown = re.split(", | or ", caught.value.hint.removeprefix("such as "))
+    assert len(shown) >= 2
+    for formula in shown:
+        assert formula != text
+        assert np.isfinite(Formula(formula, "outputs.x", WORDS)(Case()))
 
 
 @pytest.mark.parametrize(

@@ -233,6 +233,37 @@ class TestFailures:
             quiet(*arguments, workers=0)
         assert phrase in str(caught.value)
 
+    @pytest.mark.parametrize(
+        ("function", "named"),
+        [
+            (lambda a, load: {"y": a}, "'load'"),
+            (lambda a: {"y": a}, "'b'"),
+            (lambda a, b, c: {"y": a}, "'c'"),
+            (lambda: {"y": 1.0}, "'a'"),
+            (functools.partial(lambda a, b, c: {"y": a}, b=2.0), "'c'"),
+        ],
+    )
+    @pytest.mark.parametrize("workers", [0, 2])
+    def test_function_of_other_arguments(self, function, named, workers, tmp_path):
+        """Refused at once, not case by case: nothing is computed, no journal begun."""
+        with pytest.raises(ancf.ModelError, match="does not take the columns of the samples, a, b") as caught:
+            quiet(function, samples(4), workers=workers, folder=tmp_path / "out")
+        assert caught.value.where == "study.function"
+        assert named in caught.value.what
+        assert not (tmp_path / "out").exists()
+
+    @pytest.mark.parametrize(
+        "function",
+        [
+            lambda a, b, c=1.0: {"y": a * b * c},
+            lambda **values: {"y": values["a"] * values["b"]},
+            functools.partial(lambda c, a, b: {"y": a * b}, 1.0),
+        ],
+    )
+    def test_function_that_takes_them_in_its_way(self, function):
+        table = quiet(function, samples(4), workers=0)
+        assert table["y"].to_numpy() == pytest.approx((table["a"] * table["b"]).to_numpy())
+
     def test_function_that_cannot_go_to_another_process(self):
         lock = multiprocessing.Lock()
         with pytest.raises(ancf.ModelError, match="cannot be handed to other processes"):

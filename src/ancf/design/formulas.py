@@ -132,11 +132,23 @@ class Formula:
             found = np.asarray(self._compiled(case))
         if found.size != 1 or found.dtype.kind not in "iufb":
             what = f'"{self.text}" gives {_shape(found)}, must give one number'
-            raise ModelError(self.where, what, "such as max(...) of a history, position(...)[2] of a vector")
+            raise ModelError(self.where, what, self._one_number(found, case))
         number = float(found.reshape(-1)[0])
         if not math.isfinite(number):
             raise ModelError(self.where, f'"{self.text}" is {number}, must be a finite number')
         return number
+
+    def _one_number(self, found: Any, case: Answers) -> str:
+        """What to write for one number of a history, of a list, of vectors, as which it was found."""
+        times = np.size(case.value("t")) if "t" in self.words.names else 0
+        plain = isinstance(ast.parse(" ".join(self.text.split()), mode="eval").body, ast.Call | ast.Name)
+        inner = self.text if plain or self.text.endswith("]") else f"({self.text})"
+        last = f"[{found.shape[-1] - 1}]"
+        if found.ndim > 1:
+            inner += last
+        if found.ndim and found.shape[0] == times:
+            return f"such as last({inner}), max({inner}) or mean({inner})"
+        return f"such as max({inner}) or {inner}{last}"
 
     def history(self, case: Answers) -> Any:
         """Its values (n,) at the times of the case.

@@ -115,8 +115,8 @@ def study(
     Raises
     ------
     ModelError
-        What is given is wrong, the folder holds another study, the scheduler does not answer, or the outputs
-        of the first case are no numbers.
+        What is given is wrong, such as a function that does not take the columns, the folder holds another
+        study, the scheduler does not answer, or the outputs of the first case are no numbers.
     SolveError
         The cluster has gone; what has ended is kept.
     """
@@ -128,6 +128,7 @@ def study(
     if not isinstance(samples, frame.DataFrame) or not len(samples) or not len(samples.columns):
         raise ModelError("study.samples", "must be a DataFrame with a row for each case", "see ancf.sample")
     rows = rows_of(samples)
+    check_arguments(function, rows[0])
     content = packed(function)
     place = None if folder is None else writable(Path(folder), f"folder {folder}")
     with locked(place, f"folder {folder}"):
@@ -170,6 +171,20 @@ def rows_of(samples: DataFrame) -> list[dict[str, Any]]:
             if not isinstance(value, str):
                 checks.number(value, f'study.samples["{name}"][{k}]')
     return [dict(zip(names, row, strict=True)) for row in zip(*columns, strict=True)]
+
+
+def check_arguments(function: Callable[..., Any], row: Mapping[str, Any]) -> None:
+    """Raise ModelError if a function does not take the names of a row: each case would fail alike."""
+    try:
+        takes = inspect.signature(function)
+    except (TypeError, ValueError):
+        return  # of some compiled functions nothing is known
+    try:
+        takes.bind(**row)
+    except TypeError as error:
+        name = getattr(function, "__name__", type(function).__name__)
+        what = f"{name}{takes} does not take the columns of the samples, {', '.join(row)}: {error}"
+        raise ModelError("study.function", what, "arguments and columns have the same names") from None
 
 
 def identity(function: Any) -> dict[str, Any]:
