@@ -263,7 +263,7 @@ def _outputs(known: Answer, model: Model, labels: Sequence[str], parts: int) -> 
             force = np.linalg.norm(np.atleast_2d(known.multiplier(item))[:, :3], axis=1)
             yield _Output(f"{item.name} largest force", "N", force.max(keepdims=True))
     if isinstance(known, Result) and known.provenance["settings"].get("sensors"):
-        (_, times), *columns = sensor_columns(known.sensors)
+        (_, times), *columns = sensor_columns(known.sensors, inside=False)
         for name, values in columns:
             label, _, unit = name.rpartition(" [")
             yield _Output(label, unit.rstrip("]"), np.asarray(values), times)

@@ -103,3 +103,30 @@ step = 1e-3
     assert ran.code == 0
     assert "softer than any solid" in ran.said + ran.out
     assert "its value jumps by 1 rad at t = 0.1 s" in ran.said + ran.out
+
+
+@pytest.mark.parametrize("start", ["rest", "equilibrium"])
+def test_check_names_a_support_that_sets_off_at_once(start, call, tmp_path):
+    text = """[sections.steel]
+EA = 1e6
+rhoA = 1.0
+EI = 1.0
+[[bodies]]
+type = "beam"
+name = "rod"
+section = "steel"
+start = [0, 0, 0]
+end = [1, 0, 0]
+elements = 2
+[[supports]]
+type = "clamp"
+point = "rod.start"
+rotation = "3*t"
+[simulation]
+t_end = 1.0
+step = 1e-3
+"""
+    (tmp_path / "rod.toml").write_text(text + (f'start = "{start}"\n' if start != "rest" else ""))
+    ran = call("check", str(tmp_path / "rod.toml"))
+    assert ran.code == 0
+    assert "rotation: its rate is 3 rad/s from t = 0 s on" in " ".join((ran.said + ran.out).split())

@@ -1,5 +1,7 @@
 """Given motions that jump, in value or rate: found where they are, and said; smooth ones are not."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -127,3 +129,100 @@ class TestSaid:
         with pytest.warns(UserWarning, match="noise"):
             run = ancf.simulate(model, t_end=0.01, step=1e-3)
         assert any("a noise of about" in note for note in run.notes)
+
+
+def run_of(model, start=None, step=1e-3):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return ancf.simulate(model, t_end=0.004, step=step, start=start)
+
+
+def set_off(model, start=None, step=1e-3):
+    """The notes of a run that name a velocity from the start on."""
+    return [note for note in run_of(model, start, step).notes if " from t = " in note]
+
+
+TURNS = {"rotation_rate": "5", "rotation_acceleration": "0"}
+
+
+class TestAtTheStart:
+    @pytest.mark.parametrize(
+        ("motion", "says"),
+        [
+            ({"displacement": ["2*t", 0, 0]}, "displacement: its rate is 2 m/s from t = 0 s on"),
+            ({"displacement": [0, "0.01*sin(300*t)", 0]}, "displacement: its rate is 3 m/s"),
+            ({"rotation": "5*t"}, "rotation: its rate is 5 rad/s"),
+            ({"rotation": "5*t", "stretch": "fixed"}, "rotation: its rate is 5 rad/s"),
+            ({"rotation": "5*t", **TURNS}, "rotation: its rate is 5 rad/s"),
+            ({"rotation_vector": [0, 0, "5*t"]}, "rotation_vector: its rate is 5 rad/s"),
+            ({"displacement": {"t": [0, 1], "value": [[0, 0, 0], [0, 0, 2]]}}, "rate is 2 m/s"),
+        ],
+    )
+    def test_a_beam_at_rest(self, motion, says):
+        """From its initial shape and from an equilibrium, in which the support alone moves."""
+        model = beam(**motion)
+        for start in (None, ancf.equilibrium(model)):
+            [note] = set_off(model, start)
+            assert note.startswith("clamp(beam.start).")
+            assert says in note
+            assert 'give "beam" that motion by set_motion' in note
+
+    @pytest.mark.parametrize(
+        "motion",
+        [
+            {"displacement": ["t**2", 0, 0]},
+            {"displacement": [0, "0.01*ramp(t, 0, 0.002)", 0]},
+            {"rotation": "1 - cos(40*t)"},
+            {"displacement": [1e-6, 0, 0]},
+            {"rotation": "t**2", "rotation_rate": "2*t", "rotation_acceleration": "2"},
+        ],
+    )
+    def test_what_begins_smoothly_says_nothing(self, motion):
+        assert set_off(beam(**motion)) == []
+
+    def test_a_body_that_moves_so_says_nothing(self):
+        turning, drawn = beam(rotation="8*t"), beam(displacement=["2*t", 0, 0])
+        turning.bodies["beam"].set_motion(angular_velocity=(0, 0, 8))
+        drawn.bodies["beam"].set_motion(velocity=(2, 0, 0))
+        for model in (turning, drawn):
+            assert set_off(model) == []
+
+    def test_a_state_that_moves_so_says_nothing_and_another_one_does(self):
+        slow, fast = beam(displacement=["2*t", 0, 0]), beam(displacement=["3*t - 0.004", 0, 0])
+        state = run_of(slow).state()
+
+        def again(model):
+            return ancf.simulate(model, t_end=state.t + 0.004, step=1e-3, start=state).notes
+
+        assert not any(" from t = " in note for note in again(slow))
+        assert any("rate is 3 m/s from t = 0.004 s on" in note for note in again(fast))
+
+    def test_what_is_joined_to_a_mass_that_moves(self):
+        """A mass alone may set off; a cable that hangs on it may not, unless it moves as well."""
+
+        def carried(joined, moves):
+            model = ancf.Model()
+            rope = model.add_beam("rope", start=(0, 0, 0), end=(1, 0, 0), elements=4, section=WIRE)
+            mass = model.add_point_mass("trolley", at=(0, 0, 0), mass=1.0)
+            mass.set_motion(velocity=(2, 0, 0))
+            rope.set_motion(velocity=(2, 0, 0) if moves else (0, 0, 0))
+            model.pin(mass, displacement=["2*t", 0, 0])
+            if joined:
+                model.connect(rope.start, mass)
+            return model
+
+        assert set_off(carried(False, False)) == set_off(carried(True, True)) == []
+        [note] = set_off(carried(True, False))
+        assert note.startswith('pin(trolley).displacement: its rate is 2 m/s from t = 0 s on, "rope"')
+
+    def test_components_that_a_hold_leaves_free_do_not_count(self):
+        model = ancf.Model()
+        rope = model.add_beam("rope", start=(0, 0, 0), end=(1, 0, 0), elements=4, section=WIRE)
+        model.hold(rope.start, position="yz", displacement=("2*t", "t**2", 0))
+        assert set_off(model) == []
+
+    def test_a_value_that_jumps_behind_the_start(self):
+        [note] = [
+            n for n in run_of(beam(displacement=lambda t: (0.001 * (t > 0), 0, 0))).notes if "jumps" in n
+        ]
+        assert "its value jumps by 0.001 m at t = 0 s" in note

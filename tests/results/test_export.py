@@ -446,6 +446,31 @@ class TestCommand:
             np.testing.assert_allclose(np.array(rows, dtype=float).T, list(wanted.values()), rtol=1e-15)
             assert all(described(column)[2] for column in head)
 
+    @pytest.mark.parametrize("element", ["cable", "original", "nonlocking"])
+    def test_tension_of_sensors(self, element, tmp_path):
+        """Of points of cables and beams, at every step, with unit and meaning; a mass has none."""
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        section = ancf.Section.circle(diameter=0.02, E=1e8, rho=1000.0, nu=0.3)
+        rod = model.add_beam(
+            "rod", start=(0, 0, 0), end=(1, 0, 0), elements=4, section=section, element=element
+        )
+        model.clamp(rod.start)
+        model.add_point_mass("bob", at=(0, 0, -1), mass=1.0)
+        points = ["rod.start", "rod.at(0.4)", "bob"] + ["rod.at(0.4, 0.005, 0)"] * rod.has_section
+        result = ancf.simulate(model, t_end=0.01, step=1e-3, output_step=5e-3, sensors=points)
+        write_csv(result, tmp_path)
+        columns = table(tmp_path / "sensors.csv")
+        assert [name for name in columns if "tension" in name] == [
+            f"{point} tension [N]" for point in points if point != "bob"
+        ]
+        for point in points[:2]:
+            assert np.array_equal(columns[f"{point} tension [N]"], result.sensors.tension(point))
+            np.testing.assert_array_equal(columns[f"{point} tension [N]"][::5], result.tension(point))
+        write_xlsx(result, tmp_path / "a.xlsx")
+        about = openpyxl.load_workbook(tmp_path / "a.xlsx")["about"].iter_rows(values_only=True)
+        said = {row[1]: row[2:] for row in about if row[0] == "sensors"}
+        assert said["rod.start tension"] == ("N", "axial force, positive in tension")
+
     def test_workbook_has_no_formulas(self, tmp_path):
         """A title that a spreadsheet would take for one."""
         model = ancf.Model(title="=1+2")

@@ -447,10 +447,12 @@ class TestCommandLine:
         assert head[4] == "wire.at(3) velocity x [m/s]"
         assert head[-2:] == ["dropper, left force [N]", "dropper, left length [m]"]
         sensors = ancf.load("out/results.h5").sensors
-        assert values.shape == (101, 15)
+        assert head[7:9] == ["wire.at(3) tension [N]", "wire.at(3) curvature [1/m]"]
+        assert values.shape == (101, 17)
         assert np.array_equal(values[:, 0], sensors.t)
         assert np.array_equal(values[:, 1:4], sensors.position("wire.at(3)"))
-        assert np.array_equal(values[:, 13], sensors.spring_force("dropper, left"))
+        assert np.array_equal(values[:, 7], sensors.tension("wire.at(3)"))
+        assert np.array_equal(values[:, 15], sensors.spring_force("dropper, left"))
         assert self.run(STUDY) == 0
         assert not Path("out/sensors.csv").exists()  # that of the earlier run
 

@@ -13,6 +13,8 @@ from ..model.jumps import jumps
 from ..model.model import Model
 from ..model.periods import few_steps
 from ..model.series import noises
+from ..model.sudden import sudden
+from ..system.initial_motion import at_rest
 from .summary import node_count
 
 if TYPE_CHECKING:
@@ -66,6 +68,9 @@ def _jumps(study: Study) -> Iterator[str]:
     if settings is not None:
         found = jumps(study.model, 0.0, settings.t_end, settings.step)
         yield from map(str, found)
+        still = settings.start == "equilibrium"
+        rests = (lambda _, body: True) if still else (lambda _, body: at_rest(body))
+        yield from map(str, sudden(study.model, 0.0, settings.t_end, settings.step, rests))
         if not isinstance(settings.integrator, Radau):
             yield from few_steps(study.model, 0.0, settings.t_end, settings.step, found)
 

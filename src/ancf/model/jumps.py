@@ -36,8 +36,14 @@ class Jump(NamedTuple):
     time: float
     size: float
     unit: str
+    body: str = ""  # that is at rest while the motion begins with its rate
 
     def __str__(self) -> str:
+        if self.body:
+            text = f"its rate is {self.size:.3g} {self.unit}/s from t = {self.time:.4g} s on"
+            hint = f'let it grow from zero, or give "{self.body}" that motion by set_motion'
+            push = f'"{self.body}" does not move so: an impulse whose size depends on the step'
+            return f"{self.where}: {text}, {push}; {hint}"
         if self.of_value:
             text = f"its value jumps by {self.size:.3g} {self.unit} at t = {self.time:.4g} s"
             return f"{self.where}: {text}, which no step can follow; let it grow over several steps"
@@ -84,17 +90,22 @@ def _turned(function: TimeFunction) -> Table:
 def motions(model: Any) -> Iterator[Motion]:
     """Given motions of supports, winches and sliding joints that vary, without those that a run is led by."""
     for support in model.supports:
-        exact = getattr(support, "rotation_rate", None) is not None
-        for key, unit in (("displacement", "m"), ("length", "m"), ("rotation", "rad")):
-            function = None if exact and key == "rotation" else getattr(support, key, None)
-            if _varies(function):
-                straight = any(series.interpolation == "linear" for series in function.series)
-                yield Motion(function.where, unit, function.table, straight)
-        if _varies(function := getattr(support, "rotation_vector", None)):
-            yield Motion(function.where, "rad", _turned(function))
+        yield from motion_of(support)
     for joint in model.connections:
         if isinstance(joint, Slide) and _varies(joint.motion):
             yield Motion(joint.motion.where, "m", joint.motion.table)
+
+
+def motion_of(support: Any, exact: bool = False) -> Iterator[Motion]:
+    """Given motions of a support; those with exact derivatives as well if they are asked for."""
+    known = not exact and getattr(support, "rotation_rate", None) is not None
+    for key, unit in (("displacement", "m"), ("length", "m"), ("rotation", "rad")):
+        function = None if known and key == "rotation" else getattr(support, key, None)
+        if _varies(function):
+            straight = any(series.interpolation == "linear" for series in function.series)
+            yield Motion(function.where, unit, function.table, straight)
+    if _varies(function := getattr(support, "rotation_vector", None)):
+        yield Motion(function.where, "rad", _turned(function))
 
 
 def _varies(function: Any) -> TypeGuard[TimeFunction]:

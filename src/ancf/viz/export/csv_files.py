@@ -20,10 +20,10 @@ MOST_BODIES = 12
 def write_csv(result: Result, folder: str | Path, points: Sequence[str] | None = None) -> list[Path]:
     """Write what a result knows as tables: time in the first column, names with units in the first row.
 
-    ``sensors.csv`` holds what sensors recorded at every step. At the stored times: ``points.csv`` motion, and
-    on beams and cables tension and curvature; ``springs.csv`` the forces of all springs; ``joints.csv`` the
-    forces of joints and arc lengths of sliding joints; ``energies.csv``; ``inputs.csv`` what a controller
-    gave. No table is empty.
+    ``sensors.csv`` holds what sensors recorded at every step. At the stored times: ``points.csv``. Both have
+    the motion of points, and on beams and cables tension and curvature; ``springs.csv`` the forces of all
+    springs; ``joints.csv`` the forces of joints and arc lengths of sliding joints; ``energies.csv``;
+    ``inputs.csv`` what a controller gave. No table is empty.
 
     Parameters
     ----------

@@ -45,11 +45,13 @@ def _cells(values: FloatArray) -> list[float | None]:
     return [x if there else None for x, there in zip(values.tolist(), known, strict=True)]
 
 
-def sensor_columns(sensors: Sensors) -> Iterator[Column]:
-    """Everything that was recorded at every step."""
+def sensor_columns(sensors: Sensors, inside: bool = True) -> Iterator[Column]:
+    """Everything that was recorded at every step; without `inside` no tension and curvature of points."""
     yield "t [s]", sensors.t
     for point in sensors.listing.points:
         yield from motion_columns(sensors, point, str(point))
+        if inside:
+            yield from inside_columns(sensors, str(point))
     for name in sensors.listing.connections:
         if name in sensors.springs:
             yield f"{name} force [N]", sensors.spring_force(name)
