@@ -187,6 +187,10 @@ BAD = [
     (("bodies",), MISSING, "bodies", "is missing"),
     (("bodies",), [], "bodies", "at least 1"),
     (("bodies",), {}, "bodies", "must be a list"),
+    *(
+        ((key,), {"name": "a"}, key, f"begins with [[{key}]], in double brackets")
+        for key in ("bodies", "supports", "loads", "connections", "fluids", "grounds", "surfaces", "inputs")
+    ),
     (("sections", "my strip"), {"EA": 1, "EI": 1, "rhoA": 0}, 'sections."my strip".rhoA', "must be > 0"),
     ((*STRIP, "E"), -1, "sections.strip.E", "must be > 0, is -1"),
     ((*STRIP, "E"), MISSING, "sections.strip.E", "is missing (Young's modulus [N/m^2])"),
@@ -244,7 +248,10 @@ BAD = [
     ((*FORCE, "force"), [0, 0], "loads[0].force", "has 2 components, wanted 3"),
     ((*FORCE, "force"), [0, 0, "t +"], "loads[0].force[2]", "no formula of t"),
     ((*FORCE, "force"), [0, 0, True], "loads[0].force[2]", "must be a number"),
-    ((*FORCE, "force"), {"t": [1, 0], "value": [[0, 0, 0]] * 2}, "loads[0].force.t", "increasing"),
+    ((*FORCE, "force"), {"t": [1, 0], "value": [[0, 0, 0]] * 2}, "loads[0].force.t[1]", "increasing"),
+    (("simulation", "step"), "20 ms", "simulation.step", "is '20 ms', must be a number in s"),
+    (("simulation", "t_end"), "1.5e-3s", "simulation.t_end", "must be a number in s (give the number alone)"),
+    ((*STRIP, "E"), "210 GPa", "sections.strip.E", "must be a number in N/m^2"),
     ((*FORCE, "force"), MISSING, "loads[0].force", "is missing (Force, function of t, or of t and the point"),
     ((*FORCE, "moment"), [0, 0, 1], "loads[0].moment", 'allowed: "type", "point", "force", "name"'),
     (("loads", 1, "moment"), [1, 0, 0], "loads[1].moment", "torque"),

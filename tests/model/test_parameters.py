@@ -158,6 +158,12 @@ class TestFormulas:
         assert where in str(caught.value)
         assert phrase in str(caught.value)
 
+    def test_a_unit_behind_a_number_is_named_where_formulas_may_stand(self):
+        with pytest.raises(ancf.ModelError, match=r"step: is '20 ms', must be a number in s"):
+            parse_study(
+                tables(plain().replace("step = 0.0125", 'step = "20 ms"') + "\n[parameters]\nA = 1.0\n")
+            )
+
     def test_without_parameters_a_text_is_no_number(self):
         with pytest.raises(ancf.ModelError, match=r"step: must be a number, is '2\*3' \(str\)"):
             parse_study(tables(plain().replace("step = 0.0125", 'step = "2*3"')))

@@ -147,7 +147,7 @@ WRONG = {
     ),
     "profile that falls": (
         {"fluids": [FLUID | {"velocity": {"z": [0, -1], "velocity": [[0, 0, 0]] * 2}}]},
-        "fluids[0].velocity.z",
+        "fluids[0].velocity.z[1]",
         "increasing",
     ),
     "profile of other length": (

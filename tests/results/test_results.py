@@ -227,7 +227,10 @@ class TestFile:
                 ancf.load(path)
         with pytest.raises(ancf.ModelError, match="there is no such file"):
             ancf.load(tmp_path / "nothing.h5")
-        with pytest.raises(ancf.ModelError):
+        with pytest.raises(ancf.ModelError, match=r"is a folder$"):
+            ancf.load(tmp_path)
+        (tmp_path / "results.h5").write_text("no")
+        with pytest.raises(ancf.ModelError, match=r"is a folder \(its results file: .*results\.h5\)"):
             ancf.load(tmp_path)
 
 

@@ -99,6 +99,17 @@ def array(value: object, where: str, shape: tuple[int | None, ...]) -> FloatArra
     return clean
 
 
+def increasing(values: FloatArray, where: str, what: str, unit: str) -> None:
+    """Raise ModelError unless there are two values (n,) or more, each greater than the one before it."""
+    if values.size < 2:
+        raise ModelError(where, f"must be at least 2 increasing {what}")
+    late = np.flatnonzero(np.diff(values) <= 0.0)
+    if late.size:
+        k = int(late[0]) + 1
+        wrong = f"is {values[k]:.9g}{unit} after {values[k - 1]:.9g}{unit}: {what} must be increasing"
+        raise ModelError(f"{where}[{k}]", wrong, "sort the rows, each once")
+
+
 def curve(value: object, where: str) -> FloatArray:
     """Two rows or more (n, 2) of a place and a value, the places increasing."""
     clean = array(value, where, (None, 2))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import operator
+import re
 import warnings
 from collections.abc import Callable, Mapping
 from functools import reduce
@@ -73,6 +74,8 @@ OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
     ast.Eq: np.equal,
     ast.NotEq: np.not_equal,
 }
+#: A number with a unit behind it, as "20 ms" or "5%".
+QUANTITY = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\s*[A-Za-zµμ°Ω%][\wµμ°Ω/^*%.² ³-]*")
 #: Names of the state of a point in formulas: its position in m, its velocity in m/s.
 STATE = ("x", "y", "z", "vx", "vy", "vz")
 
@@ -200,6 +203,10 @@ class Expression:
 
     def _unknown_name(self, name: str) -> ModelError:
         hint = nearest(name, [*self.names, *CONSTANTS, *FUNCTIONS])
+        if not hint and "t" in self.names:
+            hint = (
+                "an input of a model stands in [[inputs]] of its file; in Python give what add_input returned"
+            )
         return ModelError(self.where, f'{self._quoted}: unknown name "{name}", known are {self._known}', hint)
 
     def _unknown(self, node: ast.AST) -> ModelError:
@@ -243,6 +250,11 @@ def _parse(text: str, where: str) -> ast.expr:
         column = getattr(error, "offset", None)
         place = f" at column {column}" if column else ""
         what = getattr(error, "msg", str(error))
+        if QUANTITY.fullmatch(flat):
+            hint = "give the number alone, in units of the SI"
+            raise ModelError(
+                where, f"{_quoted(flat)} is a number with a unit, must be a number", hint
+            ) from None
         raise ModelError(where, f"{_quoted(flat)} is no formula of t: {what}{place}") from None
 
 

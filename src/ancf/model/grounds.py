@@ -77,8 +77,7 @@ def height_of(given: Any, where: str) -> float | Relief:
         raise ModelError(where, what)
     x, y = (checks.array(given[key], f"{where}.{key}", (None,)) for key in "xy")
     for key, line in (("x", x), ("y", y)):
-        if len(line) < 2 or not np.all(np.diff(line) > 0):
-            raise ModelError(f"{where}.{key}", "must be at least 2 increasing places")
+        checks.increasing(line, f"{where}.{key}", "places", " m")
     return Relief(x, y, checks.array(given["z"], f"{where}.z", (len(x), len(y))))
 
 

@@ -87,8 +87,7 @@ class Series:
         self.interpolation = checks.choice(interpolation, f"{where}.interpolation", INTERPOLATIONS)
         self.cutoff = None if cutoff is None else checks.positive(cutoff, f"{where}.cutoff")
         self.relative = checks.flag(relative, f"{where}.relative")
-        if self.t.size < 2 or not np.all(np.diff(self.t) > 0):
-            raise ModelError(f"{where}.t", "must be at least 2 increasing times")
+        checks.increasing(self.t, f"{where}.t", "times", " s")
         if len(self.value) != self.t.size:
             raise ModelError(f"{where}.value", f"has {len(self.value)} values for {self.t.size} times")
         self._check_cutoff(where)

@@ -120,8 +120,7 @@ class VelocityField:
             raise ModelError(self.where, what)
         z = checks.array(given["z"], f"{self.where}.z", (None,))
         velocity = checks.array(given["velocity"], f"{self.where}.velocity", (None, 3))
-        if len(z) < 2 or not np.all(np.diff(z) > 0):
-            raise ModelError(f"{self.where}.z", "must be at least 2 increasing heights")
+        checks.increasing(z, f"{self.where}.z", "heights", " m")
         if len(velocity) != len(z):
             what = f"has {len(velocity)} values for {len(z)} heights"
             raise ModelError(f"{self.where}.velocity", what)

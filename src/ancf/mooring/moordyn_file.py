@@ -81,6 +81,14 @@ class Row:
             return default
         return read_number(text or "", f"{self.where}, {column}")
 
+    def positive(self, column: str) -> float:
+        """A number of the row that is not zero or less."""
+        return at_least(self.number(column), f"{self.where}, {column}", above=True)
+
+    def not_negative(self, column: str, default: float | None = None) -> float:
+        """A number of the row that is zero or more."""
+        return at_least(self.number(column, default), f"{self.where}, {column}")
+
 
 @dataclass
 class MoorDynFile:
@@ -119,6 +127,19 @@ def read_number(text: str, where: str) -> float:
         value = math.nan
     if not math.isfinite(value):
         raise ModelError(where, f'is "{text}", must be a number')
+    return value
+
+
+def at_least(value: float, where: str, above: bool = False) -> float:
+    """A number that is zero or more, with `above` more than zero.
+
+    Raises
+    ------
+    ModelError
+        It is not.
+    """
+    if value < 0.0 or (above and value == 0.0):
+        raise ModelError(where, f"is {value:g}, must be {'>' if above else '>='} 0")
     return value
 
 

@@ -16,7 +16,7 @@ import tomli_w
 
 from ..errors import ModelError
 from ..files import visible
-from .moordyn_file import MoorDynFile, Row, read_moordyn, read_number
+from .moordyn_file import MoorDynFile, Row, at_least, read_moordyn, read_number
 
 #: Words for what holds a point.
 FIXED = ("fixed", "fix", "anchor")
@@ -131,7 +131,8 @@ class _Options:
         for name in names:
             if name in self._given:
                 value, where = self._given[name]
-                return read_number(value, f"{where}, {name}")
+                place = f"{where}, {name}"
+                return at_least(read_number(value, place), place, above=names in (DENSITY, STIFFNESS))
         return None
 
     def number(self, names: tuple[str, ...]) -> float:
@@ -161,13 +162,13 @@ def _sections(file: MoorDynFile, made: Imported) -> tuple[dict[str, Any], dict[s
         if BA < 0.0:
             damped[name] = -BA
         sections[name] = {
-            "EA": _static(row, "EA", made),
-            "EI": _static(row, "EI", made),
-            "rhoA": row.number("mass"),
+            "EA": at_least(_static(row, "EA", made), f"{row.where}, EA", above=True),
+            "EI": at_least(_static(row, "EI", made), f"{row.where}, EI"),
+            "rhoA": row.positive("mass"),
             "axial_damping": max(BA, 0.0),
-            "diameter": row.number("diameter"),
-            "drag": [row.number("Cd"), row.number("CdAx")],
-            "added_mass": [row.number("Ca"), row.number("CaAx")],
+            "diameter": row.positive("diameter"),
+            "drag": [row.not_negative("Cd"), row.not_negative("CdAx")],
+            "added_mass": [row.not_negative("Ca"), row.not_negative("CaAx")],
         }
     return sections, damped
 
@@ -203,15 +204,12 @@ def _lines(
                 hint = "lines on bodies and rods cannot be taken, nor files of version 1 with other columns"
                 raise ModelError(row.where, what, hint)
             ends.setdefault(at, []).append(f"{name}.{end}")
-        segments, length = row.number("segments"), row.number("length")
+        segments, length = row.number("segments"), row.positive("length")
         if segments < 1 or segments != int(segments):
             raise ModelError(f"{row.where}, segments", f"is {segments:g}, must be 1, 2, ...")
         section: str | dict[str, Any] = kind
         if kind in damped:
             values = sections[kind]
-            if min(values["EA"], values["rhoA"]) <= 0.0:
-                what = f'has a share of critical damping, and "{kind}" no stiffness or no mass'
-                raise ModelError(f"{row.where}, type", what)
             critical = math.sqrt(values["EA"] * values["rhoA"]) * length / segments
             section = {**values, "axial_damping": damped[kind] * critical}
         bodies.append(
@@ -270,7 +268,8 @@ def _attach(made: Imported, points: dict[str, Row], ends: dict[str, list[str]]) 
 
 def _free(tables: dict[str, Any], number: str, row: Row, meets: list[str]) -> list[dict[str, Any]]:
     """A free point: a point mass to which all lines are joined, or the lines joined to each other."""
-    mass, volume = row.number("mass", 0.0), row.number("volume", 0.0)
+    mass, volume = row.not_negative("mass", 0.0), row.not_negative("volume", 0.0)
+    drag_area, added_mass = row.not_negative("CdA", 0.0), row.not_negative("Ca", 0.0)
     first = meets[0]
     if mass > 0.0:
         first = f"point{number}"
@@ -281,11 +280,11 @@ def _free(tables: dict[str, Any], number: str, row: Row, meets: list[str]) -> li
                 "at": _place(row),
                 "mass": mass,
                 "volume": volume,
-                "drag_area": row.number("CdA", 0.0),
-                "added_mass": row.number("Ca", 0.0),
+                "drag_area": drag_area,
+                "added_mass": added_mass,
             }
         )
-    elif volume > 0.0 or row.number("CdA", 0.0) > 0.0:
+    elif volume > 0.0 or drag_area > 0.0:
         raise ModelError(row.where, "has a volume or drag and no mass", "give it a mass, if a small one")
     others = meets if mass > 0.0 else meets[1:]
     return [{"type": "spherical", "a": first, "b": end} for end in others]

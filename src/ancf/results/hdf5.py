@@ -89,6 +89,11 @@ def abandon(file: Any) -> None:
 def _head(path: Path) -> tuple[bytes, int]:
     """First bytes and size of a file."""
     try:
+        if path.is_dir():
+            inside = path / "results.h5"  # as ancf run names it
+            raise ModelError(
+                str(path), "is a folder", f"its results file: {inside}" if inside.is_file() else ""
+            )
         if not path.is_file():
             raise ModelError(str(path), "there is no such file")
         with path.open("rb") as file:

@@ -10,8 +10,10 @@ from pydantic import ValidationError
 
 from ...errors import ModelError
 from ..checks import ALL, listed, nearest, shown
+from ..expression import QUANTITY
 from .entries import NESTED, TAGGED, FileEntry
 from .fields import Entry
+from .parameters import leaves
 
 MOST_LINES = 10
 WANTED = {
@@ -66,6 +68,11 @@ def place(parts: tuple[int | str, ...]) -> str:
 def _of_detail(detail: dict[str, Any], entry_at: Tables) -> ModelError:
     kind, where, given = detail["type"], place(detail["loc"]) or "the file", detail["input"]
     context = detail.get("ctx", {})
+    if unit := _unit_beside(detail, entry_at):
+        return ModelError(where, f"is {shown(given)}, must be a number in {unit}", "give the number alone")
+    if kind == "list_type" and _of_tables(_field(detail, entry_at)) and isinstance(given, dict):
+        what = f"must be a list of tables, is {shown(given)}"
+        return ModelError(where, what, f"a table of the list begins with [[{where}]], in double brackets")
     if kind == "model":
         return ModelError(where + context["place"], context["what"], context["hint"])
     if kind == "wrong_kind":
@@ -77,6 +84,26 @@ def _of_detail(detail: dict[str, Any], entry_at: Tables) -> ModelError:
         field = entry_at(detail["loc"][:-1]).model_fields[str(detail["loc"][-1])]
         return ModelError(where, "is missing", (field.description or "").rstrip("."))
     return ModelError(where, *_of_value(kind, given, context, detail["msg"]))
+
+
+def _field(detail: dict[str, Any], entry_at: Tables) -> Any:
+    """The field at the place of a problem; None if it is inside of one."""
+    *above, last = detail["loc"] or ("",)
+    return entry_at(tuple(above)).model_fields.get(str(last))
+
+
+def _unit_beside(detail: dict[str, Any], entry_at: Tables) -> str:
+    """Unit of the number that a field takes and was given with a unit, "" if that is not what is wrong."""
+    given, field = detail["input"], _field(detail, entry_at)
+    if field is None or detail["type"] not in ("float_type", "model") or not isinstance(given, str):
+        return ""
+    unit = re.search(r"\[([^\[\]]+)\]\.?$", field.description or "")
+    return unit[1] if unit and QUANTITY.fullmatch(given.strip()) else ""
+
+
+def _of_tables(field: Any) -> bool:
+    """Whether a field is a list of tables."""
+    return field is not None and any(hasattr(leaf, "model_fields") for leaf in leaves(field.annotation))
 
 
 def _of_value(kind: str, given: Any, context: dict[str, Any], message: str) -> tuple[str, str]:

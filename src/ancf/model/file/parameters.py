@@ -82,10 +82,10 @@ def kind_of(annotation: Any, metadata: list[Any]) -> str:
     or "other", where no parameter can stand.
     """
     tables = "model_fields"  # their fields have kinds of their own
-    leaves = [leaf for leaf in _leaves(annotation) if not hasattr(leaf, tables)]
-    if any(leaf is Any for leaf in leaves):
+    found = [leaf for leaf in leaves(annotation) if not hasattr(leaf, tables)]
+    if any(leaf is Any for leaf in found):
         return "named" if any(isinstance(mark, Naming) for mark in metadata) else "formula"
-    numbers = [leaf for leaf in leaves if leaf is not type(None) and get_origin(leaf) is not Literal]
+    numbers = [leaf for leaf in found if leaf is not type(None) and get_origin(leaf) is not Literal]
     if not numbers or any(leaf is not int and leaf is not float for leaf in numbers):
         return "other"
     return "number" if any(leaf is float for leaf in numbers) else "whole"
@@ -93,7 +93,7 @@ def kind_of(annotation: Any, metadata: list[Any]) -> str:
 
 def words_of(annotation: Any) -> tuple[Any, ...]:
     """Words that may stand in a field instead of a number, such as "auto"."""
-    return tuple(x for leaf in _leaves(annotation) if get_origin(leaf) is Literal for x in get_args(leaf))
+    return tuple(x for leaf in leaves(annotation) if get_origin(leaf) is Literal for x in get_args(leaf))
 
 
 def resolved(given: Any, kind: str) -> Any:
@@ -115,14 +115,14 @@ def resolved(given: Any, kind: str) -> Any:
     return _numbers(given, "", known, whole=kind == "whole")
 
 
-def _leaves(annotation: Any) -> Iterator[Any]:
+def leaves(annotation: Any) -> Iterator[Any]:
     """Types of which an annotation is made; what it may hold in lists counts as well."""
     origin = get_origin(annotation)
     if origin is Annotated:
-        yield from _leaves(get_args(annotation)[0])
+        yield from leaves(get_args(annotation)[0])
     elif origin in (list, tuple, Union, types.UnionType):
         for part in get_args(annotation):
-            yield from _leaves(part)
+            yield from leaves(part)
     else:
         yield annotation
 
