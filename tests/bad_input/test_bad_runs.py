@@ -353,6 +353,22 @@ class TestEquilibria:
         model.add_force(beam.end, (1e300, 0, 0))
         failed("equilibrium", ancf.equilibrium, model)
 
+    @pytest.mark.parametrize("EA", [1e13, 2e15, 1e18])
+    def test_a_stiffness_that_round_off_takes(self, EA):
+        """Finer steps do not help: the cause is named, and what is stiff enough."""
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        section = ancf.Section(EA=EA, EI=0.0, rhoA=1.0)
+        rope = model.add_beam(
+            "rope", start=(0, 0, 0), end=(10, 0, 0), length=10.5, elements=10, section=section
+        )
+        model.pin(rope.start)
+        model.pin(rope.end)
+        with pytest.raises(ancf.SolveError) as caught:
+            ancf.equilibrium(model)
+        assert f'"rope" has EA = {EA:.3g} N, ' in caught.value.hint
+        assert "round-off" in caught.value.hint
+        assert "load_steps" not in str(caught.value)
+
 
 class TestCollapse:
     """A cross-section that turns inside out has no meaning: when, which body, which element."""

@@ -79,7 +79,7 @@ def test_resumed_run(call):
             "was computed with step = 0.00025, the model",
         ),
         (MODEL + SIMULATION + 'integrator = "radau"\n', "was computed with integrator = 'trapezoidal'"),
-        (MODEL + SIMULATION.replace("0.4", "0.01"), "has reached t = 0.01 s"),
+        (MODEL + SIMULATION.replace("0.4", "0.005"), "has reached t = 0.01 s"),
         (MODEL + EQUILIBRIUM, "asks for no simulation"),
     ],
 )
@@ -91,6 +91,26 @@ def test_resumed_run_is_refused(call, text, phrase):
     assert ran.code == 2
     assert phrase in ran.err
     assert Path("out/results.h5").read_bytes() == before
+
+
+@pytest.mark.parametrize("more", [[], ["-q"]])
+def test_resumed_run_that_is_complete(call, more):
+    """Nothing to do is no error: a loop that always resumes ends well, with summary and table."""
+    path = write(MODEL + SIMULATION.replace("0.4", "0.01") + 'sensors = ["beam.end"]\n')
+    assert call("run", path, "-q").code == 0
+    files = [Path("out/results.h5"), Path("out/sensors.csv")]
+    before = [file.read_bytes() for file in files]
+    summary = json.loads(Path("out/summary.json").read_text(encoding="utf-8"))
+    for _ in range(2):
+        ran = call("run", path, "--resume", *more)
+        assert ran.code == 0, ran.err
+        assert (
+            "results.h5 is complete up to t = 0.01 s, there is nothing to do" in ran.said + ran.out
+        ) != bool(more)
+        assert [file.read_bytes() for file in files] == before
+    again = json.loads(Path("out/summary.json").read_text(encoding="utf-8"))
+    for key in summary.keys() - {"wall_seconds", "process_cpu_seconds"}:
+        assert again[key] == summary[key]
 
 
 def test_resumed_run_without_a_file(call):

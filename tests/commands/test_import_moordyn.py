@@ -185,7 +185,7 @@ class TestWhatIsRefused:
             ),
             ({"points": TWO.replace("Vessel 0 0 0 0 0", "Free 0 0 0 -3 0")}, "line 11, mass", "is -3"),
             ({"options": "-100 WtrDpth"}, "line 17, wtrdpth", "is -100, must be >= 0"),
-            ({"options": "-3e6 kBot"}, "line 17, kbot", "is -3e+06, must be > 0"),
+            ({"options": "100 WtrDpth\n-3e6 kBot"}, "line 18, kbot", "is -3e+06, must be > 0"),
             ({"options": "-1025 rhow"}, "line 17, rhow", "is -1025, must be > 0"),
             ({"points": TWO + "\n2 Fixed 1 1 1"}, "line 12", 'two points "2"'),
             ({"lines": "1 chain 1 2 long 20 p"}, "line 15, length", 'is "long"'),

@@ -75,6 +75,66 @@ def test_numbers_without_a_material_say_nothing():
     assert doubts(model) == []
 
 
+@pytest.mark.parametrize(("friction", "said"), [(30.0, True), (3.5, True), (1.2, False), (0.0, False)])
+def test_friction_that_no_surface_has(friction, said):
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e5, EI=0.1, rhoA=1.0, diameter=0.02)
+    rope = model.add_beam("rope", start=(-2, 0, 1), end=(2, 0, 1), elements=4, section=section)
+    model.pin(rope.start)
+    drum = model.add_surface("drum", ancf.Cylinder(radius=0.5, axis=(0, 1, 0)))
+    model.add_surface_contact(rope, drum, stiffness=1e5, friction=friction, name="wrap")
+    model.add_ground("bed", height=-1.0, stiffness=1e5, friction=friction)
+    names = ["bed", "wrap"] if said else []
+    assert [text.split('"')[1] for text in doubts(model)] == names
+    assert all(f"a friction of {friction:g} is more than surfaces have" in text for text in doubts(model))
+
+
+@pytest.mark.parametrize("way", ["nothing", "slope", "other end", "pin", "hold", "joint"])
+def test_a_winch_that_nothing_holds(way):
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    rope = model.add_beam(
+        "rope", start=(0, 0, 0), end=(0, 0, -5), elements=4, section=ancf.Section(EA=1e5, EI=0.0, rhoA=1.0)
+    )
+    model.winch(rope.start, length="5 - 0.1*t**2")
+    if way in ("pin", "other end"):
+        model.pin(rope.start if way == "pin" else rope.end)
+    elif way == "hold":
+        model.hold(rope.start, position="xyz")
+    elif way == "joint":
+        model.connect(model.add_point_mass("drum", at=(0, 0, 0), mass=5.0), rope.start)
+    found = doubts(model)
+    if way in ("pin", "hold", "joint"):
+        assert found == []
+    else:
+        assert found == [
+            '"winch at rope.start": nothing holds rope.start: pin it, or connect it to what carries the winch'
+        ]
+
+
+@pytest.mark.parametrize("spectrum", ["jonswap", "pierson_moskowitz"])
+@pytest.mark.parametrize(
+    ("height", "period", "said"),
+    [
+        (12.0, 9.0, "steepness 2 pi Hs/(g Tp^2) is 0.0949, that of seas at most 0.063"),
+        (5.0, 6.0, "at most 0.067 (DNV-RP-C205); with this height Tp is at least about 6.93 s"),
+        (18.0, 15.0, "at most 0.04 "),
+        (12.0, 14.0, None),
+        (6.0, 8.0, None),  # 1/16.6
+        (1.0, 20.0, None),
+    ],
+)
+def test_seas_that_are_steeper_than_any(spectrum, height, period, said):
+    """Limits of DNV-RP-C205 (2014), 3.5.4: 1/15 for Tp up to 8 s, 1/25 from 15 s on, linear between."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    waves = getattr(ancf.Waves, spectrum)(height=height, period=period)
+    model.add_fluid("sea", 1025.0, below=0.0, waves=waves)
+    found = doubts(model)
+    assert len(found) == (said is not None)
+    if said is not None:
+        assert found[0].startswith(f'"sea": waves of Hs = {height:g} m with Tp = {period:g} s break: ')
+        assert said in found[0]
+
+
 def test_check_says_so(call, tmp_path):
     text = """
 [sections.steel]

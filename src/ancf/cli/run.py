@@ -32,8 +32,9 @@ def run_file(
 ) -> None:
     """Read, compute, write and print; with `verify` compute again, finer, and compare.
 
-    With `resume` the simulation goes on where the results file in the folder ends. `given` are values in
-    place of those of the file, ``PATH=VALUE``.
+    With `resume` the simulation goes on where the results file in the folder ends; one that is complete is
+    left as it is, which is no error: who always resumes need not know whether there is something to do.
+    `given` are values in place of those of the file, ``PATH=VALUE``.
 
     Raises
     ------
@@ -115,11 +116,15 @@ class Run:
     def _resumed(self, settings: SimulationSettings) -> Result:
         import ancf
 
+        from ..resumption import REACHED
         from .results_file import open_result
 
         path = self.output.results
         old = open_result(path)
         _check_same(old, self.study, path)
+        if old.status == "complete" and abs(settings.t_end - float(old.t[-1])) < REACHED * settings.step:
+            self.screen.say(f"{path} is complete up to t = {old.t[-1]:g} s, there is nothing to do")
+            return old
         with self.screen.progress(round((settings.t_end - float(old.t[-1])) / settings.step)) as report:
             return ancf.resume(path, t_end=settings.t_end, progress=report)
 

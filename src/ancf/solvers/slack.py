@@ -20,6 +20,8 @@ TIGHT = 1e-9
 STIFFER = 6.0
 #: Steps in which the natural length takes effect.
 LET_OUT = 4
+#: Load over axial stiffness, below which strains of the load are lost in round-off of an iteration.
+LOST = 1e-9
 
 
 class Slack:
@@ -27,7 +29,7 @@ class Slack:
 
     def __init__(self, system: System, q: FloatArray, force: FloatArray) -> None:
         load = float(np.sum(np.abs(force)))
-        hang = [b for b in system.model.beams.values() if offers(b.element, "slack")]
+        self._beams = hang = [b for b in system.model.beams.values() if offers(b.element, "slack")]
         sizes = {name: float(q[unknown]) for name, (unknown, _) in system.lengths.items()}
         drawn = (b.stretch * b.length / sizes.get(b.name, b.length) for b in hang)
         self.found = load > 0.0 and any(stretch < 1.0 - TIGHT for stretch in drawn)
@@ -36,6 +38,15 @@ class Slack:
         stiffest = max((cables.stiffest for cables in self._cables), default=1.0)
         self.factor = min(1.0, load / stiffest) if self.found else 1.0
         self.steps = max(1, int(np.ceil(np.log(1.0 / self.factor) / np.log(STIFFER))))
+
+    def too_stiff(self) -> str:
+        """What to do where round-off takes the strains of the load, "" where it does not."""
+        if not self._cables or self.factor > LOST:
+            return ""
+        found = max(self._beams, key=lambda beam: beam.section.EA)
+        much = f"EA = {found.section.EA:.3g} N, {1.0 / self.factor:.1g} times the whole load"
+        lost = f'"{found.name}" has {much}: round-off takes strains of that size'
+        return f"{lost}; give less, 1e6 times the load stretches a cable by a millionth of its length"
 
     def set(self, soft: float, held: float) -> None:
         """Lower EA by a share of the factor's logarithm and free the forces of a share of the compression."""

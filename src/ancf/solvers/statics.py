@@ -83,7 +83,13 @@ def bring_on(it: Iteration, slack: Slack, load_steps: int) -> int:
     halvings = follow_path(it, lambda share: share, load_steps, "of the load")
     if slack.found:
         halvings += follow_path(it, slack.let_out, LET_OUT, "of the slack")
-        halvings += follow_path(it, slack.stiffen, slack.steps, "of the axial stiffness")
+        try:
+            halvings += follow_path(it, slack.stiffen, slack.steps, "of the axial stiffness")
+        except SolveError as error:
+            if hint := slack.too_stiff():
+                error.hint = ""  # no finer steps help
+                error.advise(hint)
+            raise
     settle_contacts(it)
     lay(it)
     return halvings
