@@ -28,6 +28,14 @@ ASKED = {
     "large deformation": "howto/choose_element",
     "motor": "howto/supports_and_loads",
     "reaction moment": "howto/supports_and_loads",
+    "prestress": "howto/supports_and_loads",
+    "pretension": "howto/supports_and_loads",
+    "buckling": "howto/statics_and_modes",
+    "arch": "howto/statics_and_modes",
+    "torsion": "howto/choose_element",
+    "moving load": "howto/joints",
+    "touch down": "howto/water_wind_ground",
+    "VIV": "limits",
 }
 
 

@@ -9,7 +9,7 @@ import ancf
 from ancf.elements.registry import ELEMENTS
 from ancf.model.elements import KINDS
 from ancf.system.system import System
-from helpers import SHAPES, SOFT, SOLIDS, arc, cable, random_rate, shaken
+from helpers import SHAPES, SOFT, SOLIDS, arc, cable, random_rate, shaken, square
 
 
 def joined(element="cable"):
@@ -265,6 +265,25 @@ class TestInitialMotion:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             ancf.simulate(model, t_end=0.01, step=1e-3)
+
+    @pytest.mark.parametrize("stretch", ["free", "fixed"])
+    @pytest.mark.parametrize("along", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 2, 2)])
+    def test_spin_about_its_own_axis_fits_a_clamp_that_turns(self, along, stretch, element):
+        """Nothing but sections moves: round-off of the clamp is no motion that it holds otherwise."""
+        model, turned = ancf.Model(), square(element, EA=1e4, EI=1.0, rhoA=0.5)
+        beam = model.add_beam("beam", start=(0, 0, 0), end=along, elements=2, section=turned, element=element)
+        model.clamp(beam.start, rotation="8*t", axis=along, stretch=stretch)
+        beam.set_motion(angular_velocity=8.0 * np.array(along) / np.linalg.norm(along))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            ancf.simulate(model, t_end=1e-4, step=1e-5)
+
+    def test_a_clamp_at_rest_says_what_to_do(self, element):
+        model, beam = cable("straight", element=element)
+        model.clamp(beam.start)
+        beam.set_motion(angular_velocity=(0, 0, 2.0))
+        with pytest.warns(UserWarning, match=r"the support wins: let it move so too, or change set_motion"):
+            ancf.simulate(model, t_end=1e-4, step=1e-5)
 
     def test_motion_of_one_body_says_nothing_of_others(self, element):
         """The other body's support moves: nobody asked it not to."""

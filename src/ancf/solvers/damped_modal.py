@@ -286,9 +286,10 @@ def rotation_of(system: System, q: FloatArray, v: FloatArray) -> tuple[FloatArra
     along = abs(float(shift @ spin)) / rate if rate > 0.0 else float(np.linalg.norm(shift))
     if np.max(left) > STEADY * largest or along > STEADY * largest:
         what = "the state moves, and not in a steady rotation of all bodies about one axis"
-        raise SolveError(
-            "damped_modes", what, "give an equilibrium, or velocities by set_motion(angular_velocity=)"
+        hint = (
+            "give an equilibrium, or velocities of all bodies by set_motion(angular_velocity=), also of those"
         )
+        raise SolveError("damped_modes", what, f"{hint} on clamps that turn")
     centre: FloatArray = np.cross(spin, shift) / rate**2
     return spin, centre
 

@@ -316,10 +316,13 @@ class System(Derived):
     def _warn_of_jump(self, wanted: FloatArray, v: FloatArray) -> None:
         gap = np.abs(wanted[: self.n] - v[: self.n]) * self.weight
         worst = int(np.argmax(gap))
-        if gap[worst] > 1e-9 * np.max(np.abs(wanted[: self.n]) * self.weight):
+        moved = np.maximum(np.abs(wanted[: self.n]), np.abs(v[: self.n]))
+        spins = [float(np.linalg.norm(spin_of(body))) for body in self.model.bodies.values()]
+        if gap[worst] > 1e-9 * max(float(np.max(moved * self.weight)), *spins):
             name = self.numbering.describe(worst)
             text = f"{name}: set_motion asks for {wanted[worst]:.6g}, the support holds it at {v[worst]:.6g}"
-            warnings.warn(text + "; the support wins", UserWarning, stacklevel=2)
+            hint = "; the support wins: let it move so too, or change set_motion"
+            warnings.warn(text + hint, UserWarning, stacklevel=2)
 
 
 def _again(
