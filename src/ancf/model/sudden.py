@@ -42,10 +42,10 @@ def sudden(
     """
     found: list[Jump] = []
     for support in model.supports:
-        if isinstance(support, Winch):  # it pays out evenly from the start, see docs/theory/winch.md
-            continue
-        pushed = [body for body in _beside(model, support) if rests(support, body)]
-        for motion in motion_of(support, exact=True) if pushed else ():
+        moved = [] if isinstance(support, Winch) else [*motion_of(support, exact=True)]
+        # a winch pays out evenly from the start, see docs/theory/winch.md
+        pushed = [body for body in _beside(model, support) if rests(support, body)] if moved else []
+        for motion in moved if pushed else []:
             try:
                 found += _at_start(motion, support, pushed[0].name, start, end, step)
             except ModelError:  # the run says at which step
