@@ -8,11 +8,14 @@ import numpy as np
 import pytest
 
 import catenary_stand_in as stand_in
-from ancf.catenary import read_run, statistics, write_run
+from ancf.catenary import Quantity, read_run, statistics, write_run
 from ancf.catenary.kept import read_runs
+from ancf.catenary.report.build import _box
 from ancf.catenary.report.comparison import differences, write_comparison, write_table
 from ancf.catenary.report.sweep import verdict
+from ancf.catenary.report.tables import beside
 from ancf.errors import ModelError
+from ancf.viz.html import MANY
 
 
 @pytest.fixture(scope="module")
@@ -133,3 +136,25 @@ class TestLimitsOfASweep:
         assert verdict(row, 0) == "outside: σ, uplift"
         assert verdict(row, 1) == "outside: Fm"
         assert verdict(row | {"accepted_1": 1.0}, 0) == "inside"
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 6])
+def test_many_columns_take_the_window(count):
+    """Four pantographs side by side have twelve columns."""
+    rows = [Quantity("deviation", "standard deviation", "N", 30.0, high=32.0, tag="U")]
+    made = beside([f"run {k}" for k in range(count)], [rows] * count)
+    columns = len(made.findall(".//thead/tr/*"))
+    assert columns == (6 if count == 1 else 4 + 2 * count)
+    assert ("wide" in made.get("class").split()) == (columns >= MANY)
+
+
+@pytest.mark.parametrize(
+    ("values", "tone"),
+    [((), ""), ((None,), ""), ((30.0,), "inside"), ((30.0, None), "inside"), ((30.0, 33.0), "outside")],
+)
+def test_a_verdict_has_its_colour(values, tone):
+    """Of nothing that is judged neither."""
+    rows = [
+        Quantity("deviation", "", "N", value or 0.0, high=None if value is None else 32.0) for value in values
+    ]
+    assert _box("told", rows).get("class").split() == ["verdict", *filter(None, [tone])]

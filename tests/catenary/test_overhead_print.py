@@ -122,6 +122,24 @@ class TestBlocks:
         assert found.heads == 1
         assert sum(found.widths()) == pytest.approx(1.0)
 
+    @pytest.mark.parametrize("tone", ["", "inside", "outside"])
+    def test_tone_of_a_verdict(self, tone, tmp_path):
+        """On paper its text has the colour of cells that say the same."""
+        box = element("p", "All of it.", class_=f"verdict {tone}".strip())
+        [block] = blocks([box])
+        assert (block.text, block.kind, block.tone) == ("All of it.", "verdict", tone)
+        rows = table(("verdict",), [(tone,)])
+        for cell in rows.iter("td"):
+            cell.set("class", tone)
+        for kind in ("docx", "pdf"):
+            printed.write_printed(tmp_path / f"box.{kind}", "title", [box, rows])
+        document = Document(tmp_path / "box.docx")
+        said = next(p.runs[0] for p in document.paragraphs if p.text == "All of it.").font.color.rgb
+        cell = document.tables[0].rows[1].cells[0].paragraphs[0].runs[0].font.color.rgb
+        assert said == cell
+        assert (said is None) == (tone == "")
+        assert "All of it." in " ".join(pages(tmp_path / "box.pdf"))
+
     def test_picture(self):
         with style.new_figure(40.0, 30.0) as drawing:
             drawn = style.png(drawing)

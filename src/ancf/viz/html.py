@@ -11,6 +11,8 @@ from xml.etree.ElementTree import Element
 
 #: What an element holds.
 Piece = Element | str
+#: Columns from which on a table takes the room of the window.
+MANY = 9
 #: Width of an SVG, and pixels of the page for one of its points: a figure over two columns fills the page.
 DRAWN_WIDTH, POINT = re.compile(r'<svg\b[^>]*?\bwidth="([\d.]+)pt"'), 1.65
 
@@ -46,7 +48,7 @@ def table(
     return element(
         "div",
         element("table", element("thead", top), element("tbody", *body), **more),
-        class_="scroll",
+        class_="scroll wide" if len(head) >= MANY else "scroll",
         tabindex="0",
     )
 

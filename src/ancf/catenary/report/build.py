@@ -120,16 +120,22 @@ def _top(content: Content, title: str, lists: Sequence[Sequence[Quantity]]) -> I
     if content.reference is None:
         for name, one in zip(content.names, lists, strict=True):
             told = f"{name}: {verdict(one)}" if content.several else verdict(one).capitalize()
-            yield element("p", f"{told} of EN 50367, EN 50119 and practice.", class_="verdict")
+            yield _box(f"{told} of EN 50367, EN 50119 and practice.", one)
         return
     for k in range(len(content.found)):
-        yield element("p", _verdict(content, k), class_="verdict")
+        yield _box(_verdict(content, k), content.compared(k))
+
+
+def _box(text: str, rows: Sequence[Quantity]) -> Element:
+    """A verdict in the colour of inside or outside, or of neither where nothing is judged."""
+    judged = [q.inside for q in rows if q.inside is not None]
+    tone = "" if not judged else " inside" if all(judged) else " outside"
+    return element("p", text, class_=f"verdict{tone}")
 
 
 def _verdict(content: Content, k: int) -> str:
     assert content.reference is not None
-    rows = content.compared(k)
-    judged = [q for q in rows if q.inside is not None]
+    judged = [q for q in content.compared(k) if q.inside is not None]
     before = f"{content.name(k)}: " if content.several else ""
     if not judged:
         return before + content.reference.note(content.run.speed_kmh) + "."

@@ -123,7 +123,8 @@ def pieces(sweep: Sweep, title: str, save: Save) -> list[Element]:
     """Elements of the report, its pictures as SVG or PNG."""
     parts = [element("h1", title)]
     parts += [element("p", f"{name}: {value}.", class_="faint") for name, value in sweep.settings]
-    parts.append(element("p", _verdict(sweep), class_="verdict"))
+    good, told = _verdict(sweep)
+    parts.append(element("p", told, class_=f"verdict {'inside' if good else 'outside'}"))
     if sweep.done:
         parts.append(section("Figures", "figures", *_figures(sweep, save)))
     for k, name in enumerate(sweep.pantographs):
@@ -143,11 +144,12 @@ def pieces(sweep: Sweep, title: str, save: Save) -> list[Element]:
     return [*parts, *(element("p", text, class_="faint") for text in foot)]
 
 
-def _verdict(sweep: Sweep) -> str:
+def _verdict(sweep: Sweep) -> tuple[bool, str]:
+    """Whether all cases are accepted, and how many."""
     good = [row for row in sweep.done if all(row[f"accepted_{k + 1}"] for k in range(sweep.count))]
     text = f"{len(good)} of {len(sweep.rows)} cases are accepted with all pantographs"
     failed = len(sweep.rows) - len(sweep.done)
-    return text + (f", {failed} could not be run." if failed else ".")
+    return len(good) == len(sweep.rows), text + (f", {failed} could not be run." if failed else ".")
 
 
 def verdict(row: Row, k: int) -> str:

@@ -16,6 +16,8 @@ HEADINGS = {"h1": 1, "h2": 2, "h3": 3, "summary": 3}
 #: What a sheet of paper has no use for.
 SKIPPED = ("nav", "link", "style")
 PNG = "data:image/png;base64,"
+#: Colours of the page by the kind of a cell, or the tone of a paragraph.
+TONES = {"inside": "fine", "outside": "bad", "": "ink"}
 #: Letters: between columns, of the widest column that is not broken into lines; bold ones by regular ones.
 GAP, WIDEST, BOLDER = 3.5, 44.0, 1.15
 
@@ -30,10 +32,11 @@ class Heading:
 
 @dataclass(frozen=True)
 class Paragraph:
-    """Text; ``kind`` is the class of the page: "", "faint" or "verdict"."""
+    """Text; ``kind`` is the class of the page: "", "faint" or "verdict", its ``tone`` as that of a Cell."""
 
     text: str
     kind: str = ""
+    tone: str = ""
 
 
 @dataclass(frozen=True)
@@ -106,7 +109,7 @@ def blocks(elements: Iterable[Element]) -> Iterator[Block]:
             yield Heading(text_of(element), HEADINGS[element.tag])
         elif element.tag == "p":
             if text_of(element):
-                yield Paragraph(text_of(element), element.get("class", ""))
+                yield _paragraph(element)
         elif element.tag == "table":
             yield _table(element)
         elif element.tag == "figure":
@@ -118,6 +121,11 @@ def blocks(elements: Iterable[Element]) -> Iterator[Block]:
 def text_of(element: Element) -> str:
     """All text inside, in one line."""
     return " ".join("".join(element.itertext()).split())
+
+
+def _paragraph(element: Element) -> Paragraph:
+    kind, _, tone = element.get("class", "").partition(" ")
+    return Paragraph(text_of(element), kind, tone)
 
 
 def _table(element: Element) -> Table:

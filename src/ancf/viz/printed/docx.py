@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import style
-from .blocks import Cell, Heading, Paragraph, Picture, Table, blocks
+from .blocks import TONES, Cell, Heading, Paragraph, Picture, Table, blocks
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
@@ -54,6 +54,8 @@ def _paragraph(document: Any, block: Paragraph) -> None:
     if block.kind == "faint":
         run.font.size, run.font.color.rgb = Pt(8), RGBColor.from_string(style.GREY.strip("#"))
     run.bold = block.kind == "verdict"
+    if block.tone:
+        run.font.color.rgb = RGBColor.from_string(style.PAGE[TONES[block.tone]].strip("#"))
 
 
 def _table(document: Any, block: Table) -> None:
@@ -90,8 +92,7 @@ def _cell(paragraph: Any, cell: Cell, size: Any, head: bool) -> None:
     if cell.number:
         paragraph.alignment = WD_ALIGN_PARAGRAPH.RIGHT
     if cell.kind:
-        colour = style.PAGE["fine" if cell.kind == "inside" else "bad"]
-        run.font.color.rgb = RGBColor.from_string(colour.strip("#"))
+        run.font.color.rgb = RGBColor.from_string(style.PAGE[TONES[cell.kind]].strip("#"))
 
 
 def _picture(document: Any, block: Picture) -> None:

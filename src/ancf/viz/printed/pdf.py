@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape
 
 from .. import style
-from .blocks import Block, Heading, Picture, Table, blocks
+from .blocks import TONES, Block, Heading, Picture, Table, blocks
 from .blocks import Paragraph as Text
 
 if TYPE_CHECKING:
@@ -130,7 +130,10 @@ def _parts(block: Block, styles: dict[Any, Any]) -> list[Any]:
     if isinstance(block, Picture):
         return _picture(block, styles["faint"])
     assert isinstance(block, Text)
-    return [Paragraph(escape(block.text), styles.get(block.kind, styles[""]))]
+    text = escape(block.text)
+    if block.tone:
+        text = f'<font color="{style.PAGE[TONES[block.tone]]}">{text}</font>'
+    return [Paragraph(text, styles.get(block.kind, styles[""]))]
 
 
 def _table(block: Table) -> Any:
@@ -144,7 +147,7 @@ def _table(block: Table) -> Any:
         for number in (False, True)
         for bold in (False, True)
     }
-    colours = {"inside": style.PAGE["fine"], "outside": style.PAGE["bad"], "": style.PAGE["ink"]}
+    colours = {kind: style.PAGE[name] for kind, name in TONES.items()}
     rows = [
         [
             Paragraph(
