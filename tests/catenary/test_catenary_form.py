@@ -361,6 +361,16 @@ class TestRefused:
             form(small(droppers=Droppers(stiffness=100.0)))
         assert caught.value.where.startswith("line.spans[")
 
+    @pytest.mark.parametrize("EA", [0.2, 2.0, 200e3])
+    def test_units_of_droppers(self, EA):
+        """200 kN as 0.2 MN: a rope that is 500 times as long as without force."""
+        if EA > 100.0:
+            assert form(small(droppers=Droppers(EA=EA))).dropper_natural.min() > 0.0
+            return
+        with pytest.raises(ModelError, match=r"is stretched by [\d.]+ mm of its [\d.]+ mm") as caught:
+            form(small(droppers=Droppers(EA=EA)))
+        assert "EA is in N" in caught.value.hint
+
     def test_weights_on_one_span(self):
         line = small(anchors="tension")
         with pytest.raises(ModelError, match="nothing holds along the track"):

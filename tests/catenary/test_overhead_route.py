@@ -98,6 +98,8 @@ class TestRoute:
             assert part.contact.positions(state) == pytest.approx(alone.contact.position, abs=1e-6)
             assert part.messenger.positions(state) == pytest.approx(alone.messenger.position, abs=1e-6)
         assert len(found().schedule()) == 70
+        assert str(found()).startswith(f"{found().line.title or 'Overhead line'}, at rest")
+        assert repr(found()).startswith("RouteForm(")
 
     def test_hot(self):
         """Both sections are in the same conditions, and each travels about its own anchor."""

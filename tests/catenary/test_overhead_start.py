@@ -6,6 +6,7 @@ import pytest
 
 from ancf import ModelError
 from ancf.catenary import form, run
+from ancf.catenary.cautions import before
 from ancf.catenary.collectors import Touch
 from ancf.catenary.plan import Door, make_plan
 from ancf.catenary.travel import make_travel
@@ -62,6 +63,27 @@ class TestWindow:
             planned(found, 10.0, window=(low, high))
         assert caught.value.where == "run.window"
         assert ("the smaller place first: 66 " in caught.value.hint) == (low > high)
+
+
+@pytest.mark.parametrize(
+    ("changes", "speed", "hard"),
+    [
+        ({"static_force": 60.0, "aerodynamic": 0.5}, 55.0, True),
+        ({"static_force": 60.0, "aerodynamic": 0.0126}, 90.0, False),
+        ({"static_force": 70e1}, 40.0, True),
+        ({"static_force": 140.0, "aerodynamic": 0.0126}, 40.0, False),
+        ({"static_force": 140.0, "aerodynamic": (0.2, 0.05)}, 55.0, True),
+    ],
+)
+def test_pantographs_that_push_too_hard(found, changes, speed, hard):
+    """Against the largest law of the mean force, 0.00097 v^2 + 140 N: twice that is a slip of units."""
+    unit = collector(**changes)
+    plan = make_plan(found, make_travel(speed), unit, None, 15.0, None, None, Touch(), STEP, Door())
+    said = [text for text in before(plan) if text.startswith("pantograph.test: pushes with")]
+    assert len(said) == hard
+    if hard:
+        assert f"{unit.force(speed):.0f} N at {3.6 * speed:.0f} km/h" in said[0]
+        assert f"has {0.00097 * (3.6 * speed) ** 2 + 140.0:.0f} N at most" in said[0]
 
 
 def test_start_at_a_kink_of_the_gradient():

@@ -31,6 +31,7 @@ from .route import Route
 from .route_form import RouteForm
 from .run import run
 from .run_data import Recording, Run
+from .sheets import tell
 from .signals import Butterworth
 from .span import DropperRule, Span
 from .statistics import Statistics, statistics
@@ -126,5 +127,6 @@ __all__ = [
     "write_validation",
 ]
 
+tell()
 # what a controller calls in each step is called directly
 guard(globals(), (name for name in __all__ if name not in ("LineStepper", "Touching")))

@@ -10,6 +10,7 @@ import numpy as np
 from .galloping import said as galloping
 from .plan import RUN_IN, Plan
 from .signals import CUT_OFF, at_zero
+from .statistics import MEAN_FORCE_LAW, mean_force_target
 
 if TYPE_CHECKING:
     from .run_data import Run
@@ -21,6 +22,8 @@ LARGEST = 0.9
 #: Largest step, s: the implicit rules shift a wave by a twelfth of the square of its angle in a step, and
 #: 4 ms are half a radian at the cut-off.
 LONGEST = 4e-3
+#: Lift of a pantograph over the largest mean force of the standards from which on units are to be looked at.
+HARD = 2.0
 #: Losses of contact of one or two steps from which on they are chatter.
 CHATTER = 3
 
@@ -28,6 +31,7 @@ CHATTER = 3
 def before(plan: Plan) -> Iterator[str]:
     """What is to be said about a run before it is computed."""
     yield from _speed(plan)
+    yield from _lift(plan)
     if plan.step > LONGEST * (1.0 + 1e-9):
         text = (
             f"run.step: {1e3 * plan.step:g} ms is long for what is evaluated up to {CUT_OFF:g} Hz: standard "
@@ -43,6 +47,20 @@ def before(plan: Plan) -> Iterator[str]:
             f"run.window: begins {run_in:.4g} m after the place where the first pantograph starts: what its "
         )
         yield text + f"start has stirred up is evaluated; leave {RUN_IN:g} m or more"
+
+
+def _lift(plan: Plan) -> Iterator[str]:
+    """Pantographs that push much harder than any law of the mean force has it."""
+    top = plan.travel.top
+    law = max(mean_force_target(3.6 * top, supply) for supply in MEAN_FORCE_LAW)
+    for unit in {one.name: one for one in plan.pantographs}.values():
+        force = float(unit.force(top))
+        if force > HARD * law:
+            text = (
+                f"pantograph.{unit.name}: pushes with {force:.0f} N at {3.6 * top:.0f} km/h, where EN 50367 "
+            )
+            text += f"has {law:.0f} N at most; static_force is in N, aerodynamic in N s^2/m^2: 0.0126 for "
+            yield text + "0.00097 N h^2/km^2"
 
 
 def _speed(plan: Plan) -> Iterator[str]:

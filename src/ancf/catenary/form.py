@@ -27,6 +27,8 @@ TOLERANCE = 1e-8  # m
 MOST_ITERATIONS = 60
 #: How many times longer or shorter than designed droppers can be; more is a slip of units.
 UNLIKE = 10.0
+#: Least length of a dropper without force over the one at rest: what is stretched more has other units.
+SHORTEST = 0.1
 #: Parts of a line that may change without finding its form again: it rests alike.
 WITHOUT_WEIGHT = ("damping", "rows", "title", "source", "report", "tags")
 
@@ -133,6 +135,9 @@ class Form(Pictured):
             if item.name not in WITHOUT_WEIGHT and getattr(self.line, item.name) != getattr(line, item.name):
                 what = "is not what the form was found for: the lengths of wires and droppers belong to it"
                 raise ModelError(f"form.line.{item.name}", what, hint)
+
+    def __repr__(self) -> str:
+        return self.in_a_line()
 
     @property
     def wave_speed(self) -> float:
@@ -380,11 +385,15 @@ def unstretched(
     """Natural lengths, m, and stiffnesses, N/m, of droppers."""
     if droppers.EA is not None:
         natural = length / (1.0 + force / droppers.EA)
-        return natural, droppers.EA / natural
-    assert droppers.stiffness is not None
-    natural = length - force / droppers.stiffness
-    if np.any(natural <= 0.0):
-        worst = int(np.argmin(natural))
+    else:
+        assert droppers.stiffness is not None
+        natural = length - force / droppers.stiffness
+    share = natural / length
+    if share.size and float(share.min()) < SHORTEST:
+        worst = int(np.argmin(share))
         stretch = f"{1e3 * (length - natural)[worst]:.1f} mm of its {1e3 * length[worst]:.1f} mm"
-        raise ModelError(label(worst), f"is stretched by {stretch}", "give stiffer droppers")
+        hint = f"give stiffer droppers: {'EA is in N' if droppers.EA is not None else 'stiffness is in N/m'}"
+        raise ModelError(label(worst), f"is stretched by {stretch}", hint)
+    if droppers.EA is not None:
+        return natural, droppers.EA / natural
     return natural, np.full(length.size, droppers.stiffness)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .reach import STRIP
+from .told import Told
 
 if TYPE_CHECKING:
     from ..viz.pictures.picture import Picture
 
 
-class Pictured:
+class Pictured(Told):
     """A form that draws itself."""
 
     __slots__ = ()

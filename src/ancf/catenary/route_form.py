@@ -41,6 +41,9 @@ class RouteForm(Pictured):
         """Values of all forms one after the other."""
         return np.concatenate([values(form) for form in self.forms])
 
+    def __repr__(self) -> str:
+        return self.in_a_line()
+
     @property
     def wave_speed(self) -> float:
         """Lowest wave speed of all contact wires as they hang, m/s."""

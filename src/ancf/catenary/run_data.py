@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError
+from .told import Told
 
 if TYPE_CHECKING:
     from .. import Result
@@ -92,7 +93,7 @@ class RunSlopes:
 
 
 @dataclass(frozen=True)
-class Run:
+class Run(Told):
     """A finished run of pantographs along a line.
 
     Parameters
@@ -156,6 +157,9 @@ class Run:
             raise ModelError("run.recordings", what)
         if not self.window[0] < self.window[1]:
             raise ModelError("run.window", f"is empty: {self.window[0]:g} m to {self.window[1]:g} m")
+
+    def __repr__(self) -> str:
+        return self.in_a_line()
 
     @property
     def speed_kmh(self) -> float:

@@ -12,6 +12,7 @@ from ..arrays import FloatArray
 from . import passing
 from .quantity import Quantity
 from .signals import BANDS, CUT_OFF, Butterworth, at_zero, sample_rate
+from .told import Told
 
 if TYPE_CHECKING:
     from .run_data import Run
@@ -29,7 +30,7 @@ MEAN_FORCE_LAW = {"AC": (70.0, "V2"), "DC 3 kV": (110.0, "V"), "DC 1.5 kV": (140
 
 
 @dataclass(frozen=True)
-class Statistics(Mapping[str, Quantity]):
+class Statistics(Told, Mapping[str, Quantity]):
     """What is read off a run for one pantograph: its quantities by their keys, ``found["mean_force"].value``.
 
     Parameters
@@ -64,6 +65,9 @@ class Statistics(Mapping[str, Quantity]):
             if quantity.key == key:
                 return quantity
         raise KeyError(key)
+
+    def __repr__(self) -> str:
+        return self.in_a_line()
 
     def __iter__(self) -> Iterator[str]:
         return (quantity.key for quantity in self.quantities)

@@ -123,8 +123,8 @@ def pieces(sweep: Sweep, title: str, save: Save) -> list[Element]:
     """Elements of the report, its pictures as SVG or PNG."""
     parts = [element("h1", title)]
     parts += [element("p", f"{name}: {value}.", class_="faint") for name, value in sweep.settings]
-    good, told = _verdict(sweep)
-    parts.append(element("p", told, class_=f"verdict {'inside' if good else 'outside'}"))
+    good, counted = _verdict(sweep)
+    parts.append(element("p", counted, class_=f"verdict {'inside' if good else 'outside'}"))
     if sweep.done:
         parts.append(section("Figures", "figures", *_figures(sweep, save)))
     for k, name in enumerate(sweep.pantographs):
