@@ -25,6 +25,11 @@ def cantilever(elements, ratio, *, length=1.0, EI=1.0, strain="material"):
     return model, beam
 
 
+def locked(notes):
+    """Those on bending; forces along such cables waver within elements as well."""
+    return [note for note in notes if "may bend too little" in note]
+
+
 class TestLocking:
     """Deflection of the elastica for small loads: P L^3/(3 EI) (1 - 4/35 (P L^2/EI)^2)."""
 
@@ -43,8 +48,7 @@ class TestLocking:
         state = ancf.equilibrium(model)
         error = self.error(state, beam)
         assert error > 5e-4
-        (note,) = state.notes
-        assert note.startswith('"beam" may bend too little')
+        (note,) = locked(state.notes)
         said = float(re.search(r"about (\S+) m", note)[1]) / (length * self.EXACT)
         assert error / 4 < said < 4 * error
         assert note in " ".join(str(state).split())
@@ -71,8 +75,7 @@ class TestLocking:
             encoding="utf-8",
         )
         ran = call("run", "model.toml")
-        (note,) = json.loads((tmp_path / "out/summary.json").read_text(encoding="utf-8"))["notes"]
-        assert '"beam" may bend too little' in note
+        (note,) = locked(json.loads((tmp_path / "out/summary.json").read_text(encoding="utf-8"))["notes"])
         assert f"note: {note}" in ran.out
 
     @pytest.mark.parametrize(("elements", "ratio"), [(4, 1e4), (16, 1e6), (64, 1e8)])
@@ -80,11 +83,11 @@ class TestLocking:
         model, beam = cantilever(elements, ratio)
         state = ancf.equilibrium(model)
         assert self.error(state, beam) < 1e-5
-        assert state.notes == []
+        assert locked(state.notes) == []
 
     def test_refined_cable_says_nothing(self):
         """What the note advises helps."""
-        notes = [ancf.equilibrium(cantilever(n, 1e10)[0]).notes for n in (8, 32)]
+        notes = [locked(ancf.equilibrium(cantilever(n, 1e10)[0]).notes) for n in (8, 32)]
         assert len(notes[0]) == 1
         assert notes[1] == []
 
@@ -98,7 +101,7 @@ class TestLocking:
         )
         model.pin(rope.start)
         model.pin(rope.end)
-        assert ancf.equilibrium(model).notes == []
+        assert locked(ancf.equilibrium(model).notes) == []
 
     def test_nothing_held_says_nothing(self):
         model, _ = cantilever(4, 1e12)

@@ -43,7 +43,7 @@ class Wavering:
     tension, off : float
         Mean force of the element, and how far the force at its end is from where it should be, N.
     largest : float
-        Largest mean force of an element of the cable, N.
+        Largest force of an element of the cable, the mean along it and what it carries across, N.
     element : float
         Length of the element, m.
     """
@@ -60,7 +60,7 @@ class Wavering:
         where = f"about {self.tension:.3g} N at {self.point}, t = {self.t:.6g} s"
         return (
             f'forces along "{self.body}" waver within its elements of {self.element:.3g} m: by '
-            f"{self.off:.3g} N {where}, where the largest mean of an element is {self.largest:.3g} N: take "
+            f"{self.off:.3g} N {where}, where the largest force of an element is {self.largest:.3g} N: take "
             "shorter elements, or ask for forces of supports and joints"
         )
 
@@ -97,7 +97,7 @@ def _worst(known: Any, beam: Beam, q: FloatArray, times: FloatArray) -> Wavering
     mean, off = _forces(known, beam, q)
     row, element = divmod(int(np.argmax(off)), off.shape[1])
     point, length = str(beam.at(float(beam.node_x[element]))), float(np.diff(beam.node_x)[element])
-    force, largest = float(mean[row, element]), float(np.max(np.abs(mean)))
+    force, largest = float(mean[row, element]), float(np.max(np.hypot(mean, _across(known, beam, q))))
     return Wavering(beam.name, point, float(times[row]), force, float(off[row, element]), largest, length)
 
 
@@ -116,6 +116,14 @@ def _forces(known: Any, beam: Beam, q: FloatArray) -> tuple[FloatArray, FloatArr
     none = np.zeros((len(mean), 1))
     between = np.maximum(np.hstack([none, steps]), np.hstack([steps, none]))
     return mean, np.maximum(np.abs(within) - between, 0.0)
+
+
+def _across(known: Any, beam: Beam, q: FloatArray) -> FloatArray:
+    """Forces across elements that bend, EI r_xxx, N, (n_t, n): a cantilever may carry by nothing else."""
+    vectors, h = vectors_of(beam.node_x, known.slots[beam.name], q), np.diff(beam.node_x)
+    third = [(6.0 * (first + last) - 12.0 * chord) / h**2 for chord, first, last in vectors]
+    found: FloatArray = beam.section.EI * np.sqrt(sum(np.square(part) for part in third))
+    return found
 
 
 def strain_slope(vectors: list[Vectors], strain: str) -> FloatArray:
