@@ -97,7 +97,7 @@ def renumbered(batch: CableBatch, beam: Beam, slot: IntArray) -> CableBatch | No
     slot : ndarray, shape (nodes, 2)
         Its slots there.
     """
-    straight = beam.natural is None or _is_straight(beam.natural)
+    straight = beam.natural is None or not beam.natural.bends
     if len(batch.base) == beam.elements and straight and not batch.groups[0, CURVED]:
         return _all_renumbered(batch, beam)
     key, base, *constants = _part(beam, slot)
@@ -168,7 +168,7 @@ def reference_strains(beam: Beam) -> tuple[FloatArray, FloatArray]:
     n = beam.elements
     eps0, kappa0 = np.zeros((n, 10)), np.zeros((n, 10))
     natural = beam.natural
-    if natural is None or _is_straight(natural):
+    if natural is None or not natural.bends:
         return eps0, kappa0
     for e in range(n):
         h = beam.node_x[e + 1] - beam.node_x[e]
@@ -185,10 +185,6 @@ def reference_strains(beam: Beam) -> tuple[FloatArray, FloatArray]:
         eps0[e, : len(xa)] = axial_strain(r_s, beam.strain)
         kappa0[e, : len(xb)] = curvature(hermite(xb, h, 1) @ values, hermite(xb, h, 2) @ values, beam.strain)
     return eps0, kappa0
-
-
-def _is_straight(beam: Beam) -> bool:
-    return bool(np.all(np.abs(beam.node_tangent - beam.node_tangent[0]) < 1e-12))
 
 
 def _part(beam: Beam, slot: IntArray) -> tuple[tuple[int, ...], IntArray, FloatArray, FloatArray, FloatArray]:

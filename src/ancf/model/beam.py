@@ -132,12 +132,14 @@ class Beam:
         return {"path": self, "straight": None}.get(self.natural_shape, self.natural_beam)
 
     @property
+    def bends(self) -> bool:
+        """Whether its tangents differ from node to node in the initial shape."""
+        return bool(np.any(np.abs(self.node_tangent - self.node_tangent[0]) >= BENT))
+
+    @property
     def turns_its_bend(self) -> bool:
         """Whether it is a cable that is bent by nature: it does not resist that the bend turns."""
-        natural = self.natural
-        if natural is None or self.has_section:
-            return False
-        return bool(np.any(np.abs(natural.node_tangent - natural.node_tangent[0]) > BENT))
+        return self.natural is not None and not self.has_section and self.natural.bends
 
     @property
     def start(self) -> Point:
