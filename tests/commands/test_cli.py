@@ -53,6 +53,41 @@ def test_summary_of_a_simulation(call):
     assert "error" not in summary
 
 
+SUNK = """
+[[bodies]]
+type = "point_mass"
+name = "bob"
+at = [0, 0, -1]
+mass = 1.0
+[[grounds]]
+name = "floor"
+height = -0.5
+stiffness = 1.0
+"""
+PRESSED = """
+[[supports]]
+type = "clamp"
+point = "beam.end"
+displacement = [-0.001, 0, 0]
+"""
+
+
+def test_notes_of_a_summary(call):
+    """Those of the result, and of an equilibrium, each once."""
+    for more, about in (
+        (SIMULATION.replace("0.4", "0.01") + SUNK, "below the ground"),
+        (EQUILIBRIUM + PRESSED, "pressed"),
+    ):
+        path = write(
+            MODEL.replace("gravity = [0, 0, -9.81]", "").replace("rho =", "diameter = 0.01\nrho =") + more
+        )
+        assert call("run", path, "-q").code == 0
+        notes = json.loads(Path("out/summary.json").read_text(encoding="utf-8"))["notes"]
+        result = ancf.load("out/results.h5")
+        assert notes == (result.notes if "simulation" in more else result.state().notes)
+        assert sum(about in note for note in notes) == 1
+
+
 def test_resumed_run(call):
     """A later t_end in the file, then --resume: one history, one summary."""
     sensors = 'sensors = ["beam.end"]\n'

@@ -29,12 +29,10 @@ def summarise(
     study: Study, path: Path, result: Result, seconds: dict[str, float], error: BaseException | None
 ) -> dict[str, Any]:
     """Everything worth keeping of a run, ready for JSON."""
-    from ..results import accuracy, sharp_bends, slackness, wavering
-    from ..results.resolution import of_steps
-    from ..results.tension import compressions, notes
+    from ..results import slackness
+    from ..results.tension import compressions
 
     model = study.model
-    pressed = compressions(result)
     still = study.simulation is None
     state, counters = result.state(), result.stats.as_dict()
     summary: dict[str, Any] = {
@@ -42,24 +40,16 @@ def summarise(
         "model_file": str(path),
         **({"set": dict(study.values)} if study.values else {}),
         "status": result.status,
-        "kind": "equilibrium" if study.simulation is None else "simulation",
+        "kind": "equilibrium" if still else "simulation",
         "model": sizes(model),
         "settings": settings(study),
         "t": float(result.t[-1]),
         "stored_times": len(result.t),
         "outputs": {label: at_point(model, state, label) for label in outputs(study)},
         "energy": energies(result),
-        "compression": [item.as_dict() for item in pressed],
+        "compression": [item.as_dict() for item in compressions(result)],
         "slack": [item.as_dict() for item in slackness.of_ropes(result)],
-        "notes": [
-            *result.provenance.get("notes", []),
-            *notes(pressed),
-            *([] if still else sharp_bends.notes(sharp_bends.sharp_bends(result))),
-            *([] if still else wavering.notes(wavering.waverings(result))),
-            *accuracy.of_energy(result),
-            *of_steps(result),
-        ]
-        + (state.notes if still else []),
+        "notes": state.notes if still else result.notes,
         "counters": {key: value for key, value in counters.items() if key != "cpu_seconds"},
         "versions": {**result.provenance.get("versions", {}), "ancf": __version__},
         **seconds,
