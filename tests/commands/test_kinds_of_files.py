@@ -1,5 +1,7 @@
 """Files of every kind are told by their keys: checked, described, and refused by commands for other kinds."""
 
+import tomllib
+
 import pytest
 
 from ancf.catenary.entries import LineEntry, PantographEntry
@@ -90,11 +92,28 @@ class TestKinds:
             "pantograph": kinds.OF_A_PANTOGRAPH,
             "measuring pantograph": kinds.OF_A_HEAD,
             "study": kinds.OF_A_STUDY,
+            "calibration": kinds.OF_A_CALIBRATION,
+            "optimisation": kinds.OF_AN_OPTIMISATION,
         }
         assert own.get(kind, set()) <= set(ENTRIES[kind].model_fields)
         for other, keys in own.items():
             if other != kind:
                 assert not keys & set(ENTRIES[kind].model_fields), other
+
+    @pytest.mark.parametrize(
+        ("text", "kind"),
+        [
+            ('[[bodies]]\nname = "rope"\n[[sections]]\nEA = 1.0\n', "model"),  # of one bracket too much
+            ('[[bodies]]\nname = "rope"\n[[parameters]]\nd = 1.0\n', "model"),
+            ("mass = 5.0\n", "measuring pantograph"),
+            ("delay = 0.002\nseed = 3\n", "measuring pantograph"),
+            ('line = "x.toml"\n[run]\n[[parameters]]\nname = "a"\ndroppers = ["1-1"]\n', "optimisation"),
+            ('model = "x.toml"\n[[parameters]]\npath = "gravity[2]"\nlow = 1.0\nhigh = 2.0\n', "calibration"),
+            ('[[parameters]]\npath = "gravity[2]"\ngrid = {low = 1.0, high = 2.0, count = 3}\n', "study"),
+        ],
+    )
+    def test_without_the_keys_that_may_be_left_out(self, text, kind):
+        assert kind_of(tomllib.loads(text)) == kind
 
     @pytest.mark.parametrize("kind", FILES)
     def test_one_wrong_key_does_not_hide_it(self, kind, files, call):
@@ -131,6 +150,8 @@ class TestCommands:
             ("pantograph", ("catenary", "run", "line.toml", "--speed", "100", "--pantograph")),
             ("measuring pantograph", ("catenary", "run", "line.toml", "--speed", "100", "--measure")),
             ("study", ("study",)),
+            ("calibration", ("calibrate",)),
+            ("optimisation", ("optimise",)),
         ],
     )
     def test_refuses_other_kinds(self, wanted, command, kind, files, call):

@@ -14,6 +14,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.file import read_toml
 from ..model.file.fields import Entry, Positive
+from ..model.file.kinds import CALIBRATION, refuse
 from ..model.file.messages import combined, of_validation
 from .calibrate import calibrate
 from .calibration_data import TIME, columns_of
@@ -106,6 +107,7 @@ def read_calibration(path: str | Path) -> CalibrationFile:
     """
     path = Path(path)
     data = read_toml(path, "calibration file")
+    refuse(path, data, CALIBRATION)
     try:
         entry = CalibrationEntry.model_validate(data)
     except ValidationError as error:

@@ -14,6 +14,7 @@ from ..errors import ModelError
 from ..model import checks
 from ..model.file import read_toml
 from ..model.file.fields import Entry
+from ..model.file.kinds import OPTIMISATION, refuse
 from ..model.file.messages import combined, of_validation
 from .descent import least
 from .droppers import OF_RUN, Droppers, LineOptimum, LineRuns, Tried
@@ -111,8 +112,10 @@ def read_optimisation(path: str | Path) -> OptimisationFile:
     from ..catenary.mesh import Mesh
 
     path = Path(path)
+    data = read_toml(path, "optimisation file")
+    refuse(path, data, OPTIMISATION)
     try:
-        entry = OptimisationEntry.model_validate(read_toml(path, "optimisation file"))
+        entry = OptimisationEntry.model_validate(data)
     except ValidationError as error:
         raise combined(of_validation(error, _entry_at), str(path)) from None
     tables = read_toml(path.parent / entry.line, "line file")

@@ -15,8 +15,10 @@ STUDY, CALIBRATION, OPTIMISATION = "study", "calibration", "optimisation"
 OF_A_LINE = {"contact_wire", "messenger_wire", "spans", "steady_arm"}
 #: And those of files of which nothing has the same: of pantographs, of measuring pantographs, of models.
 OF_A_PANTOGRAPH = {"masses", "static_force", "aerodynamic", "strip_length", "strip_distance", "relaxed_at"}
-OF_A_HEAD = {"corrected_mass", "force_band", "acceleration_band", "force_noise", "acceleration_noise", "rate"}
+OF_A_HEAD = {"mass", "corrected_mass", "rate", "delay", "seed"}
+OF_A_HEAD |= {"force_band", "acceleration_band", "force_noise", "acceleration_noise"}
 OF_A_STUDY = {"sampling", "outputs", "correlations"}
+OF_A_CALIBRATION, OF_AN_OPTIMISATION = {"data", "deviations"}, {"objective", "constraints", "most"}
 OF_A_MODEL = {"bodies", "inputs", "connections", "fluids", "grounds", "surfaces", "simulation", "equilibrium"}
 #: How files of these kinds are called, and by which commands they are read.
 READ_BY = {
@@ -36,16 +38,29 @@ READ_BY = {
 def kind_of(data: Mapping[str, Any]) -> str:
     """The kind of the file with these tables; "" where no key tells it."""
     keys = set(data)
-    if OF_A_LINE & keys or isinstance(data.get("sections"), list):
-        return LINE
-    if isinstance(data.get("parameters"), list) or OF_A_STUDY & keys:  # parameters of models are a table
-        if "data" in keys:
-            return CALIBRATION
-        return OPTIMISATION if "objective" in keys else STUDY
-    for kind, own in ((MODEL, OF_A_MODEL), (PANTOGRAPH, OF_A_PANTOGRAPH), (HEAD, OF_A_HEAD)):
+    for kind, own in (
+        (LINE, OF_A_LINE),
+        (MODEL, OF_A_MODEL),
+        (PANTOGRAPH, OF_A_PANTOGRAPH),
+        (HEAD, OF_A_HEAD),
+    ):
         if own & keys:
             return kind
+    if isinstance(data.get("parameters"), list) or OF_A_STUDY & keys:  # parameters of models are a table
+        return _of_parameters(keys, data.get("parameters"))
+    if isinstance(data.get("sections"), list):
+        return LINE
     return MODEL if isinstance(data.get("sections"), dict) else ""
+
+
+def _of_parameters(keys: set[str], parameters: Any) -> str:
+    """Which of the kinds that have a list of parameters, by the keys of the file and of those."""
+    each = parameters if isinstance(parameters, list) else []
+    inside = {key for one in each if isinstance(one, dict) for key in one}
+    if OF_AN_OPTIMISATION & keys or "droppers" in inside:
+        return OPTIMISATION
+    bounded = "low" in inside and not OF_A_STUDY & keys
+    return CALIBRATION if OF_A_CALIBRATION & keys or bounded else STUDY
 
 
 def refuse(path: str | Path, data: Mapping[str, Any], wanted: str) -> None:
