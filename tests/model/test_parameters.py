@@ -164,6 +164,12 @@ class TestFormulas:
                 tables(plain().replace("step = 0.0125", 'step = "20 ms"') + "\n[parameters]\nA = 1.0\n")
             )
 
+    def test_a_parameter_behind_a_number_is_no_unit(self):
+        with pytest.raises(ancf.ModelError, match=r"step: .* \(write \* for a product: 2\*ms\)"):
+            parse_study(
+                tables(plain().replace("step = 0.0125", 'step = "2 ms"') + "\n[parameters]\nms = 1e-3\n")
+            )
+
     def test_without_parameters_a_text_is_no_number(self):
         with pytest.raises(ancf.ModelError, match=r"step: must be a number, is '2\*3' \(str\)"):
             parse_study(tables(plain().replace("step = 0.0125", 'step = "2*3"')))

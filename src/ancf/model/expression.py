@@ -76,6 +76,8 @@ OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
 }
 #: A number with a unit behind it, as "20 ms" or "5%".
 QUANTITY = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\s*[A-Za-zµμ°Ω%][\wµμ°Ω/^*%.² ³-]*")
+#: A number and a name behind it, as "2t" or "2 pi".
+FACTOR = re.compile(r"(?<![\w.])(\d+\.?\d*|\.\d+)\s*([A-Za-z]\w*)")
 #: Names of the state of a point in formulas: its position in m, its velocity in m/s.
 STATE = ("x", "y", "z", "vx", "vy", "vz")
 
@@ -104,7 +106,7 @@ class Expression:
     def __init__(self, text: str, where: str, names: tuple[str, ...] = ("t",)) -> None:
         self.text, self.where, self.names = text, where, names
         try:
-            tree = _parse(text, where)
+            tree = _parse(text, where, (*names, *CONSTANTS, *FUNCTIONS))
             self._compiled = self._compile(tree)
         except (RecursionError, MemoryError):
             raise ModelError(where, "the formula is nested too deeply") from None
@@ -203,7 +205,7 @@ class Expression:
 
     def _unknown_name(self, name: str) -> ModelError:
         hint = nearest(name, [*self.names, *CONSTANTS, *FUNCTIONS])
-        if not hint and "t" in self.names:
+        if not hint and self.names[:1] == ("t",):  # of the state or a place no input is known
             hint = (
                 "an input of a model stands in [[inputs]] of its file; in Python give what add_input returned"
             )
@@ -236,7 +238,7 @@ def _quoted(text: str) -> str:
     return f'"{text}"' if len(text) <= 100 else f'"{text[:97]}..."'
 
 
-def _parse(text: str, where: str) -> ast.expr:
+def _parse(text: str, where: str, known: tuple[str, ...] = ()) -> ast.expr:
     flat = " ".join(text.split())
     if not flat:
         raise ModelError(where, "the formula is empty")
@@ -250,12 +252,19 @@ def _parse(text: str, where: str) -> ast.expr:
         column = getattr(error, "offset", None)
         place = f" at column {column}" if column else ""
         what = getattr(error, "msg", str(error))
-        if QUANTITY.fullmatch(flat):
+        hint = f"write * for a product: {product}" if (product := _multiplied(flat, known)) else ""
+        if QUANTITY.fullmatch(flat) and not hint:
             hint = "give the number alone, in units of the SI"
             raise ModelError(
                 where, f"{_quoted(flat)} is a number with a unit, must be a number", hint
             ) from None
-        raise ModelError(where, f"{_quoted(flat)} is no formula of t: {what}{place}") from None
+        raise ModelError(where, f"{_quoted(flat)} is no formula of t: {what}{place}", hint) from None
+
+
+def _multiplied(text: str, known: tuple[str, ...]) -> str:
+    """The first number of a text that has a known name right behind it, as a product; "" if there is none."""
+    found = (match for match in FACTOR.finditer(text) if match[2] in known)
+    return next((f"{match[1]}*{match[2]}" for match in found), "")
 
 
 def depends_on_state(text: str) -> bool:

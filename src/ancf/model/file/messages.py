@@ -97,6 +97,8 @@ def _unit_beside(detail: dict[str, Any], entry_at: Tables) -> str:
     given, field = detail["input"], _field(detail, entry_at)
     if field is None or detail["type"] not in ("float_type", "model") or not isinstance(given, str):
         return ""
+    if "product" in detail.get("ctx", {}).get("hint", ""):  # of a parameter
+        return ""
     unit = re.search(r"\[([^\[\]]+)\]\.?$", field.description or "")
     return unit[1] if unit and QUANTITY.fullmatch(given.strip()) else ""
 
