@@ -99,6 +99,7 @@ def test_what_is_no_formula(text, phrase):
         "last(position(cable.start))",
         "uplift",
         "2*uplift",
+        "-uplift",
         "t",
     ],
 )
@@ -108,6 +109,7 @@ def test_what_is_recommended_is_a_number(text):
         Formula(text, "outputs.x", WORDS)(Case())
     shown = re.split(", | or ", caught.value.hint.removeprefix("such as "))
     assert len(shown) >= 2
+    assert not re.search(r"\(\([^()]*\)\)", caught.value.hint)
     for formula in shown:
         assert formula != text
         assert np.isfinite(Formula(formula, "outputs.x", WORDS)(Case()))

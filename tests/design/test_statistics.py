@@ -7,8 +7,9 @@ import pandas as pd
 import pytest
 
 import ancf
+from ancf.design import statistics
 from ancf.design.report.figures import _explains
-from ancf.design.statistics import effect, exceedance, percentile, summary
+from ancf.design.statistics import effects, exceedance, percentile, summary
 from design_functions import ISHIGAMI, angles, ishigami
 
 
@@ -146,9 +147,9 @@ class TestEffects:
         """Of a x + b z with independent parts."""
         rows = ancf.sample(dict.fromkeys("xz", ancf.Uniform(0.0, 1.0)), method="sobol", count=2048)
         table = table_of(rows, lambda x, z: {"y": 3.0 * x - z})
-        shares = [effect(table, name, "y")["share"] for name in "xz"]
+        shares = [effects(table, "y")[name]["share"] for name in "xz"]
         assert shares == pytest.approx([0.9, 0.1], abs=0.015)  # bins of a tenth lose a hundredth
-        bins = effect(table, "x", "y")["bins"]
+        bins = effects(table, "y")["x"]["bins"]
         assert [row["mean"] for row in bins] == pytest.approx(
             [3.0 * row["at"] - 0.5 for row in bins], abs=0.06
         )
@@ -165,7 +166,7 @@ class TestEffects:
         )
         steps = [(n * n - 1) / 12 for n in levels]
         parts = np.array([steps[0], 0.25 * steps[1], interaction**2 * steps[0] * steps[1]])
-        found = [effect(table, name, "y") for name in "ab"]
+        found = [effects(table, "y")[name] for name in "ab"]
         assert [one["share"] for one in found] == pytest.approx(parts[:2] / parts.sum(), rel=1e-12)
         assert all(one["exact"] and one["share"] == one["explained"] for one in found)
 
@@ -173,7 +174,7 @@ class TestEffects:
         """Of a in 0, 1, 2 and b in 0, 1: 2/3 and 1/16 of 35/48."""
         rows = ancf.sample({"a": [0, 1, 2], "b": [0, 1]}, method="grid")
         table = table_of(rows, lambda a, b: {"y": a + 0.5 * b})
-        assert [effect(table, name, "y")["share"] for name in "ab"] == pytest.approx([32 / 35, 3 / 35])
+        assert [effects(table, "y")[name]["share"] for name in "ab"] == pytest.approx([32 / 35, 3 / 35])
 
     @pytest.mark.parametrize("count", [2, 3, 4])
     def test_three_parameters_and_words(self, count):
@@ -181,7 +182,7 @@ class TestEffects:
         rows = ancf.sample({"a": [-1.0, 1.0], "b": [-1.0, 1.0], "word": list("wxyz"[:count])}, method="grid")
         table = table_of(rows, lambda a, b, word: {"y": a * b + 2.0 * "wxyz".index(word)})
         own = 4.0 * (count * count - 1) / 12
-        shares = [effect(table, name, "y")["share"] for name in ("a", "b", "word")]
+        shares = [effects(table, "y")[name]["share"] for name in ("a", "b", "word")]
         assert shares == pytest.approx([0.0, 0.0, own / (own + 1.0)], abs=1e-15)
 
     @pytest.mark.parametrize("lost", range(6))
@@ -190,7 +191,7 @@ class TestEffects:
         rows = ancf.sample({"a": [0, 1, 2], "b": [0, 1]}, method="grid")
         table = table_of(rows, lambda a, b: {"y": a + 0.5 * b})
         table.loc[lost, "y"] = np.nan
-        found = [effect(table, name, "y") for name in "ab"]
+        found = [effects(table, "y")[name] for name in "ab"]
         assert not any(one["exact"] for one in found)
         k, n = np.array([3, 2]), 5
         eta = np.array([one["explained"] for one in found])
@@ -200,6 +201,14 @@ class TestEffects:
         for one in found:
             assert ("not told from chance" in _explains(one)) == (one["share"] == 0.0)
 
+    def test_a_grid_is_looked_at_once_for_all_parameters(self, monkeypatch):
+        """It takes as long as all else."""
+        looked, is_full = [], statistics.is_full
+        monkeypatch.setattr(statistics, "is_full", lambda table: looked.append(len(table)) or is_full(table))
+        table = table_of(ancf.sample({key: [0, 1] for key in "abc"}, method="grid"), lambda a, b, c: {"y": a})
+        assert [*effects(table, "y")] == ["a", "b", "c"]
+        assert looked == [8]
+
     @pytest.mark.parametrize("groups", [2, 4, 10])
     def test_chance_is_what_random_groups_explain(self, groups):
         """On the average over many draws of numbers that know nothing of the parameter."""
@@ -208,7 +217,7 @@ class TestEffects:
             x = np.arange(40) % groups
             table = pd.DataFrame({"x": x, "z": draw.random(40), "y": draw.random(40)})
             table.attrs = {"parameters": ["x", "z"], "outputs": ["y"]}
-            found = effect(table, "x", "y")
+            found = effects(table, "y")["x"]
             explained.append(found["explained"])
         assert found["chance"] == pytest.approx((groups - 1) / 39)
         assert np.mean(explained) == pytest.approx(found["chance"], rel=0.15)
@@ -229,13 +238,16 @@ class TestEffects:
 
     def test_no_effect_has_no_share(self):
         rows = ancf.sample(dict.fromkeys("xz", ancf.Uniform(0.0, 1.0)), method="random", count=500)
-        assert effect(table_of(rows, lambda x, z: {"y": z}), "x", "y")["share"] < 0.03
+        assert effects(table_of(rows, lambda x, z: {"y": z}), "y")["x"]["share"] < 0.03
 
     def test_words_and_levels_are_their_own_bins(self):
         rows = ancf.sample({"word": ["x", "y"], "n": [1, 2, 3]}, method="grid")
         table = table_of(rows, lambda word, n: {"y": n + 10.0 * (word == "y")})
-        assert [(r["at"], r["mean"]) for r in effect(table, "word", "y")["bins"]] == [("x", 2.0), ("y", 12.0)]
-        assert [(r["at"], r["mean"]) for r in effect(table, "n", "y")["bins"]] == [
+        assert [(r["at"], r["mean"]) for r in effects(table, "y")["word"]["bins"]] == [
+            ("x", 2.0),
+            ("y", 12.0),
+        ]
+        assert [(r["at"], r["mean"]) for r in effects(table, "y")["n"]["bins"]] == [
             (1, 6.0),
             (2, 7.0),
             (3, 8.0),

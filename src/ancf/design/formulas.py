@@ -140,15 +140,16 @@ class Formula:
 
     def _one_number(self, found: Any, case: Answers) -> str:
         """What to write for one number of a history, of a list, of vectors, as which it was found."""
+        if not found.ndim or not found.size:
+            return ""
         times = np.size(case.value("t")) if "t" in self.words.names else 0
-        plain = isinstance(ast.parse(" ".join(self.text.split()), mode="eval").body, ast.Call | ast.Name)
-        inner = self.text if plain or self.text.endswith("]") else f"({self.text})"
-        last = f"[{found.shape[-1] - 1}]"
-        if found.ndim > 1:
-            inner += last
-        if found.ndim and found.shape[0] == times:
+        tree = ast.parse(" ".join(self.text.split()), mode="eval").body
+        whole = self.text if isinstance(tree, ast.Call | ast.Name | ast.Subscript) else f"({self.text})"
+        entry = f"{whole}[{found.shape[-1] - 1}]"
+        inner = entry if found.ndim > 1 else self.text
+        if found.shape[0] == times:
             return f"such as last({inner}), max({inner}) or mean({inner})"
-        return f"such as max({inner}) or {inner}{last}"
+        return f"such as max({inner}) or {entry}"
 
     def history(self, case: Answers) -> Any:
         """Its values (n,) at the times of the case.

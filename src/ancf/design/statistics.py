@@ -38,9 +38,7 @@ def summary(table: DataFrame, design: dict[str, Any] | None) -> dict[str, Any]:
     made: dict[str, Any] = {"cases": len(table), "failed": failed, "note": _note(table, method, failed)}
     random = drawn_rows(table)
     made["outputs"] = {name: _described(column(table, name)[random], method) for name in outputs_of(table)}
-    made["effects"] = {
-        name: {key: effect(table, key, name) for key in parameters_of(table)} for name in outputs_of(table)
-    }
+    made["effects"] = {name: effects(table, name) for name in outputs_of(table)}
     if method in ("saltelli", "morris") and design is not None:
         indices = _sobol if method == "saltelli" else _morris
         whole = len(table) == len(_unit(design))
@@ -141,8 +139,8 @@ def exceedance(values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, 
     return ordered, above / count, np.asarray(low), np.asarray(high)
 
 
-def effect(table: DataFrame, parameter: str, output: str) -> dict[str, Any]:
-    """Mean of an output over one parameter, in bins, and the share of its variance that these means have.
+def effects(table: DataFrame, output: str) -> dict[str, dict[str, Any]]:
+    """Mean of an output over each parameter, in bins, and the share of its variance that these means have.
 
     ``explained`` is the variance of the means over that of the output, the correlation ratio: on a full grid,
     all combinations of the values equally often, that of the analysis of variance, and ``exact``, with a mean
@@ -152,9 +150,14 @@ def effect(table: DataFrame, parameter: str, output: str) -> dict[str, Any]:
     """
     y = column(table, output)
     good = np.isfinite(y)
-    x, y = table[parameter].to_numpy()[good], y[good]
+    table, y = table[good], y[good]
+    exact = is_full(table)
+    return {name: _effect(table[name].to_numpy(), y, exact) for name in parameters_of(table)}
+
+
+def _effect(x: Any, y: FloatArray, exact: bool) -> dict[str, Any]:
+    """Of a parameter (n,) on an output (n,), on a full grid or elsewhere."""
     bins = [*_bins(x)]
-    exact = is_full(table[good])
     if not bins or np.ptp(y) == 0.0:
         return {"bins": [], "share": 0.0, "explained": 0.0, "chance": 0.0, "exact": exact}
     rows = []
