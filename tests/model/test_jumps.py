@@ -7,6 +7,7 @@ import pytest
 
 import ancf
 from ancf.errors import SolveError
+from ancf.model import sudden
 from ancf.model.jumps import jumps
 
 WIRE = ancf.Section(EA=1e6, EI=1.0, rhoA=1.0)
@@ -214,6 +215,20 @@ class TestAtTheStart:
         assert set_off(carried(False, False)) == set_off(carried(True, True)) == []
         [note] = set_off(carried(True, False))
         assert note.startswith('pin(trolley).displacement: its rate is 2 m/s from t = 0 s on, "rope"')
+
+    def test_joints_are_looked_at_once(self, monkeypatch):
+        """However many supports move."""
+        model, looked = ancf.Model(), []
+        for k in range(6):
+            mass = model.add_point_mass(f"mass {k}", at=(0, k, 0), mass=1.0)
+            rope = model.add_beam(f"rope {k}", start=(0, k, 0), end=(1, k, 0), elements=1, section=WIRE)
+            model.connect(mass, rope.start)
+            model.pin(mass, displacement=["2*t", 0, 0])
+        asked = sudden.bodies_of
+        monkeypatch.setattr(sudden, "bodies_of", lambda joint: looked.append(joint) or asked(joint))
+        found = sudden.sudden(model, 0.0, 1.0, 1e-3, lambda support, body: True)
+        assert [jump.body for jump in found] == [f"rope {k}" for k in range(6)]
+        assert len(looked) == 6
 
     def test_components_that_a_hold_leaves_free_do_not_count(self):
         model = ancf.Model()

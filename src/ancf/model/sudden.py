@@ -41,11 +41,12 @@ def sudden(
         ``rests(support, body)``: whether the body does not move at the start as the support does.
     """
     found: list[Jump] = []
-    for support in model.supports:
-        moved = [] if isinstance(support, Winch) else [*motion_of(support, exact=True)]
-        # a winch pays out evenly from the start, see docs/theory/winch.md
-        pushed = [body for body in _beside(model, support) if rests(support, body)] if moved else []
-        for motion in moved if pushed else []:
+    # a winch pays out evenly from the start, see docs/theory/winch.md
+    moved = {s: [*motion_of(s, exact=True)] for s in model.supports if not isinstance(s, Winch)}
+    beside = _joined(model) if any(moved.values()) else {}
+    for support, motions in moved.items():
+        pushed = [body for body in _beside(support, beside) if rests(support, body)] if motions else []
+        for motion in motions if pushed else []:
             try:
                 found += _at_start(motion, support, pushed[0].name, start, end, step)
             except ModelError:  # the run says at which step
@@ -53,17 +54,26 @@ def sudden(
     return found
 
 
-def _beside(model: Any, support: Support) -> Iterator[Body]:
+def _joined(model: Any) -> dict[str, list[Body]]:
+    """By the name of a body what moves with it: beams that are joined to it, and what no support holds."""
+    held = {support.point.body.name for support in model.supports}
+    found: dict[str, list[Body]] = {}
+    for joint in model.connections:
+        bodies = [model.bodies[name] for name in bodies_of(joint)] if isinstance(joint, RIGID) else []
+        for body in bodies:
+            others = (other for other in bodies if other is not body)
+            found.setdefault(body.name, []).extend(
+                other for other in others if isinstance(other, Beam) or other.name not in held
+            )
+    return found
+
+
+def _beside(support: Support, joined: dict[str, list[Body]]) -> Iterator[Body]:
     """The beam that a support moves, or what is joined to the mass or rigid body that it moves."""
     body = support.point.body
     if isinstance(body, Beam):
         yield body
-    held = {other.point.body.name for other in model.supports}
-    for joint in model.connections:
-        names = bodies_of(joint) if isinstance(joint, RIGID) else []
-        if body.name in names:
-            others = (model.bodies[name] for name in names if name != body.name)
-            yield from (other for other in others if isinstance(other, Beam) or other.name not in held)
+    yield from joined.get(body.name, [])
 
 
 def _at_start(
