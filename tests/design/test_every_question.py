@@ -60,6 +60,16 @@ def both():
     return machine(), ["wire.EI", "hub.mass"]
 
 
+def winched():
+    """A cable that a winch pays out: its material is that of other lengths at every step."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section(EA=500.0, EI=0.05, rhoA=0.2, axial_damping=0.1)
+    rope = model.add_beam("rope", start=(0, 0, 0), end=(0.6, 0, -0.8), elements=3, section=section)
+    model.pin(rope.start)
+    model.winch(rope.start, length="1 + 0.4*sin(30*t)**2")
+    return model, ["rope.EA", "rope.rhoA"]
+
+
 #: What quantities are asked of, by what they are asked of.
 ITEMS = {
     POINT: (beam, "beam.at(0.7)"),
@@ -98,6 +108,31 @@ def test_gradient_of_every_quantity(quantity, noun):
             ancf.gradient(model, text, names, **GIVEN)
     else:
         agree(build, text, names)
+
+
+@pytest.mark.parametrize("quantity", ["position", "velocity", "slope", "tension", "strain", "curvature"])
+def test_on_a_cable_with_a_winch(quantity):
+    """By the material of the length at each time: of sensitivities, gradients, and what these are of."""
+    point, (model, names) = "rope.at(0.3)", winched()
+    result = ancf.simulate(model, sensitivities=names, sensors=[point], **GIVEN)
+    for known in (result, result.sensors):
+        values = getattr(known, quantity)(point)
+        for name in names:
+
+            def asked(one, here=known is result):
+                run = ancf.simulate(one, sensors=[point], **GIVEN)
+                return getattr(run if here else run.sensors, quantity)(point)
+
+            wanted = extrapolated(asked, winched()[0], name, 2e-2)
+            found = getattr(known.sensitivity(name), quantity)(point)
+            assert np.max(np.abs(found - wanted)) < 1e-6 * np.max(np.abs(wanted)), name
+    if quantity not in QUANTITIES:  # slopes are not asked by formulas
+        return
+    text = f"integral({quantity}({point})[0]**2)" if values.ndim > 1 else f"integral({quantity}({point})**2)"
+    square = (values[:, 0] if values.ndim > 1 else values) ** 2
+    value, _ = ancf.gradient(model, text, [], **GIVEN)
+    assert value == pytest.approx(np.trapezoid(square, result.t), rel=1e-12)
+    agree(winched, text, names)
 
 
 @pytest.mark.parametrize("joint", JOINTS)

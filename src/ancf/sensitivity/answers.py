@@ -28,7 +28,7 @@ from .family import Family
 
 #: Change of a state, in sizes of the model, of the differences of an answer, and of velocities per second.
 MOVED = 1e-4
-#: Questions that are linear in the state.
+#: Questions that are linear in the state; slopes on a cable whose length a winch changes are not.
 LINEAR = ("position", "velocity", "slope", "multiplier", "arc_rate")
 #: Where points are, by system and by name.
 _PROBES: WeakKeyDictionary[System, dict[str, Probe]] = WeakKeyDictionary()
@@ -46,7 +46,7 @@ class Face(SpringFields, ContactFields, Momenta):
         self.system, self.model, self.t = system, system.model, t
         self._q, self._v = q, v
         self._bodies, self._slots = self.model.bodies, system.slots
-        self._joints, self._arcs = system.joints, system.numbering.arcs
+        self._joints, self._arcs, self._lengths = system.joints, system.numbering.arcs, system.lengths
         self._springs = springs_of(self.model.connections)
         self._found = _PROBES.setdefault(system, {})
 
@@ -145,7 +145,8 @@ class Sensitivity:
             raise AttributeError(f"a sensitivity has no {name!r}", name=name, obj=self)
 
         def answer(*items: Any) -> FloatArray:
-            return self.answer(lambda face: getattr(face, name)(*map(text_of, items)), name in LINEAR)
+            linear = is_linear(name, self._family.base)
+            return self.answer(lambda face: getattr(face, name)(*map(text_of, items)), linear)
 
         return answer
 
@@ -253,6 +254,11 @@ class Sensitivity:
             if most > LEAST:
                 found.append((MOVED / most, dq, dv))
         return found
+
+
+def is_linear(question: str, system: System) -> bool:
+    """Whether a question is linear in the state."""
+    return question in LINEAR and not (question == "slope" and system.lengths)
 
 
 def in_motion(question: str) -> ModelError:

@@ -13,7 +13,7 @@ from ..solvers.sampling import sample_rows, sample_slopes, sampling_of
 from ..solvers.sensitivity import LEAST
 from ..system.sensors import Listing
 from ..system.system import System
-from .answers import LINEAR, MOVED, PLACES, Face, in_motion, text_of
+from .answers import MOVED, PLACES, Face, in_motion, is_linear, text_of
 from .family import Family
 
 #: Change of the state of the differences of contact forces, m, and of velocities, m/s.
@@ -123,7 +123,8 @@ class SensorSensitivity:
             raise AttributeError(f"a sensitivity has no {name!r}", name=name, obj=self)
 
         def answer(*items: Any) -> FloatArray:
-            return self.of(lambda one: getattr(one, name)(*map(text_of, items)), name in LINEAR, name)
+            linear = is_linear(name, self._family.base)
+            return self.of(lambda one: getattr(one, name)(*map(text_of, items)), linear, name)
 
         return answer
 
