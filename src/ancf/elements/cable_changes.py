@@ -40,7 +40,7 @@ from .cable_columns import (
 )
 from .cable_damping import axial_damping, bending_damping, slope_damping
 from .cable_nodes import add_to_nodes, nodes
-from .cable_numbers import CHANGE, CHANGES, ROWS, apart, by_length, in_elements, rates_by_length, row
+from .cable_numbers import CHANGE, CHANGES, ROWS, along_length, apart, by_length, in_elements, row
 from .cable_strain import (
     WEIGHT,
     a_of,
@@ -151,8 +151,8 @@ def damped_in_bending(batch, group, q, v, inv_l):
 @inline_kernel
 def stretched_longer(batch, group, chunk, u, rates, ea, da):
     """R of the axial strain and its damping, and its derivative along l."""
-    gp, paper, G, lG = batch.gp, group[PAPER] != 0, products(u), product_rates(u, by_length(u))
-    dG, ldG, R, along = product_rates(u, rates), rates_by_length(u, rates), no_sums(), no_sums()
+    gp, paper, G, dG = batch.gp, group[PAPER] != 0, products(u), product_rates(u, rates)
+    lG, ldG, R, along = along_length(G), along_length(dG), no_sums(), no_sums()
     damped = group[DAMPED] & AXIALLY != 0
     for k in range(group[AXIAL]):
         at, eps0 = gp[group[FIRST] + k], row(batch, chunk, k, group[CURVED] != 0)
@@ -172,7 +172,8 @@ def stretched_longer(batch, group, chunk, u, rates, ea, da):
 def bent_longer(batch, group, chunk, u, inv_l, ei):
     """R of the curvature and its derivative along l."""
     gp, paper, curved, inv_l2 = batch.gp, group[PAPER] != 0, group[CURVED] != 0, inv_l * inv_l
-    G, lG, R, along = products(u), product_rates(u, by_length(u)), no_sums(), no_sums()
+    G, R, along = products(u), no_sums(), no_sums()
+    lG = along_length(G)
     for k in range(group[BENDING]):
         at, kappa0 = gp[group[FIRST] + group[AXIAL] + k], row(batch, chunk, CURVATURE + k, curved)
         a, b, c = a_of(at, G), inv_l * b_of(at, G), inv_l2 * c_of(at, G)

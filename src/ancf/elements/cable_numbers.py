@@ -6,7 +6,8 @@ With the shape and its products G as in :mod:`ancf.elements.cable_strain`, x mov
 
 a sum over the Gauss points of numbers: a, b, c and what x does to them.  Stiffnesses, dampings and masses are
 factors of that.  The length acts through d = (r_2 - r_1)/L and 1/L in b and c; its derivatives are those
-along a direction l, times 1/L: of d along d itself, of u1 = t1 - d and u2 = t2 - d against it.
+along a direction l, times 1/L: of d along d itself, of u1 = t1 - d and u2 = t2 - d against it.  It changes
+the products, and what x does to them, by sums of these themselves.
 """
 
 from __future__ import annotations
@@ -97,15 +98,9 @@ def by_length(x):
 
 
 @formula
-def plus(x, y):
-    """Sum of six and six numbers."""
-    return x[0] + y[0], x[1] + y[1], x[2] + y[2], x[3] + y[3], x[4] + y[4], x[5] + y[5]
-
-
-@formula
-def rates_by_length(x, y):
-    """Derivative along l of what y does to the products of x."""
-    return plus(product_rates(by_length(x), y), product_rates(x, by_length(y)))
+def along_length(G):
+    """Derivative along l of products of d, u1 and u2, or of what something does to them."""
+    return 2.0 * G[0], G[1] - G[0], G[2] - G[0], -2.0 * G[1], -1.0 * (G[1] + G[2]), -2.0 * G[2]
 
 
 @formula
@@ -151,21 +146,29 @@ def bending_work(batch, group, chunk, moved, inv_l, ei):
 
 
 @formula
-def axial_loss(batch, group, u, rates, x, da_l):
-    """The same of the axial damping; u, its rates and x as d, u1 and u2."""
-    gp, paper = batch.gp, group[PAPER] != 0
-    G, dG, vG = products(u), product_rates(u, x), product_rates(u, rates)
-    lG, ldG, lvG = product_rates(u, by_length(u)), rates_by_length(u, x), rates_by_length(u, rates)
-    work, along = every(0.0), every(0.0)
+def axial_loss(batch, group, G, dG, vG):
+    """Of the axial damping per D_a L; vG are the rates of G."""
+    gp, work = batch.gp, every(0.0)
     for k in range(group[AXIAL]):
         at = gp[group[FIRST] + k]
-        a, da, va, w = a_of(at, G), a_of(at, dG), a_of(at, vG), 0.5 * at[WEIGHT]
-        f, lf = axial_damping(a, va, paper), axial_damping(a, a_of(at, lvG), paper)
+        f = axial_damping(a_of(at, G), a_of(at, vG), group[PAPER] != 0)
+        work = work + 0.5 * at[WEIGHT] * f * a_of(at, dG)
+    return work
+
+
+@inline_kernel
+def axial_loss_along(batch, group, moved, vG, da_l):
+    """Derivative of that along l, times D_a L."""
+    gp, paper, along = batch.gp, group[PAPER] != 0, every(0.0)
+    (G, dG, lG, ldG), lvG = moved, along_length(vG)
+    for k in range(group[AXIAL]):
+        at = gp[group[FIRST] + k]
+        a = a_of(at, G)
+        f, lf = axial_damping(a, a_of(at, vG), paper), axial_damping(a, a_of(at, lvG), paper)
         if not paper:
             lf = lf - f * a_of(at, lG) / a
-        work = work + w * f * da
-        along = along + w * (f * a_of(at, ldG) + lf * da)
-    return work, da_l * along
+        along = along + 0.5 * at[WEIGHT] * (f * a_of(at, ldG) + lf * a_of(at, dG))
+    return da_l * along
 
 
 @inline_kernel
@@ -218,17 +221,18 @@ def elements_work(batch, group, chunk, states, x, out):
     (q, v, a), data, damped = states, batch.lane_data, group[DAMPED]
     h, inv_l, mass = load(data, chunk, LENGTH), load(data, chunk, INV_L), load(data, chunk, MASS)
     u, y = apart(in_elements(q, inv_l)), apart(in_elements(x, inv_l))
-    moved = products(u), product_rates(u, y), product_rates(u, by_length(u)), rates_by_length(u, y)
+    G, dG = products(u), product_rates(u, y)
+    moved = G, dG, along_length(G), along_length(dG)
     work, along = axial_work(batch, group, chunk, moved, load(data, chunk, EA_L))
     add_row(out, chunk, EA_L, work)
     work, more = bending_work(batch, group, chunk, moved, inv_l, load(data, chunk, EI_L))
     add_row(out, chunk, EI_L, work)
     along = along + more
     if damped & AXIALLY:
-        rates = apart(in_elements(v, inv_l))
-        work, more = axial_loss(batch, group, u, rates, y, load(data, chunk, DA_L))
-        add_row(out, chunk, DA_L, work)
-        along = along + more
+        vG, da = product_rates(u, apart(in_elements(v, inv_l))), load(data, chunk, DA_L)
+        add_row(out, chunk, DA_L, axial_loss(batch, group, G, dG, vG))
+        if total(absolute(da)) > 0.0:
+            along = along + axial_loss_along(batch, group, moved, vG, da)
     if damped & IN_BENDING:
         add_row(out, chunk, DB_L, bending_loss(batch, group, q, v, x, inv_l))
         db = load(data, chunk, DB_L)

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..compiled import formula, inline_kernel, kernel
+from ..records import recorded
 from ..simd import LANES, absolute, every, gather_lanes, load, put_lanes, store, total
 from .block import SINGULAR
 from .block_ldl import Factor, factorise
@@ -22,6 +23,7 @@ LIKE = 1e-2
 TURNED = np.arange(36).reshape(6, 6).T.ravel()
 
 
+@recorded
 class Eight(NamedTuple):
     """Values and factors of eight matrices, of each by itself and lane by lane; sizes as in ``Factor``."""
 

@@ -21,7 +21,7 @@ from ..solvers.adjoint import back_start, back_steps
 from ..solvers.ahead import ahead_of
 from ..solvers.checkpoint import Snapshot
 from ..solvers.record import Stats
-from ..solvers.sensitivity import Way
+from ..solvers.sensitivity import Way, accelerations
 from ..solvers.status import OK
 from ..system.core import follow_supports
 from ..system.system import System
@@ -93,13 +93,16 @@ class Collector:
 
 @dataclass
 class Block:
-    """Steps ``done + 1`` to ``done + count`` of one length h, and where they begin."""
+    """Steps ``done + 1`` to ``done + count`` of one length h, and where they begin.
+
+    Of what is kept of them accelerations follow from velocities when they are asked for.
+    """
 
     done: int
     count: int
     h: float
     snapshot: Snapshot | None
-    way: Way | None
+    kept: tuple[FloatArray, FloatArray, Trail, FloatArray] | None = None  # q, v, and a at the end
 
 
 class Adjoint:
@@ -167,25 +170,31 @@ class Adjoint:
             most = min(most, max(16, int(np.sqrt(run.steps))))
         while run.done < run.steps:
             h = run.h if run.done < run.full else run.rest
-            count = min(most, (run.full if run.done < run.full else run.steps) - run.done)
-            block = Block(run.done, count, h, None if keep else run.snapshot(), None)
+            block = Block(run.done, self._count(most), h, None if keep else run.snapshot())
             trail = Trail(run)
-            self._take(count, store)
+            self._take(block.count, store)
             t, q, v = store.taken()
             if keep:
-                block.way = Way(q, v, trail.accelerations(v, h, last=True))
+                block.kept = q, v, trail, run.memory.a.copy()
             times.append(t)
             found.append(self._asked(q, v))
             self.blocks.append(block)
         self.t = np.concatenate(times)
         return self.t, {key: np.concatenate([one[key] for one in found]) for key in found[0]}
 
+    def _count(self, most: int) -> int:
+        """Steps of the next block: so many that what the run hands over at once need not be put together."""
+        run = self.run
+        left: int = (run.full if run.done < run.full else run.steps) - run.done
+        at_once: int = min(run.look - run.done, run.span.room(run.done))
+        return min(most, left) if at_once < most // 4 else -(-at_once // -(-at_once // most))
+
     def backwards(self, slopes: dict[Any, FloatArray]) -> FloatArray:
         """Derivatives of the number by the parameters, (p,), from those by the histories."""
         run, system = self.run, self.system
         total, mu = np.zeros(len(self.families)), np.zeros((4, system.size))
         still = np.zeros(system.size)  # by derivatives of q that are the same at all times
-        room = np.zeros((max(block.count for block in self.blocks), system.size))
+        room, self._room_a = np.zeros((2, max(block.count for block in self.blocks), system.size))
         for block in reversed(self.blocks):
             rows = slice(block.done + 1, block.done + block.count + 1)
             own = {key: slope[rows] for key, slope in slopes.items()}
@@ -202,7 +211,7 @@ class Adjoint:
             self._add_axes(way, wanted, turned)
             total += self._pushed(way, when, tables, wanted, lam, turned)
             total += self._explicit(way.q, way.v, own)
-            block.way = None
+            block.kept = None
         total += self._of_start({key: slope[:1] for key, slope in slopes.items()}, mu, still)
         for k, shift in self.nearby.shifts.items():
             total[k] += still @ self._followed(shift)
@@ -285,15 +294,20 @@ class Adjoint:
 
     def _way(self, block: Block) -> Way:
         """The states of a block, taken again if they were not kept."""
-        if block.way is not None:
-            return block.way
-        assert block.snapshot is not None
-        run, store = self.run, Collector()
-        run.put_back(block.snapshot)
-        trail = Trail(run)
-        self._take(block.count, store)
-        _, q, v = store.taken()
-        return Way(q, v, trail.accelerations(v, block.h, last=True))
+        a = self._room_a[: block.count]
+        if block.kept is None:
+            assert block.snapshot is not None
+            run, store = self.run, Collector()
+            run.put_back(block.snapshot)
+            trail = Trail(run)
+            self._take(block.count, store)
+            _, q, v = store.taken()
+            end = run.memory.a
+        else:
+            q, v, trail, end = block.kept
+        accelerations(v, block.h, self.run.scheme, trail.before, a)
+        a[-1] = end
+        return Way(q, v, a)
 
     def _asked(self, q: FloatArray, v: FloatArray) -> dict[Any, FloatArray]:
         return self.asked(Face(self.system, q, v, 0.0), self.keys)
@@ -349,7 +363,7 @@ class Adjoint:
         made = np.zeros((len(q), 2, len(self.unknowns)))
         for key, units in self._linear.items():
             slope = slopes[key].reshape(len(q), -1)
-            made += np.einsum("nc,kic->nki", slope, units)
+            made += (slope @ units.reshape(-1, slope.shape[1]).T).reshape(made.shape)
         others = [key for key in slopes if key not in self._linear]
         if not others:
             return made

@@ -12,10 +12,12 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..compiled import formula, inline_kernel
 from ..linalg.eight import lane_rows
+from ..records import recorded
 from ..simd import LANES, absolute, every, gather_lanes, load, put_lanes, store
 from .sensitivity import ABAR, A, Q, V
 
 
+@recorded
 class Abreast(NamedTuple):
     """Room for eight sensitivities."""
 

@@ -29,7 +29,7 @@ from .status import OK, SINGULAR, SLOW
 SURE = 1e-15
 
 
-@inline_kernel
+@formula
 def folded(supports, x, moved):
     """Derivatives x by q, v and a at the shadows as those by their unknowns, R^T x; what turns counts too."""
     for k in range(supports.rot_slot.shape[0]):
@@ -45,7 +45,7 @@ def folded(supports, x, moved):
         moved[0][supports.held[k]], moved[1][supports.held[k]] = 0.0, 0.0
 
 
-@inline_kernel
+@formula
 def take_wanted(supports, wanted, unknowns, mu, x, moved):
     """Add the derivatives of the number by entries of the state at the end of a step, (2, k), to mu."""
     for k in range(supports.rot_slot.shape[0]):
@@ -69,7 +69,7 @@ def take_wanted(supports, wanted, unknowns, mu, x, moved):
         mu[0, supports.held[k]] = mu[1, supports.held[k]] = 0.0
 
 
-@inline_kernel
+@formula
 def hold(supports, x):
     """Set x to zero where it is held."""
     for k in range(supports.held.shape[0]):
@@ -136,7 +136,7 @@ def solve_stirred(core, m, ahead, factor, y, lam, known):
     return SLOW
 
 
-@inline_kernel
+@formula
 def factors(core, m, ahead, factor, y, mu, c1, B, G, lam, known):
     """Fill lambda at the unknowns and, as forces of the residual, at the shadows; a status."""
     supports, n = core.supports, core.weight.shape[0]
@@ -150,7 +150,7 @@ def factors(core, m, ahead, factor, y, mu, c1, B, G, lam, known):
     return status
 
 
-@inline_kernel
+@formula
 def add_turns(supports, x, y, turned):
     """Add derivatives x by q, v and a at the shadows times the state y there: those by the local axes."""
     for k in range(turned.shape[0]):
@@ -161,7 +161,7 @@ def add_turns(supports, x, y, turned):
                     turned[k, m, c] += x[n, j + m] * y[n][i + c]
 
 
-@inline_kernel
+@formula
 def taken_back(core, m, matrices, y, lam, still, turned):
     """Fill ``m.work[1:3]`` with what lambda takes from mu_q and mu_v: K^T lambda and C^T lambda.
 

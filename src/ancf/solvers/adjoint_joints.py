@@ -21,7 +21,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..batches import add_tangents
-from ..compiled import inline_kernel, kernel
+from ..compiled import formula, inline_kernel, kernel
 from ..linalg.block import times
 from ..linalg.eight import factor_of
 from ..simd import LANES, load_six, store_six, total
@@ -46,14 +46,14 @@ NOTHING = 1e-13
 PAST = 5
 
 
-@inline_kernel
+@formula
 def at_level(core, w0, w1, w2):
     """Let these be the weights of the rows."""
     level = core.joints.level
     level[0], level[1], level[2] = w0, w1, w2
 
 
-@inline_kernel
+@formula
 def clear(x):
     """Set vectors to zero."""
     for k in range(x.shape[0]):
@@ -91,7 +91,7 @@ def add_products(core, m, matrices, y, d, sums, w):
     add_all_slopes(m.joined, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
 
 
-@inline_kernel
+@formula
 def change_of(joints, d, x, multipliers):
     """Size of the change d in x, relative: of its multipliers, or of all others."""
     change, size = 0.0, 0.0
@@ -101,7 +101,7 @@ def change_of(joints, d, x, multipliers):
     return change / size if size > LEAST else 0.0
 
 
-@inline_kernel
+@formula
 def corrected(core, factor, goal, d, x):
     """Replace d, what of the goal is left, by the correction, and add it to x.
 
@@ -123,7 +123,7 @@ def corrected(core, factor, goal, d, x):
     return change, left / whole if whole > LEAST else 0.0
 
 
-@inline_kernel
+@formula
 def lifted(core, factor, goal, taken, rho, d):
     """d = the multipliers of A^-1 (goal - taken) without its rows, and add them to rho; their size, relative.
 
@@ -143,7 +143,7 @@ def lifted(core, factor, goal, taken, rho, d):
     return change_of(joints, d, rho, True)
 
 
-@inline_kernel
+@formula
 def shifted_back(core, m, factor, y, goal, joined, lam, rho, room):
     """Correct rho, and lambda with it, for the shift of the positions; the size of the change, relative."""
     sums, z, d, r, none = room[0:3], room[3], room[5], room[6], room[9:11]
@@ -160,7 +160,7 @@ def shifted_back(core, m, factor, y, goal, joined, lam, rho, room):
     return change
 
 
-@inline_kernel
+@formula
 def may_end(change, before, rate, enough, left):
     """Whether corrections may end with one of this size, relative, that are thought to shrink by a rate.
 
@@ -173,7 +173,7 @@ def may_end(change, before, rate, enough, left):
     return change <= ROUGH and change >= 0.9 * before
 
 
-@inline_kernel
+@formula
 def led_to(later, order, i):
     """Where entry i of so many later steps leads by a polynomial."""
     value, weight = 0.0, 1.0 * order
@@ -183,7 +183,7 @@ def led_to(later, order, i):
     return value
 
 
-@inline_kernel
+@formula
 def begun(core, m, y, joined, known, later, rho_later, lam, rho, room):
     """Begin with the multipliers that those of ``known`` later steps lead to, and what they take."""
     sums, z, d, none, joints = room[0:3], room[3], room[5], room[9:11], core.joints
@@ -203,7 +203,7 @@ def begun(core, m, y, joined, known, later, rho_later, lam, rho, room):
         at_level(core, joined.w0, joined.w1, joined.w2)
 
 
-@inline_kernel
+@formula
 def factors(core, m, factor, matrices, y, mu, c1, B, G, joined, known, lam, rho, rate, room):
     """Correct lambda and rho, and the sums in ``room`` of what they take; a status.
 
@@ -233,7 +233,7 @@ def factors(core, m, factor, matrices, y, mu, c1, B, G, joined, known, lam, rho,
     return SLOW
 
 
-@inline_kernel
+@formula
 def take(core, sums, mu, back, still):
     """Take the sums, derivatives by q, v and a in physical components, from mu; add to ``still``."""
     joints = core.joints

@@ -10,11 +10,13 @@ from ..arrays import FloatArray
 from ..batches import add_tangents
 from ..compiled import inline_kernel
 from ..linalg.eight import Eight, allocate_eight, factorise_eight
+from ..records import recorded
 from ..simd import LANES
 from ..system.core import Core, drive, restrict
 from .sensitivity import Matrices, stiffnesses
 
 
+@recorded
 class Ahead(NamedTuple):
     """Matrices and factors of eight steps."""
 

@@ -23,11 +23,13 @@ from ..arrays import FloatArray
 from ..compiled import formula, inline_kernel
 from ..linalg.eight import lane_rows
 from ..linalg.lanes import multiply_abreast, multiply_twisted_abreast, solve_abreast
+from ..records import recorded
 from ..simd import LANES, every, load, store
 from .abreast_room import follow_abreast
 from .rare import add_slopes_along, add_slopes_beside_all
 
 
+@recorded
 class Edge(NamedTuple):
     """What the few rows of a step do."""
 

@@ -25,6 +25,7 @@ from ..arrays import FloatArray, IntArray
 from ..batches import Batches, add_forces, add_tangents
 from ..compiled import formula, inline_kernel, kernel
 from ..linalg.block import times
+from ..records import recorded
 from ..simd import load_six, store_six, total
 from ..system.core import follow, to_local
 from .rare import add_rate_stiffnesses, add_slopes_along
@@ -44,6 +45,7 @@ LEAST = 1e-200
 Q, V, A, ABAR = range(4)
 
 
+@recorded
 class Matrices(NamedTuple):
     """What sensitivities have of the matrix."""
 
@@ -70,6 +72,7 @@ class Matrices(NamedTuple):
     edge: IntArray  # all multipliers, then places of sliding joints, (k,): rows of joints
 
 
+@recorded
 class Way(NamedTuple):
     """The states at the ends of the steps of a block."""
 
