@@ -205,3 +205,83 @@ def test_column_flutters():
     damped = ancf.Section(EA=1e6, EI=1.0, rhoA=1.0, bending_damping=1e-3)
     assert pressed(10.0, 10, damped).real.max() < 0.0
     assert pressed(12.0, 10, damped).real.max() > 0.0
+
+
+def in_bearings(rate, hold, mass=5.0, polar=0.05, across=0.03):
+    """Lowest four modes of a rigid rotor about x whose bearings, at x = 0.2 and -0.2 m, ``hold`` makes."""
+    model = ancf.Model()
+    rotor = model.add_rigid_body("rotor", at=(0, 0, 0), mass=mass, inertia=(polar, across, across))
+    rotor.set_motion(angular_velocity=(rate, 0, 0))
+    for x in (-0.2, 0.2):
+        hold(model, rotor, x)
+    return ancf.damped_modes(model, count=4)
+
+
+def between_springs(model, rotor, x, stiffness=(1e4, 1e4), damping=10.0):
+    """Two springs along y and two along z: twice stiffness and damping across the axis."""
+    for (y, z), k in zip(((1, 0), (0, 1)), stiffness, strict=True):
+        for side in (-1, 1):
+            place = (x, side * y, side * z)
+            model.add_spring(rotor.at(x, 0, 0), place, stiffness=k, damping=damping)
+
+
+def in_a_law(model, rotor, x):
+    model.add_force(rotor.at(x, 0, 0), ["0", "-2e4*y - 20*vy", "-2e4*z - 20*vz"])
+
+
+@pytest.mark.parametrize("hold", [between_springs, in_a_law])
+@pytest.mark.parametrize("rate", [10.0, 200.0])
+def test_dampers_of_bearings_stand_still(hold, rate):
+    """For an observer at rest translations do not know of the rotation, and decay: m w'' + c w' + k w = 0.
+
+    The tilts have the gyroscopic moment alone, J w'' + (c - i W J_p) w' + k w = 0 (Genta 2005, 3.4).
+    """
+    modes = in_bearings(rate, hold)
+    k, c, arm = 4e4, 40.0, 0.04
+    at_rest = np.concatenate([np.roots([5.0, c, k]), np.roots([0.03, c * arm - 1j * rate * 0.05, k * arm])])
+    found = modes.eigenvalues
+    for value in at_rest - 1j * rate:  # in axes that turn; of a pair that above the axis
+        wanted = value if value.imag >= 0 else value.conjugate()
+        near = found[np.argmin(np.abs(found - wanted))]
+        assert near.real == pytest.approx(wanted.real, rel=2e-3)
+        assert near.imag == pytest.approx(wanted.imag, rel=2e-2)  # the pull of the springs beside the axis
+
+
+def test_bearings_that_are_not_alike_from_all_sides_are_refused():
+    def softer_upwards(model, rotor, x):
+        between_springs(model, rotor, x, stiffness=(1e4, 2e4))
+
+    with pytest.raises(SolveError, match="from all sides of the axis"):
+        in_bearings(100.0, softer_upwards)
+
+
+def test_a_brake_needs_a_moment():
+    def braked(model, rotor, x):
+        between_springs(model, rotor, x)
+        model.add_torsion_spring(
+            rotor, (0, 0, 0), axis=(1, 0, 0), stiffness=0.0, damping=1.0, name=f"brake {x}"
+        )
+
+    with pytest.raises(SolveError, match="does not turn steadily"):
+        in_bearings(100.0, braked)
+
+
+@pytest.mark.parametrize("size", [1e-4, 1.0, 1e4])
+@pytest.mark.parametrize("rate", [30.0, 100.0])
+def test_stiff_shafts_of_any_size_turn_slowly(size, rate):
+    """Round-off of a shaft that is stiff beside its centrifugal forces is no force."""
+    model = ancf.Model()
+    section = ancf.Section.circle(diameter=0.02 * size, E=2.1e11, rho=7850.0, nu=0.3)
+    shaft = model.add_beam(
+        "s", start=(0, 0, 0), end=(size, 0, 0), elements=6, section=section, element="nonlocking"
+    )
+    model.pin(shaft.start)
+    model.hold(shaft.end, position="yz")
+    shaft.set_motion(angular_velocity=(rate / size, 0, 0))
+    modes = ancf.damped_modes(model, count=4)
+    critical = (
+        np.pi**2 * np.sqrt(2.1e11 * section.I_y / (7850.0 * section.A)) / size
+    )  # of Euler and Bernoulli
+    swing = np.abs(modes.whirl) > 0.9
+    found = np.sort(modes.eigenvalues.imag[swing][:2] * size)
+    assert found == pytest.approx([critical - rate, critical + rate], rel=1e-3)

@@ -5,34 +5,32 @@ matrix of the rate on each of them,
 
     M x'' + (D + 2 M W) x' + (K + M W W) x = 0,    C x = 0,
 
-because the mass matrix is the same in all axes and the elements' forces turn with the body.  The steady
-rotation itself, q with M W W q + internal forces + C^T lambda = 0, is found by Newton's method from the given
-state.
+because the mass matrix is the same in all axes and the elements' forces turn with the body.  What stands
+still acts on the velocities that there are, see :mod:`ancf.solvers.standing`.  The steady rotation itself, q
+with M W W q + forces + C^T lambda = 0, is found by Newton's method from the given state.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Any
-
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..compiled import traits
 from ..errors import SolveError
 from ..later import coo_array, csc_array, eig, null_space
 from ..linalg.sparse import to_sparse
 from ..system.core import apply_load, assemble, follow_supports, residual
 from ..system.system import System
+from .standing import Standing, vectors_and_arms
 
 MANY = 1500  # unknowns, as all of it is dense
 STEADY = 0.05  # velocities that are no rotation, of the largest
 SYMMETRIC = 1e-6  # forces that change when the model is turned, of the largest
 BALANCED = 1e-7  # forces that are left, of the largest
+ALIKE = 1e-4  # derivatives of forces that change when the model is turned, of the largest
+ROUNDED = 32.0 * np.finfo(float).eps  # of stiffness times place: what round-off leaves of elastic forces
 ROUNDS = 30  # of Newton's method
 SHIFT = 1e-6  # of a mean frequency: about what eigenvalues are found
 NEUTRAL = 1e-3  # of the shift: what is zero
-DIFFERENCE, ROUND_OFF = 1e-6, 1e-8  # of positions in sizes of the model; of stiffnesses, what is none
 TURN = 0.3  # rad, by which a model is turned to see whether it turns freely
 
 ComplexArray = np.ndarray
@@ -54,7 +52,8 @@ class Damped:
         system.place(time, self.q, self.v, self.a)
         self.spin, self.centre = rotation_of(system, q, v)
         self.axes = _axes(system)
-        self.W = _turning(system, self.spin)
+        self.W = _on_vectors(system, _skew(self.spin))
+        self.standing = Standing(system, self.spin, self.centre)
         system.level[:] = 1.0, 0.0, 0.0
         self.M = self._whole(1.0, 0.0, 0.0)
         if np.any(self.spin):
@@ -80,31 +79,40 @@ class Damped:
     def matrices(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Mass, damping with the gyroscopic part, stiffness with the centrifugal one, constraints."""
         f = self.free
-        K = self._whole(0.0, 0.0, 1.0) + circulatory(self.system, self.q)
+        stiffness, damping = self.standing.beyond(self.q)
+        K = self._whole(0.0, 0.0, 1.0) + csc_array(stiffness)
+        resisting = self._whole(0.0, 1.0, 0.0) + csc_array(damping)
         M = self._part(self.M, f, f)
-        D = self._part(csc_array(self._whole(0.0, 1.0, 0.0) + 2.0 * (self.M @ self.W)), f, f)
+        D = self._part(csc_array(resisting + 2.0 * (self.M @ self.W)), f, f)
         turned = self._part(csc_array(K + self.M @ self.W @ self.W), f, f)
         return M, D, turned, self._part(K, self.lam, f)
 
-    def _forces(self) -> tuple[FloatArray, float]:
-        """What the steady rotation leaves in the free unknowns and constraints, and the largest force."""
+    def _forces(self) -> tuple[FloatArray, float, FloatArray]:
+        """What the rotation leaves in the free unknowns and constraints, the largest force, round-off."""
         system = self.system
         arm = _physical(system, self.q)
         for slots in system.numbering.slots.values():
             for c in range(3):
                 arm[np.unique(slots[:, 0]) + c] -= self.centre[c]
         inertia = self.M @ (self.W @ (self.W @ arm))
-        r = self.axes.T @ (_physical(system, self._residual(self.q)) + inertia)
+        r = self.axes.T @ (self._residual(self.q) + inertia)
+        rounded = abs(self.axes.T) @ self._rounded()
         both = np.concatenate([self.free, self.lam])
-        return r[both], float(np.max(np.abs(inertia), initial=0.0))
+        return r[both], float(np.max(np.abs(inertia), initial=0.0)), rounded[both]
+
+    def _rounded(self) -> FloatArray:
+        """Round-off of elastic forces, (n,): of sums of stiffness times place that cancel, the largest."""
+        sums = abs(self._whole(0.0, 0.0, 1.0)) @ np.abs(_physical(self.system, self.q))
+        weight = np.where(self.system.core.weight > 0.0, self.system.core.weight, 1.0)
+        found: FloatArray = ROUNDED * weight * np.max(sums / weight)
+        return found
 
     def _residual(self, q: FloatArray) -> FloatArray:
-        """Internal forces and constraints less loads."""
+        """Forces and constraints less loads as the model turns, in global components, (n,)."""
         core, f, r = self.system.core, np.zeros(self.system.size), np.zeros(self.system.size)
         apply_load(core.loads, core.loads.value, f)
-        still = np.zeros_like(f)  # in axes that turn along nothing moves
-        residual(core.batches, core.ws, q, still, still.copy(), f, r)
-        return r
+        residual(core.batches, core.ws, q, self.standing.velocity(q), np.zeros_like(q), f, r)
+        return _physical(self.system, r)
 
     def _check_surroundings(self) -> None:
         """Nothing that stands still brakes what turns."""
@@ -120,29 +128,41 @@ class Damped:
         from scipy.spatial.transform import Rotation  # few runs turn: see ancf.later
 
         R = Rotation.from_rotvec(TURN * self.spin / np.linalg.norm(self.spin)).as_matrix()
-        turned, places = self.q.copy(), _vectors(self.system.slots)
-        first = np.concatenate([slots[:, 0] for slots in self.system.slots.values()])
-        centre = np.where(np.isin(places[:, :1], first), self.centre, 0.0)
-        turned[places] = centre + (self.q[places] - centre) @ R.T
+        turned = self.q.copy()
+        places, arms = vectors_and_arms(self.system, self.q, self.centre)
+        turned[places] += arms @ R.T - arms
+        T = _on_vectors(self.system, R, 1.0)
         before, after = self._residual(self.q), self._residual(turned)
-        expected = before.copy()
-        expected[places] = before[places] @ R.T
-        off = float(np.max(np.abs(after - expected)))
         arm = self.M @ (self.W @ (self.W @ _physical(self.system, self.q)))
         largest = max(float(np.max(np.abs(x))) for x in (after, before, arm))
-        if off > SYMMETRIC * largest:
+        off = np.abs(after - T @ before) > SYMMETRIC * largest + 2.0 * self._rounded()
+        if np.any(off) or not self._softens_alike(turned, T):
             what = "forces or joints that stand still do not act alike from all sides of the axis of rotation"
             raise SolveError(
-                "damped_modes", what, "loads and gravity along the axis, joints that turn about it"
+                "damped_modes",
+                what,
+                "loads and gravity along the axis, joints that turn about it, bearings alike across it",
             )
 
+    def _softens_alike(self, turned: FloatArray, T: csc_array) -> bool:
+        """Whether derivatives of what may stand still, of bearings say, turn with the model."""
+        standing = self.standing
+        pairs = zip(*(standing.derivatives(q, standing.velocity) for q in (self.q, turned)), strict=True)
+        return all(
+            np.max(np.abs(after - T @ before @ T.T), initial=0.0)
+            <= ALIKE * np.max(np.abs(before), initial=0.0)
+            for before, after in pairs
+        )
+
     def _settle(self) -> None:
-        """Newton's method for the state that turns steadily."""
-        f, lam = self.free, self.lam
+        """Newton's method for the state that turns steadily, as far as round-off lets it."""
+        f, lam, before = self.free, self.lam, np.inf
         for _ in range(ROUNDS):
-            left, largest = self._forces()
-            if np.max(np.abs(left)) <= BALANCED * largest:
+            left, largest, rounded = self._forces()
+            size = float(np.max(np.abs(left)))
+            if size <= BALANCED * largest or (size > 0.5 * before and np.all(np.abs(left) <= rounded)):
                 return
+            before = size
             _, _, K, C = self.matrices()
             scale = np.ones(len(left))
             scale[len(f) :] = np.max(np.abs(K))  # rows of joints as large as stiffnesses
@@ -150,42 +170,9 @@ class Damped:
             step = scale * np.linalg.lstsq(both, -scale * left, rcond=1e-13)[0]
             self.q[np.concatenate([f, lam])] += step
             follow_supports(self.system.core.supports, self.q, self.v, self.a)
-        what = f"{np.max(np.abs(left)):.3g} are left of {largest:.3g} N: the state does not turn steadily"
-        raise SolveError("damped_modes", what, "let loads and supports turn with it, or leave them out")
-
-
-def circulatory(system: System, q: FloatArray) -> csc_array:
-    """The antisymmetric half of the stiffness of loads that follow the motion, (n, n), as differences.
-
-    The matrices of a time step are symmetric and leave it out; a column flutters by it.
-    """
-    core, n = system.core, system.n
-    place, none, f = np.arange(n), np.zeros_like(q), np.zeros_like(q)
-    for c in range(3):
-        place[core.supports.rot_slot + c] = core.supports.rot_shadow + c
-    moved = np.flatnonzero(np.isin(place, _touched(core.external)) & (core.weight > 0.0))
-    if not len(moved):
-        return csc_array((n, n))
-    J = np.zeros((n, n))
-    for i in moved:
-        both = []
-        for h in (DIFFERENCE, -DIFFERENCE):
-            near, r = q.copy(), np.zeros_like(q)
-            near[place[i]] += h / core.weight[i]
-            residual(core.external, core.ws, near, none, none, f, r)
-            both.append(r[place])
-        J[:, i] = (both[0] - both[1]) * core.weight[i] / (2.0 * DIFFERENCE)
-    half = 0.5 * (J - J.T)
-    half[np.abs(half) < ROUND_OFF * np.abs(J).max()] = 0.0
-    return csc_array(half)
-
-
-def _touched(batches: Iterable[Any]) -> IntArray:
-    """Entries of the state vector of all slots of batches."""
-    slots = [np.ravel(getattr(b, name)) for b in batches for name in traits(b).slots]
-    found = np.concatenate([np.zeros(0, dtype=np.int64), *slots])
-    found = np.unique(found[found >= 0])
-    return np.ravel(found[:, None] + np.arange(3))
+        what = f"{size:.3g} are left of {largest:.3g} N: the state does not turn steadily"
+        hint = "let loads, supports and dampers turn with it, or leave them out"
+        raise SolveError("damped_modes", what, hint)
 
 
 def damped_modes_about(
@@ -305,11 +292,13 @@ def _vectors(tables: dict[str, IntArray]) -> IntArray:
     return found
 
 
-def _turning(system: System, spin: FloatArray) -> csc_array:
-    """Skew matrix of a rate for every vector of unknowns, in global components."""
+def _on_vectors(system: System, matrix: FloatArray, elsewhere: float = 0.0) -> csc_array:
+    """A (3, 3) matrix on all vectors of unknowns, in global components, a number on all others, (n, n)."""
     places = _vectors(system.numbering.slots)
-    values = np.tile(_skew(spin).ravel(), len(places))
-    rows, columns = np.repeat(places, 3, axis=1).ravel(), np.tile(places, (1, 3)).ravel()
+    others = np.setdiff1d(np.arange(system.n), places)
+    values = np.concatenate([np.tile(matrix.ravel(), len(places)), np.full(len(others), elsewhere)])
+    rows = np.concatenate([np.repeat(places, 3, axis=1).ravel(), others])
+    columns = np.concatenate([np.tile(places, (1, 3)).ravel(), others])
     return csc_array(coo_array((values, (rows, columns)), shape=(system.n, system.n)))
 
 
