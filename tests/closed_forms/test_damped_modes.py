@@ -285,3 +285,17 @@ def test_stiff_shafts_of_any_size_turn_slowly(size, rate):
     swing = np.abs(modes.whirl) > 0.9
     found = np.sort(modes.eigenvalues.imag[swing][:2] * size)
     assert found == pytest.approx([critical - rate, critical + rate], rel=1e-3)
+
+
+@pytest.mark.parametrize("push", [0.0, 6.0, 60.0])
+def test_a_force_across_the_velocity(push):
+    """m x'' = -k x + b v x e, as of a magnet: circles with sqrt(k/m + (b/2m)^2) less and plus b/2m."""
+    model = ancf.Model()
+    ball = model.add_point_mass("ball", at=(0, 0, 0), mass=2.0)
+    model.hold(ball, position="x")
+    model.add_force(ball, ["0", f"-200*y + {push}*vz", f"-200*z - {push}*vy"])
+    modes = ancf.damped_modes(model, count=2)
+    half = push / 4.0
+    wanted = np.sqrt(100.0 + half**2) + np.array([-half, half])
+    assert modes.eigenvalues.imag == pytest.approx(wanted, rel=1e-9)
+    assert np.abs(modes.eigenvalues.real).max() < 1e-9 * wanted[1]

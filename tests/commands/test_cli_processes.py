@@ -12,6 +12,7 @@ import pytest
 
 import ancf
 from commands import LONG, MODEL, PATIENCE, SIMULATION, Ran, python
+from overhead_lines import TOML
 
 
 def process(folder, *arguments, **environment):
@@ -125,6 +126,32 @@ def test_the_message_about_compiling_comes_once(tmp_path):
     ran = python("\n".join(lines))
     assert ran.code == 0
     assert ran.err == "compiling the numerical core: this happens only once on this machine ...\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "written"),
+    [
+        (("catenary", "form", "line.toml"), {"schedule.csv", "arms.csv"}),
+        (("catenary", "elasticity", "line.toml"), {"elasticity.csv"}),
+        (("run", "model.toml"), {"results.h5", "summary.json"}),
+    ],
+)
+def test_a_reader_that_goes_away_costs_no_files(tmp_path, arguments, written):
+    """As with ``| head -1``: what is printed is lost, what is written is not."""
+    (tmp_path / "line.toml").write_text(TOML, encoding="utf-8")
+    (tmp_path / "model.toml").write_text(MODEL + SIMULATION, encoding="utf-8")
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = subprocess.run(
+        [sys.executable, "-m", "ancf.cli", *arguments, "-o", "out"],
+        cwd=tmp_path,
+        stdout=writing,
+        stderr=subprocess.PIPE,
+        timeout=PATIENCE,
+    )
+    os.close(writing)
+    assert done.returncode == 0, done.stderr
+    assert {file.name for file in (tmp_path / "out").iterdir()} >= written
 
 
 def test_a_terminal_that_knows_no_letters(tmp_path):

@@ -187,6 +187,28 @@ def imported(file, begin=0.0, first=0.5):
     return {name: np.array(x) for name, x in json.loads(done.stdout.splitlines()[-1]).items()}
 
 
+#: One file, extracted and run again after its first folder is gone.
+TWICE = """
+import os, sys
+import fmpy
+for _ in range(2):
+    found = fmpy.simulate_fmu(sys.argv[1], stop_time=0.02, step_size=0.01, output_interval=0.01)
+    print(*found["load.position.z"])
+sys.stdout.flush()
+os._exit(0)
+"""
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_runs_more_than_once_in_a_process(units, version):
+    command = [sys.executable, "-c", TWICE, str(units / f"unit{version}.fmu")]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stderr[-2000:]
+    first, second = done.stdout.splitlines()[-2:]
+    assert first == second
+    assert len(first.split()) == 3
+
+
 def by_the_stepper(folder, first=0.5):
     plain = read_study(folder / "pulled rope.toml").model.to_dict()
     plain["inputs"] = [{"name": "thrust", "value": first}, {"name": "lift", "value": 0.25}]

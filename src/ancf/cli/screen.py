@@ -62,7 +62,8 @@ class Steady:
 
 def console(stderr: bool = False) -> Console:
     """A console for results, or with `stderr` for remarks and errors; colours only in a terminal."""
-    file = cast(TextIO, Steady(sys.stderr)) if stderr and sys.stderr is not None else None
+    stream = sys.stderr if stderr else sys.stdout
+    file = cast(TextIO, Steady(stream)) if stream is not None else None  # a closed pipe stops no work
     options: dict[str, Any] = {"stderr": stderr, "markup": False, "highlight": False, "emoji": False}
     made = PlainConsole(file=file, **options)
     return made if made.is_terminal else PlainConsole(file=file, width=WIDTH_OF_A_FILE, **options)

@@ -36,7 +36,7 @@ from xml.etree.ElementTree import SubElement
 from {library} import {words}
 from {library}.enums import Fmi{n}Status
 
-from ancf.cosimulation.motion import Motion
+from ancf.cosimulation.motion import MODEL, Motion
 from ancf.errors import ModelError, SolveError
 
 
@@ -48,7 +48,10 @@ class {name}(Fmi{n}Slave):
 
     def __init__(self, **given):
         super().__init__(**given)
-        self.motion = motion = Motion(Path(__file__).parent)
+        # of this instance: Python keeps the script of the first one, whose folder may be gone
+        folders = [Path(given.get("resources") or "."), Path(__file__).parent]
+        own = next((folder for folder in folders if (folder / MODEL).is_file()), folders[-1])
+        self.motion = motion = Motion(own)
 {independent}        for name in motion.inputs:
             variable = {number}(
                 name,
