@@ -140,7 +140,13 @@ __all__ = [
 ]
 
 
+#: Packages that pages call by their names, such as ``ancf.catenary.run``.
+_PACKAGES = ("catenary", "design", "model", "viz")
+
+
 def __getattr__(name: str) -> Any:
+    if name in _PACKAGES:
+        return import_module(f".{name}", __name__)
     if name not in _LATER:
         said = f"module 'ancf' has no attribute {name!r}"
         raise AttributeError(said, name=name, obj=sys.modules[__name__])

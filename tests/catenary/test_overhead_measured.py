@@ -20,6 +20,7 @@ from ancf.catenary import (
     pantographs,
     read_measuring_head,
 )
+from ancf.catenary.response_file import read_response
 from ancf.cli.app import app
 
 run_module = importlib.import_module("ancf.catenary.run")
@@ -252,8 +253,31 @@ class TestCommand:
         assert "70 N at standstill, 118.2 N at 250 km/h" in again.output
 
     @pytest.mark.parametrize(
+        ("polar", "head", "scale"),
+        [
+            (False, "frequency [kHz],real [kN/m],imag [kN/m]", (1e-3, 1e-3, 1e-3)),
+            (True, "frequency [Hz],magnitude [N/m],phase [deg]", (1.0, 1.0, 1.0)),
+            (True, "frequency (Hz),magnitude (kN/m),phase (rad)", (1.0, 1e-3, np.pi / 180.0)),
+        ],
+    )
+    def test_units_of_heads(self, tmp_path, polar, head, scale):
+        self.given(tmp_path / "plain.csv", polar)
+        rows = np.loadtxt(tmp_path / "plain.csv", delimiter=",", skiprows=1)
+        np.savetxt(tmp_path / "units.csv", rows * scale, delimiter=",", header=head, comments="", fmt="%.12g")
+        plain, with_units = (read_response(tmp_path / name) for name in ("plain.csv", "units.csv"))
+        for one, other in zip(plain, with_units, strict=True):
+            assert other == pytest.approx(one, rel=1e-9)
+
+    def test_one_row(self, tmp_path):
+        (tmp_path / "r.csv").write_text("frequency,real,imag\n1,2,3\n", encoding="utf-8")
+        done = CliRunner().invoke(app, ["catenary", "identify", str(tmp_path / "r.csv"), "-o", "p.toml"])
+        assert done.exit_code == 2
+        assert "has one frequency" in done.output
+
+    @pytest.mark.parametrize(
         ("old", "new", "said"),
         [
+            ("frequency,real", "frequency [furlong],real", "is 'furlong', known are"),
             ("frequency,", "f,", "column frequency: is missing"),
             ("imag", "im", "column imag: is missing"),
             ("\n0.5,", "\nhalf,", 'row 1, column frequency: is "half", must be a number'),

@@ -11,7 +11,8 @@ import ancf
 from ancf.columns import read_columns, split_unit
 from ancf.model import TimeFunction
 from ancf.model.file import read_study, schema
-from ancf.model.series import UNITS, Series, noises
+from ancf.model.series import Series, noises
+from ancf.model.units import UNITS
 
 MOTION = """
 gravity = [0, 0, -9.81]

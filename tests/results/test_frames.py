@@ -7,6 +7,7 @@ import pytest
 
 import ancf
 from ancf.viz.export import write_csv, write_parquet
+from ancf.viz.export.tables import sensor_columns
 
 pandas = pytest.importorskip("pandas")
 xarray = pytest.importorskip("xarray")
@@ -28,6 +29,25 @@ def swinging():
 def run():
     sensors = ["rope.end", "bob", "tie", "hook"]
     return ancf.simulate(swinging(), t_end=0.2, step=1e-3, output_step=0.01, sensors=sensors)
+
+
+def touching():
+    """A few steps of a rope on a floor under a strip, beside a ball that hangs from a torsion spring."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e4, EI=0.1, rhoA=0.5, diameter=0.02)
+    rope = model.add_beam("rope", start=(0, 0, 0.01), end=(1, 0, 0.01), elements=3, section=section)
+    drawn = model.pin(rope.start)
+    plane = model.add_surface("plane", ancf.Plane())
+    model.add_surface_contact(rope, plane, stiffness=1e5, damping=10.0, friction=0.3, name="floor")
+    head = model.add_point_mass("head", at=(0.4, 0, 0.0), mass=0.1)
+    model.hold(head, position="xyz")
+    model.add_contact(head, along=rope, stiffness=1e3, name="strip")
+    body = model.add_rigid_body("body", at=(0, 2, 0.099), mass=1.0, inertia=(0.01, 0.01, 0.01))
+    skin = model.add_surface("skin", ancf.Sphere(radius=0.1), on=body)
+    model.add_body_contact(skin, plane, stiffness=1e4, damping=10.0, friction=0.3, name="ball")
+    model.add_torsion_spring(body, (0, 2, 0.099), axis=(1, 0, 0), stiffness=1.0, name="twist")
+    items = ["rope.end", "body", "floor", "strip", "ball", "twist", drawn]
+    return ancf.simulate(model, t_end=0.01, step=1e-3, sensors=items)
 
 
 class TestPandas:
@@ -71,6 +91,17 @@ class TestPandas:
         assert np.array_equal(frame["bob position z [m]"], run.sensors.position("bob")[:, 2])
         assert np.array_equal(frame["rope.end tension [N]"], run.sensors.tension("rope.end"))
         assert not any("kinetic" in name for name in frame.columns)
+
+    def test_has_all_that_the_tables_of_sensors_have(self):
+        """Of every kind of connection, friction of what rubs and the place of a strip included."""
+        recorded = touching().sensors
+        table = dict(sensor_columns(recorded))
+        table.pop("t [s]")
+        frame = recorded.to_pandas()
+        assert set(frame.columns) == set(table)
+        assert {"floor friction [N]", "floor slipping [-]", "ball friction [N]", "strip s [m]"} <= set(table)
+        for name, values in table.items():
+            assert np.array_equal(frame[name], values, equal_nan=True), name
 
     def test_of_a_file(self, run, tmp_path):
         file = tmp_path / "run.h5"

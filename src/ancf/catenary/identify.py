@@ -204,6 +204,10 @@ def _checked(frequency: Any, response: Any, kind: str) -> tuple[FloatArray, npt.
     """Frequencies in ascending order and the dynamic stiffness there."""
     checks.choice(kind, f"{WHERE}.kind", tuple(KINDS))
     f, given = np.asarray(frequency, dtype=np.float64), np.asarray(response, dtype=np.complex128)
+    if f.shape == given.shape == (1,):
+        raise ModelError(
+            f"{WHERE}.response", "has one frequency", "a chain needs two or more, some tens say more"
+        )
     if f.ndim != 1 or f.shape != given.shape or f.size < 2:
         what = f"has the shape {given.shape} for frequencies of the shape {f.shape}"
         raise ModelError(f"{WHERE}.response", what, "give one complex number for each frequency")

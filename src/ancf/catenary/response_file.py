@@ -13,18 +13,21 @@ from ..arrays import FloatArray
 from ..columns import read_columns
 from ..errors import ModelError
 from ..files import write_text
+from ..model.checks import listed
+from ..model.units import in_plain_units
 from .pantograph import Pantograph
 
 FREQUENCY = "frequency"
-#: Columns that make a complex number: its parts, or its size and its angle in degrees.
-PARTS, POLAR = ("real", "imag"), ("magnitude", "phase_deg")
+#: Columns that make a complex number: its parts, or its size and its angle in degrees, or in rad by its unit.
+PARTS, POLAR, TURNED = ("real", "imag"), ("magnitude", "phase_deg"), ("magnitude", "phase")
 Response = npt.NDArray[np.complex128]
 
 
 def read_response(path: str | Path) -> tuple[FloatArray, Response]:
     """Frequencies in Hz and complex responses (n,) of a CSV file.
 
-    Its columns are ``frequency`` and ``real`` and ``imag``, or ``magnitude`` and ``phase_deg``.
+    Its columns are ``frequency`` and ``real`` and ``imag``, or ``magnitude`` and ``phase_deg``; a head may
+    have a unit, ``frequency [Hz]``, ``real [N/m]``, ``phase [deg]``.
 
     Raises
     ------
@@ -32,19 +35,22 @@ def read_response(path: str | Path) -> tuple[FloatArray, Response]:
         The file cannot be read, a column is missing, or a cell is no number.
 
     """
-    columns = read_columns(Path(path), str(path))
-    pair = POLAR if POLAR[0] in columns else PARTS
+    given = read_columns(Path(path), str(path))
+    columns = in_plain_units(given, str(path))
+    angle_in_rad = TURNED[1] in columns and TURNED[1] not in given
+    pair = PARTS if POLAR[0] not in columns else TURNED if angle_in_rad else POLAR
     found = []
     for key in (FREQUENCY, *pair):
         if key not in columns:
             hint = f"columns {FREQUENCY}, {' and '.join(PARTS)}, or {FREQUENCY}, {' and '.join(POLAR)}"
-            raise ModelError(f"{path}, column {key}", "is missing", hint)
+            what = f"is missing, the head has {listed(given)}"
+            raise ModelError(f"{path}, column {key}", what, hint)
         found.append(
             np.array([_number(v, f"{path}, row {k + 1}, column {key}") for k, v in enumerate(columns[key])])
         )
     frequency, one, other = found
-    if pair == POLAR:
-        angle = np.radians(other)
+    if pair != PARTS:
+        angle = np.radians(other) if pair == POLAR else other
         one, other = one * np.cos(angle), one * np.sin(angle)
     return frequency, one + 1j * other
 

@@ -12,6 +12,7 @@ from ..arrays import FloatArray
 from ..columns import read_columns
 from ..errors import ModelError
 from ..model import checks
+from ..model.units import in_plain_units
 
 TIME = "t"
 #: Ratio of positive bounds above which the logarithm of a parameter is looked for.
@@ -74,7 +75,7 @@ def columns_of(data: Any) -> dict[str, FloatArray]:
     """Columns of numbers (n,) of a file, a table or a mapping; ModelError if they are none."""
     where = "calibrate.data"
     if isinstance(data, str | Path):
-        found: Mapping[str, Any] = read_columns(Path(data), where)
+        found: Mapping[str, Any] = in_plain_units(read_columns(Path(data), where), where)
     elif hasattr(data, "columns"):
         found = {str(name): data[name].to_numpy() for name in data.columns}
     elif isinstance(data, Mapping):

@@ -12,18 +12,8 @@ from ..arrays import FloatArray
 from ..columns import read_columns, split_unit
 from ..errors import ModelError
 from . import checks
+from .units import factor
 
-#: Units of a column in those of the package: m, s, N, kg, rad and what they make.
-UNITS = {
-    "": 1.0, "-": 1.0, "1": 1.0, "%": 0.01,
-    "m": 1.0, "mm": 1e-3, "cm": 1e-2, "um": 1e-6, "µm": 1e-6, "km": 1e3, "in": 0.0254, "ft": 0.3048,
-    "s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "min": 60.0, "h": 3600.0,
-    "m/s": 1.0, "mm/s": 1e-3, "km/h": 1 / 3.6, "kn": 1852 / 3600, "m/s^2": 1.0, "m/s²": 1.0, "g": 9.80665,
-    "N": 1.0, "kN": 1e3, "MN": 1e6, "lbf": 4.4482216152605, "N/m": 1.0, "kN/m": 1e3,
-    "N m": 1.0, "Nm": 1.0, "kN m": 1e3, "kNm": 1e3,
-    "rad": 1.0, "deg": np.pi / 180, "°": np.pi / 180, "rad/s": 1.0, "deg/s": np.pi / 180, "rpm": np.pi / 30,
-    "kg": 1.0, "kg/s": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6,
-}  # fmt: skip
 INTERPOLATIONS = ("linear", "spline")
 #: Keys of a series in a description, and in a file that names a CSV file.
 KEYS = ("t", "value", "interpolation", "cutoff", "relative", "ramp")
@@ -47,7 +37,7 @@ class Series:
     size : 1 or 3, optional
         Which of both it has to be.
     unit, time_unit : str
-        One of ``ancf.model.series.UNITS``, such as "mm", "kN", "deg"; default those of the package.
+        One of ``ancf.model.units.UNITS``, such as "mm", "kN", "deg"; default those of the package.
     interpolation : "spline" or "linear"
         A cubic spline through the values, twice differentiable, or straight lines.
     cutoff : float, Hz, optional
@@ -282,13 +272,6 @@ def _smoothed(t: FloatArray, values: FloatArray, cutoff: float) -> Any:
         return stacked[..., 0] if values.ndim == 1 else stacked
 
     return curve
-
-
-def factor(unit: Any, where: str) -> float:
-    """What a unit is in those of the package; ModelError if it is unknown."""
-    if isinstance(unit, str) and unit.strip() in UNITS:
-        return UNITS[unit.strip()]
-    raise ModelError(where, f"is {checks.shown(unit)}, known are {checks.listed(list(UNITS)[1:], 60)}")
 
 
 def _values(value: Any, where: str, size: int | None) -> FloatArray:

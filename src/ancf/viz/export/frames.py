@@ -138,6 +138,8 @@ def _columns(known: Any, asked: list[tuple[str, str]]) -> Iterator[tables.Column
             yield from tables.torsion_columns(known, label)
         elif kind == "joint":
             yield from tables.joint_parts(known, label)
+        elif kind == "contact" and isinstance(known, Sensors):
+            yield from tables.contact_columns(known, label)
         elif kind == "contact":
             yield f"{label} force [N]", known.contact_force(label)
             yield f"{label} gap [m]", known.contact_gap(label)

@@ -63,15 +63,20 @@ def sensor_columns(sensors: Sensors, inside: bool = True) -> Iterator[Column]:
         if name in sensors.listing.held:
             yield from vector_columns(f"{name} reaction", sensors.reaction(name), "N")
         if name in sensors.listing.columns:
-            yield f"{name} force [N]", sensors.contact_force(name)
-            yield f"{name} gap [m]", sensors.contact_gap(name)
-            if sensors.rubs(name):
-                yield f"{name} friction [N]", sensors.friction_force(name)
-                yield f"{name} slipping [-]", sensors.slipping(name)
-            else:
-                yield f"{name} s [m]", sensors.arc_length(name)
+            yield from contact_columns(sensors, name)
     if sensors._led():
         yield from input_columns(sensors)
+
+
+def contact_columns(sensors: Sensors, name: str) -> Iterator[Column]:
+    """Force and gap of a contact; friction of one that rubs, the place on the wire of a strip."""
+    yield f"{name} force [N]", sensors.contact_force(name)
+    yield f"{name} gap [m]", sensors.contact_gap(name)
+    if sensors.rubs(name):
+        yield f"{name} friction [N]", sensors.friction_force(name)
+        yield f"{name} slipping [-]", sensors.slipping(name)
+    else:
+        yield f"{name} s [m]", sensors.arc_length(name)
 
 
 def input_columns(known: Any) -> Iterator[Column]:
