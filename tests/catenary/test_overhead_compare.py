@@ -9,7 +9,7 @@ import pytest
 
 import catenary_stand_in as stand_in
 from ancf.catenary import Quantity, read_run, statistics, write_run
-from ancf.catenary.kept import read_runs
+from ancf.catenary.kept import _numbered, read_runs
 from ancf.catenary.report.build import _box
 from ancf.catenary.report.comparison import differences, write_comparison, write_table
 from ancf.catenary.report.sweep import verdict
@@ -46,6 +46,11 @@ class TestRead:
         write_run(stand_in.run(count=2, spacing=100.0), tmp_path / "train")
         names = [kept.name for kept in read_run(tmp_path / "train")]
         assert names == ["train, leading (1)", "train, trailing 1 (2)"]
+
+    def test_a_name_that_has_its_number(self, tmp_path):
+        for unit, data in enumerate(("pantograph 1", "pantograph 2")):
+            assert _numbered(data, unit) == data
+        assert _numbered("pantograph 1", 1) == "pantograph 1 (2)"
 
     def test_folders_of_one_name(self, folders, tmp_path):
         root, runs = folders

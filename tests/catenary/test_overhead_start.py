@@ -93,3 +93,14 @@ def test_start_at_a_kink_of_the_gradient():
         warnings.simplefilter("error")
         way = {"start": 66.0, "window": (117.0, 120.0), "until": 121.0}
         run(line, mesh=COARSE, speed=30.0, pantograph=collector(), step=STEP, **way)
+
+
+def test_a_lift_beyond_what_the_chain_is_drawn_for(found):
+    """Relaxed at a mean height that a force of tons makes, the lowest spring would have no length left."""
+    far = collector(relaxed_at="mean", static_force=12e3)
+    with (
+        pytest.warns(UserWarning, match="EN 50367 has 160 N at most"),
+        pytest.raises(ModelError, match="longer at the start than without force") as caught,
+    ):
+        run(found, speed=40.0, pantograph=far, step=STEP, start=15.0)
+    assert caught.value.where == "run.pantograph"

@@ -190,3 +190,44 @@ step = 1e-3
     ran = call("check", str(tmp_path / "rod.toml"))
     assert ran.code == 0
     assert "rotation: its rate is 3 rad/s from t = 0 s on" in " ".join((ran.said + ran.out).split())
+
+
+@pytest.mark.parametrize(
+    ("given", "velocity", "said"),
+    [
+        (
+            {"direction": 90.0},
+            (0, 12, 0),
+            ["in the direction of 90 rad", "are those of a wind"],
+        ),
+        ({"direction": 1.57, "deviation": 20.0}, (0, 12, 0), ["deviate by 167 % of the mean wind"]),
+        (
+            {"direction": 1.57},
+            (0, 0, 0),
+            ["a wind of (0.00956, 12, 0) m/s, which velocity="],
+        ),
+        ({"direction": 1.57}, (12, 0, 0), ["it is (12, 0, 0)"]),
+        ({"direction": 1.57}, (0, 12, 0), []),
+        ({"direction": 0.0}, ["12 + sin(t)", 0, 0], []),
+        ({"direction": 0.0}, ["12*(1 + 0.01*z)", 0, 0], []),
+        ({"direction": 0.0}, {"z": [0, 50], "velocity": [[8, 0, 0], [14, 0, 0]]}, []),
+    ],
+)
+def test_gusts(given, velocity, said):
+    model = ancf.Model()
+    wanted = {"speed": 12.0, "deviation": 2.0, "length": 60.0, "extent": (0.0, 40.0), "duration": 10.0}
+    model.add_fluid("wind", 1.225, velocity=velocity, gusts=ancf.Gusts.von_karman(**(wanted | given)))
+    found = doubts(model)
+    assert len(found) == len(said), found
+    for text, part in zip(found, said, strict=True):
+        assert text.startswith('"wind": ')
+        assert part in text
+
+
+@pytest.mark.parametrize(("angle", "said"), [(90.0, True), (-45.0, True), (3.0, False), (20.0, False)])
+def test_torsion_springs_in_degrees(angle, said):
+    model = ancf.Model()
+    body = model.add_rigid_body("body", at=(0, 0, 0), mass=1.0, inertia=(1, 1, 1))
+    model.hinge(body, (0, 0, 0), axis=(0, 0, 1))
+    model.add_torsion_spring(body, (0, 0, 0), axis=(0, 0, 1), stiffness=1.0, angle=angle, name="twist")
+    assert [f"{angle:g} rad" in text for text in doubts(model)] == [True] * said

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
+from ..errors import ModelError
 from ..model.bodies import PointMass
 from ..model.model import Model
 from .pantograph import Pantograph
@@ -168,6 +169,9 @@ def _add_stage(
     spring = stage.stiffness
     if spring == 0.0 and law is None:
         spring = FAINT
+    if c * elongation >= distance:
+        what = f"{name} is {elongation:.3g} m longer at the start than without force, at most {APART:g} m"
+        raise ModelError("run.pantograph", what, "look at the speed, the forces and this stiffness")
     model.add_spring(
         below,
         top,

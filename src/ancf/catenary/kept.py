@@ -94,7 +94,7 @@ def read_run(folder: str | Path, name: str | None = None) -> list[Kept]:
     try:
         several = len(data["pantographs"]) > 1
         return [
-            _kept(path, data, k, f"{title}, {one['name']} ({k + 1})" if several else title)
+            _kept(path, data, k, f"{title}, {_numbered(one['name'], k)}" if several else title)
             for k, one in enumerate(data["pantographs"])
         ]
     except (KeyError, TypeError, ValueError) as error:
@@ -113,6 +113,11 @@ def _summary(path: Path) -> dict[str, Any]:
             raise ModelError(str(path / name), "holds no run", "a folder that ancf catenary run has written")
         return data
     raise ModelError(str(path), "holds no run of pantographs", "a folder that ancf catenary run has written")
+
+
+def _numbered(name: str, k: int) -> str:
+    """A pantograph with its place in the train, unless its name is that already."""
+    return name if name == f"pantograph {k + 1}" else f"{name} ({k + 1})"
 
 
 def _kept(path: Path, data: dict[str, Any], k: int, name: str) -> Kept:

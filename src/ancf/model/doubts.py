@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
+
+import numpy as np
 
 from .body_contact import BodyContact
 from .cable_contact import CableContact
@@ -14,6 +16,8 @@ from .points import Point
 from .section import Section
 from .supports import node_of
 from .surfaces import SurfaceContact
+from .torsion import TorsionSpring
+from .velocity_field import VelocityField
 from .waves import REGULAR, Waves
 from .winch import Winch
 
@@ -23,8 +27,12 @@ SOFTEST = 1e3
 LIGHTEST, HEAVIEST = 10.0, 25_000.0
 #: Of fluids with a surface, kg/m^3, and mass that a cable displaces over its own: the lightest buoys have 20.
 THINNEST, LIGHT = 10.0, 50.0
+#: Full turns by which a torsion spring is wound at most, unsaid.
+TURNS = 4.0
 #: Of Coulomb's friction: rubber on dry concrete has about 1.
 ROUGHEST = 3.0
+#: Deviations of gusts over their mean speed; how far the mean wind may be from that of the gusts.
+GUSTIEST, OTHER_WIND = 0.5, 0.3
 #: Peak periods, s, and the steepest sea states 2 pi Hs/(g Tp^2) there, linear between: DNV-RP-C205, 3.5.4.
 PEAKS, STEEPEST = (8.0, 15.0), (1.0 / 15.0, 1.0 / 25.0)
 
@@ -44,6 +52,9 @@ def doubts(model: Any) -> list[str]:
         if item.friction > ROUGHEST:
             what = f"a friction of {item.friction:g} is more than surfaces have, rubber on concrete about 1"
             found[f'"{item.name}": {what}: is it an angle, or per cent?'] = None
+    for item in model.connections:
+        if isinstance(item, TorsionSpring) and abs(item.angle) > TURNS * 2 * math.pi:
+            found[f'"{item.name}": is free of moment at {item.angle:g} rad: was it meant in degrees?'] = None
     found |= dict.fromkeys(_of_winches(model))
     return [*found]
 
@@ -98,7 +109,30 @@ def _of_waves(waves: Waves, g: float) -> Iterator[str]:
 def _of_fluid(fluid: Fluid, model: Any) -> Iterator[str]:
     if fluid.below is not None and 0.0 < fluid.density < THINNEST:
         yield f"{fluid.density:g} kg/m^3 with a surface at z = {fluid.below:g} m: water has 1000 to 1030"
-    if fluid.waves is not None and abs(fluid.waves.direction) > 2 * math.pi:
-        yield f"its waves run in the direction of {fluid.waves.direction:g} rad: was it meant in degrees?"
+    directions = {} if fluid.waves is None else {"waves run": fluid.waves.direction}
+    directions |= {} if fluid.gusts is None else {"gusts blow": fluid.gusts.values["direction"]}
+    for what, angle in directions.items():
+        if abs(angle) > 2 * math.pi:
+            yield f"its {what} in the direction of {angle:g} rad: was it meant in degrees?"
     if fluid.waves is not None:
         yield from _of_waves(fluid.waves, float(-model.gravity[2]))
+    if fluid.gusts is not None:
+        yield from _of_gusts(fluid.gusts.values, fluid.velocity)
+
+
+def _of_gusts(v: Mapping[str, Any], velocity: VelocityField) -> Iterator[str]:
+    """Turbulence beyond that of any site, and a mean wind that is not the one of the gusts."""
+    if v["deviation"] > GUSTIEST * v["speed"]:
+        share = 100.0 * v["deviation"] / v["speed"]
+        yield f"its gusts deviate by {share:.0f} % of the mean wind, those of cities by some 30 %"
+    by_place = len(velocity.heights) or velocity.parts or velocity.law is not None
+    if by_place or not velocity.uniform.constant:
+        return
+    given = velocity.uniform(0.0)
+    along = np.array([math.cos(v["direction"]), math.sin(v["direction"]), 0.0])
+    if np.linalg.norm(given - v["speed"] * along) > OTHER_WIND * v["speed"]:
+        shown = ", ".join(f"{x:.3g}" for x in given)
+        wanted = ", ".join(f"{x:.3g}" for x in v["speed"] * along + 0.0)
+        yield (
+            f"its gusts are those of a wind of ({wanted}) m/s, which velocity= has to give; it is ({shown})"
+        )

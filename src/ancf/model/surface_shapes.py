@@ -185,7 +185,7 @@ class Torus(Shape):
         """The ring has a hole."""
         if self.tube >= self.radius:
             what = f"is {self.tube:g} m, must be less than the radius {self.radius:g} m"
-            raise ModelError("Torus.tube", what, "a ring has a hole; without one it is a ancf.Sphere")
+            raise ModelError("Torus.tube", what, "a ring has a hole; without one it is an ancf.Sphere")
 
     @property
     def numbers(self) -> list[float]:

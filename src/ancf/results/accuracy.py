@@ -42,9 +42,9 @@ def of_state(state: Instant) -> list[str]:
     if not named:
         return found
     name, (off, displaced) = max(named.items(), key=lambda item: item[1][0])
-    share = f"{100 * off / displaced:.2g} % of its displacement" if displaced > 0.0 else "more than it moves"
+    share = f"{100 * off / displaced:.2g} % of its displacement" if displaced > off else "more than it moves"
     text = (
-        f'"{name}" may bend too little, by about {off:.2g} m or {share}: its elements are very stiff against '
+        f'"{name}" may bend too little, by about {off:.2g} m, {share}: its elements are very stiff against '
         f"stretch (EA L^2/EI = {stiffest(system):.1e}); take more of them, or a smaller EA"
     )
     return [text, *found]

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 MM_PER_INCH = 25.4
 DPI = 200
+#: Above the highest marker, of the height of a panel.
+ROOM = 0.05
 #: Width of a figure in one column of a page, and across two, mm.
 ONE_COLUMN, TWO_COLUMNS = 85.0, 170.0
 
@@ -219,6 +221,12 @@ def counts_on_x(axes: Axes, counts: list[int]) -> None:
     axes.set_xscale("log", base=2)
     axes.set_xticks(counts, [str(n) for n in counts])
     axes.set_xlabel("number of elements")
+
+
+def from_zero(axes: Axes) -> None:
+    """Let y begin at 0, or at what is below it, with room above the highest marker."""
+    low, high = min(0.0, axes.get_ylim()[0]), axes.get_ylim()[1]
+    axes.set_ylim(low, high + ROOM * (high - low))
 
 
 def panel_name(axes: Axes, name: str) -> None:

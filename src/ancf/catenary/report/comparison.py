@@ -147,5 +147,5 @@ def _draw_uplift(canvas: Figure, runs: Sequence[Kept]) -> None:
             look = {"marker": style.look(k).marker, "linestyle": "none", "color": style.line(k)["color"]}
             axes.plot(x, size, label=run.name, **look)
     axes.set(xlabel="track position [m]", ylabel="largest uplift [mm]")
-    axes.set_ylim(bottom=0.0)
+    style.from_zero(axes)
     style.legend_above(canvas, axes, 3)

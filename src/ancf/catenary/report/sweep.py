@@ -233,7 +233,7 @@ def _draw(canvas: Figure, sweep: Sweep, k: int) -> None:
             axes.plot(x, [row[f"{key}_{k + 1}"] for row in found], label=told or None, **look)
         _limits(axes, sweep, key, k)
         axes.set_ylabel(text)
-        axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
+        style.from_zero(axes)
     for axes in panels[2:]:
         axes.set_xlabel(label)
     if groups != [None]:
