@@ -100,7 +100,7 @@ def no_sums():
     return none, none, none, none, none, none
 
 
-@inline_kernel
+@formula
 def stretched(batch, group, chunk, u):
     """Forces on d, t1 and t2 of the axial strain per EA L."""
     G, R, paper = products(u), no_sums(), group[PAPER] != 0
@@ -110,7 +110,7 @@ def stretched(batch, group, chunk, u):
     return forces(R, u)
 
 
-@inline_kernel
+@formula
 def bent(batch, group, chunk, u, inv_l):
     """The same of the curvature per EI L."""
     G, R, inv_l2, paper, curved = products(u), no_sums(), inv_l * inv_l, group[PAPER] != 0, group[CURVED] != 0
@@ -122,7 +122,7 @@ def bent(batch, group, chunk, u, inv_l):
     return forces(R, u)
 
 
-@inline_kernel
+@formula
 def damped_axially(batch, group, u, rates):
     """The same of the axial damping per D_a L; ``rates`` of d, u1 and u2."""
     G, dG, R = products(u), product_rates(u, rates), no_sums()
@@ -132,7 +132,7 @@ def damped_axially(batch, group, u, rates):
     return forces(R, u)
 
 
-@inline_kernel
+@formula
 def damped_in_bending(batch, group, q, v, inv_l):
     """The same of the damping of bending per D_b L."""
     gp, first, (fd, f1, f2) = batch.gp, group[FIRST] + group[AXIAL], nothing()
@@ -148,7 +148,7 @@ def damped_in_bending(batch, group, q, v, inv_l):
     return fd, f1, f2
 
 
-@inline_kernel
+@formula
 def stretched_longer(batch, group, chunk, u, rates, ea, da):
     """R of the axial strain and its damping, and its derivative along l."""
     gp, paper, G, dG = batch.gp, group[PAPER] != 0, products(u), product_rates(u, rates)
@@ -168,7 +168,7 @@ def stretched_longer(batch, group, chunk, u, rates, ea, da):
     return R, along
 
 
-@inline_kernel
+@formula
 def bent_longer(batch, group, chunk, u, inv_l, ei):
     """R of the curvature and its derivative along l."""
     gp, paper, curved, inv_l2 = batch.gp, group[PAPER] != 0, group[CURVED] != 0, inv_l * inv_l
@@ -188,7 +188,7 @@ def bent_longer(batch, group, chunk, u, inv_l, ei):
     return R, along
 
 
-@inline_kernel
+@formula
 def longer(batch, group, chunk, q, v):
     """Derivative by ln(1/L) of the forces on d, divided by L, t1 and t2, times L on d."""
     data, damped, inv_l = batch.lane_data, group[DAMPED], load(batch.lane_data, chunk, INV_L)
@@ -228,7 +228,7 @@ def kept(ws, k):
     return rows(ws, 9 * k), rows(ws, 9 * k + 3), rows(ws, 9 * k + 6)
 
 
-@inline_kernel
+@formula
 def all_forces(batch, group, chunk, q, v, needed, ws):
     """Keep what a change of each kind that is ``needed`` does on d, t1 and t2."""
     inv_l = load(batch.lane_data, chunk, INV_L)
@@ -284,7 +284,7 @@ def rate(rates, chunk, k):
     return load(rates, LANES * (ROWS * chunk + k))
 
 
-@inline_kernel
+@formula
 def add_change(batch, group, chunk, states, rates, kind, out, ws):
     """Add what a change of these kinds does, of which :func:`all_forces` keeps the parts."""
     (_, v, a), data, f = states, batch.lane_data, nothing()

@@ -8,7 +8,7 @@ vectors, and R/2 times their second derivatives, which are multiples of the unit
 
 from __future__ import annotations
 
-from ..compiled import formula, inline_kernel
+from ..compiled import formula
 from ..simd import every, load, vector
 from .cable_columns import AXIAL, BENDING, CURVATURE, CURVED, FIRST, INV_L, PAPER
 from .cable_strain import (
@@ -116,7 +116,7 @@ def along(ha, hb, hc, at):
     )
 
 
-@inline_kernel
+@formula
 def axial_part(batch, group, chunk, G, sums, ea, da):
     """Add to R and H what the axial strain does, and to H the damping, whose constant is da."""
     gp, paper, curved = batch.gp, group[PAPER] != 0, group[CURVED] != 0
@@ -131,7 +131,7 @@ def axial_part(batch, group, chunk, G, sums, ea, da):
     return R, H
 
 
-@inline_kernel
+@formula
 def bending_part(batch, group, chunk, G, sums, ei):
     """Add to R and H what the curvature does."""
     gp, paper, curved = batch.gp, group[PAPER] != 0, group[CURVED] != 0
@@ -186,7 +186,7 @@ def add_to(ws, block, A):
     add_rows(ws, block + 6, A[2])
 
 
-@inline_kernel
+@formula
 def add_blocks(ws, x, R, H):
     """Add the blocks between d, t1 and t2 of R and H at x = (d, u1, u2): u1 = t1 - d and u2 = t2 - d."""
     (
@@ -223,7 +223,7 @@ def add_blocks(ws, x, R, H):
     add_to(ws, KDD, minus(whole, left_t, right_t))
 
 
-@inline_kernel
+@formula
 def add_elastic(batch, group, chunk, x, ws, ea, ei, da, bends):
     """Add the tangents of both strains in the shape x = (d, u1, u2), and the axial damping, to the blocks.
 

@@ -215,7 +215,7 @@ def add_row(out, chunk, k, value):
     store(load(out, at) + value, out, at)
 
 
-@inline_kernel
+@formula
 def elements_work(batch, group, chunk, states, x, out):
     """Add the derivatives of a chunk; states q, v, a and x by the four slots r, r_x, r, r_x."""
     (q, v, a), data, damped = states, batch.lane_data, group[DAMPED]
