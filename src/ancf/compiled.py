@@ -244,6 +244,9 @@ class Traits:
     joined : function, optional
         ``joined(batch, other)``: the batch as it knows what all numbers do that one of both has, as dampings
         that are zero in the other; default the batch itself.
+    sloped : function, optional
+        ``sloped(batch)``: whether :func:`add_work_slopes` knows all of its forces; default it does, if there
+        is one.
     kinds : function, optional
         ``kinds(batch, rates)``: what :func:`add_changes` wants to know of a change of the numbers, (m,):
         whole numbers (k,), all zero if there is none.
@@ -271,6 +274,7 @@ class Traits:
     numbered: tuple[str, ...] = ()
     joined: Callable[[Any, Any], Any] | None = None
     kinds: Callable[[Any, Any], Any] | None = None
+    sloped: Callable[[Any], bool] | None = None
 
 
 _TRAITS: dict[type, Traits] = {}

@@ -37,31 +37,53 @@ def cubic(a, b, c, d, s):
 
 
 @inline_kernel
-def gust_at(squall, gale, gust, t, x, y, z):
-    """Speed over the mean and its rate at a time and a place."""
+def between(squall, gale, t, x, y, z):
+    """The station before a place, its share of the way to the next, and whether it is between the outer ones.
+
+    Also times before and after, four of them, and the share of the way from the second to the third.
+    """
     along = squall[LINE] * x + squall[LINE + 1] * y + squall[LINE + 2] * z
     s = (along - squall[BEGIN]) / squall[APART]
     times, stations = gale[TIMES], gale[STATIONS]
+    inside = 0.0 < s < stations - 1.0
     s = min(max(s, 0.0), stations - 1.0)
     k = min(int(s), stations - 2)
-    s -= k
     steps = t / squall[STEP]
     j = math.floor(steps)
-    into = steps - j
-    j0, j1, j2, j3 = (int(j) - 1) % times, int(j) % times, (int(j) + 1) % times, (int(j) + 2) % times
-    first = gale[FIRST] + k
+    rows = (int(j) - 1) % times, int(j) % times, (int(j) + 1) % times, (int(j) + 2) % times
+    return k, s - k, inside, rows, steps - j
+
+
+@inline_kernel
+def at_station(gale, gust, station, rows, into):
+    """Speed and slope by time, in steps of the table, at a station."""
+    at, n = gale[FIRST] + station, gale[STATIONS]
+    i, j, k, m = rows
+    return cubic(gust[at + i * n], gust[at + j * n], gust[at + k * n], gust[at + m * n], into)
+
+
+@inline_kernel
+def gust_at(squall, gale, gust, t, x, y, z):
+    """Speed over the mean and its rate at a time and a place."""
+    k, s, _, rows, into = between(squall, gale, t, x, y, z)
     value, rate = 0.0, 0.0
     for m in range(2):
         w = s if m == 1 else 1.0 - s
-        at = first + m
-        u, du = cubic(
-            gust[at + j0 * stations],
-            gust[at + j1 * stations],
-            gust[at + j2 * stations],
-            gust[at + j3 * stations],
-            into,
-        )
+        u, du = at_station(gale, gust, k + m, rows, into)
         value += w * u
         rate += w * du / squall[STEP]
     share, growth = share_of(t, squall[RAMP])
+    return share * value, share * rate + growth * value
+
+
+@inline_kernel
+def gust_along(squall, gale, gust, t, x, y, z):
+    """Derivatives of both along the line of the stations."""
+    k, _, inside, rows, into = between(squall, gale, t, x, y, z)
+    if not inside:
+        return 0.0, 0.0
+    u, du = at_station(gale, gust, k, rows, into)
+    v, dv = at_station(gale, gust, k + 1, rows, into)
+    share, growth = share_of(t, squall[RAMP])
+    value, rate = (v - u) / squall[APART], (dv - du) / (squall[APART] * squall[STEP])
     return share * value, share * rate + growth * value

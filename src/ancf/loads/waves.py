@@ -142,6 +142,48 @@ def sea_at(sea, wave, first, last, angle, t, x, y, z, kept):
     kept[PLACE], kept[PLACE + 1], kept[PLACE + 2] = x, y, z
 
 
+@inline_kernel
+def stretching(sea, z, eta):
+    """Derivatives of :func:`stretched` by z and by eta."""
+    h = sea[DEPTH]
+    if sea[STRETCHED] == 0.0:
+        return (1.0, 0.0) if -h < z < 0.0 else (0.0, 0.0)
+    if h == math.inf:
+        return (1.0, -1.0) if z - eta < 0.0 else (0.0, 0.0)
+    inverse = 1.0 / (h + eta)
+    if not -1.0 < (z - eta) * inverse < 0.0:
+        return 0.0, 0.0
+    return h * inverse, -h * (h + z) * inverse * inverse
+
+
+@kernel
+def sea_slopes(sea, wave, first, last, angle, kept, slopes):
+    """Derivatives by the way along the waves and by the height of what :func:`sea_at` has just kept.
+
+    Filled are u and w by the way and by the height, their rates so, and the elevation by the way, (9,).
+    """
+    share, growth = share_of(kept[TIME], sea[RAMP])
+    z, eta = kept[PLACE + 2] - sea[LEVEL], kept[RISE]
+    at, (by_z, by_eta) = stretched(sea, z, eta), stretching(sea, z, eta)
+    rise, cosine, sine, rate_cosine, rate_sine = every(0.0), every(0.0), every(0.0), every(0.0), every(0.0)
+    for i in range(first, last):
+        omega, number = load(wave, i, OMEGA), load(wave, i, NUMBER)
+        down = decay(number * at)
+        up = load(wave, i, MIRROR) / down
+        speed = number * (load(wave, i, AMPLITUDE) * omega * load(wave, i, WHOLE))
+        level, lift = speed * (down + up), speed * (down - up)
+        cos, sin = load(angle, 0, i - first), load(angle, 1, i - first)
+        rise = rise - number * (load(wave, i, AMPLITUDE) * sin)
+        cosine, sine = cosine + lift * cos, sine + level * sin
+        rate_cosine, rate_sine = rate_cosine + omega * (level * cos), rate_sine + omega * (lift * sin)
+    slopes[8] = share * total(rise)
+    along, c, s, rc, rs = by_eta * slopes[8], total(cosine), total(sine), total(rate_cosine), total(rate_sine)
+    u, w, du, dw = along * c - s, c + along * s, rc + along * rs, rs - along * rc
+    slopes[0], slopes[1], slopes[2], slopes[3] = share * u, share * w, share * by_z * c, share * by_z * s
+    slopes[4], slopes[5] = share * du + growth * u, share * dw + growth * w
+    slopes[6], slopes[7] = by_z * (share * rs + growth * c), by_z * (growth * s - share * rc)
+
+
 @formula
 def renew_waves(batch, e, p, k, t, at, v):
     """Let ``kept`` hold what the waves of fluid k do at point p of row e, at this place and velocity."""

@@ -111,6 +111,6 @@ def adjoint_of(system: System) -> type[Adjoint] | None:
     m = matrices_of(system.core, system.size, moving=True, back=True)
     if len(m.lossy) or m.turning:
         return None
-    if not len(system.multipliers):
+    if not len(system.multipliers) and not len(m.joined):
         return None if len(m.rough) else Adjoint
     return JoinedAdjoint if goes_back(system, m) else None

@@ -19,7 +19,20 @@ NONE = 1e-9
 #: Times at which motions of supports are compared, s.
 TIMES = 0.0, 0.137, 1.713
 #: What runs and searches change in a batch: it does not depend on a parameter.
-OWN = ("value", "level", "found", "alpha", "scale", "inside", "measured", "mode", "open")
+OWN = (
+    "value",
+    "level",
+    "found",
+    "alpha",
+    "scale",
+    "inside",
+    "measured",
+    "mode",
+    "open",
+    "kept",
+    "felt",
+    "said",
+)
 #: How far the mean of two values may be from that between them, relative to their difference, up to which a
 #: parameter is linear; round-off of the residuals.
 LINEAR, ROUND_OFF = 1e-10, 1e-14

@@ -43,7 +43,8 @@ def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matr
     known = [batch for batch in changed if does_something(type(batch), rate)]
     lossy = [batch for batch in changed if not any(batch is one for one in known)]
     others = [batch for batch in batches if not _exact(batch, False)]
-    joints = [batch for batch in others if _is_joint(batch)]
+    whole = [batch for batch in others if moving and not _is_joint(batch) and _is_sloped(batch, back)]
+    joints = [batch for batch in others if _is_joint(batch)] + whole
     rough = [batch for batch in others if not any(batch is one for one in joints)]
     resting = [batch for batch in exact if not any(batch is one for one in known)]
     K, C, M = (np.zeros_like(core.A) for _ in range(3))
@@ -55,12 +56,13 @@ def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matr
     left = knowing(touched, rough) if local else Batches(rough)
     near = np.zeros((4, MOST_TOUCHED * sum(len(batch[0]) for batch in rough) if local else 0))
     flags = local, turning, bool(core.damped)
-    rows = size if joints else 0
+    rows = size if joints and not back else 0
     along, found = lane_rows(3 * rows).reshape(3, rows, LANES), lane_rows(rows)
     stiff = [batch for batch in joints if hasattr(batch, "alpha")]
     alpha, row = (stiff[0].alpha, stiff[0].unknown) if stiff else (np.zeros(0), np.zeros(0, dtype=np.int64))
     places = [batch.unknown + 3 for batch in joints if Role.SLIDES in traits(batch).role]
-    edge = np.concatenate([core.joints.multipliers, *places]).astype(np.int64) if joints else row
+    edge = np.concatenate([core.joints.multipliers, *places]).astype(np.int64)
+    edge = row[:0] if whole else edge  # what tangents of others leave out is not in few rows
     work = np.zeros((10, size))
     made = Matrices(
         *kinds, left, K, C, M, W, *flags, moved_by(core), work, near, along, found, alpha, row, edge
@@ -81,6 +83,13 @@ def _is_joint(batch: Any) -> bool:
     slopes = add_work_slopes, add_force_slopes, add_slopes_beside
     known = all(does_something(type(batch), own) for own in slopes)
     return known and Role.CONSTRAINS in traits(batch).role
+
+
+def _is_sloped(batch: Any, back: bool) -> bool:
+    """Whether a batch without rows knows all derivatives of its forces, or of their work."""
+    own = traits(batch).sloped
+    known = does_something(type(batch), add_work_slopes if back else add_force_slopes)
+    return known and Role.CONSTRAINS not in traits(batch).role and (own is None or own(batch))
 
 
 def _exact(batch: Any, moving: bool) -> bool:
