@@ -19,6 +19,7 @@ from ancf.paper import cantilever, pendulum, sliding
 COUNTS = 1, 8, 16
 ROUNDS = 3
 #: Of a beam, in this order.
+SEA = {"spectrum": "jonswap", "height": 4.0, "period": 9.0, "depth": 60.0, "components": 60, "seed": 1}
 NUMBERS = ["EI", "rhoA", "EA", "length", "bending_damping", "axial_damping", "damping"]
 
 
@@ -48,6 +49,34 @@ def falling() -> ancf.Model:
     return model
 
 
+def moored(elements: int = 32, **sea: Any) -> ancf.Model:
+    """A chain between an anchor and a point that moves, in a current and perhaps in waves."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    chain = {
+        "EA": 5e7,
+        "EI": 10.0,
+        "rhoA": 40.0,
+        "axial_damping": 1e5,
+        "bending_damping": 1.0,
+        "damping": 0.1,
+    }
+    hull = {"diameter": 0.08, "drag": (1.3, 0.2), "added_mass": (1.0, 0.1)}
+    section = ancf.Section(**chain, **hull)
+    given = {"start": (0.0, 0.0, -60.0), "end": (90.0, 0.0, -4.0), "length": 110.0}
+    rope = model.add_beam("rope", elements=elements, section=section, **given)
+    model.pin(rope.start)
+    model.pin(rope.end, displacement=("0.5*sin(0.8*t)", 0.0, "0.8*sin(0.8*t)"))
+    model.add_fluid("sea", density=1025.0, velocity=(0.6, 0.2, 0.0), below=0.0, **sea)
+    return model
+
+
+def of_moored() -> list[str]:
+    """Sixteen numbers of that model."""
+    own = [f"rope.{name}" for name in ("EI", "rhoA", "EA", "length", "bending_damping", "axial_damping")]
+    own += ["rope.diameter", "rope.drag[0]", "rope.drag[1]", "rope.added_mass[0]", "rope.added_mass[1]"]
+    return [*own, "sea.density", "gravity[2]", "rope.start[0]", "rope.start[2]", "rope.damping"]
+
+
 def of_rope() -> list[str]:
     """Sixteen numbers of a model with one rope."""
     ends = [f"rope.{end}[{k}]" for end in ("start", "end") for k in range(3)]
@@ -61,7 +90,7 @@ def cases() -> dict[str, tuple[ancf.Model, list[str], str, dict[str, Any]]]:
     stays = [f"stay{k}.length" for k in range(16)]
     own = [f"{body}.{name}" for body in ("carrier", "slider") for name in ("E", "rho", "length")]
     own += ["tip.mass", "gravity[0]", "gravity[1]", "gravity[2]"]
-    end = tip.format("rope.end")
+    end, middle = tip.format("rope.end"), tip.format("rope.at(50)")
     return {
         "7.1, 4 elements, 1600 steps": (falling(), of_rope(), end, _set(1600, 2.5e-4)),
         "7.2, 32 elements, 1000 steps": (in_space(), of_rope(), end, _set(1000, 1e-4)),
@@ -69,8 +98,16 @@ def cases() -> dict[str, tuple[ancf.Model, list[str], str, dict[str, Any]]]:
         "damped, 32 elements, 1000 steps": (in_space(**square), of_rope(), end, _set(1000, 1e-4)),
         "damped, 32 elements, 8000 steps": (in_space(**square), of_rope(), end, _set(8000, 1e-4)),
         "16 springs, 32 elements, 2000 steps": (in_space(32, 16), stays, end, _set(2000, 1e-4)),
+        "current, 32 elements, 1000 steps": lambda: _hung(moored(), of_moored(), middle),
+        "waves, 32 elements, 1000 steps": lambda: _hung(moored(waves=SEA), of_moored(), middle),
         "7.4, 6+2 elements, 2000 steps": (sliding.build(), own, tip.format("slider.end"), _set(2000, 2e-4)),
     }
+
+
+def _hung(model: ancf.Model, names: list[str], objective: str) -> Any:
+    """A case that starts from the equilibrium of a rope, of 1000 steps."""
+    start = ancf.equilibrium(model, of=["rope"], sensitivities=names)
+    return model, names, objective, _set(1000, 1e-2) | {"start": start}
 
 
 def _set(steps: int, step: float) -> dict[str, Any]:
@@ -102,8 +139,9 @@ def measured(model: ancf.Model, names: list[str], objective: str, settings: dict
 if __name__ == "__main__":
     heads = [*map(str, COUNTS), "each", *(f"g {n}" for n in COUNTS), "g each"]
     print(f"{'runs':36}{'run, s':>8}", *(f"{head:>6}" for head in heads))
-    for name, case in cases().items():
+    for name, make in cases().items():
         if not sys.argv[1:] or any(word in name for word in sys.argv[1:]):
+            case = make() if callable(make) else make
             run, *found = measured(*case)
             k, n = len(COUNTS), len(case[1]) - COUNTS[0]
             forward, back = found[:k], found[k:]

@@ -81,14 +81,7 @@ def check_slopes(system, name, states, x, step=1e-3, share=1e-9):
 
 WAVES = {
     "deep": {"spectrum": "regular", "height": 0.6, "period": 2.5, "ramp": 4.0, "direction": 0.4},
-    "shallow": {
-        "spectrum": "jonswap",
-        "height": 0.4,
-        "period": 3.0,
-        "depth": 3.0,
-        "seed": 1,
-        "components": 20,
-    },
+    "shallow": {"spectrum": "jonswap", "height": 0.4, "period": 3.0, "depth": 3.0, "components": 20},
     "unstretched": {"spectrum": "regular", "height": 0.5, "period": 3.0, "depth": 8.0, "stretching": "none"},
 }
 SPEEDS = {
@@ -97,27 +90,37 @@ SPEEDS = {
     "sheared": {"z": [-3.0, -0.4, 2.0], "velocity": [[0.1, 0, 0.2], [0.8, 0.3, 0.1], [1.2, 0, -0.2]]},
     "formulas": ("0.5*sin(x - t)*exp(0.3*z)", "0.2*y + 0.1*x*z", "0.3*cos(y + z + 2*t)"),
 }
+GUSTS = {"speed": 9.0, "deviation": 2.0, "length": 30.0, "extent": (-2.0, 6.0), "spacing": 1.0}
+GUSTS |= {"line": (1.0, 0.3, 0.0), "direction": 0.3, "duration": 20.0, "ramp": 3.0}
 
 
-def section(**more):
-    return ancf.Section(
-        EA=4e3, EI=20.0, rhoA=3.0, diameter=0.12, drag=(1.2, 0.1), added_mass=(1.0, 0.3), **more
-    )
+def of_hull(**more):
+    """A section that fluids know."""
+    hull = {"diameter": 0.12, "drag": (1.2, 0.1), "added_mass": (1.0, 0.3)}
+    return ancf.Section(EA=4e3, EI=20.0, rhoA=3.0, **hull, **more)
 
 
-def afloat(elements=3, **fluid):
-    """A cable that pierces a surface, a point mass and a rigid body, in a fluid."""
+def afloat(elements=3, lift=0.0, section=None, buoy=True, **fluid):
+    """A cable that pierces a surface at z = 0, unless it lies lower, and perhaps a point mass, in a fluid."""
     model = ancf.Model(gravity=(0.0, 0.0, -9.81))
-    ends = {"start": (0.0, 0.0, -1.6), "end": (1.5, 0.4, 0.5)}
-    rope = model.add_beam("rope", elements=elements, section=section(), **ends)
+    ends = {"start": (0.0, 0.0, lift - 1.6), "end": (1.5, 0.4, lift + 0.5)}
+    rope = model.add_beam("rope", elements=elements, section=section or of_hull(), **ends)
     model.pin(rope.start)
-    buoy = model.add_point_mass(
-        "buoy", at=(1.5, 0.4, 0.5), mass=2.0, volume=2e-3, drag_area=0.02, added_mass=0.5
-    )
-    model.connect(buoy, rope.end)
+    if buoy:
+        own = {"mass": 2.0, "volume": 2e-3, "drag_area": 0.02, "added_mass": 0.5}
+        ball = model.add_point_mass("buoy", at=ends["end"], **own)
+        model.connect(ball, rope.end)
     model.add_fluid("sea", density=1025.0, **fluid)
     return model
 
 
-def in_waves(kind, elements=3, **fluid):
-    return afloat(elements, below=0.02, waves=WAVES[kind], **fluid)
+def in_waves(kind, elements=3, **more):
+    """The same in waves."""
+    return afloat(elements, below=0.02, waves=WAVES[kind], **more)
+
+
+def under_gusts(**more):
+    """In waves, and above them in gusty air."""
+    model = in_waves("deep", **more)
+    model.add_fluid("air", density=1.3, above=0.02, velocity=(9.0, 1.0, 0.0), gusts=GUSTS)
+    return model

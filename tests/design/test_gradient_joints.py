@@ -4,19 +4,16 @@ import itertools
 
 import numpy as np
 import pytest
+from backwards import apart, differences, forward
 from jointed import arms, machine, methods
 
 import ancf
-from ancf.design.formulas import Formula
-from ancf.design.gradient import OF_RUN, slopes_of
-from ancf.model.vary import value_of
 from ancf.paper import sliding
 from ancf.sensitivity import adjoint
 from ancf.sensitivity.adjoint import Adjoint
 from ancf.sensitivity.adjoint_joints import JoinedAdjoint, adjoint_of
 from ancf.solvers.status import SLOW
 from ancf.system.system import System
-from ancf.viz.pictures.questions import ask
 from slopes import extrapolated, remainder_slopes
 
 ARMS = ["gravity", "hub.inertia", "arm.mass", "hub.mass", "hinge.b[2]"]
@@ -47,33 +44,6 @@ def backwards_alone(monkeypatch, request):
 
 def settings(method, steps=31):
     return {"t_end": 1e-3 * steps + 4e-4, "step": 1e-3, "integrator": method}
-
-
-def forward(model, text, names, **given):
-    """The same by sensitivities that follow the run."""
-    result = ancf.simulate(model, sensitivities=names, **given)
-    _, slopes = slopes_of(Formula(text, "test", OF_RUN), result.t, result)
-    return {
-        name: sum(
-            np.sum(x * result.sensitivity(name).answer(lambda f, p=pair: ask(f, *p)))
-            for pair, x in slopes.items()
-        )
-        for name in names
-    }
-
-
-def apart(model, found, wanted):
-    """Largest difference, each by the size of its parameter, relative to the largest derivative so."""
-    size = {name: abs(value_of(model, name)) or 1.0 for name in found}
-    largest = max(abs(wanted[name]) * size[name] for name in wanted)
-    return max(abs(found[name] - wanted[name]) * size[name] for name in wanted) / largest
-
-
-def differences(model, text, names, **given):
-    return {
-        name: extrapolated(lambda m: ancf.gradient(m, text, [], **given)[0], model, name, 2e-2)
-        for name in names
-    }
 
 
 @pytest.mark.parametrize("method", methods())

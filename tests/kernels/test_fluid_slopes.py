@@ -1,11 +1,10 @@
 """The slopes of the work of fluids' forces, by the state and by numbers of fluids and sections."""
 
-import numpy as np
 import pytest
 
 import ancf
 from ancf.system.system import System
-from sloped import SPEEDS, WAVES, afloat, at_time, check_slopes, in_waves
+from sloped import SPEEDS, WAVES, afloat, at_time, check_slopes, in_waves, under_gusts
 from strained import states
 
 TIME = 1.37
@@ -38,11 +37,7 @@ def test_of_waves(waves, speed):
 
 def test_of_gusts_over_waves():
     """The air has the waves as its lower surface."""
-    model = in_waves("deep")
-    gusts = {"speed": 9.0, "deviation": 2.0, "length": 30.0, "extent": (-2.0, 6.0), "spacing": 1.0}
-    gusts |= {"line": (1.0, 0.3, 0.0), "direction": 0.3, "duration": 20.0, "ramp": 3.0}
-    model.add_fluid("air", density=1.3, above=0.02, velocity=(9.0, 1.0, 0.0), gusts=gusts)
-    system, given, x = moved(model)
+    system, given, x = moved(under_gusts())
     check_slopes(system, "fluid", given, x, 1e-4)
 
 

@@ -11,6 +11,7 @@ from ancf.solvers.rare import knowing
 from ancf.solvers.sensitivity import Way
 from ancf.system.core import residual
 from ancf.system.system import System
+from sloped import SPEEDS, WAVES, afloat, in_waves
 from strained import SECTIONS, cable, sprung, states
 
 
@@ -100,3 +101,13 @@ def test_kinds_that_know_have_numbers():
         assert does_something(type(batch), add_number_work) == (own.numbers is not None)
         assert bool(own.numbered) == (own.numbers is not None)
         assert set(own.numbered) <= set(batch._fields)
+
+
+@pytest.mark.parametrize("kind", ["sheared", "deep"])
+def test_of_fluids(kind):
+    """Of fluids density, surface and gravity; of sections area, diameter, drag and added mass."""
+    model = in_waves(kind) if kind in WAVES else afloat(velocity=SPEEDS[kind], above=-1.2, below=0.1)
+    system = System(model)
+    wanted = [("fluids", k) for k in ((0, 2, 5) if kind in WAVES else (0, 1, 2, 5))]
+    for field, row in wanted + [("data", k) for k in range(6)]:
+        assert check(system, "fluid", field, row, size=0.1) > 0.0, (field, row)

@@ -47,6 +47,15 @@ _ALL = {
     "find_events": "_events_of_tuple",
     "last_inverted": "_inverted_of_tuple",
 }
+#: What :mod:`ancf.solvers.rare` does with all batches, and with one of them.
+_RARE = {
+    "add_rate_stiffnesses": "rate_stiffness",
+    "add_rate_works": "rate_work",
+    "add_all_slopes": "work_slopes",
+    "add_slopes_along": "force_slopes",
+    "add_slopes_beside_all": "slopes_beside",
+}
+_RARE_OF = {"add_number_work_of": "number_work", "add_changes_of": "changes"}
 
 
 def _plain(function):
@@ -71,8 +80,15 @@ def _interpret() -> None:
 
     for decorator in ("kernel", "inlined_kernel", "separate_kernel", "inline_kernel", "formula"):
         setattr(compiled, decorator, _plain)
+    stubs = {name: chosen(name) for name in _OPERATIONS}
     for name, operation in _OPERATIONS.items():
-        setattr(compiled, operation, chosen(name))
+        setattr(compiled, operation, stubs[name])
+
+    def does_something(batch_type, stub):
+        name = next(name for name, own in stubs.items() if own is stub)
+        return registered[name].get(batch_type) not in (None, *_DEFAULTS.values())
+
+    compiled.does_something = does_something
     compiled.implements = implements
     from ancf import addresses, batches, choices, records
 
@@ -87,9 +103,30 @@ def _interpret() -> None:
     batches.Batches = type("Batches", (tuple,), {})
     for operation, of_tuple in _ALL.items():
         setattr(batches, operation, getattr(batches, of_tuple))
+    _interpret_rare(registered, batches.Batches)
+
+
+def _interpret_rare(registered: dict[str, dict[type, Any]], kind: Any) -> None:
+    """The same for operations that only sensitivities ask for."""
     from ancf.solvers import rare
 
-    rare.knowing = lambda stub, found, *others: batches.Batches(found)
+    def of_all(name):
+        def done(items, *arguments):
+            for batch in items:
+                function = registered[name].get(type(batch))
+                if function is not None:
+                    function(batch, *arguments)
+
+        return done
+
+    def of_one(name):
+        return lambda items, k, *arguments: registered[name][type(items[k])](items[k], *arguments)
+
+    rare.knowing = lambda stub, found, *others: kind(found)
+    for operation, name in _RARE.items():
+        setattr(rare, operation, of_all(name))
+    for operation, name in _RARE_OF.items():
+        setattr(rare, operation, of_one(name))
 
 
 _how = os.environ.get("ANCF_MUTANTS", "")

@@ -52,10 +52,11 @@ def gradient(
     """A number of a simulation and its exact derivatives by parameters of the model.
 
     Models of cables, undamped solid beams, springs, masses, rigid bodies and joints, sliding ones as well,
-    with loads and supports as functions of time, have an adjoint: the derivatives by all parameters together
-    take about as much as a few runs, and memory that does not grow with their number, nor much with that of
-    the steps. Others, with contacts, moments, fluids or damped solid beams, take the sensitivities of
-    :func:`ancf.simulate`, whose cost grows with the number of parameters. The numbers are the same.
+    in fluids with currents, gusts and waves, with loads and supports as functions of time, have an adjoint:
+    the derivatives by all parameters together take about as much as a few runs, and memory that does not grow
+    with their number, nor much with that of the steps. Others, with contacts, moments or damped solid beams,
+    take the sensitivities of :func:`ancf.simulate`, whose cost grows with the number of parameters. The
+    numbers are the same.
 
     Parameters
     ----------

@@ -268,6 +268,12 @@ def fluid_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
             add_block_along(batch, e, p, dyadic(n, t, one, nn, tt, zz), A)
 
 
+def _numbers(batch):
+    """Those of the fluids, 0 for a surface that there is not, and of the sections."""
+    fluids = np.where(np.isinf(batch.fluids), 0.0, batch.fluids)
+    return np.concatenate([fluids.ravel(), batch.data.ravel()])
+
+
 implements(
     FluidBatch,
     force=fluid_force,
@@ -280,6 +286,6 @@ implements(
     force_slopes=fluid_force_slopes,
     number_work=fluid_number_work,
     sloped=lambda batch: not (np.any(batch.once) or np.any(batch.winch >= 0)),
-    numbers=lambda batch: np.concatenate([batch.fluids.ravel(), batch.data.ravel()]),
+    numbers=_numbers,
     numbered=("fluids", "data"),
 )

@@ -93,9 +93,8 @@ def work_at(batch, e, p, t, past, du, own, X):
     by_past = sum4(s, n, dn * speed, X, along - dn * speed * tau, t, 0.0, t)
     m = area * more
     by_du, by_own = both(area * (1.0 + mn), X, m * tau, t), both(-area * mn, X, -m * tau, t)
-    turn = sum4(
-        -wt * s, n, dt * fast * wt - dn * speed * wt + m * gain, X, along - dn * speed * tau, past, 0.0, t
-    )
+    with_x, with_past = (dt * fast - dn * speed) * wt + m * gain, along - dn * speed * tau
+    turn = sum4(-wt * s, n, with_x, X, with_past, past, 0.0, t)
     turn = sum4(1.0, turn, m * tau, du, -m * tau, own, 0.0, t)
     lift = share * area * dot(three(fluid, GRAVITY), X)
     work = dn * speed * nX + dt * fast * wt * tau - lift
@@ -195,12 +194,8 @@ def fluid_force_slopes(batch, q, v, a, d, r, ws):
             for c in range(3):
                 X = (1.0 if c == 0 else 0.0, 1.0 if c == 1 else 0.0, 1.0 if c == 2 else 0.0)
                 by = slopes_at(batch, e, p, t, size, own, b, X, wet)
-                f = (
-                    dot(by[0], moved[0])
-                    + dot(by[1], moved[1])
-                    + dot(by[2], faster[0])
-                    + dot(by[3], faster[1])
-                )
+                f = dot(by[0], moved[0]) + dot(by[1], moved[1])
+                f = f + dot(by[2], faster[0]) + dot(by[3], faster[1])
                 for k in range(batch.base.shape[1]):
                     i, w = batch.base[e, k], batch.shape[e, p, k]
                     if i >= 0:

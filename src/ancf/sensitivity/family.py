@@ -27,7 +27,7 @@ from .parameters import Parameter
 from .pushing import Pushing
 from .trial import Trial
 from .turns import axes_rates, ends_rates, moves_ends, slopes_local, slopes_rates, stands
-from .values import few_of, quiet_state
+from .values import fed_alike, few_of, quiet_state
 
 #: Step of the differences, relative, and of a parameter that is zero, in its unit or the size of the model.
 STEP = 1e-3
@@ -66,7 +66,8 @@ class Family(Pushing):
     Attributes
     ----------
     plain : bool
-        No support depends on the parameter, and no load that depends on the state or row of a joint does.
+        No support depends on the parameter, no row of a joint, and no input of a load that depends on the
+        state.
     shift, turn : ndarray
         Derivatives of the state where it is held, (size,), and of the local axes of supports, (k, 3, 3), if
         these are all that keeps it from being plain; else, and where they are zero, empty.
@@ -246,7 +247,7 @@ class Family(Pushing):
         base = self.base
         self.changed = self._names()
         still, self._fed = self._steady_inputs()
-        plain = still and all(self._has_own(system) for system in self.systems)
+        plain = still and (self._fed or all(self._has_own(system) for system in self.systems))
         rows = any(Role.CONSTRAINS in traits(base.parts[name]).role for name in self.changed)
         self._see_supports(plain, rows)
         self._loads = any(not same_loads(base, s) for s in self.systems)
@@ -296,7 +297,7 @@ class Family(Pushing):
         names = self.changed if names is None else names
         if not names:
             return []
-        batches = few_of([*self.systems, self.base], names)
+        batches = fed_alike(few_of([*self.systems, self.base], names))
         if not self.linear or self.systems[-1] is self.base:
             return list(zip(self.weights, batches[:-1], strict=True))
         last, own = batches[-2:]
