@@ -2,9 +2,11 @@
 
 import pytest
 from backwards import apart, differences, forward
+from jointed import methods
 
 import ancf
 from ancf.sensitivity.adjoint_joints import JoinedAdjoint, adjoint_of
+from ancf.sensitivity.adjoint_sloped import SlopedAdjoint
 from ancf.system.system import System
 from sloped import SPEEDS, WAVES, afloat, in_waves, of_hull, under_gusts
 
@@ -103,6 +105,26 @@ def test_from_an_equilibrium():
     assert apart(model, slope, forward(model, text, names, start=start, **settings())) < 1e-9
 
 
+@pytest.mark.parametrize("method", ["trapezoidal ggl", "generalized index2", "generalized index3"])
+def test_beside_joints(method):
+    """A rigid body clamped to the rope, and an arm on a hinge, whose rows have multipliers."""
+    model = afloat(buoy=False, section=of_hull(**MOORED), velocity=SPEEDS["sheared"])
+    rope, own = model.bodies["rope"], {"inertia": (0.02, 0.1, 0.1), "volume": 1e-3, "drag_area": 0.02}
+    hub = model.add_rigid_body("hub", at=(1.7, 0.4, 0.5), mass=1.0, added_mass=0.5, **own)
+    arm = model.add_rigid_body("arm", at=(2.1, 0.4, 0.5), mass=0.7, added_mass=0.2, **own)
+    model.clamp(rope.end, to=hub)
+    model.hinge(hub.at(0.2, 0, 0), arm.at(-0.2, 0, 0), axis=(0, 1, 0.3), name="elbow")
+    assert adjoint_of(System(model)) is JoinedAdjoint
+    text = "integral(norm(velocity(arm.centre))**2) + integral(multiplier(elbow)[2]**2)"
+    agree(
+        model,
+        text,
+        ["rope.EI", "rope.drag[0]", "hub.volume", "arm.mass", "sea.density"],
+        settings(methods()[method], step=1e-3),
+        1e-8,
+    )
+
+
 def test_solid_beams():
     model = ancf.Model(gravity=(0.0, 0.0, -9.81))
     bar = ancf.Section.circle(0.1, E=1e8, rho=900.0, drag=(1.1, 0.2), added_mass=(1.0, 0.0))
@@ -121,7 +143,7 @@ def swirl(t, x, y, z):
 
 def test_what_goes_forwards():
     """Laws in Python are called once a step: what they do changes with no unknown of it."""
-    assert adjoint_of(System(afloat())) is JoinedAdjoint
+    assert adjoint_of(System(afloat())) is SlopedAdjoint
     model, given = afloat(buoy=False, velocity=swirl), settings(steps=5)
     assert adjoint_of(System(model)) is None
     _, slope = ancf.gradient(model, OBJECTIVES[0], ["rope.EI"], **given)

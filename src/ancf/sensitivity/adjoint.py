@@ -277,13 +277,17 @@ class Adjoint:
         """Carry the adjoint through what makes a start consistent; what parameters do to that."""
         system, lam, lost = self.system, np.zeros_like(begin.q), np.zeros_like(begin.q)
         turned = np.zeros((self.weighed.turning, 3, 3))
-        y = begin.q, begin.v, begin.a
-        back_start(system.core, self.m, y, wanted[0], self.unknowns, mu, lam, lost, turned)
+        self._through_start(begin, wanted, mu, (lam, lost, turned))
         still -= lost
-        way = Way(*(x[None] for x in y))
+        way = Way(*(x[None] for x in (begin.q, begin.v, begin.a)))
         self._add_axes(way, wanted, turned)
         tables = system.inputs.tables(*when[:2], 1, *when[2:])
         return self._pushed(way, when, tables, wanted, lam[None], turned)
+
+    def _through_start(self, begin: Start, wanted: FloatArray, mu: FloatArray, sums: Any) -> None:
+        """Carry the adjoint through the accelerations of a start, see :func:`back_start` for the sums."""
+        y = begin.q, begin.v, begin.a
+        back_start(self.system.core, self.m, y, wanted[0], self.unknowns, mu, *sums)
 
     def _take(self, count: int, store: Collector) -> None:
         run = self.run

@@ -17,6 +17,7 @@ from ..solvers.sensitivity import Constraining, Matrices, Way
 from ..solvers.status import OK
 from ..system.system import System
 from .adjoint import Adjoint, UnsolvedError
+from .adjoint_sloped import SlopedAdjoint
 from .base import matrices_of
 from .follow import check_shift
 from .start import Start
@@ -107,10 +108,10 @@ def goes_back(system: System, m: Matrices) -> bool:
 
 
 def adjoint_of(system: System) -> type[Adjoint] | None:
-    """The adjoint of a model, if it has one: its matrices are all exact, but for rows of joints."""
+    """The adjoint of a model, if it has one: what is not exact in its matrices knows its slopes."""
     m = matrices_of(system.core, system.size, moving=True, back=True)
     if len(m.lossy) or m.turning:
         return None
-    if not len(system.multipliers) and not len(m.joined):
-        return None if len(m.rough) else Adjoint
+    if not len(system.multipliers):
+        return None if len(m.rough) else (SlopedAdjoint if len(m.joined) else Adjoint)
     return JoinedAdjoint if goes_back(system, m) else None

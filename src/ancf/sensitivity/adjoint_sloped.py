@@ -1,0 +1,31 @@
+"""The adjoint of a simulation with forces that know the slopes of their work, as fluids and contacts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..solvers.adjoint_sloped import ROOM, back_sloped_start, back_sloped_steps
+from ..solvers.sensitivity import Way
+from ..solvers.status import OK
+from .adjoint import Adjoint, UnsolvedError
+from .start import Start
+
+
+class SlopedAdjoint(Adjoint):
+    """A simulation with such forces and without joints that is gone through forwards and backwards."""
+
+    def _prepare(self) -> None:
+        self._room, self._rate = np.zeros((ROOM, self.system.size)), np.zeros(1)
+
+    def _back(self, way: Way, h: float, tables: Any, wanted: FloatArray, sums: Any) -> int:
+        given = self.system.core, self.m, self.ahead, tables, way, wanted, self.unknowns
+        _, status = back_sloped_steps(*given, h, self.run.scheme, *sums, self._rate, self._room)
+        return int(status)
+
+    def _through_start(self, begin: Start, wanted: FloatArray, mu: FloatArray, sums: Any) -> None:
+        given = self.system.core, self.m, (begin.q, begin.v, begin.a), wanted[0], self.unknowns
+        if back_sloped_start(*given, mu, *sums, self._rate, self._room) != OK:
+            raise UnsolvedError
