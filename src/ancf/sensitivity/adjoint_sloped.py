@@ -22,10 +22,12 @@ class SlopedAdjoint(Adjoint):
 
     def _back(self, way: Way, h: float, tables: Any, wanted: FloatArray, sums: Any) -> int:
         given = self.system.core, self.m, self.ahead, tables, way, wanted, self.unknowns
-        _, status = back_sloped_steps(*given, h, self.run.scheme, *sums, self._rate, self._room)
+        own = *sums, self._rate, self._room
+        _, status = back_sloped_steps(*given, h, self.run.scheme, *own)
         return int(status)
 
     def _through_start(self, begin: Start, wanted: FloatArray, mu: FloatArray, sums: Any) -> None:
         given = self.system.core, self.m, (begin.q, begin.v, begin.a), wanted[0], self.unknowns
-        if back_sloped_start(*given, mu, *sums, self._rate, self._room) != OK:
+        own = *sums, self._rate, self._room
+        if back_sloped_start(*given, mu, *own) != OK:
             raise UnsolvedError
