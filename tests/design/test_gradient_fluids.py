@@ -71,6 +71,24 @@ def test_of_any_weight(density, elements, step):
     agree(model, OBJECTIVES[0], NAMES, settings(step=step))
 
 
+@pytest.mark.parametrize(("step", "most"), [(1e-3, 3.5), (5e-3, 4.5), (2e-2, 5.5)])
+def test_corrections(step, most, monkeypatch):
+    """After the first few steps, from which the next ones begin, few are enough for round-off."""
+    counts, back = [], SlopedAdjoint._back
+
+    def counted(self, way, *given):
+        status = back(self, way, *given)
+        counts.append((self._rate[1], len(way.q)))
+        return status
+
+    monkeypatch.setattr(SlopedAdjoint, "_back", counted)
+    model = afloat(9, buoy=False, section=of_hull(damping=0.2), velocity=SPEEDS["sheared"], below=0.1)
+    ancf.gradient(model, OBJECTIVES[0], ["rope.EI"], **settings(step=step, steps=100))
+    ((corrections, steps),) = counts
+    assert steps == 100
+    assert corrections <= most * steps
+
+
 @pytest.mark.parametrize("kind", ["sheared", "shallow"])
 def test_against_differences(kind):
     """Below the surface, where forces have no kinks."""

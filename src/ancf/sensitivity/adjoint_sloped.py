@@ -18,7 +18,7 @@ class SlopedAdjoint(Adjoint):
     """A simulation with such forces and without joints that is gone through forwards and backwards."""
 
     def _prepare(self) -> None:
-        self._room, self._rate = np.zeros((ROOM, self.system.size)), np.zeros(1)
+        self._room, self._rate = np.zeros((ROOM, self.system.size)), np.zeros(2)
 
     def _back(self, way: Way, h: float, tables: Any, wanted: FloatArray, sums: Any) -> int:
         given = self.system.core, self.m, self.ahead, tables, way, wanted, self.unknowns

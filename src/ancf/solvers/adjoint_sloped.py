@@ -70,8 +70,8 @@ def solved(core, factor, x):
 
 
 @inline_kernel
-def inner(x, y):
-    """Scalar product."""
+def product_of(x, y):
+    """Sum of the products of the entries."""
     s = 0.0
     for i in range(x.shape[0]):
         s += x[i] * y[i]
@@ -120,9 +120,9 @@ def direction(core, weights, round, room):
     whole(core, weights, room[OWN:LACKS], room[own + 2])
     for k in range(min(round, KEPT)):
         other = FIRST + OF_EACH * k
-        size = inner(room[other + 2], room[other + 2])
+        size = product_of(room[other + 2], room[other + 2])
         if other != own and size > 0.0:
-            f = -inner(room[own + 2], room[other + 2]) / size
+            f = -product_of(room[own + 2], room[other + 2]) / size
             add_times(f, room[other : other + OF_EACH], room[own : own + OF_EACH])
     return own
 
@@ -131,7 +131,8 @@ def direction(core, weights, round, room):
 def solve(core, m, factor, matrices, weights, y, known, lam, rate, room):
     """Fill lambda for room[GOAL], and room[SUMS] of it; a status.
 
-    ``known``: how many steps have been solved before; ``rate``: by which corrections of these shrank.
+    ``known``: how many steps have been solved before; ``rate``: by which corrections of these shrank, and
+    how many there were.
     """
     n, sums, own, before = core.weight.shape[0], room[SUMS:OWN], room[OWN:LACKS], 0.0
     left, change, w, lacks = room[LEFT], room[CHANGE], room[WORK:FIRST], room[LACKS]
@@ -145,6 +146,7 @@ def solve(core, m, factor, matrices, weights, y, known, lam, rate, room):
     for i in range(lam.shape[0]):
         left[i] = room[GOAL, i] - change[i]
     for round in range(MOST):
+        rate[1] += 1.0
         for i in range(lam.shape[0]):
             change[i] = left[i]
         solved(core, factor, change)
@@ -166,10 +168,10 @@ def solve(core, m, factor, matrices, weights, y, known, lam, rate, room):
         before = norm
         add_slopes(core, m, y, change, own)
         of = direction(core, weights, round, room)
-        size = inner(room[of + 2], room[of + 2])
+        size = product_of(room[of + 2], room[of + 2])
         if not size > 0.0:
             return SLOW
-        f = inner(room[of + 2], left) / size
+        f = product_of(room[of + 2], left) / size
         for i in range(lam.shape[0]):
             lam[i] += f * room[of, i]
             lacks[i] -= f * room[of + 1, i]
@@ -225,7 +227,7 @@ def back_sloped_steps(
     ----------
     core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned
         See :func:`ancf.solvers.adjoint.back_steps`.
-    rate : (1,)
+    rate : (2,)
         See :func:`solve`.
     room : (ROOM, size)
 
