@@ -126,6 +126,20 @@ def write_text(path: Path, text: str) -> Path:
     return path
 
 
+def beside(output: Path, source: Path, option: str = "-o") -> Path:
+    """A file to write that is not the one that was read.
+
+    Raises
+    ------
+    ModelError
+        It is.
+    """
+    with suppress(OSError):
+        if output.samefile(source):
+            raise ModelError(f"{option} {output}", "is the file that is read", "give another name")
+    return output
+
+
 def cell(value: Any) -> Any:
     """A cell of a CSV file: text that a spreadsheet would compute gets an apostrophe; numbers stay."""
     if not isinstance(value, str) or not value.startswith(FORMULAS):

@@ -10,6 +10,10 @@ from places import ROOT
 
 #: What users ask for, and the page on which they should land.
 ASKED = {
+    "Campbell diagram": "howto/statics_and_modes",
+    "rotordynamics": "howto/statics_and_modes",
+    "elevator": "howto/winch",
+    "dead time": "howto/lead_a_run",
     "winch": "howto/winch",
     "joints": "howto/joints",
     "mooring": "tutorials/mooring",
@@ -58,6 +62,10 @@ def test_a_word_finds_its_page(call, word, page):
     assert "<!--" not in ran.out
     for mark in ("{index}", "{figure}", "[](", "\n% "):
         assert mark not in ran.out
+
+
+def test_several_words_need_no_quotes(call):
+    assert call("docs", "capstan", "friction").out == call("docs", "capstan friction").out
 
 
 def test_words_are_whole(tmp_path, monkeypatch):

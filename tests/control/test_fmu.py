@@ -263,6 +263,86 @@ def test_description_is_valid_and_complete(units, version):
     assert by_name["tie.length"].description == "[m]"
 
 
+#: A rope on a floor, a ball on it, and a body on a torsion spring.
+TOUCHING = """
+[[bodies]]
+name = "rope"
+start = [0, 0, 0.01]
+end = [1, 0, 0.01]
+elements = 3
+section = { EA = 1e4, EI = 0.1, rhoA = 0.5, diameter = 0.02 }
+
+[[bodies]]
+type = "rigid_body"
+name = "ball"
+at = [0, 2, 0.099]
+mass = 1.0
+inertia = [0.01, 0.01, 0.01]
+
+[[surfaces]]
+name = "floor"
+shape = "plane"
+
+[[surfaces]]
+name = "skin"
+shape = "sphere"
+radius = 0.1
+on = "ball"
+
+[[connections]]
+type = "surface_contact"
+name = "rest"
+body = "rope"
+surface = "floor"
+stiffness = 1e5
+friction = 0.3
+
+[[connections]]
+type = "body_contact"
+name = "bump"
+surface = "skin"
+other = "floor"
+stiffness = 1e4
+friction = 0.3
+
+[[connections]]
+type = "torsion_spring"
+name = "twist"
+a = "ball"
+b = [0, 2, 0.099]
+axis = [1, 0, 0]
+stiffness = 1.0
+
+[simulation]
+t_end = 1.0
+step = 1e-3
+sensors = ["rest", "bump", "twist"]
+"""
+
+
+@pytest.mark.parametrize("version", ["2.0", "3.0"])
+def test_contacts_and_torsion_springs_are_outputs(tmp_path, version):
+    (tmp_path / "touching.toml").write_text("gravity = [0, 0, -9.81]\n" + TOUCHING, "utf-8")
+    made = export_fmu(tmp_path / "touching.toml", tmp_path / "touching.fmu", version)
+    assert [(o.name, o.unit) for o in made.outputs] == [
+        ("rest.force", "N"),
+        ("rest.gap", "m"),
+        ("bump.force", "N"),
+        ("bump.gap", "m"),
+        ("twist.angle", "rad"),
+        ("twist.moment", "N m"),
+    ]
+
+
+def test_a_name_that_is_no_unit_spares_the_file(tmp_path):
+    """The model file under its own name, above all."""
+    file = tmp_path / "hoist.toml"
+    file.write_text(HOIST, "utf-8")
+    with pytest.raises(ancf.ModelError, match=r"must end in \.fmu"):
+        export_fmu(file, file)
+    assert file.read_text("utf-8") == HOIST
+
+
 def test_names_by_the_rules_of_fmi():
     assert structured("rope.end") == "rope.end"
     assert structured("rope.at(1.5)") == "'rope.at(1.5)'"

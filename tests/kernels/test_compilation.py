@@ -113,6 +113,11 @@ class TestHelp:
         assert re.fullmatch(r"ancf: compiled in \d+ s: your functions", last)
 
 
+@pytest.mark.parametrize("name", [name for name, _ in warmup.parts()])
+def test_what_warms_up_runs(name):
+    dict(warmup.parts())[name]()
+
+
 def test_warmup_has_every_kind():
     """Kinds of batches that its models have, found without compiling, against all that have operations."""
     found = set()

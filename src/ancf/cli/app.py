@@ -310,7 +310,7 @@ def examples(copy: Copy = None) -> None:
 @app.command()
 def docs(
     word: Annotated[
-        str | None, typer.Argument(help="A page, or what it is about.", show_default=False)
+        list[str] | None, typer.Argument(help="A page, or what it is about.", show_default=False)
     ] = None,
     copy: Copy = None,
 ) -> None:
@@ -318,7 +318,7 @@ def docs(
     with reported():
         from .docs import show_docs
 
-        show_docs(word, copy)
+        show_docs(" ".join(word) if word else None, copy)
 
 
 @app.command()

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..files import beside
 from .screen import console, table
 
 
@@ -31,6 +32,7 @@ def identify(
     from ..model import checks
 
     checks.choice(kind, "--kind", tuple(KINDS))
+    beside(output, response)
     frequency, measured = read_response(response)
     checks.non_negative(aerodynamic, "--aerodynamic")
     found = identify_pantograph(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..files import write_text
+from ..files import beside, write_text
 from ..model.file import parse_study
 from ..mooring.moordyn_model import import_moordyn
 from .screen import console
@@ -19,6 +19,7 @@ def import_file(lines: Path, output: Path) -> None:
     ModelError
         The file cannot be read or taken, describes no valid model, or the model file cannot be written.
     """
+    beside(output, lines)
     made = import_moordyn(lines)
     study = parse_study(made.tables, str(lines))
     write_text(output, made.toml(lines.name))

@@ -32,13 +32,18 @@ def parts() -> Iterator[tuple[str, Callable[[], object]]]:
     """What is compiled one after the other, with the words that are said of it."""
     yield "cables, time stepping", lambda: simulate(_cable(), t_end=0.002, step=0.001)
     yield "equilibria", lambda: equilibrium(_cable())
-    yield "modes", lambda: modes(_cable(), count=1)
+    yield "modes", _modes
     yield "beams with a cross-section", lambda: simulate(_beams(), t_end=0.002, step=0.001)
     yield "rigid bodies, joints, springs", lambda: simulate(_joints(), t_end=0.002, step=0.001)
     yield "sliding joints", lambda: simulate(_bead(), t_end=0.002, step=0.001)
     yield "grounds, fluids, follower loads", lambda: simulate(_surrounded(), t_end=0.002, step=0.001)
     yield "explicit stepping", lambda: simulate(_cable(), t_end=2e-5, step=1e-5, integrator=Explicit())
     yield "Radau's method", lambda: simulate(_cable(), t_end=0.002, step=0.001, integrator=Radau())
+
+
+def _modes() -> None:
+    model = _cable()
+    modes(model, about=equilibrium(model), count=1)
 
 
 def _cable() -> Model:

@@ -147,6 +147,8 @@ def export_fmu(path: Path, output: Path, version: str = "3.0") -> Unit:
         The start is an equilibrium, which was not found.
     """
     builder = _builder(version)
+    if output.suffix.lower() != ".fmu":
+        raise ModelError(f"-o {output}", "must end in .fmu", f"give {output.with_suffix('.fmu')}")
     study = read_study(path)
     settings = settings_of(study)
     if not settings.sensors:

@@ -24,7 +24,10 @@ OF_SUPPORT = {"reaction": "N"}
 MOMENT_OF_JOINT, MOMENT_OF_CLAMP = {"joint_moment": "N m"}, {"reaction_moment": "N m"}
 #: Questions whose parts are along x, y and z.
 ALONG_AXES = (*OF_POINT, *OF_SUPPORT, *MOMENT_OF_JOINT, *MOMENT_OF_CLAMP)
-OF_CONTACT = {"contact_force": "N", "contact_gap": "m", "arc_length": "m"}
+OF_TORSION = {"torsion_angle": "rad", "torsion_moment": "N m"}
+OF_CONTACT = {"contact_force": "N", "contact_gap": "m"}
+#: Of a strip, which has one place on a wire.
+OF_STRIP = {"arc_length": "m"}
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*")
 
 
@@ -68,13 +71,14 @@ def _questions(run: Stepper) -> Iterator[tuple[Any, str, str]]:
         questions = OF_POINT | (OF_LINE if isinstance(point.body, Beam) else {})
         yield from ((point, question, unit) for question, unit in questions.items())
     for name in listing.connections:
-        questions = OF_SPRING if name in run.springs else {}
+        questions = OF_SPRING if name in run.springs else OF_TORSION if name in run.torsion_springs else {}
         questions = questions | (OF_JOINT if name in run.joints else {})
         if name in run.arcs:
             questions = questions | {"arc_length": "m"}
         elif name in run.joints:
             questions = questions | MOMENT_OF_JOINT
-        questions = questions | (OF_CONTACT if name in listing.columns else {})
+        if name in listing.columns:
+            questions = questions | OF_CONTACT | ({} if run.sensors.rubs(name) else OF_STRIP)
         questions = questions | (OF_SUPPORT if name in listing.held else {})
         questions = questions | (MOMENT_OF_CLAMP if name in clamps else {})
         yield from ((name, question, unit) for question, unit in questions.items())
@@ -82,7 +86,7 @@ def _questions(run: Stepper) -> Iterator[tuple[Any, str, str]]:
 
 def _parts(run: Stepper, of: str, question: str, unit: str) -> Iterator[Output]:
     count = np.size(getattr(run, question)(of))
-    word = question.removeprefix("spring_").removeprefix("contact_")
+    word = question.removeprefix("spring_").removeprefix("contact_").removeprefix("torsion_")
     for k in range(count):
         part = f".{'xyz'[k]}" if question in ALONG_AXES else (f"[{k + 1}]" if question in OF_JOINT else "")
         yield Output(f"{structured(of)}.{word}{part}", question, of, k, unit)
