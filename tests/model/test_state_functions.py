@@ -31,7 +31,9 @@ def test_compiled_formula_is_the_formula(text):
     law, rng = python_of([text, 1.5, "y"]), np.random.default_rng(len(text))
     for _ in range(40):
         t, r, v = rng.uniform(0, 3), rng.uniform(-2, 2, 3), rng.uniform(-2, 2, 3)
-        assert law(t, r, v) == pytest.approx(function(t, r, v).tolist(), rel=1e-14, abs=1e-14)
+        data = np.concatenate([r, v, np.full(3, np.nan)])
+        assert law(t, data) == 0.0
+        assert data[6:] == pytest.approx(function(t, r, v), rel=1e-14, abs=1e-14)
 
 
 @pytest.mark.parametrize("name", NAMES[1:])
