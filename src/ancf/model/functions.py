@@ -68,7 +68,7 @@ class TimeFunction:
 
     """
 
-    __slots__ = ("_evaluate", "constant", "given", "inputs", "parts", "series", "size", "where")
+    __slots__ = ("_evaluate", "_value", "constant", "given", "inputs", "parts", "series", "size", "where")
 
     def __init__(self, given: Any, size: int, where: str) -> None:
         if size not in (1, 3):
@@ -78,9 +78,11 @@ class TimeFunction:
         self.inputs: dict[str, float] = {}
         self.parts: list[Expression | Series | float] = []
         self.series: tuple[Series, ...] = ()
+        self._value: FloatArray | None = None  # of a constant
         self._evaluate, self.constant = self._interpret(self.given)
         if not self.missing:
-            self.table(np.zeros(1))
+            first = self.table(np.zeros(1))[0]
+            self._value = first if self.constant else None
 
     @classmethod
     def from_table(cls, t: Any, value: Any, size: int, where: str) -> TimeFunction:
@@ -103,6 +105,8 @@ class TimeFunction:
 
     def __call__(self, t: float) -> FloatArray:
         """Values (size,) at the time t in s."""
+        if self._value is not None:
+            return self._value.copy()
         value: FloatArray = self.table(np.array([t], dtype=np.float64))[0]
         return value
 
@@ -124,7 +128,10 @@ class TimeFunction:
             The function raised, returned a wrong shape or a non-finite number; the time is named.
 
         """
-        return self._finite(np.asarray(times, dtype=np.float64), self._evaluate)
+        times = np.asarray(times, dtype=np.float64)
+        if self._value is not None:
+            return np.tile(self._value, (times.size, 1))
+        return self._finite(times, self._evaluate)
 
     def under(self, inputs: Mapping[str, float], times: FloatArray) -> FloatArray:
         """The same for other values of the inputs on which it depends."""

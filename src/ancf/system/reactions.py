@@ -105,5 +105,6 @@ def _loose(system: System, name: str, r: FloatArray, load: FloatArray) -> float:
 
 def _stiffness(system: System) -> float:
     """Largest EA of a body and stiffness times length of a spring, N."""
-    springs = [c.stiffness * system.model.size for c in system.model.connections if isinstance(c, Spring)]
-    return max([0.0, *springs, *(beam.section.EA for beam in system.model.beams.values())])
+    springs = [c.stiffness for c in system.model.connections if isinstance(c, Spring)]
+    of_springs = max(springs) * system.model.size if springs else 0.0
+    return max([0.0, of_springs, *(beam.section.EA for beam in system.model.beams.values())])
