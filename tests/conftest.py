@@ -41,6 +41,17 @@ def made(fakes, tmp_path):
     return verify(["all"], tmp_path / "out", short=True)
 
 
+@pytest.fixture
+def undrawn(monkeypatch):
+    """Reports of runs with empty figures, for tests of what they say: to draw them takes seconds."""
+    from ancf.catenary.report import build
+    from ancf.viz import style
+
+    with style.new_figure(1.0, 1.0) as empty:
+        pass
+    monkeypatch.setattr(build, "picture", lambda name, content, save: save(empty))
+
+
 @pytest.fixture(scope="module")
 def browser():
     """A browser without a screen that the tests of a file share."""

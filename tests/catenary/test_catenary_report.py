@@ -127,7 +127,7 @@ class TestReport:
         assert "998.0" in cells  # length of the first dropper in mm
         assert any("3 of 8 quantities inside" in c and "with a filter of order 4" in c for c in cells)
 
-    def test_escapes(self, run, tmp_path):
+    def test_escapes(self, run, tmp_path, undrawn):
         made = dataclasses.replace(run, settings={"<b>": "a & b </td>"})
         Page(write_report(made, tmp_path / "r.html").read_text())
 
@@ -145,7 +145,7 @@ class TestReport:
         content = Content.of(dataclasses.replace(two, recordings=same))
         assert [content.name(0), content.name(1)] == ["twin (1)", "twin (2)"]
 
-    def test_speed_without_ranges(self, run, tmp_path):
+    def test_speed_without_ranges(self, run, tmp_path, undrawn):
         reference = reference_case("en50318-2002")
         text = write_report(at_speed(run, 260.0), tmp_path / "r.html", reference=reference).read_text()
         assert "no accepted ranges at 260 km/h" in text
@@ -235,7 +235,7 @@ class TestCommand:
         monkeypatch.setattr(validate, "elasticity_beside", lambda line: made)
         return CliRunner().invoke(app, ["validate", *arguments]), calls
 
-    def test_writes_and_prints(self, monkeypatch, run, tmp_path):
+    def test_writes_and_prints(self, monkeypatch, run, tmp_path, undrawn):
         arguments = ("en50318-2002", "--speed", "250", "-o", str(tmp_path))
         done, calls = self.validate(monkeypatch, run, *arguments)
         assert done.exit_code == 0, done.output

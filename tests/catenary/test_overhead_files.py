@@ -130,7 +130,7 @@ class TestMessages:
         assert "a point for decimals: 54.0" in told
 
 
-def test_who_and_what_for(path, tmp_path):
+def test_who_and_what_for(path, tmp_path, undrawn):
     """[report] stands at the beginning of the report of a run."""
     path.write_text(path.read_text() + '\n[report]\nproject = "Branch <3>"\nauthor = "A. Example"\n')
     line = read_line(path)

@@ -7,7 +7,7 @@ from docx.oxml.ns import qn
 
 import catenary_stand_in as stand_in
 from ancf import ModelError
-from ancf.catenary.report import Content, write_report, write_reports
+from ancf.catenary.report import Content, build, write_report, write_reports
 from ancf.catenary.report.build import pieces
 from ancf.viz import printed, style
 from ancf.viz.html import element, figure, pairs, table
@@ -170,7 +170,9 @@ class TestFormats:
         path = write_report(content.run, tmp_path / "deep" / "one.pdf")
         assert path.read_bytes().startswith(b"%PDF")
 
-    def test_a_place_that_cannot_be_written(self, content, tmp_path):
+    def test_a_place_that_cannot_be_written(self, content, tmp_path, monkeypatch):
+        """Before anything is drawn."""
         (tmp_path / "file").write_text("")
+        monkeypatch.setattr(build, "pieces", lambda *given: pytest.fail("it draws first"))
         with pytest.raises(ModelError, match="cannot be written"):
             write_report(content.run, tmp_path / "file" / "report.pdf")

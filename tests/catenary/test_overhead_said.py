@@ -81,7 +81,7 @@ def done():
 
 
 class TestRuns:
-    def test_report(self, done, tmp_path):
+    def test_report(self, done, tmp_path, undrawn):
         write_reports(done, tmp_path, ("html",))
         text = (tmp_path / "report.html").read_text()
         assert "<h1>Short line, 30 °C, 144 km/h</h1>" in text

@@ -233,7 +233,7 @@ class TestCommand:
         """On the screen and in the report, whose title has what is not as designed."""
         line = path.with_name("wide.toml")
         line.write_text(LINE.replace("mass = 1", "diameter = 0.013, mass = 1"))
-        options = ["--speed", "150", "--step", "0.002", "--mesh", "2.5", "5", "-j", "1", "--to", "html"]
+        options = ["--speed", "150", "--step", "0.002", "--mesh", "2.5", "5", "-j", "0", "--to", "html"]
         sets = [word for change in changes for word in ("--set", change)]
         done = self.sweep(line, *options, *sets, "--window", "80", "90", "--until", "95", "-o", tmp_path)
         assert done.exit_code == 0, done.output

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..._version import __version__
-from ...files import write_text
+from ...files import write_text, writing
 from ...viz import printed, style
 from ...viz.html import element, figure, page, section
 from ..acceptance import acceptance, footnote, verdict
@@ -79,6 +79,9 @@ def write_reports(
 
 def _write(content: Content, files: Sequence[tuple[str, Path]]) -> list[Path]:
     style.require_matplotlib()
+    for _, path in files:
+        with writing(path):  # said before the figures are drawn
+            pass
     title = f"{titled(content.run.form.line)}, {content.speed_kmh:.4g} km/h"
     on_paper: list[Element] = []
     for kind, path in files:
