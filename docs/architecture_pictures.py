@@ -39,7 +39,7 @@ FLOORS = (
     ("simd", "eight elements as one value in kernels"),
     ("batches", "batches of all kinds under one type"),
     ("records  operations", "batches and operations at an address"),
-    ("vectors", "arithmetic of three numbers in kernels"),
+    ("vectors words", "arithmetic of three numbers in kernels, where arrays are"),
     ("choices", "kernels by the type of what they take"),
     ("compiled", "kernels, and operations by type of batch"),
     (

@@ -43,7 +43,7 @@ from .compiled import (
     touched,
 )
 from .operations import OPERATIONS
-from .records import RecordType, begin_of, words_of
+from .records import RecordType, begin_of, words_and_kind
 
 _COLUMNS = 1 + len(OPERATIONS)
 _NONE = np.zeros((0, _COLUMNS), dtype=np.int64)
@@ -120,12 +120,12 @@ def _row(batch: Any) -> tuple[NDArray[np.int64], tuple[int, ...]]:
     """The record of a batch and the addresses of its operations; of an empty one none is compiled."""
     if len(batch[0]) == 0:
         return np.zeros(1, dtype=np.int64), (0,) * len(OPERATIONS)
-    key = type(batch), *((x.dtype, x.ndim, x.flags.num) for x in batch)
+    words, key = words_and_kind(batch)
     if key not in addresses.found:
         kind = typeof(batch)
         places = tuple(0 if stub in RARE else address_of(type(batch), kind, stub) for stub in OPERATIONS)
         addresses.found[key] = places
-    return words_of(batch), addresses.found[key]
+    return words, addresses.found[key]
 
 
 def address_of(batch_type: type, kind: Any, stub: Any) -> int:

@@ -71,6 +71,7 @@ def stamped() -> list[Path]:
         root / "batches.py",
         root / "choices.py",
         root / "vectors.py",
+        root / "words.py",
     )
     return [*kernels, *(f for folder in FOLDERS for f in sorted((root / folder).rglob("*.py")))]
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
-import struct
 from functools import cached_property
+from struct import Struct
 from typing import Any, TypeVar
 
 import numpy as np
@@ -28,7 +28,9 @@ from numba.extending import (
     typeof_impl,
     unbox,
 )
-from numpy.typing import NDArray
+
+from .arrays import IntArray
+from .words import spelled
 
 T = TypeVar("T")
 WORD = ir.IntType(64)
@@ -69,21 +71,26 @@ def recorded(kind: type[T]) -> type[T]:
     def numba_type(value: Any, context: Any) -> RecordType:
         return RecordType(types.NamedTuple([typeof(item) for item in value], made))
 
-    def address(value: Any) -> int:
-        return begin_of(value.record)
+    def type_told(value: Any) -> Any:
+        """What a type in kernels is looked up by: the kinds of all that a tuple holds."""
+        _, signs, marks, inner = value.spelled
+        key = made, signs, marks, tuple([id(item.numba_type) for item in inner])  # types stay
+        if key not in _types:
+            _types[key] = typeof(value)
+        return _types[key]
 
-    record = cached_property(lambda value: words_of(value))
     about: dict[str, Any] = {
         "__doc__": kind.__doc__,
         "__module__": kind.__module__,
         "__qualname__": kind.__qualname__,
         "__getstate__": lambda value: None,  # addresses are of this process
-        "record": record,
-        "address": cached_property(address),
-        "numba_type": cached_property(_type_of),
+        "spelled": cached_property(_spelled),
+        "address": cached_property(lambda value: begin_of(value.spelled[0])),
+        "numba_type": cached_property(type_told),
     }
     made = type(kind.__name__, (kind,), about)
-    record.__set_name__(made, "record")
+    for name in ("spelled", "address", "numba_type"):
+        about[name].__set_name__(made, name)
     typeof_impl.register(made)(numba_type)
     return made
 
@@ -120,12 +127,48 @@ def place(value: Any) -> int:
     return int(value.address)
 
 
-def words_of(value: Any) -> NDArray[np.int64]:
+def words_of(value: Any) -> IntArray:
     """A named tuple as a record, in an array of words; it holds the addresses of the arrays of the tuple."""
-    words: list[int | float] = []
-    kinds: list[str] = []  # as struct names them
-    _add(value, words, kinds)
-    return np.frombuffer(bytearray(struct.pack("".join(kinds), *words)), dtype=np.int64)
+    words: IntArray = _spelled(value)[0]
+    return words
+
+
+def words_and_kind(value: Any) -> tuple[IntArray, Any]:
+    """The same, and what is equal for tuples of a class whose arrays lie alike and whose other items do."""
+    words, *kind, inner = _spelled(value)
+    return words, (type(value), *kind, tuple([id(item.numba_type) for item in inner]))
+
+
+def _spelled(value: Any) -> tuple[IntArray, bytes, tuple[Any, ...], list[Any]]:
+    """Words, what tells the kinds of the arrays and of all else, and the recorded tuples within."""
+    items: list[Any] = []
+    numbers: list[int] = []
+    marks: list[Any] = []
+    inner: list[Any] = []
+    _add(value, items, numbers, marks, inner)
+    return (*spelled(items, numbers), tuple(marks), inner)
+
+
+def _add(value: Any, items: list[Any], numbers: list[int], marks: list[Any], inner: list[Any]) -> None:
+    """Of an array itself, of a recorded tuple its address, of others their fields."""
+    for item in tuple.__iter__(value):  # the fields, whatever a class lets one see
+        kind = type(item)
+        if kind is np.ndarray:
+            items.append(item)
+        elif hasattr(kind, "address"):
+            items.append(None)
+            numbers.append(item.address)
+            inner.append(item)
+        elif isinstance(item, tuple):
+            marks.append((kind, tuple.__len__(item), len(items)))
+            _add(item, items, numbers, marks, inner)
+        else:
+            items.append(None)
+            numbers.append(_FLOAT.unpack(_DOUBLE.pack(item))[0] if isinstance(item, float) else int(item))
+            marks.append(kind)
+
+
+_DOUBLE, _FLOAT = Struct("d"), Struct("q")
 
 
 def _asked(array: Any) -> int:
@@ -144,35 +187,6 @@ _HEAD = object.__basicsize__
 _sample = np.zeros(3)
 #: Address of the numbers of an array.
 begin_of = _looked_up if _looked_up(_sample) == _asked(_sample) else _asked
-
-
-def _add(value: Any, words: list[int | float], kinds: list[str]) -> None:
-    """Of an array address, shape and strides, of a recorded tuple its address, of others their fields."""
-    for item in tuple.__iter__(value):  # the fields, whatever a class lets one see
-        kind = type(item)
-        if kind is np.ndarray:
-            words.append(begin_of(item))
-            words += item.shape
-            words += item.strides
-            kinds.append(_OF_ARRAY[item.ndim])
-        elif kind is float:
-            words.append(item)
-            kinds.append("d")
-        elif kind is int:
-            words.append(item)
-            kinds.append("q")
-        elif hasattr(kind, "address"):
-            words.append(item.address)
-            kinds.append("q")
-        elif isinstance(item, tuple):
-            _add(item, words, kinds)
-        else:
-            words.append(float(item) if isinstance(item, float) else int(item))
-            kinds.append("d" if isinstance(item, float) else "q")
-
-
-#: Words of an array with so many axes.
-_OF_ARRAY = ["q" * (1 + 2 * n) for n in range(8)]
 
 
 # --- in kernels

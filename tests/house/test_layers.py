@@ -22,7 +22,7 @@ LAYERS = (
     {"parts", "addresses", "asked"},
     {"compiled"},
     {"choices"},
-    {"vectors"},
+    {"vectors", "words"},
     {"records", "operations"},
     {"batches"},
     {"simd"},

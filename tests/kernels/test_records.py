@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from numba import types
+from numba import typeof, types
 
 import ancf
 from ancf.addresses import address_of, caller, pointer
@@ -15,6 +15,7 @@ from ancf.records import Located, _asked, _looked_up, recorded, type_of, words_o
 from ancf.solvers.block import kernels_of
 from ancf.solvers.runs import run_of
 from ancf.system.system import System
+from ancf.words import asked, spelled
 
 
 @recorded
@@ -259,3 +260,55 @@ class TestApart:
         system = System(hung()[0])
         run = run_of(ancf.Explicit(), system, 0.0, 1.0, 0.1, 1)
         assert not any(run.kernels[1])
+
+
+class TestSpelled:
+    """What a kernel reads of arrays is what NumPy tells of them."""
+
+    ARRAYS = (
+        np.zeros(3),
+        np.zeros((2, 3, 4))[:, ::2],
+        np.zeros((4, 5)).T,
+        np.zeros(()),
+        np.zeros((0, 2), dtype=bool),
+        np.arange(6, dtype=np.int64)[::-1],
+        np.zeros((1, 1, 2, 1, 3, 1, 2)),
+        np.broadcast_to(np.zeros(2), (3, 2)),
+    )
+
+    @pytest.mark.parametrize("count", [0, 1, 8, 200])  # the room grows
+    def test_words(self, rng, count):
+        chosen = rng.integers(len(self.ARRAYS) + 1, size=count)
+        items = [None if k == len(self.ARRAYS) else self.ARRAYS[k] for k in chosen]
+        numbers = rng.integers(-(2**62), 2**62, size=sum(one is None for one in items)).tolist()
+        np.testing.assert_array_equal(spelled(items, numbers)[0], asked(items, numbers)[0])
+
+    @pytest.mark.parametrize("tell", [spelled, asked])
+    def test_kinds(self, tell):
+        """Equal for arrays of one kind and layout, whatever their sizes; different for all others."""
+        frozen = np.zeros(3)
+        frozen.flags.writeable = False
+        others = [np.zeros(3), np.zeros(3, dtype=np.int64), np.zeros(6)[::2], np.zeros((3, 3)), frozen, None]
+        others += [np.zeros((3, 3)).T, np.zeros(3, dtype=np.float32)]
+        told = [tell([one], [5])[1] for one in others]
+        assert len(set(told)) == len(others)
+        assert tell([np.ones(7)], [])[1] == told[0]
+        assert tell([None], [9])[1] == told[5]
+
+
+def test_types_of_records_tell_all(rng):
+    """A type is looked up by what the record was made of, also of what it holds in plain tuples."""
+    given = made(rng, (2, 1, 3))
+    others = [
+        given._replace(number=3),
+        given._replace(items=(given.inner, 2)),
+        given._replace(items=(given.inner,)),
+        given._replace(items=((given.inner, 2.5),)),
+        given._replace(plain=Plain(1, np.zeros(2))),
+        given._replace(inner=given.inner._replace(x=np.zeros(4)[::2])),
+        given._replace(cube=np.zeros((2, 3))),
+    ]
+    kinds = [type_of(one) for one in (given, *others)]
+    assert all(kind == typeof(one) for kind, one in zip(kinds, (given, *others), strict=True))
+    assert len(set(kinds)) == len(kinds)
+    assert type_of(made(rng, (5, 2, 3))) is kinds[0]
