@@ -172,6 +172,12 @@ class TestModels:
             ("values = [2, 3]", "", "parameters[1]: says nothing of how it varies"),
             ("values = [2, 3]", "values = [2]\ngrid = {low=1, high=2, count=2}", "has values and grid"),
             ('"sobol"', '"sobel"', "sampling.method: is 'sobel'"),
+            (
+                "values = [2, 3]",
+                "values = [nan, 3]",
+                "values[0]: must be a finite number, is nan",
+            ),
+            ("values = [2, 3]", "values = [[2], 3]", "parameters[1].values[0]: must be a number or"),
             ('"sobol"\ncount = 4', '"grid"', "parameters[0]: must be a list of values"),
             ("count = 4", "", "sampling.count: is missing"),
             (
@@ -257,6 +263,16 @@ class TestLines:
             ("max(dropper_length)", "tension(x)", 'unknown name "tension"'),
             ('line = "line.toml"', 'line = "line.toml"\n[run]\nsped = 3', "run.sped: unknown key"),
             ('line = "line.toml"', 'line = "line.toml"\n[run]\nstep = 1e-3', "run.speed: must be a number"),
+            (
+                'line = "line.toml"',
+                'line = "line.toml"\n[run]\nspeed = 200\npantograph = "dsa"',
+                'run.pantograph: there is no "dsa"',
+            ),
+            (
+                'line = "line.toml"',
+                'line = "line.toml"\n[run]\nspeed = 200\npantograph = ["dsa380", "mine.toml"]',
+                "mine.toml: no such file",
+            ),
         ],
     )
     def test_bad(self, line, old, new, phrase):
@@ -264,6 +280,30 @@ class TestLines:
         with pytest.raises(ancf.ModelError) as caught:
             read_study_file("s.toml")
         assert phrase in str(caught.value)
+
+
+@pytest.mark.parametrize("listed", [False, True])
+def test_a_pantograph_lies_beside_the_study(here, listed):
+    """As model and line do, wherever the command is called."""
+    folder = here / "elsewhere"
+    folder.mkdir()
+    (folder / "mine.toml").write_text(
+        "masses = [15.0]\nstiffness = [50.0]\ndamping = [90.0]\nstatic_force = 120.0\n", encoding="utf-8"
+    )
+    name = '["mine.toml", "dsa380"]' if listed else '"mine.toml"'
+    text = LINE.replace(
+        'line = "line.toml"', f'line = "en50318-2002"\n[run]\nspeed = 200\npantograph = {name}'
+    )
+    (folder / "s.toml").write_text(text, encoding="utf-8")
+    found = read_study_file("elsewhere/s.toml").case.inner.run["pantograph"]
+    first = found[0] if listed else found
+    assert catenary.find_pantograph(first).masses == (15.0,)
+
+
+def test_sampling_that_is_missing_says_what_to_write(here):
+    with_text(here, '[sampling]\nmethod = "sobol"\ncount = 4\nseed = 3', "")
+    with pytest.raises(ancf.ModelError, match=r"sampling: is missing .*a table \[sampling\] with \"method\""):
+        read_study_file("s.toml")
 
 
 def test_example():

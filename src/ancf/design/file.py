@@ -21,6 +21,7 @@ from .cases import ModelCase
 from .distributions import distribution_of
 from .extras import pandas
 from .lines import LineCase
+from .run_settings import beside_file
 from .sampling import DESIGN, METHODS, sample
 
 if TYPE_CHECKING:
@@ -202,7 +203,8 @@ def _case(entry: StudyEntry, path: Path, paths: dict[str, str]) -> ModelCase | L
 
     line = entry.line or ""
     file = path_of(line) if line in line_names() else path.parent / line
-    return LineCase(read_toml(file, "line file"), outputs, entry.run, paths, str(file))
+    run = None if entry.run is None else beside_file(entry.run, path.parent)
+    return LineCase(read_toml(file, "line file"), outputs, run, paths, str(file))
 
 
 def _samples(entry: StudyEntry, names: list[str], path: Path) -> DataFrame:

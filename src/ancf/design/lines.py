@@ -13,6 +13,7 @@ from ..errors import ModelError
 from ..model import checks
 from .cases import check_paths
 from .formulas import Formula, Vocabulary
+from .run_settings import PANTOGRAPH, check_pantographs
 
 if TYPE_CHECKING:
     from ..catenary import Line, Route, Statistics
@@ -132,11 +133,13 @@ class LineCase:
 
         line, settings = self.read({})
         check_paths(self.read, values)
-        settings |= {path: 0 for path in self.paths.values() if path.startswith(RUN)}
-        if self.run is None and settings:
+        varied = {path for path in self.paths.values() if path.startswith(RUN)}
+        if self.run is None and varied:
             raise ModelError("run", "is missing: a parameter is one of a run")
         if self.run is not None:
             checks.positive(settings.get("speed"), "run.speed")
+        if RUN + PANTOGRAPH not in varied:
+            check_pantographs(settings)
         for one in line.parts:
             check(one)
         _ = self.formulas

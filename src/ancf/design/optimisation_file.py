@@ -20,6 +20,7 @@ from .descent import least
 from .droppers import OF_RUN, Droppers, LineOptimum, LineRuns, Tried
 from .formulas import Formula
 from .lines import SETTINGS
+from .run_settings import beside_file, check_pantographs
 
 KEY = "dropper_lengths"
 
@@ -136,13 +137,14 @@ def read_optimisation(path: str | Path) -> OptimisationFile:
         for label in p.droppers:
             place_of(line, label, f"{where}.droppers")
         parameters[p.name] = Droppers(tuple(p.droppers), p.low, p.high, p.start)
-    settings = dict(entry.run)
+    settings = beside_file(entry.run, path.parent)
     mesh = settings.pop("mesh", None)
     for key in settings:
         if key not in SETTINGS:
             what = f"unknown key, allowed: {checks.listed((*SETTINGS, 'mesh'))}"
             raise ModelError(f"run.{key}", what, checks.nearest(key, SETTINGS))
     settings["speed"] = checks.positive(settings.get("speed"), "run.speed") / 3.6
+    check_pantographs(settings)
     limits = {item.formula: (item.low, item.high) for item in entry.constraints}
     texts = [(entry.objective, "objective")]
     texts += [(item.formula, f"constraints[{k}].formula") for k, item in enumerate(entry.constraints)]

@@ -27,6 +27,8 @@ WANTED = {
     "model_type": "a table",
     "finite_number": "a finite number",
 }
+#: What pydantic names the kinds of one value by, behind its place.
+KINDS = ("float", "int", "str", "bool")
 Tables = Callable[[tuple[int | str, ...]], type[Entry]]
 BOUNDS = {"greater_than": ("gt", ">"), "greater_than_equal": ("ge", ">="), "less_than": ("lt", "<")}
 
@@ -51,7 +53,25 @@ def beside(problem: ModelError, source: str) -> ModelError:
 def of_validation(error: ValidationError, tables: Tables | None = None) -> list[ModelError]:
     """ModelErrors out of what pydantic found; `tables` gives the table at a place, default a model file's."""
     entry_at = _entry if tables is None else tables
-    return [_of_detail(dict(detail), entry_at) for detail in error.errors(include_url=False)]
+    found: dict[Any, list[dict[str, Any]]] = {}
+    for k, detail in enumerate(error.errors(include_url=False)):
+        *above, last = detail["loc"] or ("",)
+        found.setdefault(tuple(above) if last in KINDS else k, []).append(dict(detail))
+    return [_of_details(one, entry_at) for one in found.values()]
+
+
+def _of_details(details: list[dict[str, Any]], entry_at: Tables) -> ModelError:
+    """One message of what pydantic says of one value."""
+    several = len(details) > 1 and {detail["type"] for detail in details} <= WANTED.keys()
+    return _of_kinds(details) if several else _of_detail(details[0], entry_at)
+
+
+def _of_kinds(details: list[dict[str, Any]]) -> ModelError:
+    """One message of a value that is of none of the kinds which may stand there."""
+    given, where = details[0]["input"], place(details[0]["loc"][:-1])
+    kinds = [WANTED[detail["type"]] for detail in details]
+    words = [WANTED["finite_number"]] if WANTED["finite_number"] in kinds else [*dict.fromkeys(kinds)]
+    return ModelError(where, f"must be {' or '.join(words)}, is {shown(given)} ({type(given).__name__})")
 
 
 def place(parts: tuple[int | str, ...]) -> str:
@@ -82,7 +102,9 @@ def _of_detail(detail: dict[str, Any], entry_at: Tables) -> ModelError:
         return ModelError(where, f"unknown key, allowed: {listed(allowed, 30)}", nearest(key, allowed))
     if kind == "missing":
         field = entry_at(detail["loc"][:-1]).model_fields[str(detail["loc"][-1])]
-        return ModelError(where, "is missing", (field.description or "").rstrip("."))
+        return ModelError(
+            where, "is missing", (field.description or "").rstrip(".") + _as_table(field, where)
+        )
     return ModelError(where, *_of_value(kind, given, context, detail["msg"]))
 
 
@@ -90,6 +112,15 @@ def _field(detail: dict[str, Any], entry_at: Tables) -> Any:
     """The field at the place of a problem; None if it is inside of one."""
     *above, last = detail["loc"] or ("",)
     return entry_at(tuple(above)).model_fields.get(str(last))
+
+
+def _as_table(field: Any, where: str) -> str:
+    """Of a field that is a table with keys of its own how it is written, and what it needs."""
+    table = field.annotation
+    if not (isinstance(table, type) and issubclass(table, Entry)):
+        return ""
+    needed = [name for name, one in table.model_fields.items() if one.is_required()]
+    return f": a table [{where}]" + (f" with {listed(needed)}" if needed else "")
 
 
 def _unit_beside(detail: dict[str, Any], entry_at: Tables) -> str:
