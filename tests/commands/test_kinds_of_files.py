@@ -162,3 +162,14 @@ class TestCommands:
         name, reads = READ_BY[kind]
         assert f"{files[kind]}: is {name}, not {READ_BY[wanted][0]}" in ran.said
         assert reads.split(" LINE")[0].split(" FILE")[0] in ran.said
+
+
+@pytest.mark.parametrize("name", ["data.csv", "DATA.TXT", "data.json"])
+@pytest.mark.parametrize("command", ["check", "run", "study"])
+def test_a_table_where_a_file_of_toml_is_wanted(call, tmp_path, monkeypatch, name, command):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / name).write_text("t,x\n0,1.5\n1,2.5\n", encoding="utf-8")
+    ran = call(command, name)
+    assert ran.code == 2
+    assert "TOML syntax" in ran.said
+    assert "files of TOML are read here" in ran.said

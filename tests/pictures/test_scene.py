@@ -68,10 +68,14 @@ class TestTimes:
     @pytest.mark.parametrize(
         ("given", "message"),
         [
-            ({"start": 3.0}, "no state between start and end: there are states from t = 0 to 0.2 s"),
-            ({"frames": 0}, r"make_scene.frames"),
-            ({"points": 1}, r"make_scene.points"),
-            ({"end": float("nan")}, r"make_scene.end"),
+            (
+                {"start": 3.0},
+                "no state is stored between it and the end: there are states from t = 0 to 0.2 s",
+            ),
+            ({"start": 0.2, "end": 0.1}, "^start: is 0.2 s, behind the end at 0.1 s"),
+            ({"frames": 0}, r"^frames: "),
+            ({"points": 1}, r"^points: "),
+            ({"end": float("nan")}, r"^end: "),
         ],
     )
     def test_wrong_input(self, given, message):
@@ -214,7 +218,7 @@ class TestSources:
         assert thread.position[[0, 20, 40]] == pytest.approx(np.stack([still] * 3), abs=1e-12)
         assert drawn.t[-1] == pytest.approx(1.0 / modes.frequencies_hz[2])
         assert "mode 3" in drawn.title
-        with pytest.raises(ancf.ModelError, match=r"make_scene.mode"):
+        with pytest.raises(ancf.ModelError, match=r"^mode: "):
             make_scene(modes, mode=3)
 
     def test_strip_knows_its_force(self):

@@ -161,6 +161,10 @@ def _read_text(path: Path, kind: str) -> str:
         raise ModelError(str(path), f"cannot be read: {error}") from None
 
 
+#: Names of files that are no TOML, and are given where a model, a line or a study is wanted.
+OTHER_FILE = re.compile(r"\.(csv|tsv|txt|dat|json|ya?ml|xlsx?)$", re.IGNORECASE)
+
+
 def _toml(text: str, source: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
@@ -173,6 +177,8 @@ def _syntax_error(text: str, source: str, message: str) -> ModelError:
     if found:
         row = text.split("\n")[int(found[2]) - 1]
         hint = "a point for decimals: 54.0" if DECIMAL_COMMA.search(row) else ""
+        if OTHER_FILE.search(source):
+            hint = "files of TOML are read here, NAME.toml; tables of numbers are named in them"
         place = f"{source}, line {found[2]}, column {found[3]}"
         return ModelError(place, f"TOML syntax: {found[1]}", hint)
     if message.endswith("(at end of document)"):

@@ -103,8 +103,8 @@ def make_scene(
     ModelError
         A wrong number, nothing was stored between the times, or there is no such mode.
     """
-    checks.integer(frames, "make_scene.frames", 1, 1_000_000)
-    checks.integer(points, "make_scene.points", 2, 10_000_000)
+    checks.integer(frames, "frames", 1, 1_000_000)
+    checks.integer(points, "points", 2, 10_000_000)
     if isinstance(source, Modes):
         picked, moving = _of_mode(source, frames, mode), False
     else:
@@ -138,7 +138,7 @@ def _of_states(
         return Picked(Frames(source, np.array([source.t]), source.q[None], source.v[None]), 1)
     if not isinstance(source, Result):
         what = f"must be a Result, a State or Modes, is {checks.shown(source)}"
-        raise ModelError("make_scene.source", what)
+        raise ModelError("source", what)
     if times is not None:
         q, v = (_at(source.t, data, times) for data in (source.q, source.v))
         return Picked(Frames(source, times, q, v), len(source.t))
@@ -161,12 +161,14 @@ def _at(t: FloatArray, rows: Any, times: FloatArray) -> FloatArray:
 
 def chosen_times(t: FloatArray, frames: int, start: float | None, end: float | None) -> IntArray:
     """Places of at most so many stored times, evenly spaced between two times."""
-    low = -np.inf if start is None else checks.number(start, "make_scene.start")
-    high = np.inf if end is None else checks.number(end, "make_scene.end")
+    low = -np.inf if start is None else checks.number(start, "start")
+    high = np.inf if end is None else checks.number(end, "end")
     inside = np.flatnonzero((t >= low - 1e-12) & (t <= high + 1e-12))
     if inside.size == 0:
         there = f"there are states from t = {t[0]:g} to {t[-1]:g} s" if len(t) else "nothing was stored"
-        raise ModelError("make_scene", f"no state between start and end: {there}")
+        if low > high:
+            raise ModelError("start", f"is {low:g} s, behind the end at {high:g} s", "the earlier time first")
+        raise ModelError("start", f"no state is stored between it and the end: {there}")
     if inside.size <= frames:
         return inside
     wanted = np.linspace(t[inside[0]], t[inside[-1]], frames)
@@ -178,7 +180,7 @@ def chosen_times(t: FloatArray, frames: int, start: float | None, end: float | N
 def _of_mode(modes: Modes, frames: int, mode: int) -> Picked:
     """One period of a mode about its state."""
     count = len(modes.frequencies)
-    checks.integer(mode, "make_scene.mode", 0, count - 1)
+    checks.integer(mode, "mode", 0, count - 1)
     about, shape = modes.about, modes.shapes[mode]
     largest = max(float(np.linalg.norm(modes.position(point)[mode])) for point in _nodes(about))
     size = about.system.model.size
