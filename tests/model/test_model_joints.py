@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.model import Model, Section, nearest
+from ancf.model import Model, Section, lookup, nearest
 from ancf.model.file import parse_study, schema
 from ancf.model.integrators import FORMULATIONS, INTEGRATORS, integrator_of, table_schema
 from helpers import arc
@@ -24,6 +24,30 @@ def mixed():
     model.add_point_mass("tip", at=(1, 0, 0), mass=2.0)
     model.add_rigid_body("hub", at=(0, 0, 1), mass=3.0, inertia=(0.1, 0.2, 0.25))
     return model
+
+
+def test_joints_do_not_look_at_all_bodies(monkeypatch):
+    """Chains of n pieces would take n^2 looks: only gaps that may be round-off ask for the model's size."""
+    looked, extent = [], lookup._extent
+    monkeypatch.setattr(lookup, "_extent", lambda body: looked.append(body) or extent(body))
+    model = Model()
+    rods = [
+        model.add_beam(
+            f"rod {k}", start=(k, 0, 0), end=(k + 1, 0, 0), elements=1, section=flat(), element="nonlocking"
+        )
+        for k in range(9)
+    ]
+    model.connect(rods[0].end, rods[1].start)
+    model.hinge(rods[1].end, rods[2].start, axis=(0, 0, 1))
+    model.universal(rods[2].end, rods[3].start, axis_a=(0, 1, 0), axis_b=(0, 0, 1))
+    model.weld(rods[3].end, rods[4].start)
+    model.prismatic(rods[4].end, rods[5].start, axis=(1, 0, 0))
+    assert looked == []
+    near = model.add_beam(
+        "near", start=(1e-9, 0, 0), end=(0, 0, 1), elements=1, section=flat(), element="nonlocking"
+    )
+    model.connect(near.start, rods[0].start)
+    assert len(looked) == 10
 
 
 class TestSpherical:

@@ -44,7 +44,7 @@ class Connecting(Undeformed):
 
         """
         where, label, first, second = self.named_pair("connect", "joint", a, b, name)
-        return self.add_connection(where, make_spherical(where, label, first, second, self.size))
+        return self.add_connection(where, make_spherical(where, label, first, second, lambda: self.size))
 
     def hinge(self, a: PointLike, b: Any, axis: Any, name: str | None = None) -> Revolute:
         """Join two coincident points so that their bodies turn about one axis against each other.
@@ -62,7 +62,7 @@ class Connecting(Undeformed):
 
         """
         where, label, first, second = self.named_pair("hinge", "hinge", a, b, name)
-        return self.add_connection(where, make_revolute(where, label, first, second, axis, self.size))
+        return self.add_connection(where, make_revolute(where, label, first, second, axis, lambda: self.size))
 
     def cylindrical(self, a: PointLike, b: Any, axis: Any, name: str | None = None) -> Cylindrical:
         """Let one body slide along an axis of the other and turn about it.
@@ -106,9 +106,8 @@ class Connecting(Undeformed):
 
         """
         where, label, first, second = self.named_pair("universal", "universal joint", a, b, name)
-        return self.add_connection(
-            where, make_universal(where, label, first, second, (axis_a, axis_b), self.size)
-        )
+        made = make_universal(where, label, first, second, (axis_a, axis_b), lambda: self.size)
+        return self.add_connection(where, made)
 
     def weld(self, a: PointLike, b: PointLike, name: str | None = None) -> Weld:
         """Connect two coincident points rigidly: their bodies do not turn against each other.
@@ -123,7 +122,7 @@ class Connecting(Undeformed):
             Nodes of beams and cables, points of rigid bodies.
         """
         where, label, first, second = self.named_pair("weld", "weld", a, b, name)
-        return self.add_connection(where, make_weld(where, label, first, second, self.size))
+        return self.add_connection(where, make_weld(where, label, first, second, lambda: self.size))
 
     def guide(self, point: PointLike, axis: Any, name: str | None = None) -> Guide:
         """Guide a point: it moves along a line that is fixed in space, and its body does not turn.
@@ -144,7 +143,8 @@ class Connecting(Undeformed):
         self, kind: type[GuideT], method: str, a: PointLike, b: Any, axis: Any, name: str | None
     ) -> GuideT:
         where, label, first, second = self.named_pair(method, f"{method} joint", a, b, name)
-        return self.add_connection(where, make_guide(kind, where, label, first, second, axis, self.size))
+        made = make_guide(kind, where, label, first, second, axis, lambda: self.size)
+        return self.add_connection(where, made)
 
     def slide(
         self,

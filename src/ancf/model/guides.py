@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -10,7 +11,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from . import checks
-from .make_joints import COINCIDENT, End, check_apart, require_axes
+from .make_joints import End, check_apart, coincide, require_axes
 from .points import Point, initial_position
 
 
@@ -64,8 +65,10 @@ class Planar:
 GuideT = TypeVar("GuideT", Cylindrical, Prismatic, Planar)
 
 
-def make_guide(kind: type[GuideT], where: str, name: str, a: Point, b: End, axis: Any, size: float) -> GuideT:
-    """Check what ``Model.cylindrical``, ``prismatic`` or ``planar`` was given; `size` of the model in m."""
+def make_guide(
+    kind: type[GuideT], where: str, name: str, a: Point, b: End, axis: Any, size: Callable[[], float]
+) -> GuideT:
+    """Check what ``Model.cylindrical``, ``prismatic`` or ``planar`` was given; `size` gives the model's."""
     direction = checks.direction(axis, f"{where}.axis")
     for key, end in (("a", a), ("b", b)):
         if isinstance(end, Point):
@@ -76,7 +79,7 @@ def make_guide(kind: type[GuideT], where: str, name: str, a: Point, b: End, axis
     between = second - first
     along = float(between @ direction)
     off = abs(along) if kind is Planar else float(np.linalg.norm(between - along * direction))
-    if not off <= COINCIDENT * max(size, *(float(np.max(np.abs(r))) for r in (first, second))):
+    if not coincide(off, first, second, size):
         other = b if isinstance(b, Point) else f"the position {second.tolist()}"
         line = "plane" if kind is Planar else "axis"
         raise ModelError(f"{where}.b", f"{other} is {off:.6g} m off the {line} through {a}, must be on it")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -21,14 +22,14 @@ COINCIDENT = 1e-9  # of the size of the model
 End = Point | FloatArray
 
 
-def make_spherical(where: str, name: str, a: Point, b: End, size: float) -> Spherical:
-    """Check what ``Model.connect`` was given; `size` is the size of the model in m."""
+def make_spherical(where: str, name: str, a: Point, b: End, size: Callable[[], float]) -> Spherical:
+    """Check what ``Model.connect`` was given; `size` gives the size of the model in m."""
     check_pair(where, a, b, size)
     return Spherical(name, a, b)
 
 
-def make_revolute(where: str, name: str, a: Point, b: End, axis: Any, size: float) -> Revolute:
-    """Check what ``Model.hinge`` was given; `size` is the size of the model in m."""
+def make_revolute(where: str, name: str, a: Point, b: End, axis: Any, size: Callable[[], float]) -> Revolute:
+    """Check what ``Model.hinge`` was given; `size` gives the size of the model in m."""
     direction = checks.direction(axis, f"{where}.axis")
     for key, end in (("a", a), ("b", b)):
         if isinstance(end, Point):
@@ -52,15 +53,21 @@ def make_fixation(where: str, name: str, point: Point, to: Body, stretch: Any) -
     return Fixation(name, point, to, checks.choice(stretch, f"{where}.stretch", STRETCH))
 
 
-def check_pair(where: str, a: Point, b: End, size: float) -> None:
+def check_pair(where: str, a: Point, b: End, size: Callable[[], float]) -> None:
     """Two places that coincide and are not the same place of one body."""
     if isinstance(b, Point):
         check_apart(where, a, b)
     first, second = initial_position(a), initial_position(b)
     gap = math.dist(first, second)
-    if not gap <= COINCIDENT * max(size, *(float(np.max(np.abs(r))) for r in (first, second))):
+    if not coincide(gap, first, second, size):
         other = b if isinstance(b, Point) else f"the position {second.tolist()}"
         raise ModelError(f"{where}.b", f"{a} and {other} are {gap:.6g} m apart, must coincide")
+
+
+def coincide(gap: float, first: FloatArray, second: FloatArray, size: Callable[[], float]) -> bool:
+    """Whether a gap, m, is round-off of its ends, or of the model; its size takes a look at all bodies."""
+    own = max(float(np.max(np.abs(r))) for r in (first, second))
+    return gap <= COINCIDENT * own or gap <= COINCIDENT * size()
 
 
 def check_apart(where: str, a: Point, b: Point) -> None:

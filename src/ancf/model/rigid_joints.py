@@ -97,8 +97,10 @@ class Guide:
         return self.point.initial_position
 
 
-def make_universal(where: str, name: str, a: Point, b: End, axes: tuple[Any, Any], size: float) -> Universal:
-    """Check what ``Model.universal`` was given; `size` is the size of the model in m."""
+def make_universal(
+    where: str, name: str, a: Point, b: End, axes: tuple[Any, Any], size: Callable[[], float]
+) -> Universal:
+    """Check what ``Model.universal`` was given; `size` gives the size of the model in m."""
     one = checks.direction(axes[0], f"{where}.axis_a")
     two = checks.direction(axes[1], f"{where}.axis_b")
     if abs(float(one @ two)) > NORMAL:
@@ -111,8 +113,8 @@ def make_universal(where: str, name: str, a: Point, b: End, axes: tuple[Any, Any
     return Universal(name, a, b, one, two)
 
 
-def make_weld(where: str, name: str, a: Point, b: End, size: float) -> Weld:
-    """Check what ``Model.weld`` was given; `size` is the size of the model in m."""
+def make_weld(where: str, name: str, a: Point, b: End, size: Callable[[], float]) -> Weld:
+    """Check what ``Model.weld`` was given; `size` gives the size of the model in m."""
     if not isinstance(b, Point):
         if isinstance(a.body, PointMass):
             raise ModelError(f"{where}.b", "is a position in space", f"model.pin({a}) holds it there")
