@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.connections.contact import ASIDE, FORCE, OVERLAP, ContactBatch
+from ancf.connections.contact import ContactBatch
+from ancf.connections.contact_touch import ASIDE, FORCE, OVERLAP
 from ancf.system.system import System
 from helpers import derivative, energy, forces
 

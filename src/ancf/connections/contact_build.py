@@ -11,7 +11,8 @@ from ..arrays import FloatArray, IntArray
 from ..model.contact import Contact
 from ..model.points import Point
 from .carrier import COLUMNS
-from .contact import ARC, ContactBatch
+from .contact import ContactBatch
+from .contact_touch import ARC
 from .curves import curves
 from .joint_build import place_of
 from .sliding_build import beam_line

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..connections.contact import ARC
+from ..connections.contact_touch import ARC
 from ..connections.sliding import FREE, FROZEN, SLIDES, SlidingBatch
 from ..errors import ModelError
 from ..model.contact import Contact

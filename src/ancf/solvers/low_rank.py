@@ -23,8 +23,8 @@ from ..addresses import caller
 from ..arrays import FloatArray, IntArray
 from ..choices import optional
 from ..compiled import formula, inline_kernel, separate_kernel
-from ..connections.contact import DAMPING, FORCE, STIFFNESS, add_row, touch
 from ..connections.contact_build import no_contacts
+from ..connections.contact_touch import DAMPING, FORCE, STIFFNESS, add_row, touch
 from ..connections.spring_damper import spring_gradient, spring_state
 from ..linalg.border import across, solve_small, spread
 from ..linalg.reach import clear, solve_near, spread_of

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..connections.contact import ARC, ASIDE, FORCE, OVERLAP, contact_values
+from ..connections.contact import contact_values
+from ..connections.contact_touch import ARC, ASIDE, FORCE, OVERLAP
 from ..contact.bump_fields import bump_pressures, roll_frictions
 from ..contact.cross_fields import cross_pressures, grip_frictions
 from ..contact.fields import RUBBED, SLIPPED, frictions, pressures

@@ -1,0 +1,68 @@
+"""Derivatives of x . force of contacts of a wire with a strip by the state and by their numbers.
+
+With y = x_p - x_r(s), w = dp/dt - dr(s)/dt and, as in :mod:`ancf.connections.contact`, F = k g + c m.w, the
+work is F m.y.  The crossing moves by ds = e.(dp - dr)/(e.r_s), so that
+
+    dg = m.(dp - dr),     dm = -d(sigma) e,     d(sigma) = m.(dr_s + r_ss ds)/(e.r_s),
+    dw = dv_p - dv_r - v_s ds,     dy = -x_s ds,
+
+where an index s is a derivative along the wire, and the slope of a profile is the same around s.
+"""
+
+from __future__ import annotations
+
+from ..compiled import formula, inline_kernel
+from ..vectors import both, dot
+from .carrier import COLUMNS, line, shape, slider
+from .contact_touch import DAMPING, OVERLAP, STIFFNESS, touch
+
+
+@formula
+def between(batch, j, e, xi, x):
+    """What x is at the point less what it is on the wire there."""
+    p, r = slider(batch, j, x, 0.0), line(batch, e, xi, x, 0)
+    return p[0] - r[0], p[1] - r[1], p[2] - r[2]
+
+
+@inline_kernel
+def contact_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
+    """See :func:`ancf.compiled.add_work_slopes`."""
+    for j in range(batch.slot.shape[0]):
+        pushes, e, xi, m, force = touch(batch, j, q, v)
+        if not pushes:
+            continue
+        k, c = batch.data[j, STIFFNESS], batch.data[j, DAMPING]
+        tau = (batch.travel[j, 0], batch.travel[j, 1], batch.travel[j, 2])
+        y, w = between(batch, j, e, xi, x), between(batch, j, e, xi, v)
+        rise = 1.0 / dot(tau, line(batch, e, xi, q, 1))
+        power = dot(m, y)
+        turning = -rise * (c * power * dot(tau, w) + force * dot(tau, y))
+        moving = c * power * dot(m, line(batch, e, xi, v, 1)) + force * dot(m, line(batch, e, xi, x, 1))
+        along = rise * (turning * dot(m, line(batch, e, xi, q, 2)) - moving)
+        by = both(k * power, m, along, tau)
+        for n in range(COLUMNS):
+            i, o = batch.slot[j, n], batch.line_slot[e, n]
+            if i < 0 and o < 0:
+                break
+            if i >= 0:
+                f = batch.factor[j, n]
+                for d in range(3):
+                    by_q[i + d] += f * by[d]
+                    by_v[i + d] += f * c * power * m[d]
+            if o >= 0:
+                f, g = shape(batch, e, n, xi, 0), turning * shape(batch, e, n, xi, 1)
+                for d in range(3):
+                    by_q[o + d] += g * m[d] - f * by[d]
+                    by_v[o + d] -= f * c * power * m[d]
+
+
+@inline_kernel
+def contact_number_work(batch, q, v, a, x, out, ws):
+    """See :func:`ancf.compiled.add_number_work`: stiffness and damping of each contact."""
+    columns = batch.data.shape[1]
+    for j in range(batch.slot.shape[0]):
+        pushes, e, xi, m, _ = touch(batch, j, q, v)
+        if pushes:
+            power = dot(m, between(batch, j, e, xi, x))
+            out[columns * j + STIFFNESS] += batch.found[j, OVERLAP] * power
+            out[columns * j + DAMPING] += dot(m, between(batch, j, e, xi, v)) * power
