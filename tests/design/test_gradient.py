@@ -209,12 +209,17 @@ def test_bad_objectives():
         ancf.gradient(model, "max(weight(beam.end))", ["gravity"], t_end=0.01, step=1e-3)
 
 
-def test_moments_go_forwards():
-    """A pendulum of a rigid body with a moment, whose matrix is not exact: it takes sensitivities instead."""
+def drawn(t, r, v):
+    """A law that numba does not compile."""
+    return [0.0, float(str(0.3 * t)), -0.1 * v[2]]
+
+
+def test_laws_in_python_go_forwards():
+    """A pendulum of a rigid body with a law that is called once a step: it takes sensitivities instead."""
     model = ancf.Model(gravity=(0.0, 0.0, -9.81))
     hub = model.add_rigid_body("hub", at=(0.5, 0, 0), mass=1.0, inertia=(0.01, 0.1, 0.1))
     model.hinge(hub.at(-0.5, 0, 0), (0.0, 0.0, 0.0), axis=(0, 1, 0), name="hinge")
-    model.add_moment(hub.centre, (0.0, "0.3*t", 0.1))
+    model.add_force(hub.centre, drawn)
     assert adjoint_of(System(model)) is None
     text, given = "integral(position(hub.centre)[2])", {"t_end": 0.1, "step": 2e-3, "integrator": INDEX2}
     _, slope = ancf.gradient(model, text, ["gravity", "hub.inertia"], **given)

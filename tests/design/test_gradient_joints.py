@@ -170,6 +170,11 @@ def test_what_it_cannot_solve_goes_forwards(monkeypatch):
     assert slope == pytest.approx(wanted, rel=1e-12)
 
 
+def drawn(t, r, v):
+    """A law that numba does not compile."""
+    return [0.0, float(str(0.3 * t)), 0.0]
+
+
 def test_which_models_have_one():
     """Rows of joints, but nothing that differences are taken of, and no joint that has come to an end."""
     assert adjoint_of(System(arms())) is JoinedAdjoint
@@ -177,6 +182,8 @@ def test_which_models_have_one():
     assert adjoint_of(System(sliding.build())) is JoinedAdjoint
     model = machine()
     model.add_moment(model.bodies["hub"], (0.0, "0.1*t", 0.0), name="turn")
+    assert adjoint_of(System(model)) is JoinedAdjoint
+    model.add_force(model.bodies["hub"], drawn)
     assert adjoint_of(System(model)) is None
     hung = ancf.Model(gravity=(0.0, 0.0, -9.81))
     rope = hung.add_beam(

@@ -136,6 +136,35 @@ def torsion_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 
 
 @inline_kernel
+def torsion_rate_work(batch, q, v, x, out, ws):
+    """See :func:`ancf.compiled.add_rate_work`: dampers turn with the gradient of the angle."""
+    for e in range(batch.base.shape[0]):
+        if batch.data[e, 1] == 0.0:
+            continue
+        S, C = angle_gradients(batch, e, q, ws)
+        D, gx, gv, wv = S * S + C * C, 0.0, 0.0, 0.0
+        for i in range(SLOTS):
+            if batch.base[e, i] >= 0:
+                for c in range(3):
+                    g = C * ws[3 * i + c] - S * ws[18 + 3 * i + c]
+                    gx += g * x[batch.base[e, i] + c]
+                    gv += g * v[batch.base[e, i] + c]
+                    wv += (C * ws[18 + 3 * i + c] + S * ws[3 * i + c]) * v[batch.base[e, i] + c]
+        f = batch.data[e, 1] * gx / (D * D)
+        for i in range(SLOTS):
+            if batch.base[e, i] < 0:
+                continue
+            for c in range(3):
+                g, w = C * ws[3 * i + c] - S * ws[18 + 3 * i + c], C * ws[18 + 3 * i + c] + S * ws[3 * i + c]
+                turned = -(g * wv + w * gv) / D
+                for m in range(SLOTS):
+                    if batch.base[e, m] >= 0:
+                        s, t = turned_by(batch, e, i, m)
+                        turned += (C * s - S * t) * v[batch.base[e, m] + c]
+                out[batch.base[e, i] + c] += f * turned
+
+
+@inline_kernel
 def torsion_energy(batch, q, ws):
     """Elastic energy, J."""
     energy = 0.0
@@ -163,6 +192,7 @@ implements(
     force=torsion_force,
     tangent=torsion_tangent,
     energy=torsion_energy,
+    rate_work=torsion_rate_work,
     remember=torsion_turns,
     role=Role.DISSIPATES,
     memory=("last",),

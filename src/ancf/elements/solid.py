@@ -43,6 +43,7 @@ from .solid_force import (
     stresses,
     vectors,
 )
+from .solid_rate_work import damping_slopes
 from .solid_tangent import BLOCKS, ELEMENT, PLACES, diagonal_blocks, other_blocks, spread_tangent
 from .workspace import add_rows, clear, row, rows, set_rows
 
@@ -203,6 +204,27 @@ def solid_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 
 
 @inline_kernel
+def solid_rate_work(batch, q, v, x, out, ws):
+    """See :func:`ancf.compiled.add_rate_work`."""
+    for n in range(batch.groups.shape[0]):
+        group = batch.groups[n]
+        if group[4] == 0:
+            continue
+        clear_unused(ws)
+        for chunk in range(group[0], group[1]):
+            load_constants(batch, ws, chunk)
+            take_vectors(batch, q, ws, chunk, np.int64(D))
+            take_vectors(batch, v, ws, chunk, np.int64(RATE))
+            take_vectors(batch, x, ws, chunk, np.int64(ACCELERATION))
+            clear(ws, FORCE, VECTORS)
+            for g in range(group[3]):
+                damping_slopes(ws, batch.gp, group[2] + g)
+            clear(ws, ACCELERATION, VECTORS)  # there is no mass in this
+            inertia_force(ws, batch.mass)
+            store_nodal(batch, out, ws, chunk)
+
+
+@inline_kernel
 def solid_energy(batch, q, ws):
     """Strain energy, J."""
     energy = 0.0
@@ -248,6 +270,7 @@ implements(
     inertia=solid_inertia,
     tangent=solid_tangent,
     energy=solid_energy,
+    rate_work=solid_rate_work,
     inverted=solid_inverted,
     role=Role.DISSIPATES,
     slots=("base", "lane_base"),

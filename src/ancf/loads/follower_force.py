@@ -16,9 +16,13 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
 from ..model.beam import Beam
+from ..vectors import dot
+from .at_points import at_point
 
 #: Step of the differences; slopes and directors are about 1.
 STEP = 1e-6
+#: The same of order four, and its weights.
+WIDE, NEAR, FAR = 1e-3, 8.0 / 12.0, -1.0 / 12.0
 # rows of a probe's factors, see ancf.system.probe: the point, and r_x, r_y, r_z, for which directors stand
 PLACE, AXES = 0, (1, 3, 4)
 
@@ -150,9 +154,30 @@ def follower_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                         A[place + 6 * i + j] -= 0.5 * c_stiffness * x
 
 
+@inline_kernel
+def follower_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
+    """See :func:`ancf.compiled.add_work_slopes`: by the axes by differences of order four."""
+    for e in range(batch.base.shape[0]):
+        put_axes(batch, e, q)
+        X = at_point(batch, e, x)
+        for d in range(3 if batch.framed[e] else 1):
+            for c in range(3):
+                j = 3 * d + c
+                here, by = batch.axes[e, j], 0.0
+                for m in range(4):
+                    batch.axes[e, j] = here + WIDE * (m - 2.0 if m < 2 else m - 1.0)
+                    f = following(batch, e)
+                    by += (FAR if m == 0 or m == 3 else NEAR) * (1.0 if m > 1 else -1.0) * dot(f, X)
+                batch.axes[e, j] = here
+                for k in range(batch.base.shape[1]):
+                    if batch.base[e, k] >= 0:
+                        by_q[batch.base[e, k] + c] -= batch.slope[e, d, k] * by / WIDE
+
+
 implements(
     FollowerForceBatch,
     force=follower_force,
     tangent=follower_tangent,
+    work_slopes=follower_work_slopes,
     role=Role.EXTERNAL,
 )

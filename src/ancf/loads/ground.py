@@ -54,13 +54,11 @@ from .along import (
     velocity_at,
     wound,
 )
+from .ground_slopes import ground_work_slopes
+from .relief import DRAG, FRICTION, SOFT, STICK, depth_at, pressure
 
 #: Gauss points of an element.
 POINTS = 10
-# columns of ``grounds``: a point of the plane, its normal, k, c, mu, k_t, c_t
-PLACE, NORMAL, STIFFNESS, DAMPING, FRICTION, STICK, DRAG = 0, 3, 6, 7, 8, 9, 10
-#: Height in diameters over which damping comes on.
-SOFT = 0.01
 #: Depth in diameters, below which nothing may be held.
 BURIED = 1.0
 
@@ -144,56 +142,6 @@ def _refuse_buried(item, body, model):
             if depth > BURIED * body.section.diameter:
                 what = f'"{support.name}" is {depth:.4g} m below the ground "{item.name}"'
                 raise ModelError(item.name, what, "lower the ground, or raise the point that is held")
-
-
-@inline_kernel
-def interval(table, first, count, x):
-    """The place k of x between the numbers ``table[first:first + count]``, and its share of the way on."""
-    if x <= table[first]:
-        return 0, 0.0, 0.0
-    if x >= table[first + count - 1]:
-        return count - 2, 1.0, 0.0
-    a, b = first, first + count - 1
-    while b - a > 1:
-        middle = (a + b) // 2
-        if table[middle] <= x:
-            a = middle
-        else:
-            b = middle
-    length = table[a + 1] - table[a]
-    return a - first, (x - table[a]) / length, 1.0 / length
-
-
-@formula
-def depth_at(batch, k, x, y, z):
-    """Depth of a place below ground k and its normal there."""
-    ground = batch.grounds[k]
-    nx, ny, first = batch.size[k, 0], batch.size[k, 1], batch.size[k, 2]
-    if nx == 0:
-        n = ground[NORMAL], ground[NORMAL + 1], ground[NORMAL + 2]
-        return (ground[PLACE] - x) * n[0] + (ground[PLACE + 1] - y) * n[1] + (ground[PLACE + 2] - z) * n[2], n
-    i, s, ds = interval(batch.table, first, nx, x)
-    j, t, dt = interval(batch.table, first + nx, ny, y)
-    at = first + nx + ny + i * ny + j
-    z00, z01, z10, z11 = batch.table[at], batch.table[at + 1], batch.table[at + ny], batch.table[at + ny + 1]
-    low, high = z00 + t * (z01 - z00), z10 + t * (z11 - z10)
-    zx, zy = (high - low) * ds, ((1.0 - s) * (z01 - z00) + s * (z11 - z10)) * dt
-    c = 1.0 / math.sqrt(1.0 + zx * zx + zy * zy)
-    return (low + s * (high - low) - z) * c, (-zx * c, -zy * c, c)
-
-
-@formula
-def pressure(ground, d, g, rate):
-    """Normal force N per length and its derivatives by g and by the rate of g."""
-    soft = SOFT * d
-    on = min(1.0, 1.0 + g / soft)
-    if on <= 0.0:
-        return 0.0, 0.0, 0.0
-    N = ground[STIFFNESS] * g + ground[DAMPING] * on * rate
-    if N <= 0.0:
-        return 0.0, 0.0, 0.0
-    slope = ground[STIFFNESS] + (max(ground[DAMPING] * rate, 0.0) / soft if on < 1.0 else 0.0)
-    return d * N, d * slope, d * ground[DAMPING] * on
 
 
 @formula
@@ -361,6 +309,8 @@ implements(
     GroundBatch,
     force=ground_force,
     tangent=ground_tangent,
+    work_slopes=ground_work_slopes,
+    sloped=lambda batch: not (np.any(batch.grounds[:, FRICTION]) or np.any(batch.winch >= 0)),
     remember=ground_remember,
     role=Role.EXTERNAL,
     slots=("base", "winch"),

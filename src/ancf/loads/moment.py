@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
+from ..vectors import both, cross, dot
 
 
 class MomentBatch(NamedTuple):
@@ -73,9 +74,23 @@ def moment_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                         A[place + 6 * i + j] += w * (f[i] * p[j] + p[i] * f[j])
 
 
+@inline_kernel
+def moment_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
+    """See :func:`ancf.compiled.add_work_slopes`: the work is -(X x M).p/|p|^2."""
+    for e in range(batch.base.shape[0]):
+        p, X = moment_slope(batch, e, q), moment_slope(batch, e, x)
+        n = cross(X, (batch.value[e, 0], batch.value[e, 1], batch.value[e, 2]))
+        inverse = 1.0 / dot(p, p)
+        by = both(-inverse, n, 2.0 * dot(n, p) * inverse * inverse, p)
+        for k in range(4):
+            for c in range(3):
+                by_q[batch.base[e, k] + c] += batch.factor[e, k] * by[c]
+
+
 implements(
     MomentBatch,
     force=moment_force,
     tangent=moment_tangent,
+    work_slopes=moment_work_slopes,
     role=Role.EXTERNAL,
 )

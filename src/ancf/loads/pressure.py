@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
-from .along import add_along, add_slope_block_along, along, tangent_at
+from ..vectors import cross
+from .along import add_along, add_slope_block_along, along, place_at, tangent_at
 
 #: Gauss points of an element: exact for a cubic.
 POINTS = 4
@@ -65,9 +66,24 @@ def pressure_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
             add_slope_block_along(batch, e, g, rows, A)
 
 
+@inline_kernel
+def pressure_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
+    """See :func:`ancf.compiled.add_work_slopes`: the work of a point is -p r_x.(b x X)."""
+    for e in range(batch.base.shape[0]):
+        p, b = batch.value[batch.item[e], 0, 0], (batch.axis[e, 0], batch.axis[e, 1], batch.axis[e, 2])
+        for g in range(batch.weight.shape[1]):
+            by, w = cross(b, place_at(batch, e, g, x)), -p * batch.weight[e, g]
+            for k in range(batch.base.shape[1]):
+                i = batch.base[e, k]
+                if i >= 0:
+                    for c in range(3):
+                        by_q[i + c] += w * batch.slope[e, g, k] * by[c]
+
+
 implements(
     PressureBatch,
     force=pressure_force,
     tangent=pressure_tangent,
+    work_slopes=pressure_work_slopes,
     role=Role.EXTERNAL,
 )

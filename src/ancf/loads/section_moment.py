@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
-from ..vectors import dot
+from ..vectors import both, cross, dot
 
 
 class SectionMomentBatch(NamedTuple):
@@ -50,12 +50,6 @@ def section_vector(batch, e, q, first):
             y += w * q[i + 1]
             z += w * q[i + 2]
     return x, y, z
-
-
-@inline_kernel
-def cross(a, b):
-    """Vector product."""
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
 @inline_kernel
@@ -143,9 +137,45 @@ def section_moment_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                         A[place + 6 * i + j] += w * (ws[6 * x + y] + ws[6 * y + x])
 
 
+@inline_kernel
+def section_moment_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
+    """See :func:`ancf.compiled.add_work_slopes`.
+
+    With u and w of x for r_y and r_z the work is -(c.g/c.c + s c.h), g = -(M.r_z) u + (M.r_y) w,
+    h = w_y r_y x u + w_z r_z x w.
+    """
+    for e in range(batch.base.shape[0]):
+        y, z = section_vector(batch, e, q, 0), section_vector(batch, e, q, 3)
+        u, w = section_vector(batch, e, x, 0), section_vector(batch, e, x, 3)
+        wy, wz, M = (
+            batch.share[e, 0],
+            batch.share[e, 1],
+            (batch.value[e, 0], batch.value[e, 1], batch.value[e, 2]),
+        )
+        c = cross(y, z)
+        cc, D = dot(c, c), wy * dot(y, y) + wz * dot(z, z)
+        s, g = dot(c, M) / (cc * D), both(-dot(M, z), u, dot(M, y), w)
+        h = both(wy, cross(y, u), wz, cross(z, w))
+        ch, cg = dot(c, h), dot(c, g)
+        by_c = sum3(1.0 / cc, g, s, h, ch / (cc * D), M)
+        by_c = both(1.0, by_c, -2.0 * (cg / cc + s * ch) / cc, c)
+        fall = -2.0 * s * ch / D
+        f = sum3(1.0, cross(z, by_c), dot(c, w) / cc, M, s * wy, cross(u, c))
+        by_y = both(1.0, f, fall * wy, y)
+        f = sum3(1.0, cross(by_c, y), -dot(c, u) / cc, M, s * wz, cross(w, c))
+        by_z = both(1.0, f, fall * wz, z)
+        for k in range(6):
+            i = batch.base[e, k]
+            if i >= 0:
+                by, f = by_y if k < 3 else by_z, batch.factor[e, k]
+                for d in range(3):
+                    by_q[i + d] -= f * by[d]
+
+
 implements(
     SectionMomentBatch,
     force=section_moment_force,
     tangent=section_moment_tangent,
+    work_slopes=section_moment_slopes,
     role=Role.EXTERNAL,
 )

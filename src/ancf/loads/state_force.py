@@ -23,11 +23,14 @@ from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
 from ..elements.shapes import gauss
 from ..model.loads import DistributedLoad
+from ..vectors import dot
 from .at_points import add_force_at, add_tangent_at, at_point, at_points
 from .law_functions import address_of
 
 #: Step of the differences, of the size of the model, and of a velocity plus that size per second.
 STEP = 1e-6
+#: The same of order four, and its weights.
+WIDE, NEAR, FAR = 1e-4, 8.0 / 12.0, -1.0 / 12.0
 FORCE = 6  # where the force stands in the nine numbers
 #: Gauss points of an element for a load along it: exact where the law is linear in place and velocity.
 POINTS = 4
@@ -227,10 +230,40 @@ def state_force_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
         add_tangent_at(batch, e, rows, A)
 
 
+@formula
+def work_by(batch, e, size, j, step, X):
+    """Derivative of the work of the force on X by number j of the state that has been put, of order four."""
+    here, by = batch.data[e, j], 0.0
+    for m in range(4):
+        batch.data[e, j] = here + step * (m - 2.0 if m < 2 else m - 1.0)
+        f = law_force(batch, e, size)
+        by += (FAR if m == 0 or m == 3 else NEAR) * (1.0 if m > 1 else -1.0) * dot(f, X)
+    batch.data[e, j] = here
+    return -by / step
+
+
+@inline_kernel
+def state_force_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
+    """See :func:`ancf.compiled.add_work_slopes`: of laws by differences of order four."""
+    for e in range(batch.base.shape[0]):
+        size, X = put_state(batch, e, q, v), at_point(batch, e, x)
+        speed = abs(batch.data[e, 3]) + abs(batch.data[e, 4]) + abs(batch.data[e, 5])
+        for c in range(3):
+            by_place = work_by(batch, e, size, c, WIDE * batch.size[e], X)
+            by_speed = work_by(batch, e, size, 3 + c, WIDE * (batch.size[e] + speed), X)
+            for k in range(batch.base.shape[1]):
+                i = batch.base[e, k]
+                if i >= 0:
+                    by_q[i + c] += batch.factor[e, k] * by_place
+                    by_v[i + c] += batch.factor[e, k] * by_speed
+
+
 implements(
     StateForceBatch,
     force=state_force,
     tangent=state_force_tangent,
+    work_slopes=state_force_slopes,
+    sloped=lambda batch: not (np.any(batch.once) or np.any(batch.winch >= 0)),
     role=Role.EXTERNAL,
     slots=("base", "winch"),
 )
