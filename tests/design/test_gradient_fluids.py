@@ -78,7 +78,7 @@ def test_corrections(step, most, monkeypatch):
 
     def counted(self, way, *given):
         status = back(self, way, *given)
-        counts.append((self._rate[1], len(way.q)))
+        counts.append((self._corrections[0], len(way.q)))
         return status
 
     monkeypatch.setattr(SlopedAdjoint, "_back", counted)

@@ -95,17 +95,12 @@ LOADS = [with_moment, with_section_moment, with_follower, with_section_follower,
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("made", LOADS)
 def test_loads(made, method):
-    """Forward sensitivities take central differences of such forces."""
-    model, names = made()
+    """Forward sensitivities take central differences of such forces, which is up to 2e-6 of a derivative."""
+    (model, names), given = made(), settings(method)
     assert adjoint_of(System(model)) is SlopedAdjoint
-    agree(model, TIP, names, settings(method), 3e-9)
-
-
-@pytest.mark.parametrize("made", [with_moment, with_section_moment, with_section_follower, with_laws])
-def test_loads_against_differences(made):
-    model, names = made()
-    _, slope = ancf.gradient(model, TIP, names[:3], **settings())
-    assert apart(model, slope, differences(model, TIP, names[:3], **settings())) < 1e-9
+    _, slope = ancf.gradient(model, TIP, names, **given)
+    assert apart(model, slope, differences(model, TIP, names, 1e-2, **given)) < 3e-9
+    assert apart(model, slope, forward(model, TIP, names, **given)) < 3e-6
 
 
 @pytest.mark.parametrize("method", ["trapezoidal ggl", "generalized index2", "generalized index3"])
@@ -146,8 +141,8 @@ def contact_line(stiffness=5e3, damping=30.0, elements=6, **more):
     for k in range(5):
         dropper = {"stiffness": 2e3, "length": 0.49, "damping": 1.0, "name": f"dropper{k}"}
         model.add_spring(wire.at((1.0 + k) * 5.95 / 6), (1.0 + k, 0, 0.5), **dropper)
-    head = model.add_point_mass("head", at=(1.0, 0, 0.001), mass=4.0, velocity=(20.0, 0.0, 0.0))
-    foot = model.add_point_mass("foot", at=(1.0, 0, -0.5), mass=1.0)
+    head = model.add_point_mass("head", at=(1.037, 0, 0.001), mass=4.0)
+    foot = model.add_point_mass("foot", at=(1.037, 0, -0.5), mass=1.0)
     model.pin(foot, displacement=("20*t", 0, 0))
     model.hold(head, position="xy", displacement=("20*t", 0, 0))
     model.add_spring(head, foot, stiffness=300.0, length=0.75, damping=10.0, name="lift")
@@ -156,21 +151,29 @@ def contact_line(stiffness=5e3, damping=30.0, elements=6, **more):
 
 
 @pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize(
-    ("stiffness", "damping", "step"), [(5e3, 0.0, 1e-3), (5e4, 30.0, 1e-3), (5e4, 0.0, 1e-2)]
-)
-def test_contacts(stiffness, damping, step, method):
-    """Of a strip with a wire on droppers; stiff beside the masses of a step as well."""
-    model, given = contact_line(stiffness, damping), settings(method, step=step)
+@pytest.mark.parametrize(("damping", "step"), [(30.0, 1e-3), (0.0, 2e-3)])
+def test_contacts(damping, step, method):
+    """Of a strip with a wire on droppers, which opens and closes, stiff beside the masses of a step."""
+    model, given = contact_line(5e4, damping), settings(method, step=step)
     assert adjoint_of(System(model)) is SlopedAdjoint
-    agree(model, "integral(norm(velocity(wire.at(3)))**2) + mean(position(head)[2])", OF_LINE, given, 1e-8)
+    agree(model, "integral(norm(velocity(wire.at(3)))**2) + mean(position(head)[2])", OF_LINE, given, 3e-8)
 
 
-def test_contacts_against_differences():
-    names, given = ["head.mass", "lift.stiffness", "strip.stiffness"], settings(steps=80)
-    model, text = contact_line(), "integral(norm(velocity(head))**2)"
+@pytest.mark.parametrize("stiffness", [5e3, 5e4])
+def test_contacts_against_differences(stiffness):
+    """Of runs whose parameters change so little that no contact opens in another step."""
+    names, given = ["head.mass", "lift.stiffness", "strip.stiffness"], settings()
+    model, text = contact_line(stiffness), "integral(norm(velocity(head))**2)"
     _, slope = ancf.gradient(model, text, names, **given)
-    assert apart(model, slope, differences(model, text, names, 1e-4, **given)) < 1e-8
+    assert apart(model, slope, differences(model, text, names, 1e-5, **given)) < 3e-7
+
+
+def test_contacts_beside_joints_go_forwards():
+    """Corrections there end by what those of other steps did, which a contact that closes does not know."""
+    model = contact_line()
+    bob = model.add_rigid_body("bob", at=(1, 1, 0), mass=1.0, inertia=(1, 1, 1))
+    model.hinge(bob.at(0, 0, 1), (1.0, 1.0, 1.0), axis=(0, 1, 0))
+    assert adjoint_of(System(model)) is None
 
 
 @pytest.mark.parametrize("element", ["original", "nonlocking"])
@@ -184,7 +187,7 @@ def test_contacts_against_differences():
 )
 def test_damped_solid_beams(damping, element):
     model, beam = bar(element, **damping)
-    beam.set_motion(angular_velocity=(0.0, 2.0, 1.0))
+    model.add_force(beam.end, (0.0, "300*sin(40*t)", "200*cos(30*t)"))
     assert adjoint_of(System(model)) is Adjoint
     agree(model, TIP, [*OF_BAR, *(f"beam.{name}" for name in damping)], settings(), 1e-8)
 

@@ -51,12 +51,13 @@ def gradient(
 ) -> tuple[float, dict[str, float]]:
     """A number of a simulation and its exact derivatives by parameters of the model.
 
-    Models of cables, undamped solid beams, springs, masses, rigid bodies and joints, sliding ones as well,
-    in fluids with currents, gusts and waves, with loads and supports as functions of time, have an adjoint:
-    the derivatives by all parameters together take about as much as a few runs, and memory that does not grow
-    with their number, nor much with that of the steps. Others, with contacts, moments or damped solid beams,
-    take the sensitivities of :func:`ancf.simulate`, whose cost grows with the number of parameters. The
-    numbers are the same.
+    Models of cables, beams, springs, masses, rigid bodies and joints, sliding ones as well, in fluids with
+    currents, gusts and waves, with loads of all kinds, have an adjoint, and without joints also those on
+    grounds without friction and with a contact of a strip and a wire: the derivatives by all parameters
+    together take about as much as a few runs, and memory that does not grow with their number, nor much with
+    that of the steps. Others, with contacts of surfaces, winches, laws that stay in Python or clamps that
+    turn with time, take the sensitivities of :func:`ancf.simulate`, whose cost grows with the number of
+    parameters. The numbers are the same.
 
     Parameters
     ----------

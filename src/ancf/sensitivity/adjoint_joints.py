@@ -25,6 +25,9 @@ from .start import Start
 #: Weights of the rows for which the positions and the velocities of a start are shifted.
 LEVELS = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 
+#: Batches whose forces begin from one step to the next: corrections beside joints do not reckon with them.
+SUDDEN = {"contacts", "ground"}
+
 
 class JoinedAdjoint(Adjoint):
     """A simulation with joints that is gone through forwards and backwards; see :class:`Adjoint`."""
@@ -114,4 +117,5 @@ def adjoint_of(system: System) -> type[Adjoint] | None:
         return None
     if not len(system.multipliers):
         return None if len(m.rough) else (SlopedAdjoint if len(m.joined) else Adjoint)
-    return JoinedAdjoint if goes_back(system, m) else None
+    sudden = any(len(system.parts[name][0]) for name in SUDDEN & system.parts.keys())
+    return JoinedAdjoint if goes_back(system, m) and not sudden else None

@@ -18,16 +18,16 @@ class SlopedAdjoint(Adjoint):
     """A simulation with such forces and without joints that is gone through forwards and backwards."""
 
     def _prepare(self) -> None:
-        self._room, self._rate = np.zeros((ROOM, self.system.size)), np.zeros(2)
+        self._room, self._corrections = np.zeros((ROOM, self.system.size)), np.zeros(1)
 
     def _back(self, way: Way, h: float, tables: Any, wanted: FloatArray, sums: Any) -> int:
         given = self.system.core, self.m, self.ahead, tables, way, wanted, self.unknowns
-        own = *sums, self._rate, self._room
+        own = *sums, self._corrections, self._room
         _, status = back_sloped_steps(*given, h, self.run.scheme, *own)
         return int(status)
 
     def _through_start(self, begin: Start, wanted: FloatArray, mu: FloatArray, sums: Any) -> None:
         given = self.system.core, self.m, (begin.q, begin.v, begin.a), wanted[0], self.unknowns
-        own = *sums, self._rate, self._room
+        own = *sums, self._corrections, self._room
         if back_sloped_start(*given, mu, *own) != OK:
             raise UnsolvedError

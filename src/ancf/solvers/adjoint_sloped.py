@@ -21,11 +21,13 @@ from .adjoint import SURE, add_turns, folded, hold, take_wanted
 from .ahead import look_ahead
 from .rare import add_all_slopes, add_rate_works
 from .scheme import coefficients
-from .sensitivity import LEAST, MOST, is_done, product, stiffnesses
+from .sensitivity import LEAST, MOST, NOISY, product, stiffnesses
 from .status import OK, SINGULAR, SLOW
 
 #: Directions that are kept, vectors of each: it, A and T^T times it, and that by q, v and a.
 KEPT, OF_EACH = 10, 6
+#: Corrections after which those that do not shrink may be round-off.
+MANY = 5
 #: Vectors of room: T_q^T, T_v^T, T_a^T lambda; the same of a correction; what A lacks, twice; what is left, a
 #: correction, what is solved for, room of products.
 SUMS, OWN, LACKS, LEFT, CHANGE, GOAL, WORK, FIRST = 0, 3, 6, 8, 9, 10, 11, 13
@@ -128,11 +130,22 @@ def direction(core, weights, round, room):
 
 
 @inline_kernel
-def solve(core, m, factor, matrices, weights, y, known, lam, rate, room):
+def may_end(norm, size, before, round):
+    """Whether corrections may end with one of this size: the next would be too small, or it is round-off.
+
+    Those of a few rows shrink when there have been as many, and not before.
+    """
+    rate = min(norm / before, 1.0) if round > 0 else 1.0  # nothing is known of a contact that has begun
+    if rate * norm <= SURE * size or norm < LEAST:
+        return True
+    return round >= MANY and norm <= NOISY * size and norm >= 0.5 * before
+
+
+@inline_kernel
+def solve(core, m, factor, matrices, weights, y, known, lam, count, room):
     """Fill lambda for room[GOAL], and room[SUMS] of it; a status.
 
-    ``known``: how many steps have been solved before; ``rate``: by which corrections of these shrank, and
-    how many there were.
+    ``known``: how many steps have been solved before; ``count``: of all corrections, is added to.
     """
     n, sums, own, before = core.weight.shape[0], room[SUMS:OWN], room[OWN:LACKS], 0.0
     left, change, w, lacks = room[LEFT], room[CHANGE], room[WORK:FIRST], room[LACKS]
@@ -146,20 +159,16 @@ def solve(core, m, factor, matrices, weights, y, known, lam, rate, room):
     for i in range(lam.shape[0]):
         left[i] = room[GOAL, i] - change[i]
     for round in range(MOST):
-        rate[1] += 1.0
+        count[0] += 1.0
         for i in range(lam.shape[0]):
             change[i] = left[i]
         solved(core, factor, change)
         norm, size = largest(change, n), largest(lam, n)
-        if round == 0:
-            before = norm / max(rate[0], LEAST) if known > 0 else size
-        elif round == 1 and norm > 0.0:
-            rate[0] = max(rate[0], norm / before)
         for k in range(OWN, LACKS):
             for i in range(lam.shape[0]):
                 room[k, i] = 0.0
         add_exact(core, m, matrices, change, own, w)
-        if is_done(norm, size, before, SURE):
+        if may_end(norm, size, before, round):
             for i in range(lam.shape[0]):
                 lam[i] += change[i]
                 lacks[i] -= left[i]
@@ -195,7 +204,7 @@ def take(core, y, mu, room, still, turned):
 
 
 @kernel
-def back_sloped_start(core, m, y, wanted, unknowns, mu, lam, still, turned, rate, room):
+def back_sloped_start(core, m, y, wanted, unknowns, mu, lam, still, turned, count, room):
     """Carry the adjoint through the accelerations of a consistent start, as ``back_start``; a status."""
     n, none, K, C = core.weight.shape[0], room[WORK], m.K, m.C
     take_wanted(core.supports, wanted, unknowns, mu, m.work[5:8], m.work[1:3])
@@ -208,7 +217,7 @@ def back_sloped_start(core, m, y, wanted, unknowns, mu, lam, still, turned, rate
     for i in range(lam.shape[0]):
         room[GOAL, i] = mu[2, i] + mu[3, i] if i < n else 0.0
     hold(core.supports, room[GOAL])
-    status = solve(core, m, core.factor, (K, C), (0.0, 0.0, 1.0), y, 0, lam, rate, room)
+    status = solve(core, m, core.factor, (K, C), (0.0, 0.0, 1.0), y, 0, lam, count, room)
     take(core, y, mu, room, still, turned)
     for i in range(lam.shape[0]):
         mu[2, i] = mu[3, i] = 0.0
@@ -219,7 +228,7 @@ def back_sloped_start(core, m, y, wanted, unknowns, mu, lam, still, turned, rate
 
 @kernel
 def back_sloped_steps(
-    core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned, rate, room
+    core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned, count, room
 ):
     """Carry the adjoint back through the steps of a block.
 
@@ -227,8 +236,8 @@ def back_sloped_steps(
     ----------
     core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned
         See :func:`ancf.solvers.adjoint.back_steps`.
-    rate : (2,)
-        See :func:`solve`.
+    count : (1,)
+        Corrections, added to.
     room : (ROOM, size)
 
     Returns
@@ -239,7 +248,6 @@ def back_sloped_steps(
     am, af, beta, gamma = scheme.alpha_m, scheme.alpha_f, scheme.beta, scheme.gamma
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
     n, size, weights = core.weight.shape[0], mu.shape[1], (1.0, G / B, 1.0 / B)
-    rate[0] = 0.0
     for step in range(way.q.shape[0]):
         at = way.q.shape[0] - 1 - step
         k = at % LANES
@@ -253,7 +261,7 @@ def back_sloped_steps(
         for i in range(size):
             room[GOAL, i] = mu[0, i] + (G * mu[1, i] + c1 * mu[3, i] + mu[2, i]) / B if i < n else 0.0
         hold(core.supports, room[GOAL])
-        status = solve(core, m, factor, matrices, weights, y, min(step, 2), lam, rate, room)
+        status = solve(core, m, factor, matrices, weights, y, min(step, 2), lam, count, room)
         if status != OK:
             return step, status
         take(core, y, mu, room, still, turned)
