@@ -211,7 +211,7 @@ def test_bad_objectives():
 
 def drawn(t, r, v):
     """A law that numba does not compile."""
-    return [0.0, float(str(0.3 * t)), -0.1 * v[2]]
+    return [0.0, float(str(0.3 * t)), -0.1]
 
 
 def test_laws_in_python_go_forwards():

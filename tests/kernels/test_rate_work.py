@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import ancf
 from ancf.batches import Batches
 from ancf.compiled import kernel
 from ancf.sensitivity.base import matrices_of
@@ -18,7 +19,7 @@ def all_works(batches, q, v, x, out, ws):
     add_rate_works(batches, q, v, x, out, ws)
 
 
-def check(system, seed):
+def check(system, seed, parts=None):
     """Along a random change of the shape: differences of order six, without what is in the matrices."""
     core, size = system.core, system.size
     q, v, a, x, rng = states(system, seed)
@@ -26,10 +27,11 @@ def check(system, seed):
     m = matrices_of(core, size, moving=True, back=True)
     assert len(m.stirred)
     assert not len(m.rough) + len(m.lossy)
+    batches = Batches((parts or system.parts).values())
 
     def force(e):
         r = np.empty(size)
-        residual(Batches(system.parts.values()), core.ws, q + e * change, v, a, np.zeros(size), r)
+        residual(batches, core.ws, q + e * change, v, a, np.zeros(size), r)
         return x @ r
 
     one, two, three = ((force(e) - force(-e)) / (2 * e) for e in (1e-3, 2e-3, 3e-3))
@@ -54,3 +56,26 @@ def test_of_cables(damping, strain, shape, elements):
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_of_springs(seed):
     check(System(sprung()), seed)
+
+
+@pytest.mark.parametrize("element", ["original", "nonlocking"])
+@pytest.mark.parametrize("damping", [{"axial_damping": 5.0}, {"bending_damping": 0.5}])
+def test_of_solid_beams(damping, element):
+    model = ancf.Model()
+    section = ancf.Section.rectangle(0.2, 0.1, E=1e3, rho=9.0, **damping)
+    given = {"start": (0, 0, 0), "end": (1.2, 0.3, 0), "elements": 3, "section": section}
+    model.add_beam("beam", element=element, **given)
+    check(System(model), 1)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_of_torsion_springs(seed):
+    """Between two bodies, and against the ground."""
+    model = ancf.Model()
+    hub = model.add_rigid_body("hub", at=(0, 0, 0), mass=1.0, inertia=(1, 2, 3))
+    arm = model.add_rigid_body("arm", at=(1, 0, 0), mass=1.0, inertia=(1, 2, 3))
+    model.add_torsion_spring(hub, arm, axis=(0, 1, 0.3), stiffness=3.0, damping=7.0)
+    model.add_torsion_spring(arm, (1, 0, 0), axis=(1, 1, 0), stiffness=3.0, damping=2.0)
+    system = System(model)
+    free = {name: batch for name, batch in system.parts.items() if not hasattr(batch, "level")}
+    check(system, seed, free)

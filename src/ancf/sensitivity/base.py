@@ -56,7 +56,7 @@ def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matr
     left = knowing(touched, rough) if local else Batches(rough)
     near = np.zeros((4, MOST_TOUCHED * sum(len(batch[0]) for batch in rough) if local else 0))
     flags = local, turning, bool(core.damped)
-    rows = size if joints and not back else 0
+    rows = size if joints else 0
     along, found = lane_rows(3 * rows).reshape(3, rows, LANES), lane_rows(rows)
     stiff = [batch for batch in joints if hasattr(batch, "alpha")]
     alpha, row = (stiff[0].alpha, stiff[0].unknown) if stiff else (np.zeros(0), np.zeros(0, dtype=np.int64))
