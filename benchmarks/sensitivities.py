@@ -77,6 +77,39 @@ def of_moored() -> list[str]:
     return [*own, "sea.density", "gravity[2]", "rope.start[0]", "rope.start[2]", "rope.damping"]
 
 
+def lined(elements: int = 32) -> ancf.Model:
+    """A wire on 15 droppers, and a collector on a spring whose strip goes along it."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section(EA=1e5, EI=2.0, rhoA=1.0, damping=0.05)
+    given = {"start": (0, 0, 0), "end": (32, 0, 0), "elements": elements, "length": 31.7}
+    wire = model.add_beam("rope", section=section, **given)
+    model.pin(wire.start)
+    model.pin(wire.end)
+    for k in range(15):
+        dropper = {"stiffness": 2e3, "length": 0.49, "damping": 1.0, "name": f"dropper{k}"}
+        model.add_spring(wire.at((2.0 + 2 * k) * 31.7 / 32), (2.0 + 2 * k, 0, 0.5), **dropper)
+    head = model.add_point_mass("head", at=(1.037, 0, 0.001), mass=4.0)
+    model.hold(head, position="xy", displacement=("20*t", 0, 0))
+    foot = model.add_point_mass("foot", at=(1.037, 0, -0.5), mass=1.0)
+    model.pin(foot, displacement=("20*t", 0, 0))
+    model.add_spring(head, foot, stiffness=300.0, length=0.75, damping=10.0, name="lift")
+    strip = {"strip": (0.0, 1.0, 0.0), "normal": (0.0, 0.0, 1.0), "name": "strip"}
+    model.add_contact(head, wire, stiffness=5e3, damping=30.0, **strip)
+    return model
+
+
+def solid(turned: bool) -> ancf.Model:
+    """A damped beam with a section, perhaps with a moment."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section.rectangle(0.1, 0.05, E=1e8, rho=900.0, axial_damping=5e3, bending_damping=3.0)
+    given = {"start": (0, 0, 0), "end": (3, 0, 0), "elements": 16, "section": section}
+    beam = model.add_beam("rope", element="nonlocking", **given)
+    model.clamp(beam.start)
+    if turned:
+        model.add_moment(beam.end, (8.0, "9*sin(50*t)", 5.0), name="turn")
+    return model
+
+
 def of_rope() -> list[str]:
     """Sixteen numbers of a model with one rope."""
     ends = [f"rope.{end}[{k}]" for end in ("start", "end") for k in range(3)]
@@ -91,6 +124,10 @@ def cases() -> dict[str, tuple[ancf.Model, list[str], str, dict[str, Any]]]:
     own = [f"{body}.{name}" for body in ("carrier", "slider") for name in ("E", "rho", "length")]
     own += ["tip.mass", "gravity[0]", "gravity[1]", "gravity[2]"]
     end, middle = tip.format("rope.end"), tip.format("rope.at(50)")
+    of_lined = ["head.mass", "lift.stiffness", "lift.length", "strip.stiffness"]
+    of_lined += [f"dropper{k}.length" for k in range(12)]
+    of_solid = ["rope.E", "rope.rho", "rope.axial_damping", "rope.bending_damping", "rope.length"]
+    of_solid += [f"gravity[{k}]" for k in range(3)]
     return {
         "7.1, 4 elements, 1600 steps": (falling(), of_rope(), end, _set(1600, 2.5e-4)),
         "7.2, 32 elements, 1000 steps": (in_space(), of_rope(), end, _set(1000, 1e-4)),
@@ -100,6 +137,9 @@ def cases() -> dict[str, tuple[ancf.Model, list[str], str, dict[str, Any]]]:
         "16 springs, 32 elements, 2000 steps": (in_space(32, 16), stays, end, _set(2000, 1e-4)),
         "current, 32 elements, 1000 steps": lambda: _hung(moored(), of_moored(), middle),
         "waves, 32 elements, 1000 steps": lambda: _hung(moored(waves=SEA), of_moored(), middle),
+        "strip, 32 elements, 1000 steps": (lined(), of_lined, tip.format("head"), _set(1000, 1e-3)),
+        "damped solid, 16 elements, 500 steps": (solid(False), of_solid, end, _set(500, 1e-3)),
+        "moment, 16 elements, 500 steps": (solid(True), of_solid, end, _set(500, 1e-3)),
         "7.4, 6+2 elements, 2000 steps": (sliding.build(), own, tip.format("slider.end"), _set(2000, 2e-4)),
     }
 
