@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
+from array import array
 from functools import cached_property
 from struct import Struct
 from typing import Any, TypeVar
@@ -51,6 +52,8 @@ register_model(RecordType)(models.OpaqueModel)
 
 
 _types: dict[Any, Any] = {}
+#: Classes of tuples that kernels take as records.
+_recorded: set[type] = set()
 
 
 def type_of(value: Any) -> Any:
@@ -92,6 +95,7 @@ def recorded(kind: type[T]) -> type[T]:
     for name in ("spelled", "address", "numba_type"):
         about[name].__set_name__(made, name)
     typeof_impl.register(made)(numba_type)
+    _recorded.add(made)
     return made
 
 
@@ -142,20 +146,20 @@ def words_and_kind(value: Any) -> tuple[IntArray, Any]:
 def _spelled(value: Any) -> tuple[IntArray, bytes, tuple[Any, ...], list[Any]]:
     """Words, what tells the kinds of the arrays and of all else, and the recorded tuples within."""
     items: list[Any] = []
-    numbers: list[int] = []
+    numbers = array("q")
     marks: list[Any] = []
     inner: list[Any] = []
     _add(value, items, numbers, marks, inner)
     return (*spelled(items, numbers), tuple(marks), inner)
 
 
-def _add(value: Any, items: list[Any], numbers: list[int], marks: list[Any], inner: list[Any]) -> None:
+def _add(value: Any, items: list[Any], numbers: array[int], marks: list[Any], inner: list[Any]) -> None:
     """Of an array itself, of a recorded tuple its address, of others their fields."""
     for item in tuple.__iter__(value):  # the fields, whatever a class lets one see
         kind = type(item)
         if kind is np.ndarray:
             items.append(item)
-        elif hasattr(kind, "address"):
+        elif kind in _recorded:
             items.append(None)
             numbers.append(item.address)
             inner.append(item)

@@ -7,6 +7,7 @@ model, and a system has hundreds of arrays.  NumPy's C interface says where an a
 from __future__ import annotations
 
 from array import array
+from ctypes import string_at
 from functools import cache
 from typing import Any
 
@@ -21,6 +22,8 @@ from .compiled import kernel
 
 #: What NumPy's C interface has behind the head of all objects, 16 bytes: words of an array object.
 BEGIN, AXES, SHAPE, STRIDES, KIND, FLAGS = 16, 24, 32, 40, 56, 64
+#: Where a list has the address of its items.
+LISTED = 24
 #: Flags that tell how numbers lie: rows or columns without gaps, aligned, writeable.
 LAYOUT = 0x0001 | 0x0002 | 0x0100 | 0x0400
 #: Of a whole number with 32 bits.
@@ -58,16 +61,16 @@ def spell(items, count, number, numbers, out, signs):
     Parameters
     ----------
     items : int
-        Address of the identities of the arrays, or of ``number`` where there is one.
+        Address of a list of arrays, with the object at the address ``number`` where there is one.
     count, number : int
     numbers : int
         Address of the numbers, in their order.
     out, signs : int
         Addresses: of the words, and of a word an item, the same for arrays of one kind and layout.
     """
-    n = 0
+    n, first = 0, word_at(items + LISTED)
     for k in range(count):
-        item, sign = word_at(items + 8 * k), 0
+        item, sign = word_at(first + 8 * k), 0
         if item == number:
             put_word(out + 8 * n, word_at(numbers))
             numbers += 8
@@ -91,24 +94,24 @@ class _Room:
     def __init__(self, count: int) -> None:
         self.count, self.words = count, np.empty((ROOM + 1) * count, dtype=np.int64)
         self.begin = int(self.words.ctypes.data)
+        self.signs = self.begin + 8 * ROOM * count
 
 
 _room = _Room(64)
+_NONE = id(None)
 
 
-def _read(items: list[Any], numbers: list[int]) -> tuple[IntArray, bytes]:
+def _read(items: list[Any], numbers: array[int]) -> tuple[IntArray, bytes]:
     global _room
     count = len(items)
     if count > _room.count:
         _room = _Room(2 * count)
     room = _room
-    own, given, signs = array("q", map(id, items)), array("q", numbers), ROOM * room.count
-    places = own.buffer_info()[0], count, id(None), given.buffer_info()[0]
-    n = spell(*places, room.begin, room.begin + 8 * signs)
-    return room.words[:n].copy(), room.words[signs : signs + count].tobytes()
+    n = spell(id(items), count, _NONE, numbers.buffer_info()[0], room.begin, room.signs)
+    return room.words[:n].copy(), string_at(room.signs, 8 * count)
 
 
-def asked(items: list[Any], numbers: list[int]) -> tuple[IntArray, bytes]:
+def asked(items: list[Any], numbers: array[int]) -> tuple[IntArray, bytes]:
     """The same as :func:`spelled`, as NumPy tells it."""
     words: list[int] = []
     signs, left = [], iter(numbers)
@@ -126,21 +129,21 @@ def _reads() -> bool:
     """Whether the kernel finds what NumPy tells."""
     if getattr(numba.config, "DISABLE_JIT", 0):
         return False
-    cube = np.zeros((3, 4, 5))
+    cube, seven = np.zeros((3, 4, 5)), array("q", [-7])
     items = [cube, cube[:, ::2].T, None, cube[0, 0], np.arange(3), np.zeros(()), np.zeros((0, 2), dtype=bool)]
     alike, other = ([np.zeros(3), cube], [np.zeros(3, dtype=np.int64), cube])
-    same = np.array_equal(_read(items, [-7])[0], asked(items, [-7])[0])
-    return same and _read(alike, [])[1] != _read(other, [])[1]
+    same = np.array_equal(_read(items, seven)[0], asked(items, seven)[0])
+    return same and _read(alike, seven)[1] != _read(other, seven)[1]
 
 
-def spelled(items: list[Any], numbers: list[int]) -> tuple[IntArray, bytes]:
+def spelled(items: list[Any], numbers: array[int]) -> tuple[IntArray, bytes]:
     """Words of arrays, each its address, shape and strides, and of numbers; and what tells the arrays' kinds.
 
     Parameters
     ----------
     items : list of ndarray or None
         Arrays of at most seven axes; None where a number stands.
-    numbers : list of int
+    numbers : array of "q"
         These, as words.
     """
     return _read(items, numbers) if _reads() else asked(items, numbers)

@@ -143,12 +143,17 @@ def test_columns_are_kept_and_forgotten(reach):
     assert system.error() < 1e-10
 
 
+@kernel
+def cleared(border, A, n):
+    clear_rows(border, A, n)
+
+
 def test_rows_are_cleared_where_they_were(reach):
     system = Bordered(reach, 2)
     system.new_rows([[2, 3, 7], [5, 6]])
     A = system.values(system.whole)
     renewed(system.border, A, system.factor)
-    clear_rows.py_func(system.border, A, HEAD)
+    cleared(system.border, A, HEAD)
     left = system.whole.copy()
     left[6 * HEAD :, :] = left[:, 6 * HEAD :] = 0.0
     assert np.array_equal(A, system.values(left))

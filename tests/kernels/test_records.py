@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+from array import array
 from typing import NamedTuple
 
 import numpy as np
@@ -280,7 +281,7 @@ class TestSpelled:
     def test_words(self, rng, count):
         chosen = rng.integers(len(self.ARRAYS) + 1, size=count)
         items = [None if k == len(self.ARRAYS) else self.ARRAYS[k] for k in chosen]
-        numbers = rng.integers(-(2**62), 2**62, size=sum(one is None for one in items)).tolist()
+        numbers = array("q", rng.integers(-(2**62), 2**62, size=sum(one is None for one in items)).tolist())
         np.testing.assert_array_equal(spelled(items, numbers)[0], asked(items, numbers)[0])
 
     @pytest.mark.parametrize("tell", [spelled, asked])
@@ -290,10 +291,11 @@ class TestSpelled:
         frozen.flags.writeable = False
         others = [np.zeros(3), np.zeros(3, dtype=np.int64), np.zeros(6)[::2], np.zeros((3, 3)), frozen, None]
         others += [np.zeros((3, 3)).T, np.zeros(3, dtype=np.float32)]
-        told = [tell([one], [5])[1] for one in others]
+        five = array("q", [5])
+        told = [tell([one], five)[1] for one in others]
         assert len(set(told)) == len(others)
-        assert tell([np.ones(7)], [])[1] == told[0]
-        assert tell([None], [9])[1] == told[5]
+        assert tell([np.ones(7)], five)[1] == told[0]
+        assert tell([None], array("q", [9]))[1] == told[5]
 
 
 def test_types_of_records_tell_all(rng):

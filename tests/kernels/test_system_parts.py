@@ -15,7 +15,7 @@ from ancf.model.functions import TimeFunction
 from ancf.solvers import sampling
 from ancf.solvers.free_spin import Spin, is_neutral
 from ancf.system.contacts import touching
-from ancf.system.core import apply_load
+from ancf.system.core import apply_load, assemble, restrict
 from ancf.system.energy import energies
 from ancf.system.joints import FLOOR
 from ancf.system.sensors import listing
@@ -201,6 +201,50 @@ class TestSupports:
         system = System(model)
         assert len(system.free) == 0
         assert set(system.slots["hub"].ravel()) <= set(system.core.supports.held)
+
+
+def cables_of(count):
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    for k in range(count):
+        wire = model.add_beam(
+            f"wire{k}", start=(0, k, 0), end=(1, k, 0), elements=2, section=ancf.Section(**SOFT)
+        )
+        model.pin(wire.start)
+        mass = model.add_point_mass(f"mass{k}", at=(0.4, k, 0), mass=0.1)
+        model.slide(mass, along=wire, s=0.4)
+    return System(model)
+
+
+def solid(element):
+    model = ancf.Model()
+    square = ancf.Section.rectangle(width=0.1, height=0.1, E=1e6, rho=1000.0)
+    beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=3, element=element, section=square)
+    model.clamp(beam.start)
+    model.connect(beam.end, model.add_point_mass("mass", at=(1, 0, 0), mass=1.0))
+    return System(model)
+
+
+class TestHeld:
+    @pytest.mark.parametrize(
+        "make",
+        [
+            lambda: mechanism(),
+            lambda: mechanism(stretch="free"),
+            *(lambda count=count: cables_of(count) for count in (1, 3)),
+            *(lambda element=element: solid(element) for element in ("original", "nonlocking")),
+        ],
+    )
+    def test_rows_of_held_unknowns_are_those_of_the_identity(self, make):
+        """Also those of unknowns that no node has, which nothing is added to."""
+        system = make()
+        core, q = system.core, shaken(system)
+        assert not np.all(system.numbering.used())
+        core.A[:] = 7.0  # of another matrix
+        assemble(core.batches, core.ws, q, np.zeros_like(q), core.A, 1.0, 1.0, 1.0)
+        restrict(core.supports, core.A)
+        A, held = to_sparse(core.A, system.places).toarray(), system.held
+        np.testing.assert_array_equal(A[held], np.eye(system.n)[held])
+        np.testing.assert_array_equal(A[:, held], np.eye(system.n)[:, held])
 
 
 class TestNumbers:

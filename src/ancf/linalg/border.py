@@ -188,10 +188,15 @@ def clear_rows(border, A, n):
     """Set what the rows have in the matrix, of which K has n blocks, to zero."""
     for t in range(border.number.shape[0]):
         for u in range(border.number[t]):
-            for i in range(border.place[t, u], border.place[t, u] + 36):
-                A[i] = 0.0
-        for i in range(36 * (n + t), 36 * (n + t + 1)):
-            A[i] = 0.0
+            clear_block(A, border.place[t, u])
+        clear_block(A, 36 * (n + t))
+
+
+@formula
+def clear_block(A, o):
+    """Set the block at ``A[o]`` to zero."""
+    for k in range(0, 36, 6):
+        store_six(every(0.0), A, o + k)
 
 
 @kernel

@@ -276,6 +276,8 @@ def turn_rows(frames, border, A):
 @inline_kernel
 def turn_piece(Q, k, lane, A, place):
     """C -> C Q for six rows of three numbers."""
+    if min(place, k, lane) < 0:
+        return  # never: but now the compiler knows that no index counts from the end
     for o in range(place, place + 36, 6):
         x, y, z = A[o], A[o + 1], A[o + 2]
         for c in range(3):

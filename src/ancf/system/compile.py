@@ -280,11 +280,11 @@ def joined(parts: list[NDArray[Any]], dtype: type) -> NDArray[Any]:
     return np.concatenate([np.zeros(0), *parts]).astype(dtype)
 
 
-def held_arrays(held: IntArray, places: Places) -> dict[str, Any]:
-    """What of Supports belongs to held unknowns."""
+def held_arrays(held: IntArray, places: Places, used: NDArray[np.bool_]) -> dict[str, Any]:
+    """What of Supports belongs to held unknowns; those that nothing has ``used`` have zeros already."""
     return {
         "held": np.ascontiguousarray(held, dtype=np.int64),
-        "held_zero": places.crosses(held),
+        "held_zero": places.crosses(held[used[held]]),
         "held_one": np.ascontiguousarray(36 * (held // 6) + 7 * (held % 6), dtype=np.int64),
     }
 

@@ -31,7 +31,7 @@ class Supports(NamedTuple):
     """Held unknowns, local axes and given motions."""
 
     held: IntArray  # unknowns that the solve leaves alone
-    held_zero: IntArray  # places in A of their rows and columns
+    held_zero: IntArray  # places in A of their rows and columns, if anything is added there
     held_one: IntArray  # places in A of their diagonal entries
     rot_slot: IntArray  # (k,) slots with local axes
     rot_shadow: IntArray  # (k,) their shadows

@@ -38,7 +38,7 @@ class Derived:
         if like is not None and like.places is self.places and np.array_equal(like.held, self.held):
             held = {key: getattr(like.supports, key) for key in ("held", "held_zero", "held_one")}
         else:
-            held = held_arrays(self.held, self.places)
+            held = held_arrays(self.held, self.places, self.numbering.used())
         return Supports(
             **held,
             **rotation_arrays(self.constraints, self.places, self.n),

@@ -185,7 +185,7 @@ class System(Derived):
         idle = [j.name for j in self.model.connections if set(bodies_of(j)) & set(bodies)]
         extra += [self.joints[name] for name in (*idle, *bodies) if name in self.joints]
         held = np.unique(np.concatenate([self.held, *[e.ravel() for e in extra]]))
-        supports = self.supports._replace(**held_arrays(held, self.places))
+        supports = self.supports._replace(**held_arrays(held, self.places, self.numbering.used()))
         return self.core._replace(supports=supports)
 
     @cached_property
