@@ -37,7 +37,8 @@ class TestErrors:
             ({"color": "red"}, "view.color"),
             ({"frames": 0}, "view.frames"),
             ({"trace": ["nobody.end"]}, "nobody"),
-            ({"start": 3.0}, "no state between"),
+            ({"start": 3.0}, "no state is stored between"),
+            ({"start": 0.2, "end": 0.1}, "behind the end"),
         ],
     )
     def test_wrong_options(self, cantilever, option, says):

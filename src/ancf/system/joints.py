@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import IntArray
+from ..arrays import FloatArray, IntArray
 from ..batches import Batches
 from ..compiled import Role, with_role
 from ..linalg.border import room_for_border
@@ -80,12 +80,19 @@ def share_scales(system: Any, like: Any) -> bool:
     return True
 
 
+def fastest(mass: FloatArray, stiffness: FloatArray) -> float:
+    """Largest ratio of the diagonal entries of two matrices, 1/s^2; without limit if there is none."""
+    both = (mass > 0.0) & (stiffness > 0.0)
+    return float(np.max(stiffness[both] / mass[both])) if np.any(both) else np.inf
+
+
 def set_scales(system: Any) -> None:
     """Give each row the mass and the stiffness of what it holds, to be multiplied with C_q^T C_q.
 
     Rows that hold nothing stiff, such as those that keep a rigid body rigid, have masses to be solved with in
     motion. A stiffness from elsewhere, or one of 1, would leave of the inertia of a small body nothing but
-    round-off: they take it at rest alone.
+    round-off: they take it at rest alone. There it makes nothing faster than what is fastest: directors have
+    no length, and a stiffness in N/m is too much for a body of millimetres.
     """
     core, batch = system.core, system.parts.get("joints")
     if batch is None:
@@ -95,10 +102,12 @@ def set_scales(system: Any) -> None:
     row = np.repeat(np.arange(len(batch.unknown)), np.diff(batch.start))
     slot = np.where(batch.slot < system.n, batch.slot, 0)
     largest: list[float] = []
+    diagonals = []
     for k, (c_mass, c_stiffness) in enumerate(((1.0, 0.0), (0.0, 1.0))):
         system.level[:] = 0.0
         assemble(core.batches, core.ws, q, np.zeros_like(q), core.A, c_mass, 0.0, c_stiffness)
         diagonal = np.abs(core.A[36 * entries + columns].ravel())
+        diagonals.append(diagonal)
         found = batch.factor**2 * diagonal[slot[:, None] + np.arange(3)].max(axis=1)
         np.maximum.at(batch.scale[:, k], row, found)
         for unknowns in system.numbering.multipliers.values():  # a director may have no mass of its own
@@ -109,5 +118,6 @@ def set_scales(system: Any) -> None:
         largest.append(float(batch.scale[:, k].max()) or float(diagonal.max()))
     mass, held, at_rest = batch.scale.T
     mass[mass == 0.0] = largest[0] or 1.0
-    at_rest[:] = np.where(held > 0.0, held, largest[1] or mass)
+    elsewhere = np.minimum(largest[1], fastest(*diagonals) * mass) if largest[1] > 0.0 else mass
+    at_rest[:] = np.where(held > 0.0, held, elsewhere)
     system.level[:] = 1.0, 0.0, 0.0
