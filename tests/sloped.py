@@ -90,7 +90,7 @@ SPEEDS = {
     "sheared": {"z": [-3.0, -0.4, 2.0], "velocity": [[0.1, 0, 0.2], [0.8, 0.3, 0.1], [1.2, 0, -0.2]]},
     "formulas": ("0.5*sin(x - t)*exp(0.3*z)", "0.2*y + 0.1*x*z", "0.3*cos(y + z + 2*t)"),
 }
-GUSTS = {"speed": 9.0, "deviation": 2.0, "length": 30.0, "extent": (-2.0, 6.0), "spacing": 1.0}
+GUSTS = {"speed": 9.0, "deviation": 2.0, "length": 30.0, "extent": (-2.0, 6.0), "spacing": 0.8}
 GUSTS |= {"line": (1.0, 0.3, 0.0), "direction": 0.3, "duration": 20.0, "ramp": 3.0}
 
 
