@@ -43,7 +43,7 @@ from .compiled import (
     touched,
 )
 from .operations import OPERATIONS
-from .records import RecordType, begin_of, words_and_kind
+from .records import RecordType, begin_of, hold_kinds, words_and_kind
 
 _COLUMNS = 1 + len(OPERATIONS)
 _NONE = np.zeros((0, _COLUMNS), dtype=np.int64)
@@ -122,6 +122,7 @@ def _row(batch: Any) -> tuple[NDArray[np.int64], tuple[int, ...]]:
         return np.zeros(1, dtype=np.int64), (0,) * len(OPERATIONS)
     words, key = words_and_kind(batch)
     if key not in addresses.found:
+        hold_kinds(batch)
         kind = typeof(batch)
         places = tuple(0 if stub in RARE else address_of(type(batch), kind, stub) for stub in OPERATIONS)
         addresses.found[key] = places

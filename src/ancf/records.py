@@ -52,6 +52,8 @@ register_model(RecordType)(models.OpaqueModel)
 
 
 _types: dict[Any, Any] = {}
+#: Kinds of arrays that are told by where they are in memory: no other one may come to be there.
+_kinds: list[Any] = []
 #: Classes of tuples that kernels take as records.
 _recorded: set[type] = set()
 
@@ -79,6 +81,7 @@ def recorded(kind: type[T]) -> type[T]:
         _, signs, marks, inner = value.spelled
         key = made, signs, marks, tuple([id(item.numba_type) for item in inner])  # types stay
         if key not in _types:
+            hold_kinds(value)
             _types[key] = typeof(value)
         return _types[key]
 
@@ -141,6 +144,15 @@ def words_and_kind(value: Any) -> tuple[IntArray, Any]:
     """The same, and what is equal for tuples of a class whose arrays lie alike and whose other items do."""
     words, *kind, inner = _spelled(value)
     return words, (type(value), *kind, tuple([id(item.numba_type) for item in inner]))
+
+
+def hold_kinds(value: Any) -> None:
+    """Keep the kinds of the arrays of a tuple, before something is looked up by what tells them."""
+    for item in tuple.__iter__(value):
+        if isinstance(item, np.ndarray):
+            _kinds.append(item.dtype)
+        elif isinstance(item, tuple):
+            hold_kinds(item)
 
 
 def _spelled(value: Any) -> tuple[IntArray, bytes, tuple[Any, ...], list[Any]]:

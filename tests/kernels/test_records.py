@@ -10,6 +10,7 @@ import pytest
 from numba import typeof, types
 
 import ancf
+from ancf import records
 from ancf.addresses import address_of, caller, pointer
 from ancf.compiled import kernel, separate_kernel
 from ancf.records import Located, _asked, _looked_up, recorded, type_of, words_of
@@ -314,3 +315,11 @@ def test_types_of_records_tell_all(rng):
     assert all(kind == typeof(one) for kind, one in zip(kinds, (given, *others), strict=True))
     assert len(set(kinds)) == len(kinds)
     assert type_of(made(rng, (5, 2, 3))) is kinds[0]
+
+
+def test_kinds_that_records_are_looked_up_by_stay(rng):
+    """A kind of array that was read from a pickle is an object of its own, which must not make room."""
+    kind = pickle.loads(pickle.dumps(np.dtype(np.float64)))
+    given = made(rng, (2, 1, 3))._replace(cube=np.zeros((2, 1, 3), dtype=kind))
+    type_of(given)
+    assert any(one is given.cube.dtype for one in records._kinds)
