@@ -186,6 +186,20 @@ def taken_back(core, m, matrices, y, lam, still, turned):
     folded(core.supports, x, back)
 
 
+@formula
+def to_start(n, h, scheme, mu, lam):
+    """Carry mu, less what lambda takes from it, through q~ and v~ to the start of a step; none at shadows."""
+    am, af, beta, gamma = scheme.alpha_m, scheme.alpha_f, scheme.beta, scheme.gamma
+    c2, c3 = af / (1.0 - am), -am / (1.0 - am)
+    for i in range(n):
+        eq, ev = mu[0, i], mu[1, i]
+        eb = mu[3, i] + h * h * beta * eq + h * gamma * ev
+        mu[0, i], mu[1, i], mu[2, i] = eq, h * eq + ev, c2 * eb
+        mu[3, i] = c3 * eb + h * h * (0.5 - beta) * eq + h * (1.0 - gamma) * ev
+    for i in range(n, lam.shape[0]):
+        mu[0, i] = mu[1, i] = mu[2, i] = mu[3, i] = lam[i] = 0.0
+
+
 @kernel
 def back_start(core, m, y, wanted, unknowns, mu, lam, still, turned):
     """Carry the adjoint through the accelerations of a consistent start, M s_a + C s_v + K s_q + R_p = 0.
@@ -251,9 +265,7 @@ def back_steps(core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out
     Steps done and the status of the last one.
     """
     B, G = coefficients(h, scheme)
-    am, af, beta, gamma = scheme.alpha_m, scheme.alpha_f, scheme.beta, scheme.gamma
-    c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
-    n, size = core.weight.shape[0], mu.shape[1]
+    n, c1 = core.weight.shape[0], (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
     back, x = m.work[1:3], m.work[5:8]
     ahead.rate[0] = 0.0
     for step in range(way.q.shape[0]):
@@ -271,10 +283,7 @@ def back_steps(core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out
             return step, status
         taken_back(core, m, (ahead.K[k], ahead.C[k]), y, lam, still, turned)
         for i in range(n):
-            eq, ev = mu[0, i] - back[0, i], mu[1, i] - back[1, i]
-            eb = mu[3, i] + h * h * beta * eq + h * gamma * ev
-            mu[0, i], mu[1, i], mu[2, i] = eq, h * eq + ev, c2 * eb
-            mu[3, i] = c3 * eb + h * h * (0.5 - beta) * eq + h * (1.0 - gamma) * ev
-        for i in range(n, size):
-            mu[0, i] = mu[1, i] = mu[2, i] = mu[3, i] = lam[i] = 0.0
+            mu[0, i] -= back[0, i]
+            mu[1, i] -= back[1, i]
+        to_start(n, h, scheme, mu, lam)
     return way.q.shape[0], OK

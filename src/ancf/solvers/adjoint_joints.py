@@ -26,7 +26,7 @@ from ..linalg.block import times
 from ..linalg.eight import factor_of
 from ..simd import LANES, load_six, store_six, total
 from ..system.core import drive, onto_shadows, solve_matrix, to_local
-from .adjoint import folded, hold, take_wanted
+from .adjoint import folded, hold, take_wanted, to_start
 from .ahead import look_ahead
 from .rare import add_all_slopes, add_rate_works
 from .scheme import coefficients
@@ -272,8 +272,7 @@ def back_joined_steps(
     Steps done and the status of the last one.
     """
     B, G = coefficients(h, scheme)
-    am, af, beta, gamma = scheme.alpha_m, scheme.alpha_f, scheme.beta, scheme.gamma
-    c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
+    c1 = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
     n, size = core.weight.shape[0], mu.shape[1]
     at_level(core, joined.w0, joined.w1, joined.w2)
     for step in range(way.q.shape[0]):
@@ -295,13 +294,7 @@ def back_joined_steps(
         for i in range(size):
             room[0, i] += room[3, i]
         take(core, room[0:3], mu, m.work[1:3], still)
-        for i in range(n):
-            eq, ev = mu[0, i], mu[1, i]
-            eb = mu[3, i] + h * h * beta * eq + h * gamma * ev
-            mu[0, i], mu[1, i], mu[2, i] = eq, h * eq + ev, c2 * eb
-            mu[3, i] = c3 * eb + h * h * (0.5 - beta) * eq + h * (1.0 - gamma) * ev
-        for i in range(n, size):
-            mu[0, i] = mu[1, i] = mu[2, i] = mu[3, i] = lam[i] = 0.0
+        to_start(n, h, scheme, mu, lam)
     return way.q.shape[0], OK
 
 
