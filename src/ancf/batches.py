@@ -43,7 +43,8 @@ from .compiled import (
     touched,
 )
 from .operations import OPERATIONS
-from .records import RecordType, begin_of, hold_kinds, words_and_kind
+from .records import RecordType, hold_kinds, words_and_kind
+from .words import begin_of
 
 _COLUMNS = 1 + len(OPERATIONS)
 _NONE = np.zeros((0, _COLUMNS), dtype=np.int64)

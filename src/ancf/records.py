@@ -8,11 +8,8 @@ field changes while the record lives (entries of arrays do), they need not read 
 
 from __future__ import annotations
 
-import ctypes
 import hashlib
-from array import array
 from functools import cached_property
-from struct import Struct
 from typing import Any, TypeVar
 
 import numpy as np
@@ -31,7 +28,7 @@ from numba.extending import (
 )
 
 from .arrays import IntArray
-from .words import spelled
+from .words import begin_of, spelled
 
 T = TypeVar("T")
 WORD = ir.IntType(64)
@@ -52,7 +49,7 @@ register_model(RecordType)(models.OpaqueModel)
 
 
 _types: dict[Any, Any] = {}
-#: Kinds of arrays that are told by where they are in memory: no other one may come to be there.
+#: Types and kinds of arrays that are told by where they are in memory: no other one may come to be there.
 _kinds: list[Any] = []
 #: Classes of tuples that kernels take as records.
 _recorded: set[type] = set()
@@ -78,8 +75,7 @@ def recorded(kind: type[T]) -> type[T]:
 
     def type_told(value: Any) -> Any:
         """What a type in kernels is looked up by: the kinds of all that a tuple holds."""
-        _, signs, marks, inner = value.spelled
-        key = made, signs, marks, tuple([id(item.numba_type) for item in inner])  # types stay
+        key = made, value.spelled[1]
         if key not in _types:
             hold_kinds(value)
             _types[key] = typeof(value)
@@ -136,73 +132,27 @@ def place(value: Any) -> int:
 
 def words_of(value: Any) -> IntArray:
     """A named tuple as a record, in an array of words; it holds the addresses of the arrays of the tuple."""
-    words: IntArray = _spelled(value)[0]
-    return words
+    return _spelled(value)[0]
 
 
 def words_and_kind(value: Any) -> tuple[IntArray, Any]:
     """The same, and what is equal for tuples of a class whose arrays lie alike and whose other items do."""
-    words, *kind, inner = _spelled(value)
-    return words, (type(value), *kind, tuple([id(item.numba_type) for item in inner]))
+    words, signs = _spelled(value)
+    return words, (type(value), signs)
 
 
 def hold_kinds(value: Any) -> None:
-    """Keep the kinds of the arrays of a tuple, before something is looked up by what tells them."""
-    for item in tuple.__iter__(value):
+    """Keep the types and the kinds of arrays in a tuple, before something is looked up by what tells them."""
+    for item in tuple.__iter__(value):  # the fields, whatever a class lets one see
+        _kinds.append(type(item))
         if isinstance(item, np.ndarray):
             _kinds.append(item.dtype)
         elif isinstance(item, tuple):
             hold_kinds(item)
 
 
-def _spelled(value: Any) -> tuple[IntArray, bytes, tuple[Any, ...], list[Any]]:
-    """Words, what tells the kinds of the arrays and of all else, and the recorded tuples within."""
-    items: list[Any] = []
-    numbers = array("q")
-    marks: list[Any] = []
-    inner: list[Any] = []
-    _add(value, items, numbers, marks, inner)
-    return (*spelled(items, numbers), tuple(marks), inner)
-
-
-def _add(value: Any, items: list[Any], numbers: array[int], marks: list[Any], inner: list[Any]) -> None:
-    """Of an array itself, of a recorded tuple its address, of others their fields."""
-    for item in tuple.__iter__(value):  # the fields, whatever a class lets one see
-        kind = type(item)
-        if kind is np.ndarray:
-            items.append(item)
-        elif kind in _recorded:
-            items.append(None)
-            numbers.append(item.address)
-            inner.append(item)
-        elif isinstance(item, tuple):
-            marks.append((kind, tuple.__len__(item), len(items)))
-            _add(item, items, numbers, marks, inner)
-        else:
-            items.append(None)
-            numbers.append(_FLOAT.unpack(_DOUBLE.pack(item))[0] if isinstance(item, float) else int(item))
-            marks.append(kind)
-
-
-_DOUBLE, _FLOAT = Struct("d"), Struct("q")
-
-
-def _asked(array: Any) -> int:
-    """Address of the numbers of an array, from where NumPy tells it."""
-    return int(array.__array_interface__["data"][0])
-
-
-def _looked_up(array: Any) -> int:
-    """The same from where NumPy's C interface has it, behind what all objects have: seven times as fast."""
-    begin: int = _number(id(array) + _HEAD).value
-    return begin
-
-
-_number: Any = ctypes.c_ssize_t.from_address
-_HEAD = object.__basicsize__
-_sample = np.zeros(3)
-#: Address of the numbers of an array.
-begin_of = _looked_up if _looked_up(_sample) == _asked(_sample) else _asked
+def _spelled(value: Any) -> tuple[IntArray, bytes]:
+    return spelled(value, _recorded)
 
 
 # --- in kernels

@@ -2,8 +2,7 @@
 
 import copy
 import pickle
-from array import array
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 import pytest
@@ -13,11 +12,11 @@ import ancf
 from ancf import records
 from ancf.addresses import address_of, caller, pointer
 from ancf.compiled import kernel, separate_kernel
-from ancf.records import Located, _asked, _looked_up, recorded, type_of, words_of
+from ancf.records import Located, recorded, type_of, words_of
 from ancf.solvers.block import kernels_of
 from ancf.solvers.runs import run_of
 from ancf.system.system import System
-from ancf.words import asked, spelled
+from ancf.words import asked, asked_begin, begin_of, looked_up, spelled
 
 
 @recorded
@@ -120,14 +119,16 @@ def test_an_array_in_steps_is_another_type(rng):
 @pytest.mark.parametrize("shape", [(), (3,), (2, 0), (4, 2)])
 def test_where_numbers_begin(shape):
     array = np.zeros(shape)
-    assert _looked_up(array) == _asked(array)
-    assert _looked_up(array[..., ::-1] if shape else array) == _asked(array[..., ::-1] if shape else array)
+    assert looked_up(array) == asked_begin(array)
+    assert looked_up(array[..., ::-1] if shape else array) == asked_begin(
+        array[..., ::-1] if shape else array
+    )
 
 
 def test_a_record_is_small(rng):
-    """An array is its address, its shape and its strides; a recorded tuple an address."""
+    """An array is its address, its shape and its strides; a recorded tuple an address, its words behind."""
     given = made(rng, (2, 1, 3))
-    assert len(words_of(given)) == 1 + 1 + (1 + 3) + 1 + (1 + 1) + 0 + 7 + 1
+    assert len(words_of(given)) == 1 + 1 + (1 + 3) + 1 + (1 + 1) + 0 + 7 + 1 + 2 * (3 + 1)
 
 
 class Table(NamedTuple):
@@ -265,7 +266,7 @@ class TestApart:
 
 
 class TestSpelled:
-    """What a kernel reads of arrays is what NumPy tells of them."""
+    """What a kernel reads of tuples is what Python and NumPy tell of them."""
 
     ARRAYS = (
         np.zeros(3),
@@ -277,26 +278,64 @@ class TestSpelled:
         np.zeros((1, 1, 2, 1, 3, 1, 2)),
         np.broadcast_to(np.zeros(2), (3, 2)),
     )
+    RECORDED: ClassVar = {Inner, Outer}
 
-    @pytest.mark.parametrize("count", [0, 1, 8, 200])  # the room grows
+    def some(self, rng, depth):
+        """An item of any kind; numbers of all lengths, tuples in tuples."""
+        kind = rng.integers(7 if depth > 0 else 5)
+        if kind == 0:
+            return self.ARRAYS[rng.integers(len(self.ARRAYS))]
+        if kind == 1:
+            return rng.choice([-1, 1]).item() * int(rng.integers(2**62)) >> int(rng.integers(63))
+        if kind < 5:
+            return (bool(rng.integers(2)), rng.standard_normal(), np.float64(rng.standard_normal()))[kind - 2]
+        inner = tuple(self.some(rng, depth - 1) for _ in range(rng.integers(5)))
+        return inner if kind == 5 else Inner(self.ARRAYS[rng.integers(len(self.ARRAYS))], inner)
+
+    @pytest.mark.parametrize("count", [0, 1, 8, 60])
     def test_words(self, rng, count):
-        chosen = rng.integers(len(self.ARRAYS) + 1, size=count)
-        items = [None if k == len(self.ARRAYS) else self.ARRAYS[k] for k in chosen]
-        numbers = array("q", rng.integers(-(2**62), 2**62, size=sum(one is None for one in items)).tolist())
-        np.testing.assert_array_equal(spelled(items, numbers)[0], asked(items, numbers)[0])
+        for _ in range(30):
+            value = tuple(self.some(rng, 3) for _ in range(count))
+            (read, _), (told, _) = spelled(value, self.RECORDED), asked(value, self.RECORDED)
+            begin = begin_of(read), begin_of(told)
+            assert len(read) == len(told)
+            # addresses of records in it are those of the words themselves
+            within = (read >= begin[0]) & (read < begin[0] + read.nbytes)
+            np.testing.assert_array_equal(read[within] - begin[0], told[within] - begin[1])
+            np.testing.assert_array_equal(read[~within], told[~within])
+
+    def test_more_than_a_kernel_has_room_for(self, rng):
+        """Python tells it then, as it does of what no kernel reads."""
+        many = tuple(Inner(np.zeros(3), k) for k in range(700))
+        deep = (1.5,)
+        for _ in range(40):
+            deep = (deep,)
+        for value in (many, deep, tuple(range(5000)), (np.int32(7), 2)):
+            read, told = (tell(value, self.RECORDED)[0] for tell in (spelled, asked))
+            assert len(read) == len(told)
+            same = read == told
+            assert same.all() if value is not many else same.sum() == len(told) - len(many)
 
     @pytest.mark.parametrize("tell", [spelled, asked])
     def test_kinds(self, tell):
-        """Equal for arrays of one kind and layout, whatever their sizes; different for all others."""
+        """Equal for items of one kind and layout, whatever their sizes; different for all others."""
         frozen = np.zeros(3)
         frozen.flags.writeable = False
-        others = [np.zeros(3), np.zeros(3, dtype=np.int64), np.zeros(6)[::2], np.zeros((3, 3)), frozen, None]
-        others += [np.zeros((3, 3)).T, np.zeros(3, dtype=np.float32)]
-        five = array("q", [5])
-        told = [tell([one], five)[1] for one in others]
+        others = [
+            np.zeros(3),
+            np.zeros(3, dtype=np.int64),
+            np.zeros(6)[::2],
+            np.zeros((3, 3)),
+            frozen,
+            5,
+            5.0,
+        ]
+        others += [np.zeros((3, 3)).T, np.zeros(3, dtype=np.float32), True, (), (5,), ((5,),), (5, 5)]
+        others += [Inner(np.zeros(3), True), Inner(np.zeros(3), 1), (Inner(np.zeros(3), True),)]
+        told = [tell((one, 5), self.RECORDED)[1] for one in others]
         assert len(set(told)) == len(others)
-        assert tell([np.ones(7)], five)[1] == told[0]
-        assert tell([None], array("q", [9]))[1] == told[5]
+        assert tell((np.ones(7), 6), self.RECORDED)[1] == told[0]
+        assert tell((9, 9), self.RECORDED)[1] == told[5]
 
 
 def test_types_of_records_tell_all(rng):

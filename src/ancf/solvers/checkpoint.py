@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from ..batches import Batches
 from ..errors import ModelError
-from ..records import begin_of
 from ..system.system import System
+from ..words import begin_of
 
 Arrays = dict[str, NDArray[Any]]
 

@@ -10,7 +10,7 @@ from ..compiled import traits
 from ..errors import ModelError, SolveError
 from ..model.integrators import Explicit
 from ..records import place
-from ..system.core import Tables, apply_load
+from ..system.core import Tables
 from ..system.energy import energies
 from ..system.system import System
 from . import failures
@@ -76,14 +76,13 @@ class ExplicitRun(Run):
         m.q[:], m.v[:] = q, v
         times = self.t_start - self.h, self.h, 1, self.t_start, self.t_end
         first = system.inputs.tables(*times, (m.q, m.v), still=True)
-        m.a[:] = consistent_start(system, m.q, m.v, first)
+        m.a[:] = consistent_start(system, m.q, m.v, first, m.f)
         self.limit = stable_limit(system, m.q, m.v)  # leaves the factors of the mass matrix
         stable = self.method.safety * self.limit
         if self.method.check and self.h > SLACK * stable:
             what = f"is {self.h:g} s, the largest stable step {stable:.4g} s (safety {self.method.safety:g})"
             hint = "take that and store less often (output_step), or use an implicit method"
             raise ModelError("simulate.step", what, hint)
-        apply_load(system.core.loads, first.value[0], m.f)
         begin_account(system.core, m)
         self.energy0 = energies(system, m.q[None], m.v[None])[0]
         self.estimated = 0  # steps done at the last estimate

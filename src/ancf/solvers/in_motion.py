@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
-from ..system.core import apply_load, residual
+from ..system.core import residual
 from ..system.system import System
 from .start import consistent_start
 
@@ -32,8 +32,7 @@ def in_motion(system: System, q: FloatArray, v: FloatArray, time: float) -> tupl
     h = STENCIL_STEP
     tables = system.inputs.tables(time - h, h, 1, time, np.inf, (q, v), still=True)
     q, v = q.copy(), v.copy()
-    a = consistent_start(system, q, v, tables)
-    f, r = np.zeros(system.size), np.zeros(system.size)
-    apply_load(system.core.loads, tables.value[0], f)
+    f, r = np.zeros((2, system.size))
+    a = consistent_start(system, q, v, tables, f)
     residual(system.core.batches, system.core.ws, q, v, a, f, r)
     return a, r

@@ -14,7 +14,6 @@ from ..compiled import formula, kernel, separate_kernel
 from ..errors import SolveError
 from ..records import place, recorded, type_of
 from ..system.core import (
-    Core,
     Tables,
     assemble,
     constraint_rows,
@@ -36,9 +35,8 @@ SWEEPS = 4
 
 @recorded
 class Start(NamedTuple):
-    """What the start takes; vectors have the length of the state vectors."""
+    """What the start takes besides the core; vectors have the length of the state vectors."""
 
-    core: Core
     tables: Tables  # whose first row is the start
     q: FloatArray
     v: FloatArray
@@ -47,7 +45,9 @@ class Start(NamedTuple):
     f: FloatArray
 
 
-def consistent_start(system: System, q: FloatArray, v: FloatArray, tables: Tables) -> FloatArray:
+def consistent_start(
+    system: System, q: FloatArray, v: FloatArray, tables: Tables, load: FloatArray | None = None
+) -> FloatArray:
     """Accelerations that fulfil the equations of motion; also places the supports.
 
     With joints, q is shifted onto C = 0 and v onto dC/dt = 0, both as little as possible in the sense of
@@ -60,6 +60,8 @@ def consistent_start(system: System, q: FloatArray, v: FloatArray, tables: Table
         State vectors, changed in place.
     tables : Tables
         Functions of time whose first row is the start.
+    load : ndarray, shape (size,), optional
+        Takes the load vector of the start.
 
     Raises
     ------
@@ -67,8 +69,8 @@ def consistent_start(system: System, q: FloatArray, v: FloatArray, tables: Table
         The mass matrix is singular, or a force is not finite.
     """
     a, r, f = np.zeros((3, system.size))
-    given = Start(system.core, tables, q, v, a, r, f)
-    status = _number_at(_address(given), place(given))
+    given = Start(tables, q, v, a, r, f if load is None else load)
+    status = _number_at(_address(type_of(system.core), given), place(system.core), place(given))
     if status == NOT_FINITE:
         raise SolveError("start", "the initial state has no finite accelerations", "check shapes and loads")
     if status != OK:
@@ -77,21 +79,20 @@ def consistent_start(system: System, q: FloatArray, v: FloatArray, tables: Table
     return a
 
 
-_types: dict[Any, Any] = {}
+_found: dict[Any, int] = {}
 
 
-def _address(given: Start) -> int:
-    """Of the kernel for such arrays: to ask for their types takes longer than the start."""
-    core = type_of(given.core)
-    if core not in _types:
-        _types[core] = type_of(given)
-    return addresses.address_of(start_at, (_types[core],), types.int64)
+def _address(core: Any, given: Start) -> int:
+    """Of the kernel for a type of core: to ask for all types takes longer than the start."""
+    if core not in _found:
+        _found[core] = addresses.address_of(start_at, (core, type_of(given)), types.int64)
+    return _found[core]
 
 
 @separate_kernel
-def start_at(given):
+def start_at(core, given):
     """See :func:`consistent_start`; OK, NOT_FINITE or -(block + 1)."""
-    core, q, v, a, r = given.core, given.q, given.v, given.a, given.r
+    q, v, a, r = given.q, given.v, given.a, given.r
     if not (finite(q) and finite(v)):
         return NOT_FINITE
     drive(core.supports, core.loads.value, given.tables, 0, q, v, a)
@@ -164,9 +165,9 @@ def accelerate(core, q, v, a, r, f):
     return OK
 
 
-_number = caller(types.int64, (types.voidptr,))
+_number = caller(types.int64, (types.voidptr, types.voidptr))
 
 
 @kernel
-def _number_at(function, record):
-    return _number(function, (pointer(record),))
+def _number_at(function, core, given):
+    return _number(function, (pointer(core), pointer(given)))

@@ -15,7 +15,7 @@ from ..errors import ModelError, SolveError
 from ..model.integrators import Integrator
 from ..records import place
 from ..system.consistency import open_contacts
-from ..system.core import Core, Tables, apply_load, first_event
+from ..system.core import Core, Tables, first_event
 from ..system.energy import energies
 from ..system.system import System
 from . import failures
@@ -177,10 +177,9 @@ class Run(Asleep):
         """Consistent velocities, accelerations and multipliers at t; the memory of earlier steps is lost."""
         m, system = self.memory, self.system
         now = system.inputs.tables(t - self.h, self.h, 1, self.t_start, self.t_end, (m.q, m.v), still=True)
-        m.a[:] = consistent_start(system, m.q, m.v, now)
+        m.a[:] = consistent_start(system, m.q, m.v, now, m.f)
         m.abar[:] = m.a
         m.memo[H_FACTOR] = m.memo[H_PREV] = m.memo[KNOWN] = 0.0
-        apply_load(system.core.loads, now.value[0], m.f)
         begin_account(system.core, m)
         return now
 
