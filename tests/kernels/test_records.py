@@ -9,7 +9,7 @@ import pytest
 from numba import typeof, types
 
 import ancf
-from ancf import records
+from ancf import records, words
 from ancf.addresses import address_of, caller, pointer
 from ancf.compiled import kernel, separate_kernel
 from ancf.records import Located, recorded, type_of, words_of
@@ -292,6 +292,10 @@ class TestSpelled:
         inner = tuple(self.some(rng, depth - 1) for _ in range(rng.integers(5)))
         return inner if kind == 5 else Inner(self.ARRAYS[rng.integers(len(self.ARRAYS))], inner)
 
+    def test_a_kernel_reads(self):
+        """Where it finds something else than Python tells, Python is asked, many times as slowly."""
+        assert words._reads()
+
     @pytest.mark.parametrize("count", [0, 1, 8, 60])
     def test_words(self, rng, count):
         for _ in range(30):
@@ -336,6 +340,7 @@ class TestSpelled:
         assert len(set(told)) == len(others)
         assert tell((np.ones(7), 6), self.RECORDED)[1] == told[0]
         assert tell((9, 9), self.RECORDED)[1] == told[5]
+        assert tell(((5,), 5, 5), self.RECORDED)[1] != tell(((5, 5), 5), self.RECORDED)[1]
 
 
 def test_types_of_records_tell_all(rng):
