@@ -20,6 +20,7 @@ from ancf.catenary import (
     pantographs,
     read_measuring_head,
 )
+from ancf.catenary.identify import _slopes
 from ancf.catenary.response_file import read_response
 from ancf.cli.app import app
 
@@ -55,6 +56,24 @@ class TestIdentify:
     def test_dynamic_stiffness(self, count):
         unit = chain(count, count)
         assert dynamic_stiffness(unit, FREQUENCY) == pytest.approx(by_matrices(unit, FREQUENCY), rel=1e-9)
+
+    @pytest.mark.parametrize("count", [1, 2, 3, 4])
+    def test_slopes_of_the_fit(self, count):
+        """By the logarithm of each mass, stiffness and damping, against differences of the matrices."""
+        unit, change = chain(count + 10, count), 1e-5
+        values = [unit.masses, unit.stiffness, unit.damping]
+        found = _slopes(*map(np.array, values), 2 * np.pi * FREQUENCY)
+
+        def answer(k, by):
+            moved = np.concatenate(values)
+            moved[k] *= np.exp(by)
+            names = ("masses", "stiffness", "damping")
+            parts = dict(zip(names, map(tuple, moved.reshape(3, count)), strict=True))
+            return by_matrices(dataclasses.replace(unit, **parts), FREQUENCY)
+
+        for k in range(3 * count):
+            wanted = (answer(k, change) - answer(k, -change)) / (2.0 * change)
+            assert np.abs(found[:, k] - wanted).max() < 1e-7 * np.abs(found).max()
 
     @pytest.mark.parametrize("name", ["en50318-2002", "benchmark-2015", "dsa380"])
     def test_known_pantographs(self, name):

@@ -57,6 +57,21 @@ def _chain(m: FloatArray, k: FloatArray, c: FloatArray, w: FloatArray) -> npt.ND
     return made
 
 
+def _slopes(m: FloatArray, k: FloatArray, c: FloatArray, w: FloatArray) -> npt.NDArray[np.complex128]:
+    """Derivatives (frequencies, 3 masses) of a chain's stiffness by the logarithms of m, of k and of c."""
+    n = len(m)
+    spring = k[:, None] + 1j * w * c[:, None]
+    made = np.empty((3, n, w.size), dtype=np.complex128)
+    below = np.zeros(w.size, dtype=np.complex128)
+    for j in range(n):
+        # of s Z / (s + Z): by Z the square of s / (s + Z), by s that of Z / (s + Z); the roof does not yield
+        share = spring[j] / (spring[j] + below) if j > 0 else np.zeros_like(below)
+        made[:, :j] *= share**2
+        made[:, j] = -(w**2) * m[j], k[j] * (1.0 - share) ** 2, 1j * w * c[j] * (1.0 - share) ** 2
+        below = (share * below if j > 0 else spring[0]) - w**2 * m[j]
+    return made.reshape(3 * n, w.size).T
+
+
 @dataclass(frozen=True)
 class Identified:
     """A pantograph from its frequency response, and how far it is off.
@@ -237,6 +252,11 @@ def _fit(
         difference = (_chain(m, k, c, w) - measured) / scale
         return np.concatenate([difference.real, difference.imag])
 
+    def slopes(x: FloatArray) -> FloatArray:
+        m, k, c = np.exp(x).reshape(3, count)
+        made = _slopes(m, k, c, w) / scale[:, None]
+        return np.concatenate([made.real, made.imag])
+
     total = max(float(np.median(scale / w**2)), 1e-3)
     rng = np.random.default_rng(0)
     best, least = None, np.inf
@@ -248,7 +268,7 @@ def _fit(
         k = m * (2.0 * np.pi * np.exp(at)) ** 2
         x = np.log(np.concatenate([m, k, 0.2 * np.sqrt(k * m)]))
         wide = np.log(WIDE)
-        found = least_squares(residual, x, bounds=(x - wide, x + wide), x_scale=1.0, max_nfev=400)
+        found = least_squares(residual, x, slopes, bounds=(x - wide, x + wide), x_scale=1.0, max_nfev=400)
         if found.cost < least:
             best, least = found.x, found.cost
         if least < 1e-12 * f.size:
