@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from ancf.errors import ModelError
-from ancf.paper import FIGURES, Table, closed_forms, en50318, fig8, orders, reproduce
+from ancf.paper import FIGURES, Table, closed_forms, en50318, fig8, orders, reproduce, sliding
 from ancf.paper.closed import statics, vibration
 from ancf.paper.order_studies import MESH, Study
 
@@ -207,6 +207,45 @@ class TestClosedForms:
         for row in table.rows:
             assert row[4] == pytest.approx(row[2] / row[3] - 1.0, abs=1e-15)
         assert len(closed_forms.checks(table)) == len(table.rows) > 30
+
+
+class TestTables:
+    """Of example 7.4."""
+
+    def test_trajectories_are_those_of_the_runs(self):
+        table = short("fig10")
+        assert table.kinds() == ["cable", "original", "nonlocking"]
+        mesh = sliding.MESHES[2]
+        t, *place, s = (table.values(column, **mesh.only) for column in ("t", "x", "y", "z", "s"))
+        result = sliding.history(mesh, short=True)
+        assert t == pytest.approx(result.t)
+        assert np.abs(np.array(place).T - result.position("slider.end")).max() == 0.0
+        assert s == pytest.approx(result.arc_length("joint"))
+
+    def test_centrelines_meet_in_the_joint(self):
+        """At each time the slider's first point lies on the carrier, where s says."""
+        table = short("fig9")
+        result = sliding.history(FIGURES["fig9"].MESH, short=True)
+        for t in np.unique(table.values("t")):
+            first = [table.values(c, t=t, body="slider")[0] for c in "xyz"]
+            arc, *line = (table.values(c, t=t, body="carrier") for c in ("arc_length", "x", "y", "z"))
+            s = result.arc_length("joint")[int(np.argmin(np.abs(result.t - t)))]
+            there = [np.interp(s, arc, values) for values in line]
+            assert first == pytest.approx(there, abs=2e-4)
+
+    def test_times_and_counters(self):
+        table = short("table2")
+        assert [row[:3] for row in table.rows] == [
+            ("original", 6, 2), ("nonlocking", 6, 2), ("cable", 6, 2), ("cable", 64, 4), ("cable", 128, 8)
+        ]  # fmt: skip
+        assert [row[8] for row in table.rows] == [38.0, 72.0, 6.0, 71.0, None]
+        for row in table.rows:
+            t, steps, iterations, jacobians, seconds = row[3:8]
+            assert t == pytest.approx(0.25)
+            assert steps == 1250
+            assert iterations >= steps
+            assert jacobians >= 1
+            assert seconds > 0.0
 
 
 class TestOrders:

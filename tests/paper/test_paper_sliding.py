@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.paper import fig9, fig10, references, sliding, table2
+from ancf.paper import references, sliding
 
 REFERENCE = references.values()
 TIMES = ("0.25", "0.5", "0.75", "1")
@@ -144,7 +144,7 @@ class TestBeams:
         for t in TIMES[:3]:
             assert differences(result, f"7.4.{name}.nu{nu:g}.n6+2.h0.2ms.trap2", t)[0] < 2e-5
 
-    @pytest.mark.parametrize(("element", "name", "nu"), CASES)
+    @pytest.mark.parametrize(("element", "name", "nu"), CASES[1:])  # the first one is in the figures
     def test_same_formulation_as_the_reference(self, element, name, nu):
         result = run(element=element, nu=nu, formulation="index2", exact=True)
         for t, bar in (("0.25", 1e-9), ("0.5", 1e-8), ("0.75", 1e-6), ("1", 2e-5)):
@@ -161,42 +161,8 @@ class TestBeams:
                 i = round(float(t) / sliding.OUTPUT_STEP)
                 *place, s = REFERENCE[f"7.4.{name}.nu0.3.n6+2.h0.2ms.trap2.t{t}"]
                 assert math.dist(result.position("slider.end")[i], place) < bar
+                far = abs(result.arc_length("joint")[i] - s)
                 if t == "0.25":
-                    assert abs(result.arc_length("joint")[i] - s) < 1e-6
-
-
-class TestTables:
-    def test_trajectories_are_those_of_the_runs(self):
-        table = fig10.data(short=True)
-        assert table.kinds() == ["cable", "original", "nonlocking"]
-        mesh = sliding.MESHES[2]
-        t, *place, s = (table.values(column, **mesh.only) for column in ("t", "x", "y", "z", "s"))
-        result = sliding.history(mesh, short=True)
-        assert t == pytest.approx(result.t)
-        assert np.abs(np.array(place).T - result.position("slider.end")).max() == 0.0
-        assert s == pytest.approx(result.arc_length("joint"))
-
-    def test_centrelines_meet_in_the_joint(self):
-        """At each time the slider's first point lies on the carrier, where s says."""
-        table = fig9.data(short=True)
-        result = sliding.history(fig9.MESH, short=True)
-        for t in np.unique(table.values("t")):
-            first = [table.values(c, t=t, body="slider")[0] for c in "xyz"]
-            arc, *line = (table.values(c, t=t, body="carrier") for c in ("arc_length", "x", "y", "z"))
-            s = result.arc_length("joint")[int(np.argmin(np.abs(result.t - t)))]
-            there = [np.interp(s, arc, values) for values in line]
-            assert first == pytest.approx(there, abs=2e-4)
-
-    def test_times_and_counters(self):
-        table = table2.data(short=True)
-        assert [row[:3] for row in table.rows] == [
-            ("original", 6, 2), ("nonlocking", 6, 2), ("cable", 6, 2), ("cable", 64, 4), ("cable", 128, 8)
-        ]  # fmt: skip
-        assert [row[8] for row in table.rows] == [38.0, 72.0, 6.0, 71.0, None]
-        for row in table.rows:
-            t, steps, iterations, jacobians, seconds = row[3:8]
-            assert t == pytest.approx(0.25)
-            assert steps == 1250
-            assert iterations >= steps
-            assert jacobians >= 1
-            assert seconds > 0.0
+                    assert far < 1e-6
+                if mesh.element == "original":
+                    assert far < (10 * bar if t != "1" else 2e-3)
