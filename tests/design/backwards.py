@@ -1,5 +1,7 @@
 """What tests of gradients compare them with: forward sensitivities, and differences of whole runs."""
 
+import json
+
 import numpy as np
 
 import ancf
@@ -12,15 +14,24 @@ from slopes import extrapolated
 
 def forward(model, text, names, **given):
     """The same by sensitivities that follow the run."""
+    return followed(model, names, **given)(text)
+
+
+def followed(model, names, **given):
+    """A run with the sensitivities that follow it, as a function of formulas: each by these names."""
     result = ancf.simulate(model, sensitivities=names, **given)
-    _, slopes = slopes_of(Formula(text, "test", OF_RUN), result.t, result)
-    return {
-        name: sum(
-            np.sum(x * result.sensitivity(name).answer(lambda f, p=pair: ask(f, *p)))
-            for pair, x in slopes.items()
-        )
-        for name in names
-    }
+
+    def of(text):
+        _, slopes = slopes_of(Formula(text, "test", OF_RUN), result.t, result)
+        return {
+            name: sum(
+                np.sum(x * result.sensitivity(name).answer(lambda f, p=pair: ask(f, *p)))
+                for pair, x in slopes.items()
+            )
+            for name in names
+        }
+
+    return of
 
 
 def apart(model, found, wanted):
@@ -36,3 +47,20 @@ def differences(model, text, names, change=2e-2, **given):
         name: extrapolated(lambda m: ancf.gradient(m, text, [], **given)[0], model, name, change)
         for name in names
     }
+
+
+def differences_of(model, names, change=2e-2, **given):
+    """The same as a function of formulas, which share the runs."""
+    runs = {}
+
+    def value(other, formula):
+        key = json.dumps(other.to_dict())
+        if key not in runs:
+            runs[key] = ancf.simulate(other, **given)
+        return slopes_of(formula, np.asarray(runs[key].t), runs[key])[0]
+
+    def of(text):
+        formula = Formula(text, "test", OF_RUN)
+        return {name: extrapolated(lambda m: value(m, formula), model, name, change) for name in names}
+
+    return of
