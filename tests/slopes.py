@@ -1,8 +1,23 @@
 """Derivatives by extrapolated differences, and Taylor remainders, that tests of sensitivities share."""
 
+import json
+
 import numpy as np
 
 from ancf.model.vary import value_of, varied
+
+
+def once(function):
+    """The same function of a model, which is computed once for models with one description."""
+    found = {}
+
+    def of(model):
+        key = json.dumps(model.to_dict())
+        if key not in found:
+            found[key] = function(model)
+        return found[key]
+
+    return of
 
 
 def extrapolated(function, model, name, step=1e-2, levels=5):

@@ -1,7 +1,5 @@
 """What tests of gradients compare them with: forward sensitivities, and differences of whole runs."""
 
-import json
-
 import numpy as np
 
 import ancf
@@ -9,7 +7,7 @@ from ancf.design.formulas import Formula
 from ancf.design.gradient import OF_RUN, slopes_of
 from ancf.model.vary import value_of
 from ancf.viz.pictures.questions import ask
-from slopes import extrapolated
+from slopes import extrapolated, once
 
 
 def forward(model, text, names, **given):
@@ -51,16 +49,20 @@ def differences(model, text, names, change=2e-2, **given):
 
 def differences_of(model, names, change=2e-2, **given):
     """The same as a function of formulas, which share the runs."""
-    runs = {}
-
-    def value(other, formula):
-        key = json.dumps(other.to_dict())
-        if key not in runs:
-            runs[key] = ancf.simulate(other, **given)
-        return slopes_of(formula, np.asarray(runs[key].t), runs[key])[0]
+    run = once(lambda other: ancf.simulate(other, **given))
 
     def of(text):
-        formula = Formula(text, "test", OF_RUN)
-        return {name: extrapolated(lambda m: value(m, formula), model, name, change) for name in names}
+        return {name: extrapolated(value_in(run, text), model, name, change) for name in names}
 
     return of
+
+
+def value_in(run, text):
+    """Value of a formula as a function of a model; ``run(model)`` is the result."""
+    formula = Formula(text, "test", OF_RUN)
+
+    def value(model):
+        result = run(model)
+        return slopes_of(formula, np.asarray(result.t), result)[0]
+
+    return value
