@@ -50,7 +50,7 @@ FLOORS = (
     ("errors  arrays  interrupts  later", "messages, arrays, signals, imports that wait"),
 )
 #: On the lowest floor too, but for the package alone.
-UNSHOWN = ("_version", "kernel_cache")
+UNSHOWN = ("_version", "kernel_cache", "reading")
 #: One step: what is computed from what.
 STEP = (
     ("Tables", "functions of time,\none row a step"),

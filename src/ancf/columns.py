@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from .errors import ModelError
+from .reading import as_input
 
 #: What may part the entries of a row; a comma is also a decimal point beside the others.
 SEPARATORS = ("\t", ";", ",")
@@ -27,7 +28,7 @@ def read_columns(path: Path, where: str) -> dict[str, list[Any]]:
         The file cannot be read, has no rows, or a row has another length than the head.
     """
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
+        with as_input(path).open(encoding="utf-8-sig", newline="") as file:
             lines = [line for line in file if not line.lstrip().startswith("#") and line.strip()]
         separator = separator_of(lines[0] if lines else "")
         read = csv.reader(lines, delimiter=separator, skipinitialspace=True)

@@ -8,12 +8,14 @@ import os
 import re
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from fnmatch import fnmatch
 from pathlib import Path
 from typing import Any
 
 from .errors import ModelError
+from .reading import inputs
 
 if sys.platform != "win32":
     import fcntl
@@ -24,6 +26,25 @@ HDF5_PROBLEM = re.compile(r"errno = \d+, error message = '([^']*)'")
 FORMULAS = ("=", "+", "-", "@", "\t", "\r")
 #: Characters that change what a terminal shows: controls, deletes, turns of the direction of writing.
 CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+
+
+def _spare(path: Path) -> None:
+    for read in inputs():
+        beside(path, read, "output")
+
+
+def spare_inputs(folder: Path, patterns: Iterable[str]) -> None:
+    """Refuse a folder where files of these names are going to be written and one of them was read.
+
+    Raises
+    ------
+    ModelError
+        There is such a file.
+    """
+    for path in inputs():
+        with suppress(OSError):
+            if path.parent.samefile(folder) and any(fnmatch(path.name, pattern) for pattern in patterns):
+                beside(folder / path.name, path, "output")
 
 
 @contextmanager
@@ -40,12 +61,13 @@ def writing(path: str | Path, folder: Path | None = None) -> Iterator[None]:
     Raises
     ------
     ModelError
-        The folder cannot be made, or something cannot be written.
+        The folder cannot be made, something cannot be written, or the file is one that the command reads.
     """
     try:
         if "\0" in str(path):
             raise OSError("its name holds a null byte")
         _make(Path(path).parent if folder is None else folder)
+        _spare(Path(path))
         yield
     except (FileExistsError, NotADirectoryError):
         what = "cannot be written: a file stands in the way"
@@ -103,7 +125,14 @@ def _make(folder: Path) -> None:
 
 @contextmanager
 def drafted(path: Path) -> Iterator[Path]:
-    """Place to write to; it becomes the file when all went well, and is gone otherwise."""
+    """Place to write to; it becomes the file when all went well, and is gone otherwise.
+
+    Raises
+    ------
+    ModelError
+        The file is one that the command reads.
+    """
+    _spare(path)
     draft = path.with_name(path.name + ".part")
     try:
         yield draft
@@ -136,7 +165,7 @@ def beside(output: Path, source: Path, option: str = "-o") -> Path:
     """
     with suppress(OSError):
         if output.samefile(source):
-            raise ModelError(f"{option} {output}", "is the file that is read", "give another name")
+            raise ModelError(f"{option} {output}", "is the file that is read", "choose another place or name")
     return output
 
 

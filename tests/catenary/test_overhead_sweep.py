@@ -121,8 +121,9 @@ class TestValues:
         [
             ("160:320", "is no number and no range"),
             ("fast", '"fast" is no number and no range'),
-            ("160:320:-20", "is empty"),
-            ("320:160:20", "is empty"),
+            ("160:320:-20", "has a step of -20, must be > 0"),
+            ("100:160:0", "has a step of 0, must be > 0"),
+            ("320:160:20", "is empty: it begins at 320, not below 160"),
             ("160:330:20", "does not end at 330: the steps from 160 on are 20 .*last is 320 or 340"),
             ("200,200", "200 is given twice"),
             ("-5", "must be > 0"),

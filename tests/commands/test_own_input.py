@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from overhead_lines import TOML
+
 RESPONSE = "frequency,real,imag\n1,1.0,2.0\n2,3.0,4.0\n3,5.0,6.0\n"
 MOORED = """--------------------- LINE TYPES ----------------------
 TypeName   Diam    Mass/m     EA      BA/-zeta   EI    Cd    Ca    CdAx   CaAx
@@ -39,3 +41,58 @@ def test_the_input_stays(call, name, text, command, way):
     assert ran.code == 2
     assert "is the file that is read" in ran.said
     assert Path(name).read_text(encoding="utf-8") == text
+
+
+#: A line whose droppers are as long as a table says, and a cable that a measured history pulls.
+LINE = 'dropper_lengths = "{name}"\n' + TOML
+PULLED = """
+[[bodies]]
+name = "cable"
+start = [0, 0, 0]
+end = [1, 0, 0]
+elements = 2
+section = {{ EA = 1e4, EI = 1.0, rhoA = 0.1 }}
+
+[[supports]]
+type = "clamp"
+point = "cable.start"
+
+[[loads]]
+type = "force"
+point = "cable.end"
+force = [0, 0, {{ csv = "{name}", column = "pull" }}]
+
+[simulation]
+t_end = 0.01
+step = 0.001
+sensors = ["cable.end"]
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "command"),
+    [
+        (LINE, "schedule.csv", ("catenary", "form")),
+        (LINE, "elasticity.csv", ("catenary", "elasticity")),
+        (LINE, "force_1.csv", ("catenary", "run", "--speed", "200")),
+        (PULLED, "sensors.csv", ("run",)),
+    ],
+)
+def test_a_file_that_the_input_names_stays(call, text, name, command):
+    """Found before anything is computed."""
+    lengths = "".join(f"{span},{dropper},1000\n" for span in range(1, 6) for dropper in range(1, 5))
+    table = "t,pull\n0,0\n1,2\n" if text is PULLED else "span,dropper,natural_length_mm\n" + lengths
+    Path("given.toml").write_text(text.format(name=name), encoding="utf-8")
+    Path(name).write_text(table, encoding="utf-8")
+    ran = call(*command, "given.toml", "-o", ".")
+    assert ran.code == 2
+    assert f"{name}: is the file that is read" in ran.said
+    assert Path(name).read_text(encoding="utf-8") == table
+
+
+def test_another_folder_takes_what_is_named_as_an_input(call):
+    Path("given.toml").write_text(PULLED.format(name="sensors.csv"), encoding="utf-8")
+    Path("sensors.csv").write_text("t,pull\n0,0\n1,2\n", encoding="utf-8")
+    for _ in range(2):
+        assert call("run", "given.toml", "-o", "out").code == 0
+    assert Path("out/sensors.csv").is_file()

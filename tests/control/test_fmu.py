@@ -327,8 +327,12 @@ def test_contacts_and_torsion_springs_are_outputs(tmp_path, version):
     assert [(o.name, o.unit) for o in made.outputs] == [
         ("rest.force", "N"),
         ("rest.gap", "m"),
+        ("rest.friction", "N"),
+        ("rest.slipping", "1"),
         ("bump.force", "N"),
         ("bump.gap", "m"),
+        ("bump.friction", "N"),
+        ("bump.slipping", "1"),
         ("twist.angle", "rad"),
         ("twist.moment", "N m"),
     ]

@@ -17,7 +17,7 @@ ROOT = Path(ancf.__file__).parent
 
 #: From the bottom to the top; a layer imports from lower ones and from itself.
 LAYERS = (
-    {"errors", "_version", "kernel_cache", "arrays", "interrupts", "later"},
+    {"errors", "_version", "kernel_cache", "arrays", "interrupts", "later", "reading"},
     {"files", "worker", "columns", "garbage"},
     {"parts", "addresses", "asked"},
     {"compiled"},

@@ -2,12 +2,14 @@
 
 import json
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from ancf.errors import ModelError
 from ancf.model import Circle, Clamp, Model, Rectangle, Section
+from ancf.model.points import Point
 from commands import python
 from refusals import helix, refused
 
@@ -493,6 +495,23 @@ class TestConnections:
         assert model.connections == [joint]
         assert joint.name == "joint of beam.end and b.start"
         refused("connect(b.start).b", "already", model.connect, second.start, first.end)
+        model.connections.remove(joint)
+        assert model.connections == [model.connect(second.start, first.end, name="again")]
+
+    def test_joints_are_compared_in_a_time_that_goes_with_their_count(self, monkeypatch):
+        compared = []
+        equal = Point.__eq__
+        monkeypatch.setattr(Point, "__eq__", lambda one, two: compared.append(one) or equal(one, two))
+        counts = []
+        for count in (40, 80):
+            model = Model()
+            masses = [model.add_point_mass(f"m{k}", at=(0, 0, 0), mass=1.0) for k in range(count)]
+            compared.clear()
+            for one, two in pairwise(masses):
+                model.connect(one, two)
+            counts.append(len(compared))
+            refused("connect(m7).b", "already", model.connect, masses[7], masses[6])
+        assert counts[1] <= 2 * counts[0] + 40
 
     def test_bad_spherical(self):
         model, first, second = self.two()

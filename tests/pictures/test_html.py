@@ -1,6 +1,7 @@
 """Pieces of pages: text and elements in their order, attributes, and everything escaped."""
 
 import base64
+import re
 from xml.etree import ElementTree
 
 from ancf.viz.html import element, figure, page, pairs, picture, table
@@ -27,6 +28,16 @@ def test_numbers_of_a_table_stand_on_the_right():
     assert cells == [[None, "number"]] * 3
     assert [cell.text for cell in tree.iter("td")] == ["a", "1", "b", "2"]
     assert [[cell.text for cell in row] for row in pairs([("k", "v")]).iter("tr")] == [["k", "v"]]
+
+
+def test_small_numbers_stay_on_one_line():
+    """A browser breaks 1e-06 behind its hyphen; in columns of numbers no cell is broken at all."""
+    text = "tolerance 2.5e-07 m, then -1E-3, 12-3 and e-mail"
+    for tree in (table(["what", "size"], [[text, "1e-06"]], numbers=[1]), pairs([("k", text)])):
+        kept = [piece.text for piece in tree.iter("span") if piece.get("class") == "whole"]
+        assert kept == ["2.5e-07", "-1E-3"]
+        assert "".join(next(iter(tree.iter("td"))).itertext()) == text
+    assert re.search(r"td\.number, \.whole \{[^}]*white-space: nowrap", page("t"))
 
 
 def test_pictures_stand_inside_the_page():

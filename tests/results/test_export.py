@@ -355,6 +355,22 @@ class TestTables:
             assert np.array_equal(found[name], values[:, k])
         assert np.all(values[-1, 3:] != 0.0)
 
+    def test_moments_of_clamps(self, tmp_path):
+        """Of what a clamp holds, not of a pin; at every step."""
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        section = ancf.Section(EA=1e4, EI=1.0, rhoA=0.2)
+        one = model.add_beam("one", start=(0, 0, 0), end=(1, 0, 0), elements=3, section=section)
+        two = model.add_beam("two", start=(0, 1, 0), end=(2, 1, 0), elements=3, section=section)
+        model.clamp(one.start, name="wall")
+        model.pin(two.start, name="peg")
+        result = ancf.simulate(model, t_end=0.02, step=1e-3, sensors=["wall", "peg"], output_step=0.01)
+        write_csv(result, tmp_path)
+        found = table(tmp_path / "sensors.csv")
+        told = np.transpose([found[f"wall moment {axis} [N m]"] for axis in "xyz"])
+        assert np.array_equal(told, result.sensors.reaction_moment("wall"))
+        assert np.abs(told[:, 1]).max() > 0.01
+        assert not any("peg moment" in head for head in found)
+
     def test_without_sensors_and_energy(self, tmp_path):
         """Points that stand for the bodies; no table is empty."""
         result = ancf.simulate(rope(), t_end=0.002, step=1e-3, energy=False)

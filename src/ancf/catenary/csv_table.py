@@ -10,6 +10,7 @@ from pathlib import Path
 from ..columns import separator_of
 from ..errors import ModelError
 from ..model.checks import choice, listed, nearest
+from ..reading import as_input
 
 MOST_ROWS = 200_000
 #: A cell with several numbers, such as places of droppers.
@@ -51,7 +52,7 @@ def read_table(
 
     """
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
+        with as_input(path).open(newline="", encoding="utf-8-sig") as file:
             text = file.read().splitlines(keepends=True)
         separator = separator_of(next((line for line in text if line.strip()), ""))
         lines = [line for line in csv.reader(text, delimiter=separator) if any(cell.strip() for cell in line)]

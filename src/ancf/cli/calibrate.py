@@ -6,11 +6,14 @@ import csv
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..files import cell, drafted, to_json, writable, writing
+from ..files import cell, drafted, to_json, writing
+from .output import OutputFolder
 from .screen import Screen, console, table
 
 if TYPE_CHECKING:
     from ..design.fit import Fit
+
+FILES = ("fit.json", "fit.csv", "report.html")
 
 
 def calibrate_file(path: Path, folder: Path, workers: int | None, report: bool, quiet: bool = False) -> None:
@@ -30,7 +33,7 @@ def calibrate_file(path: Path, folder: Path, workers: int | None, report: bool, 
     if report:
         require_matplotlib()
     given, screen = read_calibration(path), Screen(quiet)
-    writable(folder, f"output folder {folder}")
+    OutputFolder(folder, FILES)
     screen.announce_compilation()
     screen.say(f"looking for {len(given.bounds)} parameters ...")
     fit = given.fit(cores() if workers is None else workers)
@@ -44,7 +47,7 @@ def _write(fit: Fit, folder: Path, title: str, report: bool) -> list[Path]:
     from .._version import __version__
     from ..design.calibration_file import table_of
 
-    files = [folder / "fit.json", folder / "fit.csv"]
+    files = [folder / name for name in FILES[:2]]
     with writing(files[0]), drafted(files[0]) as draft:
         about = {"title": title, **fit.as_dict(), "versions": {"ancf": __version__}}
         draft.write_text(to_json(about, indent=2), encoding="utf-8", errors="backslashreplace")

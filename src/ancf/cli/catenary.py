@@ -22,7 +22,7 @@ def show_form(name: str, output: Path | None, quiet: bool = False, given: list[s
     from ..catenary.galloping import said
 
     line = catenary.read_line(name, assignments(given))
-    folder = None if output is None else OutputFolder(output)
+    folder = None if output is None else OutputFolder(output, ("schedule.csv", "arms.csv", "form.png"))
     Screen(quiet).announce_compilation()
     found = catenary.form(line)
     if not quiet:
@@ -48,7 +48,7 @@ def show_elasticity(
     from .. import catenary
 
     line = catenary.read_line(name, assignments(given))
-    folder = None if output is None else OutputFolder(output)
+    folder = None if output is None else OutputFolder(output, ("elasticity.csv",))
     Screen(quiet).announce_compilation()
     found = catenary.elasticity(line, forces)
     if not quiet:

@@ -14,6 +14,11 @@ from .screen import Screen, console
 
 #: Time between the states in results.h5, s, rounded to steps: a pantograph at 300 km/h moves by 1.7 m.
 OUTPUT_STEP = 0.02
+#: What may be written.
+FILES = [
+    *("results.h5", "run.json", "statistics.*", "force_*.csv", "uplift.csv", "droppers.csv", "cycles.csv"),
+    *("measured_*.csv", "elasticity.csv", "report.*"),
+]
 
 if TYPE_CHECKING:
     from ..catenary.measuring import Measured, MeasuringHead
@@ -71,7 +76,7 @@ def run_line(
         given.setdefault("output_step", max(1, round(min(OUTPUT_STEP / step, MOST_STEPS))) * step)
     if pantographs:
         given["pantograph"] = pantographs[0] if len(pantographs) == 1 else pantographs
-    output, screen = OutputFolder(folder), Screen(quiet)
+    output, screen = OutputFolder(folder, FILES), Screen(quiet)
     with output.locked():
         output.clear()
         given["file"] = output.results if states else None

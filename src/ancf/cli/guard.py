@@ -15,6 +15,7 @@ import typer
 from ..errors import ModelError, SolveError
 from ..files import visible
 from ..interrupts import Terminated, kept
+from ..reading import inputs_spared
 
 FAILED, WRONG_INPUT, STOPPED, TERMINATED = 1, 2, 130, 143
 TRACEBACK = "ANCF_TRACEBACK"
@@ -23,7 +24,7 @@ TRACEBACK = "ANCF_TRACEBACK"
 @contextmanager
 def reported() -> Iterator[None]:
     """Turn what goes wrong inside into a message and ``typer.Exit``; warnings become one line each."""
-    with warnings.catch_warnings(), kept(signal.SIGINT, signal.SIGTERM):
+    with warnings.catch_warnings(), kept(signal.SIGINT, signal.SIGTERM), inputs_spared():
         warnings.showwarning = _show_warning
         try:
             yield

@@ -6,12 +6,15 @@ import csv
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..files import drafted, to_json, writable, writing
+from ..files import drafted, to_json, writing
+from .output import OutputFolder
 from .screen import Screen, console, table
 
 if TYPE_CHECKING:
     from ..design.droppers import LineOptimum, Tried
     from ..design.optimisation_file import OptimisationFile
+
+FILES = ("optimum.toml", "optimum.json", "runs.csv")
 
 
 def optimise_file(path: Path, folder: Path, quiet: bool = False) -> None:
@@ -27,7 +30,7 @@ def optimise_file(path: Path, folder: Path, quiet: bool = False) -> None:
     from ..design.optimisation_file import read_optimisation
 
     given, screen = read_optimisation(path), Screen(quiet)
-    writable(folder, f"output folder {folder}")
+    OutputFolder(folder, FILES)
     screen.announce_compilation()
     objective, count = given.formulas[0].text, 0
     screen.say(f"looking for {len(given.parameters)} lengths with which {objective} is least ...")
@@ -48,7 +51,7 @@ def optimise_file(path: Path, folder: Path, quiet: bool = False) -> None:
 def _write(given: OptimisationFile, found: LineOptimum, folder: Path) -> list[Path]:
     from .._version import __version__
 
-    files = [folder / "optimum.toml", folder / "optimum.json", folder / "runs.csv"]
+    files = [folder / name for name in FILES]
     with writing(files[0]), drafted(files[0]) as draft:
         draft.write_text(given.optimum_text(found), encoding="utf-8")
     about = {

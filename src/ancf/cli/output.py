@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from ..errors import ModelError
-from ..files import drafted, locked, to_json, writable
+from ..files import drafted, locked, spare_inputs, to_json, writable
 
 
 class OutputFolder:
@@ -18,16 +18,19 @@ class OutputFolder:
     Parameters
     ----------
     path : Path
+    files : iterable of str
+        Names of what is going to be written there, patterns as ``force_*.csv``.
 
     Raises
     ------
     ModelError
-        It cannot be made or written.
+        It cannot be made or written; one of the files was read by the command.
 
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, files: Iterable[str] = ()) -> None:
         self.path = writable(path, f"output folder {path}")
+        spare_inputs(path, files)
 
     @property
     def results(self) -> Path:
@@ -62,7 +65,9 @@ class OutputFolder:
 
     def clear(self) -> None:
         """Take away summary and table of an earlier run, and check that all files can be written."""
-        for path in (self.results, self.summary, self.sensors, self.verification, self.again):
+        files = (self.results, self.summary, self.sensors, self.verification, self.again)
+        spare_inputs(self.path, [path.name for path in files])
+        for path in files:
             if path.is_dir() or (path.exists() and not os.access(path, os.W_OK)):
                 raise ModelError(str(path), "cannot be written: it is a folder or write-protected")
         for path in (self.summary, self.sensors, self.verification, self.again):

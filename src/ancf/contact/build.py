@@ -95,6 +95,7 @@ def batches(
             **ordered([item.body for item in rubbing], locate, POINTS),
             drift=np.zeros((moved, POINTS, 3)),
             since=np.zeros(moved),
+            acted=np.zeros(anchor.shape[:2]),
         )
     return found
 

@@ -9,8 +9,8 @@ import numpy as np
 from ..arrays import FloatArray
 from ..records import Located
 from .bump import bump_places, bump_values
-from .cross_fields import AT_LIMIT
-from .roll import LIMIT, RUBBED, roll_values
+from .roll import roll_values
+from .rubbed import RUBBED
 
 
 def bump_pressures(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
@@ -22,10 +22,8 @@ def bump_pressures(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
 
 
 def roll_frictions(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
-    """Friction and the share of it that slips of each contact in a state, (contacts, 2)."""
-    rough = batch.rough.copy()
-    rough[:, LIMIT] *= AT_LIMIT
-    mine = batch._replace(found=batch.found.copy(), rough=rough)
+    """Friction and the share of it that slips of each contact where a run begins, (contacts, 2)."""
+    mine = batch._replace(found=batch.found.copy())
     roll_values(Located(mine), np.ascontiguousarray(q), np.ascontiguousarray(v))
     return np.array(mine.found[:, RUBBED:])
 

@@ -11,12 +11,10 @@ from ..arrays import FloatArray
 from ..compiled import kernel
 from ..records import Located
 from .cross import cross_measure
-from .grip import LIMIT, RUBBED, grip_measure
+from .grip import grip_measure
 from .near import look
+from .rubbed import RUBBED
 from .strand import apart, clearance, cubic, on_cubic
-
-#: Share of the limit from which friction counts as slipping: the memory of a state has come back to it.
-AT_LIMIT = 0.999
 
 
 @kernel
@@ -72,9 +70,8 @@ def cross_pressures(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
 
 
 def grip_frictions(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
-    """Friction and the share of it that slips of each contact in a state, (contacts, 2)."""
+    """Friction and the share of it that slips of each contact where a run begins, (contacts, 2)."""
     mine = _own(batch)
-    mine.grip[:, LIMIT] *= AT_LIMIT
     grip_values(Located(mine), np.ascontiguousarray(q), np.ascontiguousarray(v))
     return np.array(mine.found[:, RUBBED:])
 

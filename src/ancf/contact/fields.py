@@ -13,12 +13,13 @@ from ..elements.shapes import gauss
 from ..model.surfaces import SurfaceContact
 from ..records import Located
 from .press import press_measure, pressed
-from .rub import RUBBED, SLIPPED, drawn, rub_measure, rubbed
+from .rub import drawn, rub_measure, rubbed
+from .rubbed import RUBBED
 from .touch import carrier, lie, nodes_of, outside, place_on, row_of
 
-__all__ = ["RUBBED", "SLIPPED", "ContactLine", "contact_line", "frictions", "nearest_places", "pressures"]
+__all__ = ["ContactLine", "contact_line", "frictions", "nearest_places", "pressures"]
 
-#: Share of the limit from which friction counts as slipping: the memory of a state has come back to it.
+#: Share of the limit from which a point counts as one that slips: its memory has come back to it.
 AT_LIMIT = 0.999
 
 
@@ -135,8 +136,8 @@ def pressures(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
 
 
 def frictions(batch: Any, q: FloatArray, v: FloatArray) -> FloatArray:
-    """Friction and the share of it that slips of each contact in a state, (contacts, 2)."""
-    mine = batch._replace(found=batch.found.copy(), limit=AT_LIMIT * batch.limit)
+    """Friction and the share of it that slips of each contact where a run begins, (contacts, 2)."""
+    mine = batch._replace(found=batch.found.copy())
     rub_values(Located(mine), np.ascontiguousarray(q), np.ascontiguousarray(v))
     return np.array(mine.found[:, RUBBED:])
 
@@ -150,7 +151,9 @@ def contact_line(
     found, rough = np.empty((n, points, 2)), np.zeros((n, points, 4))
     press_line(Located(pressing), j, q, v, found)
     if item.friction > 0.0:
-        rub_line(Located(parts["rubbing"]), j, q, v, rough)
+        rubbing = parts["rubbing"]  # with the limits that acted; what has left the surface is free
+        limits = np.where(rubbing.before > 0.0, rubbing.acted, 0.0)
+        rub_line(Located(rubbing._replace(limit=limits)), j, q, v, rough)
     x = beam.node_x[:-1, None] + gauss(points)[0] * np.diff(beam.node_x)[:, None]
     size, limit = np.linalg.norm(rough[..., :3], axis=-1), rough[..., 3]
     slips = (limit > 0.0) & (size >= AT_LIMIT * limit)

@@ -33,6 +33,7 @@ from ..records import Located
 from ..vectors import dot
 from .cross import add_force_on, factors, from_slots, met, not_in_matrix, pressed_at
 from .near import look_if_live
+from .rubbed import find, nothing_found, share_found
 from .strand import (
     CELL,
     CONTACT,
@@ -56,8 +57,6 @@ from .strand import (
 #: of cable that presses, m, stretch along and across t_a, m, and limit, N.
 OTHER, X, Y, LENGTH, ALONG, ACROSS, LIMIT = range(2, 9)
 COLUMNS = 9
-#: Columns of ``found``: friction of all cells added up by size, N, and the share of it that slips.
-RUBBED, SLIPPED = 2, 3
 #: phi_2 below which it is none, and 1 - cos of an angle between tangents that is none.
 NONE, PARALLEL = 1e-6, 1e-10
 #: Share of a change of the limits that a round of an equilibrium takes.
@@ -316,15 +315,15 @@ def renew(batch, q, v, moves, taken):
 
 @inline_kernel
 def grip_remember(batch, q, v):
-    """Bring pairs, stretches and limits up to the state of an accepted step."""
+    """Bring pairs, stretches and limits up to the state of an accepted step; ``found`` keeps what acted."""
+    grip_measure(batch, q, v)
     renew(batch, q, v, True, 1.0)
 
 
 @inline_kernel
 def grip_measure(batch, q, v):
     """Fill ``found`` for the state (q, v), with the limits that acted in it."""
-    for j in range(batch.found.shape[0]):
-        batch.found[j, RUBBED], batch.found[j, SLIPPED] = 0.0, 0.0
+    nothing_found(batch)
     for m in range(rows_of(batch)):
         g = batch.grip[m]
         if g[LIMIT] == 0.0:
@@ -332,11 +331,8 @@ def grip_measure(batch, q, v):
         j = batch.law[batch.cable[int(g[ELEMENT])], batch.cable[int(g[OTHER])]]
         w1, w2, f, slips, _, _, _, _, _, _, phi = drawn(batch, g, q, v)
         force = f * math.sqrt(w1 * w1 + (phi * w2) ** 2)
-        batch.found[j, RUBBED] += force
-        batch.found[j, SLIPPED] += force if slips else 0.0
-    for j in range(batch.found.shape[0]):
-        if batch.found[j, RUBBED] > 0.0:
-            batch.found[j, SLIPPED] /= batch.found[j, RUBBED]
+        find(batch, j, force, slips)
+    share_found(batch)
 
 
 @kernel
@@ -360,7 +356,7 @@ implements(
     couples=no_pairs,
     bind=no_places,
     role=Role.RUBS | Role.MEASURES,
-    memory=("grip",),
+    memory=("grip", "found"),
     late=lambda batch: let_rub,
     resting=((renew_limits, (VECTOR, VECTOR)),),
 )

@@ -21,13 +21,12 @@ from ..records import Located
 from ..vectors import dot
 from .bump import add_bump, add_bump_block, bumped
 from .meeting import BumpBatch, apart_at, both, both_rates, meet
+from .rubbed import find, nothing_found, share_found
 from .strand import less
 from .touch import DRAG, FRICTION, STICK, carried, in_body
 
 #: Columns of ``rough``: places in both bodies, the stretch in the axes of the second one, the limit.
 ONE, TWO, HELD, LIMIT = 0, 3, 6, 9
-#: Columns of ``found``: friction of all places added up by size, N, and the share of it that slips.
-RUBBED, SLIPPED = 2, 3
 #: Share of a change of the limits that a round of an equilibrium takes.
 TAKEN = 0.4
 
@@ -87,7 +86,8 @@ def roll_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 
 @inline_kernel
 def roll_remember(batch, q, v):
-    """Bring places, stretches and limits up to the state of an accepted step."""
+    """Bring places, stretches and limits up to the state of an accepted step; ``found`` keeps what acted."""
+    roll_measure(batch, q, v)
     for e in range(batch.base.shape[0]):
         data, m = batch.data[batch.contact[e]], batch.rough[e]
         _, _, _, _, _, _, _, N = bumped(batch, e, q, v)
@@ -108,17 +108,12 @@ def roll_remember(batch, q, v):
 @inline_kernel
 def roll_measure(batch, q, v):
     """Fill ``found`` for the state (q, v), with the limits that acted in it."""
-    for j in range(batch.found.shape[0]):
-        batch.found[j, RUBBED], batch.found[j, SLIPPED] = 0.0, 0.0
+    nothing_found(batch)
     for e in range(batch.base.shape[0]):
         if batch.rough[e, LIMIT] > 0.0:
             _, _, _, size, f, slips, _, _ = dragged(batch, e, q, v)
-            j = batch.contact[e]
-            batch.found[j, RUBBED] += f * size
-            batch.found[j, SLIPPED] += f * size if slips else 0.0
-    for j in range(batch.found.shape[0]):
-        if batch.found[j, RUBBED] > 0.0:
-            batch.found[j, SLIPPED] /= batch.found[j, RUBBED]
+            find(batch, batch.contact[e], f * size, slips)
+    share_found(batch)
 
 
 @kernel
@@ -152,7 +147,7 @@ implements(
     remember=roll_remember,
     measure=roll_measure,
     role=Role.RUBS | Role.MEASURES,
-    memory=("rough",),
+    memory=("rough", "found"),
     late=lambda batch: let_roll,
     resting=((roll_limits, (VECTOR, VECTOR)),),
 )

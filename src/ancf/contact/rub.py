@@ -36,6 +36,7 @@ from ..records import Located
 from ..vectors import dot
 from .press import pressed
 from .reel import grown, stretched, swept
+from .rubbed import find, nothing_found, share_found
 from .touch import (
     DRAG,
     FRICTION,
@@ -59,8 +60,6 @@ from .touch import (
     with_force,
 )
 
-#: Columns of ``found``: friction of all points added up by size, N, and the share of it that slips.
-RUBBED, SLIPPED = 2, 3
 #: Share of a change of the limits that a round of an equilibrium takes: all of it would swing past a cable
 #: that friction holds on several turns.
 TAKEN = 0.4
@@ -86,7 +85,7 @@ class RubBatch(NamedTuple):
     data: FloatArray
     surfaces: FloatArray
     shape_of: NDArray[np.int64]
-    found: FloatArray  # (contacts, 4) columns RUBBED, SLIPPED when it was measured last
+    found: FloatArray  # (contacts, 4) memory: columns RUBBED, SLIPPED of the last accepted step
     tree: FloatArray
     faces: FloatArray
     hint: NDArray[np.int64]
@@ -101,6 +100,7 @@ class RubBatch(NamedTuple):
     beside: NDArray[np.int64]  # (n, 2)
     drift: FloatArray  # (n, points, 3) memory: by how much anchors move with the length; no rows: no winch
     since: FloatArray  # (n,) memory: length at the last accepted step, m, 0: none; no rows as well
+    acted: FloatArray  # (n, points) memory: the limit that acted in the last accepted step, N/m
 
 
 @formula
@@ -196,24 +196,31 @@ def rub_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 
 @inline_kernel
 def rub_remember(batch, q, v):
-    """Move the anchors to where the friction of the state q, v leaves them, and renew the limits."""
+    """Move the anchors to where the friction of the state q, v leaves them, and renew the limits.
+
+    What acted in the state is left in ``found`` and ``acted``: it does not follow from what is renewed.
+    """
+    nothing_found(batch)
     for e in range(batch.base.shape[0]):
         if look_around(batch, e, q) and not rubs(batch, e):
             continue
         batch.most[e] = 0.0
-        data, row = batch.data[batch.contact[e]], row_of(batch, e, q, v)
-        body = row[2]
+        j, row, lam = batch.contact[e], row_of(batch, e, q, v), stretched(batch, e, q)
+        body, data = row[2], batch.data[j]
         for p in range(batch.weight.shape[1]):
             _, _, N, _, _, n, _, _, _ = pressed(batch, e, p, row)
             r, x, u, _ = rubbed(batch, e, p, row)
-            w, _, f, slips = drawn(batch, e, p, r, u, n, body, q)
+            w, size, f, slips = drawn(batch, e, p, r, u, n, body, q)
+            find(batch, j, lam * batch.weight[e, p] * f * size, slips)
             left = x
             if N > 0.0:
                 left = in_body(body, plus(r, -f / data[STICK], w)) if slips else anchor_at(batch, e, p, q)
             batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = left
+            batch.acted[e, p] = batch.limit[e, p]
             batch.limit[e, p] = data[FRICTION] * ahead(N, batch.before[e, p])
             batch.before[e, p] = N
             batch.most[e] = max(batch.most[e], batch.limit[e, p])
+    share_found(batch)
     light(batch)
     for e in range(batch.since.shape[0]):
         if batch.winch[e] >= 0:
@@ -268,8 +275,7 @@ def ahead(N, before):
 @inline_kernel
 def rub_measure(batch, q, v):
     """Fill ``found`` for the state (q, v), with the limits that acted in it."""
-    for j in range(batch.found.shape[0]):
-        batch.found[j, RUBBED], batch.found[j, SLIPPED] = 0.0, 0.0
+    nothing_found(batch)
     for e in range(batch.base.shape[0]):
         if not rubs(batch, e):
             continue
@@ -277,12 +283,8 @@ def rub_measure(batch, q, v):
         for p in range(batch.weight.shape[1]):
             place, _, u, n = rubbed(batch, e, p, row)
             _, size, f, slips = drawn(batch, e, p, place, u, n, row[2], q)
-            force = lam * batch.weight[e, p] * f * size
-            batch.found[j, RUBBED] += force
-            batch.found[j, SLIPPED] += force if slips else 0.0
-    for j in range(batch.found.shape[0]):
-        if batch.found[j, RUBBED] > 0.0:
-            batch.found[j, SLIPPED] /= batch.found[j, RUBBED]
+            find(batch, j, lam * batch.weight[e, p] * f * size, slips)
+    share_found(batch)
 
 
 @kernel
@@ -345,7 +347,7 @@ implements(
     measure=rub_measure,
     role=Role.RUBS | Role.MEASURES,
     slots=("base", "winch"),
-    memory=("far", "anchor", "limit", "before", "most", "lit", "drift", "since"),
+    memory=("far", "anchor", "limit", "before", "most", "lit", "drift", "since", "acted", "found"),
     late=lambda batch: let_rub,
     early=hold,
     resting=((grip, (VECTOR, types.boolean)), (renew_limits, (VECTOR, VECTOR))),

@@ -8,6 +8,7 @@ from collections.abc import Iterator, MutableMapping
 import numpy as np
 
 from ..arrays import FloatArray
+from ..contact.rubbed import RUBBED
 from ..errors import ModelError
 from ..model import checks
 from ..model.names import unknown
@@ -20,6 +21,7 @@ from ..results.state import Energy, State
 from ..solvers.record import Stats
 from ..solvers.runs import AnyRun
 from ..solvers.stepping import Run
+from ..system.contact_fields import TOUCHING
 from ..system.energy import energies
 from ..system.inputs import Inputs
 from ..system.spring_fields import springs_of
@@ -123,6 +125,19 @@ class Live(State):
         if isinstance(self._run, Run):
             return self._run.felt()
         return motions.of_state(self.system, self._q, self._v, self.t, self.known)
+
+    def _memory_of(self, part: str) -> dict[str, FloatArray] | None:
+        """As it is now; before the first step nothing has acted yet, and what the run begins with counts."""
+        memory = self.system.memory
+        known = {key.partition(".")[2]: x for key, x in memory.items() if key.startswith(f"{part}.")}
+        frictions = {rough: rubbed for _, rough, _, rubbed in TOUCHING.values()}
+        if known and part in frictions and self._run.done == 0:
+            sums = np.zeros_like(known["found"])
+            sums[:, RUBBED:] = frictions[part](self.system.parts[part], self._q, self._v)
+            known["found"] = sums
+            if "limit" in known:
+                known["acted"] = known["limit"]
+        return known or None
 
     def _reaction_at_rest(self, name: str) -> FloatArray | None:
         return None

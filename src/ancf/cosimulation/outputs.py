@@ -26,8 +26,10 @@ MOMENT_OF_JOINT, MOMENT_OF_CLAMP = {"joint_moment": "N m"}, {"reaction_moment": 
 ALONG_AXES = (*OF_POINT, *OF_SUPPORT, *MOMENT_OF_JOINT, *MOMENT_OF_CLAMP)
 OF_TORSION = {"torsion_angle": "rad", "torsion_moment": "N m"}
 OF_CONTACT = {"contact_force": "N", "contact_gap": "m"}
-#: Of a strip, which has one place on a wire.
-OF_STRIP = {"arc_length": "m"}
+#: Of a strip, which has one place on a wire; of a contact that rubs.
+OF_STRIP, OF_RUBBING = {"arc_length": "m"}, {"friction_force": "N", "slipping": "1"}
+#: What a question is called.
+WORDS = {"friction_force": "friction"}
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*")
 
 
@@ -78,7 +80,7 @@ def _questions(run: Stepper) -> Iterator[tuple[Any, str, str]]:
         elif name in run.joints:
             questions = questions | MOMENT_OF_JOINT
         if name in listing.columns:
-            questions = questions | OF_CONTACT | ({} if run.sensors.rubs(name) else OF_STRIP)
+            questions = questions | OF_CONTACT | (OF_RUBBING if run.sensors.rubs(name) else OF_STRIP)
         questions = questions | (OF_SUPPORT if name in listing.held else {})
         questions = questions | (MOMENT_OF_CLAMP if name in clamps else {})
         yield from ((name, question, unit) for question, unit in questions.items())
@@ -86,7 +88,12 @@ def _questions(run: Stepper) -> Iterator[tuple[Any, str, str]]:
 
 def _parts(run: Stepper, of: str, question: str, unit: str) -> Iterator[Output]:
     count = np.size(getattr(run, question)(of))
-    word = question.removeprefix("spring_").removeprefix("contact_").removeprefix("torsion_")
+    word = (
+        WORDS.get(question, question)
+        .removeprefix("spring_")
+        .removeprefix("contact_")
+        .removeprefix("torsion_")
+    )
     for k in range(count):
         part = f".{'xyz'[k]}" if question in ALONG_AXES else (f"[{k + 1}]" if question in OF_JOINT else "")
         yield Output(f"{structured(of)}.{word}{part}", question, of, k, unit)

@@ -13,10 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ..errors import ModelError
-from ..files import locked, writable
+from ..files import locked, spare_inputs, writable
 from ..model import checks
 from .cluster import Cluster
 from .extras import pandas
+from .finished import FILES
 from .journal import Journal, Outcome, case_key
 from .processes import Case, Processes
 from .work import WRONG_KIND, Function, outcome, packed
@@ -131,6 +132,8 @@ def study(
     check_arguments(function, rows[0])
     content = packed(function)
     place = None if folder is None else writable(Path(folder), f"folder {folder}")
+    if place is not None:
+        spare_inputs(place, FILES)
     with locked(place, f"folder {folder}"):
         journal = Journal(_journal(place), identity(function), f"folder {folder}")
         try:

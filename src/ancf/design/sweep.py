@@ -63,8 +63,11 @@ def _number(word: str, where: str, part: str) -> float:
 
 
 def _range(low: float, high: float, step: float, *, where: str, part: str) -> list[float]:
-    if not step > 0.0 or not low < high:
-        raise ModelError(where, f'"{part}" is empty', "write first:last:step, such as 160:320:20")
+    hint = "write first:last:step, such as 160:320:20"
+    if not step > 0.0:
+        raise ModelError(where, f'"{part}" has a step of {step:g}, must be > 0', hint)
+    if not low < high:
+        raise ModelError(where, f'"{part}" is empty: it begins at {low:g}, not below {high:g}', hint)
     count = (high - low) / step
     if count > MOST_VALUES:
         raise ModelError(where, f'"{part}" has more than {MOST_VALUES} values')

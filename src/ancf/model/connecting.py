@@ -17,7 +17,6 @@ from .joints import Fixation, Revolute, Slide, Spherical
 from .kinds import kind_of
 from .make_joints import make_fixation, make_revolute, make_spherical
 from .points import Point
-from .repeated import check_repeated
 from .rigid_joints import Guide, Universal, Weld, make_guided, make_universal, make_weld
 from .slide_checks import make_slide
 from .torsion import TorsionSpring, make_torsion_spring
@@ -383,7 +382,7 @@ class Connecting(Undeformed):
         refuse_inputs(item, "motion")
         check_inputs(item, self.inputs)
         if kind.constrains:
-            check_repeated(where, item, kind, self.connections)
+            self._joined.refuse_repeated(where, item, kind, self.connections)
         self._names.take(item.name, "connection")
         self.connections.append(item)
         return item

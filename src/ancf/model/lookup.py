@@ -19,6 +19,7 @@ from .inputs import Input, make_input
 from .kinds import GROUPS, SURROUNDINGS, kind_of
 from .names import POINT_LABEL, Names, numbers_of, split_label, unknown
 from .points import Point
+from .repeated import Joined
 from .supports import Support
 
 
@@ -32,6 +33,7 @@ class Lookup:
         self.connections: list[Connection] = []
         self.inputs: dict[str, Input] = {}
         self._names = Names()
+        self._joined = Joined()
         self._place = ""
 
     @property
@@ -67,7 +69,7 @@ class Lookup:
         other = object.__new__(type(self))  # many are made; copy asks each for its ways to be copied first
         other.__dict__.update(self.__dict__)
         other.bodies, other._names = dict(self.bodies), copy(self._names)
-        other.inputs = dict(self.inputs)
+        other.inputs, other._joined = dict(self.inputs), Joined()
         for key in (*GROUPS, *SURROUNDINGS):
             setattr(other, key, list(getattr(self, key)))
         return other

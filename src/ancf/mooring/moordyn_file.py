@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..errors import ModelError
+from ..reading import as_input
 
 #: Words in the line of dashes that begins a section, as the program has them, and what is in it.
 SECTIONS = {
@@ -152,7 +153,7 @@ def read_moordyn(path: str | Path) -> MoorDynFile:
         The file cannot be read, has no lines or points, or a row has too few columns.
     """
     try:
-        text = Path(path).read_text(encoding="utf-8", errors="replace")
+        text = as_input(Path(path)).read_text(encoding="utf-8", errors="replace")
     except OSError as error:
         raise ModelError(str(path), f"cannot be read: {error.strerror or error}") from None
     found = MoorDynFile(str(path))

@@ -124,7 +124,7 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
             raise ModelError(named(name), f"is no contact with a surface here; there are: {there}")
         parts = dict(self.system.parts)
         if "rubbing" in parts:
-            known = self._memory_of("rubbing") or {"limit": np.zeros_like(parts["rubbing"].limit)}
+            known = self._memory_of("rubbing") or {"acted": np.zeros_like(parts["rubbing"].acted)}
             parts["rubbing"] = parts["rubbing"]._replace(**known)
         return contact_line(parts, items, item, self.q, self.v)
 

@@ -93,11 +93,10 @@ def advance_explicit(core, s, tables, h, turning, keep, sampling, out, apart):
         book(apart, core, s, h)
         if n < out.samples.shape[0]:
             take_note(apart, core, s, sampling)
+            take_sample(apart, sampling, s, out.samples[n])
         remember_all(core.remembering, s.q, s.v)
         if keep[n] >= 0:
             for i in range(s.q.shape[0]):
                 out.q[keep[n], i], out.v[keep[n], i] = s.q[i], s.v[i]
             out.work[keep[n], 0], out.work[keep[n], 1] = s.work[0], s.work[1]
-        if n < out.samples.shape[0]:
-            take_sample(apart, sampling, s, out.samples[n])
     return keep.shape[0], OK

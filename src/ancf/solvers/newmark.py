@@ -277,6 +277,7 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out, apart):
         book(apart, core, s, h)
         if n < out.samples.shape[0]:
             take_note(apart, core, s, sampling)
+            take_sample(apart, sampling, s, out.samples[n])  # with what has acted, before it is renewed
         remember_all(core.remembering, s.q, s.v)
         if keep[n] >= 0:
             show_parts(apart, core, s, True)
@@ -284,8 +285,6 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out, apart):
                 out.q[keep[n], i], out.v[keep[n], i] = s.q[i], s.v[i]
             show_parts(apart, core, s, False)
             out.work[keep[n], 0], out.work[keep[n], 1] = s.work[0], s.work[1]
-        if n < out.samples.shape[0]:
-            take_sample(apart, sampling, s, out.samples[n])
         event = find_events(core.joints.tail, s.q)
         if event >= 0:
             return n + 1, EVENT + event

@@ -14,6 +14,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..batches import Batches, measure_all
 from ..compiled import formula, kernel, measure
+from ..contact.rubbed import RUBBED
 from ..records import recorded
 from ..system.core import residual
 from ..system.system import System
@@ -93,6 +94,16 @@ def sample(sampling: Sampling, q: FloatArray, v: FloatArray, row: FloatArray) ->
     k += sampling.moved.shape[0]
     for i in range(sampling.pushed.shape[0]):
         row[k + i] = sampling.felt[1, sampling.pushed[i]]
+
+
+def resample(system: System, sampling: Sampling, q: FloatArray, v: FloatArray, row: FloatArray) -> None:
+    """The same after batches have remembered the state: the friction that acted is what they remember."""
+    acted = [(x, x[:, RUBBED:].copy()) for name, x in system.memory.items() if name.endswith(".found")]
+    sample(sampling, q, v, row)
+    for found, rubbed in acted:
+        found[:, RUBBED:] = rubbed
+    first = 2 * len(sampling.unknowns)
+    row[first : first + len(sampling.entries)] = sampling.measured[sampling.entries]
 
 
 @kernel

@@ -35,7 +35,7 @@ from .memory import H_FACTOR, H_PREV, KNOWN, WORST, Memory, allocate
 from .newmark import Rule
 from .quick import Direct, Implicit, shared
 from .record import Progress, Recorder, Stats
-from .sampling import Output, note_now, sample, sampling_of
+from .sampling import Output, note_now, resample, sampling_of
 from .scheme import Scheme
 from .span import Span
 from .start import consistent_start
@@ -302,7 +302,7 @@ class Run(Asleep):
             out.q[k], out.v[k], out.work[k] = m.q, m.v, m.work
         if self.sampling.width:
             note_now(self.system.core, m, self.sampling)
-            sample(self.sampling, m.q, m.v, out.samples[n])
+            resample(self.system, self.sampling, m.q, m.v, out.samples[n])
 
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
         if self.hesitates:

@@ -11,7 +11,8 @@ from ..connections.contact import contact_values
 from ..connections.contact_touch import ARC, ASIDE, FORCE, OVERLAP
 from ..contact.bump_fields import bump_pressures, roll_frictions
 from ..contact.cross_fields import cross_pressures, grip_frictions
-from ..contact.fields import RUBBED, SLIPPED, frictions, pressures
+from ..contact.fields import frictions, pressures
+from ..contact.rubbed import RUBBED, SLIPPED
 from ..errors import ModelError, named
 from ..model.body_contact import BodyContact
 from ..model.cable_contact import CableContact
@@ -21,7 +22,7 @@ from ..model.surfaces import SurfaceContact
 from .slide_fields import SlideFields
 from .system import System
 
-#: By kind of contact with many places: its batches, and what tells their sums.
+#: By kind of contact with many places: its batches, and what tells their sums; of friction that at a start.
 TOUCHING: dict[type, tuple[str, str, Any, Any]] = {
     SurfaceContact: ("pressing", "rubbing", pressures, frictions),
     CableContact: ("crossing", "gripping", cross_pressures, grip_frictions),
@@ -136,14 +137,14 @@ class ContactFields(SlideFields):
         """What ``found`` of a contact all along a beam says, friction as far as it is known."""
         q, v = np.atleast_2d(self.q[...]), np.atleast_2d(self.v[...])  # type: ignore[attr-defined]
         kind = next(kind for kind in TOUCHING if name in _named(self.model, kind))
-        smooth, rough, forces, rubbed = TOUCHING[kind]
+        smooth, rough, forces, _ = TOUCHING[kind]
         k, parts = _named(self.model, kind).index(name), self._contact_system().parts
         out = forces(parts[smooth], np.ascontiguousarray(q), np.ascontiguousarray(v))[:, k]
         known = self._memory_of(rough)
         if rough not in parts:
             out[:, RUBBED:] = 0.0
-        elif known is not None:
-            out[-1, RUBBED:] = rubbed(parts[rough]._replace(**known), q[-1], v[-1])[k]
+        elif known is not None and "found" in known:
+            out[-1, RUBBED:] = known["found"][k, RUBBED:]  # limits have been renewed since it acted
         values: FloatArray = out if len(self.q.shape) > 1 else out[0]  # type: ignore[attr-defined]
         return values
 

@@ -13,6 +13,8 @@ from xml.etree.ElementTree import Element
 Piece = Element | str
 #: Columns from which on a table takes the room of the window.
 MANY = 9
+#: A number that a browser would break at its exponent.
+EXPONENT = re.compile(r"(-?\d[\d.]*[eE]-\d+)")
 #: Width of an SVG, and pixels of the page for one of its points: a figure over two columns fills the page.
 DRAWN_WIDTH, POINT = re.compile(r'<svg\b[^>]*?\bwidth="([\d.]+)pt"'), 1.65
 
@@ -43,7 +45,14 @@ def table(
     cells = [{"class_": "number"} if i in right else {} for i in range(len(head))]
     top = element("tr", *(_head(text, a) for text, a in zip(head, cells, strict=True)))
     body = [
-        element("tr", *(element("td", text, **a) for text, a in zip(row, cells, strict=True))) for row in rows
+        element(
+            "tr",
+            *(
+                element("td", *(_whole(text) if not a else [text]), **a)
+                for text, a in zip(row, cells, strict=True)
+            ),
+        )
+        for row in rows
     ]
     return element(
         "div",
@@ -53,6 +62,12 @@ def table(
     )
 
 
+def _whole(text: str) -> list[Piece]:
+    """Text whose numbers as 1e-06 stay on one line: a browser would break them behind the e-."""
+    parts = EXPONENT.split(text)
+    return [element("span", part, class_="whole") if k % 2 else part for k, part in enumerate(parts) if part]
+
+
 def _head(text: str, look: dict[str, str]) -> Element:
     """Head of a column; where there is nothing to read, a screen reader finds no head."""
     return element("th", text, scope="col", **look) if text else element("td", **look)
@@ -60,7 +75,9 @@ def _head(text: str, look: dict[str, str]) -> Element:
 
 def pairs(rows: Iterable[tuple[str, str]]) -> Element:
     """Table of names and values without a head."""
-    lines = [element("tr", element("th", name, scope="row"), element("td", value)) for name, value in rows]
+    lines = [
+        element("tr", element("th", name, scope="row"), element("td", *_whole(value))) for name, value in rows
+    ]
     return element(
         "div", element("table", element("tbody", *lines), class_="pairs"), class_="scroll", tabindex="0"
     )

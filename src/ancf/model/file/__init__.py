@@ -13,6 +13,7 @@ from pydantic import ValidationError
 
 from ...errors import ModelError
 from ...files import exists
+from ...reading import as_input
 from ..checks import nearest
 from ..inputs import first_values, named
 from ..model import Model
@@ -149,7 +150,7 @@ def _with_formulas(part: Any) -> Any:
 
 def _read_text(path: Path, kind: str) -> str:
     try:
-        return path.read_bytes().decode("utf-8-sig")
+        return as_input(path).read_bytes().decode("utf-8-sig")
     except FileNotFoundError:
         found = [p.name for p in path.parent.glob("*.toml")] if exists(path.parent, "is_dir") else []
         raise ModelError(str(path), "no such file", nearest(path.name, found)) from None

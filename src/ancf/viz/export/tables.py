@@ -13,6 +13,7 @@ from ...arrays import FloatArray
 from ...files import cell, drafted
 from ...model.beam import Beam
 from ...model.points import Point
+from ...model.supports import Clamp
 from ...results.result import Result
 from ...results.sensors import Sensors
 
@@ -47,6 +48,9 @@ def _cells(values: FloatArray) -> list[float | None]:
 
 def sensor_columns(sensors: Sensors, inside: bool = True) -> Iterator[Column]:
     """Everything that was recorded at every step; without `inside` no tension and curvature of points."""
+    clamps = {item.name for item in sensors.model.supports if isinstance(item, Clamp)} & {
+        *sensors.listing.turned
+    }
     yield "t [s]", sensors.t
     for point in sensors.listing.points:
         yield from motion_columns(sensors, point, str(point))
@@ -62,6 +66,8 @@ def sensor_columns(sensors: Sensors, inside: bool = True) -> Iterator[Column]:
             yield from joint_parts(sensors, name)
         if name in sensors.listing.held:
             yield from vector_columns(f"{name} reaction", sensors.reaction(name), "N")
+        if name in clamps:
+            yield from vector_columns(f"{name} moment", sensors.reaction_moment(name), "N m")
         if name in sensors.listing.columns:
             yield from contact_columns(sensors, name)
     if sensors._led():
