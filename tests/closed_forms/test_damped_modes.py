@@ -119,9 +119,9 @@ def test_blade_gets_stiffer(rate, flap):
     assert stretch == pytest.approx(rate**2 / 3e7, rel=1e-2, abs=1e-12)  # rhoA W^2 L^3/(3 EA)
 
 
-def rotor(gravity=(0, 0, 0)):
+def rotor(gravity=(0, 0, 0), damping=0.0):
     model = ancf.Model(gravity=gravity)
-    section = ancf.Section(EA=1e5, EI=1.0, rhoA=1.0)
+    section = ancf.Section(EA=1e5, EI=1.0, rhoA=1.0, damping=damping)
     rope = model.add_beam("r", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
     model.pin(rope.start)
     return model, rope
@@ -161,13 +161,58 @@ def test_damping_inside_a_blade_is_that_of_its_bending():
     assert np.abs(turning[1]) == pytest.approx(7.3604, rel=1e-3)
 
 
+@pytest.mark.parametrize("rate", [60.0, 400.0])
+@pytest.mark.parametrize("element", ["nonlocking", "original"])
+def test_shaft_that_whirls_in_air_at_rest(element, rate):
+    """External damping brakes both whirls: l^2 (A + I k^2) + l (c/rho - 2 i W I k^2) + E I k^4/rho = 0."""
+    E, rho, k, c = 2e11, 7850.0, np.pi / 2, 900.0
+    model = ancf.Model()
+    section = ancf.Section.circle(diameter=0.05, E=E, rho=rho, nu=0.0, damping=c)
+    elements = 4 if element == "nonlocking" else 24
+    shaft = model.add_beam(
+        "s", start=(0, 0, 0), end=(2, 0, 0), elements=elements, section=section, element=element
+    )
+    model.pin(shaft.start)
+    model.hold(shaft.end, position="yz")
+    shaft.set_motion(angular_velocity=(rate, 0, 0))
+    modes = ancf.damped_modes(model, count=20)
+    A, Iy = section.A, section.I_y
+    mass = A + Iy * k**2
+    exact = np.roots([mass, c / rho - 2j * rate * Iy * k**2, E * Iy * k**4 / rho])
+    circles = np.abs(modes.whirl) > 0.9
+    found = modes.eigenvalues[circles]
+    space = found.real + 1j * (rate + modes.whirl.round()[circles] * found.imag)
+    for value in exact:
+        near = space[np.argmin(np.abs(space - value))]
+        assert near.imag == pytest.approx(value.imag, rel=6e-3)
+        assert near.real == pytest.approx(value.real, rel=6e-3)
+
+
+@pytest.mark.parametrize(("rate", "c"), [(2.0, 0.3), (1.0, 2.0)])
+def test_blade_is_bent_back_by_the_air(rate, c):
+    """Drag c W x per length on a stiff cantilever: the tip lags by 11 c W L^5/(120 EI)."""
+    L, EI = 1.5, 4e3
+    model = ancf.Model()
+    section = ancf.Section(EA=1e8, EI=EI, rhoA=1.0, damping=c)
+    blade = model.add_beam("b", start=(0, 0, 0), end=(L, 0, 0), elements=6, section=section)
+    model.clamp(blade.start, rotation=lambda t: rate * t, axis=(0, 0, 1))
+    blade.set_motion(angular_velocity=(0, 0, rate))
+    modes = ancf.damped_modes(model, count=2)
+    assert modes.about.position(blade.end)[1] == pytest.approx(-11 * c * rate * L**5 / (120 * EI), rel=2e-3)
+    assert modes.eigenvalues.real == pytest.approx(-0.5 * c, rel=1e-3)
+
+
 def test_resistance_that_stands_still_is_refused_of_what_turns():
     model = ancf.Model()
-    section = ancf.Section(EA=1e5, EI=1.0, rhoA=1.0, damping=0.1)
+    section = ancf.Section(EA=1e5, EI=1.0, rhoA=1.0, slope_damping=0.1)
     rope = model.add_beam("r", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
     model.pin(rope.start)
     rope.set_motion(angular_velocity=(0, 0, 5.0))
     with pytest.raises(SolveError, match="resistance that stands still"):
+        ancf.damped_modes(model, count=3)
+    model, rope = rotor(damping=0.1)
+    rope.set_motion(angular_velocity=(0, 0, 5.0))
+    with pytest.raises(SolveError, match="does not turn steadily"):  # the air brings it to rest
         ancf.damped_modes(model, count=3)
 
 

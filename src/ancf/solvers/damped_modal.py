@@ -15,9 +15,13 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
+from ..batches import Batches
+from ..elements.cable import CableBatch
+from ..elements.solid import SolidBatch
 from ..errors import SolveError
 from ..later import coo_array, csc_array, eig, null_space
 from ..linalg.sparse import to_sparse
+from ..model.winch import Winch
 from ..system.core import apply_load, assemble, follow_supports, residual
 from ..system.system import System
 from .standing import Standing, vectors_and_arms
@@ -56,17 +60,29 @@ class Damped:
         self.standing = Standing(system, self.spin, self.centre)
         system.level[:] = 1.0, 0.0, 0.0
         self.M = self._whole(1.0, 0.0, 0.0)
+        self.braked = self._braked() if np.any(self.spin) else None
         if np.any(self.spin):
             self._check_surroundings()
             self._check_symmetry()
             self._settle()
 
-    def _whole(self, mass: float, damping: float, stiffness: float) -> csc_array:
+    def _braked(self) -> csc_array | None:
+        """The damping of beams by what stands still, alike from all sides, which brakes rotation too."""
+        if not any(beam.section.damping for beam in self.system.model.beams.values()):
+            return None
+        own = [b for b in self.system.parts.values() if isinstance(b, CableBatch | SolidBatch)]
+        free = [b._replace(lane_data=_unbraked(b.lane_data)) for b in own]
+        return self._whole(0.0, 1.0, 0.0, Batches(own)) - self._whole(0.0, 1.0, 0.0, Batches(free))
+
+    def _whole(
+        self, mass: float, damping: float, stiffness: float, batches: Batches | None = None
+    ) -> csc_array:
         core, joints = self.system.core, self.system.parts.get("joints")
+        parts = core.batches if batches is None else batches
         kept = None if joints is None else joints.scale.copy()
         if joints is not None:
             joints.scale[:] = 0.0  # the matrices themselves, without the multiples of C^T C that help a solve
-        assemble(core.batches, core.ws, self.q, np.zeros_like(self.q), core.A, mass, damping, stiffness)
+        assemble(parts, core.ws, self.q, np.zeros_like(self.q), core.A, mass, damping, stiffness)
         if joints is not None:
             joints.scale[:] = kept
         return csc_array(to_sparse(core.A, self.system.places))
@@ -81,6 +97,8 @@ class Damped:
         f = self.free
         stiffness, damping = self.standing.beyond(self.q)
         K = self._whole(0.0, 0.0, 1.0) + csc_array(stiffness)
+        if self.braked is not None:
+            K = csc_array(K + self.braked @ self.W)
         resisting = self._whole(0.0, 1.0, 0.0) + csc_array(damping)
         M = self._part(self.M, f, f)
         D = self._part(csc_array(resisting + 2.0 * (self.M @ self.W)), f, f)
@@ -115,13 +133,16 @@ class Damped:
         return _physical(self.system, r)
 
     def _check_surroundings(self) -> None:
-        """Nothing that stands still brakes what turns."""
+        """Nothing whose resistance depends on more than the velocity stands still around what turns."""
         model = self.system.model
         outside = [item.name for item in model.fluids] + [item.name for item in model.grounds]
-        braked = [b.name for b in model.beams.values() if b.section.damping or b.section.slope_damping]
+        wound = {item.beam.name for item in model.supports if isinstance(item, Winch)}
+        sections = {name: beam.section for name, beam in model.beams.items()}
+        braked = [name for name, s in sections.items() if s.slope_damping or (s.damping and name in wound)]
         if outside or braked:
             what = f'"{(braked or outside)[0]}" has or is a resistance that stands still'
-            raise SolveError("damped_modes", what, "leave it out of a model that turns")
+            hint = "leave it out of a model that turns; damping= of a section stands for air that is at rest"
+            raise SolveError("damped_modes", what, hint)
 
     def _check_symmetry(self) -> None:
         """Forces turn with the model: what stands still and acts on it does so the same from all sides."""
@@ -173,6 +194,13 @@ class Damped:
         what = f"{size:.3g} are left of {largest:.3g} N: the state does not turn steadily"
         hint = "let loads, supports and dampers turn with it, or leave them out"
         raise SolveError("damped_modes", what, hint)
+
+
+def _unbraked(lane_data: FloatArray) -> FloatArray:
+    """Constants of elements without their external damping, the last of them."""
+    found = lane_data.copy()
+    found[:, -1] = 0.0
+    return found
 
 
 def damped_modes_about(
