@@ -23,6 +23,7 @@ from .model.model import Model
 from .preparation import carried_out, given_state, method_of, prepared
 from .results import remembered
 from .results import result as results
+from .results.accuracy import of_locked_modes
 from .results.modes import DampedModes, Modes
 from .results.out_of_balance import explain_unstable, notes_of_balance, of_bends, of_motion
 from .results.result import Result
@@ -300,7 +301,8 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
             if given and not notes:
                 explain_unstable(error)
             raise
-    made = Modes(omega, shapes, about, notes=notes + of_bends(system.model, omega))
+    notes += of_bends(system.model, omega) + of_locked_modes(about.system, about.q, omega, shapes)
+    made = Modes(omega, shapes, about, notes=notes)
     if not parameters:
         return made
     from .sensitivity.modal import of_modes

@@ -8,13 +8,16 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.beam import Beam
 from ..model.doubts import doubts
-from ..solvers.locking import locked, stiffest
+from ..solvers.locking import freed, locked, stiffest, stiffest_name
 from ..system import redundancy
 from ..system.consistency import nearly_dependent
+from ..system.system import System
 from .faces import History, Instant
 
 #: Share of the displacement that locking may take unsaid, and of the model's size that is never said.
 LOCKED, SMALL = 3e-4, 1e-9
+#: Share of a frequency by which locking may raise it unsaid.
+TOO_HIGH = 3e-3
 #: Share of the energy exchanged that may come from nowhere, or get lost, unsaid.
 DRIFT = 0.02
 #: Joints that a note names.
@@ -48,6 +51,21 @@ def of_state(state: Instant) -> list[str]:
         f"stretch (EA L^2/EI = {stiffest(system):.1e}); take more of them, or a smaller EA"
     )
     return [text, *found]
+
+
+def of_locked_modes(system: System, q: FloatArray, omega: FloatArray, shapes: FloatArray) -> list[str]:
+    """A note on modes of cables that bend too little, by how much their frequencies are too high."""
+    lower = freed(system, q, omega, shapes)
+    own = omega[len(omega) - len(lower) :]
+    above = float(np.max((own - lower) / own, initial=0.0))
+    if above <= TOO_HIGH:
+        return []
+    text = (
+        f'"{stiffest_name(system)}" may bend too little: frequencies are up to {100 * above:.2g} % too high, '
+        f"its elements are very stiff against stretch (EA L^2/EI = {stiffest(system):.1e}); take more of "
+        "them, or a smaller EA"
+    )
+    return [text]
 
 
 def at_most(largest: float, last: float) -> str:

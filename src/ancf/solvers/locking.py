@@ -17,7 +17,7 @@ from ..batches import Batches
 from ..elements.cable import CableBatch
 from ..elements.cable_strain import gauss_table
 from ..elements.shapes import gauss
-from ..later import splu
+from ..later import csc_array, eigh, splu
 from ..linalg.sparse import to_sparse
 from ..system.contacts import touching
 from ..system.core import apply_supports, assemble, residual, restrict
@@ -27,6 +27,8 @@ from ..system.system import System
 FREE, LEFT = 1e3, 10.0
 TWO = 2  # points that stay
 ROOM = 10  # rows of axial points in the batch
+#: Share of the largest frequency that is none, and of the square of the least by which matrices are shifted.
+NEUTRAL, SHIFT = 1e-4, 1e-2
 
 
 def stiffest(system: System) -> float:
@@ -36,6 +38,57 @@ def stiffest(system: System) -> float:
         if not beam.has_section and beam.section.EI > 0.0:
             found.append(beam.section.EA * float(np.max(np.diff(beam.node_x))) ** 2 / beam.section.EI)
     return max(found)
+
+
+def stiffest_name(system: System) -> str:
+    """The cable that has it."""
+    own = {
+        name: beam.section.EA * float(np.max(np.diff(beam.node_x))) ** 2 / beam.section.EI
+        for name, beam in system.model.beams.items()
+        if not beam.has_section and beam.section.EI > 0.0
+    }
+    return max(own, key=lambda name: own[name])
+
+
+def freed(system: System, q: FloatArray, omega: FloatArray, shapes: FloatArray) -> FloatArray:
+    """Angular frequencies of modes about the state (size,) without locking, rad/s, (m,) of the m above zero.
+
+    Of the shapes (count, size) that one step of inverse iteration with the softened stiffness gives. They are
+    those found where no element is stiff, and where the estimate does not exist.
+    """
+    vibrating = omega > NEUTRAL * float(np.max(omega, initial=0.0))
+    found: FloatArray = omega[vibrating]
+    ratio, core, n = stiffest(system), system.core, system.n
+    system.level[:] = 1.0, 0.0, 0.0
+    if ratio <= FREE or not len(found):
+        return found
+    M = _matrix(system, core.batches, q, 1.0, 0.0)
+    K = _matrix(system, _softer(system, ratio), q, 0.0, 1.0)
+    K = csc_array(K + touching(core, q, n).matrix())
+    x = shapes[vibrating, :n].T.copy()
+    x[system.multipliers] = 0.0
+    pushed = M @ x
+    pushed[system.multipliers] = 0.0
+    try:
+        y = splu(csc_array(K + SHIFT * float(found[0]) ** 2 * M)).solve(pushed)
+        y[system.multipliers] = 0.0
+        lower = np.sqrt(np.maximum(eigh(y.T @ (K @ y), y.T @ (M @ y), eigvals_only=True), 0.0))
+    except (RuntimeError, ValueError, np.linalg.LinAlgError):  # singular, or not a number
+        return found
+    return lower if np.all(lower > 0.0) else found
+
+
+def _matrix(system: System, batches: Batches, q: FloatArray, mass: float, stiffness: float) -> csc_array:
+    values = np.empty(system.places.size)
+    assemble(batches, system.core.ws, q, np.zeros_like(q), values, mass, 0.0, stiffness)
+    restrict(system.core.supports, values)
+    return csc_array(to_sparse(values, system.places))
+
+
+def _softer(system: System, ratio: float) -> Batches:
+    """All batches, those of cables so that they do not lock."""
+    parts = system.parts.items()
+    return Batches(_softened(b, LEFT / ratio) if name == "cable" else b for name, b in parts)
 
 
 def locked(system: System, q: FloatArray) -> FloatArray:
@@ -48,19 +101,16 @@ def locked(system: System, q: FloatArray) -> FloatArray:
     system.level[:] = 1.0, 0.0, 0.0
     if ratio <= FREE:
         return nothing
-    parts = system.parts.items()
-    batches = Batches(_softened(b, LEFT / ratio) if name == "cable" else b for name, b in parts)
+    batches = _softer(system, ratio)
     still, none, whole = np.zeros_like(q), np.zeros_like(q), np.empty_like(q)
     freed = np.empty_like(q)
     residual(core.batches, core.ws, q, still, still, none, whole)
     residual(batches, core.ws, q, still, still, none, freed)
     r = freed - whole  # loads cancel
     apply_supports(core.supports, r)
-    values = np.empty(system.places.size)
-    assemble(batches, core.ws, q, still, values, 0.0, 0.0, 1.0)
-    restrict(core.supports, values)
+    matrix = _matrix(system, batches, q, 0.0, 1.0)
     try:
-        lu = splu((to_sparse(values, system.places) + touching(core, q, system.n).matrix()).tocsc())
+        lu = splu(csc_array(matrix + touching(core, q, system.n).matrix()))
     except RuntimeError:  # exactly singular
         return nothing
     moved: FloatArray = lu.solve(r[: system.n])

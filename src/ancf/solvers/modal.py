@@ -84,7 +84,13 @@ def _eigen(K: csc_array, M: csc_array, C: csc_array, count: int) -> tuple[FloatA
     lu, shift = _below_all(K, M, shift)
     start = np.random.default_rng(1).standard_normal(n)
     inverse = LinearOperator((n, n), matvec=lu.solve, dtype=np.float64)
-    values, vectors = eigsh(K, k=count, M=M, sigma=shift, which="LM", v0=start, OPinv=inverse)
+    try:
+        values, vectors = eigsh(K, k=count, M=M, sigma=shift, which="LM", v0=start, OPinv=inverse)
+    except RuntimeError as error:  # more neutral motions than modes were asked for
+        if n <= MANY:
+            return _dense(K.toarray(), M.toarray(), count, shift)
+        hint = "hold what moves without a force, or ask for more modes"
+        raise SolveError("modes", f"the iteration does not end: {error}", hint) from None
     order = np.argsort(values)
     return values[order], vectors[:, order]
 

@@ -1,0 +1,63 @@
+"""Modes of rings that are stiff against stretch: by how much locking raises them is said, after Love."""
+
+import re
+
+import numpy as np
+import pytest
+
+import ancf
+
+
+def ring(elements, stiff, radius=1.0, flat=True):
+    """A ring of EI = rhoA = 1 and EA R^2/EI = ``stiff``, that moves in its plane."""
+    model = ancf.Model()
+    angle = np.linspace(0.0, 2.0 * np.pi, elements, endpoint=False)
+    path = radius * np.column_stack([np.cos(angle), np.sin(angle), 0.0 * angle])
+    section = ancf.Section(EA=stiff / radius**2, EI=1.0, rhoA=1.0)
+    beam = model.add_beam("ring", path=path, closed=True, elements=elements, section=section)
+    for x in beam.node_x[:-1] if flat else ():
+        model.hold(beam.at(float(x)), position="z", slope="z")
+    return model
+
+
+def exact(waves, radius):
+    """Angular frequency of a ring that bends without stretch, in waves around it."""
+    n = np.asarray(waves)
+    return np.sqrt(n**2 * (n**2 - 1) ** 2 / (n**2 + 1)) / radius**2
+
+
+@pytest.mark.parametrize("radius", [0.5, 2.0])
+@pytest.mark.parametrize(("elements", "stiff"), [(8, 1e5), (8, 1e6), (12, 1e6), (16, 1e6), (16, 1e7)])
+def test_by_how_much_frequencies_are_too_high_is_said(elements, stiff, radius):
+    modes = ancf.modes(ring(elements, stiff, radius), count=7)
+    found = modes.frequencies[modes.frequencies > 1e-3 * modes.frequencies[-1]][:4]
+    waves = [2, 2, 3, 3]
+    (note,) = [note for note in modes.notes if "too high" in note]
+    said = float(re.search(r"up to ([\d.]+(?:e[+-]\d+)?) %", note)[1]) / 100
+    assert note.startswith('"ring" may bend too little')
+    wrong = np.max((found - exact(waves, radius)) / found)
+    assert said == pytest.approx(wrong, rel=0.15)  # of cubics that are long for their arc as well
+
+
+@pytest.mark.parametrize("build", [lambda: ring(48, 1e4), lambda: ring(64, 1e6)])
+def test_what_bends_freely_has_no_note(build):
+    model = build()
+    modes = ancf.modes(model, count=7)
+    found = modes.frequencies[modes.frequencies > 1e-2][:4]
+    assert found == pytest.approx(exact([2, 2, 3, 3], 1.0), rel=3e-3)
+    assert not any("too high" in note for note in modes.notes)
+
+
+def test_taut_lines_do_not_lock():
+    model = ancf.Model()
+    section = ancf.Section(EA=1e7, EI=1.0, rhoA=1.0)
+    line = model.add_beam("line", start=(0, 0, 0), end=(60, 0, 0), length=59.9, elements=20, section=section)
+    model.pin(line.start)
+    model.pin(line.end)
+    assert ancf.modes(model, about=ancf.equilibrium(model), count=6).notes == []
+
+
+def test_more_neutral_motions_than_modes():
+    """A ring whose bend turns freely everywhere: the iteration for few modes does not end."""
+    modes = ancf.modes(ring(64, 1e6, flat=False), count=12)
+    assert modes.frequencies == pytest.approx(0.0, abs=1e-2)
