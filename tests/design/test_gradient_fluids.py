@@ -100,6 +100,15 @@ def test_against_differences(kind):
     assert apart(model, slope, wanted) < 3e-10
 
 
+@pytest.mark.parametrize("kind", WAVES)
+def test_gravity_in_waves(kind):
+    """Their lengths follow from it, which shows only where there are waves: not at the start of a ramp."""
+    model, names = in_waves(kind, lift=-1.0, buoy=False), ["gravity[2]"]
+    found = forward(model, OBJECTIVES[0], names, **settings())
+    wanted = differences(model, OBJECTIVES[0], names, 1e-3, **settings())
+    assert apart(model, found, wanted) < 1e-9
+
+
 @pytest.mark.parametrize("waves", ["still", "deep"])
 def test_diameters_at_a_surface(waves):
     """A run has waves where it first looks for the end of a step, which is 1e-8 of this derivative."""

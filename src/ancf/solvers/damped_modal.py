@@ -72,7 +72,8 @@ class Damped:
             return None
         own = [b for b in self.system.parts.values() if isinstance(b, CableBatch | SolidBatch)]
         free = [b._replace(lane_data=_unbraked(b.lane_data)) for b in own]
-        return self._whole(0.0, 1.0, 0.0, Batches(own)) - self._whole(0.0, 1.0, 0.0, Batches(free))
+        whole, rest = (self._whole(0.0, 1.0, 0.0, Batches(some)) for some in (own, free))
+        return csc_array(whole - rest)
 
     def _whole(
         self, mass: float, damping: float, stiffness: float, batches: Batches | None = None
