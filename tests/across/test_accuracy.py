@@ -195,3 +195,30 @@ class TestSingularPositions:
         t = float(re.search(r"near t = (\S+) s a singular position", note)[1])
         middle = result.position(result.system.model.bodies["left"])[np.argmin(np.abs(result.t - t))]
         assert abs(middle[2]) < 0.1 * size[0]
+
+
+@pytest.mark.parametrize("elements", [4, 6])
+def test_a_load_that_makes_a_kink_is_named(elements):
+    """Of a taut cable that hardly resists bending: two cables that are connected there are exact."""
+    EA, P, x = 1e6, 200.0, 2.5 if elements == 4 else 5.0
+    section = ancf.Section(EA=EA, EI=0.1, rhoA=1.0)
+    model = ancf.Model()
+    cable = model.add_beam("c", start=(0, 0, 0), end=(10, 0, 0), elements=elements, section=section)
+    model.pin(cable.start)
+    model.pin(cable.end)
+    model.add_force(cable.at(x), (0, 0, -P))
+    (note,) = locked(ancf.equilibrium(model).notes)
+    assert f"the load at c.at({x:g}) makes a kink" in note
+    model = ancf.Model()
+    one = model.add_beam("one", start=(0, 0, 0), end=(x, 0, 0), elements=2, section=section)
+    two = model.add_beam("two", start=(x, 0, 0), end=(10, 0, 0), elements=1, section=section)
+    model.pin(one.start)
+    model.pin(two.end)
+    model.connect(one.end, two.start)
+    model.add_force(one.end, (0, 0, -P))
+    state = ancf.equilibrium(model)
+    assert not locked(state.notes)
+    where = state.position(one.end)
+    pulls = [EA * (np.hypot(d, where[2]) / n - 1) for d, n in ((where[0], x), (10 - where[0], 10 - x))]
+    slopes = [where[2] / np.hypot(d, where[2]) for d in (where[0], 10 - where[0])]
+    assert -np.dot(pulls, slopes) == pytest.approx(P, rel=1e-9)

@@ -8,6 +8,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.beam import Beam
 from ..model.doubts import doubts
+from ..model.points import Point
 from ..solvers.locking import freed, locked, stiffest, stiffest_name
 from ..system import redundancy
 from ..system.consistency import nearly_dependent
@@ -50,7 +51,30 @@ def of_state(state: Instant) -> list[str]:
         f'"{name}" may bend too little, by about {off:.2g} m, {share}: its elements are very stiff against '
         f"stretch (EA L^2/EI = {stiffest(system):.1e}); take more of them, or a smaller EA"
     )
-    return [text, *found]
+    return [text + _kinked(system, name, moved), *found]
+
+
+def _kinked(system: System, name: str, moved: FloatArray) -> str:
+    """Advice for a cable that a force at a node bends: where nothing resists bending it has a kink there."""
+    beam = system.model.beams[name]
+    pushed = {getattr(load, "point", None) for load in system.model.loads}
+    own = [
+        p
+        for p in pushed
+        if isinstance(p, Point)
+        and p.body is beam
+        and 0.0 < p.x < beam.length
+        and beam.node_at(p.x) is not None
+    ]
+    if not own:
+        return ""
+    off = {
+        p: float(np.max(moved[system.numbering.slots[name][beam.node_at(p.x), 0] + np.arange(3)]))
+        for p in own
+    }
+    point = max(own, key=lambda p: off[p])
+    how = "which two cables have that end there and are connected: model.connect(a.end, b.start)"
+    return f"; the load at {point} makes a kink, {how}"
 
 
 def of_locked_modes(system: System, q: FloatArray, omega: FloatArray, shapes: FloatArray) -> list[str]:

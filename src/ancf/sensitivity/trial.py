@@ -10,7 +10,7 @@ from ..arrays import FloatArray
 from ..batches import Batches
 from ..system.core import apply_load, place_supports, residual
 from ..system.system import System
-from .alike import Known, on_a_line
+from .alike import TIMES, Known, on_a_line
 from .turns import axes_of
 
 #: Size of the changes of the state in which it is tried whether a parameter is linear.
@@ -75,15 +75,17 @@ class Trial:
         base.level[:] = 1.0, 0.0, 0.0
         for system in systems:
             system.level[:] = base.level
-        strained = [self._residual(s, (q + shake[0], shake[1], rest)) for s in systems]
-        pushed = [self._residual(s, (q, rest, PUSHED * shake[2])) for s in systems]
+        strained, pushed = (q + shake[0], shake[1], rest), (q, rest, PUSHED * shake[2])
+        found = [[self._residual(s, pushed, 0.0) for s in systems]]
+        for time in TIMES:  # at the first one waves with a ramp are still
+            found.append([self._residual(s, strained, time) for s in systems])
         base.level[:] = before
-        return [strained, pushed]
+        return found
 
-    def _residual(self, system: System, states: tuple[FloatArray, FloatArray, FloatArray]) -> FloatArray:
+    def _residual(self, system: System, states: tuple[FloatArray, ...], time: float) -> FloatArray:
         """Of a system at states q, v, a, of which it keeps nothing."""
         (q, v, a), core, loads = (x.copy() for x in states), self.base.core, system.dead
-        tables = system.inputs.tables(-1e-3, 1e-3, 1, 0.0, np.inf)
+        tables = system.inputs.tables(time - 1e-3, 1e-3, 1, 0.0, np.inf)
         value, r, force = loads.value.copy(), np.empty_like(q), np.empty_like(q)
         place_supports(system.supports, loads.value, tables, 0, q, v, a)
         apply_load(loads, tables.value[0], force)
