@@ -27,8 +27,9 @@ class FmuController:
     For the `controller` of :func:`ancf.simulate`, :func:`ancf.resume` and :func:`ancf.catenary.run`, which
     ask it every `step`. At the time t of the run the unit gets its inputs as they are at t and goes on to
     t + step; what it gives there leads the run until t + step. So the unit is never behind the run, and
-    the run feels its force without a delay; the unit itself knows no more of the run's motion within the step
-    than its inputs say, which is why a unit with stiff springs wants the rates as well.
+    the run feels its force within the same step, with the trapezoidal rule as a ramp; the unit itself knows
+    no more of the run's motion within the step than its inputs say, which is why a unit with stiff springs
+    wants the rates as well.
 
     Parameters
     ----------
