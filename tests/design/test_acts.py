@@ -9,7 +9,9 @@ import ancf
 from ancf.model.section import DAMPINGS
 from ancf.model.vary import names_of, renewal, value_of, varied
 from ancf.sensitivity.acts import acts_of
-from ancf.sensitivity.alike import OWN
+from ancf.sensitivity.alike import OWN, differ
+from ancf.sensitivity.family import Family
+from ancf.sensitivity.parameters import parameters_of
 from ancf.solvers.checkpoint import distinct
 from ancf.system.beside import beside
 from ancf.system.system import System
@@ -73,7 +75,30 @@ def slid():
     return model
 
 
-@pytest.mark.parametrize("build", [hung, jointed, slid])
+def drowned(elements=5, waves=None):
+    """A cable that hangs from the air into water, and another one, a buoy and a solid beam in it."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    hull = {"diameter": 0.05, "drag": (1.2, 0.1), "added_mass": (1.0, 0.2)}
+    section = ancf.Section(EA=1e4, EI=2.0, rhoA=3.0, axial_damping=1.0, **hull)
+    model.add_beam("a", start=(0, 0, -9), end=(2, 0, 1), elements=elements, section=section, length=10.4)
+    thin = ancf.Section(EA=1e4, EI=2.0, rhoA=3.0, diameter=0.03, drag=(1.0, 0.0))
+    model.add_beam("b", start=(5, 0, -9), end=(6, 0, -8), elements=2, section=thin)
+    solid = ancf.Section.rectangle(width=0.1, height=0.1, E=1e6, rho=500.0, **hull)
+    model.add_beam("c", start=(8, 0, -9), end=(8, 2, -8), elements=3, section=solid)
+    model.add_point_mass("buoy", at=(9, 0, -1), mass=1.0, volume=0.02, drag_area=0.1, added_mass=0.5)
+    model.pin(model.beams["a"].start)
+    model.pin(model.beams["a"].end, displacement=("0.2*sin(t)", 0.0, 0.0))
+    model.add_fluid("air", density=1.2, velocity=(8.0, 0, 0), above=0.0, on=["a"])
+    model.add_fluid("sea", density=1025.0, velocity=(0.6, 0.2, 0.0), below=0.0, waves=waves)
+    return model
+
+
+def rough():
+    """The same in waves, which are as fast as gravity makes them."""
+    return drowned(4, {"spectrum": "regular", "height": 0.5, "period": 5.0, "depth": 20.0})
+
+
+@pytest.mark.parametrize("build", [hung, jointed, slid, drowned, rough])
 def test_they_are_those_made_anew(build):
     model, seen = build(), []
     base = System(model)
@@ -90,10 +115,13 @@ def test_they_are_those_made_anew(build):
         assert mine.keys() == whole.keys()
         for key in mine:
             assert np.array_equal(mine[key], whole[key]), (name, key)
-    known = ("gravity[0]", "a.EA", "b.rho" if build is jointed else "a.rhoA", "a.velocity[1]")
+    wet = build in (drowned, rough)
+    known = ("a.EA", "b.rho" if build is jointed else "a.rhoA")
+    known += ("a.drag[1]", "c.added_mass[0]", "sea.density") if wet else ("a.velocity[1]",)
     assert set(known) <= set(seen)
-    assert ("a.length" in seen) == (build is not jointed)
-    assert ("a.start[0]" in seen) == (build is hung)
+    assert ("gravity[0]" in seen) == (build is not rough)
+    assert ("a.length" in seen) == (build in (hung, slid))
+    assert ("a.start[0]" in seen) == (build in (hung, drowned, rough))
 
 
 @pytest.mark.parametrize("name", ["a.length", "a.start[2]", "b.EI", "m.mass", "between.stiffness", "m.at[0]"])
@@ -125,3 +153,17 @@ def test_what_is_not_known():
     assert acts_of(model, "between.slack") is None
     assert acts_of(jointed(), "a.length") is None
     assert acts_of(jointed(), "a.start[0]") is None
+
+
+@pytest.mark.parametrize("build", [drowned, rough])
+def test_what_fluids_keep_is_no_number_of_them(build):
+    """An end of a cable changes nothing of a fluid whatever these keep for themselves."""
+    model = build()
+    base = System(model)
+    apart = base.parts["fluid"]
+    apart.angle[...], apart.numbers[...] = 0.3, 0.2
+    for name, acted in (("a.start[0]", set()), ("sea.density", {"fluid"}), ("a.drag[0]", {"fluid"})):
+        [parameter] = parameters_of(model, [name], "here")
+        other = System(renewal(model, name)[1](1.001 * parameter.value + 1e-3), like=base)
+        assert differ(apart, other.parts["fluid"]) == bool(acted)
+        assert Family(parameter, base).changed == acted

@@ -18,7 +18,7 @@ leaves out how drag changes as the piece turns, but in an equilibrium, where not
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -106,7 +106,7 @@ def build(items, locate, value, model):
     """Batch of these fluids; ModelError if a section lacks what they need."""
     parts, rows, which, everybody = [], [], [], []
     for k, item in enumerate(items):
-        bodies = [body for name, body in model.bodies.items() if item.acts_on(name) and _takes_part(body)]
+        bodies = _bodies(item, model)
         for body in bodies:
             if isinstance(body, Beam):
                 require_section(item, body, ("diameter", "drag"))
@@ -132,7 +132,7 @@ def build(items, locate, value, model):
         felt=felt,
         fluid=np.array(which, dtype=np.int64),
         data=np.array(rows, dtype=np.float64).reshape(-1, 6),
-        fluids=np.array([[item.density, *item.heights, *model.gravity] for item in items]),
+        fluids=_fluids(items, model),
         law=law,
         once=once,
         said=said,
@@ -153,6 +153,26 @@ def _takes_part(body):
 def _law(velocity):
     by_law = velocity.parts or velocity.law is not None
     return address_of(velocity, of_place=True) if by_law else 0
+
+
+def renumbered(batch: FluidBatch, model: Any) -> FluidBatch:
+    """The batch of a model that differs in densities, gravity, drag and added mass alone."""
+    owners = [body for item in model.fluids for body in _bodies(item, model)]
+    each = [[_data(body)] * (body.elements if isinstance(body, Beam) else 1) for body in owners]
+    return batch._replace(
+        data=np.array([row for rows in each for row in rows], dtype=np.float64).reshape(-1, 6),
+        fluids=_fluids(model.fluids, model),
+    )
+
+
+def _bodies(item, model):
+    """Those that a fluid acts on."""
+    return [body for name, body in model.bodies.items() if item.acts_on(name) and _takes_part(body)]
+
+
+def _fluids(items, model):
+    """Numbers of fluids, a row for each."""
+    return np.array([[item.density, *item.heights, *model.gravity] for item in items])
 
 
 def _data(body):

@@ -13,12 +13,14 @@ from ..model.loads import DistributedLoad, Force
 from ..model.model import Model
 from ..model.section import DAMPINGS
 from ..model.winches import by_body
-from ..system.beside import BODIES, ELEMENTS, SLIDES, SPRINGS, Acts
+from ..system.beside import BODIES, ELEMENTS, FLUIDS, SLIDES, SPRINGS, Acts
 
 #: Of sections, those on which the forces of elements alone depend, and those on which weights do, too.
 FORCES, MASSES = {"EA", "EI", "E", *DAMPINGS}, {"rhoA", "rho"}
 #: Numbers of all bodies on which nothing but the initial motion depends.
 MOTION = {"velocity", "angular_velocity"}
+#: Of sections, those on which forces of fluids alone depend.
+WET = {"drag", "added_mass"}
 #: Of supports, what moves them: else they stay where they are when a beam keeps its initial shape.
 MOTIONS = "displacement", "rotation", "rotation_vector"
 
@@ -28,8 +30,11 @@ def acts_of(model: Model, name: str) -> Acts | None:
     owner, _, key = name.rpartition(".")
     key = key.partition("[")[0]
     if not owner:
-        weighs = key == "gravity" and not model.fluids and not by_body(model)
-        return Acts(weighs=True) if weighs else None
+        steady = all(fluid.waves is None for fluid in model.fluids)  # waves are as fast as gravity makes them
+        weighs = key == "gravity" and steady and not by_body(model)
+        return Acts(_wet(model), weighs=True) if weighs else None
+    if key == "density" and any(fluid.name == owner for fluid in model.fluids):
+        return Acts(_wet(model))
     body = model.bodies.get(owner)
     if body is None:
         sprung = any(isinstance(one, Spring) and one.name == owner for one in model.connections)
@@ -40,21 +45,30 @@ def acts_of(model: Model, name: str) -> Acts | None:
         return Acts(frozenset((BODIES,)), weighs=True) if key == "mass" else None
     if not isinstance(body, Beam) or owner in by_body(model):
         return None
+    if key in WET:
+        return Acts(_wet(model))
     if key in FORCES or key in MASSES:
         return Acts(frozenset((ELEMENTS, BODIES)), weighs=key in MASSES)
     if not _is_bare(model) or body.has_section:
         return None
     if key in ("start", "end"):
         return Acts(moves=True) if all(isinstance(one, Spring) for one in model.connections) else None
+    if model.fluids:
+        return None
     slides = any(isinstance(one, Slide) for one in model.connections)
     everything = frozenset((ELEMENTS, SPRINGS, BODIES, *((SLIDES,) if slides else ())))
     moves = any(getattr(one, way, None) is not None for one in model.supports for way in MOTIONS)
     return Acts(everything, weighs=True, moves=moves, shapes=True) if key == "length" else None
 
 
+def _wet(model: Model) -> frozenset[str]:
+    """The part of the fluids, if there are any."""
+    return frozenset((FLUIDS,) if model.fluids else ())
+
+
 def _is_bare(model: Model) -> bool:
-    """Whether there are dead forces alone, and no connections but springs, shared nodes, sliding joints."""
-    around = model.fluids or model.grounds or model.surfaces or by_body(model)
+    """Whether there are dead forces and fluids, and no connections but springs, shared nodes and slides."""
+    around = model.grounds or model.surfaces or by_body(model)
     return (
         not around
         and all(isinstance(_given(load), TimeFunction) for load in model.loads)

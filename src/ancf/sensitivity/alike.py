@@ -32,6 +32,8 @@ OWN = (
     "kept",
     "felt",
     "said",
+    "angle",
+    "numbers",
 )
 #: How far the mean of two values may be from that between them, relative to their difference, up to which a
 #: parameter is linear; round-off of the residuals.

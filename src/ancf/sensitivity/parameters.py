@@ -17,7 +17,7 @@ from ..model.section import DAMPINGS
 from ..model.vary import renewal
 from ..model.winches import by_body
 from ..system.beside import Acts
-from .acts import acts_of
+from .acts import WET, acts_of
 
 #: Numbers of a section in which all forces of cables and beams are linear.
 OF_SECTIONS = {"EA", "EI", "rhoA", "E", "rho", *DAMPINGS}
@@ -155,7 +155,8 @@ def _named(model: Model, name: Any, where: str) -> Parameter:
     spring, acts = _of_spring(model, clean), acts_of(model, clean)
     if spring is not None:
         return Parameter(clean, value, build, linear=True, kinked=spring.slack, acts=acts)
-    linear = _of_body(model, clean) or (acts is not None and clean.startswith("gravity"))
+    around = acts is not None and clean.startswith("gravity")
+    linear = _of_body(model, clean) or around or _of_fluid(model, clean)
     return Parameter(clean, value, build, linear=linear, acts=acts)
 
 
@@ -175,6 +176,14 @@ def _of_body(model: Model, name: str) -> bool:
     if isinstance(body, Beam):
         return key in OF_SECTIONS and owner not in by_body(model)
     return isinstance(body, PointMass) and key == "mass"
+
+
+def _of_fluid(model: Model, name: str) -> bool:
+    """Whether forces are linear in a number: the density of a fluid, drag and added mass of a beam."""
+    owner, _, key = name.partition("[")[0].rpartition(".")
+    if isinstance(model.bodies.get(owner), Beam):
+        return key in WET and owner not in by_body(model)
+    return key == "density" and any(fluid.name == owner for fluid in model.fluids)
 
 
 def _built(name: Any, given: Any, where: str) -> Parameter:

@@ -9,6 +9,7 @@ import numpy as np
 from ..connections.spring_build import renumbered, springs
 from ..elements.registry import ELEMENTS as ELEMENTS_OF
 from ..elements.registry import offered
+from ..loads.fluid import renumbered as in_fluids
 from ..model.beam import Beam
 from ..model.model import Model
 from ..model.points import Point
@@ -19,13 +20,13 @@ from .supports import collect
 from .system import System
 
 #: Parts that can be made alone: elements, as one.
-ELEMENTS, SPRINGS, BODIES, SLIDES = "elements", "springs", "bodies", "slides"
+ELEMENTS, SPRINGS, BODIES, SLIDES, FLUIDS = "elements", "springs", "bodies", "slides", "fluid"
 
 
 class Acts(NamedTuple):
     """What of a system a number of a model acts on, besides the initial shape and motion."""
 
-    parts: frozenset[str] = frozenset()  # ELEMENTS, SPRINGS, BODIES, SLIDES
+    parts: frozenset[str] = frozenset()  # ELEMENTS, SPRINGS, BODIES, SLIDES, FLUIDS
     weighs: bool = False  # dead loads
     moves: bool = False  # places and axes of supports
     shapes: bool = False  # shape functions, and where points are on their bodies
@@ -65,6 +66,8 @@ def _renumbered(system: System, model: Model, acts: Acts) -> Parts:
         found |= {kind: _elements(system, kind, beams) for kind, beams in _others(system, model).items()}
     if SPRINGS in acts.parts and SPRINGS in system.parts and not acts.shapes:
         found[SPRINGS] = renumbered(system.parts[SPRINGS], system.model, model)
+    if FLUIDS in acts.parts:
+        found[FLUIDS] = in_fluids(system.parts[FLUIDS], model)
     return found
 
 
