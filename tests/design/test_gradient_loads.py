@@ -168,12 +168,40 @@ def test_contacts_against_differences(stiffness):
     assert apart(model, slope, differences(model, text, names, 1e-5, **given)) < 3e-7
 
 
-def test_contacts_beside_joints_go_forwards():
-    """Corrections there end by what those of other steps did, which a contact that closes does not know."""
-    model = contact_line()
-    bob = model.add_rigid_body("bob", at=(1, 1, 0), mass=1.0, inertia=(1, 1, 1))
-    model.hinge(bob.at(0, 0, 1), (1.0, 1.0, 1.0), axis=(0, 1, 0))
-    assert adjoint_of(System(model)) is None
+@pytest.mark.parametrize("method", ["trapezoidal index1", "trapezoidal ggl", "generalized index2"])
+@pytest.mark.parametrize(("stiffness", "damping", "elements"), [(5e3, 30.0, 6), (5e4, 0.0, 4)])
+def test_contacts_beside_joints(stiffness, damping, elements, method):
+    """A body hangs from the collector in a ball joint: the contact opens, closes and is stiff."""
+    model = contact_line(stiffness, damping, elements)
+    head = model.bodies["head"]
+    bob = model.add_rigid_body("bob", at=(1.037, 0, -0.3), mass=0.5, inertia=(0.02, 0.03, 0.01))
+    model.connect(head, bob.at(0, 0, 0.301), name="ball")
+    for body in (head, bob):
+        body.set_motion(velocity=(20.0, 0, 0))
+    assert adjoint_of(System(model)) is JoinedAdjoint
+    text = "integral(norm(velocity(head))**2) + mean(position(bob.centre)[2])"
+    agree(model, text, ["bob.mass", *OF_LINE], settings(methods()[method]), 3e-8)
+
+
+def fallen(stiffness, damping, elements):
+    """A cable with a body at its end, which falls onto the ground."""
+    model, beam = cable(elements)
+    hub = model.add_rigid_body("hub", at=(1.1, 0, 0), mass=0.2, inertia=(1e-3, 1e-3, 1e-3))
+    model.connect(beam.end, hub.at(-0.1, 0, 0), name="ball")
+    model.add_ground("floor", height=-0.003, stiffness=stiffness, damping=damping)
+    return model
+
+
+@pytest.mark.parametrize("method", ["trapezoidal index2", "trapezoidal ggl", "generalized index3"])
+@pytest.mark.parametrize(("stiffness", "damping", "elements"), [(2e4, 300.0, 3), (3e5, 10.0, 2)])
+def test_grounds_beside_joints(stiffness, damping, elements, method):
+    model = fallen(stiffness, damping, elements)
+    assert adjoint_of(System(model)) is JoinedAdjoint
+    names = ["floor.stiffness", "hub.mass", "beam.EI", "gravity[2]", "floor.damping"]
+    given = settings(methods()[method], steps=60)
+    _, slope = ancf.gradient(model, TIP, names, **given)
+    assert abs(slope["floor.stiffness"]) * stiffness > 1e-3 * abs(slope["gravity[2]"]) * 9.81
+    assert apart(model, slope, differences(model, TIP, names, 1e-5, **given)) < 1e-7
 
 
 @pytest.mark.parametrize("element", ["original", "nonlocking"])

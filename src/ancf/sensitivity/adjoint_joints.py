@@ -12,6 +12,7 @@ from ..connections.sliding import SLIDES
 from ..preparation import Prepared
 from ..results.state import State
 from ..solvers.adjoint_joints import ROOM, back_joined_start, back_joined_steps
+from ..solvers.mixing import ROOM as MIXING
 from ..solvers.pushes import weigh_pushes
 from ..solvers.sensitivity import Constraining, Matrices, Way
 from ..solvers.status import OK
@@ -25,7 +26,7 @@ from .start import Start
 #: Weights of the rows for which the positions and the velocities of a start are shifted.
 LEVELS = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 
-#: Batches whose forces begin from one step to the next: corrections beside joints do not reckon with them.
+#: Batches whose forces begin from one step to the next, and may be stiff.
 SUDDEN = {"contacts", "ground"}
 
 
@@ -41,6 +42,7 @@ class JoinedAdjoint(Adjoint):
         if mine is not None and theirs is not None:
             mine.mode[...], mine.open[...] = theirs.mode, theirs.open
         self._room, self._rate = np.zeros((ROOM, self.system.size)), np.ones(1)
+        self._mix = np.zeros((MIXING if is_sudden(self.system) else 0, self.system.size))
 
     def _back(self, way: Way, h: float, tables: Any, wanted: FloatArray, sums: Any) -> int:
         mu, lam, still, _ = sums
@@ -51,7 +53,7 @@ class JoinedAdjoint(Adjoint):
         given = self.system.core, self.m, self.ahead, tables, way, wanted, self.unknowns
         scheme = self.run.scheme
         own = mu, lam, rho, still
-        _, status = back_joined_steps(*given, h, scheme, joined, *own, self._rate, self._room)
+        _, status = back_joined_steps(*given, h, scheme, joined, *own, self._rate, self._room, self._mix)
         return int(status)
 
     def _pushed(
@@ -117,5 +119,9 @@ def adjoint_of(system: System) -> type[Adjoint] | None:
         return None
     if not len(system.multipliers):
         return None if len(m.rough) else (SlopedAdjoint if len(m.joined) else Adjoint)
-    sudden = any(len(system.parts[name][0]) for name in SUDDEN & system.parts.keys())
-    return JoinedAdjoint if goes_back(system, m) and not sudden else None
+    return JoinedAdjoint if goes_back(system, m) else None
+
+
+def is_sudden(system: System) -> bool:
+    """Whether a model has forces that begin from one step to the next."""
+    return any(len(system.parts[name][0]) for name in SUDDEN & system.parts.keys())

@@ -28,6 +28,7 @@ from ..simd import LANES, load_six, store_six, total
 from ..system.core import drive, onto_shadows, solve_matrix, to_local
 from .adjoint import folded, hold, take_wanted, to_start
 from .ahead import look_ahead
+from .mixing import NOTHING, ends_mixed, lead_on
 from .rare import add_all_slopes, add_rate_works
 from .scheme import coefficients
 from .sensitivity import ENOUGH, LEAST, MOST, NOISY, ROUGH, seen, stiffnesses, to_shadows
@@ -40,8 +41,6 @@ LEFT = 1e-10
 #: In the first step of a block, which begins with nothing, corrections shrink faster than in later ones by at
 #: most so much.
 WARY = 2.0
-#: Part of what is solved for below which what is left of it is round-off.
-NOTHING = 1e-13
 #: Steps that lead to the first guess of rho.
 PAST = 5
 
@@ -204,17 +203,21 @@ def begun(core, m, y, joined, known, later, rho_later, lam, rho, room):
 
 
 @formula
-def factors(core, m, factor, matrices, y, mu, c1, B, G, joined, known, lam, rho, rate, room):
+def factors(core, m, factor, matrices, y, mu, c1, B, G, joined, known, lam, rho, rate, room, mix):
     """Correct lambda and rho, and the sums in ``room`` of what they take; a status.
 
     ``known``: later steps whose multipliers they began with.  ``rate``: by what the corrections of a step
-    that began with none shrink.
+    that began with none shrink.  ``mix``: room of corrections that do not shrink, or none.
     """
     sums, z, goal, d, r, w = room[0:3], room[3], room[4], room[5], room[6], room[7:9]
     n, before = core.weight.shape[0], np.inf
     for i in range(n):
         goal[i] = mu[0, i] + (G * mu[1, i] + c1 * mu[3, i] + mu[2, i]) / B
+    sudden = mix.shape[0] > 0
     for round in range(MOST):
+        if sudden:
+            for i in range(lam.shape[0]):
+                mix[0, i], mix[1, i] = lam[i], rho[i]
         for i in range(r.shape[0]):
             r[i] = sums[0, i] + z[i] + (G / B) * sums[1, i] + sums[2, i] / B
         to_local(core.supports, r)
@@ -227,7 +230,11 @@ def factors(core, m, factor, matrices, y, mu, c1, B, G, joined, known, lam, rho,
         if round == 1 and known == 0:
             rate[0] = min(WARY * change / before, 1.0)
         shrinks = min(change / before, 1.0) if round > 0 else 1.0
-        if may_end(change, before, rate[0] if known > 0 and round < 2 else shrinks, LEFT, left):
+        if sudden:
+            if ends_mixed(change, before, round, left):
+                return OK
+            lead_on(core.joints.mask, lam, rho, room[0:4], mix, room[9], round)
+        elif may_end(change, before, rate[0] if known > 0 and round < 2 else shrinks, LEFT, left):
             return OK
         before = change
     return SLOW
@@ -252,7 +259,7 @@ def take(core, sums, mu, back, still):
 
 @kernel
 def back_joined_steps(
-    core, m, ahead, tables, way, wanted, unknowns, h, scheme, joined, mu, out, shifts, still, rate, room
+    core, m, ahead, tables, way, wanted, unknowns, h, scheme, joined, mu, out, shifts, still, rate, room, mix
 ):
     """Carry the adjoint back through the steps of a block.
 
@@ -266,6 +273,8 @@ def back_joined_steps(
     rate : (1,)
         By what corrections shrink, see :func:`factors`.
     room : (ROOM, size)
+    mix : (ROOM, size) of ancf.solvers.mixing, or (0, size)
+        Room for a model whose forces begin from one step to the next, or none.
 
     Returns
     -------
@@ -287,7 +296,7 @@ def back_joined_steps(
         factor, matrices = factor_of(core.factor, ahead.eight, k), (ahead.K[k], ahead.C[k])
         rho, known = shifts[at], min(step, PAST)
         begun(core, m, y, joined, known, out[at + 1 :], shifts[at + 1 :], lam, rho, room)
-        own = (joined, known, lam, rho, rate, room)
+        own = (joined, known, lam, rho, rate, room, mix)
         status = factors(core, m, factor, matrices, y, mu, c1, B, G, *own)
         if status != OK:
             return step, status
