@@ -1,7 +1,5 @@
-"""``python -m ancf``, where the command is not on the path."""
-
-import sys
+"""The command line as ``python -m ancf``."""
 
 from .cli import main
 
-sys.exit(main())
+main()

@@ -18,7 +18,7 @@ from overhead_lines import TOML
 def process(folder, *arguments, **environment):
     """Start a command as a user does; Ctrl-C reaches it even where the tests run in the background."""
     return subprocess.Popen(
-        [sys.executable, "-m", "ancf.cli", *arguments],
+        [sys.executable, "-m", "ancf", *arguments],
         cwd=folder,
         env={**os.environ, **environment},
         stdout=subprocess.PIPE,

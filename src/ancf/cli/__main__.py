@@ -1,5 +1,0 @@
-"""The command line as ``python -m ancf.cli``."""
-
-from . import main
-
-main()
