@@ -159,12 +159,12 @@ def test_halved_steps_ask_it_anew(way, monkeypatch):
     whole, ends = Bridge._part, []
 
     def fails(looks):
-        def part(bridge, core, t, size, h):
+        def part(bridge, core, t, size, h, first):
             if size < h:
-                return whole(bridge, core, t, size, h)
+                return whole(bridge, core, t, size, h, first)
             before = bridge._save()
             if looks:
-                whole(bridge, core, t, size, h)
+                whole(bridge, core, t, size, h, first)
             bridge._put_back(before)
             return UNBALANCED
 

@@ -18,10 +18,10 @@ from ancf.solvers.carry import carry
 from ancf.solvers.corotation import remember, turn, turn_back, turn_forth, turn_rows
 from ancf.solvers.corrections import largest, shift, update
 from ancf.solvers.low_rank import eliminate
-from ancf.solvers.memory import FIRST_LIMIT, H_FACTOR, H_PREV, KNOWN, LIMIT, aligned, allocate
+from ancf.solvers.memory import FIRST_LIMIT, H_FACTOR, H_PREV, LIMIT, aligned, allocate
 from ancf.solvers.newmark import worst_unknown
 from ancf.solvers.renewal import count, renewed
-from ancf.solvers.scheme import Scheme, predict_rows
+from ancf.solvers.scheme import Scheme, finish, predict_rows
 from ancf.system.core import inertia
 from ancf.system.inputs import differences
 from ancf.system.system import System
@@ -31,35 +31,86 @@ RNG = np.random.default_rng(3)
 TRAPEZOIDAL = Scheme(0.25, 0.5, 0.0, 0.0)
 
 
+#: Trapezoidal rule, generalised-alpha method, HHT: all of second order.
+SCHEMES = {
+    "trapezoidal": TRAPEZOIDAL,
+    "alpha": Scheme(0.4, 0.8, 0.2, 0.5),
+    "hht": Scheme(0.36, 0.7, 0.0, 0.2),
+}
+
+
+@kernel
+def predicted(memory, h, scheme, keep, first, last):
+    predict_rows(memory, h, scheme, keep, first, last)
+
+
+@kernel
+def finished(memory, h, scheme):
+    finish(memory, h, scheme)
+
+
+def with_past(history, n=1, h=0.1, scheme=TRAPEZOIDAL):
+    """Memory after steps that ended with these accelerations of the first unknown, the oldest first.
+
+    The other unknowns have multiples of them.
+    """
+    memory = allocate(n, turning.allocate([], np.zeros(0, dtype=np.int64)), ())
+    memory.a[:] = memory.abar[:] = history[0] * np.arange(1, n + 1)
+    for acceleration in history[1:]:
+        predicted(memory, h, scheme, 1.0, 0, n)
+        memory.a[:] = acceleration * np.arange(1, n + 1)
+        finished(memory, h, scheme)
+    return memory
+
+
 def guess(history, h=0.1, keep=1.0):
-    """Predicted acceleration after these accelerations, the oldest first."""
-    memory = allocate(1, turning.allocate([], np.zeros(0, dtype=np.int64)), ())
-    past = [*history[::-1], 0.0, 0.0, 0.0]
-    memory.a[:], memory.a1[:], memory.a2[:], memory.a3[:] = past[:4]
-    memory.abar[:] = memory.a
-    memory.memo[H_PREV], memory.memo[KNOWN] = h, len(history) - 1
-    predict_rows.py_func(memory, h, TRAPEZOIDAL, keep, 0, len(memory.q))
+    """Predicted acceleration, position and velocity after steps that ended with these accelerations."""
+    memory = with_past(history, h=h)
+    memory.q[:], memory.v[:] = 0.0, 0.0
+    predicted(memory, h, TRAPEZOIDAL, keep, 0, 1)
     return float(memory.a[0]), float(memory.q[0]), float(memory.v[0])
 
 
 class TestPredictor:
     def test_quadratic_accelerations_are_continued(self):
-        t = np.arange(5) * 0.1
+        t = np.arange(7) * 0.1
         a = 2.0 - 3.0 * t + 7.0 * t**2
-        assert guess(a[:4])[0] == pytest.approx(a[4], rel=1e-12)
+        for known in (4, 5, 6):
+            assert guess(a[:known])[0] == pytest.approx(a[known], rel=1e-12)
 
-    @pytest.mark.parametrize("known", [2, 3, 4])
+    @pytest.mark.parametrize("known", [2, 3, 4, 7])
     def test_what_changes_sign_in_every_step_goes_on_so(self, known):
-        a = np.array([1.0, -1.0, 1.0, -1.0])[:known]
+        a = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0])[:known]
         assert guess(a)[0] == pytest.approx(-a[-1])
 
     def test_another_step_size_forgets(self):
         """The values are those of the times of the old steps."""
-        memory = allocate(1, turning.allocate([], np.zeros(0, dtype=np.int64)), ())
-        memory.a[:], memory.a1[:], memory.a2[:], memory.a3[:] = 1.0, 5.0, -3.0, 2.0
-        memory.memo[H_PREV], memory.memo[KNOWN] = 0.1, 3.0
-        predict_rows.py_func(memory, 0.05, TRAPEZOIDAL, 1.0, 0, len(memory.q))
+        memory = with_past([2.0, -3.0, 5.0, 1.0])
+        predicted(memory, 0.05, TRAPEZOIDAL, 1.0, 0, 1)
         assert memory.a[0] == 1.0
+
+    def test_a_second_attempt_keeps_what_is_remembered(self):
+        """A step that was taken again leaves the same to the next one."""
+        memory = with_past([2.0, -3.0, 5.0, 1.0])
+        predicted(memory, 0.1, TRAPEZOIDAL, 1.0, 0, 1)
+        memory.a[:] = memory.a0  # restored
+        predicted(memory, 0.1, TRAPEZOIDAL, 0.0, 0, 1)
+        assert (memory.a0[0], memory.a1[0], memory.a2[0], memory.a3[0]) == (1.0, 5.0, -3.0, 2.0)
+
+    @pytest.mark.parametrize("scheme", SCHEMES.values(), ids=SCHEMES)
+    @pytest.mark.parametrize("n", [1, 8, 13, 21])
+    def test_all_unknowns_alike(self, n, scheme):
+        """Those by eights, those left over, and parts of them."""
+        memory, alone = (with_past([2.0, -3.0, 5.0, 1.0], size, scheme=scheme) for size in (n, 1))
+        for some in (memory, alone):
+            size = np.arange(1, len(some.q) + 1)
+            some.q[:], some.v[:] = 0.3 * size, -0.7 * size
+        for part in ((0, n // 3), (n // 3, n)):
+            predicted(memory, 0.1, scheme, 1.0, *part)
+        predicted(alone, 0.1, scheme, 1.0, 0, 1)
+        for name in ("q", "v", "a", "q0", "v0", "a0", "a1", "a2", "a3"):
+            found, wanted = getattr(memory, name), getattr(alone, name)[0] * np.arange(1, n + 1)
+            np.testing.assert_allclose(found, wanted, rtol=1e-13, err_msg=name)
 
     def test_cautious_guess_is_no_acceleration(self):
         a, q, v = guess([3.0, 3.0, 3.0, 3.0], keep=0.0)
@@ -68,6 +119,17 @@ class TestPredictor:
     def test_positions_and_velocities_follow_the_rule(self):
         _, q, v = guess([2.0, 2.0, 2.0, 2.0])
         assert (q, v) == pytest.approx((0.5 * 0.01 * 2.0, 0.1 * 2.0))
+
+    @pytest.mark.parametrize("scheme", [SCHEMES["alpha"], SCHEMES["hht"]], ids=["alpha", "hht"])
+    def test_the_algorithmic_acceleration(self, scheme):
+        """(1 - alpha_m) abar_n+1 + alpha_m abar_n = (1 - alpha_f) a_n+1 + alpha_f a_n."""
+        memory = with_past([2.0, -3.0], scheme=scheme)
+        before, a = memory.abar[0], memory.a[0]
+        predicted(memory, 0.1, scheme, 1.0, 0, 1)
+        memory.a[:] = 5.0
+        finished(memory, 0.1, scheme)
+        known = (1 - scheme.alpha_f) * 5.0 + scheme.alpha_f * a - scheme.alpha_m * before
+        assert memory.abar[0] * (1 - scheme.alpha_m) == pytest.approx(known)
 
 
 @pytest.mark.parametrize("n", [1, 2, 5, 9])
@@ -388,29 +450,42 @@ class TestRenewal:
         steps_taken(memory, np.array(iterations, dtype=float), found)
         return np.flatnonzero(found).tolist(), memory.memo[LIMIT]
 
-    @pytest.mark.parametrize("usual", [1, 2, 5])
+    #: Steps that take two iterations more than the fewest, until that makes a renewal.
+    WORN = (4,) * (int(FIRST_LIMIT // 2) + 1)
+
+    @pytest.mark.parametrize("usual", [1, 2])
     def test_steady_steps_keep_it(self, usual):
         assert self.renewals([usual + 3] + [usual] * 10_000) == ([0], FIRST_LIMIT)
 
+    @pytest.mark.parametrize("usual", [3, 4, 6])
+    def test_what_the_first_matrix_takes_is_not_usual(self, usual):
+        """It was made before anything moved; the one after it tells what is usual."""
+        worn = int(FIRST_LIMIT // (usual - 2)) + 1
+        assert self.renewals([3] + [usual] * worn + [3] + [2] * 1000) == ([0, 1 + worn], FIRST_LIMIT)
+        first, limit = self.renewals([3] + [usual] * worn + [3] + [usual] * 10_000)
+        assert (first, limit) == ([0, 1 + worn], 2 * FIRST_LIMIT)
+
     @pytest.mark.parametrize("excess", [1, 2, 4])
     def test_after_the_excess(self, excess):
-        """The first step has the matrix of its own, the second tells the usual number."""
+        """The first step has the matrix of its own."""
         steps = int(FIRST_LIMIT // excess) + 1
         assert self.renewals([3, 2] + [2 + excess] * steps + [3, 2])[0] == [0, 2 + steps]
 
-    def test_a_renewal_that_helps_brings_the_next_one_nearer(self):
-        worn = [3, 2] + [4] * 9
-        first, limit = self.renewals([*worn, 3, 2])
-        assert (first, limit) == ([0, 11], FIRST_LIMIT / 2)
+    def test_one_that_does_not_help_puts_the_next_off(self):
+        """By as much as it took; its own steps tell what is usual."""
+        put_off = [3, *self.WORN, 3, 4] + [6] * (int(2 * FIRST_LIMIT // 2) + 1)
+        first, limit = self.renewals([*put_off, 3, 6])
+        assert (first, limit) == ([0, 1 + len(self.WORN), len(put_off)], 4 * FIRST_LIMIT)
 
-    def test_one_that_does_not_puts_it_off(self):
-        worn = [3, 2] + [4] * 9
-        first, limit = self.renewals([*worn, 3, 4])
-        assert (first, limit) == ([0, 11], 2 * FIRST_LIMIT)
+    def test_a_renewal_that_helps_brings_the_next_one_nearer(self):
+        """Not nearer than what one costs."""
+        put_off = [3, *self.WORN, 3, 4] + [6] * (int(2 * FIRST_LIMIT // 2) + 1)
+        assert self.renewals([*put_off, 3, 2])[1] == FIRST_LIMIT
+        assert self.renewals([3, *self.WORN, 3, 2])[1] == FIRST_LIMIT
 
     def test_faster_steps_are_no_credit(self):
         """A quiet time does not pay for a matrix that is worn afterwards."""
-        assert self.renewals([3, 4] + [1] * 1000 + [5] * 17 + [2])[0] == [0, 1019]
+        assert self.renewals([3, 2] + [1] * 1000 + [3] * 9 + [2])[0] == [0, 1011]
 
 
 class TestDifferences:

@@ -46,6 +46,11 @@ class Stepping(Protocol):
         """Whether the method itself takes nothing out."""
         ...
 
+    @property
+    def hesitates(self) -> bool:
+        """Whether the next step has not been tried by itself."""
+        ...
+
     def rule(self, h: float, first: int = ..., last: int = ..., furthest: float = ...) -> Rule:
         """Newton's rule for a step h and which attempts to make."""
         ...
@@ -106,11 +111,13 @@ class Bridge:
         units = 2**MOST_HALVINGS
         started = m.memo[KNOWN] == 0.0 and not core.damped  # damping ends what shorter steps begin with
         done, part, calm = 0, units, 0
+        first = 0 if run.hesitates else 1  # the first attempt has been made already
+        if started and self._resolved(core, now, t, h, number):
+            return
         while done < units:
-            status = self._part(core, t + h * (done / units), h * (part / units), h)
+            status = self._part(core, t + h * (done / units), h * (part / units), h, first)
+            first = 0
             if status != OK and status < EVENT:
-                if part == units and started and self._resolved(core, now, t, h, number):
-                    return
                 if part == 1:
                     run.stop(t + h * (done / units), number, status, h)
                 m.counts[RETRIES] += part == units
@@ -132,7 +139,7 @@ class Bridge:
         run, m = self.run, self.run.memory
         before = self._save()
         if resolve(run.system, core, m, now, h, run.scheme):
-            status = self._part(core, t, h, h)
+            status = self._part(core, t, h, h, 0)
             if status >= EVENT:
                 run.happened(status - EVENT, t + h, number)
             if status == OK or status >= EVENT:
@@ -140,12 +147,14 @@ class Bridge:
         self._put_back(before)
         return False
 
-    def _part(self, core: Core, t: float, part: float, h: float) -> int:
-        """One step from t to t + part by the fast iteration or, if that fails, by the other one."""
+    def _part(self, core: Core, t: float, part: float, h: float, first: int) -> int:
+        """One step from t to t + part by the fast iteration or, if that fails, by the other one.
+
+        ``first``: of the attempts at a step the first to be made.
+        """
         run, m = self.run, self.run.memory
         short = part <= ANYWHERE * h
-        again = part == h and m.memo[KNOWN] > 0.0  # what is kept has been tried
-        rule = run.rule(part, int(again), LAST, UNLIMITED if short else FURTHEST)
+        rule = run.rule(part, first, LAST, UNLIMITED if short else FURTHEST)
         tables = run.system.inputs.tables(t, part, 1, run.t_start, run.t_end, (m.q, m.v))
         before, energy = self._save(), self._energy()[0]
         row, room = np.full(1, -1), run.room(0, 0)

@@ -164,7 +164,7 @@ class FarSpans:
         """All that :meth:`wake_all` changes but the constants of cables and springs."""
         m, far = self.memory, self.far
         own = [far.part, far.sleeps, far.range, far.counts, self.chunks.touched, self.chunks.asleep]
-        return [m.q, m.v, m.a, m.abar, m.a1, m.a2, m.a3, m.memo, *own]
+        return [m.q, m.v, m.a, m.abar, m.a0, m.a1, m.a2, m.a3, m.memo, *own]
 
     def _distances(self) -> FloatArray:
         """Distances (k,) of the nearest strip, m."""
@@ -220,7 +220,7 @@ class FarSpans:
         seen = kind.inside @ np.vstack([np.stack(edge, 1), np.stack(modes, 1)])
         m.q[part.inner] = rest + seen[:, 0]
         m.v[part.inner], m.a[part.inner], m.abar[part.inner] = seen[:, 1:].T
-        for vector in (m.a1, m.a2, m.a3):
+        for vector in (m.a0, m.a1, m.a2, m.a3):
             vector[part.inner] = m.a[part.inner]
         wake(self.cables, self.lanes[k], self.kept[k])
         first = far.part[k, HUNG]

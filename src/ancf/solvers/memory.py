@@ -22,10 +22,10 @@ class Memory(NamedTuple):
     v: FloatArray
     a: FloatArray
     abar: FloatArray  # the generalised-alpha method's algorithmic acceleration
-    a1: FloatArray  # accelerations one, two and three steps before a, for the predictor
+    a1: FloatArray  # accelerations one, two and three steps before a0, for the predictor
     a2: FloatArray
     a3: FloatArray
-    q0: FloatArray  # copies at the start of the step
+    q0: FloatArray  # copies at the start of the last step
     v0: FloatArray
     a0: FloatArray
     r: FloatArray
@@ -49,8 +49,8 @@ VECTORS = 17
 
 # entries of Memory.memo
 H_FACTOR, ETA, H_PREV, WORST, NORM, NOISE, KNOWN, USUAL, EXCESS, LIMIT, WORN = range(11)
-#: Iterations more than usual after which a matrix is renewed for the first time, see renewal.
-FIRST_LIMIT = 16.0
+#: Iterations more than usual after which a matrix is renewed for the first time, see renewal: what it costs.
+FIRST_LIMIT = 8.0
 
 
 def aligned(count: int, n: int) -> list[FloatArray]:

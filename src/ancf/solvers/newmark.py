@@ -51,10 +51,10 @@ from .corrections import UNLIMITED, largest, update
 from .entwined import hold, let_go, solve_apart, solve_entwined
 from .far_awake import asleep, finish_awake, load_awake, predict_awake, restore_awake
 from .low_rank import move_on
-from .memory import ETA, H_FACTOR, NOISE, NORM, WORST
+from .memory import ETA, H_FACTOR, KNOWN, NOISE, NORM, WORST
 from .near import take_all
 from .renewal import count
-from .scheme import coefficients, finish, predict, restore
+from .scheme import coefficients, finish, predict, restore, show_bars
 from .status import (
     DIVERGED,
     EVENT,
@@ -155,6 +155,7 @@ def newton(core, s, h, rule, modified, B, G, apart):
     older, old, since, whole = -1.0, -1.0, 0, True
     noise = AT_KINKS if core.sticks and modified else ROUND_OFF
     noise = min(noise * rule.tolerance, LARGEST_ROUND_OFF)
+    tries = 0 if modified and s.memo[KNOWN] == 0.0 else TRIED  # there is a better start
     nearby = modified and len(core.near) > 0 and not rule.corotate  # a part of it may iterate by itself
     for iteration in range(rule.max_iterations):
         if renew:
@@ -197,7 +198,7 @@ def newton(core, s, h, rule, modified, B, G, apart):
         if fresh and theta > rule.contraction and size <= noise:
             s.memo[NOISE], s.memo[ETA] = 2.0 * norm, 1.0
             return OK
-        if size > FLOWN or theta >= GROWN or (theta >= 1.0 and fresh and iteration > TRIED):
+        if size > FLOWN or theta >= GROWN or (theta >= 1.0 and fresh and iteration > tries):
             return DIVERGED
         # of a taut wire position and slope take turns: two corrections tell how fast they shrink
         rate = math.sqrt(norm / older) if older > 0.0 and taut else theta
@@ -232,16 +233,9 @@ def check_sections(core, s):
     return INVERTED
 
 
-@separate_kernel
-def advance(core, s, tables, h, scheme, rule, keep, sampling, out, apart):
-    """Take the steps of one block.
-
-    ``keep[n]`` is the row of the outputs that takes the state at the end of step n, or -1; its samples
-    are row n of theirs, if there is one.  A step that fails is tried again with a new matrix, and then
-    with one for every iteration.  Returns the number of steps done and the status of the last one; a
-    failed step leaves the state at its start, an event ends the block after a step.  ``apart`` are the
-    addresses of what is not part of this kernel.
-    """
+@formula
+def take_steps(core, s, tables, h, scheme, rule, keep, sampling, out, apart):
+    """See :func:`advance`."""
     B, G = coefficients(h, scheme)
     level = core.joints.level
     level[0], level[1], level[2] = rule.w0, rule.w1, rule.w2
@@ -291,3 +285,18 @@ def advance(core, s, tables, h, scheme, rule, keep, sampling, out, apart):
         if turn:
             return n + 1, TURN
     return keep.shape[0], status
+
+
+@separate_kernel
+def advance(core, s, tables, h, scheme, rule, keep, sampling, out, apart):
+    """Take the steps of one block.
+
+    ``keep[n]`` is the row of the outputs that takes the state at the end of step n, or -1; its samples
+    are row n of theirs, if there is one.  A step that fails is tried again with a new matrix, and then
+    with one for every iteration.  Returns the number of steps done and the status of the last one; a
+    failed step leaves the state at its start, an event ends the block after a step.  ``apart`` are the
+    addresses of what is not part of this kernel.
+    """
+    done, status = take_steps(core, s, tables, h, scheme, rule, keep, sampling, out, apart)
+    show_bars(s, scheme)
+    return done, status

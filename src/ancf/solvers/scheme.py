@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from ..compiled import formula
 from ..records import recorded
+from ..simd import LANES, load, store
 from .memory import H_PREV, KNOWN
 from .status import STEPS
 
@@ -36,6 +37,27 @@ def coefficients(h, scheme):
 
 
 @formula
+def plain(scheme):
+    """Whether the equations of motion hold at the ends of steps: the algorithmic acceleration is a."""
+    return scheme.alpha_m == 0.0 and scheme.alpha_f == 0.0
+
+
+@formula
+def weights(s, h, keep):
+    """Of a, a0, a1 and a2, as they are before a prediction, in the accelerations that it expects."""
+    if keep == 0.0:
+        return 0.0, 0.0, 0.0, 0.0
+    known = s.memo[KNOWN] if s.memo[H_PREV] == h else 0.0
+    if known >= FAMILIAR:
+        return 2.0, 0.0, -2.0, 1.0
+    if known >= 2.0:
+        return 1.0, 1.0, -1.0, 0.0
+    if known >= 1.0:
+        return 0.0, 1.0, 0.0, 0.0
+    return 1.0, 0.0, 0.0, 0.0
+
+
+@formula
 def predict(s, h, scheme, keep):
     """Accelerations extrapolated from the last four steps; q, v at the end of the step.
 
@@ -49,27 +71,44 @@ def predict(s, h, scheme, keep):
 
 @formula
 def predict_rows(s, h, scheme, keep, first, last):
-    """The same for some of the unknowns alone."""
+    """The same for some of the unknowns alone, eight at a time.
+
+    The first attempt at a step, which keeps something, also moves the memory of accelerations on.
+    """
     am, af = scheme.alpha_m, scheme.alpha_f
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
-    hh, be, ga = h * h, scheme.beta, scheme.gamma
-    known = s.memo[KNOWN] if s.memo[H_PREV] == h else 0.0
-    w0, w1, w2, w3 = keep, 0.0, 0.0, 0.0
-    if known >= FAMILIAR:
-        w0, w2, w3 = 2.0 * keep, -2.0 * keep, keep
-    elif known >= 2.0:
-        w1, w2 = keep, -keep
-    elif known >= 1.0:
-        w0, w1 = 0.0, keep
-    for i in range(first, last):
+    bars, moves = not plain(scheme), keep != 0.0
+    w0, w1, w2, w3 = weights(s, h, keep)
+    old, new = h * h * (0.5 - scheme.beta), h * h * scheme.beta
+    slow, fast = h * (1.0 - scheme.gamma), h * scheme.gamma
+    whole = last - (last - first) % LANES
+    for i in range(first, whole, LANES):
+        q, v, a = load(s.q, i), load(s.v, i), load(s.a, i)
+        a0, a1, a2 = load(s.a0, i), load(s.a1, i), load(s.a2, i)
+        guess = (w0 * a + w1 * a0) + (w2 * a1 + w3 * a2)
+        bar = load(s.abar, i) if bars else a
+        bar_new = c1 * guess + c2 * a + c3 * bar if bars else guess
+        if moves:
+            store(a2, s.a3, i)
+            store(a1, s.a2, i)
+            store(a0, s.a1, i)
+        store(q, s.q0, i)
+        store(v, s.v0, i)
+        store(a, s.a0, i)
+        store(guess, s.a, i)
+        store(q + h * v + (old * bar + new * bar_new), s.q, i)
+        store(v + (slow * bar + fast * bar_new), s.v, i)
+    for i in range(whole, last):
         q, v, a = s.q[i], s.v[i], s.a[i]
+        guess = (w0 * a + w1 * s.a0[i]) + (w2 * s.a1[i] + w3 * s.a2[i])
+        bar = s.abar[i] if bars else a
+        bar_new = c1 * guess + c2 * a + c3 * bar if bars else guess
+        if moves:
+            s.a3[i], s.a2[i], s.a1[i] = s.a2[i], s.a1[i], s.a0[i]
         s.q0[i], s.v0[i], s.a0[i] = q, v, a
-        guess = w0 * a + w1 * s.a1[i] + w2 * s.a2[i] + w3 * s.a3[i]
-        bar = s.abar[i]
-        bar_new = c1 * guess + c2 * a + c3 * bar
         s.a[i] = guess
-        s.q[i] = q + h * v + hh * ((0.5 - be) * bar + be * bar_new)
-        s.v[i] = v + h * ((1.0 - ga) * bar + ga * bar_new)
+        s.q[i] = q + h * v + (old * bar + new * bar_new)
+        s.v[i] = v + (slow * bar + fast * bar_new)
 
 
 @formula
@@ -95,13 +134,20 @@ def finish(s, h, scheme):
 @formula
 def finish_rows(s, scheme, first, last):
     """The same for some of the unknowns alone, without counting the step."""
+    if plain(scheme):  # see show_bars
+        return
     am, af = scheme.alpha_m, scheme.alpha_f
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
     for i in range(first, last):
         s.abar[i] = c1 * s.a[i] + c2 * s.a0[i] + c3 * s.abar[i]
-        s.a3[i] = s.a2[i]
-        s.a2[i] = s.a1[i]
-        s.a1[i] = s.a0[i]
+
+
+@formula
+def show_bars(s, scheme):
+    """Algorithmic accelerations for those who ask between blocks, where steps do without."""
+    if plain(scheme):
+        for i in range(s.a.shape[0]):
+            s.abar[i] = s.a[i]
 
 
 @formula
