@@ -301,7 +301,7 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
             if given and not notes:
                 explain_unstable(error)
             raise
-    notes += of_bends(system.model, omega) + of_locked_modes(about.system, about.q, omega, shapes)
+    notes += of_bends(system.model, omega) + of_locked_modes(about, omega, shapes)
     made = Modes(omega, shapes, about, notes=notes)
     if not parameters:
         return made

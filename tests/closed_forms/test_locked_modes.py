@@ -57,6 +57,20 @@ def test_taut_lines_do_not_lock():
     assert ancf.modes(model, about=ancf.equilibrium(model), count=6).notes == []
 
 
+@pytest.mark.parametrize("elements", [4, 8])
+@pytest.mark.parametrize("length", [0.98, 0.995])
+def test_prestressed_lines_do_not_lock(elements, length):
+    """High modes of few elements, whose frequencies follow from the force along them."""
+    section = ancf.Section.rectangle(width=0.01, height=0.01, E=1e9, rho=1000.0)
+    model = ancf.Model()
+    line = model.add_beam(
+        "line", start=(0, 0, 0), end=(1, 0, 0), length=length, elements=elements, section=section
+    )
+    model.pin(line.start)
+    model.pin(line.end)
+    assert ancf.modes(model, count=7).notes == []
+
+
 def test_more_neutral_motions_than_modes():
     """A ring whose bend turns freely everywhere: the iteration for few modes does not end."""
     modes = ancf.modes(ring(64, 1e6, flat=False), count=12)

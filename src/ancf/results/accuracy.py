@@ -19,6 +19,8 @@ from .faces import History, Instant
 LOCKED, SMALL = 3e-4, 1e-9
 #: Share of a frequency by which locking may raise it unsaid.
 TOO_HIGH = 3e-3
+#: N L^2/EI of an element from which on tension counts beside bending.
+HELD = 1.0
 #: Share of the energy exchanged that may come from nowhere, or get lost, unsaid.
 DRIFT = 0.02
 #: Joints that a note names.
@@ -77,12 +79,16 @@ def _kinked(system: System, name: str, moved: FloatArray) -> str:
     return f"; the load at {point} makes a kink, {how}"
 
 
-def of_locked_modes(system: System, q: FloatArray, omega: FloatArray, shapes: FloatArray) -> list[str]:
-    """A note on modes of cables that bend too little, by how much their frequencies are too high."""
-    lower = freed(system, q, omega, shapes)
+def of_locked_modes(about: Instant, omega: FloatArray, shapes: FloatArray) -> list[str]:
+    """A note on modes of cables that bend too little, by how much their frequencies are too high.
+
+    The estimate sees stresses at two points of an element alone: where tension holds elements there is none.
+    """
+    system = about.system
+    lower = freed(system, about.q, omega, shapes)
     own = omega[len(omega) - len(lower) :]
     above = float(np.max((own - lower) / own, initial=0.0))
-    if above <= TOO_HIGH:
+    if above <= TOO_HIGH or any(_held(about, beam) for beam in system.model.beams.values()):
         return []
     text = (
         f'"{stiffest_name(system)}" may bend too little: frequencies are up to {100 * above:.2g} % too high, '
@@ -90,6 +96,14 @@ def of_locked_modes(system: System, q: FloatArray, omega: FloatArray, shapes: Fl
         "them, or a smaller EA"
     )
     return [text]
+
+
+def _held(about: Instant, beam: Beam) -> bool:
+    """Whether the force along a cable holds its elements at least as much as they resist bending."""
+    if beam.has_section or beam.section.EI == 0.0:
+        return False
+    pulls = [float(about.tension(beam.at(float(x)))) for x in 0.5 * (beam.node_x[1:] + beam.node_x[:-1])]
+    return bool(np.any(np.abs(pulls) * np.diff(beam.node_x) ** 2 > HELD * beam.section.EI))
 
 
 def at_most(largest: float, last: float) -> str:
