@@ -58,7 +58,7 @@ def test_a_full_disk(tmp_path, call):
     (tmp_path / "model.toml").write_text(MODEL + SIMULATION, encoding="utf-8")
     call("run", "model.toml")  # so that nothing is compiled under the limit
     (tmp_path / "model.toml").write_text(MODEL + LONG, encoding="utf-8")
-    command = [sys.executable, "-m", "ancf.cli", "run", "model.toml", "-q"]
+    command = [sys.executable, "-m", "ancf", "run", "model.toml", "-q"]
     limit = 1_000_000
     ran = subprocess.run(
         command,
@@ -143,7 +143,7 @@ def test_a_reader_that_goes_away_costs_no_files(tmp_path, arguments, written):
     reading, writing = os.pipe()
     os.close(reading)
     done = subprocess.run(
-        [sys.executable, "-m", "ancf.cli", *arguments, "-o", "out"],
+        [sys.executable, "-m", "ancf", *arguments, "-o", "out"],
         cwd=tmp_path,
         stdout=writing,
         stderr=subprocess.PIPE,
@@ -177,7 +177,7 @@ def in_terminal(folder, arguments, **environment):
     import pty
 
     ours, theirs = pty.openpty()
-    command = [sys.executable, "-m", "ancf.cli", *arguments]
+    command = [sys.executable, "-m", "ancf", *arguments]
     work = subprocess.Popen(
         command, cwd=folder, env={**os.environ, **environment}, stdout=theirs, stderr=theirs
     )

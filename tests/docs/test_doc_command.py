@@ -101,7 +101,7 @@ def test_touches_two_files(copy):
 
 
 def test_is_in_the_help(copy, ran):
-    whole, own = copy.python("-m", "ancf.cli", "--help"), ran["compare", "--help"]
+    whole, own = copy.python("-m", "ancf", "--help"), ran["compare", "--help"]
     assert whole.code == own.code == 0
     assert re.search(r"compare +Say how far the bodies of two results are apart", whole.out)
     assert re.search(r"RESULTS.h5\W+OTHER.h5", own.out)

@@ -109,7 +109,7 @@ class TestWorkers:
         old[0].parent.mkdir()
         for path in old:
             path.touch()
-        command = [sys.executable, "-m", "ancf.cli", "reproduce", "fig14", "fig6", "-j", "2"]
+        command = [sys.executable, "-m", "ancf", "reproduce", "fig14", "fig6", "-j", "2"]
         ran = subprocess.Popen(
             command,
             cwd=tmp_path,
