@@ -9,7 +9,7 @@ from ..errors import ModelError
 from ..model.beam import Beam
 from ..model.doubts import doubts
 from ..model.points import Point
-from ..solvers.locking import freed, locked, stiffest, stiffest_name
+from ..solvers.locking import freed, locked, stiffest
 from ..system import redundancy
 from ..system.consistency import nearly_dependent
 from ..system.system import System
@@ -51,7 +51,7 @@ def of_state(state: Instant) -> list[str]:
     share = f"{100 * off / displaced:.2g} % of its displacement" if displaced > off else "more than it moves"
     text = (
         f'"{name}" may bend too little, by about {off:.2g} m, {share}: its elements are very stiff against '
-        f"stretch (EA L^2/EI = {stiffest(system):.1e}); take more of them, or a smaller EA"
+        f"stretch (EA L^2/EI = {stiffest(system)[0]:.1e}); take more of them, or a smaller EA"
     )
     return [text + _kinked(system, name, moved), *found]
 
@@ -90,9 +90,10 @@ def of_locked_modes(about: Instant, omega: FloatArray, shapes: FloatArray) -> li
     above = float(np.max((own - lower) / own, initial=0.0))
     if above <= TOO_HIGH or any(_held(about, beam) for beam in system.model.beams.values()):
         return []
+    ratio, name = stiffest(system)
     text = (
-        f'"{stiffest_name(system)}" may bend too little: frequencies are up to {100 * above:.2g} % too high, '
-        f"its elements are very stiff against stretch (EA L^2/EI = {stiffest(system):.1e}); take more of "
+        f'"{name}" may bend too little: frequencies are up to {100 * above:.2g} % too high, '
+        f"its elements are very stiff against stretch (EA L^2/EI = {ratio:.1e}); take more of "
         "them, or a smaller EA"
     )
     return [text]

@@ -31,23 +31,14 @@ ROOM = 10  # rows of axial points in the batch
 NEUTRAL, SHIFT = 1e-4, 1e-2
 
 
-def stiffest(system: System) -> float:
-    """Largest EA L^2/EI of an element of a cable, 0 without cables or where nothing resists bending."""
-    found = [0.0]
-    for beam in system.model.beams.values():
+def stiffest(system: System) -> tuple[float, str]:
+    """Largest EA L^2/EI of an element of a cable, and its name; 0 and "" where nothing resists bending."""
+    found = [(0.0, "")]
+    for name, beam in system.model.beams.items():
         if not beam.has_section and beam.section.EI > 0.0:
-            found.append(beam.section.EA * float(np.max(np.diff(beam.node_x))) ** 2 / beam.section.EI)
-    return max(found)
-
-
-def stiffest_name(system: System) -> str:
-    """The cable that has it."""
-    own = {
-        name: beam.section.EA * float(np.max(np.diff(beam.node_x))) ** 2 / beam.section.EI
-        for name, beam in system.model.beams.items()
-        if not beam.has_section and beam.section.EI > 0.0
-    }
-    return max(own, key=lambda name: own[name])
+            ratio = beam.section.EA * float(np.max(np.diff(beam.node_x))) ** 2 / beam.section.EI
+            found.append((ratio, name))
+    return max(found, key=lambda one: one[0])
 
 
 def freed(system: System, q: FloatArray, omega: FloatArray, shapes: FloatArray) -> FloatArray:
@@ -58,7 +49,7 @@ def freed(system: System, q: FloatArray, omega: FloatArray, shapes: FloatArray) 
     """
     vibrating = omega > NEUTRAL * float(np.max(omega, initial=0.0))
     found: FloatArray = omega[vibrating]
-    ratio, core, n = stiffest(system), system.core, system.n
+    (ratio, _), core, n = stiffest(system), system.core, system.n
     system.level[:] = 1.0, 0.0, 0.0
     if ratio <= FREE or not len(found):
         return found
@@ -96,7 +87,7 @@ def locked(system: System, q: FloatArray) -> FloatArray:
 
     Zero where no element is stiff, and where the estimate does not exist: the softened shape is unstable.
     """
-    ratio, core = stiffest(system), system.core
+    (ratio, _), core = stiffest(system), system.core
     nothing = np.zeros(system.n)
     system.level[:] = 1.0, 0.0, 0.0
     if ratio <= FREE:
