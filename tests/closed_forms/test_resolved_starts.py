@@ -49,8 +49,11 @@ def test_accelerations_that_belong_to_a_step(scheme, k, c, h):
     run = live._run
     now = run.system.inputs.tables(-h, h, 1, 0.0, np.inf, run.now()[:2], still=True)
     assert run.memory.a[:3] == pytest.approx([0.0, 2.0, -G])
-    assert resolve(run.system, run.system.core, run.memory, now, h, scheme)
     share = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
     fall = mass * -G / (mass + scheme.gamma * h * share * c + scheme.beta * h**2 * share * k)
+    left = (2.0**2 - G * fall) / (2.0**2 + G**2)  # of M a
+    assert not resolve(run.system, run.system.core, run.memory, now, h, scheme, 1.0001 * left)
+    assert run.memory.a[:3] == pytest.approx([0.0, 2.0, -G])
+    assert resolve(run.system, run.system.core, run.memory, now, h, scheme, 0.9999 * left)
     assert run.memory.a[:3] == pytest.approx([0.0, 2.0, fall], rel=1e-12)
     assert run.memory.abar[:3] == pytest.approx([0.0, 2.0, fall], rel=1e-12)

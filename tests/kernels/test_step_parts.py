@@ -21,7 +21,7 @@ from ancf.solvers.low_rank import eliminate
 from ancf.solvers.memory import FIRST_LIMIT, H_FACTOR, H_PREV, LIMIT, aligned, allocate
 from ancf.solvers.newmark import worst_unknown
 from ancf.solvers.renewal import count, renewed
-from ancf.solvers.scheme import Scheme, finish, predict_rows
+from ancf.solvers.scheme import Scheme, finish, predict_rows, restore
 from ancf.system.core import inertia
 from ancf.system.inputs import differences
 from ancf.system.system import System
@@ -42,6 +42,11 @@ SCHEMES = {
 @kernel
 def predicted(memory, h, scheme, keep, first, last):
     predict_rows(memory, h, scheme, keep, first, last)
+
+
+@kernel
+def restored(memory):
+    restore(memory)
 
 
 @kernel
@@ -89,13 +94,19 @@ class TestPredictor:
         predicted(memory, 0.05, TRAPEZOIDAL, 1.0, 0, 1)
         assert memory.a[0] == 1.0
 
-    def test_a_second_attempt_keeps_what_is_remembered(self):
-        """A step that was taken again leaves the same to the next one."""
-        memory = with_past([2.0, -3.0, 5.0, 1.0])
-        predicted(memory, 0.1, TRAPEZOIDAL, 1.0, 0, 1)
-        memory.a[:] = memory.a0  # restored
-        predicted(memory, 0.1, TRAPEZOIDAL, 0.0, 0, 1)
-        assert (memory.a0[0], memory.a1[0], memory.a2[0], memory.a3[0]) == (1.0, 5.0, -3.0, 2.0)
+    @pytest.mark.parametrize("scheme", SCHEMES.values(), ids=SCHEMES)
+    @pytest.mark.parametrize("n", [1, 13])
+    def test_attempts_that_fail_leave_what_is_remembered(self, n, scheme):
+        """Of any length, and however many: halves that follow them would begin with something else."""
+        memory, other = (with_past([2.0, -3.0, 5.0, 1.0], n, scheme=scheme) for _ in range(2))
+        for h in (0.1, 0.2, 0.05):
+            for keep in (1.0, 0.0):
+                predicted(memory, h, scheme, keep, 0, n)
+                restored(memory)
+        for some in (memory, other):
+            predicted(some, 0.1, scheme, 1.0, 0, n)
+        for name in ("q", "v", "a", "q0", "v0", "a0", "a1", "a2"):
+            np.testing.assert_array_equal(getattr(memory, name), getattr(other, name), err_msg=name)
 
     @pytest.mark.parametrize("scheme", SCHEMES.values(), ids=SCHEMES)
     @pytest.mark.parametrize("n", [1, 8, 13, 21])

@@ -7,7 +7,7 @@ from ..compiled import kernel
 from ..system.core import follow, residual, to_local
 from .balance import balance
 from .newmark import check_sections, check_way
-from .scheme import finish
+from .scheme import finish, restore, show_bars
 from .status import OK
 
 
@@ -37,13 +37,16 @@ def differences(core, base, moved, f, r, step, rated, gb, ib, start, unknown, ou
 
 @kernel
 def accept(core, s, h, scheme, furthest):
-    """Judge the step that is in s and finish it; returns its status."""
+    """Judge the step that is in s and finish it, or go back to its start; returns its status."""
     status = check_sections(core, s)
     if status == OK:
         status = check_way(core, s, furthest)
-    if status == OK:
-        finish(s, h, scheme)
-        if core.accounted and (core.damped or core.loaded):
-            balance(core, s, h)
-        remember_all(core.remembering, s.q, s.v)
+    if status != OK:
+        restore(s)
+        return status
+    finish(s, h, scheme)
+    show_bars(s, scheme)
+    if core.accounted and (core.damped or core.loaded):
+        balance(core, s, h)
+    remember_all(core.remembering, s.q, s.v)
     return status

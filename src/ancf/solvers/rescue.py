@@ -121,11 +121,11 @@ class Rescue:
                     break
         m.memo[H_FACTOR] = 0.0
         if status == OK:
+            m.a3[:], m.a2[:], m.a1[:] = m.a2, m.a1, m.a0
             m.q0[:], m.v0[:], m.a0[:] = m.q, m.v, m.a
             m.q[:], m.v[:], m.a[:] = self.base
             status = int(accept(core, m, h, scheme, rule.furthest))
             if status != OK:
-                m.q[:], m.v[:], m.a[:] = m.q0, m.v0, m.a0
                 return status
             event = int(first_event(core.joints.tail, m.q))
             return EVENT + event if event >= 0 else OK

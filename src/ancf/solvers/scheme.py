@@ -73,11 +73,11 @@ def predict(s, h, scheme, keep):
 def predict_rows(s, h, scheme, keep, first, last):
     """The same for some of the unknowns alone, eight at a time.
 
-    The first attempt at a step, which keeps something, also moves the memory of accelerations on.
+    This also moves the memory of accelerations on; :func:`restore` moves it back.
     """
     am, af = scheme.alpha_m, scheme.alpha_f
     c1, c2, c3 = (1.0 - af) / (1.0 - am), af / (1.0 - am), -am / (1.0 - am)
-    bars, moves = not plain(scheme), keep != 0.0
+    bars = not plain(scheme)
     w0, w1, w2, w3 = weights(s, h, keep)
     old, new = h * h * (0.5 - scheme.beta), h * h * scheme.beta
     slow, fast = h * (1.0 - scheme.gamma), h * scheme.gamma
@@ -88,13 +88,12 @@ def predict_rows(s, h, scheme, keep, first, last):
         guess = (w0 * a + w1 * a0) + (w2 * a1 + w3 * a2)
         bar = load(s.abar, i) if bars else a
         bar_new = c1 * guess + c2 * a + c3 * bar if bars else guess
-        if moves:
-            store(a2, s.a3, i)
-            store(a1, s.a2, i)
-            store(a0, s.a1, i)
         store(q, s.q0, i)
         store(v, s.v0, i)
         store(a, s.a0, i)
+        store(a0, s.a1, i)
+        store(a1, s.a2, i)
+        store(a2, s.a3, i)
         store(guess, s.a, i)
         store(q + h * v + (old * bar + new * bar_new), s.q, i)
         store(v + (slow * bar + fast * bar_new), s.v, i)
@@ -103,8 +102,7 @@ def predict_rows(s, h, scheme, keep, first, last):
         guess = (w0 * a + w1 * s.a0[i]) + (w2 * s.a1[i] + w3 * s.a2[i])
         bar = s.abar[i] if bars else a
         bar_new = c1 * guess + c2 * a + c3 * bar if bars else guess
-        if moves:
-            s.a3[i], s.a2[i], s.a1[i] = s.a2[i], s.a1[i], s.a0[i]
+        s.a3[i], s.a2[i], s.a1[i] = s.a2[i], s.a1[i], s.a0[i]
         s.q0[i], s.v0[i], s.a0[i] = q, v, a
         s.a[i] = guess
         s.q[i] = q + h * v + (old * bar + new * bar_new)
@@ -113,7 +111,7 @@ def predict_rows(s, h, scheme, keep, first, last):
 
 @formula
 def restore(s):
-    """Back to the start of the step."""
+    """Back to the start of the step, also what the prediction has moved on; a3 is kept for this alone."""
     restore_rows(s, 0, s.q.shape[0])
 
 
@@ -122,6 +120,7 @@ def restore_rows(s, first, last):
     """The same for some of the unknowns alone."""
     for i in range(first, last):
         s.q[i], s.v[i], s.a[i] = s.q0[i], s.v0[i], s.a0[i]
+        s.a0[i], s.a1[i], s.a2[i] = s.a1[i], s.a2[i], s.a3[i]
 
 
 @formula

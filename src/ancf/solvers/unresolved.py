@@ -33,7 +33,9 @@ from .memory import H_FACTOR, H_PREV, KNOWN, Memory
 from .scheme import Scheme
 
 
-def resolve(system: System, core: Core, memory: Memory, now: Tables, h: float, scheme: Scheme) -> bool:
+def resolve(
+    system: System, core: Core, memory: Memory, now: Tables, h: float, scheme: Scheme, least: float = 0.0
+) -> bool:
     """Replace the accelerations of the state now by those that a step h resolves; whether that was possible.
 
     Parameters
@@ -46,6 +48,9 @@ def resolve(system: System, core: Core, memory: Memory, now: Tables, h: float, s
     h : float
         s.
     scheme : Scheme
+    least : float
+        Of a M a, what is to be left of it.  Where less is left the step is long for what begins to move as a
+        whole, not only for short elements, and its motion would be another one.
     """
     if len(system.multipliers):
         return False
@@ -56,6 +61,7 @@ def resolve(system: System, core: Core, memory: Memory, now: Tables, h: float, s
     place_supports(core.supports, core.loads.value, now, 0, m.q, m.v, a)
     residual(core.batches, core.ws, m.q, m.v, a, m.f, r)
     apply_supports(core.supports, r)
+    force = -r[: system.n]
     assemble(core.batches, core.ws, m.q, m.v, core.A, 1.0 / B, G / B, 1.0)
     restrict(core.supports, core.A)
     m.memo[H_FACTOR] = m.memo[H_PREV] = m.memo[KNOWN] = 0.0
@@ -63,7 +69,7 @@ def resolve(system: System, core: Core, memory: Memory, now: Tables, h: float, s
         return False
     solve_matrix(core.factor, r)
     a[: system.n] -= r[: system.n] / B
-    if not np.all(np.isfinite(a)):
+    if not np.all(np.isfinite(a)) or a[: system.n] @ force < least * (m.a[: system.n] @ force):
         return False
     follow_supports(core.supports, m.q, m.v, a)
     m.a[:] = m.abar[:] = a

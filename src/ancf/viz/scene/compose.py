@@ -318,7 +318,7 @@ def _combs(shown: Frames, source: Any, drawn: list[FloatArray]) -> list[Comb]:
             friction = _contact_number(shown, source, "friction_force", item.name)
             share = _contact_number(shown, source, "slipping", item.name)
             if friction is not None and share is not None:
-                slipping[item.name] = friction * share
+                slipping[item.name] = (friction * share, share)
     return make_combs(shown, source._contact_system(), float(np.max(np.ptp(points, axis=0))), slipping)
 
 
