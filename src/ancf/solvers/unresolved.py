@@ -69,7 +69,9 @@ def resolve(
         return False
     solve_matrix(core.factor, r)
     a[: system.n] -= r[: system.n] / B
-    if not np.all(np.isfinite(a)) or a[: system.n] @ force < least * (m.a[: system.n] @ force):
+    with np.errstate(all="ignore"):
+        enough = a[: system.n] @ force >= least * (m.a[: system.n] @ force)
+    if not (enough and np.all(np.isfinite(a))):
         return False
     follow_supports(core.supports, m.q, m.v, a)
     m.a[:] = m.abar[:] = a
