@@ -155,7 +155,8 @@ def newton(core, s, h, rule, modified, B, G, apart):
     older, old, since, whole = -1.0, -1.0, 0, True
     noise = AT_KINKS if core.sticks and modified else ROUND_OFF
     noise = min(noise * rule.tolerance, LARGEST_ROUND_OFF)
-    tries = 0 if modified and s.memo[KNOWN] == 0.0 else TRIED  # there is a better start
+    other = modified and s.memo[KNOWN] == 0.0 and not has_joints and not core.damped  # start, see unresolved
+    tries = 0 if other else TRIED
     nearby = modified and len(core.near) > 0 and not rule.corotate  # a part of it may iterate by itself
     for iteration in range(rule.max_iterations):
         if renew:
