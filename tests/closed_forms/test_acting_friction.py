@@ -97,3 +97,33 @@ def test_friction_along_a_rope_adds_up_to_that_of_the_contact():
     assert force > 0.1
     assert weight @ size == pytest.approx(force, rel=1e-9)
     assert weight @ (size * line.slips) / force == pytest.approx(float(state.slipping(contact)), abs=1e-9)
+
+
+def reactions_on_a_drum(friction, damping, most):
+    """Of a rope over a drum that a pin holds where it lies, at each step; and the run."""
+    radius, a = 0.21, np.linspace(0.0, np.pi, 40)
+    arc = np.stack([radius * np.cos(a), 0.0 * a, radius * np.sin(a)], axis=1)
+    path = np.concatenate([[[radius, 0, -0.3]], arc, [[-radius, 0, -0.3]]])
+    model = ancf.Model()
+    section = ancf.Section(EA=1e5, EI=1e-3, rhoA=0.3, diameter=0.02, axial_damping=damping)
+    rope = model.add_beam("rope", path=path, elements=24, section=section)
+    drum = model.add_surface("drum", ancf.Cylinder(radius=0.2, axis=(0, 1, 0)))
+    model.add_contact(rope, drum, stiffness=1e7, damping=500.0, friction=friction)
+    model.pin(rope.start)
+    held = model.pin(rope.at(rope.node_x[10]))
+    model.add_force(rope.end, (0, 0, -50.0))
+    method = ancf.Trapezoidal(newton=ancf.Newton(max_iterations=most))
+    run = ancf.simulate(model, t_end=0.01, step=2e-4, sensors=[held], integrator=method)
+    return run.sensors.reaction(held), run
+
+
+@pytest.mark.parametrize("friction", [0.1, 0.3])
+def test_reactions_of_steps_that_were_taken_again(friction):
+    """They are those of the friction that acted, however many attempts it took; the first of a damped one."""
+    wanted, first = reactions_on_a_drum(friction, 0.0, 60)
+    for damping, most in ((0.0, 12), (0.0, 8), (1e-7, 60)):
+        found, run = reactions_on_a_drum(friction, damping, most)
+        assert run.stats.retries == first.stats.retries == 0  # no step was halved
+        assert run.stats.jacobians > (1.5 if most < 10 else 0.9) * first.stats.jacobians
+        small = 1e-5 if damping else 1e-7  # damping moves something as well
+        assert np.allclose(found, wanted, rtol=0, atol=small * np.abs(wanted).max())

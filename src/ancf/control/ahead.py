@@ -142,7 +142,7 @@ class Ahead:
         except (SolveError, ModelError):
             run.put_back(before)
             raise
-        run.store(-1, self.at, self.out)
+        run.store(-1, self.at, self.out, run.bridge.sample)
         self.at += 1
         run.done += 1
         if self.inputs.drives:  # lengths go on from where the parts of the step have left them

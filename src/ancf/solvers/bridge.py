@@ -92,6 +92,7 @@ class Bridge:
 
     def __init__(self, run: Stepping) -> None:
         self.run, self.parts = run, 0
+        self.sample: FloatArray | None = None
         self._rescue: Rescue | None = None
 
     @property
@@ -104,9 +105,11 @@ class Bridge:
     def cross(self, t: float, h: float, number: int) -> None:
         """Step ``number`` from t to t + h, in one part or in many; the fast iteration has failed once.
 
-        The parts are halves of halves; two that succeed make room for one of twice their size.
+        The parts are halves of halves; two that succeed make room for one of twice their size.  ``sample`` is
+        then what sensors record at the end, if that is known from before friction was renewed.
         """
         run, m = self.run, self.run.memory
+        self.sample = None
         core = run.system.core._replace(accounted=True)
         now = run.system.inputs.tables(t - h, h, 1, run.t_start, run.t_end, (m.q, m.v), still=True)
         if not run.system.core.accounted:  # what is judged here must not depend on what is recorded
@@ -166,8 +169,9 @@ class Bridge:
         rule = run.rule(part, first, LAST, UNLIMITED if short else FURTHEST)
         tables = run.system.inputs.tables(t, part, 1, run.t_start, run.t_end, (m.q, m.v))
         before, energy = self._save(), self._energy()[0]
-        row, room = np.full(1, -1), run.room(0, 0)
+        row, room = np.full(1, -1), run.room(0, 1)
         status = run.block(core, tables, part, rule, row, room)[1]
+        self.sample = room.samples[0] if status == OK else None
         if core.damped and status not in (OK, SINGULAR) and status < EVENT:
             other = self.rescue.take(core, tables, part, run.scheme, rule)
             status = other if other in (OK, INVERTED) or other >= EVENT else status

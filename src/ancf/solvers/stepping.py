@@ -279,7 +279,7 @@ class Run(Asleep):
                     self.turn()
                 elif status != OK:
                     self.bridged(self.time(done + first), h, done + first + 1)
-                    self.store(row[first], first, out)
+                    self.store(row[first], first, out, self.bridge.sample)
                     first += 1
         finally:
             self.seconds += clock.process_time() - cpu
@@ -295,12 +295,17 @@ class Run(Asleep):
         found = np.arange((done // self.every + 1) * self.every, last + 1, self.every)
         return np.append(found, last) if last == self.steps and last % self.every else found
 
-    def store(self, k: int, n: int, out: Output) -> None:
-        """The state now as row k of the outputs, -1: not wanted, and its samples as row n of theirs."""
+    def store(self, k: int, n: int, out: Output, sample: FloatArray | None = None) -> None:
+        """The state now as row k of the outputs, -1: not wanted, and its samples as row n of theirs.
+
+        ``sample``: those that were taken at the end of the step, before friction was renewed.
+        """
         m = self.memory
         if k >= 0:
             out.q[k], out.v[k], out.work[k] = m.q, m.v, m.work
-        if self.sampling.width:
+        if sample is not None:
+            out.samples[n] = sample
+        elif self.sampling.width:
             note_now(self.system.core, m, self.sampling)
             resample(self.system, self.sampling, m.q, m.v, out.samples[n])
 
