@@ -91,11 +91,14 @@ def put_waves(batch, k, own, t, at, felt):
 
 @inline_kernel
 def feel(batch, e, p, k, at, v):
-    """Let ``felt`` hold what fluid k does at point p of row e, in a step of time, and its slopes."""
+    """Let ``felt`` hold what fluid k does at point p of row e, in a step of time, and its slopes.
+
+    Whether it did not before: then ``angle`` is that of the point.
+    """
     felt, t = batch.felt[e, p], batch.value[k, CLOCK, 0]
     same = felt[PLACE] == at[0] and felt[PLACE + 1] == at[1] and felt[PLACE + 2] == at[2]
     if same and felt[TIME] == t:
-        return
+        return False
     for i in range(FELT):
         felt[i] = 0.0
     own = batch.waves[k + 1] > batch.waves[k]
@@ -108,3 +111,4 @@ def feel(batch, e, p, k, at, v):
         add_profile(batch, k, at[2], felt)
     if batch.gale[k, gusts.STATIONS] > 0:
         add_gusts(batch, k, t, at, felt)
+    return True

@@ -30,8 +30,7 @@ def acts_of(model: Model, name: str) -> Acts | None:
     owner, _, key = name.rpartition(".")
     key = key.partition("[")[0]
     if not owner:
-        steady = all(fluid.waves is None for fluid in model.fluids)  # waves are as fast as gravity makes them
-        weighs = key == "gravity" and steady and not by_body(model)
+        weighs = key == "gravity" and not by_body(model)
         return Acts(_wet(model), weighs=True) if weighs else None
     if key == "density" and any(fluid.name == owner for fluid in model.fluids):
         return Acts(_wet(model))
@@ -53,10 +52,9 @@ def acts_of(model: Model, name: str) -> Acts | None:
         return None
     if key in ("start", "end"):
         return Acts(moves=True) if all(isinstance(one, Spring) for one in model.connections) else None
-    if model.fluids:
-        return None
     slides = any(isinstance(one, Slide) for one in model.connections)
     everything = frozenset((ELEMENTS, SPRINGS, BODIES, *((SLIDES,) if slides else ())))
+    everything |= _wet(model)
     moves = any(getattr(one, way, None) is not None for one in model.supports for way in MOTIONS)
     return Acts(everything, weighs=True, moves=moves, shapes=True) if key == "length" else None
 
