@@ -112,7 +112,7 @@ def test_of_waves(kind):
     """Of each component height, frequency, wave number, phase and what the depth leaves of it."""
     system = System(in_waves(kind, velocity=SPEEDS["sheared"]))
     for row in range(6):
-        terms = check(system, "fluid", "wave", row, size=0.01)
+        terms = check(system, "fluid", "wave", row, size=1.0 if row > 3 else 0.01)  # some are small
         assert terms > 0.0 or not system.parts["fluid"].wave[:, row].any(), row
 
 

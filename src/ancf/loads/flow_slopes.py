@@ -6,15 +6,19 @@ are taken.  All of it is kept for the corrections of one step, where the place i
 
 from __future__ import annotations
 
+import math
+
 from ..compiled import formula, inline_kernel
 from . import gusts
 from .flow import ACCELERATION, CLOCK, VELOCITY, by_profile, carried
 from .waves import ALONG_X, ALONG_Y, PLACE, RATE, RISE, SPEED, TIME, sea_at, sea_slopes
 
 # columns of ``felt``: those of what waves keep, then derivatives of velocity and acceleration by the place,
-# row by row, of the elevation by x and y, and room
+# row by row, of the elevation by x and y, and room; velocity and acceleration of the point for which the
+# derivatives of the three components of the force by place, slope and these two stand behind them
 BY_PLACE, RATE_BY_PLACE, RISE_BY_X, RISE_BY_Y, ROOM = 11, 20, 29, 30, 31
-FELT = 40
+MOVING, FORCES = 40, 46
+FELT = 82
 #: Step of the differences of laws, m, and their weights.
 NEAR, ONE, TWO = 1e-3, 8.0 / 12.0, -1.0 / 12.0
 
@@ -101,6 +105,7 @@ def feel(batch, e, p, k, at, v):
         return False
     for i in range(FELT):
         felt[i] = 0.0
+    felt[MOVING] = math.inf
     own = batch.waves[k + 1] > batch.waves[k]
     if own or batch.under[k] >= 0:
         put_waves(batch, k if own else batch.under[k], own, t, at, felt)

@@ -12,15 +12,17 @@ from ..compiled import formula, inline_kernel
 from ..vectors import both, dot
 from .along import place_at, tangent_at
 from .flow import AREA, CLOCK, DENSITY, DRAG_N, DRAG_T, GRAVITY, MASS_N, MASS_T, apart
-from .flow_slopes import feel
+from .flow_slopes import ROOM, feel
 from .fluid_slopes import acting, slopes_at, three, wetted_slopes
-from .waves import ALONG_X, ALONG_Y, PLACE, RATE, RISE, SPEED, TIME, sea_at, sea_numbers
+from .waves import ALONG_X, ALONG_Y, PLACE, RATE, RISE, SPEED, TIME, sea_at, sea_changes, sea_numbers
 
 #: Fields of which the numbers are made, one after the other, and those that lengths change.
 SHAPES = ("weight", "shift", "shape", "slope")
 NUMBERED = ("fluids", "data", *SHAPES, "wave")
 #: Places in ``asked``: whether derivatives by numbers of shapes and of waves are wanted.
 OF_SHAPES, OF_WAVES = range(2)
+#: Bits of the kinds of a change.
+IN_SHAPES, IN_WAVES = 1, 2
 
 
 def numbers(batch):
@@ -37,12 +39,10 @@ def joined(batch, other):
 
 
 def kinds_of(batch, rates):
-    """Whether a change has some in the shapes, 1, or not, 0; of one in waves the forces are not known."""
-    count = batch.wave.size
-    if np.any(rates[len(rates) - count :]):
-        return None
-    begin = batch.fluids.size + batch.data.size
-    return [int(np.any(rates[begin : len(rates) - count]))]
+    """What a change has some of, as bits: numbers of shapes, of waves."""
+    count, begin = batch.wave.size, batch.fluids.size + batch.data.size
+    in_shapes, in_waves = np.any(rates[begin : len(rates) - count]), np.any(rates[len(rates) - count :])
+    return [int(in_shapes) * IN_SHAPES | int(in_waves) * IN_WAVES]
 
 
 @formula
@@ -184,31 +184,81 @@ def add_change(batch, e, p, c, change, force, shaped, rates, out):
 
 
 @inline_kernel
+def waves_change(batch, e, p, k, fresh, rates):
+    """Fill the room of ``felt`` with what waves at point p change by; which fluid has them, -1: none."""
+    own = batch.waves[k + 1] > batch.waves[k]
+    of = k if own else batch.under[k]
+    if of < 0:
+        return -1
+    sea, felt, first, last = batch.sea[of], batch.felt[e, p], batch.waves[of], batch.waves[of + 1]
+    if not fresh:
+        x, y, z = three(felt, PLACE)
+        sea_at(sea, batch.wave, first, last, batch.angle, felt[TIME], x, y, z, batch.kept[e, p])
+    changes = rates[rates.shape[0] - batch.wave.size :]
+    sea_changes(sea, batch.wave, first, last, batch.angle, felt, changes, felt[ROOM:])
+    return of
+
+
+@formula
+def along_waves(batch, e, p, k, of, f, by_rise, by_past, by_du):
+    """Change of X . force at point p as waves do."""
+    sea, room = batch.sea[of], batch.felt[e, p, ROOM:]
+    change = by_rise * room[4]
+    if of == k:
+        x, y = sea[ALONG_X], sea[ALONG_Y]
+        change += f * (room[0] * (by_past[0] * x + by_past[1] * y) + room[1] * by_past[2])
+        change += f * (room[2] * (by_du[0] * x + by_du[1] * y) + room[3] * by_du[2])
+    return change
+
+
+@inline_kernel
+def add_sea_change(batch, e, p, here, fresh, rates, out):
+    """Add what a change of waves does at point p."""
+    k, (t, own, b, wet) = batch.fluid[e], here
+    of = waves_change(batch, e, p, k, fresh, rates)
+    if of < 0:
+        return
+    for c in range(3):
+        X = (1.0 if c == 0 else 0.0, 1.0 if c == 1 else 0.0, 1.0 if c == 2 else 0.0)
+        f, _, by_rise, (_, by_past, by_du, _, _) = acting(batch, e, p, t, own, b, X, wet)
+        change = along_waves(batch, e, p, k, of, f, by_rise, by_past, by_du)
+        add_change(batch, e, p, c, change, 0.0, False, rates, out)
+
+
+@inline_kernel
+def add_changes_at(batch, e, p, states, size, here, rates, kinds, begin, out):
+    """Add what other changes of numbers do at point p, of which r_x has this size."""
+    (q, v, a), (t, own, b, wet), of_each = states, here, rates.shape[0] // begin.shape[0]
+    for c in range(3):
+        X = (1.0 if c == 0 else 0.0, 1.0 if c == 1 else 0.0, 1.0 if c == 2 else 0.0)
+        f, h, _, (g, _, _, _, _) = acting(batch, e, p, t, own, b, X, wet)
+        made = by_numbers(batch, e, p, t, size, own, b, X, wet, f, h, g)
+        for m in range(begin.shape[0]):
+            of, shaped = rates[m * of_each : (m + 1) * of_each], kinds[m] & IN_SHAPES != 0
+            change = along_data(batch, e, p, made, of)
+            if shaped:
+                by = slopes_at(batch, e, p, t, size, own, b, X, wet)
+                change += along_shapes(batch, e, p, q, v, a, by, of)
+            add_change(batch, e, p, c, change, f * g, shaped, of, out[begin[m] :])
+
+
+@inline_kernel
 def fluid_changes(batch, q, v, a, rates, kinds, begin, out, ws):
     """See :func:`ancf.compiled.add_changes`."""
-    count, any_shape = begin.shape[0], False
-    size = rates.shape[0] // count
-    for m in range(count):
-        any_shape = any_shape or kinds[m] != 0
+    count, of_each = begin.shape[0], rates.shape[0] // begin.shape[0]
     for e in range(batch.base.shape[0]):
-        k = batch.fluid[e]
         for p in range(batch.weight.shape[1]):
             if batch.weight[e, p] == 0.0:
                 continue
             at, own, b = place_at(batch, e, p, q), place_at(batch, e, p, v), place_at(batch, e, p, a)
-            t, length = tangent_at(batch, e, p, q)
-            feel(batch, e, p, k, at, own)
-            wet = wetted_slopes(batch, e, p, at[2], t, length, batch.felt[e, p, RISE])
+            t, size = tangent_at(batch, e, p, q)
+            fresh = feel(batch, e, p, batch.fluid[e], at, own)
+            wet = wetted_slopes(batch, e, p, at[2], t, size, batch.felt[e, p, RISE])
             if wet[0] == 0.0 and wet[1] == 0.0:
                 continue
-            for c in range(3):
-                X = (1.0 if c == 0 else 0.0, 1.0 if c == 1 else 0.0, 1.0 if c == 2 else 0.0)
-                f, h, _, (g, _, _, _, _) = acting(batch, e, p, t, own, b, X, wet)
-                made = by_numbers(batch, e, p, t, length, own, b, X, wet, f, h, g)
-                by = slopes_at(batch, e, p, t, length, own, b, X, wet)
-                for m in range(count):
-                    of, shaped = rates[m * size : (m + 1) * size], kinds[m] != 0
-                    change = along_data(batch, e, p, made, of)
-                    if shaped:
-                        change += along_shapes(batch, e, p, q, v, a, by, of)
-                    add_change(batch, e, p, c, change, f * g, shaped, of, out[begin[m] :])
+            here = t, own, b, wet
+            for m in range(count):
+                if kinds[m] & IN_WAVES:
+                    of = rates[m * of_each : (m + 1) * of_each]
+                    add_sea_change(batch, e, p, here, fresh, of, out[begin[m] :])
+            add_changes_at(batch, e, p, (q, v, a), size, here, rates, kinds, begin, out)

@@ -32,7 +32,7 @@ from .flow import (
     apart,
     below,
 )
-from .flow_slopes import BY_PLACE, RATE_BY_PLACE, RISE_BY_X, RISE_BY_Y, feel
+from .flow_slopes import BY_PLACE, FORCES, MOVING, RATE_BY_PLACE, RISE_BY_X, RISE_BY_Y, feel
 from .waves import RATE, RISE, SPEED
 
 
@@ -183,6 +183,24 @@ def in_lanes(batch, e, p, factors, d, n):
     return x, y, z
 
 
+@formula
+def know_slopes(batch, e, p, t, size, own, b, wet):
+    """Let ``felt`` hold the derivatives of the three components of the force at point p by its motion."""
+    felt = batch.felt[e, p]
+    same = felt[MOVING] == own[0] and felt[MOVING + 1] == own[1] and felt[MOVING + 2] == own[2]
+    same = same and felt[MOVING + 3] == b[0] and felt[MOVING + 4] == b[1] and felt[MOVING + 5] == b[2]
+    if same:
+        return
+    for i in range(3):
+        felt[MOVING + i], felt[MOVING + 3 + i] = own[i], b[i]
+    for c in range(3):
+        X = (1.0 if c == 0 else 0.0, 1.0 if c == 1 else 0.0, 1.0 if c == 2 else 0.0)
+        by, first = slopes_at(batch, e, p, t, size, own, b, X, wet), FORCES + 12 * c
+        for i in range(3):
+            felt[first + i], felt[first + 3 + i] = by[0][i], by[1][i]
+            felt[first + 6 + i], felt[first + 9 + i] = by[2][i], by[3][i]
+
+
 @inline_kernel
 def fluid_force_slopes(batch, q, v, a, d, r, ws):
     """See :func:`ancf.compiled.add_force_slopes`."""
@@ -193,16 +211,17 @@ def fluid_force_slopes(batch, q, v, a, d, r, ws):
             at, own, b = place_at(batch, e, p, q), place_at(batch, e, p, v), place_at(batch, e, p, a)
             t, size = tangent_at(batch, e, p, q)
             feel(batch, e, p, batch.fluid[e], at, own)
-            wet = wetted_slopes(batch, e, p, at[2], t, size, batch.felt[e, p, RISE])
+            felt = batch.felt[e, p]
+            wet = wetted_slopes(batch, e, p, at[2], t, size, felt[RISE])
             if wet[0] == 0.0 and wet[1] == 0.0:
                 continue
+            know_slopes(batch, e, p, t, size, own, b, wet)
             moved = in_lanes(batch, e, p, batch.shape, d, 0), in_lanes(batch, e, p, batch.slope, d, 0)
             faster = in_lanes(batch, e, p, batch.shape, d, 1), in_lanes(batch, e, p, batch.shape, d, 2)
             for c in range(3):
-                X = (1.0 if c == 0 else 0.0, 1.0 if c == 1 else 0.0, 1.0 if c == 2 else 0.0)
-                by = slopes_at(batch, e, p, t, size, own, b, X, wet)
-                f = dot(by[0], moved[0]) + dot(by[1], moved[1])
-                f = f + dot(by[2], faster[0]) + dot(by[3], faster[1])
+                first = FORCES + 12 * c
+                f = dot(three(felt, first), moved[0]) + dot(three(felt, first + 3), moved[1])
+                f = f + dot(three(felt, first + 6), faster[0]) + dot(three(felt, first + 9), faster[1])
                 for k in range(batch.base.shape[1]):
                     i, w = batch.base[e, k], batch.shape[e, p, k]
                     if i >= 0:

@@ -242,3 +242,42 @@ def sea_numbers(sea, wave, first, last, angle, kept, by, out):
             add_to(out, own + LANES * MIRROR, unit * omega / down * (level - lift))
             add_to(out, own + LANES * WHOLE, height * omega * size)
         rise += share * by_eta * total(lifted)
+
+
+@kernel
+def sea_changes(sea, wave, first, last, angle, kept, rates, out):
+    """Fill ``out`` with what u and w, their rates, and the elevation change by; see :func:`sea_numbers`.
+
+    ``rates``: of the numbers of the components, in one row.
+    """
+    share, growth = share_of(kept[TIME], sea[RAMP])
+    way, z, eta = sea[ALONG_X] * kept[PLACE] + sea[ALONG_Y] * kept[PLACE + 1], kept[PLACE + 2], kept[RISE]
+    at, (_, by_eta) = stretched(sea, z - sea[LEVEL], eta), stretching(sea, z - sea[LEVEL], eta)
+    rise, u, w, au, aw = every(0.0), every(0.0), every(0.0), every(0.0), every(0.0)
+    for i in range(first, last):
+        own, cos, sin = 6 * LANES * i, load(angle, COSINE, i - first), load(angle, SINE, i - first)
+        turned = way * load(rates, own + LANES * NUMBER) - kept[TIME] * load(rates, own + LANES * OMEGA)
+        turned = turned + load(rates, own + LANES * PHASE)
+        rise = rise + load(rates, own) * cos - load(wave, i, AMPLITUDE) * (sin * turned)
+    out[4] = share * total(rise)
+    for i in range(first, last):
+        own, cos, sin = 6 * LANES * i, load(angle, COSINE, i - first), load(angle, SINE, i - first)
+        omega, number, down = load(wave, i, OMEGA), load(wave, i, NUMBER), load(angle, DOWN, i - first)
+        faster, longer = load(rates, own + LANES * OMEGA), load(rates, own + LANES * NUMBER)
+        turned = way * longer - kept[TIME] * faster + load(rates, own + LANES * PHASE)
+        deeper, up = at * longer + (by_eta * out[4]) * number, load(wave, i, MIRROR) / down
+        mirrored = load(rates, own + LANES * MIRROR) / down
+        height, whole = load(wave, i, AMPLITUDE), load(wave, i, WHOLE)
+        speed = height * omega * whole
+        more = (load(rates, own) * omega + height * faster) * whole + height * omega * load(
+            rates, own + LANES * WHOLE
+        )
+        level, lift = speed * (down + up), speed * (down - up)
+        levelled = more * (down + up) + lift * deeper + speed * mirrored
+        lifted = more * (down - up) + level * deeper - speed * mirrored
+        x, y = levelled * cos - level * (sin * turned), lifted * sin + lift * (cos * turned)
+        u, w = u + x, w + y
+        au = au + faster * (level * sin) + omega * (levelled * sin + level * (cos * turned))
+        aw = aw - faster * (lift * cos) - omega * (lifted * cos - lift * (sin * turned))
+    out[0], out[1] = share * total(u), share * total(w)
+    out[2], out[3] = share * total(au) + growth * total(u), share * total(aw) + growth * total(w)

@@ -30,9 +30,7 @@ def rates_of(family: Family, forces: bool = False) -> dict[str, FloatArray]:
         for weight, one in zip(family.weights, each, strict=True):
             if one is not batch:
                 total = total + weight * (numbers(one) - here)
-        kinds = traits(batch).kinds
-        if not (forces and kinds is not None and kinds(batch, total) is None):  # else of the work alone
-            found[name] = np.asarray(total)
+        found[name] = np.asarray(total)
     return found
 
 
