@@ -44,7 +44,17 @@ from .solid_force import (
     vectors,
 )
 from .solid_rate_work import damping_slopes
-from .solid_tangent import BLOCKS, ELEMENT, PLACES, diagonal_blocks, other_blocks, spread_tangent
+from .solid_rates import rate_blocks, store_half
+from .solid_tangent import (
+    BLOCKS,
+    ELEMENT,
+    OF_POINT,
+    PLACES,
+    TANGENT,
+    diagonal_blocks,
+    other_blocks,
+    spread_tangent,
+)
 from .workspace import add_rows, clear, row, rows, set_rows
 
 
@@ -204,6 +214,28 @@ def solid_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 
 
 @inline_kernel
+def solid_rate_stiffness(batch, q, v, S, W, ws):
+    """See :func:`ancf.compiled.add_rate_stiffness`."""
+    own = 3 if batch.base.shape[1] == 10 else 2
+    for n in range(batch.groups.shape[0]):
+        group = batch.groups[n]
+        if group[4] == 0:
+            continue
+        clear_unused(ws)
+        clear(ws, TANGENT, OF_POINT)
+        for chunk in range(group[0], group[1]):
+            load_constants(batch, ws, chunk)
+            take_vectors(batch, q, ws, chunk, np.int64(D))
+            take_vectors(batch, v, ws, chunk, np.int64(RATE))
+            for sign in (1.0, -1.0):
+                clear(ws, ELEMENT, 9 * BLOCKS)
+                for g in range(group[3]):
+                    rate_blocks(ws, batch.gp, group[2] + g, sign)
+                    spread_tangent(ws, batch.gp, group[2] + g, own)
+                store_half(batch, S if sign > 0.0 else W, ws, chunk, sign)
+
+
+@inline_kernel
 def solid_rate_work(batch, q, v, x, out, ws):
     """See :func:`ancf.compiled.add_rate_work`."""
     for n in range(batch.groups.shape[0]):
@@ -270,6 +302,7 @@ implements(
     inertia=solid_inertia,
     tangent=solid_tangent,
     energy=solid_energy,
+    rate_stiffness=solid_rate_stiffness,
     rate_work=solid_rate_work,
     inverted=solid_inverted,
     role=Role.DISSIPATES,
