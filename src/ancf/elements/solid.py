@@ -178,16 +178,17 @@ def solid_inertia(batch, a, r, ws):
 def store_tangent(batch, A, ws, chunk, c_mass, c_damping):
     """Add stiffness blocks and mass of a chunk to the block values A."""
     columns, first, factors = batch.base.shape[1], batch.first[chunk], batch.lane_scale
-    for x in range(columns):
-        centreline = x % 4 < 2 and x < 8
-        for y in range(columns):
-            for m in range(batch.first[chunk + 1] - first):
+    for m in range(batch.first[chunk + 1] - first):
+        for x in range(columns):
+            centreline = x % 4 < 2 and x < 8
+            for y in range(columns):
                 place = batch.dest[first + m, columns * x + y]
                 if place >= 0:
                     scale = factors[chunk, x, m] * factors[chunk, y, m]
-                    mass = factors[chunk, 10 + x, m] * factors[chunk, 10 + y, m]
                     viscous = c_damping * ws[VISCOUS * LANES + m] if centreline else 0.0
-                    mass *= batch.mass[x, y] * (c_mass + viscous)
+                    mass = batch.mass[x, y] * (c_mass + viscous)
+                    if mass != 0.0:
+                        mass *= factors[chunk, 10 + x, m] * factors[chunk, 10 + y, m]
                     add_block(A, place, ws, PLACES[x, y], m, scale, mass)
 
 

@@ -63,11 +63,11 @@ def rate_blocks(ws, gp, g, sign):
 def store_half(batch, values, ws, chunk, sign):
     """Add the blocks of a chunk to block values; of those on the other side of the diagonal with the sign."""
     columns, first, factors = batch.base.shape[1], batch.first[chunk], batch.lane_scale
-    for x in range(columns):
-        for y in range(columns):
-            own = sign if PLACES[x, y, 1] == 1 else 1.0
-            for m in range(batch.first[chunk + 1] - first):
+    for m in range(batch.first[chunk + 1] - first):
+        for x in range(columns):
+            for y in range(columns):
                 place = batch.dest[first + m, columns * x + y]
                 if place >= 0:
+                    own = sign if PLACES[x, y, 1] == 1 else 1.0
                     scale = own * factors[chunk, x, m] * factors[chunk, y, m]
                     add_block(values, place, ws, PLACES[x, y], m, scale, 0.0)
