@@ -14,8 +14,6 @@ TIGHT = ancf.Trapezoidal(newton=ancf.Newton(tolerance=1e-14, modified=False))
 METHODS = [TIGHT, ancf.GeneralizedAlpha(rho_inf=0.7, newton=TIGHT.newton)]
 NAMES = ["rope.EI", "rope.rhoA", "rope.diameter", "rope.drag[0]", "rope.drag[1]", "rope.added_mass[0]"]
 NAMES += ["rope.added_mass[1]", "sea.density", "gravity[2]", "rope.length", "rope.start[0]"]
-#: Without the diameter, with which pieces at a surface leave it or enter it between values 0.3 % apart.
-PIERCING = [name for name in NAMES if name != "rope.diameter"]
 OF_BUOY = ["buoy.mass", "buoy.volume", "buoy.drag_area", "buoy.added_mass"]
 OBJECTIVES = [
     "integral(norm(velocity(rope.end))**2)",
@@ -44,21 +42,20 @@ def agree(model, text, names, given, off=1e-9):
 @pytest.mark.parametrize("speed", SPEEDS)
 def test_flows(speed, surface):
     """Alone and as joints, dampings and a point mass have it."""
-    names = PIERCING if surface else NAMES
-    agree(afloat(buoy=False, velocity=SPEEDS[speed], **surface), OBJECTIVES[0], names, settings())
+    agree(afloat(buoy=False, velocity=SPEEDS[speed], **surface), OBJECTIVES[0], NAMES, settings())
     model = afloat(section=of_hull(**MOORED), velocity=SPEEDS[speed], **surface)
-    agree(model, OBJECTIVES[1], names + OF_BUOY, settings())
+    agree(model, OBJECTIVES[1], NAMES + OF_BUOY, settings())
 
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("waves", WAVES)
 def test_waves(waves, method):
     for text in OBJECTIVES:
-        agree(in_waves(waves, buoy=False), text, PIERCING, settings(method))
+        agree(in_waves(waves, buoy=False), text, NAMES, settings(method))
 
 
 def test_gusts_over_waves():
-    agree(under_gusts(), OBJECTIVES[0], [*PIERCING, "air.density"], settings())
+    agree(under_gusts(), OBJECTIVES[0], [*NAMES, "air.density"], settings())
 
 
 @pytest.mark.parametrize("step", [1e-3, 5e-3, 2e-2])

@@ -44,7 +44,10 @@ def check(system, name, field, row, seed=1, size=1.0):
     change[:, row] = size * values[:, row] * rng.uniform(0.2, 1.0, values[:, row].shape)
 
     def moved(e):
-        return batch._replace(**{field: values + e * change})
+        fresh = {
+            key: np.full_like(getattr(batch, key), np.inf) for key in ("kept", "felt") if name == "fluid"
+        }
+        return batch._replace(**{field: values + e * change}, **fresh)
 
     def slope(of):
         one, two, three = ((of(e) - of(-e)) / (2 * e) for e in (1e-3, 2e-3, 3e-3))
@@ -52,7 +55,8 @@ def check(system, name, field, row, seed=1, size=1.0):
 
     numbers = traits(batch).numbers
     rate = slope(lambda e: numbers(moved(e)))
-    own = found_by_kernel(system, batch, q, v, a, x)
+    joined = traits(batch).joined or (lambda batch, other: batch)
+    own = found_by_kernel(system, joined(batch, moved(1.0)), q, v, a, x)
     wanted = slope(lambda e: work(system, moved(e), q, v, a, x).sum())
     terms, round_off = np.abs(own * rate).sum(), 1e-12 * np.abs(work(system, batch, q, v, a, x)).sum()
     assert abs(own @ rate - wanted) <= 1e-9 * terms + round_off
@@ -101,6 +105,26 @@ def test_kinds_that_know_have_numbers():
         assert does_something(type(batch), add_number_work) == (own.numbers is not None)
         assert bool(own.numbered) == (own.numbers is not None)
         assert set(own.numbered) <= set(batch._fields)
+
+
+@pytest.mark.parametrize("kind", WAVES)
+def test_of_waves(kind):
+    """Of each component height, frequency, wave number, phase and what the depth leaves of it."""
+    system = System(in_waves(kind, velocity=SPEEDS["sheared"]))
+    for row in range(6):
+        terms = check(system, "fluid", "wave", row, size=1.0 if row > 3 else 0.01)  # some are small
+        assert terms > 0.0 or not system.parts["fluid"].wave[:, row].any(), row
+
+
+@pytest.mark.parametrize("kind", ["sheared", "shallow"])
+def test_of_lengths_in_fluids(kind):
+    """Of points factors of place and slope, weights and where their pieces are, with the surface in one."""
+    model = in_waves(kind) if kind in WAVES else afloat(velocity=SPEEDS[kind], above=-1.2, below=0.1)
+    system = System(model)
+    for field in ("weight", "shift", "shape", "slope"):
+        for point in range(5):
+            terms = check(system, "fluid", field, point, size=0.01)
+            assert terms > 0.0 or field == "shift", (field, point)
 
 
 @pytest.mark.parametrize("kind", ["sheared", "deep"])

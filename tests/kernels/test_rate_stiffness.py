@@ -30,11 +30,29 @@ def damped(elements, strain, damping):
 @pytest.mark.parametrize("strain", ["material", "paper"])
 @pytest.mark.parametrize("damping", DAMPINGS)
 def test_along_a_direction(damping, strain, elements):
-    system = System(damped(elements, strain, DAMPINGS[damping]))
+    check(System(damped(elements, strain, DAMPINGS[damping])), elements)
+
+
+@pytest.mark.parametrize("elements", [1, 2, 9])
+@pytest.mark.parametrize("element", ["original", "nonlocking"])
+@pytest.mark.parametrize("damping", ["axial", "bending", "both"])
+def test_of_solid_beams(damping, element, elements):
+    """A damped one, askew to the axes, beside one without."""
+    model, given = ancf.Model(gravity=(0, 0, -9.81)), DAMPINGS[damping]
+    bar = ancf.Section.rectangle(0.3, 0.2, E=1e4, rho=500.0, nu=0.3, **given)
+    ends = {"start": (0, 0, 0), "end": (1.2, 0.3, 0.1)}
+    model.add_beam("first", **ends, elements=elements, section=bar, element=element)
+    free = ancf.Section.rectangle(0.1, 0.2, E=1e4, rho=500.0)
+    model.add_beam("second", start=(2, 0, 0), end=(1, 1, 0), elements=3, section=free, element=element)
+    check(System(model), elements)
+
+
+def check(system, seed):
+    """What products with the matrices are, along random directions, against differences of the forces."""
     core, m = system.core, matrices_of(system.core, system.size, moving=True)
     assert len(m.lossy) == 0
     assert len(m.W)
-    rng = np.random.default_rng(elements)
+    rng = np.random.default_rng(seed)
 
     def shaken(by):
         x = np.zeros(system.size)

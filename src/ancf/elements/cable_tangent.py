@@ -59,8 +59,10 @@ def add_block(A, place, ws, origin, m, scale, mass):
     first, row, column = origin[0] * LANES + m, origin[1] * LANES, origin[2] * LANES
     if min(place, first, row, column) < 0:
         return  # never: but now the compiler knows that no index counts from the end
+    if mass != 0.0:
+        for i in range(3):
+            A[place + 7 * i] += mass
     for i in range(3):
-        A[place + 7 * i] += mass
         for j in range(3):
             A[place + 6 * i + j] += scale * ws[first + i * row + j * column]
 

@@ -32,6 +32,7 @@ from .solid_force import (
     NATURAL,
     R2,
     RATE,
+    TANGENT,
     VECTORS,
     VISCOUS,
     D,
@@ -44,7 +45,16 @@ from .solid_force import (
     vectors,
 )
 from .solid_rate_work import damping_slopes
-from .solid_tangent import BLOCKS, ELEMENT, PLACES, diagonal_blocks, other_blocks, spread_tangent
+from .solid_rates import rate_blocks, store_half
+from .solid_tangent import (
+    BLOCKS,
+    ELEMENT,
+    OF_POINT,
+    PLACES,
+    diagonal_blocks,
+    other_blocks,
+    spread_tangent,
+)
 from .workspace import add_rows, clear, row, rows, set_rows
 
 
@@ -168,16 +178,17 @@ def solid_inertia(batch, a, r, ws):
 def store_tangent(batch, A, ws, chunk, c_mass, c_damping):
     """Add stiffness blocks and mass of a chunk to the block values A."""
     columns, first, factors = batch.base.shape[1], batch.first[chunk], batch.lane_scale
-    for x in range(columns):
-        centreline = x % 4 < 2 and x < 8
-        for y in range(columns):
-            for m in range(batch.first[chunk + 1] - first):
+    for m in range(batch.first[chunk + 1] - first):
+        for x in range(columns):
+            centreline = x % 4 < 2 and x < 8
+            for y in range(columns):
                 place = batch.dest[first + m, columns * x + y]
                 if place >= 0:
                     scale = factors[chunk, x, m] * factors[chunk, y, m]
-                    mass = factors[chunk, 10 + x, m] * factors[chunk, 10 + y, m]
                     viscous = c_damping * ws[VISCOUS * LANES + m] if centreline else 0.0
-                    mass *= batch.mass[x, y] * (c_mass + viscous)
+                    mass = batch.mass[x, y] * (c_mass + viscous)
+                    if mass != 0.0:
+                        mass *= factors[chunk, 10 + x, m] * factors[chunk, 10 + y, m]
                     add_block(A, place, ws, PLACES[x, y], m, scale, mass)
 
 
@@ -201,6 +212,28 @@ def solid_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                 other_blocks(ws, gp, g0 + g, c_stiffness * weight, c_damping * weight)
                 spread_tangent(ws, gp, g0 + g, own)
             store_tangent(batch, A, ws, chunk, c_mass, c_damping)
+
+
+@inline_kernel
+def solid_rate_stiffness(batch, q, v, S, W, ws):
+    """See :func:`ancf.compiled.add_rate_stiffness`."""
+    own = 3 if batch.base.shape[1] == 10 else 2
+    for n in range(batch.groups.shape[0]):
+        group = batch.groups[n]
+        if group[4] == 0:
+            continue
+        clear_unused(ws)
+        clear(ws, TANGENT, OF_POINT)
+        for chunk in range(group[0], group[1]):
+            load_constants(batch, ws, chunk)
+            take_vectors(batch, q, ws, chunk, np.int64(D))
+            take_vectors(batch, v, ws, chunk, np.int64(RATE))
+            for sign in (1.0, -1.0):
+                clear(ws, ELEMENT, 9 * BLOCKS)
+                for g in range(group[3]):
+                    rate_blocks(ws, batch.gp, group[2] + g, sign)
+                    spread_tangent(ws, batch.gp, group[2] + g, own)
+                store_half(batch, S if sign > 0.0 else W, ws, chunk, sign)
 
 
 @inline_kernel
@@ -270,6 +303,7 @@ implements(
     inertia=solid_inertia,
     tangent=solid_tangent,
     energy=solid_energy,
+    rate_stiffness=solid_rate_stiffness,
     rate_work=solid_rate_work,
     inverted=solid_inverted,
     role=Role.DISSIPATES,

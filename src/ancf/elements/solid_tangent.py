@@ -49,7 +49,8 @@ B_B, B_BB, BB_B, BB_BB = (TANGENT + 9 * k for k in range(5, 9))
 C_C, C_CC, CC_C, CC_CC = (TANGENT + 9 * k for k in range(9, 13))
 B_C, B_CC, BB_C, BB_CC = (TANGENT + 9 * k for k in range(13, 17))
 #: 3x3 blocks of the element's vectors d t1 t2 b1 b2 bx c1 c2 cx, those on and above the diagonal.
-ELEMENT = TANGENT + 9 * 17
+OF_POINT = 9 * 17
+ELEMENT = TANGENT + OF_POINT
 BLOCKS = 45
 if ELEMENT + 9 * BLOCKS > ROWS:
     raise AssertionError("the workspace is too small")

@@ -6,15 +6,19 @@ are taken.  All of it is kept for the corrections of one step, where the place i
 
 from __future__ import annotations
 
+import math
+
 from ..compiled import formula, inline_kernel
 from . import gusts
 from .flow import ACCELERATION, CLOCK, VELOCITY, by_profile, carried
 from .waves import ALONG_X, ALONG_Y, PLACE, RATE, RISE, SPEED, TIME, sea_at, sea_slopes
 
 # columns of ``felt``: those of what waves keep, then derivatives of velocity and acceleration by the place,
-# row by row, of the elevation by x and y, and room
+# row by row, of the elevation by x and y, and room; velocity and acceleration of the point for which the
+# derivatives of the three components of the force by place, slope and these two stand behind them
 BY_PLACE, RATE_BY_PLACE, RISE_BY_X, RISE_BY_Y, ROOM = 11, 20, 29, 30, 31
-FELT = 40
+MOVING, FORCES = 40, 46
+FELT = 82
 #: Step of the differences of laws, m, and their weights.
 NEAR, ONE, TWO = 1e-3, 8.0 / 12.0, -1.0 / 12.0
 
@@ -91,13 +95,17 @@ def put_waves(batch, k, own, t, at, felt):
 
 @inline_kernel
 def feel(batch, e, p, k, at, v):
-    """Let ``felt`` hold what fluid k does at point p of row e, in a step of time, and its slopes."""
+    """Let ``felt`` hold what fluid k does at point p of row e, in a step of time, and its slopes.
+
+    Whether it did not before: then ``angle`` is that of the point.
+    """
     felt, t = batch.felt[e, p], batch.value[k, CLOCK, 0]
     same = felt[PLACE] == at[0] and felt[PLACE + 1] == at[1] and felt[PLACE + 2] == at[2]
     if same and felt[TIME] == t:
-        return
+        return False
     for i in range(FELT):
         felt[i] = 0.0
+    felt[MOVING] = math.inf
     own = batch.waves[k + 1] > batch.waves[k]
     if own or batch.under[k] >= 0:
         put_waves(batch, k if own else batch.under[k], own, t, at, felt)
@@ -108,3 +116,4 @@ def feel(batch, e, p, k, at, v):
         add_profile(batch, k, at[2], felt)
     if batch.gale[k, gusts.STATIONS] > 0:
         add_gusts(batch, k, t, at, felt)
+    return True

@@ -57,7 +57,9 @@ from .flow import (
     wetted,
 )
 from .flow_slopes import FELT
-from .fluid_slopes import fluid_force_slopes, fluid_number_work, fluid_work_slopes
+from .fluid_numbers import NUMBERED, SHAPES, fluid_changes, fluid_number_work, kinds_of, numbers
+from .fluid_numbers import joined as joined_numbers
+from .fluid_slopes import fluid_force_slopes, fluid_work_slopes
 from .law_functions import address_of
 from .waves import KEPT, TIME, tables, under
 
@@ -89,12 +91,14 @@ class FluidBatch(NamedTuple):
     profile: FloatArray  # (j, 3)
     moves: NDArray[np.bool_]  # (m,)
     under: NDArray[np.int64]  # (m,) the fluid whose waves are its lower surface, -1: none
-    sea: FloatArray  # (m, 7) see loads/waves.py
+    sea: FloatArray  # (m, 6) see loads/waves.py
+    shortest: FloatArray  # (m,) largest wave numbers, 1/m
     waves: NDArray[np.int64]  # (m + 1,) first chunk of components
     wave: FloatArray  # (chunks, 6, LANES) components
-    angle: FloatArray  # (2, most chunks, LANES) scratch memory
+    angle: FloatArray  # (3, most chunks, LANES) scratch memory
     kept: FloatArray  # (n, points, KEPT) what waves gave last
     felt: FloatArray  # (n, points, FELT) see loads/flow_slopes.py
+    asked: NDArray[np.bool_]  # (2,) see loads/fluid_numbers.py
     squall: FloatArray  # (m, 9) see loads/gusts.py
     gale: NDArray[np.int64]  # (m, 3) places and sizes of the tables of gusts
     gust: FloatArray  # (j,) tables of gusts, one after the other
@@ -117,9 +121,7 @@ def build(items, locate, value, model):
         which += [k] * len(owners)
     heights = [item.velocity.heights for item in items]
     fields = joined(parts)
-    kept = np.zeros((*fields["weight"].shape, KEPT))
-    kept[..., TIME] = np.inf
-    felt = np.full((*kept.shape[:2], FELT), np.inf)
+    kept, felt = _nothing_kept(fields["weight"])
     law = np.array([_law(item.velocity) for item in items], dtype=np.int64)
     once = np.array([bool(item.velocity.once) for item in items])
     said = np.full((len(kept) if np.any(once) else 0, POINTS, SAID), np.inf)
@@ -130,6 +132,7 @@ def build(items, locate, value, model):
         **gusts.tables(items),
         kept=kept,
         felt=felt,
+        asked=np.zeros(2, dtype=bool),
         fluid=np.array(which, dtype=np.int64),
         data=np.array(rows, dtype=np.float64).reshape(-1, 6),
         fluids=_fluids(items, model),
@@ -146,6 +149,13 @@ def build(items, locate, value, model):
     )
 
 
+def _nothing_kept(weight):
+    """Fields ``kept`` and ``felt`` of points with these weights that have not been asked yet."""
+    kept = np.zeros((*weight.shape, KEPT))
+    kept[..., TIME] = np.inf
+    return kept, np.full((*weight.shape, FELT), np.inf)
+
+
 def _takes_part(body):
     return isinstance(body, Beam) or bool(body.volume or body.drag_area)
 
@@ -155,14 +165,26 @@ def _law(velocity):
     return address_of(velocity, of_place=True) if by_law else 0
 
 
-def renumbered(batch: FluidBatch, model: Any) -> FluidBatch:
-    """The batch of a model that differs in densities, gravity, drag and added mass alone."""
+def renumbered(batch: FluidBatch, model: Any, locate: Any = None) -> FluidBatch:
+    """The batch of a model that differs in densities, gravity, drag and added mass alone.
+
+    ``locate``: finds the probe of a point where lengths of beams differ as well.
+    """
     owners = [body for item in model.fluids for body in _bodies(item, model)]
     each = [[_data(body)] * (body.elements if isinstance(body, Beam) else 1) for body in owners]
-    return batch._replace(
+    made = batch._replace(
         data=np.array([row for rows in each for row in rows], dtype=np.float64).reshape(-1, 6),
         fluids=_fluids(model.fluids, model),
     )
+    fields: dict[str, Any] = {}
+    if not np.array_equal(made.fluids[:, GRAVITY:], batch.fluids[:, GRAVITY:]):  # waves go with it
+        fields |= tables(model.fluids, model.gravity)
+    if locate is not None:
+        found = joined([along(_bodies(item, model), locate, POINTS)[0] for item in model.fluids])
+        fields |= {key: found[key] for key in SHAPES}
+    if fields:
+        fields["kept"], fields["felt"] = _nothing_kept(batch.weight)
+    return made._replace(**fields)
 
 
 def _bodies(item, model):
@@ -288,12 +310,6 @@ def fluid_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
             add_block_along(batch, e, p, dyadic(n, t, one, nn, tt, zz), A)
 
 
-def _numbers(batch):
-    """Those of the fluids, 0 for a surface that there is not, and of the sections."""
-    fluids = np.where(np.isinf(batch.fluids), 0.0, batch.fluids)
-    return np.concatenate([fluids.ravel(), batch.data.ravel()])
-
-
 implements(
     FluidBatch,
     force=fluid_force,
@@ -306,6 +322,9 @@ implements(
     force_slopes=fluid_force_slopes,
     number_work=fluid_number_work,
     sloped=lambda batch: not (np.any(batch.once) or np.any(batch.winch >= 0)),
-    numbers=_numbers,
-    numbered=("fluids", "data"),
+    changes=fluid_changes,
+    numbers=numbers,
+    numbered=(*NUMBERED, "shortest"),
+    joined=joined_numbers,
+    kinds=kinds_of,
 )

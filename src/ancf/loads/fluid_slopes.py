@@ -1,4 +1,4 @@
-"""Derivatives of x . force of fluids by the state and by numbers of sections and fluids, in a step of time.
+"""Derivatives of x . force of fluids by the state, in a step of time.
 
 At a point with the unit tangent t, the velocity w of the fluid past it, its normal part n, and X of x there,
 
@@ -32,7 +32,7 @@ from .flow import (
     apart,
     below,
 )
-from .flow_slopes import BY_PLACE, RATE_BY_PLACE, RISE_BY_X, RISE_BY_Y, feel
+from .flow_slopes import BY_PLACE, FORCES, MOVING, RATE_BY_PLACE, RISE_BY_X, RISE_BY_Y, feel
 from .waves import RATE, RISE, SPEED
 
 
@@ -56,12 +56,13 @@ def sum4(a, x, b, y, c, z, d, u):
 def wetted_slopes(batch, e, p, z, t, size, rise):
     """Share of the piece of point p inside its fluid, with derivatives by z, lower and upper surface.
 
-    And those by the vertical component of r_x, by that of t at a fixed length, and by the diameter.
+    And those by the vertical component of r_x, by that of t at a fixed length, by the diameter and the height
+    of the piece.
     """
     k = batch.fluid[e]
     low, high = batch.fluids[k, LOW], batch.fluids[k, HIGH]
     if low == -math.inf and high == math.inf:
-        return 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        return 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     if batch.under[k] >= 0:
         low += rise
     else:
@@ -76,7 +77,7 @@ def wetted_slopes(batch, e, p, z, t, size, rise):
     by_tall -= by_high * (high - middle) / tall if by_high != 0.0 else 0.0
     by_length = by_tall * weight * (1.0 if t[2] > 0.0 else -1.0) + by_z * shift
     turning = -by_tall * d * t[2] / level if level > 0.0 else 0.0
-    return top - bottom, by_z, -by_low, by_high, by_length, turning, by_tall * level
+    return top - bottom, by_z, -by_low, by_high, by_length, turning, by_tall * level, by_tall
 
 
 @formula
@@ -125,15 +126,21 @@ def put(batch, e, p, by_place, by_slope, by_speed, by_own, by_q, by_v, by_a):
 
 
 @formula
-def slopes_at(batch, e, p, t, size, own, b, X, wet):
-    """Derivatives of X . force at point p by its place, slope, velocity ``own`` and acceleration b."""
+def acting(batch, e, p, t, own, b, X, wet):
+    """Factors of what g and the wetted share change by, the derivative by the rise, and :func:`work_at`."""
     k, felt = batch.fluid[e], batch.felt[e, p]
-    part, by_z, by_low, by_high, by_length, turning, _ = wet
     c = -batch.weight[e, p] * batch.fluids[k, DENSITY]
     past, du = both(1.0, three(felt, SPEED), -1.0, own), three(felt, RATE)
-    g, by_past, by_du, by_own, turn = work_at(batch, e, p, t, past, du, b, X)
-    f, h = c * part, c * g
-    by_rise = h * (by_low if batch.under[k] >= 0 else by_high)
+    work = work_at(batch, e, p, t, past, du, b, X)
+    f, h = c * wet[0], c * work[0]
+    return f, h, h * (wet[2] if batch.under[k] >= 0 else wet[3]), work
+
+
+@formula
+def slopes_at(batch, e, p, t, size, own, b, X, wet):
+    """Derivatives of X . force at point p by its place, slope, velocity ``own`` and acceleration b."""
+    felt, (_, by_z, _, _, by_length, turning, _, _) = batch.felt[e, p], wet
+    f, h, by_rise, (_, by_past, by_du, by_own, turn) = acting(batch, e, p, t, own, b, X, wet)
     moved = through_place(felt, BY_PLACE, by_past)
     carried = through_place(felt, RATE_BY_PLACE, by_du)
     edge = (by_rise * felt[RISE_BY_X], by_rise * felt[RISE_BY_Y], h * by_z)
@@ -176,6 +183,24 @@ def in_lanes(batch, e, p, factors, d, n):
     return x, y, z
 
 
+@formula
+def know_slopes(batch, e, p, t, size, own, b, wet):
+    """Let ``felt`` hold the derivatives of the three components of the force at point p by its motion."""
+    felt = batch.felt[e, p]
+    same = felt[MOVING] == own[0] and felt[MOVING + 1] == own[1] and felt[MOVING + 2] == own[2]
+    same = same and felt[MOVING + 3] == b[0] and felt[MOVING + 4] == b[1] and felt[MOVING + 5] == b[2]
+    if same:
+        return
+    for i in range(3):
+        felt[MOVING + i], felt[MOVING + 3 + i] = own[i], b[i]
+    for c in range(3):
+        X = (1.0 if c == 0 else 0.0, 1.0 if c == 1 else 0.0, 1.0 if c == 2 else 0.0)
+        by, first = slopes_at(batch, e, p, t, size, own, b, X, wet), FORCES + 12 * c
+        for i in range(3):
+            felt[first + i], felt[first + 3 + i] = by[0][i], by[1][i]
+            felt[first + 6 + i], felt[first + 9 + i] = by[2][i], by[3][i]
+
+
 @inline_kernel
 def fluid_force_slopes(batch, q, v, a, d, r, ws):
     """See :func:`ancf.compiled.add_force_slopes`."""
@@ -186,58 +211,18 @@ def fluid_force_slopes(batch, q, v, a, d, r, ws):
             at, own, b = place_at(batch, e, p, q), place_at(batch, e, p, v), place_at(batch, e, p, a)
             t, size = tangent_at(batch, e, p, q)
             feel(batch, e, p, batch.fluid[e], at, own)
-            wet = wetted_slopes(batch, e, p, at[2], t, size, batch.felt[e, p, RISE])
+            felt = batch.felt[e, p]
+            wet = wetted_slopes(batch, e, p, at[2], t, size, felt[RISE])
             if wet[0] == 0.0 and wet[1] == 0.0:
                 continue
+            know_slopes(batch, e, p, t, size, own, b, wet)
             moved = in_lanes(batch, e, p, batch.shape, d, 0), in_lanes(batch, e, p, batch.slope, d, 0)
             faster = in_lanes(batch, e, p, batch.shape, d, 1), in_lanes(batch, e, p, batch.shape, d, 2)
             for c in range(3):
-                X = (1.0 if c == 0 else 0.0, 1.0 if c == 1 else 0.0, 1.0 if c == 2 else 0.0)
-                by = slopes_at(batch, e, p, t, size, own, b, X, wet)
-                f = dot(by[0], moved[0]) + dot(by[1], moved[1])
-                f = f + dot(by[2], faster[0]) + dot(by[3], faster[1])
+                first = FORCES + 12 * c
+                f = dot(three(felt, first), moved[0]) + dot(three(felt, first + 3), moved[1])
+                f = f + dot(three(felt, first + 6), faster[0]) + dot(three(felt, first + 9), faster[1])
                 for k in range(batch.base.shape[1]):
                     i, w = batch.base[e, k], batch.shape[e, p, k]
                     if i >= 0:
                         store(load(r, i + c) + w * f, r, i + c)
-
-
-@inline_kernel
-def fluid_number_work(batch, q, v, a, x, out, ws):
-    """See :func:`ancf.compiled.add_number_work`: numbers of the fluids, then of the sections, row by row."""
-    columns, m = batch.data.shape[1], batch.fluids.shape[1]
-    for e in range(batch.base.shape[0]):
-        k, data = batch.fluid[e], batch.data[e]
-        fluid, first, own = batch.fluids[k], batch.fluids.size + columns * e, m * k
-        share, area = batch.value[k, CLOCK, 1], data[AREA]
-        for p in range(batch.weight.shape[1]):
-            c = -batch.weight[e, p]
-            if c == 0.0:
-                continue
-            at, u = place_at(batch, e, p, q), place_at(batch, e, p, v)
-            t, size = tangent_at(batch, e, p, q)
-            feel(batch, e, p, k, at, u)
-            felt = batch.felt[e, p]
-            wet = wetted_slopes(batch, e, p, at[2], t, size, felt[RISE])
-            part, by_z, by_low, by_high, _, _, by_width = wet
-            if part == 0.0 and by_z == 0.0:
-                continue
-            past, du = both(1.0, three(felt, SPEED), -1.0, u), three(felt, RATE)
-            X, b = place_at(batch, e, p, x), place_at(batch, e, p, a)
-            g = work_at(batch, e, p, t, past, du, b, X)[0]
-            wt, n, speed = apart(past, t)
-            rho, tau = fluid[DENSITY], dot(t, X)
-            f, h, gain = c * rho * part, c * rho * g, dot(du, t) - dot(b, t)
-            weight, gained = dot(three(fluid, GRAVITY), X), dot(du, X) - dot(b, X) - gain * tau
-            out[own + DENSITY] += c * part * g
-            out[own + LOW] += h * by_low
-            out[own + HIGH] += h * by_high
-            for i in range(3):
-                out[own + GRAVITY + i] -= f * share * area * X[i]
-            by_area = dot(du, X) - share * weight + data[MASS_N] * gained + data[MASS_T] * gain * tau
-            out[first + AREA] += f * by_area
-            out[first + DIAMETER] += h * by_width
-            out[first + DRAG_N] += f * speed * dot(n, X)
-            out[first + DRAG_T] += f * abs(wt) * wt * tau
-            out[first + MASS_N] += f * area * gained
-            out[first + MASS_T] += f * area * gain * tau

@@ -14,33 +14,37 @@ from ..compiled import formula, inline_kernel, kernel
 from ..errors import ModelError
 from ..simd import LANES, cos_and_sin, decay, every, load, store, total
 
-# columns of ``sea``: mean level, depth, ramp, direction, stretched or not, largest wave number
-LEVEL, DEPTH, RAMP, ALONG_X, ALONG_Y, STRETCHED, SHORTEST = range(7)
+# columns of ``sea``: mean level, depth, ramp, direction, stretched or not
+LEVEL, DEPTH, RAMP, ALONG_X, ALONG_Y, STRETCHED = range(6)
 # rows of ``wave``: amplitude, angular frequency, wave number k, phase; exp(-2 k h) and 1/(1 - exp(-2 k h))
 AMPLITUDE, OMEGA, NUMBER, PHASE, MIRROR, WHOLE = range(6)
 # columns of ``kept``: time, place, velocity, acceleration, elevation
 TIME, PLACE, SPEED, RATE, RISE = 0, 1, 4, 7, 10
 KEPT = 11
+# rows of ``angle``, of a point that has just been asked: cosine and sine of each component, exp(k z)
+COSINE, SINE, DOWN = range(3)
 #: Way of a point, in 1/k of the shortest wave, up to which what was kept counts.
 NEAR = 1e-3
 
 
 def tables(items, gravity):
-    """Fields ``sea``, ``waves``, ``wave`` of the batch of these fluids."""
-    sea, wave = np.zeros((len(items), 7)), [np.zeros((0, 6, LANES))]
-    for row, item in zip(sea, items, strict=True):
+    """Fields ``sea``, ``shortest``, ``waves``, ``wave``, ``angle`` of the batch of these fluids."""
+    sea, shortest, wave = np.zeros((len(items), 6)), np.ones(len(items)), [np.zeros((0, 6, LANES))]
+    for n, (row, item) in enumerate(zip(sea, items, strict=True)):
         found = item.waves
         if found is not None:
             k = found.numbers(-gravity[2])
             stretched = float(found.stretching == "wheeler")
             direction = math.cos(found.direction), math.sin(found.direction)
-            row[:] = item.heights[1], found.depth, found.ramp, *direction, stretched, k.max()
+            row[:] = item.heights[1], found.depth, found.ramp, *direction, stretched
+            shortest[n] = k.max()
             wave.append(_components(found, k))
     return {
         "sea": sea,
+        "shortest": shortest,
         "waves": np.cumsum([0, *_chunks(items)]).astype(np.int64),
         "wave": np.concatenate(wave),
-        "angle": np.zeros((2, max(_chunks(items)), LANES)),
+        "angle": np.zeros((3, max(_chunks(items)), LANES)),
     }
 
 
@@ -95,8 +99,8 @@ def surface(wave, first, last, angle, s, t):
     for i in range(first, last):
         psi = load(wave, i, NUMBER) * s - load(wave, i, OMEGA) * t + load(wave, i, PHASE)
         cos, sin = cos_and_sin(psi)
-        store(cos, angle, 0, i - first)
-        store(sin, angle, 1, i - first)
+        store(cos, angle, COSINE, i - first)
+        store(sin, angle, SINE, i - first)
         eta = eta + load(wave, i, AMPLITUDE) * cos
     return total(eta)
 
@@ -129,10 +133,11 @@ def sea_at(sea, wave, first, last, angle, t, x, y, z, kept):
     for i in range(first, last):
         omega = load(wave, i, OMEGA)
         down = decay(load(wave, i, NUMBER) * at)
+        store(down, angle, DOWN, i - first)
         up = load(wave, i, MIRROR) / down
         speed = load(wave, i, AMPLITUDE) * omega * load(wave, i, WHOLE)
         level, lift = speed * (down + up), speed * (down - up)  # over cosine and sine
-        cos, sin = load(angle, 0, i - first), load(angle, 1, i - first)
+        cos, sin = load(angle, COSINE, i - first), load(angle, SINE, i - first)
         u = u + level * cos
         w = w + lift * sin
         au = au + omega * (level * sin)
@@ -164,15 +169,15 @@ def sea_slopes(sea, wave, first, last, angle, kept, slopes):
     """
     share, growth = share_of(kept[TIME], sea[RAMP])
     z, eta = kept[PLACE + 2] - sea[LEVEL], kept[RISE]
-    at, (by_z, by_eta) = stretched(sea, z, eta), stretching(sea, z, eta)
+    by_z, by_eta = stretching(sea, z, eta)
     rise, cosine, sine, rate_cosine, rate_sine = every(0.0), every(0.0), every(0.0), every(0.0), every(0.0)
     for i in range(first, last):
         omega, number = load(wave, i, OMEGA), load(wave, i, NUMBER)
-        down = decay(number * at)
+        down = load(angle, DOWN, i - first)
         up = load(wave, i, MIRROR) / down
         speed = number * (load(wave, i, AMPLITUDE) * omega * load(wave, i, WHOLE))
         level, lift = speed * (down + up), speed * (down - up)
-        cos, sin = load(angle, 0, i - first), load(angle, 1, i - first)
+        cos, sin = load(angle, COSINE, i - first), load(angle, SINE, i - first)
         rise = rise - number * (load(wave, i, AMPLITUDE) * sin)
         cosine, sine = cosine + lift * cos, sine + level * sin
         rate_cosine, rate_sine = rate_cosine + omega * (level * cos), rate_sine + omega * (lift * sin)
@@ -187,10 +192,92 @@ def sea_slopes(sea, wave, first, last, angle, kept, slopes):
 @formula
 def renew_waves(batch, e, p, k, t, at, v):
     """Let ``kept`` hold what the waves of fluid k do at point p of row e, at this place and velocity."""
-    kept, sea = batch.kept[e, p], batch.sea[k]
+    kept = batch.kept[e, p]
     dx, dy, dz = at[0] - kept[PLACE], at[1] - kept[PLACE + 1], at[2] - kept[PLACE + 2]
-    near = NEAR / sea[SHORTEST]
+    near = NEAR / batch.shortest[k]
     moves = v[0] != 0.0 or v[1] != 0.0 or v[2] != 0.0
     if not (kept[TIME] == t and moves and dx * dx + dy * dy + dz * dz < near * near):
         first, last = batch.waves[k], batch.waves[k + 1]
-        sea_at(sea, batch.wave, first, last, batch.angle, t, at[0], at[1], at[2], kept)
+        sea_at(batch.sea[k], batch.wave, first, last, batch.angle, t, at[0], at[1], at[2], kept)
+
+
+@formula
+def add_to(out, i, x):
+    """Add lanes to the numbers from i on."""
+    store(load(out, i) + x, out, i)
+
+
+@kernel
+def sea_numbers(sea, wave, first, last, angle, kept, by, out):
+    """Add derivatives by the numbers of the components to out, chunk by chunk as ``wave`` is, in one row.
+
+    ``by``: those by u and w, their rates, and the elevation, of what :func:`sea_at` has just kept.
+    """
+    share, growth = share_of(kept[TIME], sea[RAMP])
+    way, z, eta = sea[ALONG_X] * kept[PLACE] + sea[ALONG_Y] * kept[PLACE + 1], kept[PLACE + 2], kept[RISE]
+    at, (_, by_eta) = stretched(sea, z - sea[LEVEL], eta), stretching(sea, z - sea[LEVEL], eta)
+    rs, rc, rise = share * by[2], share * by[3], share * by[4]
+    c, s = share * by[0] + growth * by[2], share * by[1] + growth * by[3]
+    for last_round in (False, True):
+        lifted = every(0.0)
+        for i in range(first, last):
+            omega, number, down = load(wave, i, OMEGA), load(wave, i, NUMBER), load(angle, DOWN, i - first)
+            cos, sin = load(angle, COSINE, i - first), load(angle, SINE, i - first)
+            level, lift = c * cos + omega * (rs * sin), s * sin - omega * (rc * cos)
+            up, height, whole = load(wave, i, MIRROR) / down, load(wave, i, AMPLITUDE), load(wave, i, WHOLE)
+            more, less, unit = down + up, down - up, height * whole
+            deeper = unit * omega * (less * level + more * lift)
+            if not last_round:
+                lifted = lifted + number * deeper
+                continue
+            size = more * level + less * lift
+            turn = more * (omega * (rs * cos) - c * sin) + less * (s * cos + omega * (rc * sin))
+            turn = unit * omega * turn - rise * (height * sin)
+            own = 6 * LANES * i
+            faster = unit * (size + omega * (more * (rs * sin) - less * (rc * cos))) - kept[TIME] * turn
+            add_to(out, own + LANES * AMPLITUDE, omega * whole * size + rise * cos)
+            add_to(out, own + LANES * OMEGA, faster)
+            add_to(out, own + LANES * NUMBER, way * turn + at * deeper)
+            add_to(out, own + LANES * PHASE, turn)
+            add_to(out, own + LANES * MIRROR, unit * omega / down * (level - lift))
+            add_to(out, own + LANES * WHOLE, height * omega * size)
+        rise += share * by_eta * total(lifted)
+
+
+@kernel
+def sea_changes(sea, wave, first, last, angle, kept, rates, out):
+    """Fill ``out`` with what u and w, their rates, and the elevation change by; see :func:`sea_numbers`.
+
+    ``rates``: of the numbers of the components, in one row.
+    """
+    share, growth = share_of(kept[TIME], sea[RAMP])
+    way, z, eta = sea[ALONG_X] * kept[PLACE] + sea[ALONG_Y] * kept[PLACE + 1], kept[PLACE + 2], kept[RISE]
+    at, (_, by_eta) = stretched(sea, z - sea[LEVEL], eta), stretching(sea, z - sea[LEVEL], eta)
+    rise, u, w, au, aw = every(0.0), every(0.0), every(0.0), every(0.0), every(0.0)
+    for i in range(first, last):
+        own, cos, sin = 6 * LANES * i, load(angle, COSINE, i - first), load(angle, SINE, i - first)
+        turned = way * load(rates, own + LANES * NUMBER) - kept[TIME] * load(rates, own + LANES * OMEGA)
+        turned = turned + load(rates, own + LANES * PHASE)
+        rise = rise + load(rates, own) * cos - load(wave, i, AMPLITUDE) * (sin * turned)
+    out[4] = share * total(rise)
+    for i in range(first, last):
+        own, cos, sin = 6 * LANES * i, load(angle, COSINE, i - first), load(angle, SINE, i - first)
+        omega, number, down = load(wave, i, OMEGA), load(wave, i, NUMBER), load(angle, DOWN, i - first)
+        faster, longer = load(rates, own + LANES * OMEGA), load(rates, own + LANES * NUMBER)
+        turned = way * longer - kept[TIME] * faster + load(rates, own + LANES * PHASE)
+        deeper, up = at * longer + (by_eta * out[4]) * number, load(wave, i, MIRROR) / down
+        mirrored = load(rates, own + LANES * MIRROR) / down
+        height, whole = load(wave, i, AMPLITUDE), load(wave, i, WHOLE)
+        speed = height * omega * whole
+        more = (load(rates, own) * omega + height * faster) * whole + height * omega * load(
+            rates, own + LANES * WHOLE
+        )
+        level, lift = speed * (down + up), speed * (down - up)
+        levelled = more * (down + up) + lift * deeper + speed * mirrored
+        lifted = more * (down - up) + level * deeper - speed * mirrored
+        x, y = levelled * cos - level * (sin * turned), lifted * sin + lift * (cos * turned)
+        u, w = u + x, w + y
+        au = au + faster * (level * sin) + omega * (levelled * sin + level * (cos * turned))
+        aw = aw - faster * (lift * cos) - omega * (lifted * cos - lift * (sin * turned))
+    out[0], out[1] = share * total(u), share * total(w)
+    out[2], out[3] = share * total(au) + growth * total(u), share * total(aw) + growth * total(w)

@@ -9,7 +9,7 @@ from ..model.bodies import PointMass
 from ..model.connections import Spring
 from ..model.functions import TimeFunction
 from ..model.joints import Slide, Spherical
-from ..model.loads import DistributedLoad, Force
+from ..model.loads import DistributedLoad, Force, Moment
 from ..model.model import Model
 from ..model.section import DAMPINGS
 from ..model.winches import by_body
@@ -30,8 +30,7 @@ def acts_of(model: Model, name: str) -> Acts | None:
     owner, _, key = name.rpartition(".")
     key = key.partition("[")[0]
     if not owner:
-        steady = all(fluid.waves is None for fluid in model.fluids)  # waves are as fast as gravity makes them
-        weighs = key == "gravity" and steady and not by_body(model)
+        weighs = key == "gravity" and not by_body(model)
         return Acts(_wet(model), weighs=True) if weighs else None
     if key == "density" and any(fluid.name == owner for fluid in model.fluids):
         return Acts(_wet(model))
@@ -49,14 +48,14 @@ def acts_of(model: Model, name: str) -> Acts | None:
         return Acts(_wet(model))
     if key in FORCES or key in MASSES:
         return Acts(frozenset((ELEMENTS, BODIES)), weighs=key in MASSES)
-    if not _is_bare(model) or body.has_section:
+    if not _is_bare(model):
         return None
     if key in ("start", "end"):
-        return Acts(moves=True) if all(isinstance(one, Spring) for one in model.connections) else None
-    if model.fluids:
-        return None
+        sprung = not body.has_section and all(isinstance(one, Spring) for one in model.connections)
+        return Acts(moves=True) if sprung else None
     slides = any(isinstance(one, Slide) for one in model.connections)
     everything = frozenset((ELEMENTS, SPRINGS, BODIES, *((SLIDES,) if slides else ())))
+    everything |= _wet(model)
     moves = any(getattr(one, way, None) is not None for one in model.supports for way in MOTIONS)
     return Acts(everything, weighs=True, moves=moves, shapes=True) if key == "length" else None
 
@@ -67,16 +66,24 @@ def _wet(model: Model) -> frozenset[str]:
 
 
 def _is_bare(model: Model) -> bool:
-    """Whether there are dead forces and fluids, and no connections but springs, shared nodes and slides."""
+    """Whether there is nothing but dead forces, moments at ends, fluids, springs, shared nodes and slides."""
     around = model.grounds or model.surfaces or by_body(model)
     return (
         not around
-        and all(isinstance(_given(load), TimeFunction) for load in model.loads)
+        and all(_turns_end(load) or isinstance(_given(load), TimeFunction) for load in model.loads)
         and all(
             isinstance(one, Spring | Slide) or (isinstance(one, Spherical) and one.shared)
             for one in model.connections
         )
     )
+
+
+def _turns_end(load: Any) -> bool:
+    """Whether a load is a moment that knows of no length: at an end of a beam or on a rigid body."""
+    if not isinstance(load, Moment):
+        return False
+    body = load.point.body
+    return not isinstance(body, Beam) or load.point in (body.start, body.end)
 
 
 def _given(load: Any) -> Any:

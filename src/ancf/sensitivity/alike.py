@@ -31,6 +31,7 @@ OWN = (
     "open",
     "kept",
     "felt",
+    "asked",
     "said",
     "angle",
     "numbers",

@@ -19,7 +19,7 @@ from ..arrays import FloatArray
 from ..batches import Batches
 from ..compiled import Role, traits
 from ..errors import ModelError
-from ..system.beside import SLIDES, beside
+from ..system.beside import SLIDES, Acts, beside
 from ..system.core import Tables
 from ..system.system import System
 from .alike import Known, alike, changed, same_inputs, same_loads
@@ -140,7 +140,7 @@ class Family(Pushing):
             return self._take_line(3.0 * step if p >= 0.0 else -3.0 * step)
         acts = self.parameter.acts
         known = acts is not None and (acts.moves or acts.shapes)  # not to be linear
-        h *= STEEP if acts is not None and SLIDES in acts.parts else 1.0
+        h *= STEEP if acts is not None and (SLIDES in acts.parts or self._is_steep(acts)) else 1.0
         try:
             self._take(h, *(FOUR if known else PAIR))
             if p != 0.0 and not thorough and not self._stays():
@@ -158,6 +158,10 @@ class Family(Pushing):
             if p != 0.0:
                 raise
         return self._take(h, *ABOVE)  # it may not be negative
+
+    def _is_steep(self, acts: Acts) -> bool:
+        """Whether forces have high powers of a length, as those of beams with cross-sections."""
+        return acts.shapes and any(beam.has_section for beam in self.base.model.beams.values())
 
     def _forget(self) -> None:
         """Of systems that are not needed any more."""

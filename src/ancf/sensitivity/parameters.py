@@ -155,7 +155,8 @@ def _named(model: Model, name: Any, where: str) -> Parameter:
     spring, acts = _of_spring(model, clean), acts_of(model, clean)
     if spring is not None:
         return Parameter(clean, value, build, linear=True, kinked=spring.slack, acts=acts)
-    around = acts is not None and clean.startswith("gravity")
+    still = all(fluid.waves is None for fluid in model.fluids)  # waves are as fast as gravity makes them
+    around = acts is not None and clean.startswith("gravity") and still
     linear = _of_body(model, clean) or around or _of_fluid(model, clean)
     return Parameter(clean, value, build, linear=linear, acts=acts)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -67,7 +68,7 @@ def _renumbered(system: System, model: Model, acts: Acts) -> Parts:
     if SPRINGS in acts.parts and SPRINGS in system.parts and not acts.shapes:
         found[SPRINGS] = renumbered(system.parts[SPRINGS], system.model, model)
     if FLUIDS in acts.parts:
-        found[FLUIDS] = in_fluids(system.parts[FLUIDS], model)
+        found[FLUIDS] = in_fluids(system.parts[FLUIDS], model, _finder(system) if acts.shapes else None)
     return found
 
 
@@ -92,13 +93,20 @@ def _elements(system: System, kind: str, beams: list[Beam]) -> Any:
     return bind_parts(parts, rank, system.constraints, system.places)[kind]
 
 
-def _built(system: System, model: Model, acts: Acts) -> Parts:
-    """Parts that have to be made again, in the slots of the nodes."""
-    slots, mine, parts = system.numbering.slots, system.model.bodies, Parts()
+def _finder(system: System) -> Callable[[Point], Probe]:
+    """What locates points of bodies."""
+    slots = system.numbering.slots
 
     def find(point: Point) -> Probe:
         return locate(point, slots[point.body.name], system.lengths.get(point.body.name, (-1, 0.0)))
 
+    return find
+
+
+def _built(system: System, model: Model, acts: Acts) -> Parts:
+    """Parts that have to be made again, in the slots of the nodes."""
+    slots, mine, parts = system.numbering.slots, system.model.bodies, Parts()
+    find = _finder(system)
     if SPRINGS in acts.parts and acts.shapes and SPRINGS in system.parts:
         parts[SPRINGS] = springs(model, find)
     if SLIDES in acts.parts:
