@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import FloatArray
+from ..arrays import BoolArray, FloatArray
 from ..compiled import traits
 from ..later import csc_array
 from .core import Core, apply_supports
@@ -53,3 +53,15 @@ def touching(core: Core, q: FloatArray, n: int) -> Touching:
                 rows.append(row[:n])
                 stiffness.append(k)
     return Touching(np.array(rows).reshape(len(rows), n), np.array(stiffness))
+
+
+def strips_touch(core: Core, q: FloatArray) -> BoolArray:
+    """Which contacts with a row each, those of strips, push in the state q; (m,)."""
+    still = np.zeros_like(q)
+    batches = [(batch, row_of) for batch in core.batches if (row_of := traits(batch).row) is not None]
+    found = [
+        float(row_of(batch, j, q, still, np.zeros_like(q))) > 0.0
+        for batch, row_of in batches
+        for j in range(len(batch.slot))
+    ]
+    return np.array(found, dtype=bool)
