@@ -33,7 +33,7 @@ SPACED = re.compile(r"\s[\[(][^\[(]*[\])]$")
 
 
 def factor(unit: Any, where: str, of: str | None = None) -> float:
-    """What a unit is in those of the package; ModelError if it is unknown, or stands for another than ``of``."""
+    """What a unit is in those of the package; ModelError if it is unknown, or of another kind than ``of``."""
     if isinstance(unit, str) and unit.strip() in UNITS:
         if of is not None and unit.strip() not in KINDS[of]:
             raise ModelError(where, f"is {checks.shown(unit)}, wanted one of {checks.listed([*KINDS[of]])}")
@@ -53,7 +53,8 @@ def in_plain_units(
     Raises
     ------
     ModelError
-        A unit is unknown or that of something else, a column with a unit holds no numbers, or two columns have one name.
+        A unit is unknown or that of something else, a column with a unit holds no numbers, or two columns
+        have one name.
     """
     made: dict[str, Any] = {}
     for head, column in found.items():
