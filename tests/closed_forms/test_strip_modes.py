@@ -1,4 +1,4 @@
-"""Modes of what strips and cables touch: beside differences of forces, and a damped contact in closed form."""
+"""Modes of what strips and cables touch: differences of forces, and a damped contact in closed form."""
 
 from __future__ import annotations
 

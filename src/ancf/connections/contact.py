@@ -13,8 +13,8 @@ With ds = e . (dp - dr)/(e . r_x) the variation of g is m . (dp - dr(s)),
 so that the force on the wire is F m, normal to the wire and to the strip, and on the point -F m: the part
 along e is what drives the strip uphill.  Nothing is added to the iteration matrix: in a time step the
 stiffness is small against the inertia of what touches, and Newton's iteration makes up for it.
-:func:`contact_row` gives m S(s) where there is no inertia (equilibria and modes), :func:`contact_turn` how the
-force turns as the wire moves along and turns: with a = ds/dq and c = -m S'(s), the Hessian of g is
+:func:`contact_row` gives m S(s) where there is no inertia (equilibria and modes), :func:`contact_turn` how
+the force turns as the wire moves along and turns: with a = ds/dq and c = -m S'(s), the Hessian of g is
 c a^T + a c^T - (m . r_xx) a a^T.
 """
 

@@ -196,7 +196,7 @@ class Iteration:
         """
         if self.follows and self.mu == 0.0:
             return True
-        return len(self.touching.stiffness) > 0 and self.mu <= NEUTRAL_MU * self.ratio
+        return len(self.touching.turns) > 0 and self.mu <= NEUTRAL_MU * self.ratio
 
     def followed(self, dq: FloatArray, r: FloatArray, share: float) -> FloatArray:
         """The correction with the derivative of loads that follow, which no symmetric matrix has.
@@ -264,8 +264,8 @@ class Iteration:
         self._assemble(0.0, 1.0, False)
         if is_neutral(to_sparse(core.A, self.system.places), x):
             return True
-        # pivots are those of the matrix without contacts, which may be all that holds a body
-        return len(self.touching.stiffness) > 0 and self.softest()[0] > OUTWEIGHED * self.mu
+        # pivots are those of the matrix without strips, which may be all that holds a body
+        return len(self.touching.turns) > 0 and self.softest()[0] > OUTWEIGHED * self.mu
 
     def softest(self) -> tuple[float, FloatArray]:
         """Square of the lowest frequency of the last factors with the contacts, 1/s^2; its shape (n,)."""
