@@ -203,8 +203,12 @@ class Traits:
     row : function, optional
         ``row(batch, j, q, v, row)``, compiled: of what stays out of the matrix of a time step, the stiffness
         of part j and in ``row`` its direction, for equilibria and modes.
+    turn : function, optional
+        ``turn(batch, j, q, v, a, c)``, compiled: how the force F of part j of ``row`` turns with the motion:
+        F and a number n, with F (c a^T + a c^T + n a a^T) in the matrix.
     rows : function, optional
-        ``rows(batch, q)``: the same of a batch whose parts have many, (m, size) and stiffnesses (m,).
+        ``rows(batch, q)``: the same of a batch whose parts have many, (m, size), stiffnesses (m,) and
+        dampings (m,).
     memory : tuple of str
         Arrays of floats with what the batch remembers of the motion so far, see :func:`remember`: a step
         that is tried again finds them as they were, states and files keep them.
@@ -259,7 +263,8 @@ class Traits:
     bind: Callable[[Any, Any, Any], Any] | None = None
     damped: Callable[[Any], bool] | None = None
     row: Callable[..., Any] | None = None
-    rows: Callable[[Any, Any], tuple[Any, Any]] | None = None
+    turn: Callable[..., Any] | None = None
+    rows: Callable[[Any, Any], tuple[Any, Any, Any]] | None = None
     memory: tuple[str, ...] = ()
     follows: Callable[[Any], bool] | None = None
     late: Callable[[Any], Callable[[Any, Any], float] | None] | None = None

@@ -37,6 +37,10 @@ class TestFiles:
             ("t [furlong],x\n0,1\n", "is 'furlong', known are"),
             ("t [s],x [mm]\n0,long\n", "must hold numbers, holds 'long'"),
             ("t [s],x [mm],x\n0,1,1\n", 'has two columns "x"'),
+            ("t [mm],x\n0,1\n", 'is \'mm\', wanted one of "s", "ms"'),
+            ("t,position(b.at(0.5))[2] [kN]\n0,1\n", 'is \'kN\', wanted one of "m", "mm"'),
+            ("t,tension(b.end) [m]\n0,1\n", 'is \'m\', wanted one of "N", "kN"'),
+            ("t,strain(b.end) [mm]\n0,1\n", "is 'mm', wanted one of"),
         ],
     )
     def test_one_message(self, tmp_path, text, phrase):

@@ -188,6 +188,7 @@ def wrong(text):
 BAD = [
     (wrong('column = "w"'), "displacement[0].column", '"w", the file has the columns "t", "x"'),
     (wrong('column = "x", unit = "furlong"'), "displacement[0].unit", "known are"),
+    (wrong('column = "x", time_unit = "mm"'), "displacement[0].time_unit", 'wanted one of "s", "ms"'),
     (wrong('column = "x", cut = 3.0'), "displacement[0].cut", "unknown key"),
     (wrong('column = "x", cutoff = -1.0'), "displacement[0].cutoff", "must be > 0"),
     (wrong('column = "x", cutoff = 0.01'), "displacement[0].cutoff", "not one period"),

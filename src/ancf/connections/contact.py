@@ -13,7 +13,9 @@ With ds = e . (dp - dr)/(e . r_x) the variation of g is m . (dp - dr(s)),
 so that the force on the wire is F m, normal to the wire and to the strip, and on the point -F m: the part
 along e is what drives the strip uphill.  Nothing is added to the iteration matrix: in a time step the
 stiffness is small against the inertia of what touches, and Newton's iteration makes up for it.
-:func:`contact_row` gives m S(s) where there is no inertia (equilibria and modes).
+:func:`contact_row` gives m S(s) where there is no inertia (equilibria and modes), :func:`contact_turn` how
+the force turns as the wire moves along and turns: with a = ds/dq and c = -m S'(s), the Hessian of g is
+c a^T + a c^T - (m . r_xx) a a^T.
 """
 
 from __future__ import annotations
@@ -24,7 +26,8 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..compiled import Role, formula, implements, inline_kernel, kernel
-from .carrier import COLUMNS, element_at, slider
+from ..vectors import dot
+from .carrier import COLUMNS, element_at, line, shape, slider
 from .contact_slopes import contact_number_work, contact_work_slopes
 from .contact_touch import ARC, ASIDE, DAMPING, FORCE, OVERLAP, STIFFNESS, add_row, crossing, touch
 from .in_matrix import no_pairs, no_places
@@ -133,6 +136,25 @@ def contact_row(batch, j, q, v, row):
     return batch.data[j, STIFFNESS]
 
 
+@kernel
+def contact_turn(batch, j, q, v, a, c):
+    """Rows a and c of contact j, see the text above; its force, 0 while it does not touch, and -m . r_xx."""
+    pushes, e, xi, m, force = touch(batch, j, q, v)
+    if not pushes:
+        return 0.0, 0.0
+    tau = (batch.travel[j, 0], batch.travel[j, 1], batch.travel[j, 2])
+    rise = dot(tau, line(batch, e, xi, q, 1))
+    add_row(batch, j, e, xi, (tau[0] / rise, tau[1] / rise, tau[2] / rise), 1.0, a)
+    for k in range(COLUMNS):
+        o = batch.line_slot[e, k]
+        if o < 0:
+            break
+        w = shape(batch, e, k, xi, 1)
+        for i in range(3):
+            c[o + i] -= w * m[i]
+    return force, -dot(m, line(batch, e, xi, q, 2))
+
+
 implements(
     ContactBatch,
     force=contact_force,
@@ -150,6 +172,7 @@ implements(
     bind=no_places,
     damped=lambda batch: bool(np.any(batch.data[:, DAMPING])),
     row=contact_row,
+    turn=contact_turn,
 )
 
 

@@ -98,20 +98,23 @@ def find_rows(batch, q, v, c_damping, c_stiffness):
 
 
 @kernel
-def stiffness_rows(batch, q, v):
-    """See :func:`find_rows`; the stiffness alone."""
-    return find_rows(batch, q, v, 0.0, 1.0)
+def rows_at_rest(batch, q, v, c_damping, c_stiffness):
+    """See :func:`find_rows`."""
+    return find_rows(batch, q, v, c_damping, c_stiffness)
 
 
-def rows_in(batch: Any, q: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Rows (m, size) and stiffnesses (m,) of an equilibrium in the state q."""
-    count = stiffness_rows(Located(batch), q, np.zeros_like(q))
+def rows_in(batch: Any, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Rows (m, size), stiffnesses and dampings (m,) of an equilibrium in the state q."""
+    still = np.zeros_like(q)
+    braked = rows_at_rest(Located(batch), q, still, 1.0, 0.0)
+    damping = batch.row[:braked, STIFF].copy()
+    count = rows_at_rest(Located(batch), q, still, 0.0, 1.0)
     rows = np.zeros((count, len(q)))
     for m in range(count):
         slots = batch.base[batch.at[m]].ravel()
         for c in range(3):
             np.add.at(rows[m], slots + c, batch.row[m, c:STIFF:3])
-    return rows, batch.row[:count, STIFF].copy()
+    return rows, batch.row[:count, STIFF].copy(), damping
 
 
 implements(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -12,11 +13,15 @@ from ..arrays import FloatArray
 from ..columns import read_columns
 from ..errors import ModelError
 from ..model import checks
-from ..model.units import in_plain_units
+from ..model.units import KINDS, in_plain_units
+from ..viz import style
 
 TIME = "t"
 #: Ratio of positive bounds above which the logarithm of a parameter is looked for.
 WIDE = 10.0
+#: A column that is one question, perhaps of one of its components; those whose unit depends on what is asked.
+QUESTION = re.compile(r"(\w+)\([^()]*(?:\([^()]*\))?[^()]*\)(?:\[\d+\])?")
+OPEN = "multiplier", "energy"
 
 
 def is_logarithmic(low: float, high: float) -> bool:
@@ -71,11 +76,18 @@ def priors_of(
     return made
 
 
+def unit_of(column: str) -> str | None:
+    """Unit of the package of a column that is the time or one plain question; None of other formulas."""
+    question = "t" if column == TIME else found[1] if (found := QUESTION.fullmatch(column)) else ""
+    unit = style.UNITS.get(question)
+    return unit if question not in OPEN and unit in KINDS else None
+
+
 def columns_of(data: Any) -> dict[str, FloatArray]:
     """Columns of numbers (n,) of a file, a table or a mapping; ModelError if they are none."""
     where = "calibrate.data"
     if isinstance(data, str | Path):
-        found: Mapping[str, Any] = in_plain_units(read_columns(Path(data), where), where)
+        found: Mapping[str, Any] = in_plain_units(read_columns(Path(data), where), where, unit_of)
     elif hasattr(data, "columns"):
         found = {str(name): data[name].to_numpy() for name in data.columns}
     elif isinstance(data, Mapping):

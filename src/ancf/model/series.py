@@ -72,7 +72,7 @@ class Series:
         ramp: float | None = None,
         where: str = "Series",
     ) -> None:
-        self.t = checks.array(t, f"{where}.t", (None,)) * factor(time_unit, f"{where}.time_unit")
+        self.t = checks.array(t, f"{where}.t", (None,)) * factor(time_unit, f"{where}.time_unit", "s")
         self.value = _values(value, f"{where}.value", size) * factor(unit, f"{where}.unit")
         self.interpolation = checks.choice(interpolation, f"{where}.interpolation", INTERPOLATIONS)
         self.cutoff = None if cutoff is None else checks.positive(cutoff, f"{where}.cutoff")
@@ -304,7 +304,8 @@ def read_table(
     if unit is None and len(said) > 1:
         raise ModelError(f"{where}.column", f"has the units {checks.listed(sorted(said))}, wanted one")
     scale = factor(next(iter(said), "") if unit is None else unit, f"{where}.unit")
-    ticks = factor((split_unit(clock)[1] or "s") if time_unit is None else time_unit, f"{where}.time_unit")
+    said_clock = (split_unit(clock)[1] or "s") if time_unit is None else time_unit
+    ticks = factor(said_clock, f"{where}.time_unit", "s")
     columns = [scale * _numbers(found[head], f'{where}.csv: column "{head}"') for head in heads]
     values = columns[0] if isinstance(column, str) else np.column_stack(columns)
     return {"t": ticks * _numbers(found[clock], f'{where}.csv: column "{clock}"'), "value": values}

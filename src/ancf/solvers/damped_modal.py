@@ -22,6 +22,7 @@ from ..errors import SolveError
 from ..later import coo_array, csc_array, eig, null_space
 from ..linalg.sparse import to_sparse
 from ..model.winch import Winch
+from ..system.contacts import touching
 from ..system.core import apply_load, assemble, follow_supports, residual
 from ..system.system import System
 from .standing import Standing, vectors_and_arms
@@ -97,10 +98,12 @@ class Damped:
         """Mass, damping with the gyroscopic part, stiffness with the centrifugal one, constraints."""
         f = self.free
         stiffness, damping = self.standing.beyond(self.q)
-        K = self._whole(0.0, 0.0, 1.0) + csc_array(stiffness)
+        system = self.system
+        touches = touching(system.core, self.q, system.n, lambda row: _physical(system, row)[: system.n])
+        K = self._whole(0.0, 0.0, 1.0) + csc_array(stiffness) + touches.matrix()
         if self.braked is not None:
             K = csc_array(K + self.braked @ self.W)
-        resisting = self._whole(0.0, 1.0, 0.0) + csc_array(damping)
+        resisting = self._whole(0.0, 1.0, 0.0) + csc_array(damping) + touches.brakes()
         M = self._part(self.M, f, f)
         D = self._part(csc_array(resisting + 2.0 * (self.M @ self.W)), f, f)
         turned = self._part(csc_array(K + self.M @ self.W @ self.W), f, f)

@@ -41,6 +41,19 @@ def is_neutral(K: csc_array, x: FloatArray) -> bool:
     return bool(abs(x @ (K @ x)) <= ROUND_OFF * terms)
 
 
+def lowest_square(solve: Solve, M: csc_array, held: IntArray) -> tuple[float, FloatArray]:
+    """Least w of A x = w M x, 1/s^2, and x, (n,), by inverse iteration; ``solve`` has the factors of A."""
+    x = np.random.default_rng(1).standard_normal(M.shape[0])
+    x[held] = 0.0
+    square = 0.0
+    for _ in range(_ROUNDS):
+        b = M @ x
+        x = solve(b)
+        square = float(x @ b) / float(x @ (M @ x))
+        x /= np.linalg.norm(x)
+    return square, x
+
+
 class Spin:
     """Stiffness G J/L of each beam against a common spin of its sections.
 

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import FloatArray
+from ..arrays import BoolArray, FloatArray
 from ..compiled import traits
 from ..errors import SolveError
 from ..later import LinearOperator, SuperLU, gmres, splu
 from ..linalg.sparse import to_sparse
 from ..model.beam import Beam
 from ..model.joints import Slide
-from ..system.contacts import touching
+from ..system.contacts import strips_touch, touching
 from ..system.core import (
     Core,
     apply_supports,
@@ -27,7 +27,7 @@ from ..system.core import (
     solve_matrix,
 )
 from ..system.system import System
-from .free_spin import Spin, is_neutral, softest_mode
+from .free_spin import Spin, is_neutral, lowest_square, softest_mode
 from .mixed import Mixed
 
 ACCEPTED = 1e-9  # of a correction, where round-off keeps it above the tolerance
@@ -40,6 +40,7 @@ NEUTRAL_MU = 1e-13  # up to which mu may only make up for round-off
 NEUTRAL_MU_JOINTS = 1e-10  # NEUTRAL_MU with the stiffness that the rows of joints add
 PROBE, NOTHING = 1e-7, 1e-300  # of differences, positions in sizes of the model; no correction at all
 LEFT_OVER, DIRECTIONS = 1e-3, 40  # of the residual by GMRES, and how many directions it looks in
+OUTWEIGHED = 2.0  # times mu: what holds a vibration of this square is more than mu
 COUNTED_MU = 1e-9  # with which pivots are counted where a body has no stiffness of its own
 
 
@@ -56,6 +57,7 @@ class Iteration:
     iterations: int = 0
     jacobians: int = 0
     mu: float = 0.0
+    last: float = np.inf  # length of the last correction
     held: bool = False  # whether surfaces and friction hold what they touch
     plain: bool = True  # whether an indefinite matrix is taken as it is where loads follow
 
@@ -90,6 +92,10 @@ class Iteration:
             q[arc] = min(max(q[arc], 0.0), joint.length)
         follow_supports(self.core.supports, q, self.zero.copy(), self.zero.copy())
         return q
+
+    def strips(self, q: FloatArray) -> BoolArray:
+        """Which contacts of strips push in a state."""
+        return strips_touch(self.core, q)
 
     def factorise(self, mass: float, stiffness: float = 1.0, spin: bool = False) -> int:
         """Factorise mass M + stiffness K at q.
@@ -163,6 +169,9 @@ class Iteration:
         """
         if len(self.core.joints.tail) or self.held:
             return self._short_correction(r)
+        if self.mu == 0.0 and not (self.follows or self.spin) and np.any(self.strips(self.q)):
+            # a body that only a strip holds has a pivot of round-off, of either sign
+            self.mu = LEAST_MU * self.ratio
         negative = self.factorise(self.mu)
         self.spinning = bool(self.spin) and self.spins(r, negative)
         if self.spinning:
@@ -178,6 +187,16 @@ class Iteration:
                 return self.solve(r)
             self.mu *= MORE_MU
         raise SolveError("equilibrium", "no regularisation makes the stiffness positive definite")
+
+    def lacks_slopes(self) -> bool:
+        """Whether the matrix lacks derivatives near an equilibrium.
+
+        Those of loads that follow, or of how the forces of strips turn with their wire, where mu is there for
+        a body alone that only its contact holds.
+        """
+        if self.follows and self.mu == 0.0:
+            return True
+        return len(self.touching.turns) > 0 and self.mu <= NEUTRAL_MU * self.ratio
 
     def followed(self, dq: FloatArray, r: FloatArray, share: float) -> FloatArray:
         """The correction with the derivative of loads that follow, which no symmetric matrix has.
@@ -242,9 +261,17 @@ class Iteration:
             return True
         core = self.core
         x = softest_mode(self.solve, self.system.n, core.supports.held)
-        assemble(core.batches, core.ws, self.q, self.zero, core.A, 0.0, 0.0, 1.0)
-        restrict(core.supports, core.A)
-        return is_neutral(to_sparse(core.A, self.system.places), x)
+        self._assemble(0.0, 1.0, False)
+        if is_neutral(to_sparse(core.A, self.system.places), x):
+            return True
+        # pivots are those of the matrix without strips, which may be all that holds a body
+        return len(self.touching.turns) > 0 and self.softest()[0] > OUTWEIGHED * self.mu
+
+    def softest(self) -> tuple[float, FloatArray]:
+        """Square of the lowest frequency of the last factors with the contacts, 1/s^2; its shape (n,)."""
+        self._assemble(1.0, 0.0, False)
+        M = to_sparse(self.core.A, self.system.places)
+        return lowest_square(self.solve, M, self.core.supports.held)
 
 
 def _follows(batch: Any) -> bool:

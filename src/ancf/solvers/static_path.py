@@ -9,6 +9,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import SolveError
 from ..system.core import find_inverted
+from .adrift import adrift
 from .failures import inverted
 from .free_spin import softest_mode
 from .static_iteration import MORE_MU, Iteration
@@ -30,6 +31,7 @@ SLOW = 0.2  # of the correction before, where loads that follow keep the symmetr
 NEAR = 1e-2  # of a correction: mu is no longer needed
 LESS_MU = 0.1  # factor of mu after LONG_STEP of a correction; MORE_MU after less than SHORT_STEP of it
 LONG_STEP, SHORT_STEP = 0.3, 0.05
+BISECTIONS = 40  # of a correction, to where a strip touches: LONGEST becomes 3e-13
 TRIALS = 12  # of a line search
 WORK_LEFT = 0.8  # of the out-of-balance work along the correction, with which a line search is content
 LEAST_PART, MOST_PART = 0.1, 0.7  # of the interval in which it looks next
@@ -48,10 +50,12 @@ def follow_path(it: Iteration, load: Callable[[float], float], steps: int, of: s
         if problem is None:
             share = min(share + part, 1.0)
             continue
+        where, halvings = f"equilibrium at {share:.4g} {of}", halvings + 1
+        away = adrift(it, where) if halvings > MOST_HALVINGS else None
         it.q, it.mu = before, 0.0
-        part, halvings = 0.5 * part, halvings + 1
+        part = 0.5 * part
         if halvings > MOST_HALVINGS:
-            raise it.failure(f"equilibrium at {share:.4g} {of}", problem, _advice(it, problem))
+            raise away or it.failure(where, problem, _advice(it, problem))
     return halvings
 
 
@@ -82,9 +86,9 @@ def settle(it: Iteration, share: float) -> str | None:
                 raise
             return error.what
         it.iterations += 1
-        if it.follows and it.mu == 0.0 and it.length(dq) > SLOW * norm:
+        if it.lacks_slopes() and it.length(dq) > SLOW * norm:
             dq = it.followed(dq, r, share)
-        norm = it.length(dq)
+        it.last = norm = it.length(dq)
         accepted = max(it.accepted, SPUN) if it.spinning else it.accepted
         settled = norm <= TOLERANCE or (norm <= accepted and _stalled(it, dq, r, share))
         if settled and (it.mu == 0.0 or it.harmless()):
@@ -97,6 +101,8 @@ def settle(it: Iteration, share: float) -> str | None:
             r = it.out_of_balance(it.q, share)
             continue
         longest = min(1.0, LONGEST / max(norm, NO_MOTION))
+        if longest < 1.0:  # what nothing holds goes as far as it is let
+            longest = until_touching(it, dq, longest)
         if number < PLAIN:
             s, r = longest, it.out_of_balance(it.moved(dq, longest), share)
         else:
@@ -122,6 +128,25 @@ def _stalled(it: Iteration, dq: FloatArray, r: FloatArray, share: float) -> bool
     """Round-off: the correction does not reduce the residual any more."""
     ahead = it.out_of_balance(it.moved(dq, 1.0), share)
     return bool(np.linalg.norm(ahead) >= REDUCED * np.linalg.norm(r))
+
+
+def until_touching(it: Iteration, dq: FloatArray, longest: float) -> float:
+    """Part of a correction, at most ``longest``, at which the next strip that is open touches its wire.
+
+    A head that only its contact will hold has no stiffness until then: a share of the size of the model
+    would press it so deep into the wire that the wire is not found again.
+    """
+    closed = it.strips(it.q)
+    low, high = 0.0, longest
+    if not np.any(it.strips(it.moved(dq, high)) & ~closed):
+        return longest
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        if np.any(it.strips(it.moved(dq, middle)) & ~closed):
+            high = middle
+        else:
+            low = middle
+    return high
 
 
 def relax(mu: float, s: float, norm: float, ratio: float) -> float:
