@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ..files import drafted, to_json, writing
 from .output import OutputFolder
 from .screen import Screen, console, table
+from .summary import plural
 
 if TYPE_CHECKING:
     from ..design.droppers import LineOptimum, Tried
@@ -85,8 +86,7 @@ def _show(given: OptimisationFile, found: LineOptimum) -> None:
         shown.add_row(name, f"{1e3 * x:.3f}", " ".join(given.parameters[name].labels))
     where.print(shown)
     text = given.formulas[0].text
-    where.print(
-        f"{text}: {found.first:.6g} -> {found.objective:.6g} with {len(found.tried)} runs with gradients"
-    )
+    runs = plural(len(found.tried), "run")
+    where.print(f"{text}: {found.first:.6g} -> {found.objective:.6g} with {runs} with gradients")
     if not found.converged:
         where.print(f"note: the search has not converged: {found.message}", soft_wrap=True)
