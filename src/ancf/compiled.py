@@ -202,7 +202,7 @@ class Traits:
         ``damped(batch)``: whether it does dissipate; of batches with that role.
     row : function, optional
         ``row(batch, j, q, v, row)``, compiled: of what stays out of the matrix of a time step, the stiffness
-        of part j and in ``row`` its direction, for equilibria and modes.
+        and damping of part j and in ``row`` its direction, for equilibria and modes.
     turn : function, optional
         ``turn(batch, j, q, v, a, c)``, compiled: how the force F of part j of ``row`` turns with the motion:
         F and a number n, with F (c a^T + a c^T + n a a^T) in the matrix.

@@ -110,7 +110,7 @@ def test_the_sum_over_the_steps(case):
 
 def test_a_gradient_by_many_is_that_of_each():
     model = two_cables(4, **DAMPED)
-    names, settings = NAMES["others"], {"t_end": 0.02, "step": 1e-3}
+    names, settings = NAMES["others"], {"t_end": 0.05, "step": 1e-3}
     objective = "integral(norm(velocity(a.end))**2) + last(tension(b.at(0.3)))**2"
     _, slope = ancf.gradient(model, objective, names, **settings)
     _, again = ancf.gradient(model, objective, names[::-1], **settings)
@@ -120,8 +120,5 @@ def test_a_gradient_by_many_is_that_of_each():
         own = result.sensitivity(name)
         wanted = np.trapezoid(2.0 * np.sum(v * own.velocity("a.end"), axis=1), t)
         wanted += 2.0 * tension[-1] * own.tension("b.at(0.3)")[-1]
-        # a strain is what is left of differences of places, over the length of an element
-        strain = np.max(np.abs(own.position("a.at(0.3)"))) / 0.2
-        rounded = 1e-10 * 2.0 * abs(tension[-1]) * 200.0 * strain
-        assert slope[name] == pytest.approx(wanted, rel=1e-7, abs=rounded), name
+        assert slope[name] == pytest.approx(wanted, rel=1e-7), name
         assert again[name] == pytest.approx(slope[name], rel=1e-9), name

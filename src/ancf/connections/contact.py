@@ -128,12 +128,12 @@ def contact_measure(batch, q, v):
 
 @kernel
 def contact_row(batch, j, q, v, row):
-    """Gradient of the overlap of contact j in ``row``; its stiffness, 0 while it does not touch."""
+    """Gradient of the overlap of contact j in ``row``; stiffness and damping, 0 while it does not touch."""
     pushes, e, xi, m, _ = touch(batch, j, q, v)
     if not pushes:
-        return 0.0
+        return 0.0, 0.0
     add_row(batch, j, e, xi, m, 1.0, row)
-    return batch.data[j, STIFFNESS]
+    return batch.data[j, STIFFNESS], batch.data[j, DAMPING]
 
 
 @kernel

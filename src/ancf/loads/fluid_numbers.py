@@ -10,11 +10,11 @@ import numpy as np
 
 from ..compiled import formula, inline_kernel
 from ..vectors import both, dot
-from .along import place_at, tangent_at
+from .along import place_at
 from .flow import AREA, CLOCK, DENSITY, DRAG_N, DRAG_T, GRAVITY, MASS_N, MASS_T, apart
-from .flow_slopes import ROOM, feel
-from .fluid_slopes import acting, slopes_at, three, wetted_slopes
-from .waves import ALONG_X, ALONG_Y, PLACE, RATE, RISE, SPEED, TIME, sea_at, sea_changes, sea_numbers
+from .flow_slopes import ROOM
+from .fluid_slopes import acting, along_axis, found_at, slopes_at, three
+from .waves import ALONG_X, ALONG_Y, PLACE, RATE, SPEED, TIME, sea_at, sea_changes, sea_numbers
 
 #: Fields of which the numbers are made, one after the other, and those that lengths change.
 SHAPES = ("weight", "shift", "shape", "slope")
@@ -123,10 +123,7 @@ def fluid_number_work(batch, q, v, a, x, out, ws):
         for p in range(batch.weight.shape[1]):
             if batch.weight[e, p] == 0.0:
                 continue
-            at, own, b = place_at(batch, e, p, q), place_at(batch, e, p, v), place_at(batch, e, p, a)
-            t, size = tangent_at(batch, e, p, q)
-            fresh = feel(batch, e, p, k, at, own)
-            wet = wetted_slopes(batch, e, p, at[2], t, size, batch.felt[e, p, RISE])
+            own, b, t, size, fresh, wet = found_at(batch, e, p, q, v, a)
             if wet[0] == 0.0 and wet[1] == 0.0:
                 continue
             X = place_at(batch, e, p, x)
@@ -219,7 +216,7 @@ def add_sea_change(batch, e, p, here, fresh, rates, out):
     if of < 0:
         return
     for c in range(3):
-        X = (1.0 if c == 0 else 0.0, 1.0 if c == 1 else 0.0, 1.0 if c == 2 else 0.0)
+        X = along_axis(c)
         f, _, by_rise, (_, by_past, by_du, _, _) = acting(batch, e, p, t, own, b, X, wet)
         change = along_waves(batch, e, p, k, of, f, by_rise, by_past, by_du)
         add_change(batch, e, p, c, change, 0.0, False, rates, out)
@@ -230,7 +227,7 @@ def add_changes_at(batch, e, p, states, size, here, rates, kinds, begin, out):
     """Add what other changes of numbers do at point p, of which r_x has this size."""
     (q, v, a), (t, own, b, wet), of_each = states, here, rates.shape[0] // begin.shape[0]
     for c in range(3):
-        X = (1.0 if c == 0 else 0.0, 1.0 if c == 1 else 0.0, 1.0 if c == 2 else 0.0)
+        X = along_axis(c)
         f, h, _, (g, _, _, _, _) = acting(batch, e, p, t, own, b, X, wet)
         made = by_numbers(batch, e, p, t, size, own, b, X, wet, f, h, g)
         for m in range(begin.shape[0]):
@@ -250,10 +247,7 @@ def fluid_changes(batch, q, v, a, rates, kinds, begin, out, ws):
         for p in range(batch.weight.shape[1]):
             if batch.weight[e, p] == 0.0:
                 continue
-            at, own, b = place_at(batch, e, p, q), place_at(batch, e, p, v), place_at(batch, e, p, a)
-            t, size = tangent_at(batch, e, p, q)
-            fresh = feel(batch, e, p, batch.fluid[e], at, own)
-            wet = wetted_slopes(batch, e, p, at[2], t, size, batch.felt[e, p, RISE])
+            own, b, t, size, fresh, wet = found_at(batch, e, p, q, v, a)
             if wet[0] == 0.0 and wet[1] == 0.0:
                 continue
             here = t, own, b, wet

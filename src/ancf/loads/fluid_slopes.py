@@ -114,6 +114,15 @@ def through_place(felt, first, f):
 
 
 @formula
+def found_at(batch, e, p, q, v, a):
+    """Velocity, acceleration, tangent, size of r_x at point p; whether it was felt anew, what is wetted."""
+    at, own, b = place_at(batch, e, p, q), place_at(batch, e, p, v), place_at(batch, e, p, a)
+    t, size = tangent_at(batch, e, p, q)
+    fresh = feel(batch, e, p, batch.fluid[e], at, own)
+    return own, b, t, size, fresh, wetted_slopes(batch, e, p, at[2], t, size, batch.felt[e, p, RISE])
+
+
+@formula
 def put(batch, e, p, by_place, by_slope, by_speed, by_own, by_q, by_v, by_a):
     """Add derivatives by the place of point p, its slope, velocity and acceleration to those by unknowns."""
     for k in range(batch.base.shape[1]):
@@ -159,13 +168,10 @@ def fluid_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
         for p in range(batch.weight.shape[1]):
             if batch.weight[e, p] == 0.0:
                 continue
-            at, own = place_at(batch, e, p, q), place_at(batch, e, p, v)
-            t, size = tangent_at(batch, e, p, q)
-            feel(batch, e, p, batch.fluid[e], at, own)
-            wet = wetted_slopes(batch, e, p, at[2], t, size, batch.felt[e, p, RISE])
+            own, b, t, size, _, wet = found_at(batch, e, p, q, v, a)
             if wet[0] == 0.0 and wet[1] == 0.0:
                 continue
-            b, X = place_at(batch, e, p, a), place_at(batch, e, p, x)
+            X = place_at(batch, e, p, x)
             slopes = slopes_at(batch, e, p, t, size, own, b, X, wet)
             put(batch, e, p, slopes[0], slopes[1], slopes[2], slopes[3], by_q, by_v, by_a)
 
@@ -184,6 +190,12 @@ def in_lanes(batch, e, p, factors, d, n):
 
 
 @formula
+def along_axis(c):
+    """Unit vector along axis c."""
+    return 1.0 if c == 0 else 0.0, 1.0 if c == 1 else 0.0, 1.0 if c == 2 else 0.0
+
+
+@formula
 def know_slopes(batch, e, p, t, size, own, b, wet):
     """Let ``felt`` hold the derivatives of the three components of the force at point p by its motion."""
     felt = batch.felt[e, p]
@@ -194,7 +206,7 @@ def know_slopes(batch, e, p, t, size, own, b, wet):
     for i in range(3):
         felt[MOVING + i], felt[MOVING + 3 + i] = own[i], b[i]
     for c in range(3):
-        X = (1.0 if c == 0 else 0.0, 1.0 if c == 1 else 0.0, 1.0 if c == 2 else 0.0)
+        X = along_axis(c)
         by, first = slopes_at(batch, e, p, t, size, own, b, X, wet), FORCES + 12 * c
         for i in range(3):
             felt[first + i], felt[first + 3 + i] = by[0][i], by[1][i]
@@ -208,11 +220,8 @@ def fluid_force_slopes(batch, q, v, a, d, r, ws):
         for p in range(batch.weight.shape[1]):
             if batch.weight[e, p] == 0.0:
                 continue
-            at, own, b = place_at(batch, e, p, q), place_at(batch, e, p, v), place_at(batch, e, p, a)
-            t, size = tangent_at(batch, e, p, q)
-            feel(batch, e, p, batch.fluid[e], at, own)
+            own, b, t, size, _, wet = found_at(batch, e, p, q, v, a)
             felt = batch.felt[e, p]
-            wet = wetted_slopes(batch, e, p, at[2], t, size, felt[RISE])
             if wet[0] == 0.0 and wet[1] == 0.0:
                 continue
             know_slopes(batch, e, p, t, size, own, b, wet)

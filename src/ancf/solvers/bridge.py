@@ -29,8 +29,8 @@ MOST_PARTS, FREE_STEPS = 4, 20
 #: Energy that a longer part may make from nothing, as a share of what was exchanged so far.
 MOST_MADE = 0.05
 #: Share of what begins to move that a step has to resolve for the accelerations at its start to be replaced
-#: before all else is tried: a swinging cable of any length of elements and steps has 0.98 or more, a
-#: cantilever of a tenth of its period 0.7.
+#: before all else is tried: swinging cables with elements of 1 mm to 1 m and steps of 1 to 100 ms have 0.98
+#: or more, a cantilever 0.66 with a step of a twelfth of its period.
 NEARLY_ALL = 0.95
 
 

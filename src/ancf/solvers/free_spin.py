@@ -27,12 +27,7 @@ _ROUNDS = 4  # of inverse iterations
 
 def softest_mode(solve: Solve, n: int, held: IntArray) -> FloatArray:
     """Mode (n,) of the lowest stiffness by inverse iteration, of length 1."""
-    x = np.random.default_rng(1).standard_normal(n)
-    x[held] = 0.0
-    for _ in range(_ROUNDS):
-        x = solve(x)
-        x /= np.linalg.norm(x)
-    return x
+    return lowest_square(solve, csc_array((np.ones(n), np.arange(n), np.arange(n + 1))), held)[1]
 
 
 def is_neutral(K: csc_array, x: FloatArray) -> bool:

@@ -10,7 +10,6 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray
 from ..compiled import traits
-from ..connections.contact_touch import DAMPING
 from ..later import csc_array
 from .core import Core, apply_supports
 
@@ -68,11 +67,11 @@ def touching(core: Core, q: FloatArray, n: int, seen: Seen | None = None) -> Tou
             continue
         for j in range(len(batch.slot)):
             row = np.zeros_like(q)
-            k = float(row_of(batch, j, q, np.zeros_like(q), row))
+            k, c = row_of(batch, j, q, np.zeros_like(q), row)
             if k > 0.0:
                 rows.append(seen(row))
                 stiffness.append(k)
-                damping.append(batch.data[j, DAMPING])
+                damping.append(c)  # of a strip
                 turns += _turns(batch, j, q, seen)
     return Touching(np.array(rows).reshape(len(rows), n), np.array(stiffness), np.array(damping), turns)
 
@@ -97,7 +96,7 @@ def strips_touch(core: Core, q: FloatArray) -> BoolArray:
     still = np.zeros_like(q)
     batches = [(batch, row_of) for batch in core.batches if (row_of := traits(batch).row) is not None]
     found = [
-        float(row_of(batch, j, q, still, np.zeros_like(q))) > 0.0
+        row_of(batch, j, q, still, np.zeros_like(q))[0] > 0.0
         for batch, row_of in batches
         for j in range(len(batch.slot))
     ]
