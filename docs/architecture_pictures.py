@@ -39,13 +39,11 @@ FLOORS = (
     ("simd", "eight elements as one value in kernels"),
     ("batches", "batches of all kinds under one type"),
     ("records  operations", "batches and operations at an address"),
-    ("vectors words", "arithmetic of three numbers in kernels, where arrays are"),
+    ("vectors  words", "triples of numbers in kernels, where arrays are"),
     ("choices", "kernels by the type of what they take"),
     ("compiled", "kernels, and operations by type of batch"),
-    (
-        "asked  parts  addresses",
-        "code that kernels take in or call by its address, operations for sensitivities",
-    ),
+    ("kept", "code that kernels take in, for other processes"),
+    ("asked  parts  addresses", "code that kernels take in or call"),
     ("files  worker  columns  garbage", "files that are complete or absent, processes"),
     ("errors  arrays  interrupts  later", "messages, arrays, signals, imports that wait"),
 )

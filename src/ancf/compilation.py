@@ -198,6 +198,8 @@ def needed(model: Model, method: Integrator | None) -> Needed:
     from .solvers.apart import needed as apart_needed
     from .solvers.block import stepping
     from .solvers.runs import run_of
+    from .solvers.sampling import sampling_of
+    from .system.sensors import listing
     from .system.system import System
 
     found: list[Kernel] = []
@@ -215,6 +217,8 @@ def needed(model: Model, method: Integrator | None) -> Needed:
         types = type_of(system.core), type_of(memory), type_of(sampling)
         apart_of(*types, apart_needed(system.core, memory, sampling, run.explicit))
         apart_of(*types, tuple(name in ("note", "sample") for name in Apart._fields))
+        system.sensors = listing(system, [*map(model.sensor, system.measures)], accelerations=False)
+        sampling_of(system)
     batches = [batch for batch in system.core.batches if len(batch[0])]
     resting = [
         (kernel, (RecordType(type_of(batch)), *given))

@@ -19,7 +19,7 @@ import numba
 from numba import types
 from numba.extending import overload
 
-from . import kernel_cache
+from . import kept, kernel_cache
 from .asked import MOST_TOUCHED as MOST_TOUCHED
 from .asked import OF_SENSITIVITIES
 from .asked import add_changes as add_changes
@@ -64,6 +64,7 @@ def stamped() -> list[Path]:
     kernels = (
         root / "asked.py",
         root / "compiled.py",
+        root / "kept.py",
         root / "parts.py",
         root / "records.py",
         root / "addresses.py",
@@ -104,12 +105,17 @@ def separate_kernel(function: F) -> F:
 
 def inline_kernel(function: F) -> F:
     """Compile ``function`` as a part of the kernels that call it; Python cannot call it."""
-    return part(function, PART)
+    return part(function, PART, _keep)
 
 
 def formula(function: F) -> F:
     """Put the code of a small kernel into the loops that call it, which can only then be vectorised."""
-    return part(function, FORMULA)
+    return part(function, FORMULA, _keep)
+
+
+def _keep(dispatcher: Any) -> None:
+    """Look for what a part compiles, and leave it, where other processes do."""
+    kept.use(dispatcher, _STAMP)
 
 
 def add_force(batch, q, v, a, r, ws):

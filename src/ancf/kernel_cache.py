@@ -121,7 +121,7 @@ def _wait_for(path: str) -> int | None:
     if "impatient" in _said:
         return None
     try:
-        file = _opened(path)
+        file = opened(path)
     except OSError:
         return None
     try:
@@ -188,7 +188,7 @@ def _read_each(load: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _save(self: Any, key: Any, data: Any) -> None:
-    with _alone(self._cache_path):
+    with alone(self._cache_path):
         index = self._load_index()
         used = set(index.values())
         names = (self._data_name(number) for number in itertools.count(1))
@@ -199,11 +199,12 @@ def _save(self: Any, key: Any, data: Any) -> None:
 
 
 @contextmanager
-def _alone(folder: str) -> Iterator[None]:
+def alone(folder: str) -> Iterator[None]:
+    """Here no other process writes to a folder of the cache."""
     if sys.platform == "win32":
         yield
         return
-    file = _opened(os.path.join(folder, "ancf.lock"))
+    file = opened(os.path.join(folder, "ancf.lock"))
     try:
         _lock(file, PATIENCE)
         yield
@@ -211,7 +212,7 @@ def _alone(folder: str) -> Iterator[None]:
         os.close(file)
 
 
-def _opened(path: str) -> int:
+def opened(path: str) -> int:
     """A file to be locked: no link is followed, no pipe waited for, and nothing is written."""
     file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
     if stat.S_ISREG(os.fstat(file).st_mode):

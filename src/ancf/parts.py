@@ -11,6 +11,7 @@ from collections.abc import Callable
 from functools import cached_property, update_wrapper
 from typing import Any, NoReturn, TypeVar, cast
 
+import llvmlite.binding as llvm
 import numba
 from numba import types
 from numba.core import codegen, compiler
@@ -23,6 +24,14 @@ _Library: Any = codegen.JITCodeLibrary
 
 class PartLibrary(_Library):  # type: ignore[misc]
     """A function as code for kernels, without a translation of its own."""
+
+    @classmethod
+    def read(cls, target: Any, name: str, code: bytes) -> PartLibrary:
+        """The one whose code another process has written, see :mod:`ancf.kept`."""
+        library = cls(target.codegen(), name)
+        library._final_module = llvm.parse_bitcode(code)
+        library._finalize_final_module()
+        return library
 
     def _optimize_final_module(self) -> None:
         """With the kernel."""

@@ -20,6 +20,7 @@ LAYERS = (
     {"errors", "_version", "kernel_cache", "arrays", "interrupts", "later", "reading"},
     {"files", "worker", "columns", "garbage"},
     {"parts", "addresses", "asked"},
+    {"kept"},
     {"compiled"},
     {"choices"},
     {"vectors", "words"},
