@@ -467,7 +467,7 @@ class TestCache:
             lock.mkdir()
         else:
             lock.symlink_to(treasure if kind == "link" else tmp_path / "nowhere")
-        with pytest.raises(OSError, match=r"."), kernel_cache._alone(str(folder)):
+        with pytest.raises(OSError, match=r"."), kernel_cache.alone(str(folder)):
             pass
         assert treasure.read_text(encoding="utf-8") == "kept"
         assert not (tmp_path / "nowhere").exists()
@@ -476,10 +476,10 @@ class TestCache:
     def test_the_lock_keeps_what_a_file_holds_and_is_not_waited_for_for_ever(self, tmp_path, monkeypatch):
         (tmp_path / "ancf.lock").write_text("kept", encoding="utf-8")
         monkeypatch.setattr(kernel_cache, "PATIENCE", 0.05)
-        taken = kernel_cache._alone(str(tmp_path))
-        with taken, pytest.raises(TimeoutError), kernel_cache._alone(str(tmp_path)):
+        taken = kernel_cache.alone(str(tmp_path))
+        with taken, pytest.raises(TimeoutError), kernel_cache.alone(str(tmp_path)):
             pass
-        with kernel_cache._alone(str(tmp_path)):
+        with kernel_cache.alone(str(tmp_path)):
             assert (tmp_path / "ancf.lock").read_text(encoding="utf-8") == "kept"
 
     def test_the_stamp_covers_all_kernels(self):
