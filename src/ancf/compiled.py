@@ -108,9 +108,15 @@ def inline_kernel(function: F) -> F:
     return part(function, PART, _keep)
 
 
-def formula(function: F) -> F:
+def formula(function: F, finish: Callable[[Any], None] | None = None) -> F:
     """Put the code of a small kernel into the loops that call it, which can only then be vectorised."""
-    return part(function, FORMULA, _keep)
+
+    def finished(dispatcher: Any) -> None:
+        _keep(dispatcher)
+        if finish is not None:
+            finish(dispatcher)
+
+    return part(function, FORMULA, finished)
 
 
 def _keep(dispatcher: Any) -> None:

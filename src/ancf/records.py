@@ -9,6 +9,7 @@ field changes while the record lives (entries of arrays do), they need not read 
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -21,6 +22,7 @@ from numba.core.datamodel import models
 from numba.core.typing.templates import AttributeTemplate, infer_getattr
 from numba.extending import (
     NativeValue,
+    lower_cast,
     lower_getattr_generic,
     register_model,
     typeof_impl,
@@ -28,9 +30,11 @@ from numba.extending import (
 )
 
 from .arrays import IntArray
+from .compiled import formula
 from .words import begin_of, spelled
 
 T = TypeVar("T")
+F = TypeVar("F", bound=Callable[..., Any])
 WORD = ir.IntType(64)
 
 
@@ -46,6 +50,31 @@ class RecordType(types.Type):
 
 
 register_model(RecordType)(models.OpaqueModel)
+
+
+@lower_cast(RecordType, RecordType)
+def _same_address(context: Any, builder: Any, have: Any, want: Any, address: Any) -> Any:
+    return address
+
+
+def beginning(kind: Any) -> Callable[[F], F]:
+    """Decorate a formula that takes what records of several kinds begin with: the fields of one kind.
+
+    It is compiled once for all of them, as for a record of that kind, which has the same address.
+    """
+
+    def narrower(given: Any) -> Any:
+        """Type of such a record, of one that begins so."""
+        fields = kind._fields
+        if not isinstance(given, RecordType) or given.batch.fields[: len(fields)] != fields:
+            return given
+        return RecordType(types.NamedTuple(given.batch.types[: len(fields)], kind))
+
+    def narrow(dispatcher: Any) -> None:
+        template = dispatcher.get_call_template
+        dispatcher.get_call_template = lambda args, kws: template((narrower(args[0]), *args[1:]), kws)
+
+    return lambda function: formula(function, narrow)
 
 
 _types: dict[Any, Any] = {}

@@ -58,7 +58,7 @@ _RARE = {
 _RARE_OF = {"add_number_work_of": "number_work", "add_changes_of": "changes"}
 
 
-def _plain(function):
+def _plain(function, finish=None):
     function.py_func = function
     return function
 

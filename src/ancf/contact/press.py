@@ -22,8 +22,8 @@ from numba import types
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import VECTOR, Role, formula, implements, inline_kernel, kernel
-from ..records import Located
+from ..compiled import VECTOR, Role, implements, inline_kernel, kernel
+from ..records import Located, beginning
 from ..vectors import dot
 from .reel import stretched, swept
 from .touch import (
@@ -51,6 +51,7 @@ from .touch import (
     turning,
     with_force,
 )
+from .touching import Touching
 
 #: Entries of ``near``: how many rows, whether the others are watched, then the rows.
 COUNT, WATCHED, FIRST = range(3)
@@ -68,30 +69,30 @@ PASSED = 0.5
 class PressBatch(NamedTuple):
     """All elements that may touch surfaces."""
 
-    base: NDArray[np.int64]  # (n, k + 4) slots of the element and of the body of the surface
-    dest: NDArray[np.int64]  # (n, (k + 4)^2)
-    shape: FloatArray  # (n, points, k)
-    reach: FloatArray  # (n, k) largest factors, negative of positions
-    weight: FloatArray  # (n, points) m
-    winch: NDArray[np.int64]  # (n,) see contact/reel.py
-    unwound: FloatArray  # (n,) 1/m
-    mesh: FloatArray  # (n, 3)
-    contact: NDArray[np.int64]  # (n,) which contact
-    surface: NDArray[np.int64]  # (n,) which surface
-    data: FloatArray  # (contacts, 6) columns RADIUS ... DRAG
-    surfaces: FloatArray  # (surfaces, 10) columns PLACE ... NUMBERS
-    shape_of: NDArray[np.int64]  # (surfaces,) number of the profile
+    base: NDArray[np.int64]  # up to ``bond`` as in Touching
+    dest: NDArray[np.int64]
+    shape: FloatArray
+    reach: FloatArray
+    weight: FloatArray
+    winch: NDArray[np.int64]
+    unwound: FloatArray
+    mesh: FloatArray
+    contact: NDArray[np.int64]
+    surface: NDArray[np.int64]
+    data: FloatArray
+    surfaces: FloatArray
+    shape_of: NDArray[np.int64]
     found: FloatArray  # (contacts, 4) columns FORCE, DEPTH when it was measured last
-    tree: FloatArray  # (m, 8) boxes of all meshes, see contact.mesh; (0,) if there are none
-    faces: FloatArray  # (t, 30) their triangles
-    hint: NDArray[np.int64]  # (n, points) triangle that was nearest when it was looked for last
-    far: FloatArray  # (n, 5) memory: where the first node was, ROOM and GONE
+    tree: FloatArray
+    faces: FloatArray
+    hint: NDArray[np.int64]
+    far: FloatArray
+    bond: NDArray[np.int64]
     near: NDArray[np.int64]  # (n + 2,) how many rows are not far, whether all are watched, and which they are
     lit: NDArray[np.int64]  # (n,) 1 if it is one of them
-    bond: NDArray[np.int64]  # (n, points) 1 where the surface holds a point while loads come on, else 0
 
 
-@formula
+@beginning(Touching)
 def pressed(batch, e, p, row):
     """Place of point p in body axes, normal force and its derivatives, normal and how it turns."""
     nodes, rates, body, moving, at, axis = row
@@ -126,7 +127,7 @@ def press_force(batch, q, v, a, r, ws):
         add_sums(batch, e, sums, row[0], more, q, r)
 
 
-@formula
+@beginning(Touching)
 def stored_less_work(batch, e, p, nodes, g, n):
     """Energy of a depth in a piece of the mesh less the work that its elastic force does along D r, N m/m."""
     if g <= 0.0 and batch.bond[e, p] == 0:

@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 
 from ..compiled import formula, inline_kernel
 from ..model.beam import Beam
+from ..records import beginning
 from ..vectors import dot
+from .touching import Touching
 
 #: Columns of ``mesh``: X of both nodes of a row and 1/h; of cables with a winch.
 X1, X2, INV_H = range(3)
@@ -54,7 +56,7 @@ def times(s, a):
     return s * a[0], s * a[1], s * a[2]
 
 
-@formula
+@beginning(Touching)
 def swept(batch, e, nodes):
     """D r of a row, as vectors of its nodes."""
     f1, s1, f2, s2 = nodes
@@ -65,7 +67,7 @@ def swept(batch, e, nodes):
     return times(x1, s1), minus(s1, -x1, c1), times(x2, s2), minus(s2, -x2, c2)
 
 
-@formula
+@beginning(Touching)
 def rates_of_material(batch, e, nodes, rates, q, v):
     """Velocity of the material of a row, from that of its four vectors."""
     i = batch.winch[e]
@@ -76,14 +78,14 @@ def rates_of_material(batch, e, nodes, rates, q, v):
     return minus(a, mu, d[0]), minus(b, mu, d[1]), minus(c, mu, d[2]), minus(f, mu, d[3])
 
 
-@formula
+@beginning(Touching)
 def stretched(batch, e, q):
     """lam of a row."""
     i = batch.winch[e]
     return q[i] * batch.unwound[e] if i >= 0 else 1.0
 
 
-@formula
+@beginning(Touching)
 def add_on_length(batch, e, nodes, sums, more, r):
     """Add to the residual of L what forces with these sums, and stored energy of ``more`` N, leave there."""
     i = batch.winch[e]

@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..compiled import VECTOR, Role, formula, implements, inline_kernel, kernel
 from ..loads.along import upstream
-from ..records import Located
+from ..records import Located, beginning
 from ..vectors import dot
 from .press import pressed
 from .reel import grown, stretched, swept
@@ -59,6 +59,7 @@ from .touch import (
     row_of,
     with_force,
 )
+from .touching import Touching
 
 #: Share of a change of the limits that a round of an equilibrium takes: all of it would swing past a cable
 #: that friction holds on several turns.
@@ -72,7 +73,7 @@ GRIP, CLOSE = 1e100, 0.05
 class RubBatch(NamedTuple):
     """All elements that may rub on surfaces."""
 
-    base: NDArray[np.int64]  # as in PressBatch, up to ``found``
+    base: NDArray[np.int64]  # up to ``bond`` as in Touching
     dest: NDArray[np.int64]
     shape: FloatArray
     reach: FloatArray
@@ -89,13 +90,13 @@ class RubBatch(NamedTuple):
     tree: FloatArray
     faces: FloatArray
     hint: NDArray[np.int64]
-    far: FloatArray  # (n, 5) memory
+    far: FloatArray
+    bond: NDArray[np.int64]  # zero: friction knows of no point that is held against its pressure
     anchor: FloatArray  # (n, points, 3) memory: where friction has no force, in axes of what carries
     limit: FloatArray  # (n, points) memory: largest friction, N/m
     before: FloatArray  # (n, points) memory: normal force at the end of the step before, N/m
     most: FloatArray  # (n,) memory: the largest limit of a row
     lit: NDArray[np.int64]  # (n + 1,) memory: how many rows have a limit, and which
-    bond: NDArray[np.int64]  # (n, points) zero: friction knows of no point that is held against its pressure
     label: FloatArray  # (n, points) see loads/along.py
     beside: NDArray[np.int64]  # (n, 2)
     drift: FloatArray  # (n, points, 3) memory: by how much anchors move with the length; no rows: no winch
@@ -146,7 +147,7 @@ def drawn(batch, e, p, r, u, n, body, q):
     return w, size, 1.0, False
 
 
-@formula
+@beginning(Touching)
 def rubbed(batch, e, p, row):
     """Place of point p, in body axes too, its velocity past the surface and the normal."""
     nodes, rates, body, moving, at, axis = row

@@ -13,11 +13,13 @@ import math
 import numpy as np
 
 from ..choices import where_dimensions
-from ..compiled import formula, inline_kernel
+from ..compiled import inline_kernel
+from ..records import beginning
 from ..vectors import cross, dot
 from .mesh import MESH, nearest_face
 from .profiles import profile_of
 from .reel import add_on_length, rates_of_material, stretched, times
+from .touching import Touching
 
 #: Slots of an element that its axis depends on: r and r_x of both nodes; and of a rigid body.
 NODES, BODY = 4, 4
@@ -46,7 +48,7 @@ def at_slot(q, i):
     return q[i], q[i + ONE], q[i + TWO]
 
 
-@formula
+@beginning(Touching)
 def carrier(batch, e, q):
     """Place and directions of what carries the surface of a row."""
     b = batch.base[e]
@@ -71,7 +73,7 @@ def carried(body, x, y, z):
     )
 
 
-@formula
+@beginning(Touching)
 def lie(batch, e, body):
     """Global place and axis of the surface of a row."""
     s = batch.surfaces[batch.surface[e]]
@@ -91,7 +93,7 @@ def cylindrical(r, at, axis):
     return h, rho, (x * s, y * s, z * s)
 
 
-@formula
+@beginning(Touching)
 def outside(batch, e, p, body, at, axis, r):
     """Signed distance of a place from the surface of a row, the normal, and how it turns.
 
@@ -136,7 +138,7 @@ def turned(body, n):
     )
 
 
-@formula
+@beginning(Touching)
 def nodes_of(batch, e, q):
     """The four vectors of a row, or their rates from v."""
     b = batch.base[e]
@@ -148,7 +150,7 @@ def nodes_of(batch, e, q):
     )
 
 
-@formula
+@beginning(Touching)
 def row_of(batch, e, q, v):
     """What all points of a row share: its vectors and their rates, what carries the surface, how it lies.
 
@@ -160,7 +162,7 @@ def row_of(batch, e, q, v):
     return nodes, rates, body, still_or(batch, e, v), at, axis
 
 
-@formula
+@beginning(Touching)
 def still_or(batch, e, v):
     """Rates of the place and the directions of what carries a surface; zero on the ground."""
     if batch.base[e, NODES] < 0:
@@ -168,7 +170,7 @@ def still_or(batch, e, v):
     return carrier(batch, e, v)
 
 
-@formula
+@beginning(Touching)
 def place_on(batch, e, p, nodes):
     """Position of point p of row e from its four vectors, or its velocity from their rates."""
     s, (a, b, c, d) = batch.shape[e, p], nodes
@@ -187,7 +189,7 @@ def in_body(body, r):
     return dot(x, a), dot(x, b), dot(x, d)
 
 
-@formula
+@beginning(Touching)
 def first_node(batch, e, q):
     """Place of the first node of a row, in the axes of what carries the surface."""
     r = at_slot(q, np.uint64(batch.base[e, 0]))
@@ -196,7 +198,7 @@ def first_node(batch, e, q):
     return in_body(carrier(batch, e, q), r)
 
 
-@formula
+@beginning(Touching)
 def reach_of(batch, e, q):
     """Radius of a ball about the first node of a row, with the radius of the beam, that holds all its points.
 
@@ -214,7 +216,7 @@ def reach_of(batch, e, q):
     return reach
 
 
-@formula
+@beginning(Touching)
 def is_far(batch, e, q):
     """Whether no point of a row can touch: its first node has not left the ball in which none does."""
     i, far = np.uint64(batch.base[e, 0]), batch.far[e]
@@ -224,7 +226,7 @@ def is_far(batch, e, q):
     return abs(r[0] - far[0]) + abs(r[1] - far[1]) + abs(r[2] - far[2]) < far[ROOM]
 
 
-@formula
+@beginning(Touching)
 def look_around(batch, e, q):
     """Whether a row is far; its ball is renewed when half of it is used up.
 
@@ -239,7 +241,7 @@ def look_around(batch, e, q):
     return renew_ball(batch, e, q, r, way)
 
 
-@formula
+@beginning(Touching)
 def renew_ball(batch, e, q, r, way):
     """Lay the ball of a row about its first node r, which went so far in the last step; whether it is far."""
     far, body = batch.far[e], carrier(batch, e, q)
@@ -271,7 +273,7 @@ def pressure(data, g, rate):
     return N, slope, data[DAMPING] * on
 
 
-@formula
+@beginning(Touching)
 def factor_of(batch, e, p, k, x):
     """Factor of slot k in the place of point p against the surface, which it meets at x in body axes."""
     if k < NODES:
@@ -291,7 +293,7 @@ def nothing():
     return ZERO, ZERO, ZERO, ZERO, ZERO, ZERO, ZERO, ZERO
 
 
-@formula
+@beginning(Touching)
 def with_force(batch, e, p, x, f, sums):
     """The sums with a force f per length of the material on point p, at x in body axes of the surface."""
     s, w = batch.shape[e, p], batch.weight[e, p]
@@ -316,7 +318,7 @@ def take(r, i, f):
     r[i + TWO] -= f[2]
 
 
-@formula
+@beginning(Touching)
 def add_sums(batch, e, sums, nodes, more, q, r):
     """Subtract the forces of a row, and the opposite ones on what it touches, from r.
 
@@ -348,7 +350,7 @@ def add_sums(batch, e, sums, nodes, more, q, r):
         take(r, np.uint64(b[NODES + 3]), sums[7])
 
 
-@formula
+@beginning(Touching)
 def add_pair_block(batch, e, p, x, lam, rows, A):
     """Add a symmetric 3x3 matrix per length, minus the derivative of that force by the way apart, to A.
 
