@@ -20,7 +20,7 @@ from numba.extending import intrinsic, overload, typeof_impl
 from numpy.typing import NDArray
 
 from . import addresses
-from .addresses import call_at
+from .addresses import call_at, pointer
 from .compiled import (
     PART,
     add_changes,
@@ -303,6 +303,12 @@ def _remembered(batches, q, v):
     table = batches.table
     for k in range(table.shape[0]):
         _remember(table[k, REMEMBER], table[k, 0], (q, v))
+
+
+@inline_kernel
+def record_at(batches, k):
+    """The record of one of the :class:`Batches`, for a kernel that is called by its address."""
+    return pointer(batches.table[k, 0])
 
 
 @inline_kernel

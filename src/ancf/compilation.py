@@ -194,7 +194,7 @@ def needed(model: Model, method: Integrator | None) -> Needed:
         One that takes no steps of its own kernel is read as the default.
     """
     from .records import RecordType, type_of
-    from .solvers.apart import Apart, apart_of
+    from .solvers.apart import Apart, apart_of, strands_of
     from .solvers.apart import needed as apart_needed
     from .solvers.block import stepping
     from .solvers.runs import run_of
@@ -215,7 +215,8 @@ def needed(model: Model, method: Integrator | None) -> Needed:
         run: Any = run_of(used, system, 0.0, 1.0, 0.5, 1)
         memory, sampling = run.memory, run.sampling
         types = type_of(system.core), type_of(memory), type_of(sampling)
-        apart_of(*types, apart_needed(system.core, memory, sampling, run.explicit))
+        wanted = apart_needed(system.core, memory, sampling, run.explicit)
+        apart_of(*types, wanted, strands_of(system.core))
         apart_of(*types, tuple(name in ("note", "sample") for name in Apart._fields))
         system.sensors = listing(system, [*map(model.sensor, system.measures)], accelerations=False)
         sampling_of(system)

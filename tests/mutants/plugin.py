@@ -101,6 +101,7 @@ def _interpret() -> None:
     records.type_of = type
     records.Located = lambda value: value
     batches.Batches = type("Batches", (tuple,), {})
+    batches.record_at = lambda items, k: items[k]
     for operation, of_tuple in _ALL.items():
         setattr(batches, operation, getattr(batches, of_tuple))
     _interpret_rare(registered, batches.Batches)

@@ -9,10 +9,10 @@ from numba import types
 
 from .. import addresses
 from ..addresses import caller
-from ..batches import add_tangents
+from ..batches import add_tangents, record_at
 from ..compiled import formula, separate_kernel
 from ..linalg.border import clear_rows, find_rows, forget_columns, renew_border
-from ..records import recorded, type_of
+from ..records import RecordType, recorded, type_of
 from ..system.core import (
     Core,
     assemble,
@@ -26,6 +26,7 @@ from ..system.core import (
 from .balance import balance
 from .corotation import remember, turn_forth, turn_rows
 from .corrections import shift
+from .entwined import hold_zones, let_go_zones, solve_entwined
 from .far import begin_far, end_far, show_far
 from .far_awake import asleep, iterate_awake, matrix_awake
 from .low_rank import correct_rows, forget
@@ -57,6 +58,9 @@ class Apart(NamedTuple):
     matrix_awake: int
     correct: int  # contacts, or springs that may go slack
     iterate: int  # of a line what is near
+    entwined: int  # cables touch each other
+    hold_zones: int
+    let_go_zones: int
 
 
 _new_matrix, _renew_tail, _project = caller(types.boolean), caller(types.boolean), caller(types.float64)
@@ -64,6 +68,7 @@ _balance, _note, _sample = caller(types.none), caller(types.none), caller(types.
 _begin_far, _end_far, show_far_at = caller(types.none), caller(types.boolean), caller(types.none)
 _iterate_awake, _iterate = caller(types.float64, nothing=math.inf), caller(types.float64, nothing=math.inf)
 _matrix_awake = caller(types.int64, nothing=0)
+_entwined, _zones = caller(types.none), caller(types.none)
 
 
 @separate_kernel
@@ -197,6 +202,27 @@ def iterated(apart, core, s, limit, gb, ib):
     return _iterate(apart.iterate, (core, s, limit, gb, ib, apart.correct))
 
 
+@formula
+def entwined(apart, core, s, rule, gb):
+    """See :func:`ancf.solvers.entwined.solve_entwined`; nothing happens where no cables touch each other."""
+    if apart.entwined != 0:
+        _entwined(apart.entwined, (record_at(core.entwined, 0), core, s, rule.corotate, gb, apart.correct))
+
+
+@formula
+def zones_held(apart, core, s):
+    """See :func:`ancf.solvers.entwined.hold_zones`."""
+    if apart.hold_zones != 0:
+        _zones(apart.hold_zones, (record_at(core.entwined, 0), s.q))
+
+
+@formula
+def zones_let_go(apart, core):
+    """See :func:`ancf.solvers.entwined.let_go_zones`."""
+    if apart.let_go_zones != 0:
+        _zones(apart.let_go_zones, (record_at(core.entwined, 0),))
+
+
 def needed(core: Core, memory: Memory, sampling: Sampling, explicit: bool) -> tuple[bool, ...]:
     """Which of :class:`Apart` a model needs."""
     joints, implicit = core.joints, not explicit
@@ -210,11 +236,20 @@ def needed(core: Core, memory: Memory, sampling: Sampling, explicit: bool) -> tu
         *(5 * (implicit and bool(core.far) and len(core.far[0].part) > 0,)),
         implicit and len(memory.patches) > 0,
         implicit and len(core.near) > 0,
+        *(3 * (implicit and len(core.entwined) > 0,)),
     )
 
 
-def apart_of(core: Any, memory: Any, sampling: Any, wanted: tuple[bool, ...]) -> Apart:
-    """Those that are wanted, for arrays of these types; they are compiled if they were not."""
+def strands_of(core: Core) -> Any:
+    """Type of the contacts between cables; None without them."""
+    return RecordType(type_of(core.entwined[0])) if core.entwined else None
+
+
+def apart_of(core: Any, memory: Any, sampling: Any, wanted: tuple[bool, ...], strands: Any = None) -> Apart:
+    """Those that are wanted, for arrays of these types; they are compiled if they were not.
+
+    ``strands``: type of the contacts between cables.
+    """
     flag, number, vector = types.boolean, types.float64, types.Array(types.float64, 1, "C")
     both, scheme = (core, memory), type_of(Scheme(0.0, 0.0, 0.0, 0.0))
     kernels: list[tuple[Any, Any, tuple[Any, ...]]] = [
@@ -231,6 +266,9 @@ def apart_of(core: Any, memory: Any, sampling: Any, wanted: tuple[bool, ...]) ->
         (matrix_awake, types.int64, (*both, number, number)),
         (correct_rows, types.none, (*both, number)),
         (iterate, number, (*both, number, number, number, types.int64)),
+        (solve_entwined, types.none, (strands, *both, flag, number, types.int64)),
+        (hold_zones, types.none, (strands, vector)),
+        (let_go_zones, types.none, (strands,)),
     ]
     found = [
         addresses.address_of(kernel, given, result) if needs else 0

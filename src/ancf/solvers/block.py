@@ -12,7 +12,7 @@ from ..addresses import caller, pointer
 from ..compiled import kernel
 from ..records import type_of
 from ..system.core import Core, Tables
-from .apart import Apart, apart_of, needed, show_far_at
+from .apart import Apart, apart_of, needed, show_far_at, strands_of
 from .explicit import advance_explicit
 from .memory import Memory
 from .newmark import Rule, advance
@@ -78,9 +78,10 @@ def kernels_of(core: Core, memory: Memory, sampling: Sampling, explicit: bool) -
     """Addresses of the kernel that takes steps and of those that it calls; what is missing is compiled."""
     given = type_of(core), type_of(memory), type_of(sampling)
     wanted = needed(core, memory, sampling, explicit)
-    key = given, wanted
+    strands = strands_of(core)
+    key = given, wanted, strands
     if key not in addresses.found:
-        apart = apart_of(*given, wanted)
+        apart = apart_of(*given, wanted, strands)
         addresses.found[key] = addresses.address_of(*_stepping(given, explicit), BLOCK), apart
     steps, apart = addresses.found[key]
     return steps, apart

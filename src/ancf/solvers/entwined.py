@@ -12,8 +12,7 @@ import math
 
 import numpy as np
 
-from ..choices import optional
-from ..compiled import formula, inline_kernel
+from ..compiled import formula, inline_kernel, separate_kernel
 from ..contact.rows import find_rows
 from ..contact.strand import HELD, find_zones
 from ..system.core import onto_shadows, solve_kept, to_local
@@ -101,31 +100,31 @@ def clear(batch, vectors, rows):
 
 
 @formula
-def solve_turned(core, s, rule):
+def solve_turned(core, s, corotate):
     """Replace the residual s.r by the correction, with a factorisation that turns with the nodes."""
-    if rule.corotate:
+    if corotate:
         turn_back(s.frames, s.r)
     solve_kept(core, s.r, np.int64(0))
-    if rule.corotate:
+    if corotate:
         turn_forth(s.frames, s.r)
 
 
 @inline_kernel
-def solve_apart(core, s, rule, gb, correct):
+def solve_apart(core, s, corotate, gb, correct):
     """The same with what :mod:`ancf.solvers.low_rank` corrects."""
-    solve_turned(core, s, rule)
-    if not rule.corotate:
+    solve_turned(core, s, corotate)
+    if not corotate:
         corrected(correct, core, s, gb)
 
 
 @inline_kernel
-def next_vector(batch, rows, core, s, rule, gb, correct, k):
+def next_vector(batch, rows, core, s, corotate, gb, correct, k):
     """Vector k + 1 of the basis, normal to those before it, and column k of the small matrix."""
     n, V, H = core.weight.shape[0], batch.basis, batch.small
     onto_shadows(core.supports, V[k])
     times_rows(batch, rows, V[k], s.r)
     to_local(core.supports, s.r)
-    solve_apart(core, s, rule, gb, correct)
+    solve_apart(core, s, corotate, gb, correct)
     for i in range(n):
         s.r[i] += V[k, i]
     for j in range(k + 1):
@@ -138,8 +137,9 @@ def next_vector(batch, rows, core, s, rule, gb, correct, k):
         V[k + 1, i] = s.r[i] / size if size > 0.0 else 0.0
 
 
-def _solve_entwined(entwined, core, s, rule, gb, correct):
-    batch = entwined[0]
+@separate_kernel
+def solve_entwined(batch, core, s, corotate, gb, correct):
+    """Let the correction s.r of the factorised matrix be that with what cables do to each other."""
     rows = find_rows(batch, s.q, s.v, gb, 1.0)
     if rows == 0:
         return
@@ -152,7 +152,7 @@ def _solve_entwined(entwined, core, s, rule, gb, correct):
         V[0, i] = s.r[i] / size
     k = 0
     while k < V.shape[0] - 1:
-        next_vector(batch, rows, core, s, rule, gb, correct, k)
+        next_vector(batch, rows, core, s, corotate, gb, correct, k)
         rotate(H, k)
         k += 1
         if not abs(H[k, g]) > LEFT * size:
@@ -161,20 +161,16 @@ def _solve_entwined(entwined, core, s, rule, gb, correct):
     clear(batch, k + 1, rows)
 
 
-def _hold(entwined, q):
-    room = entwined[0].room
-    room[HELD] = find_zones(entwined[0], q)
+@separate_kernel
+def hold_zones(batch, q):
+    """Let where cables press on each other remain what it is in this state.
+
+    Pieces that come and go make forces jump, by little, but a step that ends at a jump has no solution.
+    """
+    batch.room[HELD] = find_zones(batch, q)
 
 
-def _let_go(entwined):
-    entwined[0].room[HELD] = -1.0
-
-
-#: ``hold(entwined, q)``: where cables press on each other remains what it is in this state. Pieces that come
-#: and go make forces jump, by little, but a step that ends at a jump has no solution.
-hold = optional(_hold)
-#: ``let_go(entwined)``: it is found in each state again.
-let_go = optional(_let_go)
-#: ``solve_entwined(entwined, core, s, rule, gb, correct)``: the correction s.r of the factorised matrix, with
-#: what cables do to each other.
-solve_entwined = optional(_solve_entwined)
+@separate_kernel
+def let_go_zones(batch):
+    """Find it in each state again."""
+    batch.room[HELD] = -1.0

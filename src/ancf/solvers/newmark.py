@@ -36,6 +36,7 @@ from .apart import (
     begin_parts,
     book,
     end_parts,
+    entwined,
     iterated,
     iterated_awake,
     matrix_anew,
@@ -44,11 +45,13 @@ from .apart import (
     tail_anew,
     take_note,
     take_sample,
+    zones_held,
+    zones_let_go,
 )
 from .carry import carry, unbalanced
 from .corotation import turn
 from .corrections import UNLIMITED, largest, update
-from .entwined import hold, let_go, solve_apart, solve_entwined
+from .entwined import solve_apart
 from .far_awake import asleep, finish_awake, load_awake, predict_awake, restore_awake
 from .low_rank import move_on
 from .memory import ETA, H_FACTOR, KNOWN, NOISE, NORM, WORST
@@ -164,13 +167,13 @@ def newton(core, s, h, rule, modified, B, G, apart):
                 return SINGULAR
             renew, fresh, older, old, eta, since, whole = False, True, -1.0, -1.0, 1.0, 0, True
         if iteration == PATIENT:
-            hold(core.entwined, s.q)
+            zones_held(apart, core, s)
         if whole and asleep(core.far):
             norm = iterated_awake(apart, core, s, G / B, 1.0 / B)
         elif whole:
             unbalanced(core, s, h)
-            solve_apart(core, s, rule, G / B, apart.correct)
-            solve_entwined(core.entwined, core, s, rule, G / B, apart.correct)
+            solve_apart(core, s, rule.corotate, G / B, apart.correct)
+            entwined(apart, core, s, rule, G / B)
             if nearby:
                 norm = take_all(core.near, s, core.weight, G / B, 1.0 / B)
             else:
@@ -251,7 +254,7 @@ def take_steps(core, s, tables, h, scheme, rule, keep, sampling, out, apart):
             drive(core.supports, core.loads.value, tables, n, s.q, s.v, s.a)
             begin_parts(apart, core, s, h, scheme, G / B, 1.0 / B)
             status = newton(core, s, h, rule, rule.modified and attempt < LAST, B, G, apart)
-            let_go(core.entwined)
+            zones_let_go(apart, core)
             if status == OK:
                 status = check_sections(core, s)
             if status == OK and rule.furthest < UNLIMITED:

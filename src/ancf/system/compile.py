@@ -241,7 +241,7 @@ def make_core(
         losing=Batches(losing),
         inertial=Batches(alone(b) for b in losing if (alone := traits(b).inertial)),
         remembering=Batches(b for b in batches if traits(b).memory),
-        entwined=tuple(b for b in batches if isinstance(b, StrandBatch) and not isinstance(b, GripBatch)),
+        entwined=Batches(b for b in batches if isinstance(b, StrandBatch) and not isinstance(b, GripBatch)),
         near=near,
         far=(no_far(),) if near else (),
         ws=workspace(),

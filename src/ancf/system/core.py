@@ -97,7 +97,7 @@ class Core(NamedTuple):
     losing: Batches  # of them those without friction that dissipate
     inertial: Batches  # of these those with forces of inertia by velocities, with their mass alone
     remembering: Batches  # of them those with a memory
-    entwined: tuple[Any, ...]  # contacts between cables, which are not in the matrix: one batch or none
+    entwined: Batches  # of them contacts between cables, which are not in the matrix: one or none
     near: tuple[Any, ...]  # of a line what evaluates a part of them, see near: one or none
     far: tuple[Any, ...]  # of a line what of it may be reduced, see far: one or none
     ws: FloatArray  # workspace of the element kernels
