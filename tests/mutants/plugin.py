@@ -99,7 +99,7 @@ def _interpret() -> None:
     )
     addresses.pointer = records.place = lambda value: value
     records.type_of = type
-    records.Located = lambda value: value
+    records.Located = records.RecordType = lambda value: value
     batches.Batches = type("Batches", (tuple,), {})
     batches.record_at = lambda items, k: items[k]
     for operation, of_tuple in _ALL.items():

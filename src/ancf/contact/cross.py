@@ -18,8 +18,8 @@ import math
 
 import numpy as np
 
-from ..compiled import formula, inline_kernel, kernel
-from ..records import Located
+from ..compiled import inline_kernel, kernel
+from ..records import Located, beginning
 from ..vectors import dot
 from .near import LIVE, anything, keep, look, look_ahead, look_back, look_if_live
 from .strand import (
@@ -33,6 +33,7 @@ from .strand import (
     START,
     STIFFNESS,
     TO,
+    StrandBatch,
     apart,
     clearance,
     cubic,
@@ -57,7 +58,7 @@ def factors(x, h):
     return y * y * (1.0 + 2.0 * x), h * x * y * y, x * x * (1.0 + 2.0 * y), -h * x * x * y
 
 
-@formula
+@beginning(StrandBatch)
 def from_slots(batch, e, s, q):
     """Sum of the vectors of an element with these factors."""
     x, y, z = 0.0, 0.0, 0.0
@@ -69,7 +70,7 @@ def from_slots(batch, e, s, q):
     return x, y, z
 
 
-@formula
+@beginning(StrandBatch)
 def add_force_on(batch, e, s, f, r):
     """Subtract a force on the place with these factors from the residual r."""
     for k in range(4):
@@ -79,7 +80,7 @@ def add_force_on(batch, e, s, f, r):
         r[i + 2] -= s[k] * f[2]
 
 
-@formula
+@beginning(StrandBatch)
 def met(batch, z, p, q):
     """Point p of zone z: its xi, half of its length of cable, element and xi that it meets, depth, normal."""
     zone = batch.zone[z]
@@ -96,7 +97,7 @@ def met(batch, z, p, q):
     return x, 0.5 * GAUSS_W[p] * wide * batch.length[e], b, y, zone[REACH] - d, n
 
 
-@formula
+@beginning(StrandBatch)
 def pressed_at(batch, z, p, q, v):
     """The same, with factors of both places, the force on the point and its derivatives by depth and rate."""
     e = int(batch.zone[z, ELEMENT])
@@ -107,7 +108,7 @@ def pressed_at(batch, z, p, q, v):
     return e, b, sa, sb, g, n, weight * N, weight * by_g, weight * by_rate
 
 
-@formula
+@beginning(StrandBatch)
 def cross_force(batch, q, v, a, r, ws):
     """Subtract the normal forces from r."""
     look_if_live(batch, q)
@@ -119,12 +120,12 @@ def cross_force(batch, q, v, a, r, ws):
                 add_force_on(batch, b, sb, (-N * n[0], -N * n[1], -N * n[2]), r)
 
 
-@formula
+@beginning(StrandBatch)
 def not_in_matrix(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """What cables do to each other stays out of the matrix, see :mod:`ancf.solvers.entwined`."""
 
 
-@formula
+@beginning(StrandBatch)
 def cross_energy(batch, q, ws):
     """Energy of the depths, J."""
     look_if_live(batch, q)
@@ -137,7 +138,7 @@ def cross_energy(batch, q, ws):
     return energy
 
 
-@formula
+@beginning(StrandBatch)
 def cross_measure(batch, q, v):
     """Fill ``found`` for the state (q, v)."""
     look(batch, q)
@@ -153,7 +154,7 @@ def cross_measure(batch, q, v):
             measure_gap(batch, e, q)
 
 
-@formula
+@beginning(StrandBatch)
 def measure_gap(batch, e, q):
     """Largest depths of element e in cables that are near."""
     ca, half = cubic(batch, e, q), 0.5 / batch.cells[0]
@@ -176,7 +177,7 @@ def measure_gap(batch, e, q):
                 batch.found[j, DEPTH] = max(batch.found[j, DEPTH], depth)
 
 
-@formula
+@beginning(StrandBatch)
 def cross_remember(batch, q, v):
     """Keep where everything is: from there the next step is judged."""
     look_ahead(batch, q)
@@ -184,7 +185,7 @@ def cross_remember(batch, q, v):
         keep(batch, q, batch.last)
 
 
-@formula
+@beginning(StrandBatch)
 def cross_passed(batch, q, ws):
     """Slot of the first node of an element that may have gone through a cable since the last step, else -1.
 
@@ -208,7 +209,7 @@ def cross_passed(batch, q, ws):
     return -1
 
 
-@formula
+@beginning(StrandBatch)
 def moved_past(batch, e, b, q):
     """Bound of how far two elements have moved against each other since the last step."""
     if not batch.last[e, 0] < np.inf:
@@ -225,7 +226,7 @@ def moved_past(batch, e, b, q):
     return math.sqrt(most)
 
 
-@formula
+@beginning(StrandBatch)
 def came_near(batch, e, b, q, reach):
     """Whether some cell of element e is within reach of element b."""
     ca, half = cubic(batch, e, q), 0.5 / batch.cells[0]

@@ -29,7 +29,7 @@ import numpy as np
 
 from ..compiled import VECTOR, Role, formula, implements, inline_kernel, kernel
 from ..connections.in_matrix import no_pairs, no_places
-from ..records import Located
+from ..records import Located, beginning
 from ..vectors import dot
 from .cross import add_force_on, factors, from_slots, met, not_in_matrix, pressed_at
 from .near import look_if_live
@@ -96,7 +96,7 @@ def slopes(x, h):
     return -6.0 * x * y, h * y * (1.0 - 3.0 * x), 6.0 * x * y, h * x * (3.0 * x - 2.0)
 
 
-@formula
+@beginning(StrandBatch)
 def frame(batch, e, x, b, y, q):
     """Of a pair: rho, both tangents, sizes of both derivatives by xi, n, d_1, d_2 and phi_2."""
     ca, cb = cubic(batch, e, q), cubic(batch, b, q)
@@ -136,7 +136,7 @@ def balanced(d, rho, ta, tb, size_a, size_b):
     return plus(zero, 1.0 / size_a, pa), plus(zero, 1.0 / size_b, pb)
 
 
-@formula
+@beginning(StrandBatch)
 def rate(batch, e, x, b, y, d, pa, pb, v):
     """Rate with which a unit of friction along d does work."""
     h, k = batch.length[e], batch.length[b]
@@ -148,7 +148,7 @@ def rate(batch, e, x, b, y, d, pa, pb, v):
     )
 
 
-@formula
+@beginning(StrandBatch)
 def add_friction(batch, e, x, b, y, f, d, pa, pb, r):
     """Subtract a friction f along d from the residual r."""
     h, k = batch.length[e], batch.length[b]
@@ -158,14 +158,14 @@ def add_friction(batch, e, x, b, y, f, d, pa, pb, r):
     add_force_on(batch, b, slopes(y, k), (f * pb[0], f * pb[1], f * pb[2]), r)
 
 
-@formula
+@beginning(StrandBatch)
 def springs(batch, g):
     """Stiffness and damping of a row of ``grip``, N/m and N s/m."""
     data = batch.data[batch.law[batch.cable[int(g[ELEMENT])], batch.cable[int(g[OTHER])]]]
     return g[LENGTH] * data[STICK], g[LENGTH] * data[DRAG]
 
 
-@formula
+@beginning(StrandBatch)
 def drawn(batch, g, q, v):
     """Of a row of ``grip``: both w, the factor f, whether it slips, directions with their moments, phi_2."""
     e, b, x, y = int(g[ELEMENT]), int(g[OTHER]), g[X], g[Y]
@@ -210,7 +210,7 @@ def grip_force(batch, q, v, a, r, ws):
             add_friction(batch, e, g[X], b, g[Y], -f * w2 * phi, d2, pa2, pb2, r)
 
 
-@formula
+@beginning(StrandBatch)
 def left_over(batch, g, q, v):
     """Stretch of a row after a step, along and across t_a."""
     e, b = int(g[ELEMENT]), int(g[OTHER])
@@ -228,7 +228,7 @@ def left_over(batch, g, q, v):
     return x * dot(d1, along) + y * dot(d2, along), x * dot(d1, across) + y * dot(d2, across)
 
 
-@formula
+@beginning(StrandBatch)
 def take_over(batch, count, q, v, moves):
     """Copy the rows to ``older``, with stretches after the step where it moves the pairs; their number."""
     rows = rows_of(batch)
@@ -241,7 +241,7 @@ def take_over(batch, count, q, v, moves):
     return rows
 
 
-@formula
+@beginning(StrandBatch)
 def same_place(batch, z, b, y, rows):
     """Row of ``older`` of the same cell and the same place of the other cable, or -1."""
     zone = batch.zone[z]
@@ -256,7 +256,7 @@ def same_place(batch, z, b, y, rows):
     return -1
 
 
-@formula
+@beginning(StrandBatch)
 def pressed_middle(batch, z, q, v):
     """Force of a zone, xi of its middle, and the length that presses."""
     force, middle, length = 0.0, 0.0, 0.0
@@ -267,7 +267,7 @@ def pressed_middle(batch, z, q, v):
     return force, (middle / force if force > 0.0 else 0.0), length
 
 
-@formula
+@beginning(StrandBatch)
 def start_pair(batch, g, stretch, q):
     """Let a row begin at its pair with a stretch along and across t_a, from which nothing is to be added."""
     e, b = int(g[ELEMENT]), int(g[OTHER])
@@ -278,7 +278,7 @@ def start_pair(batch, g, stretch, q):
     g[ACROSS] = stretch[1] - x * dot(d1, across) - y * dot(d2, across)
 
 
-@formula
+@beginning(StrandBatch)
 def renew(batch, q, v, moves, taken):
     """Rows for what touches now; returns the largest change of a limit and the largest limit.
 

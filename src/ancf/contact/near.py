@@ -19,8 +19,9 @@ import math
 import numpy as np
 
 from ..compiled import formula, inline_kernel
+from ..records import beginning
 from ..vectors import dot
-from .strand import cubic, less, on_cubic
+from .strand import StrandBatch, cubic, less, on_cubic
 
 #: Places of ``room``: how far anything may go until the list is made again; the widest margin; whether every
 #: evaluation of the forces looks; whether the list has just been made; the share of the way that the step
@@ -37,7 +38,7 @@ TURNED, STRAIGHT = 0.4, 0.83
 FACTORS = (73856093, 19349663, 83492791)
 
 
-@formula
+@beginning(StrandBatch)
 def node_moved(batch, e, k, q, near, turned):
     """Share of what the list allows for that a node has used up; near and turned: what 1 m and 1 rad do."""
     i, j, seen = batch.base[e, k], batch.base[e, k + 1], batch.seen[e]
@@ -46,7 +47,7 @@ def node_moved(batch, e, k, q, near, turned):
     return x * near + y * turned
 
 
-@formula
+@beginning(StrandBatch)
 def chord_turned(batch, e, q):
     """Share of the turning that the list allows for that the chord of an element has used up."""
     i, j, seen, way = batch.base[e, 0], batch.base[e, 2], batch.seen[e], 0.0
@@ -64,7 +65,7 @@ def touches_itself(batch):
     return own
 
 
-@formula
+@beginning(StrandBatch)
 def used_up(batch, q):
     """Share of what the list allows for that is used up; more than all without a list."""
     if batch.room[LEFT] < 0.0:
@@ -86,7 +87,7 @@ def anything(batch):
     return batch.first[batch.base.shape[0]] > 0
 
 
-@formula
+@beginning(StrandBatch)
 def keep(batch, q, into):
     """Copy the unknowns of all elements."""
     for e in range(batch.base.shape[0]):
@@ -95,7 +96,7 @@ def keep(batch, q, into):
                 into[e, 3 * k + c] = q[batch.base[e, k] + c]
 
 
-@formula
+@beginning(StrandBatch)
 def ball(batch, e, q):
     """Middle of an element, and the radius of a ball about it that holds its cable."""
     c = cubic(batch, e, q)
@@ -107,7 +108,7 @@ def ball(batch, e, q):
     return m, h + 0.3 * bent + batch.radius[e]
 
 
-@formula
+@beginning(StrandBatch)
 def bucket(batch, x, y, z):
     """Where the elements of a cube of the grid are listed."""
     mixed = (x * FACTORS[0]) ^ (y * FACTORS[1]) ^ (z * FACTORS[2])
@@ -120,7 +121,7 @@ def cube(m, wide):
     return math.floor(m[0] / wide), math.floor(m[1] / wide), math.floor(m[2] / wide)
 
 
-@formula
+@beginning(StrandBatch)
 def leads(batch, e, q, u):
     """Whether all tangents of element e are nearly along u."""
     c = cubic(batch, e, q)
@@ -136,7 +137,7 @@ def leads(batch, e, q, u):
     return along and dot(last, u) > least * math.sqrt(dot(last, last))
 
 
-@formula
+@beginning(StrandBatch)
 def straight_to(batch, e, step, q, most):
     """The last element from e on, before (-1) or behind it (1), up to which its cable is nearly straight.
 
@@ -154,7 +155,7 @@ def straight_to(batch, e, step, q, most):
     return last
 
 
-@formula
+@beginning(StrandBatch)
 def may_touch(batch, a, b, before, behind, margin):
     """Whether two elements belong into the list; a's cable is straight from ``before`` to ``behind``."""
     if a == b or batch.law[batch.cable[a], batch.cable[b]] < 0:
@@ -166,7 +167,7 @@ def may_touch(batch, a, b, before, behind, margin):
     return x * x + y * y + z * z < reach * reach
 
 
-@formula
+@beginning(StrandBatch)
 def sort_in(batch, start, count, b):
     """Put element b into the ascending entries of one element; their number."""
     k = count
@@ -182,7 +183,7 @@ def sort_in(batch, start, count, b):
     return count + 1
 
 
-@formula
+@beginning(StrandBatch)
 def sort_into_cubes(batch, wide):
     """Lists of the elements in each bucket."""
     for k in range(batch.head.shape[0]):
@@ -194,7 +195,7 @@ def sort_into_cubes(batch, wide):
         batch.head[k] = e
 
 
-@formula
+@beginning(StrandBatch)
 def fill(batch, q, margin, wide):
     """Make the list with a margin; whether there is room for it."""
     n, count = batch.base.shape[0], 0
@@ -219,21 +220,21 @@ def fill(batch, q, margin, wide):
     return True
 
 
-@formula
+@beginning(StrandBatch)
 def look(batch, q):
     """Make the list if it may be out of date."""
     if not used_up(batch, q) < 1.0:
         make(batch, q)
 
 
-@formula
+@beginning(StrandBatch)
 def look_if_live(batch, q):
     """The same where steps are long."""
     if batch.room[LIVE] > 0.0:
         look(batch, q)
 
 
-@formula
+@beginning(StrandBatch)
 def look_ahead(batch, q):
     """Make the list in time for the next step.
 
@@ -249,7 +250,7 @@ def look_ahead(batch, q):
     batch.room[MADE] = 1.0 if made else 0.0
 
 
-@formula
+@beginning(StrandBatch)
 def look_back(batch, q):
     """Whether a step may have missed what is near: it went too far; the next attempt looks all the time."""
     batch.room[SEEN] = used_up(batch, q)
@@ -272,7 +273,7 @@ def box_in(batch):
                 batch.box[i, 3 + c] = max(batch.box[i, 3 + c], batch.middle[e, c] + batch.middle[e, 3])
 
 
-@formula
+@beginning(StrandBatch)
 def all_lead(batch, i, j, q):
     """Whether the cable is nearly straight from the start of piece i to the end of piece j."""
     first, last = cubic(batch, batch.piece[i], q), cubic(batch, batch.piece[j + 1] - 1, q)
@@ -282,7 +283,7 @@ def all_lead(batch, i, j, q):
     return straight
 
 
-@formula
+@beginning(StrandBatch)
 def free_way(batch, q):
     """How far everything may go before pieces of cables meet that may touch, m; 0 where some may already.
 
@@ -310,13 +311,13 @@ def free_way(batch, q):
     return least
 
 
-@formula
+@beginning(StrandBatch)
 def follows(batch, i):
     """Whether the next piece is of the same cable: then both are looked at together."""
     return i + 1 < batch.box.shape[0] and batch.cable[batch.piece[i]] == batch.cable[batch.piece[i + 1]]
 
 
-@formula
+@beginning(StrandBatch)
 def make(batch, q):
     """Make the list with the widest margin for which there is room."""
     largest, sound = 0.0, True

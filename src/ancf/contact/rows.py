@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..compiled import Role, formula, implements, kernel
+from ..compiled import Role, implements, kernel
 from ..connections.in_matrix import no_pairs, no_places
-from ..records import Located
+from ..records import Located, beginning
 from .cross import (
     cross_energy,
     cross_force,
@@ -32,7 +32,7 @@ __all__ = ["StrandBatch", "find_rows", "rows_in"]
 STIFF = 24
 
 
-@formula
+@beginning(StrandBatch)
 def put(batch, m, side, s, f):
     """Add a vector with the factors of the slots of an element to row m."""
     for k in range(4):
@@ -40,7 +40,7 @@ def put(batch, m, side, s, f):
             batch.row[m, 12 * side + 3 * k + c] += s[k] * f[c]
 
 
-@formula
+@beginning(StrandBatch)
 def begin(batch, m, e, b, stiffness):
     """An empty row of two elements."""
     batch.at[m, 0], batch.at[m, 1] = e, b
@@ -49,7 +49,7 @@ def begin(batch, m, e, b, stiffness):
     batch.row[m, STIFF] = stiffness
 
 
-@formula
+@beginning(StrandBatch)
 def add_pressed(batch, count, z, p, q, v, c_damping, c_stiffness):
     """Row of a point of a zone, along the normal; how that turns is left out."""
     e, b, sa, sb, _, n, N, by_g, by_rate = pressed_at(batch, z, p, q, v)
@@ -61,7 +61,7 @@ def add_pressed(batch, count, z, p, q, v, c_damping, c_stiffness):
     return count + 1
 
 
-@formula
+@beginning(StrandBatch)
 def add_gripped(batch, count, g, q, v, c_damping, c_stiffness):
     """Rows of friction: along the way that it is drawn, if it sticks, and across that."""
     if g[LIMIT] == 0.0 or count + 1 > batch.row.shape[0]:
@@ -84,7 +84,7 @@ def add_gripped(batch, count, g, q, v, c_damping, c_stiffness):
     return count
 
 
-@formula
+@beginning(StrandBatch)
 def find_rows(batch, q, v, c_damping, c_stiffness):
     """Fill ``row`` and ``at`` for c_damping C + c_stiffness K; their number."""
     look_if_live(batch, q)

@@ -16,10 +16,13 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numba import types
 from numpy.typing import NDArray
 
+from ..addresses import caller
 from ..arrays import FloatArray
-from ..compiled import formula, inline_kernel
+from ..compiled import VECTOR, formula, inline_kernel, separate_kernel
+from ..records import beginning
 from ..vectors import dot
 
 #: Columns of ``data``: as those of surfaces, see :mod:`ancf.contact.touch`; the radius is the smaller one.
@@ -71,9 +74,10 @@ class StrandBatch(NamedTuple):
     row: FloatArray  # (room, 25) these rows, and their stiffness
     basis: FloatArray  # (room, size) workspace of the solver
     small: FloatArray  # (room, room) the same
+    search: int  # address of find_zones_at
 
 
-@formula
+@beginning(StrandBatch)
 def cubic(batch, e, q):
     """Coefficients c0 ... c3 of element e."""
     i, j, k, m = batch.base[e, 0], batch.base[e, 1], batch.base[e, 2], batch.base[e, 3]
@@ -136,7 +140,7 @@ def on_element(c, r, x):
     return x, 0
 
 
-@formula
+@beginning(StrandBatch)
 def nearest(batch, q, r, b):
     """Element and xi of a place on the cable through element b that is nearest to r, next to b."""
     c = cubic(batch, b, q)
@@ -156,7 +160,7 @@ def nearest(batch, q, r, b):
     return b, x
 
 
-@formula
+@beginning(StrandBatch)
 def apart(batch, a, x, b, y):
     """Whether two places may touch: they are of two cables, or far from each other along one."""
     if batch.cable[a] != batch.cable[b]:
@@ -165,7 +169,7 @@ def apart(batch, a, x, b, y):
     return abs(way) > APART * 2.0 * batch.radius[a]
 
 
-@formula
+@beginning(StrandBatch)
 def clearance(batch, q, e, ca, x, b, reach):
     """Square of the distance at xi = x from the cable through b, less that of ``reach``, and the place there.
 
@@ -179,7 +183,7 @@ def clearance(batch, q, e, ca, x, b, reach):
     return dot(way, way) - reach * reach, o, y
 
 
-@formula
+@beginning(StrandBatch)
 def root(batch, q, e, ca, b, reach, middle, half, s, inside, f_in, outside, f_out):
     """Where the clearance vanishes between a place where it is negative and one where it is not.
 
@@ -226,7 +230,7 @@ def bounds(low, mean, high):
     return True, s, 1.0, 0.0 if mean < 0.0 else 1.0
 
 
-@formula
+@beginning(StrandBatch)
 def may_reach(batch, q, r, half, b, reach):
     """Whether a piece of half that length about r may come within reach of element b."""
     i, j, k, m = batch.base[b, 0], batch.base[b, 1], batch.base[b, 2], batch.base[b, 3]
@@ -239,7 +243,7 @@ def may_reach(batch, q, r, half, b, reach):
     return away < room * room
 
 
-@formula
+@beginning(StrandBatch)
 def is_taken(batch, count, e, cell, b, met, reach):
     """Whether a place has been found for the cell already, from another element of its cable."""
     z = count - 1
@@ -259,7 +263,7 @@ def beyond(batch, b, y):
     return 0.5 if y == 1.0 and batch.beside[b, 1] < 0 else 0.0
 
 
-@formula
+@beginning(StrandBatch)
 def past_end(batch, q, ca, left, right, b, y):
     """Where an element passes the end of a cable, between two xi of which one is nearest to that end."""
     cb = cubic(batch, b, q)
@@ -284,7 +288,7 @@ def past_end(batch, q, ca, left, right, b, y):
     return 0.5 * (left + right)
 
 
-@formula
+@beginning(StrandBatch)
 def add_zone(batch, q, e, ca, cell, o, reach, met, left, right, low, mean, high, count):
     """Add the zone of a piece of a cell with these clearances, if there is one; the number of all zones."""
     there, s0, s1, s = bounds(low, mean, high)
@@ -306,8 +310,8 @@ def add_zone(batch, q, e, ca, cell, o, reach, met, left, right, low, mean, high,
     return count + 1
 
 
-@formula
-def find_zones(batch, q):
+@separate_kernel
+def find_zones_at(batch, q):
     """Fill ``zone`` with the pieces of cables that touch others; their number.
 
     Where a cell passes the end of a cable, the distance has a kink: it is cut there.
@@ -359,3 +363,12 @@ def find_zones(batch, q):
                     batch, q, e, ca, cell + part, o, reach, met, left, right, low, mean, high, count
                 )
     return count
+
+
+_find = caller(types.int64, (types.voidptr, VECTOR))
+
+
+@formula
+def find_zones(batch, q):
+    """:func:`find_zones_at` by its address: one for all that look for zones, as it takes long to compile."""
+    return _find(batch.search, (batch, q))

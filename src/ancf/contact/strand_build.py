@@ -8,19 +8,23 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numba import types
 
+from .. import addresses
 from ..arrays import FloatArray, IntArray
+from ..compiled import VECTOR
 from ..elements.registry import ELEMENTS
 from ..errors import ModelError
 from ..later import cKDTree
 from ..model.beam import Beam
 from ..model.cable_contact import CableContact
 from ..model.points import Point
+from ..records import RecordType, type_of
 from .build import SUNK
 from .grip import COLUMNS, GripBatch
 from .near import PIECE
 from .rows import StrandBatch
-from .strand import APART
+from .strand import APART, find_zones_at
 
 #: Diameters of a cell, and the most cells of an element.
 CELL, MOST_CELLS = 2.0, 8
@@ -94,7 +98,10 @@ def strands(
         row=np.zeros((min(ROWS * zones, MOST_ROWS), 25)),
         basis=np.zeros((VECTORS, size)),
         small=np.zeros((VECTORS + 1, VECTORS + 3)),
+        search=0,
     )
+    given = RecordType(type_of(batch)), VECTOR
+    batch = batch._replace(search=addresses.address_of(find_zones_at, given, types.int64))
     found: dict[str, Any] = {"crossing": batch}
     if any(item.friction > 0.0 for item in items):
         found["gripping"] = GripBatch(*batch)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+import numpy as np
 from numba import typeof
 
 from .. import addresses
@@ -51,10 +52,15 @@ def knowing(stub: Any, batches: Iterable[Any], *others: Any) -> Batches:
 
 def _place(batch: Any, stub: Any) -> int:
     """Address of an operation, which is looked up by what arrays a batch has: numba takes longer for that."""
-    key = type(batch), stub, *((x.dtype, x.ndim, x.flags.num) for x in batch)
+    key = type(batch), stub, *map(_kind, batch)
     if key not in addresses.found:
         addresses.found[key] = address_of(type(batch), typeof(batch), stub)
     return int(addresses.found[key])
+
+
+def _kind(field: Any) -> Any:
+    array = isinstance(field, np.ndarray)
+    return (field.dtype, field.ndim, field.flags.num) if array else type(field)
 
 
 @inline_kernel
