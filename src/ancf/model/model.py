@@ -175,7 +175,7 @@ class Model(Supporting, Readable):
 
         """
         where, label, clean = self.named_point("add_force", "force", point, name)
-        given = force_function(force, f"{where}.force", initial_position(clean), lambda: self.size)
+        given = force_function(force, f"{where}.force", initial_position(clean), lambda: self.size, "N")
         return self.add_load(Force(label, clean, given))
 
     def add_moment(self, point: PointLike, moment: Any, name: str | None = None) -> Moment:
