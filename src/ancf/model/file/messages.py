@@ -105,10 +105,9 @@ def _of_detail(detail: dict[str, Any], entry_at: Tables) -> ModelError:
         hint = elsewhere(key, entry_at(())) or nearest(key, allowed)
         return ModelError(where, f"unknown key, allowed: {listed(allowed, 30)}", hint)
     if kind == "missing":
-        field = entry_at(detail["loc"][:-1]).model_fields[str(detail["loc"][-1])]
-        return ModelError(
-            where, "is missing", (field.description or "").rstrip(".") + _as_table(field, where)
-        )
+        field = _field(detail, entry_at)
+        said = "" if field is None else (field.description or "").rstrip(".") + _as_table(field, where)
+        return ModelError(where, "is missing", said)
     return ModelError(where, *_of_value(kind, given, context, detail["msg"]))
 
 
