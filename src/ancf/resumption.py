@@ -80,6 +80,7 @@ def resume(
         The file has no checkpoint, as one of an earlier version: the run starts anew from the last stored
         state, with accelerations that are computed anew.
     """
+    checks.progress(progress, "resume.progress")
     old = load(file)
     settings, path = _settings(old, file, model), Path(file)
     _check_led(settings, controller, file)

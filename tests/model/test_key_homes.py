@@ -85,3 +85,36 @@ def test_all_over_the_file_or_nowhere():
     assert (
         elsewhere("name", FileEntry) == elsewhere("tension", LineEntry) == elsewhere("foo", FileEntry) == ""
     )
+
+
+@pytest.mark.parametrize(
+    ("tables", "parse"), [(TOML, parse_track), (MODEL, lambda t: parse_study(t, "model"))]
+)
+@pytest.mark.parametrize("used", [False, True])
+def test_below_the_parameters(tables, parse, used):
+    """A key of the file there would be a parameter that nothing uses, and the file would have its default."""
+    line = parse is parse_track
+    keys = plain(LineEntry if line else FileEntry)
+    for key in keys:
+        if key in ("parameters", "tags"):
+            continue
+        given = {"parameters": {key: 1.5}, **tomllib.loads(tables)}
+        if used:
+            place, name = (given["contact_wire"], "EI") if line else (given["sections"]["rope"], "EI")
+            place[name] = f"100 * {key}"
+            parse(given)
+            continue
+        with pytest.raises(ancf.ModelError, match="no formula names it") as caught:
+            parse(given)
+        assert caught.value.where == f"parameters.{key}"
+
+
+def test_parameters_of_one_section_of_a_route():
+    tables = tomllib.loads(TOML)
+    spans = tables.pop("spans")
+    tables["parameters"] = {"gravity": 9.81, "height": 5.3}
+    sections = [{"start": 0.0, "spans": spans}, {"start": 120.0, "spans": spans, "height": "height"}]
+    with pytest.raises(ancf.ModelError, match=r"parameters\.gravity: .* no formula names it"):
+        parse_track({**tables, "sections": sections})
+    tables["parameters"].pop("gravity")
+    assert parse_track({**tables, "sections": sections}).parts[1].height == 5.3

@@ -95,6 +95,7 @@ def parse_track(data: dict[str, Any], source: str = "line") -> Line | Route:
         As :func:`parse_line`; ``where`` begins with ``sections[1]``.
 
     """
+    parameters.refuse_keys(data, LineEntry.model_fields)
     if "sections" not in data:
         return parse_line(data, source)
     sections = data["sections"]

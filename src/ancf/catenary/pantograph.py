@@ -204,6 +204,7 @@ def read_pantograph(path: str | Path) -> Pantograph:
     data = read_toml(Path(path), "pantograph file")
     refuse(path, data, PANTOGRAPH)
     try:
+        parameters.refuse_keys(data, PantographEntry.model_fields)
         with parameters.given(data, {}):
             entry = PantographEntry.model_validate(data)
     except ValidationError as error:
