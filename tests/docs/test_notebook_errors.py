@@ -18,7 +18,7 @@ result = ancf.simulate(model, t_end=0.01, step=1e-3)
 """  # noqa: E501
 #: Lines of cells, and what is said of them.
 WRONG = {
-    "model.add_beam('b', path=[(0, 0, 0), (1, 0, 0)], elements=-2, section=beam.section)": "between 1 and",
+    "model.add_beam('b', path=[(0, 0, 0), (1, 0, 0)], elements=-2, section=beam.section)": "needs at least 3",
     "ancf.simulate(model, t_end=0.4, step=-1)": "simulate.step: must be > 0",
     "ancf.simulate(model, t_end=0.4, step=1e-3, progress=True)": "simulate.progress: must be a function",
     "ancf.study(lambda E: {'x': E}, ancf.sample({'E': [1]}, method='grid'), progress=1)": "study.progress",

@@ -112,9 +112,12 @@ def test_below_the_parameters(tables, parse, used):
 def test_parameters_of_one_section_of_a_route():
     tables = tomllib.loads(TOML)
     spans = tables.pop("spans")
-    tables["parameters"] = {"gravity": 9.81, "height": 5.3}
-    sections = [{"start": 0.0, "spans": spans}, {"start": 120.0, "spans": spans, "height": "height"}]
+    tables["parameters"] = {"gravity": 9.81, "messenger_support": 5e5}
+    sections = [
+        {"start": 0.0, "spans": spans},
+        {"start": 120.0, "spans": spans, "messenger_support": "messenger_support"},
+    ]
     with pytest.raises(ancf.ModelError, match=r"parameters\.gravity: .* no formula names it"):
         parse_track({**tables, "sections": sections})
     tables["parameters"].pop("gravity")
-    assert parse_track({**tables, "sections": sections}).parts[1].height == 5.3
+    assert parse_track({**tables, "sections": sections}).parts[1].messenger_support == 5e5
