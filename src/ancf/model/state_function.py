@@ -105,7 +105,7 @@ class StateFunction:
 
 
 def force_function(
-    given: Any, where: str, position: FloatArray, size: Callable[[], float], unit: str
+    given: Any, where: str, position: FloatArray, size: Callable[[], float], unit: str | None = None
 ) -> TimeFunction | StateFunction:
     """A function of time, or of the state if it takes three arguments or names x ... vz.
 
