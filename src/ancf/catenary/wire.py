@@ -17,7 +17,7 @@ EXPANSION = 17e-6
 LEAST_TENSION = 100.0
 #: Beyond these what is meant is in other units: strain under the tension, reach of a bend sqrt(EI/T) in m,
 #: drag coefficient of some wires side by side, thermal expansion in 1/K.
-LEAST_STRAIN, WIDEST_BEND, MOST_DRAG, MOST_EXPANSION = 1e-5, 10.0, 100.0, 1e-3
+LEAST_STRAIN, WIDEST_BEND, MOST_DRAG, MOST_EXPANSION = 2e-6, 10.0, 100.0, 1e-3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
