@@ -649,3 +649,15 @@ def test_places_that_do_not_coincide_name_the_point_that_does(joint, seed):
         make(near, place + 1.0, **more)
     assert "is there" in caught.value.hint
     make(near, near.initial_position, **more)
+
+
+@pytest.mark.parametrize("place", [(0, 0, 1), [0.0, 0.0, 1.0], np.array([0.0, 0.0, 1.0])])
+@pytest.mark.parametrize("make", ["connect", "add_spring", "hinge"])
+def test_a_place_as_the_first_end(make, place):
+    model = mixed()
+    more = {"add_spring": {"stiffness": 1.0}, "hinge": {"axis": (0, 1, 0)}}.get(make, {})
+    with pytest.raises(ancf.ModelError, match="must be a point") as caught:
+        getattr(model, make)(place, "hub", **more)
+    assert caught.value.hint == "a place in space is the other end, b"
+    if make != "add_spring":  # whose ends are apart
+        getattr(model, make)("hub", place, **more)
