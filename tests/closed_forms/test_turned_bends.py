@@ -77,3 +77,20 @@ def test_what_tension_shapes_is_not_told(slack, elements):
     model.pin(rope.start)
     model.pin(rope.end)
     assert not [note for note in ancf.equilibrium(model).notes if SAID in note]
+
+
+@pytest.mark.parametrize("held", [False, True])
+@pytest.mark.parametrize("kick", [0.0, 0.02])
+def test_in_motion(held, kick):
+    """A quarter of a ring that swings: free, a small kick turns its bend; in its plane nothing does."""
+    angle = np.linspace(0.0, np.pi / 2, 41)
+    model = ancf.Model()
+    section = ancf.Section(EA=EA, EI=EI, rhoA=1.0, damping=5.0)
+    path = np.stack([R * np.cos(angle), 0 * angle, R * np.sin(angle)], axis=1)
+    arc = model.add_beam("arc", path=path, elements=8, section=section)
+    model.clamp(arc.start)
+    for k in range(1, 9) if held else ():
+        model.hold(arc.at(arc.length * k / 8), position="y", slope="y")
+    model.add_force(arc.end, (-20.0, 0.0 if held else kick, 0.0))
+    notes = ancf.simulate(model, t_end=0.1, step=2e-4).notes
+    assert bool([note for note in notes if SAID in note]) == (kick > 0.0 and not held)
