@@ -94,3 +94,24 @@ def test_responses_over_something_else_than_frequencies(tmp_path, unit):
     path.write_text(f"frequency [{unit}],real,imag\n1,2,3\n2,3,4\n", encoding="utf-8")
     with pytest.raises(ancf.ModelError, match='wanted one of "Hz"'):
         read_response(path)
+
+
+@pytest.mark.parametrize("unit", ["mm", "cm"])
+def test_a_run_of_a_file_without_units_goes_on(tmp_path, unit):
+    """Its description has the values alone, as files of earlier versions do."""
+    scale = {"mm": 1e3, "cm": 1e2}[unit]
+
+    def moved(**given):
+        model = ancf.Model()
+        mass = model.add_point_mass("mass", at=(0, 0, 0), mass=1.0)
+        model.pin(mass, displacement=(ancf.Series([0.0, 0.5, 1.0], **given), 0, 0))
+        return model
+
+    plain = moved(value=[0.0, 0.25, 1.0])
+    path = tmp_path / "run.h5"
+    ancf.simulate(plain, t_end=0.1, step=0.01, file=path)
+    same = moved(value=[0.0, 0.25 * scale, scale], unit=unit)
+    assert ancf.resume(path, model=same, t_end=0.2).t[-1] == pytest.approx(0.2)
+    other = moved(value=[0.0, 0.5 * scale, scale], unit=unit)
+    with pytest.raises(ancf.ModelError, match=r"resume\.model"):
+        ancf.resume(path, model=other, t_end=0.3)
