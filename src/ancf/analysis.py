@@ -185,6 +185,7 @@ def simulate(
         raise ModelError(
             "simulate.start", f"must be a State, is {checks.shown(start)}", "see ancf.equilibrium"
         )
+    checks.progress(progress, "simulate.progress")
     made = prepared(
         model,
         method=method_of(integrator),

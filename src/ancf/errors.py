@@ -2,10 +2,26 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
+#: Lines of the package, and of what runs a cell, tell the user of a notebook nothing.
+OF_OTHERS = os.path.dirname(__file__), "/IPython/", "\\IPython\\"
 
-class ModelError(ValueError):
+
+class _Told:
+    """How a notebook shows an error: the caller's own lines, and the message."""
+
+    def _render_traceback_(self: Any, *rest: Any) -> list[str]:  # asked for by IPython
+        import traceback  # nothing else needs it
+
+        frames = traceback.extract_tb(self.__traceback__)
+        own = [f for f in frames if not any(part in f.filename for part in OF_OTHERS)]
+        places = [f"{_file(f.filename)}, line {f.lineno}: {f.line or ''}".rstrip(" :") for f in own]
+        return [*places, f"{type(self).__name__}: {self}", *getattr(self, "__notes__", [])]
+
+
+class ModelError(_Told, ValueError):
     """The description of the model is wrong; nothing was computed.
 
     Parameters
@@ -38,7 +54,7 @@ class ArgumentError(ModelError, TypeError):
     """A call has an argument that there is not, lacks one or has too many; ``where`` is what was called."""
 
 
-class SolveError(RuntimeError):
+class SolveError(_Told, RuntimeError):
     """A solve stopped; what was computed until then is kept.
 
     Parameters
@@ -90,6 +106,11 @@ def named(name: Any) -> str:
     """A name as the place of an error; in quotation marks where nothing of it would be seen."""
     text = str(name)
     return text if text.strip() else f'"{text}"'
+
+
+def _file(name: str) -> str:
+    """A file as a notebook calls it: its cells are files with names of their own."""
+    return "cell" if "ipykernel" in name or name.startswith("<ipython") else name
 
 
 def _sentence(where: str, what: str, hint: str) -> str:

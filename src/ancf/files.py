@@ -171,7 +171,7 @@ def beside(output: Path, source: Path, option: str = "-o") -> Path:
 
 def cell(value: Any) -> Any:
     """A cell of a CSV file: text that a spreadsheet would compute gets an apostrophe; numbers stay."""
-    if not isinstance(value, str) or not value.startswith(FORMULAS):
+    if not isinstance(value, str) or not value.startswith(FORMULAS) or len(value) == 1:
         return value
     try:
         float(value)

@@ -80,6 +80,7 @@ def resume(
         The file has no checkpoint, as one of an earlier version: the run starts anew from the last stored
         state, with accelerations that are computed anew.
     """
+    checks.progress(progress, "resume.progress")
     old = load(file)
     settings, path = _settings(old, file, model), Path(file)
     _check_led(settings, controller, file)
@@ -212,7 +213,7 @@ def _settings(old: Result, file: str | Path, model: Model | None) -> dict[str, A
         hint = "simulate(model, start=ancf.load(file).state(), sensitivities=[...], file=...)"
         raise ModelError(str(file), what, hint)
     if model is not None:
-        if model.to_dict() != old.model.to_dict():
+        if _plain(model.to_dict()) != _plain(old.model.to_dict()):
             hint = "give the model that was computed, or simulate(model, start=ancf.load(file).state(), ...)"
             raise ModelError("resume.model", f'is not the model that "{file}" describes', hint)
         return settings
@@ -283,3 +284,11 @@ def _copy(
         file.put(checkpoint)
     file.update(old.stats, "running")
     file.close()
+
+
+def _plain(described: Any) -> Any:
+    """A description without the units of its series, whose values are the same; earlier files have none."""
+    if isinstance(described, dict):
+        series = {"t", "value"} <= described.keys()
+        return {key: _plain(part) for key, part in described.items() if not (series and key == "unit")}
+    return [_plain(part) for part in described] if isinstance(described, list) else described

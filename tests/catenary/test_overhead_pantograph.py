@@ -1,5 +1,6 @@
 """Pantographs with curves, friction, stops, two strips, a moving roof under a rigid wire, against scipy."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -231,3 +232,39 @@ class TestRefused:
         path.write_text(text.replace("[0.1, 90]", "[0.1]"))
         with pytest.raises(ModelError, match=r"stiffness\[1\]\[2\]: has 1 entries"):
             catenary.read_pantograph(path)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "unit"),
+    [
+        ("strip_length", 1450.0, "m"),
+        ("strip_length", 0.00145, "m"),
+        ("static_force", 60e3, "N"),
+        ("static_force", 1e30, "N"),
+        ("aerodynamic", 1e30, "N s^2/m^2"),
+        ("aerodynamic", (1e6, 1e6), "N s^2/m^2"),
+        ("stops", (None, (-30.0, 30.0)), "m"),
+    ],
+)
+def test_numbers_that_are_slips_of_units(key, value, unit):
+    with pytest.raises(ModelError, match=f"units are {re.escape(unit)}") as caught:
+        replace(PLAIN, **{key: value})
+    assert caught.value.where.startswith(f"pantograph.plain.{key}")
+
+
+@pytest.mark.parametrize("stops", [(0.01, 0.02), (-0.03, -0.01), (1.0, 2.0)])
+def test_stops_on_one_side(stops):
+    with pytest.raises(ModelError, match="beyond both"):
+        replace(PLAIN, stops=(None, stops))
+
+
+@pytest.mark.parametrize("slip", [1000.0, 1e-3])
+def test_masses_of_files_in_other_units(tmp_path, slip):
+    """Those that a fit finds may be anything."""
+    path = tmp_path / "own.toml"
+    rest = "stiffness = [50, 4200]\ndamping = [90, 10]\nstatic_force = 60\n"
+    path.write_text(f"masses = [{15 * slip}, {7.2 * slip}]\n{rest}")
+    with pytest.raises(ModelError, match="units are kg") as caught:
+        catenary.find_pantograph(str(path))
+    assert caught.value.where.startswith(f"{path}: masses[")
+    replace(PLAIN, masses=(15 * slip, 7.2 * slip))

@@ -132,3 +132,21 @@ def test_what_is_no_number(text, phrase):
     with pytest.raises(ancf.ModelError) as caught:
         made(Case())
     assert phrase in str(caught.value)
+
+
+@pytest.mark.parametrize("kind", [ancf.ModelError, ancf.SolveError])
+@pytest.mark.parametrize("text", ["max(tension(cable.start))", "sigma + last(position(cable.start)[2])"])
+def test_errors_of_what_is_asked_name_the_output(text, kind):
+    class Refusing(Case):
+        def ask(self, quantity, item):
+            raise kind("cable.start", "has none", "ask another one")
+
+    with pytest.raises(kind) as caught:
+        Formula(text, "outputs.pull", WORDS)(Refusing())
+    assert (caught.value.where, caught.value.what) == ("outputs.pull: cable.start", "has none")
+
+
+@pytest.mark.parametrize("share", [-1, 101, 300])
+def test_percentiles_out_of_range(share):
+    with pytest.raises(ancf.ModelError, match=r"outputs\.x: .*Percentiles must be"):
+        Formula(f"percentile(tension(cable.start), {share})", "outputs.x", WORDS)(Case())

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -622,3 +623,41 @@ class TestIntegrators:
     def test_schema(self):
         table = schema()["$defs"]["SimulationEntry"]["properties"]["integrator"]["anyOf"][1]
         assert table["properties"]["formulation"]["enum"] == ["index1", "index2", "ggl", "index3"]
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("joint", ["hinge", "connect", "universal"])
+def test_places_that_do_not_coincide_name_the_point_that_does(joint, seed):
+    """What the message advises, followed, is a joint."""
+    rng = np.random.default_rng(seed)
+    axes, _ = np.linalg.qr(rng.standard_normal((3, 3)))
+    axes[:, 2] *= np.linalg.det(axes)
+    place = np.round(rng.standard_normal(3), 3)
+    model = ancf.Model()
+    body = model.add_rigid_body("body", at=rng.standard_normal(3), mass=1.0, inertia=(1, 1, 1), axes=axes)
+    more = {
+        "hinge": {"axis": (0, 1, 0)},
+        "universal": {"axis_a": (1, 0, 0), "axis_b": (0, 1, 0)},
+    }.get(joint, {})
+    make = getattr(model, joint)
+    with pytest.raises(ancf.ModelError, match="must coincide") as caught:
+        make(body, place, **more)
+    told = re.fullmatch(r"body\.at\((.*), (.*), (.*)\) is there", caught.value.hint)
+    near = body.at(*map(float, told.groups()))
+    assert near.initial_position == pytest.approx(place, abs=1e-11)
+    with pytest.raises(ancf.ModelError) as caught:
+        make(near, place + 1.0, **more)
+    assert "is there" in caught.value.hint
+    make(near, near.initial_position, **more)
+
+
+@pytest.mark.parametrize("place", [(0, 0, 1), [0.0, 0.0, 1.0], np.array([0.0, 0.0, 1.0])])
+@pytest.mark.parametrize("make", ["connect", "add_spring", "hinge"])
+def test_a_place_as_the_first_end(make, place):
+    model = mixed()
+    more = {"add_spring": {"stiffness": 1.0}, "hinge": {"axis": (0, 1, 0)}}.get(make, {})
+    with pytest.raises(ancf.ModelError, match="must be a point") as caught:
+        getattr(model, make)(place, "hub", **more)
+    assert caught.value.hint == "a place in space is the other end, b"
+    if make != "add_spring":  # whose ends are apart
+        getattr(model, make)("hub", place, **more)

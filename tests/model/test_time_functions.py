@@ -165,7 +165,7 @@ BAD_SCALARS = [
     ("-" * 4000 + "t", "load", "nested too deeply"),
     ("(" * 2000 + "t" + ")" * 2000, "load", "too many nested parentheses"),
     ({"t": [0, 1]}, "load", 'keys "t" and "value"'),
-    ({"t": [0, 1], "value": [0, 1], "unit": "N"}, "load", 'keys "t" and "value"'),
+    ({"t": [0, 1], "value": [0, 1], "units": "N"}, "load", 'keys "t" and "value"'),
     ({"t": [0, 0], "value": [0, 1]}, "load.t[1]", "increasing"),
     ({"t": [0, 2, 1, 3], "value": [0] * 4}, "load.t[2]", "is 1 s after 2 s"),
     ({"t": [0], "value": [0]}, "load.t", "at least 2"),

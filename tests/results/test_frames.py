@@ -50,6 +50,31 @@ def touching():
     return ancf.simulate(model, t_end=0.01, step=1e-3, sensors=items)
 
 
+@pytest.mark.parametrize("element", ["cable", "original", "nonlocking"])
+@pytest.mark.parametrize("elements", [2, 4])
+def test_clamps_have_their_moments(element, elements, tmp_path):
+    """In every table of sensors, and of a result that is asked for them; a pin has none."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section.rectangle(width=0.02, height=0.02, E=1e8, rho=1000.0, nu=0.3)
+    beam = model.add_beam(
+        "beam", start=(0, 0, 0), end=(1, 0, 0), elements=elements, section=section, element=element
+    )
+    clamp = model.clamp(beam.start)
+    pin = model.pin(model.add_point_mass("mass", at=(0, 1, 0), mass=1.0))
+    run = ancf.simulate(model, t_end=0.05, step=1e-3, output_step=0.01, sensors=[clamp, pin])
+    for known in (run, run.sensors):
+        frame, arrays = known.to_pandas(clamp, pin), known.to_xarray(clamp, pin)
+        heads = [f"{clamp.name} reaction {c} [N]" for c in "xyz"]
+        heads += [f"{clamp.name} moment {c} [N m]" for c in "xyz"]
+        assert [*frame.columns] == heads + [f"{pin.name} reaction {c} [N]" for c in "xyz"]
+        moment = known.reaction_moment(clamp)
+        assert np.array_equal(frame[heads[3:]].to_numpy(), moment)
+        assert abs(moment[:, 1]).max() > 0.1
+        assert np.array_equal(arrays[f"{clamp.name} moment y"], moment[:, 1])
+        assert arrays[f"{clamp.name} moment y"].attrs["units"] == "N m"
+    assert [*run.sensors.to_pandas().columns] == [name for name, _ in sensor_columns(run.sensors)][1:]
+
+
 class TestPandas:
     def test_everything(self, run):
         frame = run.to_pandas()

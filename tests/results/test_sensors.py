@@ -514,3 +514,29 @@ def test_killed_run(tmp_path):
     force = result.sensors.spring_force("spring")
     assert len(force) >= len(seen[1]) > len(seen[0])
     assert force[:3000] == pytest.approx(2 * G * (1 - np.cos(20 * result.sensors.t[:3000])), abs=0.1)
+
+
+@pytest.mark.parametrize("element", ["cable", "nonlocking"])
+@pytest.mark.parametrize("share", [1 / 3, np.sqrt(2) / 2, np.pi / 7, 0.123456789012345678])
+def test_labels_with_fewer_digits_than_the_place(tmp_path, element, share):
+    """A point that was recorded answers to the name under which it is listed, in tables and files as well."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section.rectangle(width=0.02, height=0.02, E=1e8, rho=1000.0, nu=0.3)
+    beam = model.add_beam(
+        "beam", start=(0, 0, 0), end=(3, 0, 0), elements=3, section=section, element=element
+    )
+    model.clamp(beam.start)
+    off = (0.01 / 3, 0.01 / 7) if element == "nonlocking" else ()
+    point = beam.at(3 * share, *off)
+    path = tmp_path / "run.h5"
+    run = ancf.simulate(model, t_end=0.02, step=1e-3, sensors=[point, beam.end], file=path)
+    for sensors in (run.sensors, ancf.load(path).sensors):
+        label = sensors.names[0]
+        for question in ("position", "velocity", "tension", "curvature"):
+            asked = getattr(sensors, question)
+            assert np.array_equal(asked(label), asked(point))
+        assert np.array_equal(sensors.to_pandas()[f"{label} position z [m]"], sensors.position(point)[:, 2])
+        assert set(sensors.to_xarray().point.values) == set(sensors.names)
+        with pytest.raises(ancf.ModelError, match="was not recorded"):
+            sensors.position("beam.at(0.4)")
+    assert (tmp_path / "sensors.csv") in ancf.load(path).to_csv(tmp_path)

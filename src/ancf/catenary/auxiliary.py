@@ -60,6 +60,18 @@ class Auxiliary:
                 raise ModelError(where, what, "or give a rule, first and pitch_max")
 
 
+def check_auxiliary(line: Any) -> None:
+    """Raise ModelError if the auxiliary does not fit a Line, or spans have droppers of none."""
+    if line.auxiliary is not None:
+        line.auxiliary.check_in(line)
+        return
+    for k, span in enumerate(line.spans):
+        if span.long_droppers is not None:
+            key = "long_droppers"
+            where = line.place_of_support(key, k) if line.rows else f"line.spans[{k}].{key}"
+            raise ModelError(where, "has no effect without an auxiliary wire", "add it, or leave them out")
+
+
 @dataclass(frozen=True, slots=True)
 class LongDroppers:
     """The droppers between messenger and auxiliary at rest.

@@ -10,6 +10,8 @@ from ..model import checks
 from .wire import Wire
 
 COLDEST, HOTTEST = -80.0, 200.0  # degrees Celsius
+DENSEST = 10.0  # kg/m^3, of air
+GUSTS = 1.0, 1e4  # m, lengths of turbulence
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,20 +52,23 @@ class Conditions:
     seed: int = 1
     wear: float = 0.0
 
-    def check(self, where: str) -> None:
-        """Raise ModelError if a value is out of range."""
+    def check(self, where: str, contact: Wire, messenger: Wire | None) -> None:
+        """Raise ModelError if a value is out of range, or a tension carries no such wire."""
         if self.temperature is not None:
             checks.between(self.temperature, f"{where}.temperature", COLDEST, HOTTEST)
-        for key in ("contact_tension", "messenger_tension"):
-            if getattr(self, key) is not None:
-                checks.positive(getattr(self, key), f"{where}.{key}")
+        for key, wire in (("contact_tension", contact), ("messenger_tension", messenger)):
+            if (tension := getattr(self, key)) is not None:
+                checks.positive(tension, f"{where}.{key}")
+                if wire is not None:
+                    wire.check_tension(tension, f"{where}.{key}")
         if checks.non_negative(self.ice, f"{where}.ice") > 20.0:
             raise ModelError(f"{where}.ice", f"is {self.ice:g} kg/m", "units are kg/m, not N/m")
         checks.between(self.wind, f"{where}.wind", -80.0, 80.0)
-        checks.positive(self.air_density, f"{where}.air_density")
+        if checks.positive(self.air_density, f"{where}.air_density") > DENSEST:
+            raise ModelError(f"{where}.air_density", f"is {self.air_density:g} kg/m^3", "of air: 1.225")
         if checks.between(self.turbulence, f"{where}.turbulence", 0.0, 1.0) and self.wind == 0.0:
             raise ModelError(f"{where}.turbulence", "has no effect without wind", "leave it out")
-        checks.positive(self.gust_length, f"{where}.gust_length")
+        checks.between(self.gust_length, f"{where}.gust_length", *GUSTS)
         checks.integer(self.seed, f"{where}.seed", 0, 2**32)
         if not 0.0 <= checks.number(self.wear, f"{where}.wear") <= 0.6:
             hint = "a share of the section: 0.2 for 20 %"

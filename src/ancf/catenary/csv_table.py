@@ -90,6 +90,14 @@ def read_table(
     return rows
 
 
+def file_of(folder: Path, name: str, where: str) -> Path:
+    """A file that a line file names beside itself; ModelError with its key if it is not there."""
+    path = folder / name
+    if not path.is_file():
+        raise ModelError(where, f"{path}: no such file")
+    return path
+
+
 def _check_head(
     path: Path, head: list[str], needed: Sequence[str], known: Sequence[str], others: bool
 ) -> None:

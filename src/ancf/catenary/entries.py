@@ -18,6 +18,18 @@ def _whole(given: Any) -> Any:
 Seed = Annotated[int, BeforeValidator(_whole), Field(ge=0)]
 
 
+def _of_file(given: Any) -> str:
+    return "<file>" if isinstance(given, str) else "<rows>"
+
+
+FileOrCurve = Annotated[
+    Annotated[str, Tag("<file>")] | Annotated[Curve, Tag("<rows>")], Discriminator(_of_file)
+]
+FileOrNumbers = Annotated[
+    Annotated[str, Tag("<file>")] | Annotated[list[float], Tag("<rows>")], Discriminator(_of_file)
+]
+
+
 class SectionEntry(Entry):
     """A wire of the catalogue or with its own numbers."""
 
@@ -30,7 +42,7 @@ class SectionEntry(Entry):
     diameter: Positive | None = Field(None, description="Outer diameter, which wind needs [m].")
     drag: NonNegative = Field(1.0, description="Drag coefficient across the wire.")
     expansion: NonNegative = Field(EXPANSION, description="Thermal expansion [1/K].")
-    lift: str | Curve | None = Field(
+    lift: FileOrCurve | None = Field(
         None,
         description="Rows of angle of attack [rad] and lift coefficient; or a CSV file, angle_deg and lift.",
     )
@@ -82,7 +94,7 @@ class PantographEntry(Entry):
         description="Of the dampers below each mass [N s/m]; or rows of rate [m/s] and force [N]."
     )
     static_force: float = Field(description="Contact force at standstill [N].")
-    aerodynamic: float | list[float] = Field(
+    aerodynamic: FloatOrList = Field(
         0.0, description="k of the force k v^2 on the lowest mass, or on each [N s^2/m^2]."
     )
     friction: list[float] = Field([], description="Coulomb's, below each mass [N].")
@@ -228,6 +240,11 @@ class SupportEntry(Entry):
     uplift_stop: Positive | None = Field(None, description="Uplift at which a stop meets the wire [m].")
 
 
+FileOrSupports = Annotated[
+    Annotated[str, Tag("<file>")] | Annotated[list[SupportEntry], Tag("<rows>")], Discriminator(_of_file)
+]
+
+
 class SpanEntry(Entry):
     """A span, or several alike."""
 
@@ -263,7 +280,7 @@ class LineEntry(Entry):
     source: str = Field("", description="Where the data come from.")
     tags: dict[str, str] = Field(default_factory=dict, description="How sure a value is, by its key.")
     spans: list[SpanEntry] | None = Field(None, min_length=1, description="The spans along the track.")
-    supports: str | list[SupportEntry] | None = Field(
+    supports: FileOrSupports | None = Field(
         None, description="Instead of spans: a CSV file with a row for each support, or the rows."
     )
     dropper_rule: RuleEntry | None = Field(None, description="Where spans without a list have droppers.")
@@ -316,7 +333,7 @@ class LineEntry(Entry):
     loads: list[LoadEntry] = Field(default_factory=list, description="Masses on the wires.")
     temperature: float = Field(10.0, description="At which heights and lengths hold [degrees Celsius].")
     conditions: ConditionsEntry | None = Field(None, description="State in which the line is looked at.")
-    dropper_lengths: str | list[float] | None = Field(
+    dropper_lengths: FileOrNumbers | None = Field(
         None, description="Unstretched lengths as built, a CSV file like the schedule, or a list [m]."
     )
     dropper_errors: DropperErrorsEntry | None = Field(None, description="By which the lengths are off.")

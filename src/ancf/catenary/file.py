@@ -19,7 +19,7 @@ from ..model.file.messages import combined, of_validation
 from ..model.file.paths import changed
 from .auxiliary import Auxiliary
 from .conditions import Conditions
-from .csv_table import Row
+from .csv_table import Row, file_of
 from .entries import (
     TABLES,
     ContactWireEntry,
@@ -95,6 +95,7 @@ def parse_track(data: dict[str, Any], source: str = "line") -> Line | Route:
         As :func:`parse_line`; ``where`` begins with ``sections[1]``.
 
     """
+    parameters.refuse_keys(data, LineEntry.model_fields)
     if "sections" not in data:
         return parse_line(data, source)
     sections = data["sections"]
@@ -208,7 +209,7 @@ def _with_lift(entry: LineEntry, folder: Path) -> LineEntry:
     for key in ("contact_wire", "messenger_wire"):
         wire = getattr(entry, key)
         if wire is not None and isinstance(wire.lift, str):
-            read = wire.model_copy(update={"lift": read_lift(folder / wire.lift)})
+            read = wire.model_copy(update={"lift": read_lift(file_of(folder, wire.lift, f"{key}.lift"))})
             entry = entry.model_copy(update={key: read})
     for key in ("stitch", "auxiliary_wire"):
         wire = getattr(entry, key)
@@ -219,7 +220,7 @@ def _with_lift(entry: LineEntry, folder: Path) -> LineEntry:
 
 def _entry(parts: tuple[int | str, ...]) -> type[Entry]:
     """Table in which a place in the file is."""
-    if "<rule>" in parts:
+    if "<rule>" in parts or "places" in parts[1:]:
         return RuleEntry
     return TABLES.get(str(parts[0]), LineEntry) if parts else LineEntry
 
@@ -309,8 +310,6 @@ def _in_file(entry: LineEntry, rows: list[tuple[str, Row]]) -> Iterator[None]:
         k = int(index.partition("]")[0]) if index else 0
         if key in OF_SUPPORTS and index and k < len(rows) and key in rows[k][1]:
             raise ModelError(f"{rows[k][0]}{key}", error.what, error.hint) from None
-        if key in ("system_height", "stagger", "height", "cant") and not isinstance(
-            getattr(entry, key), list
-        ):
+        if key in OF_SUPPORTS and not isinstance(getattr(entry, key), list):
             where = key
         raise ModelError(where, error.what, error.hint) from None

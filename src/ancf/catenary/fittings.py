@@ -9,6 +9,8 @@ from ..errors import ModelError
 from ..model import checks
 
 STEEPEST = 0.7  # rad, of a steady arm
+#: Of a hinged arm: lengths in m, stiffnesses along itself in N/m; heights of uplift stops in m.
+LENGTHS, STIFFNESSES, UPLIFTS = (0.05, 20.0), (1e4, 1e12), (1e-3, 10.0)
 FAINT = 1.0  # N, of forces on arms that are taken for none
 MOST_SEED = 2**32 - 1
 
@@ -207,20 +209,21 @@ class SteadyArm:
         if self.vertical is not None:
             checks.non_negative(self.vertical, f"{where}.vertical")
         if self.length is not None:
-            checks.positive(self.length, f"{where}.length")
+            checks.between(self.length, f"{where}.length", *LENGTHS)
         if self.lateral is not None:
-            checks.positive(self.lateral, f"{where}.lateral")
+            if checks.positive(self.lateral, f"{where}.lateral") > STIFFNESSES[1]:
+                raise ModelError(f"{where}.lateral", f"is {self.lateral:g} N/m", "leave it out: it is held")
             if self.hinged:
                 raise ModelError(f"{where}.lateral", "has no effect on a hinged arm", "leave it out")
         checks.non_negative(self.mass, f"{where}.mass")
-        checks.positive(self.stiffness, f"{where}.stiffness")
+        checks.between(self.stiffness, f"{where}.stiffness", *STIFFNESSES)
         if self.side is not None:
             checks.choice(self.side, f"{where}.side", ("left", "right"))
         if checks.flag(self.push, f"{where}.push") and self.side is None:
             what = "has no effect without side"
             raise ModelError(f"{where}.push", what, 'an arm that pushes stands at a side, "left" or "right"')
         if self.uplift_stop is not None:
-            checks.positive(self.uplift_stop, f"{where}.uplift_stop")
+            checks.between(self.uplift_stop, f"{where}.uplift_stop", *UPLIFTS)
         if self.angle is not None:
             if not self.hinged:
                 raise ModelError(f"{where}.angle", "has no effect without length", "leave it out")

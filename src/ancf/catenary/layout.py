@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ModelError
-from .csv_table import Row, read_table
+from .csv_table import Row, file_of, read_table
 from .entries import LineEntry, SupportEntry
 from .fittings import SteadyArm
 from .span import DropperRule, Span
@@ -36,7 +36,7 @@ LENGTHS = ("natural_length_mm",)
 def supports_of(entry: LineEntry, folder: Path) -> list[tuple[str, Row]]:
     """Rows of the supports with their places for messages, from the file or from a table of its own."""
     if isinstance(entry.supports, str):
-        path = folder / entry.supports
+        path = file_of(folder, entry.supports, "supports")
         known, lists = tuple(SupportEntry.model_fields), ("droppers", "long_droppers")
         rows = read_table(path, ("position",), known, lists=lists, words=WORDS)
         return [(f"{path}, row {k + 1}, column ", row) for k, row in enumerate(rows)]
@@ -118,7 +118,7 @@ def lengths_of(given: str | list[float] | None, folder: Path, count: int) -> tup
         return None
     if isinstance(given, list):
         return tuple(given)
-    path = folder / given
+    path = file_of(folder, given, "dropper_lengths")
     rows = read_table(path, LENGTHS, LENGTHS, others=True)
     if len(rows) != count:
         what = f"has {len(rows)} rows, the line has {count} droppers"

@@ -11,9 +11,9 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
-from .auxiliary import Auxiliary
+from .auxiliary import Auxiliary, check_auxiliary
 from .cant import LARGEST, plumb_above
-from .conditions import Conditions
+from .conditions import COLDEST, HOTTEST, Conditions
 from .excerpt import excerpt
 from .fittings import NO_DROPPERS, DropperErrors, Droppers, Load, SteadyArm, Tensioner
 from .span import Span, of_supports, within
@@ -160,16 +160,15 @@ class Line:
                 self._per_support(key, alternating=False)
         for k, height in enumerate(self.heights):
             within(height, HIGHEST, f"line.height[{k}]", "5.3")
-        for k, side in enumerate(self._per_support("stagger", alternating=True)):
-            within(side, WIDEST, f"line.stagger[{k}]", "0.2")
+        for key in ("stagger", "messenger_stagger"):
+            if getattr(self, key) is not None:
+                for k, side in enumerate(self._per_support(key, alternating=True)):
+                    within(side, WIDEST, f"line.{key}[{k}]", "0.2")
         for k, cant in enumerate(self.cants):
             checks.between(cant, f"line.cant[{k}]", -LARGEST, LARGEST)
-        if self.messenger_stagger is not None:
-            self._per_support("messenger_stagger", alternating=True)
         if self.stitch is not None:
             self.stitch.check_in(self)
-        if self.auxiliary is not None:
-            self.auxiliary.check_in(self)
+        check_auxiliary(self)
         self._check_lengths()
         if self.dropper_errors is not None:
             self.dropper_errors.check("line.dropper_errors")
@@ -205,14 +204,14 @@ class Line:
                 raise ModelError("line.contact_spacing", "has no effect on a conductor rail", "leave it out")
         if self.messenger_support is not None:
             checks.positive(self.messenger_support, "line.messenger_support")
-        checks.non_negative(self.messenger_support_mass, "line.messenger_support_mass")
+        checks.between(self.messenger_support_mass, "line.messenger_support_mass", 0.0, 1e4)
         checks.choice(self.contact_support, "line.contact_support", SUPPORTS)
         checks.choice(self.anchors, "line.anchors", ANCHORS)
         checks.choice(self.messenger_clamp, "line.messenger_clamp", CLAMPS)
         checks.positive(self.gravity, "line.gravity")
-        checks.number(self.temperature, "line.temperature")
+        checks.between(self.temperature, "line.temperature", COLDEST, HOTTEST)
         self.tensioner.check("line.tensioner", self.anchors)
-        self.conditions.check("line.conditions")
+        self.conditions.check("line.conditions", self.contact_wire, self.messenger_wire)
         self._check_wind()
         object.__setattr__(self, "loads", tuple(self.loads))
         for k, load in enumerate(self.loads):

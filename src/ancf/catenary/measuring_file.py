@@ -48,6 +48,7 @@ def read_measuring_head(path: str | Path) -> MeasuringHead:
     data = read_toml(Path(path), "file of a measuring pantograph")
     refuse(path, data, HEAD)
     try:
+        parameters.refuse_keys(data, MeasuringEntry.model_fields)
         with parameters.given(data, {}):
             entry = MeasuringEntry.model_validate(data)
     except ValidationError as error:

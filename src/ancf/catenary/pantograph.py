@@ -22,6 +22,19 @@ from .stage import Stage, damper_of, spring_of, stops_of
 RELAXED = ("start", "nominal", "mean")
 #: Stiffness of stops, N/m, and the largest distance of two strips, m.
 STOP, WIDEST = 1e5, 2.0
+#: Beyond these what is meant is in other units: masses of files in kg, lengths of strips in m, forces in N.
+MASSES, STRIPS, MOST_FORCE, MOST_AERODYNAMIC = (0.01, 500.0), (0.2, 4.0), 1e4, 10.0
+
+
+def _meant(value: float, where: str, bounds: tuple[float, float], unit: str) -> float:
+    """A number between bounds; ModelError that asks for its unit."""
+    low, high = bounds
+    if not low <= value <= high:
+        what = f"is {value:g} {unit}, must be between {low:g} and {high:g}"
+        raise ModelError(where, what, f"units are {unit}")
+    return value
+
+
 #: What each entry of a list has to be.
 CHECKS: dict[str, Callable[[Any, str], Any]] = {
     "masses": checks.positive,
@@ -110,19 +123,23 @@ class Pantograph:
         for k, (c, d) in enumerate(zip(self.stiffness, self.damping, strict=True)):
             if c == 0.0 and (k > 0 or d == 0.0):
                 raise ModelError(f"{where}.stiffness[{k}]", "is 0: nothing carries the masses above")
-        checks.positive(self.static_force, f"{where}.static_force")
+        force = checks.positive(self.static_force, f"{where}.static_force")
+        _meant(force, f"{where}.static_force", (0.0, MOST_FORCE), "N")
         self._check_aerodynamic(f"{where}.aerodynamic")
-        checks.positive(self.strip_length, f"{where}.strip_length")
+        length = checks.positive(self.strip_length, f"{where}.strip_length")
+        _meant(length, f"{where}.strip_length", STRIPS, "m")
         checks.choice(self.relaxed_at, f"{where}.relaxed_at", RELAXED)
         object.__setattr__(self, "tags", dict(self.tags or {}))
 
     def _check_aerodynamic(self, where: str) -> None:
         """One number >= 0, or one for each mass of which the sum is: wind may press a mass down."""
         if not isinstance(self.aerodynamic, Sequence):
-            checks.non_negative(self.aerodynamic, where)
+            whole = checks.non_negative(self.aerodynamic, where)
+            _meant(whole, where, (0.0, MOST_AERODYNAMIC), "N s^2/m^2")
             return
         clean = checks.array(self.aerodynamic, where, (len(self.masses),))
-        checks.non_negative(float(clean.sum()), where)
+        whole = checks.non_negative(float(clean.sum()), where)
+        _meant(whole, where, (0.0, MOST_AERODYNAMIC), "N s^2/m^2")
         object.__setattr__(self, "aerodynamic", tuple(clean.tolist()))
 
     @property
@@ -204,12 +221,15 @@ def read_pantograph(path: str | Path) -> Pantograph:
     data = read_toml(Path(path), "pantograph file")
     refuse(path, data, PANTOGRAPH)
     try:
+        parameters.refuse_keys(data, PantographEntry.model_fields)
         with parameters.given(data, {}):
             entry = PantographEntry.model_validate(data)
     except ValidationError as error:
         problems = of_validation(error, lambda parts: PantographEntry)
         raise beside(combined(problems, str(path)), str(path)) from None
     name = entry.name or Path(path).stem
+    for k, mass in enumerate(entry.masses):
+        _meant(mass, f"{path}: masses[{k}]", MASSES, "kg")
     try:
         return Pantograph(**(entry.given("parameters") | {"name": name}))
     except ModelError as error:

@@ -20,6 +20,8 @@ from .pantograph import Pantograph
 FREQUENCY = "frequency"
 #: Columns that make a complex number: its parts, or its size and its angle in degrees, or in rad by its unit.
 PARTS, POLAR, TURNED = ("real", "imag"), ("magnitude", "phase_deg"), ("magnitude", "phase")
+#: Units of the package of what is no answer.
+IN = {FREQUENCY: "Hz", TURNED[1]: "rad"}
 Response = npt.NDArray[np.complex128]
 
 
@@ -36,7 +38,7 @@ def read_response(path: str | Path) -> tuple[FloatArray, Response]:
 
     """
     given = read_columns(Path(path), str(path))
-    columns = in_plain_units(given, str(path))
+    columns = in_plain_units(given, str(path), IN.get)
     angle_in_rad = TURNED[1] in columns and TURNED[1] not in given
     pair = PARTS if POLAR[0] not in columns else TURNED if angle_in_rad else POLAR
     found = []

@@ -101,7 +101,7 @@ def _roof(given: Any, where: str) -> RoofMotion:
     if isinstance(given, Path) or (isinstance(given, str) and given.endswith(".csv")):
         given = read_roof(given)
     ways = given if isinstance(given, Mapping) and set(given) <= set(WAYS) else {"up": given}
-    made = RoofMotion(*(TimeFunction(ways.get(way, 0.0), 1, f"{where}.{way}") for way in WAYS))
+    made = RoofMotion(*(TimeFunction(ways.get(way, 0.0), 1, f"{where}.{way}", "m") for way in WAYS))
     for way, motion in zip(WAYS, (made.up, made.side), strict=True):
         far = float(motion(0.0)[0])
         if not abs(far) <= FAR:

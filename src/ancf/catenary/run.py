@@ -144,6 +144,7 @@ def run(
         elements or steps too long for what is evaluated, a window right behind the start, a contact that
         chatters.
     """
+    checks.progress(progress, "run.progress")
     plan = make_plan(
         formed(line, mesh),
         make_travel(speed),

@@ -14,6 +14,8 @@ from ..model import checks
 
 #: Rows of a curve: elongation in m, or its rate in m/s, and force in N.
 Rows = tuple[tuple[float, float], ...]
+#: Elongation at which a spring can meet a stop, m; more is a slip of units.
+FARTHEST = 5.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,4 +131,9 @@ def stops_of(given: Any, where: str) -> tuple[float, float] | None:
     low, high = checks.array(given, where, (2,)).tolist()
     if not low < high:
         raise ModelError(where, f"are {low:g} and {high:g} m", "the shortest first, [-0.03, 0.03]")
+    if not low <= 0.0 <= high:
+        what = f"are {low:g} and {high:g} m, the spring without elongation is beyond both"
+        raise ModelError(where, what, "one below and one above 0, [-0.03, 0.03]")
+    if max(abs(low), abs(high)) > FARTHEST:
+        raise ModelError(where, f"are {low:g} and {high:g} m", "units are m: [-0.03, 0.03]")
     return float(low), float(high)

@@ -9,6 +9,9 @@ from ..errors import ModelError
 from ..model import checks
 from .wire import Wire
 
+#: Of the ends of a stitch wire from its support, m; less is a slip of units.
+SHORTEST = 0.1
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StitchWire:
@@ -31,7 +34,9 @@ class StitchWire:
     def check(self, where: str) -> None:
         """Raise ModelError if a value is out of range."""
         self.wire.check(where)
-        checks.positive(self.reach, f"{where}.reach")
+        if checks.positive(self.reach, f"{where}.reach") < SHORTEST:
+            what = f"is {self.reach:g} m, at least {SHORTEST:g} m"
+            raise ModelError(f"{where}.reach", what, "units are m: 9.0")
 
     def check_in(self, line: Any) -> None:
         """Raise ModelError if it does not fit a Line."""

@@ -15,6 +15,9 @@ from .galloping import checked_lift
 EXPANSION = 17e-6
 #: Of a wire of an overhead line, N; less is a slip of units.
 LEAST_TENSION = 100.0
+#: Beyond these what is meant is in other units: strain under the tension, reach of a bend sqrt(EI/T) in m,
+#: drag coefficient of some wires side by side, thermal expansion in 1/K.
+LEAST_STRAIN, WIDEST_BEND, MOST_DRAG, MOST_EXPANSION = 2e-6, 10.0, 100.0, 1e-3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,8 +129,12 @@ class Wire:
             checks.positive(self.EI, f"{where}.EI")
         else:
             checks.positive(self.tension, f"{where}.tension")
-        for key in ("EI", "damping", "drag", "expansion"):
+        for key in ("EI", "damping"):
             checks.non_negative(getattr(self, key), f"{where}.{key}")
+        checks.between(self.drag, f"{where}.drag", 0.0, MOST_DRAG)
+        if not 0.0 <= checks.number(self.expansion, f"{where}.expansion") <= MOST_EXPANSION:
+            what = f"is {self.expansion:g}, must be between 0 and {MOST_EXPANSION:g}"
+            raise ancf.ModelError(f"{where}.expansion", what, "units are 1/K: 17e-6")
         if self.diameter is not None and not 1e-3 <= checks.number(self.diameter, f"{where}.diameter") <= 0.1:
             raise ancf.ModelError(f"{where}.diameter", f"is {self.diameter:g} m", "units are m: 0.012")
         if self.lift is not None:
@@ -135,12 +142,26 @@ class Wire:
             if self.diameter is None:
                 what = "is missing, the lift of wind needs it"
                 raise ancf.ModelError(f"{where}.diameter", what, "m, or a type")
-        if self.tension < LEAST_TENSION and not self.rail:
-            what = f"is {self.tension:g} N, which carries no wire"
-            raise ancf.ModelError(f"{where}.tension", what, "units are N: 12e3 for 12 kN")
-        if self.tension > 0.05 * self.EA:
-            what = f"is {self.tension:g} N, it stretches a wire of EA = {self.EA:g} N by more than 5 %"
-            raise ancf.ModelError(f"{where}.tension", what, "units are N")
+        self.check_tension(self.tension, f"{where}.tension")
+        if not self.rail:
+            self._check_stiffness(where)
+
+    def check_tension(self, tension: float, where: str) -> None:
+        """Raise ModelError if a tension in N carries no such wire, or would stretch it by more than 5 %."""
+        if tension < LEAST_TENSION and not self.rail:
+            what = f"is {tension:g} N, which carries no wire"
+            raise ancf.ModelError(where, what, "units are N: 12e3 for 12 kN")
+        if tension > 0.05 * self.EA:
+            what = f"is {tension:g} N, it stretches a wire of EA = {self.EA:g} N by more than 5 %"
+            raise ancf.ModelError(where, what, "units are N")
+
+    def _check_stiffness(self, where: str) -> None:
+        if self.tension < LEAST_STRAIN * self.EA:
+            what = f"is {self.EA:g} N, which the tension of {self.tension:g} N stretches by less than"
+            raise ancf.ModelError(f"{where}.EA", f"{what} {LEAST_STRAIN:g}", "units are N: 12e6")
+        if (reach := math.sqrt(self.EI / self.tension)) > WIDEST_BEND:
+            what = f"is {self.EI:g} N m^2: under {self.tension:g} N a bend reaches {reach:.3g} m"
+            raise ancf.ModelError(f"{where}.EI", what, "units are N m^2: 130; rail = true for a rail")
 
     def section(self, rayleigh: Rayleigh | None = None) -> ancf.Section:
         """Section of the wire as a cable with this damping, or without any damping.

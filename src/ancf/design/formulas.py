@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ..errors import ModelError
+from ..errors import ModelError, SolveError
 from ..model.checks import listed, nearest
 from ..model.expression import CONSTANTS, FUNCTIONS, OPERATORS
 
@@ -129,7 +129,7 @@ class Formula:
             It is not one finite number.
         """
         with np.errstate(all="ignore"):
-            found = np.asarray(self._compiled(case))
+            found = np.asarray(self._computed(case))
         if found.size != 1 or found.dtype.kind not in "iufb":
             what = f'"{self.text}" gives {_shape(found)}, must give one number'
             raise ModelError(self.where, what, self._one_number(found, case))
@@ -137,6 +137,17 @@ class Formula:
         if not math.isfinite(number):
             raise ModelError(self.where, f'"{self.text}" is {number}, must be a finite number')
         return number
+
+    def _computed(self, case: Answers) -> Any:
+        """What it gives; an error of what it asks for names it as well."""
+        try:
+            return self._compiled(case)
+        except (ModelError, SolveError) as error:
+            if error.where == self.where:
+                raise
+            raise type(error)(f"{self.where}: {error.where}", error.what, error.hint) from None
+        except (TypeError, ValueError) as error:  # of what NumPy does not take, such as a percentile of 300
+            raise ModelError(self.where, f'"{self.text}": {error}') from None
 
     def _one_number(self, found: Any, case: Answers) -> str:
         """What to write for one number of a history, of a list, of vectors, as which it was found."""
@@ -160,7 +171,7 @@ class Formula:
             It gives something else.
         """
         with np.errstate(all="ignore"):
-            found = np.asarray(self._compiled(case), dtype=np.float64)
+            found = np.asarray(self._computed(case), dtype=np.float64)
         times = np.asarray(case.value("t"))
         if found.shape != times.shape:
             what = f'"{self.text}" gives {_shape(found)} at {len(times)} times, must give one at each'

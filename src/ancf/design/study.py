@@ -126,6 +126,7 @@ def study(
     frame = pandas()
     if not callable(function):
         raise ModelError("study.function", f"must be callable, is {checks.shown(function)}")
+    checks.progress(progress, "study.progress")
     if not isinstance(samples, frame.DataFrame) or not len(samples) or not len(samples.columns):
         raise ModelError("study.samples", "must be a DataFrame with a row for each case", "see ancf.sample")
     rows = rows_of(samples)

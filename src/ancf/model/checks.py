@@ -88,6 +88,12 @@ def text(value: object, where: str) -> str:
     return value
 
 
+def progress(value: object, where: str) -> None:
+    """What is called while a computation goes on, or nothing."""
+    if value is not None and not callable(value):
+        raise ModelError(where, f"must be a function of the progress, is {shown(value)}", "such as print")
+
+
 def array(value: object, where: str, shape: tuple[int | None, ...]) -> FloatArray:
     """A finite float array of the given shape; None in the shape stands for any count."""
     clean = _from_numpy(value, where) if hasattr(value, "__array__") else _from_list(value, where, len(shape))

@@ -94,7 +94,7 @@ def add_pressure(model: Any, body: Beam | str, pressure: Any, axis: Any, name: s
         what = f'"{clean.name}" is a {kind(clean)}, pressure acts on a beam or cable'
         raise ModelError(f"{where}.body", what)
     label = model._names.of_item(name, f"pressure on {clean.name}", where)
-    function = TimeFunction(pressure, 1, f"{where}.pressure")
+    function = TimeFunction(pressure, 1, f"{where}.pressure", "N/m")
     made: Pressure = model.add_load(Pressure(label, clean, function, checks.direction(axis, f"{where}.axis")))
     return made
 

@@ -16,6 +16,7 @@ from . import checks
 from .expression import Expression
 from .inputs import Signal, known, named
 from .series import Series
+from .units import check_kind
 
 Evaluate = Callable[[FloatArray], FloatArray]
 
@@ -51,6 +52,8 @@ class TimeFunction:
         1 or 3.
     where : str
         Place in the model, for messages.
+    unit : str, optional
+        Unit of the package that it is in: a series in one of another quantity is refused.
 
     Attributes
     ----------
@@ -64,13 +67,13 @@ class TimeFunction:
     Raises
     ------
     ModelError
-        It cannot be evaluated at t = 0, now or at a later time in `table`.
+        It cannot be evaluated at t = 0, now or at a later time in `table`; or it is in units of another kind.
 
     """
 
     __slots__ = ("_evaluate", "_value", "constant", "given", "inputs", "parts", "series", "size", "where")
 
-    def __init__(self, given: Any, size: int, where: str) -> None:
+    def __init__(self, given: Any, size: int, where: str, unit: str | None = None) -> None:
         if size not in (1, 3):
             raise ValueError(f"size is {size}, must be 1 or 3")
         self.size, self.where = size, where
@@ -80,6 +83,7 @@ class TimeFunction:
         self.series: tuple[Series, ...] = ()
         self._value: FloatArray | None = None  # of a constant
         self._evaluate, self.constant = self._interpret(self.given)
+        self.check_unit(unit)
         if not self.missing:
             first = self.table(np.zeros(1))[0]
             self._value = first if self.constant else None
@@ -173,6 +177,13 @@ class TimeFunction:
         timely = any(isinstance(p, Expression) and p.uses_t for p in parts)
         timely = timely or any(not series.constant for series in self.series)
         return lambda times: self._columns(times, self.inputs), not (timely or self.inputs)
+
+    def check_unit(self, unit: str | None) -> None:
+        """Raise ModelError if a series in it is known to be in units of something else than this one's."""
+        for k, part in enumerate(self.parts or self.series):
+            if isinstance(part, Series):
+                place = f"{self.where}[{k}]" if self.parts and self.size > 1 else self.where
+                check_kind(part.unit, unit, place)
 
     def _refuse(self, times: FloatArray) -> FloatArray:
         what = f'is the Python function "{self.missing}", of which a description keeps the name only'

@@ -66,7 +66,10 @@ class Parameter:
         """The clean value; ModelError if it is wrong."""
         if given is None:
             raise ModelError(f"{where}.{self.name}", f"must be given: {self.description} [{self.unit}]")
-        return _TYPES[self.kind][0](given, f"{where}.{self.name}")
+        made = _TYPES[self.kind][0](given, f"{where}.{self.name}")
+        if self.is_function:
+            made.check_unit(self.unit)
+        return made
 
     def shown(self, given: Any) -> str:
         """What a table says of its value."""

@@ -55,7 +55,7 @@ Load = Force | Moment | DistributedLoad
 
 def make_moment(where: str, name: str, point: Point, moment: Any) -> Moment:
     """Check what ``Model.add_moment`` was given; a cable takes no torque, a point mass no moment."""
-    function, body = TimeFunction(moment, 3, f"{where}.moment"), point.body
+    function, body = TimeFunction(moment, 3, f"{where}.moment", "N m"), point.body
     if isinstance(body, PointMass):
         what = f'"{body.name}" is a point mass and has no orientation, no moment turns it'
         raise ModelError(f"{where}.point", what, "make it a rigid body")
@@ -75,7 +75,8 @@ def make_distributed(
     if not isinstance(body, Beam):
         what = f'"{body.name}" is a {kind(body)}, a distributed load acts on a beam or cable'
         raise ModelError(f"{where}.body", what, "model.add_force(...) acts on any body")
-    function = force_function(load, f"{where}.load", body.initial_position(0.5 * body.length), lambda: size)
+    middle = body.initial_position(0.5 * body.length)
+    function = force_function(load, f"{where}.load", middle, lambda: size, "N/m")
     if between is None:
         return DistributedLoad(name, body, function, (0.0, body.length))
     x0, x1 = checks.array(between, f"{where}.between", (2,)).tolist()

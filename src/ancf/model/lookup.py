@@ -180,6 +180,8 @@ class Lookup:
             return own_point(point, where)
         if not isinstance(point, str):
             hint = "such as beam.start, beam.end or beam.at(0.5), a point mass or a rigid body"
+            if where.endswith(".a") and isinstance(point, list | tuple | np.ndarray) and len(point) == 3:
+                hint = "a place in space is the other end, b"
             raise ModelError(where, f"must be a point, is {checks.shown(point)}", hint)
         return parse_point(self.bodies, point, where)
 

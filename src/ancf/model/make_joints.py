@@ -61,7 +61,17 @@ def check_pair(where: str, a: Point, b: End, size: Callable[[], float]) -> None:
     gap = math.dist(first, second)
     if not coincide(gap, first, second, size):
         other = b if isinstance(b, Point) else f"the position {second.tolist()}"
-        raise ModelError(f"{where}.b", f"{a} and {other} are {gap:.6g} m apart, must coincide")
+        hint = _same_place(a, second) or (_same_place(b, first) if isinstance(b, Point) else "")
+        raise ModelError(f"{where}.b", f"{a} and {other} are {gap:.6g} m apart, must coincide", hint)
+
+
+def _same_place(point: Point, place: FloatArray) -> str:
+    """How a rigid body's point at a place is written, "" for other bodies."""
+    body = point.body
+    if not isinstance(body, RigidBody):
+        return ""
+    x, y, z = (round(float(c), 12) + 0.0 for c in body.axes.T @ (place - body.position))
+    return f"{body.name}.at({x:.12g}, {y:.12g}, {z:.12g}) is there"
 
 
 def coincide(gap: float, first: FloatArray, second: FloatArray, size: Callable[[], float]) -> bool:

@@ -25,6 +25,10 @@ from .tables import Readable, Sheet
 LoadT = TypeVar("LoadT", bound=Load)
 
 
+#: What one of the parts of a model is called.
+ONE = {"bodies": "body", "supports": "support", "loads": "load", "connections": "connection"}
+
+
 class Model(Supporting, Readable):
     """Bodies, supports, loads and connections in a field of gravity.
 
@@ -59,7 +63,8 @@ class Model(Supporting, Readable):
 
     def __repr__(self) -> str:
         counts = ("bodies", "supports", "loads", "connections")
-        inside = ", ".join(f"{len(getattr(self, key))} {key}" for key in counts)
+        found = {key: len(getattr(self, key)) for key in counts}
+        inside = ", ".join(f"{n} {ONE[key] if n == 1 else key}" for key, n in found.items())
         return f"Model({self.title!r}, {inside})" if self.title else f"Model({inside})"
 
     if not TYPE_CHECKING:  # a misspelled method is an error
@@ -175,7 +180,7 @@ class Model(Supporting, Readable):
 
         """
         where, label, clean = self.named_point("add_force", "force", point, name)
-        given = force_function(force, f"{where}.force", initial_position(clean), lambda: self.size)
+        given = force_function(force, f"{where}.force", initial_position(clean), lambda: self.size, "N")
         return self.add_load(Force(label, clean, given))
 
     def add_moment(self, point: PointLike, moment: Any, name: str | None = None) -> Moment:

@@ -12,11 +12,11 @@ from ..arrays import FloatArray
 from ..columns import read_columns, split_unit
 from ..errors import ModelError
 from . import checks
-from .units import factor
+from .units import factor, kind_of
 
 INTERPOLATIONS = ("linear", "spline")
 #: Keys of a series in a description, and in a file that names a CSV file.
-KEYS = ("t", "value", "interpolation", "cutoff", "relative", "ramp")
+KEYS = ("t", "value", "unit", "interpolation", "cutoff", "relative", "ramp")
 FILE_KEYS = ("csv", "column", "unit", "time", "time_unit", "interpolation", "cutoff", "relative", "ramp")
 #: A motion is noisy if its acceleration above this share of half the sampling rate exceeds the rest and this.
 HIGH, LEAST = 0.25, 1.0
@@ -37,7 +37,8 @@ class Series:
     size : 1 or 3, optional
         Which of both it has to be.
     unit, time_unit : str
-        One of ``ancf.model.units.UNITS``, such as "mm", "kN", "deg"; default those of the package.
+        One of ``ancf.model.units.UNITS``, such as "mm", "kN", "deg"; default those of the package. A
+        series with a unit is refused where another quantity is meant: one in kN as a displacement.
     interpolation : "spline" or "linear"
         A cubic spline through the values, twice differentiable, or straight lines.
     cutoff : float, Hz, optional
@@ -56,7 +57,7 @@ class Series:
         Times do not increase, a value is no finite number, there are too few, or a unit is unknown.
     """
 
-    __slots__ = ("_curve", "cutoff", "interpolation", "ramp", "relative", "t", "value")
+    __slots__ = ("_curve", "cutoff", "interpolation", "ramp", "relative", "t", "unit", "value")
 
     def __init__(
         self,
@@ -74,6 +75,7 @@ class Series:
     ) -> None:
         self.t = checks.array(t, f"{where}.t", (None,)) * factor(time_unit, f"{where}.time_unit", "s")
         self.value = _values(value, f"{where}.value", size) * factor(unit, f"{where}.unit")
+        self.unit = kind_of(unit) if unit else None
         self.interpolation = checks.choice(interpolation, f"{where}.interpolation", INTERPOLATIONS)
         self.cutoff = None if cutoff is None else checks.positive(cutoff, f"{where}.cutoff")
         self.relative = checks.flag(relative, f"{where}.relative")
@@ -125,7 +127,7 @@ class Series:
         where = more.pop("where", "Series")
         units = {key: more.pop(key) for key in ("unit", "time_unit") if key in more}
         found = read_table(Path(csv), column, where, time=time, **units)
-        return cls(found["t"], found["value"], **more, where=where)
+        return cls(found["t"], found["value"], unit=found["unit"], **more, where=where)
 
     @property
     def size(self) -> int:
@@ -176,6 +178,7 @@ class Series:
         if self.cutoff is not None:
             plain["cutoff"] = self.cutoff
         plain |= {"relative": True} if self.relative else {}
+        plain |= {"unit": self.unit or "1"} if self.unit is not None else {}
         return plain | ({"ramp": self.ramp} if self.ramp is not None else {})
 
     @classmethod
@@ -183,7 +186,7 @@ class Series:
         """From a table in a description or a file: straight lines, if it does not say otherwise."""
         if set(plain) - set(KEYS) or not {"t", "value"} <= set(plain):
             what = f'a table has the keys "t" and "value", not {sorted(map(str, plain))}'
-            hint = 'also "interpolation", "cutoff", "relative", "ramp"; '
+            hint = 'also "unit", "interpolation", "cutoff", "relative", "ramp"; '
             hint += '{ csv = "file.csv", column = "x" } in a file'
             raise ModelError(where, what, hint)
         smooth = "spline" if "cutoff" in plain else "linear"
@@ -289,6 +292,8 @@ def read_table(
 ) -> dict[str, Any]:
     """Times ``t`` and values ``value`` of a CSV file in units of the package; see :meth:`Series.read`.
 
+    ``unit`` is that of the package in which the values are, "" if neither file nor caller name one.
+
     Raises
     ------
     ModelError
@@ -303,12 +308,14 @@ def read_table(
     said = {split_unit(head)[1] for head in heads} - {""}
     if unit is None and len(said) > 1:
         raise ModelError(f"{where}.column", f"has the units {checks.listed(sorted(said))}, wanted one")
-    scale = factor(next(iter(said), "") if unit is None else unit, f"{where}.unit")
+    named = next(iter(said), "") if unit is None else unit
+    scale = factor(named, f"{where}.unit")
     said_clock = (split_unit(clock)[1] or "s") if time_unit is None else time_unit
     ticks = factor(said_clock, f"{where}.time_unit", "s")
     columns = [scale * _numbers(found[head], f'{where}.csv: column "{head}"') for head in heads]
     values = columns[0] if isinstance(column, str) else np.column_stack(columns)
-    return {"t": ticks * _numbers(found[clock], f'{where}.csv: column "{clock}"'), "value": values}
+    times = ticks * _numbers(found[clock], f'{where}.csv: column "{clock}"')
+    return {"t": times, "value": values, "unit": (kind_of(named) or "1") if named else ""}
 
 
 def _clock(found: Mapping[str, Any], time: str, where: str) -> str:

@@ -149,8 +149,8 @@ def _drives(force: Any, motion: Any, values: dict[str, float], where: str) -> di
         for key in (["force"] if force is not None else []) + acting:
             what = "has no effect with motion, which prescribes s"
             raise ModelError(f"{where}.{key}", what, "give one of them")
-    given = {"force": force, "motion": motion}
-    return {k: None if f is None else TimeFunction(f, 1, f"{where}.{k}") for k, f in given.items()}
+    given = {"force": (force, "N"), "motion": (motion, "m")}
+    return {k: None if f is None else TimeFunction(f, 1, f"{where}.{k}", u) for k, (f, u) in given.items()}
 
 
 def _numbers(given: dict[str, Any], where: str) -> dict[str, float]:

@@ -105,15 +105,15 @@ class StateFunction:
 
 
 def force_function(
-    given: Any, where: str, position: FloatArray, size: Callable[[], float]
+    given: Any, where: str, position: FloatArray, size: Callable[[], float], unit: str | None = None
 ) -> TimeFunction | StateFunction:
     """A function of time, or of the state if it takes three arguments or names x ... vz.
 
-    ``size``: gives that of the model, m; it is asked for if the force is such a law.
+    ``size``: gives that of the model, m; it is asked for if the force is such a law. ``unit``: N or N/m.
     """
     if _is_law(given):
         return StateFunction(given, where, position, size())
-    return TimeFunction(given, 3, where)
+    return TimeFunction(given, 3, where, unit)
 
 
 def check_force(given: Any, where: str) -> None:

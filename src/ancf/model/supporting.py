@@ -27,7 +27,8 @@ class Supporting(Surroundings):
         """
         where, clean = self._at_node("pin", point, name)
         label = self._names.of_item(name, f"pin at {clean}", where)
-        return self._add_support(where, Pin(label, clean, optional(displacement, 3, f"{where}.displacement")))
+        motion = optional(displacement, 3, f"{where}.displacement", "m")
+        return self._add_support(where, Pin(label, clean, motion))
 
     def clamp(
         self,

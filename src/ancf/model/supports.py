@@ -122,9 +122,9 @@ def components(
     return frozenset(names | ({"twist"} if twist else set()))
 
 
-def optional(value: Any, size: int, where: str) -> TimeFunction | None:
+def optional(value: Any, size: int, where: str, unit: str) -> TimeFunction | None:
     """A TimeFunction, or None for None."""
-    return None if value is None else TimeFunction(value, size, where)
+    return None if value is None else TimeFunction(value, size, where, unit)
 
 
 def make_clamp(
@@ -155,12 +155,12 @@ def make_clamp(
         name,
         point,
         checks.choice(stretch, f"{where}.stretch", STRETCH),
-        optional(rotation, 1, f"{where}.rotation"),
-        optional(rotation_rate, 1, f"{where}.rotation_rate"),
-        optional(rotation_acceleration, 1, f"{where}.rotation_acceleration"),
+        optional(rotation, 1, f"{where}.rotation", "rad"),
+        optional(rotation_rate, 1, f"{where}.rotation_rate", "rad/s"),
+        optional(rotation_acceleration, 1, f"{where}.rotation_acceleration", "rad/s^2"),
         checks.direction(axis, f"{where}.axis"),
-        optional(displacement, 3, f"{where}.displacement"),
-        optional(rotation_vector, 3, f"{where}.rotation_vector"),
+        optional(displacement, 3, f"{where}.displacement", "m"),
+        optional(rotation_vector, 3, f"{where}.rotation_vector", "rad"),
     )
 
 
@@ -175,7 +175,7 @@ def _check_derivatives(where: str, rotation: Any, rate: Any, acceleration: Any) 
 def make_hold(where: str, name: str, point: Point, *, twist: Any, displacement: Any, **letters: Any) -> Hold:
     """Check everything that ``Model.hold`` was given."""
     clean = {key: _letters(value, f"{where}.{key}") for key, value in letters.items()}
-    motion = optional(displacement, 3, f"{where}.displacement")
+    motion = optional(displacement, 3, f"{where}.displacement", "m")
     hold = Hold(name, point, **clean, twist=checks.flag(twist, f"{where}.twist"), displacement=motion)
     if not hold.held:
         what = "nothing is held: give position, slope, slope_y, slope_z or twist"

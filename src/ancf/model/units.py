@@ -24,6 +24,7 @@ KINDS: dict[str, dict[str, float]] = {
     "N m": {"N m": 1.0, "Nm": 1.0, "kN m": 1e3, "kNm": 1e3},
     "rad": {"rad": 1.0, "deg": np.pi / 180, "°": np.pi / 180},
     "rad/s": {"rad/s": 1.0, "deg/s": np.pi / 180, "rpm": np.pi / 30},
+    "rad/s^2": {"rad/s^2": 1.0, "rad/s²": 1.0, "deg/s^2": np.pi / 180},
     "kg": {"kg": 1.0}, "kg/s": {"kg/s": 1.0}, "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6},
     "Hz": {"Hz": 1.0, "kHz": 1e3}, "1/m": {"1/m": 1.0},
 }  # fmt: skip
@@ -39,6 +40,22 @@ def factor(unit: Any, where: str, of: str | None = None) -> float:
             raise ModelError(where, f"is {checks.shown(unit)}, wanted one of {checks.listed([*KINDS[of]])}")
         return UNITS[unit.strip()]
     raise ModelError(where, f"is {checks.shown(unit)}, known are {checks.listed(list(UNITS)[1:], 60)}")
+
+
+def kind_of(unit: str) -> str:
+    """Unit of the package that a known one stands for."""
+    return next(kind for kind, known in KINDS.items() if unit.strip() in known)
+
+
+def check_kind(unit: str | None, of: str | None, where: str) -> None:
+    """Raise ModelError if a unit of the package is known to be that of something else than what is wanted."""
+    if unit is not None and of is not None and unit != of:
+        what = f"is {_in(unit)}, must be {_in(of)}"
+        raise ModelError(where, what, "give another column, or the unit that its numbers have")
+
+
+def _in(unit: str) -> str:
+    return f"in {unit}" if unit else "a plain number"
 
 
 def in_plain_units(

@@ -76,7 +76,7 @@ class VelocityField:
             self.at(0.0, _NOWHERE)
         else:
             rest = given
-        self.uniform = TimeFunction(rest, 3, where)
+        self.uniform = TimeFunction(rest, 3, where, "m/s")
 
     def __reduce__(self) -> Any:
         return VelocityField, (self.given, self.where)

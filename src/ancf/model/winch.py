@@ -106,9 +106,9 @@ def make_winch(
     if natural is not None and np.any(np.abs(natural.node_tangent - natural.node_tangent[0]) > STRAIGHT):
         what = f'"{body.name}" has a natural curvature, which cannot be wound up'
         raise ModelError(f"{where}.point", what, 'give add_beam(..., natural_shape="straight")')
-    followed = None if speed is None else TimeFunction(speed, 1, f"{where}.speed")
+    followed = None if speed is None else TimeFunction(speed, 1, f"{where}.speed", "m/s")
     limit = None if acceleration is None else checks.positive(acceleration, f"{where}.acceleration")
-    item = Winch(name, point, TimeFunction(length, 1, f"{where}.length"), followed, limit)
+    item = Winch(name, point, TimeFunction(length, 1, f"{where}.length", "m"), followed, limit)
     _check_drive(where, item)
     if not item.length.missing and (first := float(item.length(0.0)[0])) < LEAST * body.length:
         raise _nothing_left(item, first, " at t = 0")

@@ -71,9 +71,9 @@ class Plotted:
         Parameters
         ----------
         items, *more : optional
-            Points, springs, joints and contacts, as objects of the model or by name, and "energy": one,
-            several, or a list. Default of sensors all that they recorded; of a result start, middle and end
-            of its bodies, springs, joints and energies.
+            Points, springs, joints, contacts and supports, as objects of the model or by name, and "energy":
+            one, several, or a list. Default of sensors all that they recorded; of a result start, middle and
+            end of its bodies, springs, joints and energies.
 
         Returns
         -------

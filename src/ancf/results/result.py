@@ -24,7 +24,7 @@ from ..system.probe import lengths_of
 from ..system.redundancy import independent
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import accuracy, motions, remembered, sharp_bends, tension, wavering
+from . import accuracy, motions, remembered, sharp_bends, tension, turned_bends, wavering
 from .below import of_bodies
 from .comparison import Comparison, compare
 from .given import Given, Led, history_of
@@ -214,14 +214,16 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Led, Filmed, Readabl
     def notes(self) -> list[str]:
         """What to know of the run that nobody asked for, one line each: motions that jump or are noisy,
         numbers that look like those of other units, cables that were pressed, and when, bent too sharply for
-        their elements or had forces that waver within these, bodies below a ground, energy that came from
-        nowhere, steps that are long for what vibrates, joints of which others hold a part.
+        their elements, had forces that waver within these or bends that have turned at the end, bodies below
+        a ground, energy that came from nowhere, steps that are long for what vibrates, joints of which others
+        hold a part.
 
         All stored states are looked at, when it is asked for.
         """
         pressed = tension.notes(tension.compressions(self))
         given = [str(text) for text in self._header.get("notes", [])]
         bent = sharp_bends.notes(sharp_bends.sharp_bends(self))
+        bent += turned_bends.notes(self.state()) if len(self.t) else []
         bent += wavering.notes(wavering.waverings(self))
         below = [*of_bodies(self), *accuracy.of_energy(self)]
         return [*given, *pressed, *bent, *below, *of_steps(self), *accuracy.of_joints(self)]

@@ -56,6 +56,7 @@ class Sensors(SpringFields, ContactFields, Led, Plotted):
         self._arcs = {name: int(self._joints[name][-1]) for name in whole.arcs if name in mine}
         by_ends = [item for name, item in self._springs.items() if name not in listing.springs]
         self._listed = frozenset(listing.points)
+        self._by_label = {str(point): point for point in reversed(listing.points)}
         self._placed = self._listed.union(end for item in by_ends for end in _ends(item))
         self.derivatives: Mapping[str, Any] = {}  # by the name of a parameter
 
@@ -241,14 +242,18 @@ class Sensors(SpringFields, ContactFields, Led, Plotted):
         return np.stack([measured[..., int(column)] for column in self.listing.columns[name]], axis=-1)
 
     def _probe(self, point: Point | PointMass | RigidBody | str) -> Probe:
-        probe = super()._probe(point)
+        probe = super()._probe(self._labelled(point))
         self._check(probe, point, self._placed)
         return probe
 
     def _beam(self, point: Point | RigidBody | str) -> BeamProbe:
-        probe = super()._beam(point)
+        probe = super()._beam(self._labelled(point))
         self._check(probe, point, self._listed)
         return probe
+
+    def _labelled(self, point: Any) -> Any:
+        """The point that was recorded under a text, which may have fewer digits than its place."""
+        return self._by_label.get(point.strip(), point) if isinstance(point, str) else point
 
     def _check(self, probe: Probe, point: Any, known: frozenset[Point]) -> None:
         place = Point(probe.body, probe.x, "", probe.y, probe.z)

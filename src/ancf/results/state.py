@@ -18,7 +18,7 @@ from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import accuracy, motions, sharp_bends, tension, wavering
+from . import accuracy, motions, sharp_bends, tension, turned_bends, wavering
 from .below import of_bodies
 from .momenta import Momenta
 from .motions import Motions
@@ -155,7 +155,8 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
         pressed = tension.notes(tension.compressions(self))
         bent = sharp_bends.notes(sharp_bends.sharp_bends(self))
         wavers = wavering.notes(wavering.waverings(self))
-        return [*pressed, *bent, *wavers, *of_bodies(self), *accuracy.of_state(self)]
+        turned = turned_bends.notes(self)
+        return [*pressed, *bent, *turned, *wavers, *of_bodies(self), *accuracy.of_state(self)]
 
     def sensitivity(self, name: str) -> Any:
         """Derivatives by a parameter of everything that the state answers, per unit of it.

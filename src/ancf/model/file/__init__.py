@@ -112,6 +112,7 @@ def parse_study(data: dict[str, Any], source: str = "model") -> Study:
 
     """
     try:
+        parameters.refuse_keys(data, FileEntry.model_fields)
         inputs = first_values(data.get("inputs") if isinstance(data, dict) else None)
         with named(inputs), parameters.given(data, inputs):
             entry = FileEntry.model_validate(data)

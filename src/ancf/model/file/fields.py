@@ -100,7 +100,7 @@ def of_schemas(plain: dict[str, Any], row: dict[str, Any]) -> dict[str, Any]:
     }
     table = {
         "type": "object",
-        "properties": {"t": times, "value": values, **_HOW},
+        "properties": {"t": times, "value": values, "unit": _UNIT, **_HOW},
         "required": ["t", "value"],
         "additionalProperties": False,
     }
@@ -113,6 +113,10 @@ def of_schemas(plain: dict[str, Any], row: dict[str, Any]) -> dict[str, Any]:
     return {"anyOf": [parts, table, file]}
 
 
+_UNIT: dict[str, Any] = {
+    "type": "string",
+    "description": "Unit of the values, such as mm or kN; default as the key.",
+}
 #: How a series is followed.
 _HOW: dict[str, Any] = {
     "interpolation": {
@@ -142,10 +146,7 @@ def _of_file(single: bool) -> dict[str, Any]:
         "properties": {
             "csv": {"type": "string", "description": "CSV file with a head, beside the model file."},
             "column": {**column, "description": "Name of the column, or three of them."},
-            "unit": {
-                "type": "string",
-                "description": "Its unit, such as mm or kN; default the head's.",
-            },
+            "unit": {**_UNIT, "description": "Its unit, such as mm or kN; default the head's."},
             "time": {"type": "string", "description": "Column of the times; default t, time or the first."},
             "time_unit": {"type": "string", "description": "Unit of the times, such as ms; default s."},
             **_HOW,

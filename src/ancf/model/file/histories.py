@@ -47,4 +47,5 @@ def _read(given: dict[str, Any], folder: Path, where: str) -> dict[str, Any]:
     asked = {key: given[key] for key in OF_FILE[2:] if key in given}
     found = read_table(folder / name, given["column"], where, **asked)
     rest = {key: value for key, value in given.items() if key not in OF_FILE}
-    return {"interpolation": "spline", **rest, "t": found["t"].tolist(), "value": found["value"].tolist()}
+    plain = {"interpolation": "spline", **rest, "t": found["t"].tolist(), "value": found["value"].tolist()}
+    return plain | ({"unit": found["unit"]} if found["unit"] else {})

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from typing import Any
+from functools import cache
+from typing import Any, get_args, get_origin
 
 from pydantic import ValidationError
 
@@ -16,6 +17,8 @@ from .fields import Entry
 from .parameters import leaves
 
 MOST_LINES = 10
+#: Tables that a message names in which a key is known.
+MOST_HOMES = 3
 WANTED = {
     "float_type": "a number",
     "int_type": "a whole number",
@@ -99,13 +102,40 @@ def _of_detail(detail: dict[str, Any], entry_at: Tables) -> ModelError:
         return _wrong_kind(where, given, context["key"], context["allowed"].split())
     if kind == "extra_forbidden":
         key, allowed = str(detail["loc"][-1]), list(entry_at(detail["loc"][:-1]).model_fields)
-        return ModelError(where, f"unknown key, allowed: {listed(allowed, 30)}", nearest(key, allowed))
+        hint = elsewhere(key, entry_at(())) or nearest(key, allowed)
+        return ModelError(where, f"unknown key, allowed: {listed(allowed, 30)}", hint)
     if kind == "missing":
-        field = entry_at(detail["loc"][:-1]).model_fields[str(detail["loc"][-1])]
-        return ModelError(
-            where, "is missing", (field.description or "").rstrip(".") + _as_table(field, where)
-        )
+        field = _field(detail, entry_at)
+        said = "" if field is None else (field.description or "").rstrip(".") + _as_table(field, where)
+        return ModelError(where, "is missing", said)
     return ModelError(where, *_of_value(kind, given, context, detail["msg"]))
+
+
+def elsewhere(key: str, top: type[Entry]) -> str:
+    """Where a key that a table does not have is known in such a file; "" if nowhere, or all over it."""
+    homes = _homes(top).get(key, [])
+    if "" in homes:
+        return f'"{key}" belongs at the top of the file, above the first table'
+    return f'"{key}" is a key of {" and ".join(homes)}' if 0 < len(homes) <= MOST_HOMES else ""
+
+
+@cache
+def _homes(top: type[Entry]) -> dict[str, list[str]]:
+    """Tables of a kind of file that have a key, as they begin, by the key; "" is the file itself."""
+    found: dict[str, list[str]] = {}
+    for name, field in top.model_fields.items():
+        named = get_origin(field.annotation) is dict
+        inside = get_args(field.annotation)[1] if named else field.annotation
+        title = f"[{name}.NAME]" if named else f"[[{name}]]" if _has_list(inside) else f"[{name}]"
+        own = {key for entry in leaves(inside) for key in getattr(entry, "model_fields", {})}
+        found.setdefault(name, []).extend([] if own else [""])
+        for key in own:
+            found.setdefault(key, []).append(title)
+    return found
+
+
+def _has_list(annotation: Any) -> bool:
+    return get_origin(annotation) is list or any(map(_has_list, get_args(annotation)))
 
 
 def _field(detail: dict[str, Any], entry_at: Tables) -> Any:

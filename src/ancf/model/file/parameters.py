@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import types
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from types import MappingProxyType
@@ -47,6 +47,26 @@ def given(tables: Any, inputs: Mapping[str, float]) -> Iterator[None]:
         yield
     finally:
         _known.reset(token)
+
+
+def refuse_keys(tables: Any, keys: Iterable[str]) -> None:
+    """Raise ModelError if a key of a file stands below its table of parameters: no formula names it."""
+    table = tables.get("parameters") if isinstance(tables, dict) else None
+    taken = [name for name in table if name in keys] if isinstance(table, dict) else []
+    used = set(WORD.findall(" ".join(_texts(tables)))) if taken else set()
+    for name in taken:
+        if name not in used:
+            hint = "it belongs at the top, above the first table; else give the parameter another name"
+            raise ModelError(f"parameters.{name}", "is a key of the file, and no formula names it", hint)
+
+
+def _texts(tables: Any) -> Iterator[str]:
+    """All texts of a file but its keys."""
+    if isinstance(tables, str):
+        yield tables
+    elif isinstance(tables, dict | list):
+        for part in tables.values() if isinstance(tables, dict) else tables:
+            yield from _texts(part)
 
 
 def values(table: Any, inputs: Mapping[str, float] = MappingProxyType({})) -> dict[str, float]:

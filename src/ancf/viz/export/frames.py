@@ -113,7 +113,7 @@ def _kind(known: Any, item: Any, where: str) -> tuple[str, str]:
             return label, kind
     if label in known._contacts():
         return label, "contact"
-    if isinstance(known, Sensors) and label in known.listing.held:
+    if label in known.held_supports():
         return label, "support"
     if label in known.model.inputs and label not in known.model.bodies:
         return label, INPUT
@@ -146,7 +146,7 @@ def _columns(known: Any, asked: list[tuple[str, str]]) -> Iterator[tables.Column
         elif kind == INPUT:
             yield tables.input_column(known, label)
         elif kind == "support":
-            yield from tables.vector_columns(f"{label} reaction", known.reaction(label), "N")
+            yield from tables.support_columns(known, label)
         else:
             yield from ((name, values) for name, values in tables.energy_columns(known) if name != "t [s]")
 

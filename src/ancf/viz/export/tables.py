@@ -48,9 +48,6 @@ def _cells(values: FloatArray) -> list[float | None]:
 
 def sensor_columns(sensors: Sensors, inside: bool = True) -> Iterator[Column]:
     """Everything that was recorded at every step; without `inside` no tension and curvature of points."""
-    clamps = {item.name for item in sensors.model.supports if isinstance(item, Clamp)} & {
-        *sensors.listing.turned
-    }
     yield "t [s]", sensors.t
     for point in sensors.listing.points:
         yield from motion_columns(sensors, point, str(point))
@@ -65,13 +62,19 @@ def sensor_columns(sensors: Sensors, inside: bool = True) -> Iterator[Column]:
         if name in sensors.joints:
             yield from joint_parts(sensors, name)
         if name in sensors.listing.held:
-            yield from vector_columns(f"{name} reaction", sensors.reaction(name), "N")
-        if name in clamps:
-            yield from vector_columns(f"{name} moment", sensors.reaction_moment(name), "N m")
+            yield from support_columns(sensors, name)
         if name in sensors.listing.columns:
             yield from contact_columns(sensors, name)
     if sensors._led():
         yield from input_columns(sensors)
+
+
+def support_columns(known: Any, name: str) -> Iterator[Column]:
+    """Force of a support, and moment of a clamp."""
+    yield from vector_columns(f"{name} reaction", known.reaction(name), "N")
+    clamps = {item.name for item in known.model.supports if isinstance(item, Clamp)}
+    if name in clamps and (not isinstance(known, Sensors) or name in known.listing.turned):
+        yield from vector_columns(f"{name} moment", known.reaction_moment(name), "N m")
 
 
 def contact_columns(sensors: Sensors, name: str) -> Iterator[Column]:

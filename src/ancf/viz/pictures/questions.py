@@ -122,7 +122,9 @@ def noun_of(source: Any, item: Any) -> str:
     if item.strip() not in source.bodies and not POINT_LABEL.fullmatch(item.strip()):
         what = f'"{item}" is no point, support, spring, contact or joint here'
         names = [*source.bodies, *named]
-        raise ModelError("plot", what, checks.nearest(item, names) or f"there are: {checks.listed(names)}")
+        hint = checks.nearest(item, names) or f"there are: {checks.listed(names)}"
+        hint = f'what is drawn of the others: quantity="{item}"' if item in (*QUANTITIES, "energy") else hint
+        raise ModelError("plot", what, hint)
     return POINT
 
 
