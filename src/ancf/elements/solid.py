@@ -14,23 +14,12 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
-from ..simd import LANES, gather, load, scatter, store, total, vector
+from ..simd import LANES, store, total, vector
 from ..vectors import dot
 from .cable_tangent import add_block
 from .solid_force import (
     ACCELERATION,
-    B1,
-    BX,
-    C1,
-    CONSTANTS,
-    CX,
-    DB,
-    DC,
     FORCE,
-    INV_L,
-    LENGTH,
-    NATURAL,
-    R2,
     RATE,
     TANGENT,
     VECTORS,
@@ -46,6 +35,16 @@ from .solid_force import (
 )
 from .solid_rate_work import damping_slopes
 from .solid_rates import rate_blocks, store_half
+from .solid_rows import (
+    add_viscous,
+    clear_unused,
+    load_constants,
+    load_natural,
+    store_forces,
+    store_nodal,
+    take,
+    take_vectors,
+)
 from .solid_tangent import (
     BLOCKS,
     ELEMENT,
@@ -55,7 +54,8 @@ from .solid_tangent import (
     other_blocks,
     spread_tangent,
 )
-from .workspace import add_rows, clear, row, rows, set_rows
+from .solid_tangent_work import elastic_slopes
+from .workspace import clear
 
 
 class SolidBatch(NamedTuple):
@@ -74,66 +74,6 @@ class SolidBatch(NamedTuple):
     gp: FloatArray  # (m, 14) coefficients of the Gauss points
     mass: FloatArray  # (10, 10) factors of the mass matrix by columns of base
     lane_scale: FloatArray  # (chunks, 20, LANES) by column: d(element's vector)/d(unknown), root of mass
-
-
-@inline_kernel
-def take(batch, x, ws, chunk, first):
-    """Rows from ``first`` on: the unknowns of all columns of base.
-
-    ``first`` comes as np.int64(...): numba would compile a version of its own for each literal.
-    """
-    for slot in range(batch.base.shape[1]):
-        set_rows(ws, first + 3 * slot, gather(x, batch.lane_base, chunk, slot))
-
-
-@inline_kernel
-def take_vectors(batch, x, ws, chunk, first):
-    """Rows from ``first`` on: the element's vectors."""
-    take(batch, x, ws, chunk, first)
-    h, il = row(ws, LENGTH), row(ws, INV_L)
-    set_rows(ws, first + D, il * (rows(ws, first + R2) - rows(ws, first + D)))
-    set_rows(ws, first + DB, rows(ws, first + DB) - rows(ws, first + B1))
-    set_rows(ws, first + DC, rows(ws, first + DC) - rows(ws, first + C1))
-    set_rows(ws, first + BX, h * rows(ws, first + BX))
-    set_rows(ws, first + CX, h * rows(ws, first + CX))
-
-
-@inline_kernel
-def add_viscous(batch, v, ws, chunk):
-    """Rows ACCELERATION of the centreline: add (damping / rhoA) velocity, the external damping."""
-    for slot in (0, 1, 4, 5):
-        add_rows(ws, ACCELERATION + 3 * slot, row(ws, VISCOUS) * gather(v, batch.lane_base, chunk, slot))
-
-
-@inline_kernel
-def load_constants(batch, ws, chunk):
-    """Rows LENGTH ... VISCOUS."""
-    for k in range(CONSTANTS):
-        store(load(batch.lane_data, chunk, k), ws, (LENGTH + k) * LANES)
-
-
-@inline_kernel
-def load_natural(batch, ws, chunk, g, curved):
-    """Rows NATURAL at a Gauss point; they stay zero for a straight natural shape."""
-    if curved:
-        for k in range(15):
-            store(load(batch.lane_reference, chunk, 15 * g + k), ws, (NATURAL + k) * LANES)
-
-
-@inline_kernel
-def store_nodal(batch, r, ws, chunk):
-    """Add the rows FORCE of a chunk to the residual."""
-    for slot in range(batch.base.shape[1]):
-        scatter(rows(ws, FORCE + 3 * slot), r, batch.lane_base, chunk, slot)
-
-
-@inline_kernel
-def clear_unused(ws):
-    """Rows that the original element does not fill, and those of a straight natural shape."""
-    clear(ws, BX, 6)
-    clear(ws, RATE + BX, 6)
-    clear(ws, ACCELERATION + BX, 6)
-    clear(ws, NATURAL, 15)
 
 
 @inline_kernel
@@ -252,9 +192,38 @@ def solid_rate_work(batch, q, v, x, out, ws):
             clear(ws, FORCE, VECTORS)
             for g in range(group[3]):
                 damping_slopes(ws, batch.gp, group[2] + g)
-            clear(ws, ACCELERATION, VECTORS)  # there is no mass in this
+            store_forces(batch, out, ws, chunk)
+
+
+@inline_kernel
+def solid_tangent_work(batch, q, v, x, by_q, by_v, by_a, ws):
+    """See :func:`ancf.compiled.add_tangent_work`."""
+    gp = batch.gp
+    for n in range(batch.groups.shape[0]):
+        group = batch.groups[n]
+        clear_unused(ws)
+        for chunk in range(group[0], group[1]):
+            load_constants(batch, ws, chunk)
+            take_vectors(batch, q, ws, chunk, np.int64(D))
+            take_vectors(batch, x, ws, chunk, np.int64(RATE))
+            clear(ws, FORCE, VECTORS)
+            for g in range(group[3]):
+                load_natural(batch, ws, chunk, g, group[6] != 0)
+                elastic_slopes(ws, gp, group[2] + g, np.int64(RATE))
+            store_forces(batch, by_q, ws, chunk)
+            if group[4] != 0 or group[5] != 0:
+                clear(ws, FORCE, VECTORS)
+                for g in range(group[3] if group[4] != 0 else 0):
+                    damping_force(ws, gp, group[2] + g)
+                clear(ws, ACCELERATION, VECTORS)
+                if group[5] != 0:
+                    add_viscous(batch, x, ws, chunk)
+                inertia_force(ws, batch.mass)
+                store_nodal(batch, by_v, ws, chunk)
+            clear(ws, FORCE, VECTORS)
+            take(batch, x, ws, chunk, np.int64(ACCELERATION))
             inertia_force(ws, batch.mass)
-            store_nodal(batch, out, ws, chunk)
+            store_nodal(batch, by_a, ws, chunk)
 
 
 @inline_kernel
@@ -305,6 +274,7 @@ implements(
     energy=solid_energy,
     rate_stiffness=solid_rate_stiffness,
     rate_work=solid_rate_work,
+    tangent_work=solid_tangent_work,
     inverted=solid_inverted,
     role=Role.DISSIPATES,
     slots=("base", "lane_base"),
