@@ -25,6 +25,13 @@ def cable(strain, elements, shape, **damping):
     return model, model.add_beam("beam", path=arc, **given)
 
 
+SOLIDLY = {
+    "plain": {},
+    "axial": {"axial_damping": 5.0},
+    "bending": {"bending_damping": 0.5},
+    "external": {"damping": 0.3},
+    "all": {"axial_damping": 5.0, "bending_damping": 0.5, "damping": 0.3},
+}
 SHAPES = {
     "rectangle": lambda **more: ancf.Section.rectangle(0.2, 0.1, E=1e3, rho=9.0, **more),
     "circle": lambda **more: ancf.Section.circle(0.2, E=1e3, nu=0.3, rho=9.0, **more),

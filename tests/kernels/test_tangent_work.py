@@ -8,7 +8,7 @@ from ancf.compiled import add_tangent_work, kernel
 from ancf.solvers.rare import add_tangent_works, knowing
 from ancf.system.core import residual
 from ancf.system.system import System
-from strained import SHAPES, solid, states
+from strained import SHAPES, SOLIDLY, solid, states
 
 
 @kernel
@@ -46,11 +46,11 @@ def check(model, name, seed=1):
 
 
 @pytest.mark.parametrize("elements", [3, 9])
-@pytest.mark.parametrize("damping", [{}, {"axial_damping": 5.0}, {"bending_damping": 0.5}, {"damping": 0.3}])
+@pytest.mark.parametrize("damping", SOLIDLY)
 @pytest.mark.parametrize("section", SHAPES)
 @pytest.mark.parametrize("shape", ["straight", "curved"])
 @pytest.mark.parametrize("element", ["original", "nonlocking"])
 def test_of_solid_beams(element, shape, section, damping, elements):
-    stiff, damped, heavy = check(solid(element, shape, section, elements, **damping)[0], element)
+    stiff, damped, heavy = check(solid(element, shape, section, elements, **SOLIDLY[damping])[0], element)
     assert min(stiff, heavy) > 0.0
-    assert (damped > 0.0) == bool(damping)
+    assert (damped > 0.0) == (damping != "plain")

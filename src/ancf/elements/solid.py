@@ -33,6 +33,7 @@ from .solid_force import (
     stresses,
     vectors,
 )
+from .solid_numbers import elements_numbers, joined, numbers
 from .solid_rate_work import damping_slopes
 from .solid_rates import rate_blocks, store_half
 from .solid_rows import (
@@ -94,7 +95,7 @@ def solid_force(batch, q, v, a, r, ws):
             if group[4] != 0:
                 take_vectors(batch, v, ws, chunk, np.int64(RATE))
                 for g in range(points):
-                    damping_force(ws, gp, g0 + g)
+                    damping_force(ws, gp, g0 + g, np.int64(RATE))
             take(batch, a, ws, chunk, np.int64(ACCELERATION))
             if group[5] != 0:
                 add_viscous(batch, v, ws, chunk)
@@ -214,7 +215,7 @@ def solid_tangent_work(batch, q, v, x, by_q, by_v, by_a, ws):
             if group[4] != 0 or group[5] != 0:
                 clear(ws, FORCE, VECTORS)
                 for g in range(group[3] if group[4] != 0 else 0):
-                    damping_force(ws, gp, group[2] + g)
+                    damping_force(ws, gp, group[2] + g, np.int64(RATE))
                 clear(ws, ACCELERATION, VECTORS)
                 if group[5] != 0:
                     add_viscous(batch, x, ws, chunk)
@@ -224,6 +225,16 @@ def solid_tangent_work(batch, q, v, x, by_q, by_v, by_a, ws):
             take(batch, x, ws, chunk, np.int64(ACCELERATION))
             inertia_force(ws, batch.mass)
             store_nodal(batch, by_a, ws, chunk)
+
+
+@inline_kernel
+def solid_number_work(batch, q, v, a, x, out, ws):
+    """See :func:`ancf.compiled.add_number_work`."""
+    for n in range(batch.groups.shape[0]):
+        group = batch.groups[n]
+        clear_unused(ws)
+        for chunk in range(group[0], group[1]):
+            elements_numbers(batch, group, chunk, (q, v, a), x, out, ws)
 
 
 @inline_kernel
@@ -275,6 +286,10 @@ implements(
     rate_stiffness=solid_rate_stiffness,
     rate_work=solid_rate_work,
     tangent_work=solid_tangent_work,
+    number_work=solid_number_work,
+    numbers=numbers,
+    numbered=("lane_data", "lane_scale"),
+    joined=joined,
     inverted=solid_inverted,
     role=Role.DISSIPATES,
     slots=("base", "lane_base"),

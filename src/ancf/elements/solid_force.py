@@ -163,11 +163,11 @@ def elastic_force(ws, gp, g):
 
 
 @inline_kernel
-def damping_force(ws, gp, g):
-    """Add the force of the axial and bending damping of Gauss point g to the rows FORCE."""
+def damping_force(ws, gp, g, rates):
+    """Add the force of the axial and bending damping of Gauss point g, of rates from a row on, to FORCE."""
     at = point(gp, g)
     a, _, B, _, C = vectors(ws, at, D)
-    da, _, dB, _, dC = vectors(ws, at, RATE)
+    da, _, dB, _, dC = vectors(ws, at, rates)
     bending = at[7] * row(ws, BENDING)
     f0 = at[7] * row(ws, AXIAL) * dot(a, da)
     f1 = bending * (dot(a, dB) + dot(B, da))
