@@ -17,6 +17,7 @@ from ..compiled import Role, implements, inline_kernel
 from ..simd import LANES, store, total, vector
 from ..vectors import dot
 from .cable_tangent import add_block
+from .solid_changes import kinds_of, solid_changes
 from .solid_force import (
     ACCELERATION,
     FORCE,
@@ -287,6 +288,8 @@ implements(
     rate_work=solid_rate_work,
     tangent_work=solid_tangent_work,
     number_work=solid_number_work,
+    changes=solid_changes,
+    kinds=kinds_of,
     numbers=numbers,
     numbered=("lane_data", "lane_scale"),
     joined=joined,
