@@ -8,7 +8,7 @@ from ancf.compiled import add_tangent_work, kernel
 from ancf.solvers.rare import add_tangent_works, knowing
 from ancf.system.core import residual
 from ancf.system.system import System
-from strained import SHAPES, SOLIDLY, solid, states
+from strained import SECTIONS, SHAPES, SOLIDLY, cable, solid, states
 
 
 @kernel
@@ -52,5 +52,15 @@ def check(model, name, seed=1):
 @pytest.mark.parametrize("element", ["original", "nonlocking"])
 def test_of_solid_beams(element, shape, section, damping, elements):
     stiff, damped, heavy = check(solid(element, shape, section, elements, **SOLIDLY[damping])[0], element)
+    assert min(stiff, heavy) > 0.0
+    assert (damped > 0.0) == (damping != "plain")
+
+
+@pytest.mark.parametrize("elements", [3, 9])
+@pytest.mark.parametrize("shape", ["straight", "curved"])
+@pytest.mark.parametrize("strain", ["material", "paper"])
+@pytest.mark.parametrize("damping", SECTIONS)
+def test_of_cables(damping, strain, shape, elements):
+    stiff, damped, heavy = check(cable(strain, elements, shape, **SECTIONS[damping])[0], "cable")
     assert min(stiff, heavy) > 0.0
     assert (damped > 0.0) == (damping != "plain")
