@@ -22,7 +22,6 @@ from .solid_force import (
     ACCELERATION,
     FORCE,
     RATE,
-    TANGENT,
     VECTORS,
     VISCOUS,
     D,
@@ -50,10 +49,11 @@ from .solid_rows import (
 from .solid_tangent import (
     BLOCKS,
     ELEMENT,
-    OF_POINT,
     PLACES,
+    damping_blocks,
     diagonal_blocks,
     other_blocks,
+    spread_dampers,
     spread_tangent,
 )
 from .solid_tangent_work import elastic_slopes
@@ -147,6 +147,12 @@ def solid_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
             load_constants(batch, ws, chunk)
             take_vectors(batch, q, ws, chunk, np.int64(D))
             clear(ws, ELEMENT, 9 * BLOCKS)
+            if c_stiffness == 0.0:
+                for g in range(points if c_damping != 0.0 and group[4] != 0 else 0):
+                    damping_blocks(ws, gp, g0 + g, c_damping * gp[g0 + g, 7])
+                    spread_dampers(ws, gp, g0 + g, own)
+                store_tangent(batch, A, ws, chunk, c_mass, c_damping)
+                continue
             for g in range(points):
                 load_natural(batch, ws, chunk, g, curved)
                 weight = gp[g0 + g, 7]
@@ -165,7 +171,6 @@ def solid_rate_stiffness(batch, q, v, S, W, ws):
         if group[4] == 0:
             continue
         clear_unused(ws)
-        clear(ws, TANGENT, OF_POINT)
         for chunk in range(group[0], group[1]):
             load_constants(batch, ws, chunk)
             take_vectors(batch, q, ws, chunk, np.int64(D))
@@ -174,7 +179,7 @@ def solid_rate_stiffness(batch, q, v, S, W, ws):
                 clear(ws, ELEMENT, 9 * BLOCKS)
                 for g in range(group[3]):
                     rate_blocks(ws, batch.gp, group[2] + g, sign)
-                    spread_tangent(ws, batch.gp, group[2] + g, own)
+                    spread_dampers(ws, batch.gp, group[2] + g, own)
                 store_half(batch, S if sign > 0.0 else W, ws, chunk, sign)
 
 
