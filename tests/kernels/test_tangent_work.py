@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ancf.batches import Batches
+from ancf.batches import Batches, add_tangents
 from ancf.compiled import add_tangent_work, kernel
 from ancf.solvers.rare import add_tangent_works, knowing
 from ancf.system.core import residual
@@ -14,6 +14,11 @@ from strained import SECTIONS, SHAPES, SOLIDLY, cable, solid, states
 @kernel
 def all_works(batches, q, v, x, by_q, by_v, by_a, ws):
     add_tangent_works(batches, q, v, x, by_q, by_v, by_a, ws)
+
+
+@kernel
+def tangents(batches, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    add_tangents(batches, q, v, A, c_mass, c_damping, c_stiffness, ws)
 
 
 def check(model, name, seed=1):
@@ -64,3 +69,19 @@ def test_of_cables(damping, strain, shape, elements):
     stiff, damped, heavy = check(cable(strain, elements, shape, **SECTIONS[damping])[0], "cable")
     assert min(stiff, heavy) > 0.0
     assert (damped > 0.0) == (damping != "plain")
+
+
+@pytest.mark.parametrize("damping", SOLIDLY)
+@pytest.mark.parametrize("element", ["cable", "original", "nonlocking"])
+def test_the_matrix_of_a_step_is_the_sum_of_its_parts(element, damping):
+    """Of each alone there are fewer blocks."""
+    own = SOLIDLY[damping]
+    made = cable("material", 3, "curved", **own) if element == "cable" else solid(element, "curved", **own)
+    system = System(made[0])
+    q, v, _, _, _ = states(system, 1)
+    batches, parts = Batches([system.parts[element]]), np.zeros((4, system.core.A.size))
+    for A, factors in zip(parts, ((7.0, 0, 0), (0, 3.0, 0), (0, 0, 1.0), (7.0, 3.0, 1.0)), strict=True):
+        tangents(batches, q, v, A, *map(float, factors), system.core.ws)
+    for k in range(3):
+        assert np.any(parts[k]) == (k != 1 or damping != "plain")
+    assert np.abs(parts[3] - parts[:3].sum(axis=0)).max() <= 1e-13 * np.abs(parts[:3]).sum(axis=0).max()
