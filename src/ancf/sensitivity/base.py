@@ -47,7 +47,7 @@ def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matr
     whole = [batch for batch in others if moving and not _is_joint(batch) and _is_sloped(batch, back)]
     joints = [batch for batch in others if _is_joint(batch)] + whole
     rough = [batch for batch in others if not any(batch is one for one in joints)]
-    worked = [batch for batch in exact if back and does_something(type(batch), add_tangent_work)]
+    worked = _worked(exact) if back else []
     exact = [batch for batch in exact if not any(batch is one for one in worked)]
     stirring = [batch for batch in exact if any(batch is one for one in known)]
     resting = [batch for batch in exact if not any(batch is one for one in known)]
@@ -75,6 +75,19 @@ def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matr
     apart = 1.0 + 0.5 * np.sin(np.arange(size, dtype=np.float64))  # springs between places that are not one
     exact_masses(made, core.ws, apart, np.zeros(size))
     return made
+
+
+def _worked(exact: list[Any]) -> list[Any]:
+    """Batches whose products are taken without matrices.
+
+    Where others have matrices, products with these are the same work with more numbers in them: it pays for
+    those alone that would have two.
+    """
+    able = [batch for batch in exact if does_something(type(batch), add_tangent_work)]
+    if len(able) == len(exact):
+        return able
+    dampings = ((batch, traits(batch).damped) for batch in able)
+    return [batch for batch, damped in dampings if damped is not None and damped(batch)]
 
 
 def moved_by(core: Core) -> float:
