@@ -25,6 +25,32 @@ def cable(strain, elements, shape, **damping):
     return model, model.add_beam("beam", path=arc, **given)
 
 
+SOLIDLY = {
+    "plain": {},
+    "axial": {"axial_damping": 5.0},
+    "bending": {"bending_damping": 0.5},
+    "external": {"damping": 0.3},
+    "all": {"axial_damping": 5.0, "bending_damping": 0.5, "damping": 0.3},
+}
+SHAPES = {
+    "rectangle": lambda **more: ancf.Section.rectangle(0.2, 0.1, E=1e3, rho=9.0, **more),
+    "circle": lambda **more: ancf.Section.circle(0.2, E=1e3, nu=0.3, rho=9.0, **more),
+}
+
+
+def solid(element, shape, section="rectangle", elements=3, **damping):
+    """A beam with a cross-section, straight or bent to an arc that it has without forces, and half of it."""
+    model = ancf.Model()
+    given = {"element": element, "elements": elements, "section": SHAPES[section](**damping)}
+    if shape == "straight":
+        return model, model.add_beam("beam", start=(0, 0, 0), end=(1.2, 0.3, 0), **given)
+
+    def arc(s):
+        return np.array([np.sin(s), 1.0 - np.cos(s), 0.1 * s])
+
+    return model, model.add_beam("beam", path=arc, poisson="centreline", **given)
+
+
 def sprung():
     """Springs with and without dampers, curves, friction, slack and stretched."""
     model, beam = cable("material", 3, "straight")

@@ -22,6 +22,11 @@ def add_rate_work(batch, q, v, x, out, ws):
     raise TypeError(f"{type(batch).__name__} does not know how velocities change its stiffness")
 
 
+def add_tangent_work(batch, q, v, x, by_q, by_v, by_a, ws):
+    """Add K x, C x and M x, of the matrices of :func:`add_tangent`, to ``by_q``, ``by_v`` and ``by_a``."""
+    raise TypeError(f"{type(batch).__name__} does not know the products of its matrices")
+
+
 def touched(batch, q, out):
     """Write the unknowns and shadows on which the batch's forces depend in and near the state q, and on which
     alone they act, to ``out``, some perhaps twice; their number, up to MOST_TOUCHED for each part.
@@ -62,6 +67,7 @@ def add_slopes_beside(batch, q, v, a, d, r, ws):
 OF_SENSITIVITIES: dict[str, Any] = {
     "rate_stiffness": add_rate_stiffness,
     "rate_work": add_rate_work,
+    "tangent_work": add_tangent_work,
     "touches": touched,
     "number_work": add_number_work,
     "changes": add_changes,

@@ -32,6 +32,7 @@ from .compiled import (
     add_rate_work,
     add_slopes_beside,
     add_tangent,
+    add_tangent_work,
     add_work_slopes,
     does_something,
     find_event,
@@ -49,7 +50,7 @@ from .words import begin_of
 _COLUMNS = 1 + len(OPERATIONS)
 _NONE = np.zeros((0, _COLUMNS), dtype=np.int64)
 FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, 9)
-RATES, TOUCHED, NUMBERS, WORKS, SLOPES, ALONG, BESIDE, CHANGES = range(9, _COLUMNS)
+RATES, TOUCHED, NUMBERS, WORKS, SLOPES, ALONG, BESIDE, CHANGES, PRODUCTS = range(9, _COLUMNS)
 #: Operations compiled for those who ask for them, see :mod:`ancf.solvers.rare`, and their columns.
 RARE = {
     measure: MEASURE,
@@ -61,6 +62,7 @@ RARE = {
     add_force_slopes: ALONG,
     add_slopes_beside: BESIDE,
     add_changes: CHANGES,
+    add_tangent_work: PRODUCTS,
 }
 
 

@@ -28,6 +28,7 @@ from .asked import add_number_work as add_number_work
 from .asked import add_rate_stiffness as add_rate_stiffness
 from .asked import add_rate_work as add_rate_work
 from .asked import add_slopes_beside as add_slopes_beside
+from .asked import add_tangent_work as add_tangent_work
 from .asked import add_work_slopes as add_work_slopes
 from .asked import touched as touched
 from .parts import PartCompiler, part

@@ -17,6 +17,7 @@ from .compiled import (
     add_rate_work,
     add_slopes_beside,
     add_tangent,
+    add_tangent_work,
     add_work_slopes,
     find_event,
     inverted,
@@ -124,6 +125,12 @@ def changes_at(record, q, v, a, rates, kinds, begin, out, ws):
     add_changes(record, q, v, a, rates, kinds, begin, out, ws)
 
 
+@separate_kernel
+def tangent_work_at(record, q, v, x, by_q, by_v, by_a, ws):
+    """``add_tangent_work`` of the batch at an address."""
+    add_tangent_work(record, q, v, x, by_q, by_v, by_a, ws)
+
+
 _V, _x = VECTOR, types.float64
 _PLACES = types.Array(types.int64, 1, "C")
 _LANES, _VECTORS = types.Array(_x, 2, "C"), types.Array(_x, 3, "C")
@@ -145,4 +152,5 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     add_force_slopes: (force_slopes_at, (_V, _V, _V, _VECTORS, _LANES, _V), types.none),
     add_slopes_beside: (slopes_beside_at, (_V, _V, _V, _VECTORS, _LANES, _V), types.none),
     add_changes: (changes_at, (_V, _V, _V, _V, _PLACES, _PLACES, _V, _V), types.none),
+    add_tangent_work: (tangent_work_at, (_V, _V, _V, _V, _V, _V, _V), types.none),
 }

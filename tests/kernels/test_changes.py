@@ -1,4 +1,4 @@
-"""What changes of the constants of cables do to all forces: the kernel against differences of the forces."""
+"""What changes of the constants of elements do to all forces: kernels against differences of the forces."""
 
 import numpy as np
 import pytest
@@ -11,14 +11,14 @@ from ancf.solvers.pushes import Uses, add_pushes
 from ancf.solvers.sensitivity import Way
 from ancf.system.core import residual
 from ancf.system.system import System
-from strained import SECTIONS, cable, states
+from strained import SECTIONS, SHAPES, SOLIDLY, cable, solid, states
 
 
-def found_by_kernel(system, rates, way):
+def found_by_kernel(system, rates, way, name="cable"):
     """Derivatives of the residuals along changes of the numbers, (changes, steps, size)."""
     count, steps = len(rates), len(way.q)
     uses = Uses(Batches(), np.zeros(1, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0))
-    changes = changes_of(system, [{"cable": rate} if rate is not None else {} for rate in rates])
+    changes = changes_of(system, [{name: rate} if rate is not None else {} for rate in rates])
     first, push = np.zeros((count, system.size)), np.full((count, steps, system.size), np.nan)
     tables = system.inputs.tables(0.0, 0.1, steps, 0.0, 1.0)
     given = np.zeros((0, 0, 3, 3)), first, np.zeros(count, dtype=bool), tables, way
@@ -45,14 +45,19 @@ def slope(of):
     return 1.5 * one - 0.6 * two + 0.1 * three
 
 
+def ways(system):
+    """Two random states."""
+    each = zip(*(states(system, seed)[:3] for seed in (1, 2)), strict=True)
+    return Way(*(np.stack(rows) for rows in each))
+
+
 @pytest.mark.parametrize("elements", [3, 9])
 @pytest.mark.parametrize("shape", ["straight", "curved"])
 @pytest.mark.parametrize("strain", ["material", "paper"])
 @pytest.mark.parametrize("damping", SECTIONS)
 def test_against_differences(damping, strain, shape, elements):
     system = System(cable(strain, elements, shape, **SECTIONS[damping])[0])
-    batch, rng = system.parts["cable"], np.random.default_rng(3)
-    way = Way(*(np.stack(rows) for rows in zip(*(states(system, seed)[:3] for seed in (1, 2)), strict=True)))
+    batch, rng, way = system.parts["cable"], np.random.default_rng(3), ways(system)
     every = batch.groups.copy()
     every[:, DAMPED] = 15  # also where a constant is zero
     moves = []
@@ -76,6 +81,38 @@ def test_against_differences(damping, strain, shape, elements):
         wanted = slope(lambda e, move=move: forces(system, moved(move, e), way))
         loose = 1e-9 if k in (LENGTH, INV_L, 9) else 1e-12
         assert np.abs(own - wanted).max() <= loose * np.abs(wanted).max() + 1e-12 * size, k
+
+
+@pytest.mark.parametrize("elements", [3, 9])
+@pytest.mark.parametrize("damping", SOLIDLY)
+@pytest.mark.parametrize("section", SHAPES)
+@pytest.mark.parametrize("shape", ["straight", "curved"])
+@pytest.mark.parametrize("element", ["original", "nonlocking"])
+def test_of_solid_beams(element, shape, section, damping, elements):
+    """Of each constant, of all of them, and of stiffnesses, dampings, masses and lengths by themselves."""
+    system = System(solid(element, shape, section, elements, **SOLIDLY[damping])[0])
+    batch, rng, way = system.parts[element], np.random.default_rng(3), ways(system)
+    every = batch.groups.copy()
+    every[:, 4:6] = 1  # also where a constant is zero
+    kinds = [slice(0, 24), slice(2, 18), slice(18, 20), slice(20, 24), slice(0, 2)]
+    moves = []
+    for row in [*range(24), *kinds]:
+        change = np.zeros_like(batch.lane_data)
+        change[:, row] = sized(batch.lane_data[:, row], rng)
+        moves.append(change)
+
+    def moved(change, e):
+        return batch._replace(groups=every, lane_data=batch.lane_data + e * change)
+
+    rates = [slope(lambda e, move=move: traits(batch).numbers(moved(move, e))) for move in moves]
+    found = found_by_kernel(system, [None, *rates], way, element)
+    assert not found[0].any()
+    size = np.abs(forces(system, batch, way)).max()
+    for k, (move, own) in enumerate(zip(moves, found[1:], strict=True)):
+        wanted = slope(lambda e, move=move: forces(system, moved(move, e), way))
+        loose = 1e-9 if np.any(move[:, :2]) else 1e-12
+        assert np.abs(own - wanted).max() <= loose * np.abs(wanted).max() + 1e-12 * size, k
+        assert np.any(own) == np.any(wanted), k
 
 
 def test_kinds_that_know_have_kinds():

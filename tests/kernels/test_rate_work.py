@@ -8,7 +8,7 @@ from ancf.batches import Batches
 from ancf.compiled import kernel
 from ancf.sensitivity.base import matrices_of
 from ancf.solvers.directions import products_along
-from ancf.solvers.rare import add_rate_works
+from ancf.solvers.rare import add_rate_works, add_tangent_works
 from ancf.system.core import residual
 from ancf.system.system import System
 from strained import SECTIONS, cable, sprung, states
@@ -17,6 +17,11 @@ from strained import SECTIONS, cable, sprung, states
 @kernel
 def all_works(batches, q, v, x, out, ws):
     add_rate_works(batches, q, v, x, out, ws)
+
+
+@kernel
+def all_products(batches, q, v, x, by_q, by_v, by_a, ws):
+    add_tangent_works(batches, q, v, x, by_q, by_v, by_a, ws)
 
 
 def check(system, seed, parts=None):
@@ -39,10 +44,13 @@ def check(system, seed, parts=None):
     along = np.stack([change, still, still])
     products_along(core, m, q, v, a, along, np.zeros((0, 3, 3)), still, known)
     all_works(m.stirred, q, v, x, out, core.ws)
-    wanted = 1.5 * one - 0.6 * two + 0.1 * three - x @ known
+    products = np.zeros((3, size))
+    all_products(m.worked, q, v, x, *products, core.ws)
+    known = np.concatenate([x * known, products[0] * change])  # in matrices, and of those who do without
+    wanted = 1.5 * one - 0.6 * two + 0.1 * three - known.sum()
     terms = np.abs(out * change).sum()
-    assert abs(out @ change - wanted) <= 1e-8 * terms + 1e-11 * np.abs(x * known).sum()
-    assert terms > 1e-6 * np.abs(x * known).sum()
+    assert abs(out @ change - wanted) <= 1e-8 * terms + 1e-11 * np.abs(known).sum()
+    assert terms > 1e-6 * np.abs(known).sum()
 
 
 @pytest.mark.parametrize("elements", [3, 9])

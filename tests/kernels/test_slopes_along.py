@@ -1,4 +1,4 @@
-"""Derivatives of joints' forces along eight directions, and what of them the tangents leave out."""
+"""Derivatives of forces of joints and moments along eight directions, and what of them tangents leave out."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,10 @@ from ancf.connections.sliding import FREE, FROZEN
 from ancf.linalg.eight import lane_rows
 from ancf.linalg.sparse import to_sparse
 from ancf.solvers.rare import add_all_slopes, add_slopes_along, add_slopes_beside_all, knowing
+from ancf.system.system import System
 from mechanisms import LEVELS, bare, joints_of, mechanism, moving
+from sloped import at_time
+from strained import cable, solid, states
 
 MIXED = LEVELS | {"mixed": (0.3, 0.5, 0.2)}
 PLACES = ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12))
@@ -120,3 +123,33 @@ def test_what_the_tangent_leaves_out(kind, level, way):
     found = derived(system, kind, d) - derived(system, kind, d, beside)
     assert np.max(np.abs(found[: system.n] - kept)) < 1e-11 * np.max(np.abs(found))
     assert not np.any(found[system.n :])
+
+
+def turned(element, seed):
+    """A beam under moments that change, in a strained state; the system, the batch of them and the state."""
+    model, beam = cable("material", 3, "curved") if element == "cable" else solid(element, "curved")
+    for place, moment in ((beam.end, (0.3, "2*t", -1.2)), (beam.at(0.55), (1.1, 0.2, 0.7))):
+        model.add_moment(place, moment)
+    system = System(model)
+    given = states(system, seed)[:3]
+    at_time(system, 0.37, given)
+    return system, system.parts[next(name for name in system.parts if "moment" in name)], given
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("element", ["cable", "original", "nonlocking"])
+def test_of_moments(element, seed):
+    """As the slopes of their work have it, which differences check elsewhere, and as the tangent has it."""
+    system, batch, given = turned(element, seed)
+    d, x = lanes(system.size), np.random.default_rng(5).uniform(-1, 1, system.size)
+    found, rest, by = lane_rows(system.size), lane_rows(system.size), np.zeros((3, system.size))
+    batches = knowing(add_force_slopes, [batch], add_slopes_beside, add_work_slopes)
+    along(batches, *given, d, found, system.core.ws)
+    works(batches, *given, x, *by, system.core.ws)
+    assert x @ found == pytest.approx(np.einsum("ki,kin->n", by, d), rel=1e-12, abs=1e-12)
+    beside(batches, *given, d, rest, system.core.ws)
+    A = np.zeros_like(system.core.A)
+    tangents(batches, *given[:2], A, 0.0, 0.0, 1.0, system.core.ws)
+    kept = to_sparse(A, system.places) @ d[0, : system.n]
+    assert np.max(np.abs(found[: system.n] - rest[: system.n] - kept)) < 1e-12 * np.max(np.abs(found))
+    assert np.max(np.abs(rest)) > 0.01 * np.max(np.abs(found))

@@ -21,6 +21,7 @@ _OPERATIONS = {
     "remember": "remember",
     "rate_stiffness": "add_rate_stiffness",
     "rate_work": "add_rate_work",
+    "tangent_work": "add_tangent_work",
     "touches": "touched",
     "number_work": "add_number_work",
     "changes": "add_changes",
@@ -51,6 +52,7 @@ _ALL = {
 _RARE = {
     "add_rate_stiffnesses": "rate_stiffness",
     "add_rate_works": "rate_work",
+    "add_tangent_works": "tangent_work",
     "add_all_slopes": "work_slopes",
     "add_slopes_along": "force_slopes",
     "add_slopes_beside_all": "slopes_beside",

@@ -75,6 +75,7 @@ from .cable_tangent import (
     store_tangent,
     whole_blocks,
 )
+from .cable_tangent_work import elastic_along, reference
 from .chunks import in_lanes
 from .workspace import clear
 
@@ -104,12 +105,6 @@ def shape(batch, x, chunk):
     """d, t1 and t2 of a chunk, or their rates."""
     r1, t1, r2, t2 = nodes(batch, x, chunk)
     return load(batch.lane_data, chunk, INV_L) * (r2 - r1), t1, t2
-
-
-@formula
-def reference(batch, chunk, k, curved):
-    """Row k of the reference strains; zero for a straight reference."""
-    return load(batch.lane_reference, chunk, k) if curved else every(0.0)
 
 
 @formula
@@ -172,11 +167,10 @@ def bending_damped(batch, group, chunk, x, v, force, across):
     return fd, f1, f2
 
 
-@inline_kernel
-def damped_force(batch, group, chunk, x, rates, along, across):
-    """Elastic and damping forces on d, t1 and t2; factors of the constants along the axis and of bending."""
+@formula
+def with_dampers(batch, group, chunk, x, rates, R, along, across):
+    """Forces on d, t1 and t2 of R and of the dampers; factors as of :func:`damped_force`."""
     u, damped = differences(x), group[DAMPED]
-    R = elastic(batch, group, chunk, products(u), along, across)
     if damped & AXIALLY:
         R = axially_damped(batch, group, chunk, u, rates, R, along)
     force = forces(R, u)
@@ -187,6 +181,13 @@ def damped_force(batch, group, chunk, x, rates, along, across):
         nd, n1, n2 = slope_damping(along * load(batch.lane_slope, chunk, 0), vd, v1, v2)
         force = fd + nd, f1 + n1, f2 + n2
     return force
+
+
+@inline_kernel
+def damped_force(batch, group, chunk, x, rates, along, across):
+    """Elastic and damping forces on d, t1 and t2; factors of the constants along the axis and of bending."""
+    R = elastic(batch, group, chunk, products(differences(x)), along, across)
+    return with_dampers(batch, group, chunk, x, rates, R, along, across)
 
 
 @formula
@@ -321,6 +322,24 @@ def cable_number_work(batch, q, v, a, x, out, ws):
 
 
 @inline_kernel
+def cable_tangent_work(batch, q, v, x, by_q, by_v, by_a, ws):
+    """See :func:`ancf.compiled.add_tangent_work`."""
+    none, o = zero(), every(0.0)
+    for n in range(batch.groups.shape[0]):
+        group = batch.groups[n]
+        for chunk in range(group[BEGIN], group[END]):
+            at, moved, own = shape(batch, q, chunk), shape(batch, x, chunk), nodes(batch, x, chunk)
+            force = elastic_along(batch, group, chunk, differences(at), differences(moved))
+            add_to_nodes(batch, by_q, chunk, on_nodes(batch, chunk, (none, none, none, none), force))
+            if group[DAMPED] != 0:
+                c, (r1, t1, r2, t2) = load(batch.lane_data, chunk, VISCOUS), own
+                force = with_dampers(batch, group, chunk, at, moved, (o, o, o, o, o, o), 1.0, 1.0)
+                lost = on_nodes(batch, chunk, (c * r1, c * t1, c * r2, c * t2), force)
+                add_to_nodes(batch, by_v, chunk, lost)
+            add_to_nodes(batch, by_a, chunk, on_nodes(batch, chunk, own, (none, none, none)))
+
+
+@inline_kernel
 def cable_energy(batch, q, ws):
     """Strain energy, J (the integral behind eq. 27)."""
     energy, gp, data = 0.0, batch.gp, batch.lane_data
@@ -362,6 +381,7 @@ implements(
     rate_stiffness=cable_rate_stiffness,
     rate_work=cable_rate_work,
     number_work=cable_number_work,
+    tangent_work=cable_tangent_work,
     changes=cable_changes,
     numbers=numbers,
     numbered=("lane_data", "lane_slope"),

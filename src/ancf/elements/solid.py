@@ -14,25 +14,14 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
-from ..simd import LANES, gather, load, scatter, store, total, vector
+from ..simd import LANES, store, total, vector
 from ..vectors import dot
 from .cable_tangent import add_block
+from .solid_changes import kinds_of, solid_changes
 from .solid_force import (
     ACCELERATION,
-    B1,
-    BX,
-    C1,
-    CONSTANTS,
-    CX,
-    DB,
-    DC,
     FORCE,
-    INV_L,
-    LENGTH,
-    NATURAL,
-    R2,
     RATE,
-    TANGENT,
     VECTORS,
     VISCOUS,
     D,
@@ -44,18 +33,31 @@ from .solid_force import (
     stresses,
     vectors,
 )
+from .solid_numbers import elements_numbers, joined, numbers
 from .solid_rate_work import damping_slopes
 from .solid_rates import rate_blocks, store_half
+from .solid_rows import (
+    add_viscous,
+    clear_unused,
+    load_constants,
+    load_natural,
+    store_forces,
+    store_nodal,
+    take,
+    take_vectors,
+)
 from .solid_tangent import (
     BLOCKS,
     ELEMENT,
-    OF_POINT,
     PLACES,
+    damping_blocks,
     diagonal_blocks,
     other_blocks,
+    spread_dampers,
     spread_tangent,
 )
-from .workspace import add_rows, clear, row, rows, set_rows
+from .solid_tangent_work import elastic_slopes
+from .workspace import clear
 
 
 class SolidBatch(NamedTuple):
@@ -77,66 +79,6 @@ class SolidBatch(NamedTuple):
 
 
 @inline_kernel
-def take(batch, x, ws, chunk, first):
-    """Rows from ``first`` on: the unknowns of all columns of base.
-
-    ``first`` comes as np.int64(...): numba would compile a version of its own for each literal.
-    """
-    for slot in range(batch.base.shape[1]):
-        set_rows(ws, first + 3 * slot, gather(x, batch.lane_base, chunk, slot))
-
-
-@inline_kernel
-def take_vectors(batch, x, ws, chunk, first):
-    """Rows from ``first`` on: the element's vectors."""
-    take(batch, x, ws, chunk, first)
-    h, il = row(ws, LENGTH), row(ws, INV_L)
-    set_rows(ws, first + D, il * (rows(ws, first + R2) - rows(ws, first + D)))
-    set_rows(ws, first + DB, rows(ws, first + DB) - rows(ws, first + B1))
-    set_rows(ws, first + DC, rows(ws, first + DC) - rows(ws, first + C1))
-    set_rows(ws, first + BX, h * rows(ws, first + BX))
-    set_rows(ws, first + CX, h * rows(ws, first + CX))
-
-
-@inline_kernel
-def add_viscous(batch, v, ws, chunk):
-    """Rows ACCELERATION of the centreline: add (damping / rhoA) velocity, the external damping."""
-    for slot in (0, 1, 4, 5):
-        add_rows(ws, ACCELERATION + 3 * slot, row(ws, VISCOUS) * gather(v, batch.lane_base, chunk, slot))
-
-
-@inline_kernel
-def load_constants(batch, ws, chunk):
-    """Rows LENGTH ... VISCOUS."""
-    for k in range(CONSTANTS):
-        store(load(batch.lane_data, chunk, k), ws, (LENGTH + k) * LANES)
-
-
-@inline_kernel
-def load_natural(batch, ws, chunk, g, curved):
-    """Rows NATURAL at a Gauss point; they stay zero for a straight natural shape."""
-    if curved:
-        for k in range(15):
-            store(load(batch.lane_reference, chunk, 15 * g + k), ws, (NATURAL + k) * LANES)
-
-
-@inline_kernel
-def store_nodal(batch, r, ws, chunk):
-    """Add the rows FORCE of a chunk to the residual."""
-    for slot in range(batch.base.shape[1]):
-        scatter(rows(ws, FORCE + 3 * slot), r, batch.lane_base, chunk, slot)
-
-
-@inline_kernel
-def clear_unused(ws):
-    """Rows that the original element does not fill, and those of a straight natural shape."""
-    clear(ws, BX, 6)
-    clear(ws, RATE + BX, 6)
-    clear(ws, ACCELERATION + BX, 6)
-    clear(ws, NATURAL, 15)
-
-
-@inline_kernel
 def solid_force(batch, q, v, a, r, ws):
     """Add inertia, elastic and damping forces to r."""
     gp = batch.gp
@@ -154,7 +96,7 @@ def solid_force(batch, q, v, a, r, ws):
             if group[4] != 0:
                 take_vectors(batch, v, ws, chunk, np.int64(RATE))
                 for g in range(points):
-                    damping_force(ws, gp, g0 + g)
+                    damping_force(ws, gp, g0 + g, np.int64(RATE))
             take(batch, a, ws, chunk, np.int64(ACCELERATION))
             if group[5] != 0:
                 add_viscous(batch, v, ws, chunk)
@@ -205,6 +147,12 @@ def solid_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
             load_constants(batch, ws, chunk)
             take_vectors(batch, q, ws, chunk, np.int64(D))
             clear(ws, ELEMENT, 9 * BLOCKS)
+            if c_stiffness == 0.0:
+                for g in range(points if c_damping != 0.0 and group[4] != 0 else 0):
+                    damping_blocks(ws, gp, g0 + g, c_damping * gp[g0 + g, 7])
+                    spread_dampers(ws, gp, g0 + g, own)
+                store_tangent(batch, A, ws, chunk, c_mass, c_damping)
+                continue
             for g in range(points):
                 load_natural(batch, ws, chunk, g, curved)
                 weight = gp[g0 + g, 7]
@@ -223,7 +171,6 @@ def solid_rate_stiffness(batch, q, v, S, W, ws):
         if group[4] == 0:
             continue
         clear_unused(ws)
-        clear(ws, TANGENT, OF_POINT)
         for chunk in range(group[0], group[1]):
             load_constants(batch, ws, chunk)
             take_vectors(batch, q, ws, chunk, np.int64(D))
@@ -232,7 +179,7 @@ def solid_rate_stiffness(batch, q, v, S, W, ws):
                 clear(ws, ELEMENT, 9 * BLOCKS)
                 for g in range(group[3]):
                     rate_blocks(ws, batch.gp, group[2] + g, sign)
-                    spread_tangent(ws, batch.gp, group[2] + g, own)
+                    spread_dampers(ws, batch.gp, group[2] + g, own)
                 store_half(batch, S if sign > 0.0 else W, ws, chunk, sign)
 
 
@@ -252,9 +199,48 @@ def solid_rate_work(batch, q, v, x, out, ws):
             clear(ws, FORCE, VECTORS)
             for g in range(group[3]):
                 damping_slopes(ws, batch.gp, group[2] + g)
-            clear(ws, ACCELERATION, VECTORS)  # there is no mass in this
+            store_forces(batch, out, ws, chunk)
+
+
+@inline_kernel
+def solid_tangent_work(batch, q, v, x, by_q, by_v, by_a, ws):
+    """See :func:`ancf.compiled.add_tangent_work`."""
+    gp = batch.gp
+    for n in range(batch.groups.shape[0]):
+        group = batch.groups[n]
+        clear_unused(ws)
+        for chunk in range(group[0], group[1]):
+            load_constants(batch, ws, chunk)
+            take_vectors(batch, q, ws, chunk, np.int64(D))
+            take_vectors(batch, x, ws, chunk, np.int64(RATE))
+            clear(ws, FORCE, VECTORS)
+            for g in range(group[3]):
+                load_natural(batch, ws, chunk, g, group[6] != 0)
+                elastic_slopes(ws, gp, group[2] + g, np.int64(RATE))
+            store_forces(batch, by_q, ws, chunk)
+            if group[4] != 0 or group[5] != 0:
+                clear(ws, FORCE, VECTORS)
+                for g in range(group[3] if group[4] != 0 else 0):
+                    damping_force(ws, gp, group[2] + g, np.int64(RATE))
+                clear(ws, ACCELERATION, VECTORS)
+                if group[5] != 0:
+                    add_viscous(batch, x, ws, chunk)
+                inertia_force(ws, batch.mass)
+                store_nodal(batch, by_v, ws, chunk)
+            clear(ws, FORCE, VECTORS)
+            take(batch, x, ws, chunk, np.int64(ACCELERATION))
             inertia_force(ws, batch.mass)
-            store_nodal(batch, out, ws, chunk)
+            store_nodal(batch, by_a, ws, chunk)
+
+
+@inline_kernel
+def solid_number_work(batch, q, v, a, x, out, ws):
+    """See :func:`ancf.compiled.add_number_work`."""
+    for n in range(batch.groups.shape[0]):
+        group = batch.groups[n]
+        clear_unused(ws)
+        for chunk in range(group[0], group[1]):
+            elements_numbers(batch, group, chunk, (q, v, a), x, out, ws)
 
 
 @inline_kernel
@@ -305,6 +291,13 @@ implements(
     energy=solid_energy,
     rate_stiffness=solid_rate_stiffness,
     rate_work=solid_rate_work,
+    tangent_work=solid_tangent_work,
+    number_work=solid_number_work,
+    changes=solid_changes,
+    kinds=kinds_of,
+    numbers=numbers,
+    numbered=("lane_data", "lane_scale"),
+    joined=joined,
     inverted=solid_inverted,
     role=Role.DISSIPATES,
     slots=("base", "lane_base"),

@@ -13,14 +13,14 @@ from ..model.beam import Beam
 from ..model.section import Rectangle
 from ..model.section_inertia import of_beam
 from ..simd import LANES
-from .chunks import in_lanes
+from .chunks import elements_in, in_lanes
 from .shapes import gauss
 from .solid import SolidBatch
 from .solid_force import gauss_table
 from .solid_shapes import INTERNAL, initial_vectors, shape
 from .solid_strains import quadratic_strains
 
-__all__ = ["BATCH", "build", "initial_vectors", "quadratic_strains", "shape"]
+__all__ = ["BATCH", "build", "initial_vectors", "quadratic_strains", "renumbered", "shape"]
 
 BATCH = SolidBatch
 
@@ -64,6 +64,41 @@ def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> SolidBatch:
         mass=mass_factors(internal),
         lane_scale=in_lanes(np.concatenate([part[4] for part in parts]), bounds),
     )
+
+
+def renumbered(batch: SolidBatch, beam: Beam, slot: IntArray) -> SolidBatch | None:
+    """The batch of a System with other constants of one of its beams; None where that lies among others.
+
+    Parameters
+    ----------
+    batch : SolidBatch
+    beam : Beam
+        With the constants, as many elements and Gauss points.
+    slot : ndarray, shape (nodes, vectors + internal)
+        Its slots there.
+    """
+    (points, damping, viscous, curved), base, data, natural, scales = _part(beam, slot)
+    found = np.flatnonzero((batch.base[:, 0] == base[0, 0]) & (batch.base[:, 4] == base[0, 4]))
+    if len(found) != 1:
+        return None
+    first, last = int(found[0]), int(found[0]) + len(base)
+    begin, end = np.searchsorted(batch.first, (first, last - 1), side="right") - (1, 0)
+    [group] = np.flatnonzero((batch.groups[:, 0] <= begin) & (begin < batch.groups[:, 1]))
+    if batch.groups[group, [3, 6]].tolist() != [points, curved]:
+        return None
+    groups = batch.groups.copy()
+    groups[group, 4:6] |= (damping, viscous)  # of others in it that is a number, which is zero
+    element, without = elements_in(batch.first[begin : end + 1])
+    chunk, lanes = np.nonzero((element >= first) & (element < last))
+    there, empty = element[chunk, lanes] - first, without[chunk, lanes]
+    rows = data[there]
+    rows[empty, 2:] = 0.0
+    made = [array.copy() for array in (batch.lane_data, batch.lane_scale, batch.lane_reference)]
+    width = natural.shape[1]
+    made[0][begin + chunk, :, lanes] = rows
+    made[1][begin + chunk, :, lanes] = scales[there]
+    made[2][begin + chunk, :width, lanes] = natural[there]
+    return batch._replace(groups=groups, lane_data=made[0], lane_scale=made[1], lane_reference=made[2])
 
 
 def mass_factors(internal: bool) -> FloatArray:

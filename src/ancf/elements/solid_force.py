@@ -141,27 +141,33 @@ def spread(ws, at, fa, fb, fB, fc, fC):
     add_rows(ws, FORCE + CX, n3 * fc + p3 * fC)
 
 
+@formula
+def pulled(s, x):
+    """Forces of stresses s on a, b, B, c, C."""
+    a, b, B, c, C = x
+    return (
+        s[0] * a + s[8] * b + s[6] * B + s[9] * c + s[7] * C,
+        s[8] * a + s[1] * b + s[11] * B + s[10] * c + s[13] * C,
+        s[6] * a + s[11] * b + 2.0 * s[3] * B + s[14] * c + s[5] * C,
+        s[9] * a + s[10] * b + s[14] * B + s[2] * c + s[12] * C,
+        s[7] * a + s[13] * b + s[5] * B + s[12] * c + 2.0 * s[4] * C,
+    )
+
+
 @inline_kernel
 def elastic_force(ws, gp, g):
     """Add the elastic force of Gauss point g to the rows FORCE."""
     at = point(gp, g)
     x = vectors(ws, at, D)
-    a, b, B, c, C = x
-    s = stresses(ws, at[7], strains(ws, x))
-    fa = s[0] * a + s[8] * b + s[6] * B + s[9] * c + s[7] * C
-    fb = s[8] * a + s[1] * b + s[11] * B + s[10] * c + s[13] * C
-    fB = s[6] * a + s[11] * b + 2.0 * s[3] * B + s[14] * c + s[5] * C
-    fc = s[9] * a + s[10] * b + s[14] * B + s[2] * c + s[12] * C
-    fC = s[7] * a + s[13] * b + s[5] * B + s[12] * c + 2.0 * s[4] * C
-    spread(ws, at, fa, fb, fB, fc, fC)
+    spread(ws, at, *pulled(stresses(ws, at[7], strains(ws, x)), x))
 
 
 @inline_kernel
-def damping_force(ws, gp, g):
-    """Add the force of the axial and bending damping of Gauss point g to the rows FORCE."""
+def damping_force(ws, gp, g, rates):
+    """Add the force of the axial and bending damping of Gauss point g, of rates from a row on, to FORCE."""
     at = point(gp, g)
     a, _, B, _, C = vectors(ws, at, D)
-    da, _, dB, _, dC = vectors(ws, at, RATE)
+    da, _, dB, _, dC = vectors(ws, at, rates)
     bending = at[7] * row(ws, BENDING)
     f0 = at[7] * row(ws, AXIAL) * dot(a, da)
     f1 = bending * (dot(a, dB) + dot(B, da))

@@ -45,7 +45,7 @@ def sum_of(x, y, z):
 
 @inline_kernel
 def rate_blocks(ws, gp, g, sign):
-    """Blocks of Gauss point g of the half with this sign; all others stay zero."""
+    """Blocks of Gauss point g of the half with this sign, see ``spread_dampers``."""
     at, none = point(gp, g), every(0.0)
     (a, _, B, _, C), (da, _, dB, _, dC) = vectors(ws, at, D), vectors(ws, at, RATE)
     axial, bending, own = 0.5 * at[7] * row(ws, AXIAL), 0.5 * at[7] * row(ws, BENDING), 1.0 + sign

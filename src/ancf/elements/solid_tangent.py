@@ -129,6 +129,19 @@ def other_blocks(ws, gp, g, w, damping):
     put(ws, BB_C, s[14], ly, w * row(ws, G_CB), B, c)
 
 
+@inline_kernel
+def damping_blocks(ws, gp, g, damping):
+    """Blocks of a Gauss point of the dampers alone, see :func:`spread_dampers`."""
+    at, none = point(gp, g), every(0.0)
+    a, _, B, _, C = vectors(ws, at, D)
+    axial, bend = damping * row(ws, AXIAL), damping * row(ws, BENDING)
+    put_diagonal(ws, A_A, none, axial, none, bend, none, bend, (a, a, B, a, C))
+    put(ws, A_BB, none, none, bend, a, B)
+    put(ws, A_CC, none, none, bend, a, C)
+    put(ws, BB_BB, none, bend, none, a, a)
+    put(ws, CC_CC, none, bend, none, a, a)
+
+
 @formula
 def element_row(x, y):
     """First row of the block of the element's vectors x <= y."""
@@ -168,6 +181,31 @@ def spread_tangent(ws, gp, g, own):
             for y in range(0 if pair == 2 else x, own):
                 to = element_row(first + x, second + y)
                 add4(ws, to, B_B + 36 * pair, gp[g, 8 + x], gp[g, 11 + x], gp[g, 8 + y], gp[g, 11 + y])
+
+
+@inline_kernel
+def add1(ws, to, first, s):
+    """Add s times the block at row ``first`` to the block at row ``to``."""
+    for n in range(9):
+        add_row(ws, to + n, s * row(ws, first + n))
+
+
+@inline_kernel
+def spread_dampers(ws, gp, g, own):
+    """As :func:`spread_tangent`, where there are no blocks of r_y and r_z but those of their slopes."""
+    for x in range(3):
+        s = gp[g, x]
+        for y in range(x, 3):
+            add1(ws, element_row(x, y), A_A, s * gp[g, y])
+        for axis in range(2):
+            for y in range(own):
+                add1(ws, element_row(x, 3 + 3 * axis + y), A_BB + 18 * axis, s * gp[g, 11 + y])
+    for axis in range(2):
+        first = 3 + 3 * axis
+        for x in range(own):
+            for y in range(x, own):
+                to = element_row(first + x, first + y)
+                add1(ws, to, BB_BB + 36 * axis, gp[g, 11 + x] * gp[g, 11 + y])
 
 
 def _places() -> NDArray[np.int64]:

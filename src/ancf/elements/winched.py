@@ -30,15 +30,7 @@ from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
 from ..simd import every, gather, load, scatter, total, vector
 from ..vectors import dot
-from .cable import (
-    bind,
-    damped_force,
-    differences,
-    elastic,
-    on_nodes,
-    reference,
-    stiffness,
-)
+from .cable import bind, damped_force, differences, elastic, on_nodes, stiffness
 from .cable_columns import (
     AXIAL,
     BEGIN,
@@ -60,6 +52,7 @@ from .cable_columns import (
 from .cable_nodes import add_to_nodes, nodes
 from .cable_strain import WEIGHT, a_of, axial_energy, b_of, bending_energy, c_of, forces, products
 from .cable_tangent import BLOCKS, KDD, store_tangent
+from .cable_tangent_work import reference
 from .workspace import clear
 
 # rows of ``lane_run``: X of both nodes, 1/L0, rhoA/2 at the node that is the winch, gravity

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
+from ..simd import every, load, store
 from ..vectors import both, cross, dot
 
 
@@ -87,10 +88,57 @@ def moment_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
                 by_q[batch.base[e, k] + c] += batch.factor[e, k] * by[c]
 
 
+@inline_kernel
+def subtract_along(batch, e, T, d, r):
+    """Subtract the rows T of a matrix on the slope times the directions d, (size, 8), from r."""
+    x = y = z = every(0.0)
+    for k in range(4):
+        i, w = batch.base[e, k], batch.factor[e, k]
+        x, y, z = x + w * load(d, i), y + w * load(d, i + 1), z + w * load(d, i + 2)
+    for c in range(3):
+        f = T[c][0] * x + T[c][1] * y + T[c][2] * z
+        for k in range(4):
+            i = batch.base[e, k] + c
+            store(load(r, i) - batch.factor[e, k] * f, r, i)
+
+
+@formula
+def skew_part(batch, e, p, a, f):
+    """Half of the derivative of f by the slope less half of its transpose, as the vector s of s x p."""
+    n = cross(f, p)
+    return (batch.value[e, 0] + n[0]) / a, (batch.value[e, 1] + n[1]) / a, (batch.value[e, 2] + n[2]) / a
+
+
+@inline_kernel
+def moment_along(batch, q, v, a, d, r, ws):
+    """See :func:`ancf.compiled.add_force_slopes`."""
+    for e in range(batch.base.shape[0]):
+        p, size, f = slope_force(batch, e, q)
+        m0, m1, m2 = batch.value[e, 0] / size, batch.value[e, 1] / size, batch.value[e, 2] / size
+        g = (-2.0 / size * f[0], -2.0 / size * f[1], -2.0 / size * f[2])
+        T = (
+            (g[0] * p[0], g[0] * p[1] - m2, g[0] * p[2] + m1),
+            (g[1] * p[0] + m2, g[1] * p[1], g[1] * p[2] - m0),
+            (g[2] * p[0] - m1, g[2] * p[1] + m0, g[2] * p[2]),
+        )
+        subtract_along(batch, e, T, d[0], r)
+
+
+@inline_kernel
+def moment_beside(batch, q, v, a, d, r, ws):
+    """See :func:`ancf.compiled.add_slopes_beside`: the antisymmetric part."""
+    for e in range(batch.base.shape[0]):
+        p, size, f = slope_force(batch, e, q)
+        s0, s1, s2 = skew_part(batch, e, p, size, f)
+        subtract_along(batch, e, ((0.0, -s2, s1), (s2, 0.0, -s0), (-s1, s0, 0.0)), d[0], r)
+
+
 implements(
     MomentBatch,
     force=moment_force,
     tangent=moment_tangent,
     work_slopes=moment_work_slopes,
+    force_slopes=moment_along,
+    slopes_beside=moment_beside,
     role=Role.EXTERNAL,
 )

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
+from ..simd import every, load, store
 from ..vectors import both, cross, dot
 
 
@@ -172,10 +173,82 @@ def section_moment_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
                     by_q[i + d] -= f * by[d]
 
 
+@inline_kernel
+def whole_derivative(batch, e, q, ws):
+    """As :func:`derivative_of_force`, with what is skew: f_i = w_i m x r_i."""
+    y, z = section_vector(batch, e, q, 0), section_vector(batch, e, q, 3)
+    derivative_of_force(batch, e, y, z, ws)
+    m = turning(batch, e, y, z, (batch.value[e, 0], batch.value[e, 1], batch.value[e, 2]))
+    for own in range(2):
+        o, w = 21 * own, batch.share[e, own]
+        ws[o + 1] -= w * m[2]
+        ws[o + 2] += w * m[1]
+        ws[o + 6] += w * m[2]
+        ws[o + 8] -= w * m[0]
+        ws[o + 12] -= w * m[1]
+        ws[o + 13] += w * m[0]
+
+
+@formula
+def along_section(batch, e, d, first, c):
+    """Component c of what r_y (first = 0) or r_z (first = 3) changes by along directions (size, 8)."""
+    moved = every(0.0)
+    for k in range(first, first + 3):
+        i = batch.base[e, k]
+        if i >= 0:
+            moved = moved + batch.factor[e, k] * load(d, i + c)
+    return moved
+
+
+@inline_kernel
+def subtract_along(batch, e, ws, d, r):
+    """Subtract the matrix of :func:`whole_derivative` times the directions d, (size, 8), from r."""
+    u0, u1, u2 = (
+        along_section(batch, e, d, 0, 0),
+        along_section(batch, e, d, 0, 1),
+        along_section(batch, e, d, 0, 2),
+    )
+    w0, w1, w2 = (
+        along_section(batch, e, d, 3, 0),
+        along_section(batch, e, d, 3, 1),
+        along_section(batch, e, d, 3, 2),
+    )
+    for n in range(6):
+        o = 6 * n
+        f = ws[o] * u0 + ws[o + 1] * u1 + ws[o + 2] * u2
+        f = f + ws[o + 3] * w0 + ws[o + 4] * w1 + ws[o + 5] * w2
+        for k in range(3 * (n // 3), 3 * (n // 3) + 3):
+            i = batch.base[e, k]
+            if i >= 0:
+                store(load(r, i + n % 3) - batch.factor[e, k] * f, r, i + n % 3)
+
+
+@inline_kernel
+def section_moment_along(batch, q, v, a, d, r, ws):
+    """See :func:`ancf.compiled.add_force_slopes`."""
+    for e in range(batch.base.shape[0]):
+        whole_derivative(batch, e, q, ws)
+        subtract_along(batch, e, ws, d[0], r)
+
+
+@inline_kernel
+def section_moment_beside(batch, q, v, a, d, r, ws):
+    """See :func:`ancf.compiled.add_slopes_beside`: the antisymmetric part."""
+    for e in range(batch.base.shape[0]):
+        whole_derivative(batch, e, q, ws)
+        for i in range(6):
+            for j in range(i + 1):
+                half = 0.5 * (ws[6 * i + j] - ws[6 * j + i])
+                ws[6 * i + j], ws[6 * j + i] = half, -half
+        subtract_along(batch, e, ws, d[0], r)
+
+
 implements(
     SectionMomentBatch,
     force=section_moment_force,
     tangent=section_moment_tangent,
     work_slopes=section_moment_slopes,
+    force_slopes=section_moment_along,
+    slopes_beside=section_moment_beside,
     role=Role.EXTERNAL,
 )

@@ -80,11 +80,17 @@ def closing(y: FloatArray, tangent: FloatArray, fraction: FloatArray) -> FloatAr
     return turned
 
 
+def cross(u: FloatArray, v: FloatArray) -> FloatArray:
+    """Vector products of (n, 3) and (n, 3): ``np.cross`` takes ten times as long for few."""
+    one, two = [1, 2, 0], [2, 0, 1]
+    return u[:, one] * v[:, two] - u[:, two] * v[:, one]
+
+
 def carried(vector: FloatArray, old: FloatArray, new: FloatArray) -> FloatArray:
     """Vectors (n, 3) after the smallest rotations that take the unit vectors `old` to `new`."""
-    w = np.cross(old, new)
+    w = cross(old, new)
     cosine = np.sum(old * new, axis=1, keepdims=True)
-    turned: FloatArray = cosine * vector + np.cross(w, vector)
+    turned: FloatArray = cosine * vector + cross(w, vector)
     turned += w * np.sum(w * vector, axis=1, keepdims=True) / (1 + cosine)
     return turned
 

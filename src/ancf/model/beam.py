@@ -103,7 +103,7 @@ class Beam:
     @property
     def node_z(self) -> FloatArray:
         """Initial unit vectors (n+1, 3) of the section's local z axis: node_tangent x node_y."""
-        z: FloatArray = np.cross(self.node_tangent, self.node_y)
+        z: FloatArray = axes.cross(self.node_tangent, self.node_y)
         return z
 
     @property
@@ -259,7 +259,7 @@ class Beam:
         """Initial r_y and r_z (2, 3) at x, linear or (nonlocking) quadratic in an element."""
         e, s, _ = self._place(x)
         y, tangent = self.node_y[e : e + 2], self.node_tangent[e : e + 2]
-        ends = np.stack([y, np.cross(tangent, y)], axis=1)
+        ends = np.stack([y, axes.cross(tangent, y)], axis=1)
         inside: FloatArray = (1 - s) * ends[0] + s * ends[1]
         if self.element == "nonlocking":
             inside += 4 * s * (1 - s) * (self._middle_axes(e, e + 1)[0] - 0.5 * (ends[0] + ends[1]))
@@ -271,7 +271,7 @@ class Beam:
         slope = axes.middle_slopes(self.node_position[nodes], self.stretch * tangent, h)
         middle = slope / np.linalg.norm(slope, axis=1, keepdims=True)
         y = axes.between(self.node_y[nodes], tangent, middle)
-        both: FloatArray = np.stack([y, np.cross(middle, y)], axis=1)
+        both: FloatArray = np.stack([y, axes.cross(middle, y)], axis=1)
         return both
 
     def _hermite(self, x: float) -> tuple[FloatArray, FloatArray]:

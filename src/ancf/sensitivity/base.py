@@ -14,6 +14,7 @@ from ..compiled import (
     add_rate_stiffness,
     add_rate_work,
     add_slopes_beside,
+    add_tangent_work,
     add_work_slopes,
     does_something,
     touched,
@@ -32,8 +33,8 @@ from ..system.system import System
 def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matrices:
     """Room for the matrices of sensitivities, the masses of exact batches filled in.
 
-    ``back``: of an adjoint, which asks batches what velocities add to products with the stiffness, and not to
-    this itself.
+    ``back``: of an adjoint, which asks batches for products with matrices, as far as they know these, and for
+    what velocities add to them, and not for the matrices themselves.
     """
     rate = add_rate_work if back else add_rate_stiffness
     batches = [batch for batch in core.batches if len(batch[0])]
@@ -46,13 +47,17 @@ def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matr
     whole = [batch for batch in others if moving and not _is_joint(batch) and _is_sloped(batch, back)]
     joints = [batch for batch in others if _is_joint(batch)] + whole
     rough = [batch for batch in others if not any(batch is one for one in joints)]
+    worked = _worked(exact) if back else []
+    exact = [batch for batch in exact if not any(batch is one for one in worked)]
+    stirring = [batch for batch in exact if any(batch is one for one in known)]
     resting = [batch for batch in exact if not any(batch is one for one in known)]
     K, C, M = (np.zeros_like(core.A) for _ in range(3))
     W = np.zeros(core.A.size if known and not back else 0)
     local = not back and all(does_something(type(batch), touched) for batch in rough)
     known_by = (add_work_slopes,) if back else (add_force_slopes, add_slopes_beside)
     slopes = knowing(known_by[0], joints, *known_by[1:])
-    kinds = Batches(exact), Batches(resting), knowing(rate, known), Batches(lossy), slopes
+    plain = Batches(exact), Batches(resting), Batches(stirring)
+    kinds = *plain, knowing(rate, known), knowing(add_tangent_work, worked), Batches(lossy), slopes
     left = knowing(touched, rough) if local else Batches(rough)
     near = np.zeros((4, MOST_TOUCHED * sum(len(batch[0]) for batch in rough) if local else 0))
     flags = local, turning, bool(core.damped)
@@ -70,6 +75,19 @@ def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matr
     apart = 1.0 + 0.5 * np.sin(np.arange(size, dtype=np.float64))  # springs between places that are not one
     exact_masses(made, core.ws, apart, np.zeros(size))
     return made
+
+
+def _worked(exact: list[Any]) -> list[Any]:
+    """Batches whose products are taken without matrices.
+
+    Where others have matrices, products with these are the same work with more numbers in them: it pays for
+    those alone that would have two.
+    """
+    able = [batch for batch in exact if does_something(type(batch), add_tangent_work)]
+    if len(able) == len(exact):
+        return able
+    dampings = ((batch, traits(batch).damped) for batch in able)
+    return [batch for batch, damped in dampings if damped is not None and damped(batch)]
 
 
 def moved_by(core: Core) -> float:

@@ -34,7 +34,7 @@ from .start import starts
 #: Change of the initial motion by joints, in sizes of the model, that does not count.
 SHIFTED = 1e-8
 #: Room for what parameters do to the steps of a block, bytes.
-ROOM = 4e6
+ROOM = 16e6
 
 
 class Trail:

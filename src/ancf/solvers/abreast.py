@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..batches import BESIDE
 from ..compiled import formula, inline_kernel, kernel
 from ..linalg.eight import factor_of
 from ..linalg.lanes import multiply_abreast, multiply_twisted_abreast, solve_abreast
@@ -18,7 +19,7 @@ from .ahead import look_ahead
 from .edge import corrected_at_edge, edge_anew, solve_rows, to_local_abreast, to_shadows_abreast
 from .foreseen import foresee
 from .local import add_local, add_locals, look_near
-from .rare import add_slopes_along
+from .rare import add_slopes_along, add_slopes_beside_all
 from .scheme import coefficients
 from .sensitivity import DIFFERENCED, ENOUGH, MOST, add_lossy, both_along, is_done
 from .status import OK, SINGULAR, SLOW
@@ -163,6 +164,8 @@ def out_again(core, m, W, x, room, lanes, B, G):
         i, j = supports.rot_slot[k], supports.rot_shadow[k]
         for c in range(3):
             store(load(r, i + c), r, j + c)
+    if m.joined.table.shape[0] > 0:
+        add_beside(core, m, x, seen, r, B, G)
     if m.rough.table.shape[0] > 0:
         count = look_near(m, x)
         for lane in range(lanes):
@@ -173,6 +176,27 @@ def out_again(core, m, W, x, room, lanes, B, G):
                 add_local(core, m, x, count, r, lane)
     to_local_abreast(supports, r)
     turned_back(core, r)
+
+
+@inline_kernel
+def add_beside(core, m, x, change, r, B, G):
+    """Add what tangents leave out of what a change of s_q, with the rates of a step, does."""
+    d = m.along
+    for i in range(r.shape[0]):
+        c = load(change, i)
+        store(c, d, 0, i)
+        store((G / B) * c, d, 1, i)
+        store((1.0 / B) * c, d, 2, i)
+    add_slopes_beside_all(m.joined, x[0], x[1], x[2], d, r, core.ws)
+
+
+@inline_kernel
+def all_beside(core, m):
+    """Whether forces that know their slopes know all that tangents leave out, without multipliers."""
+    known = core.joints.multipliers.shape[0] == 0
+    for k in range(m.joined.table.shape[0]):
+        known = known and m.joined.table[k, BESIDE] != 0
+    return known
 
 
 @formula
@@ -207,10 +231,11 @@ def solved(core, m, factor, matrices, x, turn, push, gap, n, first, joined, at_o
     joints, count = core.joints, min(LANES, push.shape[0] - first)
     rough = m.rough.table.shape[0] > 0
     jointed = m.joined.table.shape[0] > 0
-    known = m.lossy.table.shape[0] == 0 and not m.turning and (m.local or not rough) and not jointed
+    known = m.lossy.table.shape[0] == 0 and not m.turning and (m.local or not rough)
+    known = known and (not jointed or all_beside(core, m))
     projects = joined.projects and joints.multipliers.shape[0] > 0
     enough = DIFFERENCED if rough else ENOUGH
-    again = matrices[2].shape[0] > 0 or rough
+    again = matrices[2].shape[0] > 0 or rough or jointed
     foresees = rough and known and not projects
     for k in range(LANES):
         room.before[k], room.open[k], room.shift[k] = np.inf, 1.0 if k < count else 0.0, 0.0

@@ -19,7 +19,7 @@ from ..linalg.eight import factor_of
 from ..simd import LANES
 from ..system.core import drive, onto_shadows, solve_matrix, to_local
 from .ahead import look_ahead
-from .rare import add_rate_works
+from .rare import add_rate_works, add_tangent_works
 from .scheme import coefficients
 from .sensitivity import LEAST, MOST, is_done, product, stiffnesses
 from .status import OK, SINGULAR, SLOW
@@ -171,14 +171,17 @@ def taken_back(core, m, matrices, y, lam, still, turned):
     (K, C), back, w, x = matrices, m.work[1:3], m.work[3:5], m.work[5:8]
     for i in range(lam.shape[0]):
         x[0, i] = x[1, i] = x[2, i] = 0.0
-    product(core, K, lam, x[0], w)
+    add_tangent_works(m.worked, y[0], y[1], lam, x[0], x[1], x[2], core.ws)
     if m.stirred.table.shape[0] > 0:
         for i in range(lam.shape[0]):
             x[0, i] += m.work[9, i]
-    if m.damped:
-        product(core, C, lam, x[1], w)
+    if m.exact.table.shape[0] > 0:
+        product(core, K, lam, x[0], w)
+        if m.damped:
+            product(core, C, lam, x[1], w)
+        if core.supports.rot_slot.shape[0] > 0:
+            product(core, m.M, lam, x[2], w)
     if core.supports.rot_slot.shape[0] > 0:
-        product(core, m.M, lam, x[2], w)
         add_turns(core.supports, x, y, turned)
     for i in range(lam.shape[0]):
         back[0, i], back[1, i] = x[0, i], x[1, i]

@@ -29,7 +29,7 @@ from ..system.core import drive, onto_shadows, solve_matrix, to_local
 from .adjoint import folded, hold, take_wanted, to_start
 from .ahead import look_ahead
 from .mixing import NOTHING, ends_mixed, lead_on
-from .rare import add_all_slopes, add_rate_works
+from .rare import add_all_slopes, add_rate_works, add_tangent_works
 from .scheme import coefficients
 from .sensitivity import ENOUGH, LEAST, MOST, NOISY, ROUGH, seen, stiffnesses, to_shadows
 from .status import OK, SINGULAR, SLOW
@@ -82,10 +82,12 @@ def add_product(core, values, x, r, w):
 def add_products(core, m, matrices, y, d, sums, w):
     """Add T_q^T d, T_v^T d and T_a^T d in the state y to the sums; d has its shadows filled."""
     K, C = matrices
-    add_product(core, K, d, sums[0], w)
-    if m.damped:
-        add_product(core, C, d, sums[1], w)
-    add_product(core, m.M, d, sums[2], w)
+    if m.exact.table.shape[0] > 0:
+        add_product(core, K, d, sums[0], w)
+        if m.damped:
+            add_product(core, C, d, sums[1], w)
+        add_product(core, m.M, d, sums[2], w)
+    add_tangent_works(m.worked, y[0], y[1], d, sums[0], sums[1], sums[2], core.ws)
     add_rate_works(m.stirred, y[0], y[1], d, sums[0], core.ws)
     add_all_slopes(m.joined, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
 

@@ -19,7 +19,7 @@ from ..simd import LANES
 from ..system.core import drive, onto_shadows, solve_matrix, to_local
 from .adjoint import SURE, add_turns, folded, hold, take_wanted, to_start
 from .ahead import look_ahead
-from .rare import add_all_slopes, add_rate_works
+from .rare import add_all_slopes, add_rate_works, add_tangent_works
 from .scheme import coefficients
 from .sensitivity import LEAST, MOST, NOISY, product, stiffnesses
 from .status import OK, SINGULAR, SLOW
@@ -35,8 +35,11 @@ ROOM = FIRST + OF_EACH * KEPT
 
 
 @inline_kernel
-def add_exact(core, m, matrices, d, sums, w):
-    """Add the products of the exact matrices with d, which has its shadows filled, to the sums."""
+def add_exact(core, m, matrices, y, d, sums, w):
+    """Add the products of the exact matrices at y with d, which has its shadows filled, to the sums."""
+    add_tangent_works(m.worked, y[0], y[1], d, sums[0], sums[1], sums[2], core.ws)
+    if m.exact.table.shape[0] == 0:
+        return
     product(core, matrices[0], d, sums[0], w)
     if m.damped:
         product(core, matrices[1], d, sums[1], w)
@@ -153,7 +156,7 @@ def solve(core, m, factor, matrices, weights, y, known, lam, count, room):
     for k in range(SUMS, LACKS):
         for i in range(lam.shape[0]):
             room[k, i] = 0.0
-    add_exact(core, m, matrices, lam, sums, w)
+    add_exact(core, m, matrices, y, lam, sums, w)
     add_slopes(core, m, y, lam, sums)
     whole(core, weights, sums, change)
     for i in range(lam.shape[0]):
@@ -167,7 +170,7 @@ def solve(core, m, factor, matrices, weights, y, known, lam, count, room):
         for k in range(OWN, LACKS):
             for i in range(lam.shape[0]):
                 room[k, i] = 0.0
-        add_exact(core, m, matrices, change, own, w)
+        add_exact(core, m, matrices, y, change, own, w)
         if may_end(norm, size, before, round):
             for i in range(lam.shape[0]):
                 lam[i] += change[i]

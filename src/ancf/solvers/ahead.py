@@ -38,11 +38,25 @@ def ahead_of(core: Core, m: Matrices) -> Ahead:
 @inline_kernel
 def matrices_at(core, m, K, C, W, A, q, v, B, G):
     """Exact parts of the matrix of a step, and all of it that is symmetric."""
+    c_mass, c_damping = 1.0 / B, G / B
+    if m.exact.table.shape[0] == 0:
+        for i in range(A.shape[0]):
+            A[i] = 0.0
+    else:
+        exact_parts(core, m, K, C, W, A, q, v, c_mass, c_damping)
+    add_tangents(m.worked, q, v, A, c_mass, c_damping, 1.0, core.ws)
+    add_tangents(m.joined, q, v, A, c_mass, c_damping, 1.0, core.ws)
+    add_tangents(m.rough, q, v, A, c_mass, c_damping, 1.0, core.ws)
+    restrict(core.supports, A)
+
+
+@inline_kernel
+def exact_parts(core, m, K, C, W, A, q, v, c_mass, c_damping):
+    """Matrices of the exact batches, and A of these."""
     still = m.work[4]
     for i in range(still.shape[0]):
         still[i] = 0.0
     stiffnesses(core, m, K, W, q, v, still)
-    c_mass, c_damping = 1.0 / B, G / B
     if m.damped:
         for i in range(K.shape[0]):
             C[i] = 0.0
@@ -52,9 +66,6 @@ def matrices_at(core, m, K, C, W, A, q, v, B, G):
     else:
         for i in range(K.shape[0]):
             A[i] = K[i] + c_mass * m.M[i]
-    add_tangents(m.joined, q, v, A, 1.0 / B, G / B, 1.0, core.ws)
-    add_tangents(m.rough, q, v, A, 1.0 / B, G / B, 1.0, core.ws)
-    restrict(core.supports, A)
 
 
 @inline_kernel

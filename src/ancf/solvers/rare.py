@@ -14,6 +14,7 @@ from ..batches import (
     BESIDE,
     CHANGES,
     NUMBERS,
+    PRODUCTS,
     RARE,
     RATES,
     SLOPES,
@@ -30,6 +31,7 @@ from ..compiled import (
     add_rate_stiffness,
     add_rate_work,
     add_slopes_beside,
+    add_tangent_work,
     add_work_slopes,
     inline_kernel,
     touched,
@@ -38,7 +40,7 @@ from ..compiled import (
 _rate, _touched, _numbers = caller_of(add_rate_stiffness), caller_of(touched, 0), caller_of(add_number_work)
 _work, _slopes = caller_of(add_rate_work), caller_of(add_work_slopes)
 _along, _beside = caller_of(add_force_slopes), caller_of(add_slopes_beside)
-_changes = caller_of(add_changes)
+_changes, _products = caller_of(add_changes), caller_of(add_tangent_work)
 
 
 def knowing(stub: Any, batches: Iterable[Any], *others: Any) -> Batches:
@@ -77,6 +79,14 @@ def add_rate_works(batches, q, v, x, out, ws):
     table = batches.table
     for k in range(table.shape[0]):
         _work(table[k, WORKS], table[k, 0], (q, v, x, out, ws))
+
+
+@inline_kernel
+def add_tangent_works(batches, q, v, x, by_q, by_v, by_a, ws):
+    """Products of the matrices of all of the batches with x, see ``add_tangent_work``."""
+    table = batches.table
+    for k in range(table.shape[0]):
+        _products(table[k, PRODUCTS], table[k, 0], (q, v, x, by_q, by_v, by_a, ws))
 
 
 @inline_kernel

@@ -51,7 +51,9 @@ class Matrices(NamedTuple):
 
     exact: Batches  # whose matrices are derivatives, at least at rest
     resting: Batches  # of them, those whose stiffness is taken at rest
-    stirred: Batches  # of them, those that know what velocities add to their stiffness
+    stirring: Batches  # of them, those that know what velocities add to it
+    stirred: Batches  # these, and those of the worked ones that do
+    worked: Batches  # whose matrices are derivatives as well, and that know their products with vectors
     lossy: Batches  # of them, those with damping forces that change with q in another way
     joined: Batches  # joints, which know the derivatives of their forces
     rough: Batches  # all others
@@ -294,7 +296,7 @@ def stiffnesses(core, m, K, W, q, v, still):
     for i in range(W.shape[0]):
         W[i] = 0.0
     add_tangents(m.resting, q, still, K, 0.0, 0.0, 1.0, core.ws)
-    add_tangents(m.stirred, q, v, K, 0.0, 0.0, 1.0, core.ws)
+    add_tangents(m.stirring, q, v, K, 0.0, 0.0, 1.0, core.ws)
     add_rate_stiffnesses(m.stirred, q, v, K, W, core.ws)
 
 
