@@ -62,6 +62,7 @@ class _Listener(event.Listener):
         self.names: list[str] = []
         self.work: tuple[Model, Integrator | None] | None = None
         self.helper: subprocess.Popen[bytes] | None = None
+        self.helped: Any = None  # outline of what that works on
 
     def on_start(self, event: Any) -> None:
         self.depth += 1
@@ -86,17 +87,28 @@ class _Listener(event.Listener):
             gc.enable()
 
     def help(self) -> None:
-        """Start a process that compiles from the other end, if there is a core and a cache for it."""
+        """Start a process that compiles from the other end, if there is a core and a cache for it.
+
+        One that works on something else, as the wires of a line before its pantographs, ends.
+        """
         if self.work is None or not _useful():
             return
         model, method = self.work
+        with suppress(ValueError, TypeError):
+            wanted = {"model": model.to_dict(), "method": method.name if method else None}
+            outline = isinstance(method, Explicit), _outline(wanted["model"])
+            if self.helper is None or self.helper.poll() is not None or outline != self.helped:
+                self.end()
+                self.helped = outline
+                self._start(json.dumps(wanted))
+
+    def _start(self, given: str) -> None:
         folder = str(Path(__file__).parent.parent)
         path = os.pathsep.join([folder, *filter(None, [os.environ.get("PYTHONPATH")])])
         env = {**os.environ, "PYTHONPATH": path, "ANCF_HELPS": "1"}
         if folder := getattr(numba.config, "CACHE_DIR", ""):
             env["NUMBA_CACHE_DIR"] = folder
         with suppress(OSError, ValueError, TypeError):
-            given = json.dumps({"model": model.to_dict(), "method": method.name if method else None})
             silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
             command = [sys.executable, "-m", "ancf.compilation"]
             self.helper = subprocess.Popen(command, stdin=subprocess.PIPE, env=env, **silent)  # type: ignore[call-overload]
@@ -145,14 +157,22 @@ def expected(model: Model, method: Integrator | None = None) -> Iterator[None]:
             _listener.end()
 
 
+def _outline(given: Any) -> Any:
+    """A description without its numbers: what is equal is compiled alike."""
+    if isinstance(given, dict):
+        return {key: _outline(value) for key, value in given.items()}
+    if isinstance(given, list | tuple):
+        return [_outline(value) for value in given]
+    return given if isinstance(given, str | bool) or given is None else 0
+
+
 def _useful() -> bool:
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     # without locks both would compile the same
     wanted = cores > 1 and sys.platform != "win32" and not getattr(numba.config, "DISABLE_JIT", 0)
     if multiprocessing.parent_process() is not None:  # one of many that share the cores
         return False
-    idle = _listener.helper is None or _listener.helper.poll() is not None
-    return wanted and idle and "ANCF_HELPS" not in os.environ and bool(sys.executable)
+    return wanted and "ANCF_HELPS" not in os.environ and bool(sys.executable)
 
 
 def _named(data: Any) -> str:
@@ -181,7 +201,8 @@ class Needed(NamedTuple):
     steps: Kernel  # takes the steps of the method
     operations: list[Kernel]  # of the kinds of the model, in the order in which a System asks for them
     resting: list[Kernel]  # of an equilibrium besides them
-    apart: list[Kernel]  # what is apart from the steps, last what sensors need
+    apart: list[Kernel]  # what is apart from the steps
+    sensors: list[Kernel]  # what sensors need besides it
 
 
 def needed(model: Model, method: Integrator | None) -> Needed:
@@ -217,6 +238,7 @@ def needed(model: Model, method: Integrator | None) -> Needed:
         types = type_of(system.core), type_of(memory), type_of(sampling)
         wanted = apart_needed(system.core, memory, sampling, run.explicit)
         apart_of(*types, wanted, strands_of(system.core))
+        apart, found = found, []
         apart_of(*types, tuple(name in ("note", "sample") for name in Apart._fields))
         system.sensors = listing(system, [*map(model.sensor, system.measures)], accelerations=False)
         sampling_of(system)
@@ -226,7 +248,7 @@ def needed(model: Model, method: Integrator | None) -> Needed:
         for batch in batches
         for kernel, given in traits(batch).resting
     ]
-    return Needed(stepping(system.core, memory, sampling, run.explicit), operations, resting, found)
+    return Needed(stepping(system.core, memory, sampling, run.explicit), operations, resting, apart, found)
 
 
 @contextmanager
@@ -253,10 +275,10 @@ def main() -> None:
         mass = Model()
         mass.add_point_mass("m", at=(0, 0, 0), mass=1.0)
         found = needed(mass, method)
+    jobs = [found.steps, *found.operations[::-1]]
     if method is None:  # what comes after an equilibrium, as a rule
-        jobs = [*found.operations[::-1], *found.resting, found.steps, *found.apart]
-    else:
-        jobs = [found.steps, *found.operations[::-1], *found.apart]
+        jobs = [*found.operations[::-1], *found.resting, found.steps]
+    jobs += [*found.apart[::-1], *found.sensors]
     for dispatcher, signature in jobs:
         if getattr(getattr(dispatcher, "_cache", None), "cache_path", ""):  # else nothing would be kept
             with suppress(Exception):

@@ -62,11 +62,11 @@ class TestHelp:
         model = made()
         springs = [connection.name for connection in model.connections if isinstance(connection, Spring)]
         ancf.simulate(model, t_end=0.002, step=1e-3, sensors=["rope.start", *springs])
-        jobs = {kernel.py_func.__name__: (kernel, types) for kernel, types in found.apart}
+        sensors = {kernel.py_func.__name__: (kernel, types) for kernel, types in found.sensors}
         assert len(found.operations) >= 3
-        assert [*jobs][-2 - len(springs) :] == ["note_now", "sample", *["measure_at"] * len(springs)]
-        jobs.pop("note_now")
-        for dispatcher, signature in [*found.operations, *jobs.values()]:
+        assert [*sensors] == ["note_now", "sample", *["measure_at"] * len(springs)]
+        sensors.pop("note_now")
+        for dispatcher, signature in [*found.operations, *found.apart, *sensors.values()]:
             assert signature in dispatcher.overloads
 
     def test_an_equilibrium_needs_more(self):
@@ -100,6 +100,30 @@ class TestHelp:
             assert helper.poll() is None
         assert helper.poll() is not None
         assert re.match(r"compiled in \d+ s: ", said[-1])
+
+    @pytest.mark.parametrize(
+        ("other", "method", "same"),
+        [
+            (lambda: rope()[0], ancf.GeneralizedAlpha(), True),
+            (lambda: rope(bending_damping=0.0)[0], None, True),
+            (lambda: rope()[0], ancf.Explicit(), False),
+            (hung, ancf.Trapezoidal(), False),
+        ],
+        ids=["equilibrium, then steps", "other numbers", "other steps", "other kinds"],
+    )
+    def test_the_process_works_on_what_is_next(self, monkeypatch, other, method, same):
+        monkeypatch.delenv("ANCF_HELPS", raising=False)
+        monkeypatch.setattr(compilation, "_useful", lambda: True)
+        monkeypatch.setattr(compilation._listener, "say", lambda text: None)
+        processes = []
+        for model, used in ((rope()[0], None), (other(), method)):
+            with compilation.expected(model, used):
+                numba.njit(lambda x: x + 1.0)(2.0)
+                processes.append(compilation._listener.helper)
+                if used is None:  # it may have found all compiled
+                    monkeypatch.setattr(processes[0], "poll", lambda: None)
+        compilation._listener.end()
+        assert (processes[0] is processes[1]) == same
 
     def test_it_is_said_in_python_too(self):
         """On stderr, before and after, with what it is; a quiet command says nothing."""
