@@ -102,6 +102,7 @@ def run(tmp_path, monkeypatch):
     monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path / "cache"))
     monkeypatch.setattr(kept, "_ROOT", str(tmp_path) + os.sep)
     monkeypatch.setattr(kept, "_shelves", {})
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)  # of files that change within a second
 
     def found(values, factors=(3.0, 4.0), stamp="first", folder=tmp_path):
         kept._shelves.clear()

@@ -223,7 +223,8 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Led, Filmed, Readabl
         pressed = tension.notes(tension.compressions(self))
         given = [str(text) for text in self._header.get("notes", [])]
         bent = sharp_bends.notes(sharp_bends.sharp_bends(self))
-        bent += turned_bends.notes(self.state()) if len(self.t) else []
+        if len(self.t) and turned_bends.looked_at(self.model):
+            bent += turned_bends.notes(self.state())
         bent += wavering.notes(wavering.waverings(self))
         below = [*of_bodies(self), *accuracy.of_energy(self)]
         return [*given, *pressed, *bent, *below, *of_steps(self), *accuracy.of_joints(self)]

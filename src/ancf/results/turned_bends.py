@@ -24,18 +24,23 @@ HELD = 10.0
 STRAIGHT, MOST = 0.05, 3000
 
 
+def looked_at(model: Any) -> list[Beam]:
+    """Cables of a model that are bent by nature and may turn that bend."""
+    beams = model.beams.values()
+    return [b for b in beams if b.turns_its_bend and b.section.EI > 0.0 and b.elements <= MOST]
+
+
 def notes(known: Any) -> list[str]:
     """What is said of cables of a state whose bends have turned, the first of them."""
-    for name, beam in known.system.model.beams.items():
-        if beam.turns_its_bend and beam.section.EI > 0.0 and beam.elements <= MOST:
-            now = vectors_of(beam.node_x, known.system.slots[name], known.q[None, :])
-            angle, share = turned(beam, now)
-            if share > TURNED and _bending_matters(known, beam):
-                return [
-                    f'"{name}" is bent by nature, and nothing resists that this bend turns: it did by up to '
-                    f"{np.degrees(angle):.2g} degrees, which takes {100 * share:.2g} % of how its bend would "
-                    'change in one plane; hold its plane, or take element="nonlocking"'
-                ]
+    for beam in looked_at(known.system.model):
+        now = vectors_of(beam.node_x, known.system.slots[beam.name], known.q[None, :])
+        angle, share = turned(beam, now)
+        if share > TURNED and _bending_matters(known, beam):
+            return [
+                f'"{beam.name}" is bent by nature, and nothing resists that this bend turns: it did by up to '
+                f"{np.degrees(angle):.2g} degrees, which takes {100 * share:.2g} % of how its bend would "
+                'change in one plane; hold its plane, or take element="nonlocking"'
+            ]
     return []
 
 
