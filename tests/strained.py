@@ -1,6 +1,7 @@
 """Damped cables and springs in strained shapes and in motion."""
 
 import numpy as np
+import pytest
 
 import ancf
 
@@ -36,6 +37,19 @@ SHAPES = {
     "rectangle": lambda **more: ancf.Section.rectangle(0.2, 0.1, E=1e3, rho=9.0, **more),
     "circle": lambda **more: ancf.Section.circle(0.2, E=1e3, nu=0.3, rho=9.0, **more),
 }
+
+
+def of_solids(test):
+    """Let a test have all beams with a cross-section: element, shape, section, damping and elements."""
+    for name, values in (
+        ("element", ["original", "nonlocking"]),
+        ("shape", ["straight", "curved"]),
+        ("section", SHAPES),
+        ("damping", SOLIDLY),
+        ("elements", [3, 9]),
+    ):
+        test = pytest.mark.parametrize(name, values)(test)
+    return test
 
 
 def solid(element, shape, section="rectangle", elements=3, **damping):

@@ -11,7 +11,7 @@ from ancf.solvers.pushes import Uses, add_pushes
 from ancf.solvers.sensitivity import Way
 from ancf.system.core import residual
 from ancf.system.system import System
-from strained import SECTIONS, SHAPES, SOLIDLY, cable, solid, states
+from strained import SECTIONS, SOLIDLY, cable, of_solids, solid, states
 
 
 def found_by_kernel(system, rates, way, name="cable"):
@@ -83,11 +83,7 @@ def test_against_differences(damping, strain, shape, elements):
         assert np.abs(own - wanted).max() <= loose * np.abs(wanted).max() + 1e-12 * size, k
 
 
-@pytest.mark.parametrize("elements", [3, 9])
-@pytest.mark.parametrize("damping", SOLIDLY)
-@pytest.mark.parametrize("section", SHAPES)
-@pytest.mark.parametrize("shape", ["straight", "curved"])
-@pytest.mark.parametrize("element", ["original", "nonlocking"])
+@of_solids
 def test_of_solid_beams(element, shape, section, damping, elements):
     """Of each constant, of all of them, and of stiffnesses, dampings, masses and lengths by themselves."""
     system = System(solid(element, shape, section, elements, **SOLIDLY[damping])[0])

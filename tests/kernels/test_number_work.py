@@ -13,7 +13,7 @@ from ancf.solvers.sensitivity import Way
 from ancf.system.core import residual
 from ancf.system.system import System
 from sloped import SPEEDS, WAVES, afloat, in_waves
-from strained import SECTIONS, SHAPES, SOLIDLY, cable, solid, sprung, states
+from strained import SECTIONS, SOLIDLY, cable, of_solids, solid, sprung, states
 
 #: Rows of the constants of beams that are of the fourth order in the size of the section.
 QUARTIC = M_YY - LENGTH, M_ZZ - LENGTH, M_YZ - LENGTH
@@ -87,11 +87,7 @@ def test_of_cables(damping, strain, shape, elements):
     assert (terms > 0.0) == ("slope_damping" in SECTIONS[damping])
 
 
-@pytest.mark.parametrize("elements", [3, 9])
-@pytest.mark.parametrize("damping", SOLIDLY)
-@pytest.mark.parametrize("section", SHAPES)
-@pytest.mark.parametrize("shape", ["straight", "curved"])
-@pytest.mark.parametrize("element", ["original", "nonlocking"])
+@of_solids
 def test_of_solid_beams(element, shape, section, damping, elements):
     """The poisson ratio that only the centreline has leaves two of the stiffnesses zero."""
     system = System(solid(element, shape, section, elements, **SOLIDLY[damping])[0])

@@ -8,7 +8,7 @@ from ancf.compiled import add_tangent_work, kernel
 from ancf.solvers.rare import add_tangent_works, knowing
 from ancf.system.core import residual
 from ancf.system.system import System
-from strained import SECTIONS, SHAPES, SOLIDLY, cable, solid, states
+from strained import SECTIONS, SOLIDLY, cable, of_solids, solid, states
 
 
 @kernel
@@ -50,11 +50,7 @@ def check(model, name, seed=1):
     return [np.abs(one).max() for one in made]
 
 
-@pytest.mark.parametrize("elements", [3, 9])
-@pytest.mark.parametrize("damping", SOLIDLY)
-@pytest.mark.parametrize("section", SHAPES)
-@pytest.mark.parametrize("shape", ["straight", "curved"])
-@pytest.mark.parametrize("element", ["original", "nonlocking"])
+@of_solids
 def test_of_solid_beams(element, shape, section, damping, elements):
     stiff, damped, heavy = check(solid(element, shape, section, elements, **SOLIDLY[damping])[0], element)
     assert min(stiff, heavy) > 0.0
