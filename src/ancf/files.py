@@ -22,6 +22,8 @@ if sys.platform != "win32":
 
 #: How HDF5 reports what the system said.
 HDF5_PROBLEM = re.compile(r"errno = \d+, error message = '([^']*)'")
+#: Results file of an output folder, and so many other names are said where it is missing.
+RESULTS, MOST_NAMED = "results.h5", 5
 #: First characters of what a spreadsheet takes for a formula.
 FORMULAS = ("=", "+", "-", "@", "\t", "\r")
 #: Characters that change what a terminal shows: controls, deletes, turns of the direction of writing.
@@ -183,6 +185,19 @@ def cell(value: Any) -> Any:
 def visible(text: str) -> str:
     """Text whose control characters, which a terminal would obey, are spelt out; lines and tabs stay."""
     return text if text.isprintable() else CONTROL.sub(lambda found: ascii(found[0])[1:-1], text)
+
+
+def results_at(path: Path) -> Path:
+    """The results file that a path names wherever results are read: in a folder that of ``ancf run -o``."""
+    inside = path / RESULTS
+    return inside if exists(path, "is_dir") and exists(inside) else path
+
+
+def no_results(folder: Path) -> ModelError:
+    """A folder that names no results file; the hint has those of other names."""
+    found = sorted(file.name for file in folder.glob("*.h5"))[:MOST_NAMED]
+    hint = f"name the file: {', '.join(found)}" if found else ""
+    return ModelError(str(folder), f"is a folder without {RESULTS}", hint)
 
 
 def exists(path: Path, kind: str = "exists") -> bool:

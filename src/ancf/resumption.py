@@ -11,10 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from .control.lead import check_controller, led
+from .control.lead import check_controller, led, name_of
 from .control.live import Live
+from .control.memory import restored
 from .errors import ModelError
-from .files import drafted, writing
+from .files import drafted, results_at, writing
 from .model import checks
 from .model.describe import point
 from .model.integrators import Integrator, integrator_from
@@ -55,7 +56,8 @@ def resume(
     Parameters
     ----------
     file : path
-        Of a run that ended, failed, was stopped or killed; no other process may be writing to it.
+        Results file, or its folder, of a run that ended, failed, was stopped or killed; no other process may
+        be writing to it.
     t_end : float, optional
         Default the end time that the run was given.
     model : Model, optional
@@ -64,7 +66,8 @@ def resume(
     progress : callable, optional
         Called between blocks of steps.
     controller : callable, optional
-        That of the run, if it had one; what it remembers itself it has to keep.
+        That of the run, if it had one. It takes what it remembered back by ``restore(state)``, if it has this
+        method and ``state()``, which returned that for the checkpoint: numbers, texts, lists, dicts.
 
     Raises
     ------
@@ -77,12 +80,13 @@ def resume(
     Warns
     -----
     UserWarning
+        The controller had changed what it holds, and has no such methods.
         The file has no checkpoint, as one of an earlier version: the run starts anew from the last stored
         state, with accelerations that are computed anew.
     """
     checks.progress(progress, "resume.progress")
     old = load(file)
-    settings, path = _settings(old, file, model), Path(file)
+    settings, path = _settings(old, file, model), results_at(Path(file))
     _check_led(settings, controller, file)
     end = settings["t_end"] if t_end is None else checks.number(t_end, "resume.t_end")
     last = float(old.t[-1])
@@ -102,6 +106,8 @@ def resume(
     except (ModelError, LookupError, TypeError, ValueError) as error:
         what = "has a checkpoint that does not fit its model"
         raise ModelError(str(path), f"{what}: {error}", "resume with the version that made it") from None
+    if said := _remember(controller, checkpoint.snapshot):
+        warnings.warn(said, UserWarning, stacklevel=3)
     made = _led(made, old, checkpoint.snapshot.t, controller)
     header = _header(old, made.header, checkpoint.snapshot.t)
     with writing(path), drafted(path) as draft:
@@ -119,6 +125,13 @@ def _led(made: Prepared, old: Result, t: float, controller: Callable[[Live], Any
     if controller is None:
         return made
     return led(made, controller, round(settings["control_step"] / settings["step"]), "resume")
+
+
+def _remember(controller: Any, snapshot: Snapshot) -> str:
+    """Let a controller remember; see :func:`ancf.control.memory.restored`."""
+    if controller is None:
+        return ""
+    return restored(controller, name_of(controller), snapshot.values.get("controller", {}))
 
 
 def _anew(

@@ -540,7 +540,7 @@ class TestCommand:
         ("name", "said"),
         [
             ("none.h5", "there is no such file"),
-            ("out", "is a folder its results file: out/results.h5"),
+            (".", "is a folder without results.h5 name the file: empty.h5, other.h5"),
             ("model.toml", "is a model file, not a results file ancf run model.toml"),
             ("text.h5", "is not a results file of ancf"),
             ("other.h5", "is not a results file of ancf"),
@@ -562,6 +562,11 @@ class TestCommand:
         ran = call(name, "--to", "vtk")
         assert ran.code == 2
         assert said in ran.said
+
+    def test_folder(self, call, file):
+        """The folder of a run names its results file, and what is written stands beside that."""
+        ran = call("out", "--to", "vtk")
+        assert (ran.code, ran.out) == (0, "written: out/results.vtkhdf\n")
 
     def test_movie(self, call, file):
         pytest.importorskip("ancf.viz.pictures.movie")

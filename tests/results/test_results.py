@@ -227,10 +227,12 @@ class TestFile:
                 ancf.load(path)
         with pytest.raises(ancf.ModelError, match="there is no such file"):
             ancf.load(tmp_path / "nothing.h5")
-        with pytest.raises(ancf.ModelError, match=r"is a folder$"):
+        with pytest.raises(
+            ancf.ModelError, match=r"is a folder without results\.h5 \(name the file: other\.h5, text\.h5\)"
+        ):
             ancf.load(tmp_path)
         (tmp_path / "results.h5").write_text("no")
-        with pytest.raises(ancf.ModelError, match=r"is a folder \(its results file: .*results\.h5\)"):
+        with pytest.raises(ancf.ModelError, match=r"results\.h5: is not a results file of ancf"):
             ancf.load(tmp_path)
 
 

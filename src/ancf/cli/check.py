@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ModelError
+from ..files import results_at
 from .info import is_hdf5
 from .info_line import size_of
 from .screen import Screen, console
@@ -28,6 +29,7 @@ def check_file(path: Path, given: list[str] | None = None) -> None:
         It cannot be read, or something in it is wrong.
 
     """
+    path = results_at(path)
     if is_hdf5(path):
         if given:
             raise ModelError("--set", "changes model files and line files, not results", "leave it out")

@@ -10,7 +10,9 @@ import typer
 ModelFile = Annotated[Path, typer.Argument(metavar="MODEL.toml", help="Model file.", show_default=False)]
 AnyInput = Annotated[
     Path,
-    typer.Argument(metavar="FILE", help="Model file, line file or results file.", show_default=False),
+    typer.Argument(
+        metavar="FILE", help="Model file, line file, results file or its folder.", show_default=False
+    ),
 ]
 Folder = Annotated[Path, typer.Option("--output", "-o", metavar="OUT", help="Folder for what is written.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]

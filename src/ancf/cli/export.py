@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ModelError
-from ..files import exists
+from ..files import exists, results_at
 from ..model import checks
 from .results_file import open_result
 from .screen import Screen, console
@@ -39,7 +39,7 @@ def export_file(
     Parameters
     ----------
     file : Path
-        Results file, also of a run that was stopped, failed or goes on.
+        Results file or its folder, also of a run that was stopped, failed or goes on.
     to : "vtk", "csv", "parquet", "xlsx", "mp4" or "gif"
     output : Path, optional
         File to write, or folder; default beside the results file.
@@ -56,6 +56,7 @@ def export_file(
     """
     to = checks.choice(ALSO.get(to, to), "--to", tuple(SUFFIXES))
     given = _given(to, options)
+    file = results_at(file)
     result = open_result(file)
     screen = Screen(quiet)
     if result.status != "complete":

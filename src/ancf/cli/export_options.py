@@ -7,7 +7,9 @@ from typing import Annotated
 
 import typer
 
-ResultsFile = Annotated[Path, typer.Argument(metavar="RESULTS.h5", help="Results file.", show_default=False)]
+ResultsFile = Annotated[
+    Path, typer.Argument(metavar="RESULTS.h5", help="Results file, or its folder.", show_default=False)
+]
 Kind = Annotated[
     str, typer.Option("--to", metavar="KIND", help="vtk, csv, parquet, xlsx, mp4 or gif.", show_default=False)
 ]

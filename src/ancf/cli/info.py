@@ -5,13 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..errors import ModelError
-from ..files import exists
+from ..files import no_results, results_at
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
 def show_info(path: Path) -> None:
     """Tell a results file by its first bytes, a line file by its tables, and describe it."""
+    path = results_at(path)
     if is_hdf5(path):
         from .info_result import show_result
 
@@ -52,8 +53,6 @@ def is_hdf5(path: Path) -> bool:
     except FileNotFoundError:
         raise ModelError(str(path), "no such file") from None
     except IsADirectoryError:
-        inside = path / "results.h5"
-        hint = f"ancf info {inside}" if exists(inside) else ""
-        raise ModelError(str(path), "is a folder", hint) from None
+        raise no_results(path) from None
     except (OSError, ValueError) as error:
         raise ModelError(str(path), f"cannot be read: {error}") from None

@@ -8,26 +8,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import ModelError
-from ..files import exists
+from ..files import exists, results_at
 
 if TYPE_CHECKING:
     from .. import Result
 
 
 def open_result(path: Path) -> Result:
-    """Result from a file, finished or not.
+    """Result from a file, or from the one in a folder, finished or not.
 
     Raises
     ------
     ModelError
-        There is no such file, it is a folder, no results file, or has no states yet.
+        There is no such file, it is no results file, or has no states yet.
 
     """
     import ancf
 
-    if exists(path, "is_dir"):
-        inside = path / "results.h5"
-        raise ModelError(str(path), "is a folder", f"its results file: {inside}" if exists(inside) else "")
+    path = results_at(path)
     if path.suffix.lower() == ".toml" and exists(path):
         hint = f"ancf run {path} -o out writes out/results.h5"
         raise ModelError(str(path), "is a model file, not a results file", hint)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ModelError
-from ..files import exists
+from ..files import RESULTS, exists, results_at
 from .results_file import open_result
 from .screen import console
 
@@ -48,10 +48,11 @@ def view_file(
     from ..viz.view.page import plotly_script
 
     plotly_script()
-    sources = [path / "results.h5" if exists(path, "is_dir") else path for path in paths]
     if live:
-        _follow(sources, output, options, show)
+        files = [path / RESULTS if exists(path, "is_dir") else path for path in paths]  # it may come yet
+        _follow(files, output, options, show)
         return
+    sources = [results_at(path) for path in paths]
     target = _target(sources[0], output)
     if len(sources) == 1 and sources[0].suffix == ".toml":
         written = _line_at_rest(sources[0], target, options)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..model import checks
+from .memory import offers
 
 #: Two times of a run are the same within this, s.
 SAME = 1e-9
@@ -40,6 +41,18 @@ class Delayed:
     def __name__(self) -> str:
         name = getattr(self.controller, "__name__", type(self.controller).__name__)
         return f"{name}, {self.delay:g} s late"
+
+    def state(self) -> dict[str, Any]:
+        """What is on its way, and what the controller offers of its own memory."""
+        kept = {"wanted": self.wanted, "due": list(self.due)}
+        return kept | ({"controller": self.controller.state()} if offers(self.controller) else {})  # type: ignore[attr-defined]
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Go on from such a state."""
+        self.wanted = dict(state["wanted"])
+        self.due = deque((float(t), dict(given)) for t, given in state["due"])
+        if offers(self.controller) and "controller" in state:
+            self.controller.restore(state["controller"])  # type: ignore[attr-defined]
 
     def __call__(self, run: Any) -> Any:
         """Ask the controller, and give what is due; returns what the controller does, as a rule nothing."""

@@ -13,6 +13,7 @@ from ..results.given import Given
 from ..solvers.control import Control
 from .foreseen import Foreseen
 from .live import Live
+from .memory import Memory
 from .stepper import refuse_adaptive
 
 Controller = Callable[[Live], Any]
@@ -38,6 +39,11 @@ def check_controller(controller: Any, control_step: Any, step: float, where: str
     return round(ratio)
 
 
+def name_of(controller: Controller) -> str:
+    """What messages and results call a controller."""
+    return str(getattr(controller, "__name__", type(controller).__name__))
+
+
 def led(made: Prepared, controller: Controller, every: int, where: str) -> Prepared:
     """Let a controller be called every so many steps of a simulation; its header says so."""
     settings = made.header["settings"]
@@ -45,11 +51,12 @@ def led(made: Prepared, controller: Controller, every: int, where: str) -> Prepa
     made.system.inputs = Foreseen(made.system.inputs)
     if made.given is None:
         made = made._replace(given=Given.begun(made.run.t_start, made.system.inputs.given))
-    live = Live(made)
-    name = getattr(controller, "__name__", type(controller).__name__)
+    live, memory = Live(made), Memory(controller, where)
+    name = name_of(controller)
 
-    def call() -> None:
+    def call(done: int) -> None:
         live.look()
+        memory.note(done)
         try:
             found = controller(live)
         except (ModelError, SolveError):
@@ -62,6 +69,6 @@ def led(made: Prepared, controller: Controller, every: int, where: str) -> Prepa
             name = next(iter(live.inputs), "thrust")
             raise ModelError(f"{where}.controller", what, f'give inputs instead: run.inputs["{name}"] = ...')
 
-    made.run.control = Control(every, call)
+    made.run.control = Control(every, call, memory.values)
     led_by = {"controller": name, "control_step": every * settings["step"]}
     return made._replace(header={**made.header, "settings": {**settings, **led_by}})

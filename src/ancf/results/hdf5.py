@@ -17,7 +17,7 @@ from typing import Any
 import h5py
 
 from ..errors import ModelError
-from ..files import problem
+from ..files import no_results, problem
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 #: Bytes of the superblock: its version, the marks of a writer, the length of the file, all of it.
@@ -90,10 +90,7 @@ def _head(path: Path) -> tuple[bytes, int]:
     """First bytes and size of a file."""
     try:
         if path.is_dir():
-            inside = path / "results.h5"  # as ancf run names it
-            raise ModelError(
-                str(path), "is a folder", f"its results file: {inside}" if inside.is_file() else ""
-            )
+            raise no_results(path)
         if not path.is_file():
             raise ModelError(str(path), "there is no such file")
         with path.open("rb") as file:

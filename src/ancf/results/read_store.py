@@ -11,6 +11,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
+from ..files import results_at
 from ..model import checks
 from ..model.bodies import Body
 from ..model.model import Model
@@ -30,6 +31,7 @@ class ReadStore:
     Parameters
     ----------
     path : path
+        Of the file, or of a folder that holds ``results.h5``.
     status : str, optional
         How the run ended, where its file could not take it any more.
 
@@ -42,7 +44,7 @@ class ReadStore:
     def __init__(self, path: str | Path, status: str | None = None) -> None:
         if not isinstance(path, str | Path):
             raise ModelError("load", f"must be given a path, is given {checks.shown(path)}")
-        self.path, self._status = Path(path), status
+        self.path, self._status = results_at(Path(path)), status
         self._file = hdf5.opened(self.path)
         with sound.inside(self.path):
             self._begin()

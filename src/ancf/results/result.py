@@ -365,6 +365,7 @@ def load(path: str | Path, system: System | None = None) -> Result:
     Parameters
     ----------
     path : path
+        Of the file, or of the folder of a run, which holds ``results.h5``.
     system : System, optional
         The system that made it, if it is still there; else the file's model makes one when it is needed.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -15,13 +16,16 @@ class Control:
     every : int
         Steps.
     call : function
+    kept : function
+        What a checkpoint after so many steps has of the memory of the function, ready for JSON.
     """
 
     every: int
-    call: Callable[[], None]
+    call: Callable[[int], None]
+    kept: Callable[[int], dict[str, Any]]
 
     def ask(self, done: int) -> int:
         """Call it if it is time after so many steps; steps until the next time."""
         if done % self.every == 0:
-            self.call()
+            self.call(done)
         return self.every - done % self.every

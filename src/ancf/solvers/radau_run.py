@@ -121,6 +121,8 @@ class RadauRun:
         """All that decides how the run goes on, copied."""
         values = {name: getattr(self, name) for name in KEPT} | {"stepper": self.stepper.values()}
         values |= {"spacing": self.problem.spacing, "inputs": dict(self.system.inputs.given)}
+        if self.control is not None:
+            values["controller"] = self.control.kept(self.done)
         own = copies({"work": self.work, "base": self.problem.base, "stepper": self.stepper.arrays()})
         return Snapshot(self.stepper.t, values, {**self.watched.changed(), **own})
 

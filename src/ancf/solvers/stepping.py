@@ -147,6 +147,8 @@ class Run(Asleep):
     def _snapshot(self) -> Snapshot:
         values = {name: getattr(self, name) for name in self.KEPT}
         values |= {"parts": self.bridge.parts, "inputs": dict(self.system.inputs.given)}
+        if self.control is not None:
+            values["controller"] = self.control.kept(self.done)
         own = copies({"memory": self.memory, "energy0": self.energy0})
         return Snapshot(self.time(self.done), values, {**self.watched.changed(), **own})
 
