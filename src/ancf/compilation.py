@@ -24,6 +24,8 @@ import numba
 from numba.core import event
 
 from .compiled import traits
+from .errors import ModelError
+from .model import checks
 from .model.integrators import INTEGRATORS, Explicit, Integrator, NewmarkFamily, Trapezoidal
 from .model.model import Model
 
@@ -143,7 +145,17 @@ def announce(say: Callable[[str], None]) -> None:
 
 @contextmanager
 def expected(model: Model, method: Integrator | None = None) -> Iterator[None]:
-    """Here kernels may have to be compiled for a model, and for a method if it is simulated."""
+    """Here kernels may have to be compiled for a model, and for a method if it is simulated.
+
+    Raises
+    ------
+    ModelError
+        What is to be computed is no model.
+    """
+    given: object = model
+    if not isinstance(given, Model):
+        hint = "a model file is computed by: ancf run FILE" if isinstance(given, str | Path) else ""
+        raise ModelError("model", f"must be a Model, is {checks.shown(given)}", hint)
     if _listener.work is not None:
         yield
         return

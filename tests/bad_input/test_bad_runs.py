@@ -515,3 +515,31 @@ class TestFiles:
         (tmp_path / "taken").write_text("x")
         path = tmp_path / "taken" / "copy.h5"
         refused(str(path), "cannot be written", result.save, path)
+
+
+@pytest.mark.parametrize("model", ["model.toml", None, 3.0])
+@pytest.mark.parametrize(
+    "compute",
+    [
+        ancf.equilibrium,
+        ancf.modes,
+        ancf.damped_modes,
+        lambda model: ancf.simulate(model, t_end=1.0, step=0.1),
+        lambda model: ancf.stepper(model, step=0.1),
+    ],
+)
+def test_no_model(model, compute):
+    with pytest.raises(ancf.ModelError, match=r"^model: must be a Model, is "):
+        compute(model)
+
+
+@pytest.mark.parametrize("point", [3, None, (0.0, 0.0, 1.0)])
+@pytest.mark.parametrize("question", ["position", "tension"])
+def test_no_point(point, question):
+    model = ancf.Model()
+    beam = model.add_beam(
+        "b", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=ancf.Section(EA=1e4, EI=1.0, rhoA=0.1)
+    )
+    model.clamp(beam.start)
+    with pytest.raises(ancf.ModelError, match=r"^point: must be a point, is .*such as beam\.start"):
+        getattr(ancf.equilibrium(model), question)(point)

@@ -22,6 +22,9 @@ from .points import Point
 from .repeated import Joined
 from .supports import Support
 
+#: What a point is written like, for messages.
+SUCH_AS = "such as beam.start, beam.end or beam.at(0.5), a point mass or a rigid body"
+
 
 class Lookup:
     """Bodies, connections, inputs and names of one model."""
@@ -179,7 +182,7 @@ class Lookup:
         if isinstance(point, Beam):
             return own_point(point, where)
         if not isinstance(point, str):
-            hint = "such as beam.start, beam.end or beam.at(0.5), a point mass or a rigid body"
+            hint = SUCH_AS
             if where.endswith(".a") and isinstance(point, list | tuple | np.ndarray) and len(point) == 3:
                 hint = "a place in space is the other end, b"
             raise ModelError(where, f"must be a point, is {checks.shown(point)}", hint)
@@ -197,6 +200,8 @@ def own_point(body: Body, where: str) -> Point:
         return body.point
     if isinstance(body, RigidBody):
         return body.centre
+    if not isinstance(body, Beam):
+        raise ModelError(where, f"must be a point, is {checks.shown(body)}", SUCH_AS)
     raise ModelError(where, f'"{body.name}" is no point, it is a {kind(body)}', _points_of(body))
 
 

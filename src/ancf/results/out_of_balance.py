@@ -116,7 +116,8 @@ def of_bends(model: Model, omega: FloatArray) -> list[str]:
     if not names or omega[0] > 0.0:
         return []
     what = f'"{names[0]}" is bent by nature, and nothing resists that this bend turns'
-    return [f'{what}: frequencies of zero may be that; hold its plane, or take element="nonlocking"']
+    hint = 'hold its plane at each node (position and slope), or take element="nonlocking"'
+    return [f"{what}: frequencies of zero may be that; {hint}"]
 
 
 def explain_unstable(error: SolveError) -> None:

@@ -39,7 +39,8 @@ def notes(known: Any) -> list[str]:
             return [
                 f'"{beam.name}" is bent by nature, and nothing resists that this bend turns: it did by up to '
                 f"{np.degrees(angle):.2g} degrees, which takes {100 * share:.2g} % of how its bend would "
-                'change in one plane; hold its plane, or take element="nonlocking"'
+                "change in one plane; hold its plane at each node (position and slope), or take "
+                'element="nonlocking"'
             ]
     return []
 

@@ -66,7 +66,7 @@ def _advice(it: Iteration, problem: str) -> str:
     turning = [beam.name for beam in it.system.model.beams.values() if beam.turns_its_bend]
     if turning:
         what = f'"{turning[0]}" is bent by nature, and nothing resists that this bend turns'
-        return f'{what}: hold its plane, or take element="nonlocking"'
+        return f'{what}: hold its plane at each node (position and slope), or take element="nonlocking"'
     return "give more load_steps"
 
 
