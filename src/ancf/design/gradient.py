@@ -52,11 +52,11 @@ def gradient(
     """A number of a simulation and its exact derivatives by parameters of the model.
 
     Models of cables, beams, springs, masses, rigid bodies and joints, sliding ones as well, in fluids with
-    currents, gusts and waves, with loads of all kinds, have an adjoint, and without joints also those on
-    grounds without friction and with a contact of a strip and a wire: the derivatives by all parameters
-    together take about as much as a few runs, and memory that does not grow with their number, nor much with
-    that of the steps. Others, with contacts of surfaces, winches, laws that stay in Python or clamps that
-    turn with time, take the sensitivities of :func:`ancf.simulate`, whose cost grows with the number of
+    currents, gusts and waves, with loads of all kinds, on grounds and surfaces without friction and with
+    contacts of strips and wires, have an adjoint: the derivatives by all parameters together take about as
+    much as a few runs, and memory that does not grow with their number, nor much with that of the steps.
+    Others, with contacts of cables or of bodies with each other, winches, laws that stay in Python or clamps
+    that turn with time, take the sensitivities of :func:`ancf.simulate`, whose cost grows with the number of
     parameters. The numbers are the same.
 
     Parameters
