@@ -120,3 +120,19 @@ def test_taylor_remainders():
             left.append(abs(ancf.gradient(other, TIP, [], **given)[0] - value - slope[name] * p * h))
         assert np.log2(left[0] / left[1]) > 1.9
         assert np.log2(left[1] / left[2]) > 1.9
+
+
+@pytest.mark.parametrize("quantity", ["twist", "curvature", "bending_moment"])
+def test_of_bends(quantity):
+    """A twist depends on all sections from the start, the size of a bend near zero is not smooth."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section.circle(diameter=0.05, E=2e8, rho=2e3, nu=0.3)
+    given = {"start": (0, 0, 0), "end": (1, 0, 0), "elements": 3, "section": section}
+    beam = model.add_beam("beam", element="nonlocking", **given)
+    model.clamp(beam.start)
+    model.add_moment(beam.end, (0.5, 0.2, 0.0))
+    ball = model.add_surface("ball", ancf.Sphere(radius=0.2, at=(0.5, 0.01, -0.2245)))
+    model.add_contact(beam, ball, stiffness=2000.0, name="touch")
+    text, names = f"integral({quantity}(beam.at(0.8))**2)", ["beam.E", "beam.rho"]
+    _, slope = ancf.gradient(model, text, names, **settings(steps=12))
+    assert apart(model, slope, differences(model, text, names, 1e-4, **settings(steps=12))) < 1e-7
