@@ -374,19 +374,14 @@ class Adjoint:
         fine = [key for key in others if key[0] in FINE]
         for keys, moved in (([key for key in others if key not in fine], MOVED), (fine, FINELY)):
             if keys:
-                self._add_wanted(q, v, slopes, keys, moved, made)
+                self._add_wanted(q, v, {key: slopes[key] for key in keys}, moved, made)
         return made
 
     def _add_wanted(
-        self,
-        q: FloatArray,
-        v: FloatArray,
-        slopes: dict[Any, FloatArray],
-        keys: list[Key],
-        moved: float,
-        made: FloatArray,
+        self, q: FloatArray, v: FloatArray, slopes: dict[Any, FloatArray], moved: float, made: FloatArray
     ) -> None:
-        """Add the same of answers that are differentiated by differences."""
+        """Add those by answers that are differentiated by differences."""
+        keys = list(slopes)
         weight = np.ones(q.shape[1])
         weight[: self.system.n] = self.system.core.weight
         here = self.asked(Face(self.system, q, v, 0.0), keys)  # what does not change leaves no round-off
