@@ -5,6 +5,7 @@ from backwards import apart, differences, forward
 from jointed import arms, methods
 
 import ancf
+from ancf.design.gradient import _forward as forwards
 from ancf.sensitivity.adjoint import Adjoint
 from ancf.sensitivity.adjoint_joints import JoinedAdjoint, adjoint_of
 from ancf.sensitivity.adjoint_sloped import SlopedAdjoint
@@ -232,3 +233,13 @@ def test_damped_torsion_springs(damping):
     agree(
         model, text, ["gravity[2]", "hub.inertia", "arm.mass", "coil.damping", "coil.stiffness"], given, 3e-9
     )
+
+
+@pytest.mark.parametrize("quantity", ["contact_force", "contact_gap"])
+def test_what_is_asked_of_contacts(quantity, monkeypatch):
+    """It depends on all that may touch: sensitivities along the run know it."""
+    monkeypatch.setattr("ancf.design.gradient._forward", forwards)
+    model, text, names = contact_line(), f"integral({quantity}(strip)**2)", ["head.mass", "lift.stiffness"]
+    _, slope = ancf.gradient(model, text, names, **settings())
+    assert min(abs(slope[name]) for name in names) > 0.0
+    assert apart(model, slope, forward(model, text, names, **settings())) < 1e-12

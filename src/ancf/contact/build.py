@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray, IntArray
 from ..elements.registry import ELEMENTS
-from ..elements.shapes import gauss
+from ..elements.shapes import gauss, hermite
 from ..errors import ModelError
 from ..loads.along import along, ordered
 from ..model.surfaces import Surface, SurfaceContact
@@ -100,6 +100,11 @@ def batches(
     return found
 
 
+def renumbered(batch: PressBatch, items: Sequence[SurfaceContact]) -> PressBatch:
+    """The batch with the numbers of these contacts in place of the same ones with others."""
+    return batch._replace(data=np.array([_numbers(item) for item in items]))
+
+
 def _numbers(item: SurfaceContact) -> list[float]:
     stick = item.stiffness if item.stick is None else item.stick
     drag = item.damping * math.sqrt(stick / item.stiffness)
@@ -118,9 +123,10 @@ def _lie(surface: Surface) -> list[float]:
 def _places(item: SurfaceContact) -> FloatArray:
     """Initial places of points of a beam, in the axes of what carries the surface, (elements, points, 3)."""
     beam, (xi, _) = item.body, gauss(POINTS)
-    x = beam.node_x[:-1, None] + xi * np.diff(beam.node_x)[:, None]
-    found = np.array([beam.initial_position(s) for s in x.ravel().tolist()])
-    return item.surface.body_axes(found).reshape(*x.shape, 3)
+    h, r, m = np.diff(beam.node_x)[:, None], beam.node_position, beam.stretch * beam.node_tangent
+    S = hermite(np.broadcast_to(xi, (len(h), POINTS)), h * np.ones(POINTS))
+    found = np.einsum("epk,ekc->epc", S, np.stack([r[:-1], m[:-1], r[1:], m[1:]], axis=1))
+    return item.surface.body_axes(found)
 
 
 def _refuse_sunk(item: SurfaceContact) -> None:

@@ -25,6 +25,7 @@ from ..arrays import FloatArray
 from ..compiled import VECTOR, Role, implements, inline_kernel, kernel
 from ..records import Located, beginning
 from ..vectors import dot
+from .press_slopes import numbers_of, press_number_work, press_work_slopes
 from .reel import stretched, swept
 from .touch import (
     DAMPING,
@@ -318,6 +319,11 @@ implements(
     force=press_force,
     tangent=press_tangent,
     energy=press_energy,
+    work_slopes=press_work_slopes,
+    sloped=lambda batch: not np.any(batch.winch >= 0),
+    number_work=press_number_work,
+    numbers=numbers_of,
+    numbered=("data", "weight", "shape", "reach", "mesh", "far"),
     measure=press_measure,
     remember=press_remember,
     inverted=press_passed,

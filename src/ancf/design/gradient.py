@@ -14,7 +14,9 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
 from ..model import checks
 from ..model.joints import Slide
+from ..model.kinds import kind_of
 from ..model.model import Model
+from ..model.points import Point
 from ..preparation import method_of, prepared
 from ..results.state import State
 from ..sensitivity.adjoint import Adjoint, Key, UnsolvedError
@@ -52,12 +54,12 @@ def gradient(
     """A number of a simulation and its exact derivatives by parameters of the model.
 
     Models of cables, beams, springs, masses, rigid bodies and joints, sliding ones as well, in fluids with
-    currents, gusts and waves, with loads of all kinds, have an adjoint, and without joints also those on
-    grounds without friction and with a contact of a strip and a wire: the derivatives by all parameters
-    together take about as much as a few runs, and memory that does not grow with their number, nor much with
-    that of the steps. Others, with contacts of surfaces, winches, laws that stay in Python or clamps that
-    turn with time, take the sensitivities of :func:`ancf.simulate`, whose cost grows with the number of
-    parameters. The numbers are the same.
+    currents, gusts and waves, with loads of all kinds, on grounds and surfaces without friction and with
+    contacts of strips and wires, have an adjoint: the derivatives by all parameters together take about as
+    much as a few runs, and memory that does not grow with their number, nor much with that of the steps.
+    Others, with contacts of cables or of bodies with each other, winches, laws that stay in Python or clamps
+    that turn with time, take the sensitivities of :func:`ancf.simulate`, whose cost grows with the number of
+    parameters, as does what is asked of a contact. The numbers are the same.
 
     Parameters
     ----------
@@ -104,7 +106,7 @@ def gradient(
         result = simulate(model, **settings)
         return slopes_of(formula, np.asarray(result.t), result)[0], {}
     way = adjoint_of(made.system)
-    if way is not None:
+    if way is not None and not _asks_contacts(model, formula):
         with suppress(UnsolvedError):  # what it cannot solve, sensitivities may
             return _backward(way, made, formula, wanted, start)
     return _forward(model, formula, wanted, settings)
@@ -116,6 +118,12 @@ def check_has_derivative(formula: Formula) -> None:
         if quantity in UNKNOWN:
             hint = "take the force of a spring or joint there, or the tension beside it"
             raise ModelError(WHERE, f"{quantity}({item}) has no derivative: {UNKNOWN[quantity]}", hint)
+
+
+def _asks_contacts(model: Model, formula: Formula) -> bool:
+    """Whether a formula asks for numbers of contacts, which depend on all of what may touch."""
+    items = [model.sensor(item) for _, item in formula.asked]
+    return any(not isinstance(item, Point) and "contact" in kind_of(item).word for item in items)
 
 
 class Histories:
@@ -156,7 +164,9 @@ def _forward(
 def unknowns_of(system: System, pairs: list[Key]) -> IntArray:
     """Entries of the state vectors on which histories depend; those of sliding joints on their carriers."""
     items = [system.model.sensor(item) for _, item in pairs]
-    found = [listing(system, items, False, ends=True).index]
+    twisted = (item for (asked, _), item in zip(pairs, items, strict=True) if asked == "twist")
+    behind = [point for item in twisted for point in _between(item)]
+    found = [listing(system, [*items, *behind], False, ends=True).index]
     slides = [item for item in system.model.connections if isinstance(item, Slide)]
     for (asked, _), item in zip(pairs, items, strict=True):
         if asked not in ALONG_CARRIER or not isinstance(item, Slide):
@@ -165,6 +175,13 @@ def unknowns_of(system: System, pairs: list[Key]) -> IntArray:
         slots = np.unique(batch.line_slot[batch.first[j] : batch.first[j + 1]])
         found.append((slots[slots >= 0, None] + np.arange(3)).ravel())
     return np.unique(np.concatenate(found)).astype(np.int64)
+
+
+def _between(point: Any) -> list[Point]:
+    """Points in all elements between the start of a beam, from which it is twisted, and one of its points."""
+    x = point.body.node_x
+    ends = zip(x[:-1].tolist(), x[1:].tolist(), strict=True)
+    return [Point(point.body, 0.5 * (a + b), "") for a, b in ends if a < point.x]
 
 
 @garbage.without

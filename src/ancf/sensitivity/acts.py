@@ -12,8 +12,9 @@ from ..model.joints import Slide, Spherical
 from ..model.loads import DistributedLoad, Force, Moment
 from ..model.model import Model
 from ..model.section import DAMPINGS
+from ..model.surfaces import SurfaceContact
 from ..model.winches import by_body
-from ..system.beside import BODIES, ELEMENTS, FLUIDS, SLIDES, SPRINGS, Acts
+from ..system.beside import BODIES, ELEMENTS, FLUIDS, PRESSING, SLIDES, SPRINGS, Acts
 
 #: Of sections, those on which the forces of elements alone depend, and those on which weights do, too.
 FORCES, MASSES = {"EA", "EI", "E", *DAMPINGS}, {"rhoA", "rho"}
@@ -36,8 +37,7 @@ def acts_of(model: Model, name: str) -> Acts | None:
         return Acts(_wet(model))
     body = model.bodies.get(owner)
     if body is None:
-        sprung = any(isinstance(one, Spring) and one.name == owner for one in model.connections)
-        return Acts(frozenset((SPRINGS,))) if sprung and key in ("stiffness", "damping", "length") else None
+        return _of_connection(model, owner, key)
     if key in MOTION and not model.fluids:
         return Acts()
     if isinstance(body, PointMass):
@@ -58,6 +58,15 @@ def acts_of(model: Model, name: str) -> Acts | None:
     everything |= _wet(model)
     moves = any(getattr(one, way, None) is not None for one in model.supports for way in MOTIONS)
     return Acts(everything, weighs=True, moves=moves, shapes=True) if key == "length" else None
+
+
+def _of_connection(model: Model, owner: str, key: str) -> Acts | None:
+    """The same of a number of a connection."""
+    found = next((one for one in model.connections if one.name == owner), None)
+    if isinstance(found, Spring) and key in ("stiffness", "damping", "length"):
+        return Acts(frozenset((SPRINGS,)))
+    smooth = isinstance(found, SurfaceContact) and found.friction == 0.0
+    return Acts(frozenset((PRESSING,))) if smooth and key in ("stiffness", "damping", "radius") else None
 
 
 def _wet(model: Model) -> frozenset[str]:

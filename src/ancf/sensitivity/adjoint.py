@@ -36,8 +36,10 @@ from .weighed import Weighed
 
 #: Bytes of states up to which all are kept and no step is taken again, and those of a block.
 KEPT, BLOCK = 320e6, 8e6
-#: Change of an unknown, in its own size, of the differences of what is asked.
-MOVED = 1e-4
+#: Change of an unknown, in its own size, of the differences of what is asked; and of what has no smooth zero,
+#: as the size of a bend has none.
+MOVED, FINELY = 1e-4, 1e-6
+FINE = {"curvature", "bending_moment"}
 #: Answers that nothing but the state and the shape functions has a part in.
 SHAPES = ("position", "velocity", "slope")
 PLACES = ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12))
@@ -369,19 +371,27 @@ class Adjoint:
             slope = slopes[key].reshape(len(q), -1)
             made += (slope @ units.reshape(-1, slope.shape[1]).T).reshape(made.shape)
         others = [key for key in slopes if key not in self._linear]
-        if not others:
-            return made
+        fine = [key for key in others if key[0] in FINE]
+        for keys, moved in (([key for key in others if key not in fine], MOVED), (fine, FINELY)):
+            if keys:
+                self._add_wanted(q, v, {key: slopes[key] for key in keys}, moved, made)
+        return made
+
+    def _add_wanted(
+        self, q: FloatArray, v: FloatArray, slopes: dict[Any, FloatArray], moved: float, made: FloatArray
+    ) -> None:
+        """Add those by answers that are differentiated by differences."""
+        keys = list(slopes)
         weight = np.ones(q.shape[1])
         weight[: self.system.n] = self.system.core.weight
-        here = self.asked(Face(self.system, q, v, 0.0), others)  # what does not change leaves no round-off
+        here = self.asked(Face(self.system, q, v, 0.0), keys)  # what does not change leaves no round-off
         for k, x in enumerate((q, v)):
             for n, i in enumerate(self.unknowns.tolist()):
-                e, before = MOVED / (weight[i] if weight[i] > 0.0 else 1.0), x[:, i].copy()
+                e, before = moved / (weight[i] if weight[i] > 0.0 else 1.0), x[:, i].copy()
                 for place, w in PLACES:
                     x[:, i] = before + place * e
-                    found = self.asked(Face(self.system, q, v, 0.0), others)
-                    for key in others:
+                    found = self.asked(Face(self.system, q, v, 0.0), keys)
+                    for key in keys:
                         change = (w / e * slopes[key] * (found[key] - here[key])).reshape(len(q), -1)
                         made[:, k, n] += change.sum(axis=1)
                 x[:, i] = before
-        return made

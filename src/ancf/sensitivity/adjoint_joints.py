@@ -27,7 +27,7 @@ from .start import Start
 LEVELS = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 
 #: Batches whose forces begin from one step to the next, and may be stiff.
-SUDDEN = {"contacts", "ground"}
+SUDDEN = {"contacts", "ground", "pressing"}
 
 
 class JoinedAdjoint(Adjoint):

@@ -8,12 +8,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..connections.spring_build import renumbered, springs
+from ..contact.build import renumbered as touching
 from ..elements.registry import ELEMENTS as ELEMENTS_OF
 from ..elements.registry import offered
 from ..loads.fluid import renumbered as in_fluids
 from ..model.beam import Beam
 from ..model.model import Model
 from ..model.points import Point
+from ..model.surfaces import SurfaceContact
 from .compile import Parts, beams_by_kind, bind_parts, build_bodies, build_slides, has_mass_of_its_own
 from .inputs import Inputs
 from .probe import Probe, locate
@@ -21,13 +23,14 @@ from .supports import collect
 from .system import System
 
 #: Parts that can be made alone: elements, as one.
-ELEMENTS, SPRINGS, BODIES, SLIDES, FLUIDS = "elements", "springs", "bodies", "slides", "fluid"
+ELEMENTS, SPRINGS, BODIES, SLIDES = "elements", "springs", "bodies", "slides"
+FLUIDS, PRESSING = "fluid", "pressing"
 
 
 class Acts(NamedTuple):
     """What of a system a number of a model acts on, besides the initial shape and motion."""
 
-    parts: frozenset[str] = frozenset()  # ELEMENTS, SPRINGS, BODIES, SLIDES, FLUIDS
+    parts: frozenset[str] = frozenset()  # ELEMENTS, SPRINGS, BODIES, SLIDES, FLUIDS, PRESSING
     weighs: bool = False  # dead loads
     moves: bool = False  # places and axes of supports
     shapes: bool = False  # shape functions, and where points are on their bodies
@@ -67,6 +70,9 @@ def _renumbered(system: System, model: Model, acts: Acts) -> Parts:
         found |= {kind: _elements(system, kind, beams) for kind, beams in _others(system, model).items()}
     if SPRINGS in acts.parts and SPRINGS in system.parts and not acts.shapes:
         found[SPRINGS] = renumbered(system.parts[SPRINGS], system.model, model)
+    if PRESSING in acts.parts:
+        items = [one for one in model.connections if isinstance(one, SurfaceContact)]
+        found[PRESSING] = touching(system.parts[PRESSING], items)
     if FLUIDS in acts.parts:
         found[FLUIDS] = in_fluids(system.parts[FLUIDS], model, _finder(system) if acts.shapes else None)
     return found
