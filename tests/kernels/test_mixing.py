@@ -33,3 +33,21 @@ def test_they_end(stiff, rows, multipliers):
     wanted = np.linalg.solve(np.eye(2 * n) + M, b)
     assert np.max(np.abs(x - wanted)) < 1e-15 * max(stiff, 1.0) ** 2 + 1e-12 * np.max(np.abs(wanted))
     assert np.max(np.abs(g[2:] - T @ x)) < 1e-11 * max(stiff, 1.0)
+
+
+@pytest.mark.parametrize("noise", [1e-16, 1e-15, 7e-15])
+def test_round_off_leads_nowhere(noise):
+    """Corrections in the last digits, all but the same: what tells them apart is none that x could follow."""
+    n, rng = 6, np.random.default_rng(5)
+    x = rng.uniform(0.5, 1.0, 2 * n)
+    x[0] = 0.0
+    wanted, room, scale, g = x.copy(), np.zeros((ROOM, n)), np.zeros(3), np.zeros((OF_X, n))
+    for turn in range(8):
+        room[:2] = x.reshape(2, n)
+        g[:2] = (x + noise * rng.choice([-1.0, 1.0], 2 * n)).reshape(2, n)
+        g[0, 0] = x[0] + noise * (1.0 + 1e-14 * turn)
+        if turn > 0:
+            g[:2].flat[1:] = x[1:]
+        mix(np.zeros(n), g, room, scale, turn)
+        x = g[:2].ravel().copy()
+    assert np.max(np.abs(x - wanted)) < 100 * noise

@@ -20,6 +20,8 @@ ROOM = MIXED + OF_X
 #: Corrections after which those that do not shrink may be round-off; part of what is solved for below which
 #: what is left of it is that.
 MANY, NOTHING = 5, 1e-13
+#: Changes of corrections, in what they are measured in, that are round-off of x and lead nowhere.
+UNSEEN = 1e-15
 
 
 @formula
@@ -101,7 +103,7 @@ def mixed(mask, g, room, scale, round):
                     add(f, room[o : o + OF_C], dc)
                     add(f, room[o + OF_C : o + OF_C + OF_X], dg)
         size = weighed(mask, scale, dc, dc)
-        f = 1.0 / size**0.5 if size > 0.0 else 0.0
+        f = 1.0 / size**0.5 if size > UNSEEN * UNSEEN else 0.0
         for i in range(dc.shape[1]):
             for k in range(OF_C):
                 dc[k, i] *= f
