@@ -235,11 +235,26 @@ def test_damped_torsion_springs(damping):
     )
 
 
+@pytest.mark.parametrize("damping", [30.0, 0.0])
 @pytest.mark.parametrize("quantity", ["contact_force", "contact_gap"])
-def test_what_is_asked_of_contacts(quantity, monkeypatch):
-    """It depends on all that may touch: sensitivities along the run know it."""
+def test_what_is_asked_of_contacts(quantity, damping, monkeypatch):
+    """It depends on all that may touch: sensitivities along the run know it, also where it grazes."""
     monkeypatch.setattr("ancf.design.gradient._forward", forwards)
-    model, text, names = contact_line(), f"integral({quantity}(strip)**2)", ["head.mass", "lift.stiffness"]
+    model, text = contact_line(damping=damping), f"integral({quantity}(strip)**2)"
+    names = ["head.mass", "lift.stiffness", "strip.stiffness"]
     _, slope = ancf.gradient(model, text, names, **settings())
-    assert min(abs(slope[name]) for name in names) > 0.0
     assert apart(model, slope, forward(model, text, names, **settings())) < 1e-12
+    assert apart(model, slope, differences(model, text, names, 1e-5, **settings())) < 3e-7
+
+
+@pytest.mark.parametrize("stiffness", [5e3, 5e4])
+@pytest.mark.parametrize("damping", [30.0, 0.0])
+def test_forwards_where_a_head_grazes_the_wire(damping, stiffness):
+    """In some steps less than a micrometre parts them, over which no difference may reach."""
+    model, text = (
+        contact_line(stiffness, damping),
+        "last(position(head)[2]) + integral(norm(velocity(head))**2)",
+    )
+    names = ["head.mass", "strip.stiffness", "wire.EA"]
+    wanted = differences(model, text, names, 1e-6, **settings())
+    assert apart(model, forward(model, text, names, **settings()), wanted) < 1e-6

@@ -86,7 +86,10 @@ def read() -> list[Mutant]:
     """All mutants in the order of the files."""
     found = []
     for path in sorted((HERE / "lists").glob("*.toml")):
-        entries = tomllib.loads(path.read_text(encoding="utf-8"))["mutant"]
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+        entries = content.pop("mutant")
+        if content:  # it would never run
+            raise ValueError(f"{path.name}: unknown {', '.join(content)}: each mutant is a [[mutant]]")
         found += [Mutant(**{**entry, "tests": tuple(entry["tests"])}) for entry in entries]
     return found
 

@@ -13,7 +13,7 @@ from ..solvers.sampling import sample_rows, sample_slopes, sampling_of
 from ..solvers.sensitivity import LEAST
 from ..system.sensors import Listing
 from ..system.system import System
-from .answers import MOVED, PLACES, Face, in_motion, is_linear, text_of
+from .answers import MOVED, PLACES, Face, derivative, in_motion, is_linear, text_of
 from .family import Family
 
 #: Change of the state of the differences of contact forces, m, and of velocities, m/s.
@@ -151,10 +151,13 @@ class SensorSensitivity:
             return np.asarray(total + question(self._with(self._family.base, now | d)))
         for key in d:
             size = float(np.max(np.abs(d[key]), initial=0.0))
-            for x, w in PLACES if size > LEAST else ():
-                e = MOVED / size
-                moved = now | {key: now[key] + x * e * d[key]}
-                total = total + w / e * np.asarray(question(self._with(self._family.base, moved)))
+            if size > LEAST:
+
+                def moved(x: float, key: str = key) -> FloatArray:
+                    near = now | {key: now[key] + x * d[key]}
+                    return np.asarray(question(self._with(self._family.base, near)), dtype=np.float64)
+
+                total = total + derivative(moved, MOVED / size)
         found: FloatArray = np.asarray(total)
         return found
 

@@ -66,7 +66,7 @@ class Matrices(NamedTuple):
     damped: bool  # C is not zero
     moved: float  # change of a state, in sizes of the model, of differences
     work: FloatArray  # (10, size)
-    near: FloatArray  # (4, unknowns) of what rough batches touch: unknown, s_q, s_v, s_a
+    near: FloatArray  # (7, unknowns) of what rough batches touch: unknown, s_q, s_v, s_a, and differences
     along: FloatArray  # (3, size, 8) and (size, 8) directions of joints, and what comes of them; of no joint
     found: FloatArray  # (0, 0, 8) and (0, 8)
     alpha: FloatArray  # of rows of joints with such, see joint, (k,)
