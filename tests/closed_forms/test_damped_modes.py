@@ -74,7 +74,9 @@ def test_shaft_splits_its_frequencies(diameter, rate):
     found = found[np.argsort(np.abs(np.abs(found) - exact[1]))[:2]]
     assert np.sort(found) == pytest.approx(exact, rel=4e-3)  # shear, which Rayleigh leaves out
     assert found.sum() == pytest.approx(exact.sum(), rel=0.02)  # the split, by gyroscopic moments alone
-    assert np.abs(modes.eigenvalues.real[2:6]).max() < 1e-9 * rate  # behind the two neutral ones
+    assert modes.eigenvalues[0] == 0.0  # it turns freely
+    assert np.all(modes.eigenvalues[1:6].imag > 0.0)
+    assert np.abs(modes.eigenvalues.real[1:6]).max() < 1e-9 * rate
 
 
 @pytest.mark.parametrize("rate", [20.0, 60.0])
@@ -253,13 +255,13 @@ def test_column_flutters():
 
 
 def in_bearings(rate, hold, mass=5.0, polar=0.05, across=0.03):
-    """Lowest four modes of a rigid rotor about x whose bearings, at x = 0.2 and -0.2 m, ``hold`` makes."""
+    """Lowest six modes of a rigid rotor about x whose bearings, at x = 0.2 and -0.2 m, ``hold`` makes."""
     model = ancf.Model()
     rotor = model.add_rigid_body("rotor", at=(0, 0, 0), mass=mass, inertia=(polar, across, across))
     rotor.set_motion(angular_velocity=(rate, 0, 0))
     for x in (-0.2, 0.2):
         hold(model, rotor, x)
-    return ancf.damped_modes(model, count=4)
+    return ancf.damped_modes(model, count=6)
 
 
 def between_springs(model, rotor, x, stiffness=(1e4, 1e4), damping=10.0):
@@ -274,6 +276,46 @@ def in_a_law(model, rotor, x):
     model.add_force(rotor.at(x, 0, 0), ["0", "-2e4*y - 20*vy", "-2e4*z - 20*vz"])
 
 
+@pytest.mark.parametrize(
+    ("element", "neutral"), [("cable", 5), ("original", 6), ("nonlocking", 6), ("mass", 3)]
+)
+@pytest.mark.parametrize("damping", [0.0, 1e-4])
+def test_what_nothing_holds_has_its_rigid_motions(element, neutral, damping):
+    """Once each, with the value zero, whatever else is asked for; what resists them creeps to a rest.
+
+    A damped motion x'' = -c x' has the values 0 and -c: the damping of a section is one of mass.
+    """
+    model = ancf.Model()
+    if element == "mass":
+        body = model.add_point_mass("p", at=(1, 0, 0), mass=2.0)
+    else:
+        section = ancf.Section.circle(diameter=0.01, E=2e11, rho=7850, nu=0.3, damping=damping)
+        body = model.add_beam(
+            "b", start=(0, 0, 0), end=(1, 0.2, 0.3), elements=3, section=section, element=element
+        )
+    for count in {1, 2, neutral}:
+        modes = ancf.damped_modes(model, count=count)
+        assert np.all(modes.eigenvalues == 0.0)
+        assert len(modes.eigenvalues) == count
+    where = body if element == "mass" else body.at(0.3)
+    moved = np.vstack([modes.position(where), np.zeros((0, 3))])
+    assert np.linalg.matrix_rank(moved.real, tol=1e-6 * np.abs(moved).max()) == 3
+    if element != "mass":
+        assert ancf.damped_modes(model, count=neutral + 2).eigenvalues[neutral:].imag.min() > 10.0
+
+
+@pytest.mark.parametrize("resistance", [1e-3, 0.5, 40.0])
+@pytest.mark.parametrize("mass", [0.2, 3.0])
+def test_what_is_braked_has_two_values(mass, resistance):
+    """m x'' + c x' = 0 along x: 0 and -c/m, however small beside the spring across."""
+    model = ancf.Model()
+    body = model.add_point_mass("p", at=(1, 0, 0), mass=mass)
+    model.add_force(body, [f"-{resistance}*vx", "-1e5*y", "-1e5*z"])
+    found = ancf.damped_modes(model, count=3).eigenvalues
+    assert found[:2] == pytest.approx([0.0, -resistance / mass], rel=1e-6, abs=0.0)
+    assert found[2:] == pytest.approx(1j * np.sqrt(1e5 / mass), rel=1e-6)
+
+
 @pytest.mark.parametrize("hold", [between_springs, in_a_law])
 @pytest.mark.parametrize("rate", [10.0, 200.0])
 def test_dampers_of_bearings_stand_still(hold, rate):
@@ -284,7 +326,9 @@ def test_dampers_of_bearings_stand_still(hold, rate):
     modes = in_bearings(rate, hold)
     k, c, arm = 4e4, 40.0, 0.04
     at_rest = np.concatenate([np.roots([5.0, c, k]), np.roots([0.03, c * arm - 1j * rate * 0.05, k * arm])])
-    found = modes.eigenvalues
+    found = modes.eigenvalues[2:]
+    assert np.all(modes.eigenvalues[:2] == 0.0)  # along the axis and about it
+    assert len(found) == 4
     for value in at_rest - 1j * rate:  # in axes that turn; of a pair that above the axis
         wanted = value if value.imag >= 0 else value.conjugate()
         near = found[np.argmin(np.abs(found - wanted))]

@@ -89,7 +89,7 @@ class DampedModes(Readable):
     Parameters
     ----------
     eigenvalues : ndarray of complex, shape (count,)
-        1/s, ascending by size.
+        1/s, ascending by size; 0 first, once for each neutral motion.
     shapes : ndarray of complex, shape (count, size)
         State vectors of the shapes.
     whirl : ndarray, shape (count,)
