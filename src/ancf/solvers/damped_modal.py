@@ -265,7 +265,8 @@ def _is_neutral(
 ) -> np.ndarray:
     """Whether damping and inertia of each motion are no larger than the round-off of its stiffness.
 
-    The stiffness is a sum of ``terms`` that cancel. A double zero comes out to half of the digits, as two values of either sign or as a pair.
+    The stiffness is a sum of ``terms`` that cancel. A double zero comes out to half of the digits, as two
+    values of either sign or as a pair.
     """
 
     def of(A: FloatArray, x: ComplexArray) -> FloatArray:
