@@ -113,7 +113,7 @@ def test_chains_and_bodies_are_found_as_point_masses(length):
     assert abs(ancf.equilibrium(model).position(body.centre)[2] - expected) < 1e-6
 
 
-@pytest.mark.parametrize("length", [59.92, 60.3])
+@pytest.mark.parametrize("length", [pytest.param(59.92, marks=pytest.mark.slow), 60.3])
 @pytest.mark.parametrize(
     ("force", "hold", "said"),
     [
