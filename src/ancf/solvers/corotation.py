@@ -59,15 +59,13 @@ def allocate(
     still[held] = True
     joined = np.zeros(max(size, 1 + int(np.max(attached, initial=0))), dtype=np.bool_)
     joined[attached[attached >= 0]] = True
-    ends = np.zeros(size, dtype=np.int64)
+    ends = np.bincount(np.concatenate([np.zeros(0, dtype=np.int64), *[s[:, 0] for s in slots]]))
+    nodes: dict[int, list[IntArray]] = {}
     for s in slots:
-        np.add.at(ends, s[:, 0], 1)
-    nodes: list[IntArray] = []
-    for s in slots:
-        count_held = still[s[:, :, None] + np.arange(3)].sum(axis=2)
-        fixed = ((count_held == 1) | (count_held == 2)).any(axis=1)
-        nodes += list(s[~fixed & ~joined[s].any(axis=1) & (ends[s[:, 0]] < 2)])
-    chunks = _chunks(nodes)
+        count_held = still[s] + 0 + still[s + 1] + still[s + 2]
+        turns = ((count_held == 0) | (count_held == 3)) & ~joined[s]
+        nodes.setdefault(s.shape[1], []).append(s[turns.all(axis=1) & (ends[s[:, 0]] < 2)])
+    chunks = _chunks({vectors: np.concatenate(found) for vectors, found in nodes.items()})
     every = np.concatenate([np.zeros((0, LANES), dtype=np.int64), *[c for c, _ in chunks]])
     first = np.cumsum([0, *[len(c) for c, _ in chunks]]).astype(np.int64)
     places = np.zeros((every.size, 0), dtype=np.int64) if tail is None else tail(every.ravel())
@@ -98,11 +96,13 @@ def _under(places: IntArray, first: IntArray) -> tuple[IntArray, int]:
     return under, begin
 
 
-def _chunks(nodes: list[IntArray]) -> list[tuple[IntArray, int]]:
-    """Slots of LANES nodes at a time, (vectors, LANES), and how many nodes there are."""
+def _chunks(nodes: dict[int, IntArray]) -> list[tuple[IntArray, int]]:
+    """Slots of LANES nodes at a time, (vectors, LANES), and how many nodes there are.
+
+    Those of the nodes are (nodes, vectors), by their vectors.
+    """
     found = []
-    for vectors in sorted({len(node) for node in nodes}):
-        alike = np.array([node for node in nodes if len(node) == vectors], dtype=np.int64)
+    for _, alike in sorted(nodes.items()):
         for start in range(0, len(alike), LANES):
             part = alike[start : start + LANES]
             repeated = np.minimum(np.arange(LANES), len(part) - 1)
