@@ -316,6 +316,16 @@ def test_what_is_braked_has_two_values(mass, resistance):
     assert found[2:] == pytest.approx(1j * np.sqrt(1e5 / mass), rel=1e-6)
 
 
+@pytest.mark.parametrize("stiffness", [1.0, 1e-3])
+def test_what_creeps_is_not_neutral(stiffness):
+    """c x' + k x = 0 in honey: -k/c, of which inertia is no part."""
+    model = ancf.Model()
+    body = model.add_point_mass("p", at=(1, 0, 0), mass=1e-3)
+    model.add_force(body, [f"-1e6*vx - {stiffness}*(x - 1)", "-1e5*y", "-1e5*z"])
+    found = ancf.damped_modes(model, count=1).eigenvalues[0]
+    assert found == pytest.approx(-1e-6 * stiffness, rel=1e-6, abs=0.0)
+
+
 @pytest.mark.parametrize("hold", [between_springs, in_a_law])
 @pytest.mark.parametrize("rate", [10.0, 200.0])
 def test_dampers_of_bearings_stand_still(hold, rate):

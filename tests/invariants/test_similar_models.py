@@ -1,7 +1,9 @@
-"""Similar models have similar equilibria, from micrometres to kilometres.
+"""Similar models have similar equilibria and motions, from micrometres to kilometres.
 
 With lengths times s, masses and stiffnesses as of the same materials (EA and rhoA with s^2, EI with s^4) and
 gravity times 1/s, all forces go with s^2 and all shapes with s.
+
+Motions are similar for any units of length, time and mass: every number is that of one model in other units.
 """
 
 import numpy as np
@@ -59,3 +61,116 @@ def test_equilibria_are_similar(build):
         found[s] = ancf.equilibrium(model).position("body") / s
     for s in SIZES:
         np.testing.assert_allclose(found[s], found[1.0], rtol=0, atol=1e-9)
+
+
+class Units:
+    """Numbers of a model in units so many times smaller: lengths, times and masses."""
+
+    def __init__(self, length=1.0, time=1.0, mass=1.0):
+        self.of = length, time, mass
+        self.model = ancf.Model(gravity=(0, 0, self(-9.81, 1, -2)))
+
+    def __call__(self, number, length=0, time=0, mass=0):
+        powers = (length, time, mass)
+        return np.asarray(number) * np.prod([u**p for u, p in zip(self.of, powers, strict=True)])
+
+    def beam(self, element, start, end, **given):
+        if element == "cable":
+            section = ancf.Section(
+                EA=self(5e3, 1, -2, 1), EI=self(0.4, 3, -2, 1), rhoA=self(1.2, -1, 0, 1), **given
+            )
+        else:
+            sides = self(0.04, 1), self(0.05, 1)
+            section = ancf.Section.rectangle(
+                *sides, E=self(2.5e6, -1, -2, 1), rho=self(900.0, -3, 0, 1), nu=0.3, **given
+            )
+        ends = {"start": self(start, 1), "end": self(end, 1)}
+        return self.model.add_beam("beam", **ends, elements=4, section=section, element=element)
+
+    def body(self, at, name="body"):
+        inertia = self([0.01, 0.012, 0.015], 2, 0, 1)
+        return self.model.add_rigid_body(name, at=self(at, 1), mass=self(0.3, 0, 0, 1), inertia=inertia)
+
+    def spring(self, a, b, stiffness=40.0):
+        given = {"stiffness": self(stiffness, 0, -2, 1), "damping": self(0.1, 0, -1, 1)}
+        self.model.add_spring(a, b, length=self(0.2, 1), **given)
+
+
+def clamped_to_body(u, element, stretch="fixed"):
+    beam, body = u.beam(element, (0, 0, 0), (1.5, 0.2, 0.1)), u.body((1.6, 0.25, 0.0))
+    u.model.clamp(beam.start)
+    u.model.clamp(beam.end, to=body, stretch=stretch)
+    return beam.end, body.at(*u((0.1, 0.05, 0), 1))
+
+
+def hinged_to_body(u, element):
+    beam, body = u.beam(element, (0, 0, 0), (1.5, 0.2, 0.1)), u.body((1.6, 0.3, -0.2))
+    u.model.clamp(beam.start)
+    u.model.hinge(beam.end, body.at(*u((-0.1, -0.1, 0.3), 1)), axis=(0.3, 1.0, 0.2))
+    return beam.end, body.at(*u((0.1, 0, 0), 1))
+
+
+def pulled(u, join):
+    """A body on a joint to the ground, or to another one, and a spring beside it."""
+    one, two = u.body((0, 0, 0)), u.body((0.9, 0.1, 0.05), "two")
+    u.model.connect(one.at(*u((-0.2, 0.1, 0.3), 1)), u((-0.2, 0.1, 0.3), 1))
+    join(u.model, one.at(*u((0.5, 0.1, 0), 1)), two.at(*u((-0.4, 0, -0.05), 1)))
+    u.spring(two.at(*u((0.2, 0.1, 0), 1)), u((1.2, 0.4, 0.5), 1))
+    return one.centre, two.at(*u((0.3, 0.2, 0.1), 1))
+
+
+AXIS = (0.3, -0.2, 1.0)
+JOINED = {
+    "hinge": lambda m, a, b: m.hinge(a, b, axis=AXIS),
+    "universal": lambda m, a, b: m.universal(a, b, axis_a=AXIS, axis_b=(1.0, 1.5, 0.0)),
+    "cylindrical": lambda m, a, b: m.cylindrical(a, b, axis=AXIS),
+    "prismatic": lambda m, a, b: m.prismatic(a, b, axis=AXIS),
+    "planar": lambda m, a, b: m.planar(a, b, axis=AXIS),
+    "spherical": lambda m, a, b: m.connect(a, b),
+}
+MOVED = {f"two bodies, {name}": (lambda u, join=join: pulled(u, join)) for name, join in JOINED.items()}
+MOVED |= {
+    f"{name} on a body": (lambda u, e=name: clamped_to_body(u, e)) for name in ("original", "nonlocking")
+}
+MOVED |= {
+    f"{name} on a hinge": (lambda u, e=name: hinged_to_body(u, e)) for name in ("original", "nonlocking")
+}
+MOVED |= {"cable on a body": lambda u: clamped_to_body(u, "cable", "free")}
+METHODS = {"index 2": {}, "GGL": {"formulation": "ggl"}, "index 1": {"formulation": "index1"}}
+
+
+def moved(units, build, method):
+    u = Units(*units)
+    points = build(u)
+    given = {"t_end": float(u(0.12, 0, 1)), "step": float(u(2e-3, 0, 1))}
+    ran = ancf.simulate(u.model, integrator=ancf.Trapezoidal(**method), **given)
+    return [ran.position(point) / units[0] for point in points]
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("build", MOVED)
+def test_units_change_no_motion(build, method):
+    """Small bodies lost the digits of their inertia to rows of joints that were scaled in kg, not kg m^2."""
+    wanted = moved((1.0, 1.0, 1.0), MOVED[build], METHODS[method])
+    for units in ((1e-5, 1.0, 1.0), (1e-2, 1e2, 1e-3), (1e4, 1.0, 1.0)):
+        for mine, theirs in zip(moved(units, MOVED[build], METHODS[method]), wanted, strict=True):
+            np.testing.assert_allclose(mine, theirs, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("build", [name for name in MOVED if "prismatic" not in name])
+def test_units_change_no_modes(build):
+    """Places and directions are measured by their masses where rows of joints are eliminated.
+
+    The body on the prismatic joint has two equilibria, between which round-off decides.
+    """
+    found = []
+    for units in ((1.0, 1.0, 1.0), (1e-5, 1.0, 1.0), (1e-2, 1e2, 1e-3), (1e5, 1.0, 1.0)):
+        u = Units(*units)
+        MOVED[build](u)
+        state = ancf.equilibrium(u.model)
+        plain = ancf.modes(u.model, about=state, count=4).frequencies
+        damped = ancf.damped_modes(u.model, about=state, count=4).eigenvalues
+        found.append(np.concatenate([plain, np.abs(damped)]) * units[1])
+    for mine in found[1:]:
+        np.testing.assert_allclose(mine, found[0], rtol=1e-7)

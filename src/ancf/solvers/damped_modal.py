@@ -19,12 +19,14 @@ from ..batches import Batches
 from ..elements.cable import CableBatch
 from ..elements.solid import SolidBatch
 from ..errors import SolveError
-from ..later import coo_array, csc_array, eig, null_space
+from ..later import coo_array, csc_array
 from ..linalg.sparse import to_sparse
 from ..model.winch import Winch
 from ..system.contacts import touching
 from ..system.core import apply_load, assemble, follow_supports, residual
 from ..system.system import System
+from .modal import motions
+from .quadratic import lowest
 from .standing import Standing, vectors_and_arms
 
 MANY = 1500  # unknowns, as all of it is dense
@@ -34,9 +36,6 @@ BALANCED = 1e-7  # forces that are left, of the largest
 ALIKE = 1e-4  # derivatives of forces that change when the model is turned, of the largest
 ROUNDED = 32.0 * np.finfo(float).eps  # of stiffness times place: what round-off leaves of elastic forces
 ROUNDS = 30  # of Newton's method
-SHIFT = 1e-6  # of a mean frequency: about what eigenvalues are found
-NEUTRAL = 256.0 * np.finfo(float).eps  # of the stiffnesses that cancel: what is zero
-SAME = 1e-3  # by which motions differ that are one
 TURN = 0.3  # rad, by which a model is turned to see whether it turns freely
 
 ComplexArray = np.ndarray
@@ -96,7 +95,10 @@ class Damped:
         return found
 
     def matrices(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Mass, damping with the gyroscopic part, stiffness with the centrifugal one, constraints."""
+        """Mass, damping with the gyroscopic part, stiffness with the centrifugal one, constraints.
+
+        Leaves the sizes of what cancels in the stiffness in ``terms``.
+        """
         f = self.free
         stiffness, damping = self.standing.beyond(self.q)
         system = self.system
@@ -107,7 +109,10 @@ class Damped:
         resisting = self._whole(0.0, 1.0, 0.0) + csc_array(damping) + touches.brakes()
         M = self._part(self.M, f, f)
         D = self._part(csc_array(resisting + 2.0 * (self.M @ self.W)), f, f)
-        turned = self._part(csc_array(K + self.M @ self.W @ self.W), f, f)
+        centrifugal = self.M @ self.W @ self.W
+        turned = self._part(csc_array(K + centrifugal), f, f)
+        across = abs(self.axes)
+        self.terms = csc_array(across.T @ (abs(K) + abs(centrifugal)) @ across)[f][:, f].toarray()
         return M, D, turned, self._part(K, self.lam, f)
 
     def _forces(self) -> tuple[FloatArray, float, FloatArray]:
@@ -227,69 +232,16 @@ def damped_modes_about(
     """
     made = Damped(system, q, v, time)
     M, D, K, C = made.matrices()
-    Z = null_space(C) if len(C) else np.eye(len(M))
-    M, D, K = Z.T @ M @ Z, Z.T @ D @ Z, Z.T @ K @ Z
-    values, vectors = _lowest(M, D, K, count)
+    Z = motions(C, np.diag(M).copy()) if len(C) else np.eye(len(M))
+    values, vectors = lowest(M, D, K, Z, made.terms, count)
     shapes = np.zeros((len(values), system.size), dtype=complex)
-    shapes[:, made.free] = (Z @ vectors).T
+    shapes[:, made.free] = vectors.T
     for shape in shapes:
         for part in (shape.real, shape.imag):
             whole, zero = np.ascontiguousarray(part), np.zeros(system.size)
             follow_supports(system.core.supports, whole, zero, zero.copy())
             part[:] = whole
     return values, shapes, _whirl(made, shapes), made.spin, made.q
-
-
-def _lowest(M: FloatArray, D: FloatArray, K: FloatArray, count: int) -> tuple[ComplexArray, ComplexArray]:
-    """Eigenvalues next to zero of l^2 M + l D + K, of conjugate pairs one, by the inverse about a shift.
-
-    Neutral motions come first, each once and with the value zero.
-    """
-    n = len(M)
-    sigma = SHIFT * float(np.sqrt(np.abs(K).sum() / np.abs(M).sum()) or 1.0)
-    A = np.block([[np.zeros((n, n)), np.eye(n)], [-K, -D]])
-    B = np.block([[np.eye(n), np.zeros((n, n))], [np.zeros((n, n)), M]])
-    mu, vectors = eig(np.linalg.solve(A - sigma * B, B))
-    finite = np.flatnonzero(np.abs(mu) > 1e-14 * np.max(np.abs(mu)))
-    values, shapes = sigma + 1.0 / mu[finite], vectors[:n, finite]
-    neutral = _is_neutral(M, D, np.abs(K) + sigma**2 * np.abs(M), values, shapes)
-    still = _independent(M, shapes[:, neutral])
-    upper = np.flatnonzero(~neutral & (values.imag > -1e-9 * np.abs(values)))
-    order = upper[np.argsort(np.abs(values[upper]), kind="stable")]
-    found = np.concatenate([np.zeros(still.shape[1]), values[order]])
-    return found[:count], np.hstack([still, shapes[:, order]])[:, :count]
-
-
-def _is_neutral(
-    M: FloatArray, D: FloatArray, terms: FloatArray, values: ComplexArray, shapes: ComplexArray
-) -> np.ndarray:
-    """Whether damping and inertia of each motion are no larger than the round-off of its stiffness.
-
-    The stiffness is a sum of ``terms`` that cancel. A double zero comes out to half of the digits, as two
-    values of either sign or as a pair.
-    """
-
-    def of(A: FloatArray, x: ComplexArray) -> FloatArray:
-        found: FloatArray = np.abs(np.sum(x.conj() * (A @ x), axis=0))
-        return found
-
-    own = np.abs(values) * of(D, shapes) + np.abs(values) ** 2 * of(M, shapes)
-    neutral: np.ndarray = own <= NEUTRAL * of(terms, np.abs(shapes))
-    return neutral
-
-
-def _independent(M: FloatArray, shapes: ComplexArray) -> FloatArray:
-    """Real motions that span those given, each of kinetic energy 1/2 at the speed 1."""
-    both = np.hstack([shapes.real, shapes.imag])
-    if not both.size:
-        return np.zeros((len(M), 0))
-    energy = np.sum(both * (M @ both), axis=0)
-    both = both[:, energy > SAME**2 * np.max(energy)]
-    both /= np.sqrt(np.sum(both * (M @ both), axis=0))
-    squares, mixed = np.linalg.eigh(both.T @ M @ both)
-    kept = squares > SAME**2 * squares[-1]
-    found: FloatArray = both @ (mixed[:, kept] / np.sqrt(squares[kept]))
-    return found
 
 
 def _whirl(made: Damped, shapes: ComplexArray) -> FloatArray:

@@ -74,7 +74,7 @@ def _eigen(K: csc_array, M: csc_array, C: csc_array, count: int) -> tuple[FloatA
     if m:
         if n > MANY:
             raise SolveError("modes", f"{n} unknowns with joints, the most are {MANY}", "take fewer elements")
-        Z = null_space(C.toarray())
+        Z = motions(C.toarray(), M.diagonal())
         K, M = csc_array(Z.T @ (K @ Z)), csc_array(Z.T @ (M @ Z))
         values, vectors = _eigen(K, M, csc_array((0, K.shape[0])), count)
         return values, Z @ vectors
@@ -93,6 +93,21 @@ def _eigen(K: csc_array, M: csc_array, C: csc_array, count: int) -> tuple[FloatA
         raise SolveError("modes", f"the iteration does not end: {error}", hint) from None
     order = np.argsort(values)
     return values[order], vectors[:, order]
+
+
+def motions(C: FloatArray, mass: FloatArray) -> FloatArray:
+    """A basis of the motions x with C x = 0, as columns, for unknowns with these entries of the mass matrix.
+
+    It is orthonormal when each unknown is measured by its own mass: places of a small body are much larger
+    than its directions, or much smaller, as the unit of lengths is, and the ones would leave nothing but
+    round-off of the others.
+    """
+    own = np.sqrt(mass)
+    own[own == 0.0] = np.max(own)
+    rows = C / own
+    rows /= np.linalg.norm(rows, axis=1, keepdims=True)
+    basis: FloatArray = null_space(rows) / own[:, None]
+    return basis
 
 
 def _below_all(K: csc_array, M: csc_array, shift: float) -> tuple[SuperLU, float]:

@@ -80,44 +80,81 @@ def share_scales(system: Any, like: Any) -> bool:
     return True
 
 
-def fastest(mass: FloatArray, stiffness: FloatArray) -> float:
-    """Largest ratio of the diagonal entries of two matrices, 1/s^2; without limit if there is none."""
-    both = (mass > 0.0) & (stiffness > 0.0)
-    return float(np.max(stiffness[both] / mass[both])) if np.any(both) else np.inf
-
-
 def set_scales(system: Any) -> None:
     """Give each row the mass and the stiffness of what it holds, to be multiplied with C_q^T C_q.
 
     Rows that hold nothing stiff, such as those that keep a rigid body rigid, have masses to be solved with in
     motion. A stiffness from elsewhere, or one of 1, would leave of the inertia of a small body nothing but
-    round-off: they take it at rest alone. There it makes nothing faster than what is fastest: directors have
-    no length, and a stiffness in N/m is too much for a body of millimetres.
+    round-off: they take it at rest alone. Rows of places have theirs in kg and N/m, those of directions in
+    kg m^2 and N m: what the one kind has is too much for the other in a body of millimetres.
     """
     core, batch = system.core, system.parts.get("joints")
     if batch is None:
         return
-    q = system.initial_shape()
+    q, is_place = system.initial_shape(), _place_unknowns(system)
+    row, slot, own, of_places = _entries(system, batch, is_place)
+    groups = _alike(system, batch, of_places)
     entries, columns = np.arange(system.n // 6)[:, None], 7 * np.arange(6)
-    row = np.repeat(np.arange(len(batch.unknown)), np.diff(batch.start))
-    slot = np.where(batch.slot < system.n, batch.slot, 0)
-    largest: list[float] = []
-    diagonals = []
+    largest = []
     for k, (c_mass, c_stiffness) in enumerate(((1.0, 0.0), (0.0, 1.0))):
         system.level[:] = 0.0
         assemble(core.batches, core.ws, q, np.zeros_like(q), core.A, c_mass, 0.0, c_stiffness)
         diagonal = np.abs(core.A[36 * entries + columns].ravel())
-        diagonals.append(diagonal)
-        found = batch.factor**2 * diagonal[slot[:, None] + np.arange(3)].max(axis=1)
-        np.maximum.at(batch.scale[:, k], row, found)
-        for unknowns in system.numbering.multipliers.values():  # a director may have no mass of its own
-            mine = np.isin(batch.unknown, unknowns)
-            if mine.any():
-                least = FLOOR * float(batch.scale[mine, k].max())
-                batch.scale[mine, k] = np.maximum(batch.scale[mine, k], least)
-        largest.append(float(batch.scale[:, k].max()) or float(diagonal.max()))
+        found = batch.factor[own] ** 2 * diagonal[slot[own, None] + np.arange(3)].max(axis=1)
+        np.maximum.at(batch.scale[:, k], row[own], found)
+        for mine in groups:  # a director may have no mass of its own
+            batch.scale[mine, k] = np.maximum(batch.scale[mine, k], FLOOR * batch.scale[mine, k].max())
+        there = (
+            (batch.scale[of_places, k], diagonal[is_place]),
+            (batch.scale[~of_places, k], diagonal[~is_place]),
+        )
+        places, directions = _of_both(
+            _first_positive(*there[0]), _first_positive(*there[1]), system.model.size
+        )
+        largest.append(np.where(of_places, places, directions))
     mass, held, at_rest = batch.scale.T
-    mass[mass == 0.0] = largest[0] or 1.0
-    elsewhere = np.minimum(largest[1], fastest(*diagonals) * mass) if largest[1] > 0.0 else mass
-    at_rest[:] = np.where(held > 0.0, held, elsewhere)
+    mass[mass == 0.0] = np.where(largest[0] > 0.0, largest[0], 1.0)[mass == 0.0]
+    at_rest[:] = np.where(held > 0.0, held, np.where(largest[1] > 0.0, largest[1], mass))
     system.level[:] = 1.0, 0.0, 0.0
+
+
+def _place_unknowns(system: Any) -> NDArray[np.bool_]:
+    """Mask of the unknowns that are components of places, (n,)."""
+    first = np.concatenate([slots[:, 0] for slots in system.numbering.slots.values()])
+    mask = np.zeros(system.n, dtype=bool)
+    mask[first[:, None] + np.arange(3)] = True
+    return mask
+
+
+def _entries(
+    system: Any, batch: Any, is_place: NDArray[np.bool_]
+) -> tuple[IntArray, IntArray, NDArray[np.bool_], NDArray[np.bool_]]:
+    """Rows and unknowns of all entries, which of them tell a row's mass, and which rows hold places.
+
+    A row that holds a place, in m, has the mass of places: directors on arms to it have moments of inertia,
+    and what is large of these depends on the unit of lengths.
+    """
+    row = np.repeat(np.arange(len(batch.unknown)), np.diff(batch.start))
+    turned = np.array([r.slot for r in system.constraints.rotations], dtype=np.int64)
+    slot = batch.slot.copy()
+    slot[slot >= system.n] = turned[(slot[slot >= system.n] - system.n) // 3]
+    of_places = np.zeros(len(batch.unknown), dtype=bool)
+    of_places[row[is_place[slot]]] = True
+    return row, slot, is_place[slot] | ~of_places[row], of_places
+
+
+def _alike(system: Any, batch: Any, of_places: NDArray[np.bool_]) -> list[NDArray[np.bool_]]:
+    """Rows of each joint that hold places, and those that hold directions: only such can be compared."""
+    whole = [np.isin(batch.unknown, unknowns) for unknowns in system.numbering.multipliers.values()]
+    parts = [mine & kind for mine in whole for kind in (of_places, ~of_places)]
+    return [mine for mine in parts if mine.any()]
+
+
+def _first_positive(*given: FloatArray) -> float:
+    """The largest of the first array of which something is positive, 0 if there is none."""
+    return next((float(x.max()) for x in given if x.max(initial=0.0) > 0.0), 0.0)
+
+
+def _of_both(places: float, directions: float, size: float) -> tuple[float, float]:
+    """Masses or stiffnesses of places and of directions; one that is missing by the other and a length."""
+    return places or directions / size**2, directions or places * size**2

@@ -1,0 +1,83 @@
+"""Eigenvalues of l^2 M + l D + K next to zero, and what of them is zero but for round-off."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..later import eig
+
+SHIFT = 1e-6  # of a mean frequency: about what eigenvalues are found
+NEUTRAL = 256.0 * np.finfo(float).eps  # of the stiffnesses that cancel: what is zero
+SAME = 1e-3  # by which motions differ that are one
+
+ComplexArray = np.ndarray
+
+
+def lowest(
+    M: FloatArray, D: FloatArray, K: FloatArray, Z: FloatArray, terms: FloatArray, count: int
+) -> tuple[ComplexArray, ComplexArray]:
+    """Eigenvalues next to zero of l^2 M + l D + K among the motions Z y, of conjugate pairs one.
+
+    By the inverse about a shift. Neutral motions come first, each once and with the value zero.
+
+    Parameters
+    ----------
+    M, D, K : ndarray, shape (n, n)
+    Z : ndarray, shape (n, m)
+    terms : ndarray, shape (n, n)
+        Sizes of what cancels in K.
+    count : int
+
+    Returns
+    -------
+    values : ndarray of complex, shape (count,)
+        Of a pair that with the positive imaginary part.
+    shapes : ndarray of complex, shape (n, count)
+    """
+    m, d, k = (Z.T @ matrix @ Z for matrix in (M, D, K))
+    n = len(m)
+    sigma = SHIFT * float(np.sqrt(np.abs(k).sum() / np.abs(m).sum()) or 1.0)
+    A = np.block([[np.zeros((n, n)), np.eye(n)], [-k, -d]])
+    B = np.block([[np.eye(n), np.zeros((n, n))], [np.zeros((n, n)), m]])
+    mu, vectors = eig(np.linalg.solve(A - sigma * B, B))
+    finite = np.flatnonzero(np.abs(mu) > 1e-14 * np.max(np.abs(mu)))
+    values, shapes = sigma + 1.0 / mu[finite], Z @ vectors[:n, finite]
+    neutral = _is_neutral(M, D, terms + sigma**2 * np.abs(M), values, shapes)
+    still = _independent(M, shapes[:, neutral])
+    upper = np.flatnonzero(~neutral & (values.imag > -1e-9 * np.abs(values)))
+    order = upper[np.argsort(np.abs(values[upper]), kind="stable")]
+    found = np.concatenate([np.zeros(still.shape[1]), values[order]])
+    return found[:count], np.hstack([still, shapes[:, order]])[:, :count]
+
+
+def _is_neutral(
+    M: FloatArray, D: FloatArray, terms: FloatArray, values: ComplexArray, shapes: ComplexArray
+) -> np.ndarray:
+    """Whether damping and inertia of each motion are no larger than the round-off of its stiffness.
+
+    The stiffness is a sum of ``terms`` that cancel. A double zero comes out to half of the digits, as two
+    values of either sign or as a pair.
+    """
+
+    def of(A: FloatArray, x: ComplexArray) -> FloatArray:
+        found: FloatArray = np.abs(np.sum(x.conj() * (A @ x), axis=0))
+        return found
+
+    own = np.abs(values) * of(D, shapes) + np.abs(values) ** 2 * of(M, shapes)
+    neutral: np.ndarray = own <= NEUTRAL * of(terms, np.abs(shapes))
+    return neutral
+
+
+def _independent(M: FloatArray, shapes: ComplexArray) -> FloatArray:
+    """Real motions that span those given, each of kinetic energy 1/2 at the speed 1."""
+    both = np.hstack([shapes.real, shapes.imag])
+    if not both.size:
+        return np.zeros((len(M), 0))
+    energy = np.sum(both * (M @ both), axis=0)
+    both = both[:, energy > SAME**2 * np.max(energy)]
+    both /= np.sqrt(np.sum(both * (M @ both), axis=0))
+    squares, mixed = np.linalg.eigh(both.T @ M @ both)
+    kept = squares > SAME**2 * squares[-1]
+    found: FloatArray = both @ (mixed[:, kept] / np.sqrt(squares[kept]))
+    return found
