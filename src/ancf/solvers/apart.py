@@ -122,7 +122,7 @@ def project(core, s, tolerance, corotate, w0, w1, w2):
     joints.level[0], joints.level[1], joints.level[2] = w0, w1, w2
     norm = 0.0
     for k in range(joints.multipliers.shape[0]):
-        norm = max(norm, abs(s.r[joints.multipliers[k]]))
+        norm = max(norm, abs(s.r[joints.multipliers[k]]) * joints.weight[k])
     if norm <= HELD * tolerance:
         return 0.0
     to_local(core.supports, s.r)  # as in solve_turned, but there is nothing to turn back

@@ -9,6 +9,7 @@ from ..later import eig
 
 SHIFT = 1e-6  # of a mean frequency: about what eigenvalues are found
 NEUTRAL = 256.0 * np.finfo(float).eps  # of the stiffnesses that cancel: what is zero
+UNSEEN = 0.1  # of the shift: frequencies below are zero where nothing resists
 SAME = 1e-3  # by which motions differ that are one
 
 ComplexArray = np.ndarray
@@ -37,13 +38,13 @@ def lowest(
     """
     m, d, k = (Z.T @ matrix @ Z for matrix in (M, D, K))
     n = len(m)
-    sigma = SHIFT * float(np.sqrt(np.abs(k).sum() / np.abs(m).sum()) or 1.0)
+    sigma = SHIFT * float(np.sqrt(np.abs(K).sum() / np.abs(M).sum()) or 1.0)
     A = np.block([[np.zeros((n, n)), np.eye(n)], [-k, -d]])
     B = np.block([[np.eye(n), np.zeros((n, n))], [np.zeros((n, n)), m]])
     mu, vectors = eig(np.linalg.solve(A - sigma * B, B))
     finite = np.flatnonzero(np.abs(mu) > 1e-14 * np.max(np.abs(mu)))
     values, shapes = sigma + 1.0 / mu[finite], Z @ vectors[:n, finite]
-    neutral = _is_neutral(M, D, terms + sigma**2 * np.abs(M), values, shapes)
+    neutral = _is_neutral(M, D, terms, values, shapes, UNSEEN * sigma)
     still = _independent(M, shapes[:, neutral])
     upper = np.flatnonzero(~neutral & (values.imag > -1e-9 * np.abs(values)))
     order = upper[np.argsort(np.abs(values[upper]), kind="stable")]
@@ -52,20 +53,21 @@ def lowest(
 
 
 def _is_neutral(
-    M: FloatArray, D: FloatArray, terms: FloatArray, values: ComplexArray, shapes: ComplexArray
+    M: FloatArray, D: FloatArray, terms: FloatArray, values: ComplexArray, shapes: ComplexArray, least: float
 ) -> np.ndarray:
     """Whether damping and inertia of each motion are no larger than the round-off of its stiffness.
 
     The stiffness is a sum of ``terms`` that cancel. A double zero comes out to half of the digits, as two
-    values of either sign or as a pair.
+    values of either sign or as a pair, and nothing is seen of an inertia below the frequency ``least``.
     """
 
     def of(A: FloatArray, x: ComplexArray) -> FloatArray:
         found: FloatArray = np.abs(np.sum(x.conj() * (A @ x), axis=0))
         return found
 
-    own = np.abs(values) * of(D, shapes) + np.abs(values) ** 2 * of(M, shapes)
-    neutral: np.ndarray = own <= NEUTRAL * of(terms, np.abs(shapes))
+    inertia = of(M, shapes)
+    own = np.abs(values) * of(D, shapes) + np.abs(values) ** 2 * inertia
+    neutral: np.ndarray = own <= NEUTRAL * of(terms, np.abs(shapes)) + least**2 * inertia
     return neutral
 
 

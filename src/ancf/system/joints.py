@@ -27,6 +27,7 @@ def core_joints(batches: list[Any], system: Any, supports: Supports) -> Joints:
     tail = with_role(constrained, Role.SLIDES)
     return Joints(
         multipliers=system.multipliers,
+        weight=_row_weights(system),
         mask=mask,
         level=system.level,
         batches=Batches(constrained),
@@ -36,6 +37,16 @@ def core_joints(batches: list[Any], system: Any, supports: Supports) -> Joints:
         supports=tail_supports(supports, system.places, first) if tail else supports,
         border=room_for_border(first, system.numbering.blocks - first, widest_row(tail, system.n)),
     )
+
+
+def _row_weights(system: Any) -> FloatArray:
+    """Of the rows of all multipliers: one over the size of the model, 1 where they hold directions."""
+    weight, batch = np.full(system.size, 1.0 / system.model.size), system.parts.get("joints")
+    if batch is not None:
+        of_places = _entries(system, batch, _place_unknowns(system))[-1]
+        weight[batch.unknown[~of_places]] = 1.0
+    found: FloatArray = weight[system.multipliers]
+    return found
 
 
 def widest_row(tail: tuple[Any, ...], n: int) -> int:
