@@ -28,6 +28,7 @@ from ..solvers.rare import knowing
 from ..solvers.sensitivity import FURTHEST, MOVED, Matrices
 from ..system.core import Core
 from ..system.system import System
+from .remembering import followed, friction_of
 
 
 def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matrices:
@@ -115,16 +116,15 @@ def _exact(batch: Any, moving: bool) -> bool:
     return own is not None and own(batch, moving)
 
 
-def check_differentiable(system: System, where: str) -> None:
+def check_differentiable(system: System, where: str, follows: bool = False) -> None:
     """Raise ModelError for what has no sensitivities.
 
-    What batches remember of the motion, as friction on grounds and surfaces, is no part of the state.
+    ``follows``: what friction on grounds and surfaces remembers of the motion is followed, too.
     """
     for drive in system.inputs.drives:
         what = f'the length of "{drive.winch.name}" follows from step to step, which has no derivative here'
         raise ModelError(where, what, "give its length as a function of time")
-    for name, batch in system.parts.items():
-        late = traits(batch).late
-        if traits(batch).memory and len(batch[0]) and late is not None and late(batch) is not None:
+    for name in friction_of(system):
+        if not (follows and followed(system, name)):
             what = f"the model has friction that remembers the way ({name}), which has no derivative here"
             raise ModelError(where, what, "leave its friction out")
