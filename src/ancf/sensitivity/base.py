@@ -30,6 +30,9 @@ from ..system.core import Core
 from ..system.system import System
 from .remembering import followed, friction_of
 
+#: Change of a state of differences where friction remembers the way, in sizes of the model.
+SHORT = 2e-7
+
 
 def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matrices:
     """Room for the matrices of sensitivities, the masses of exact batches filled in.
@@ -95,6 +98,11 @@ def moved_by(core: Core) -> float:
     """Change of a state, in sizes of the model, of differences of its forces."""
     least = float(np.min(core.weight[core.weight > 0.0], initial=1.0))  # 1/size, or 1 for a small model
     return min(MOVED, FURTHEST * least)
+
+
+def moved_with(system: System, m: Matrices) -> Matrices:
+    """The same with the change of a model with friction, whose springs are short and slip one by one."""
+    return m._replace(moved=min(m.moved, SHORT)) if friction_of(system) else m
 
 
 def _is_joint(batch: Any) -> bool:

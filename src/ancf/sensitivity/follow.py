@@ -23,7 +23,7 @@ from ..solvers.record import Stats
 from ..solvers.sensitivity import Constraining, Way, accelerations
 from ..solvers.status import OK
 from ..system.system import System
-from .base import check_differentiable, matrices_of
+from .base import check_differentiable, matrices_of, moved_with
 from .family import Family
 from .histories import Histories
 from .memory import Memory, refuse_start
@@ -101,7 +101,7 @@ class Following:
         self.memory = Memory(self.system, self.families)
         refuse_start(self.memory, start, where)
         self.turn = self.nearby.turn_abreast()
-        self.m = matrices_of(self.system.core, self.system.size, moving=True)
+        self.m = moved_with(self.system, matrices_of(self.system.core, self.system.size, moving=True))
         self.ahead, self.room = ahead_of(self.system.core, self.m), room_for(self.system.size)
         self.edge = edge_for(self.system.size, len(self.m.edge))
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
