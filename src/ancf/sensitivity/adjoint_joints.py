@@ -21,6 +21,7 @@ from .adjoint import Adjoint, UnsolvedError
 from .adjoint_sloped import SlopedAdjoint
 from .base import matrices_of
 from .follow import check_shift
+from .remembering import friction_of
 from .start import Start
 
 #: Weights of the rows for which the positions and the velocities of a start are shifted.
@@ -113,7 +114,12 @@ def goes_back(system: System, m: Matrices) -> bool:
 
 
 def adjoint_of(system: System) -> type[Adjoint] | None:
-    """The adjoint of a model, if it has one: what is not exact in its matrices knows its slopes."""
+    """The adjoint of a model, if it has one: what is not exact in its matrices knows its slopes.
+
+    What friction remembers is followed forwards alone.
+    """
+    if friction_of(system):
+        return None
     m = matrices_of(system.core, system.size, moving=True, back=True)
     if len(m.lossy) or m.turning:
         return None

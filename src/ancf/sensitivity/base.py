@@ -28,6 +28,10 @@ from ..solvers.rare import knowing
 from ..solvers.sensitivity import FURTHEST, MOVED, Matrices
 from ..system.core import Core
 from ..system.system import System
+from .remembering import followed, friction_of
+
+#: Change of a state of differences where friction remembers the way, in sizes of the model.
+SHORT = 2e-7
 
 
 def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matrices:
@@ -96,6 +100,11 @@ def moved_by(core: Core) -> float:
     return min(MOVED, FURTHEST * least)
 
 
+def moved_with(system: System, m: Matrices) -> Matrices:
+    """The same with the change of a model with friction, whose springs are short and slip one by one."""
+    return m._replace(moved=min(m.moved, SHORT)) if friction_of(system) else m
+
+
 def _is_joint(batch: Any) -> bool:
     """Whether a batch has rows with multipliers and knows all derivatives of its forces."""
     slopes = add_work_slopes, add_force_slopes, add_slopes_beside
@@ -115,16 +124,15 @@ def _exact(batch: Any, moving: bool) -> bool:
     return own is not None and own(batch, moving)
 
 
-def check_differentiable(system: System, where: str) -> None:
+def check_differentiable(system: System, where: str, follows: bool = False) -> None:
     """Raise ModelError for what has no sensitivities.
 
-    What batches remember of the motion, as friction on grounds and surfaces, is no part of the state.
+    ``follows``: what friction on grounds and surfaces remembers of the motion is followed, too.
     """
     for drive in system.inputs.drives:
         what = f'the length of "{drive.winch.name}" follows from step to step, which has no derivative here'
         raise ModelError(where, what, "give its length as a function of time")
-    for name, batch in system.parts.items():
-        late = traits(batch).late
-        if traits(batch).memory and len(batch[0]) and late is not None and late(batch) is not None:
+    for name in friction_of(system):
+        if not (follows and followed(system, name)):
             what = f"the model has friction that remembers the way ({name}), which has no derivative here"
             raise ModelError(where, what, "leave its friction out")

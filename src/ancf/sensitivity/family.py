@@ -25,6 +25,7 @@ from ..system.system import System
 from .alike import Known, alike, changed, same_inputs, same_loads
 from .parameters import Parameter
 from .pushing import Pushing
+from .remembering import friction_of
 from .trial import Trial
 from .turns import axes_rates, ends_rates, moves_ends, slopes_local, slopes_rates, stands
 from .values import fed_alike, few_of, quiet_state
@@ -189,7 +190,7 @@ class Family(Pushing):
 
     def _stays(self) -> bool:
         """Whether nothing comes to a kink between the values."""
-        kinked = self._names() & KINKED
+        kinked = self._names() & KINKED.union(friction_of(self.base))
         if self._moves_kinks():
             return False
         if self._branches is None or kinked != {"springs"}:
@@ -240,7 +241,8 @@ class Family(Pushing):
         if not (self.parameter.linear or self.linear):
             return list(zip(self.systems, self.weights, strict=True))
         if not self._wide:
-            h = (TINY if self.parameter.kinked else STEP) * self._unit
+            kinked = self.parameter.kinked or bool(self.changed.intersection(friction_of(self.base)))
+            h = (TINY if kinked else STEP) * self._unit
             places, weights = FOUR if self.parameter.value != 0.0 else ABOVE
             systems = [self._compiled(h * x) if x != 0.0 else self.base for x in places]
             self._wide = [(system, w / h) for system, w in zip(systems, weights, strict=True)]

@@ -23,9 +23,10 @@ from ..solvers.record import Stats
 from ..solvers.sensitivity import Constraining, Way, accelerations
 from ..solvers.status import OK
 from ..system.system import System
-from .base import check_differentiable, matrices_of
+from .base import check_differentiable, matrices_of, moved_with
 from .family import Family
 from .histories import Histories
+from .memory import Memory, refuse_start
 from .nearby import Nearby
 from .parameters import Parameter, check_known
 from .samples import Samples
@@ -93,12 +94,14 @@ class Following:
         self.made, self.store, self.every = made, store, every
         self.run: Any = made.run
         self.system = System(made.system.model, like=made.system)
-        check_differentiable(self.system, where)
+        check_differentiable(self.system, where, follows=True)
         check_shift(made, start, where)
         self.families = [Family(parameter, self.system, shifts=True) for parameter in parameters]
         self.nearby = Nearby(self.families, self.system, shifts=True)
+        self.memory = Memory(self.system, self.families)
+        refuse_start(self.memory, start, where)
         self.turn = self.nearby.turn_abreast()
-        self.m = matrices_of(self.system.core, self.system.size, moving=True)
+        self.m = moved_with(self.system, matrices_of(self.system.core, self.system.size, moving=True))
         self.ahead, self.room = ahead_of(self.system.core, self.m), room_for(self.system.size)
         self.edge = edge_for(self.system.size, len(self.m.edge))
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
@@ -163,7 +166,8 @@ class Following:
         system.measured[...] = run.system.measured
         when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
         states = run.memory.q.copy(), run.memory.v.copy(), run.memory.a.copy()
-        found, held = starts(system, self.m, self.nearby, self.given, states, when)
+        self.memory.start(run.system.memory)
+        found, held = starts(system, self.m, self.nearby, self.given, states, when, self.memory)
         self.s = abreast(found)
         self.histories.begin(found, held)
         first = found[:, None, :3].copy()
@@ -175,7 +179,7 @@ class Following:
         """Whether places follow from velocities: of a result in memory, for a file has both."""
         supports = self.system.core.supports
         moves = bool(self.nearby.others) or bool(np.any(supports.rot_moving >= 0))
-        return not (moves or len(self.system.multipliers) or isinstance(self.store, FileStore))
+        return not (self.memory or moves or len(self.system.multipliers) or isinstance(self.store, FileStore))
 
     def _kept_of(self, done: int, count: int) -> BoolArray:
         """Which of the last steps are stored."""
@@ -204,7 +208,7 @@ class Following:
         count = len(q)
         keep = self._kept_of(self.done + count, count)
         most = int(ROOM / (8 * self.system.size * (4 * len(self.families) + 3)))
-        most = max(most // LANES, 1) * LANES
+        most = 1 if self.memory else max(most // LANES, 1) * LANES
         for begin in range(0, count, most):
             rows = slice(begin, min(begin + most, count))
             way = Way(q[rows].copy(), v[rows].copy(), a[rows])
@@ -238,6 +242,8 @@ class Following:
         tables = system.inputs.tables(*when[:2], count, *when[2:])
         found = self.nearby.at_steps(way, when, tables, projects)
         rooms, pushes = (self.m, self.ahead, self.room, self.edge), (found.push, found.gap, self.turn)
+        if self.memory:
+            found.push[:, 0] += self.memory.push(way, tables)
         n, status = follow_steps(
             system.core, *rooms, tables, way, *pushes, h, run.scheme, joined, self.s, out, place
         )
@@ -247,6 +253,8 @@ class Following:
             raise SolveError(f"sensitivities at t = {t:.6g} s", what, "take a smaller step")
         for k, held in found.held.items():
             out[k, place : place + count] += np.moveaxis(held[: out.shape[2]], 0, 1)
+        if self.memory:
+            self.memory.step(way.q[0], way.v[0], out[:, place, :2])
 
     def found(self) -> list[tuple[Any, FloatArray]]:
         """Derivatives of q and v at the stored times by parameter, see :meth:`Histories.found`."""

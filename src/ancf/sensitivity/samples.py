@@ -15,6 +15,7 @@ from ..system.sensors import Listing
 from ..system.system import System
 from .answers import MOVED, PLACES, Face, derivative, in_motion, is_linear, text_of
 from .family import Family
+from .remembering import refuse_friction
 
 #: Change of the state of the differences of contact forces, m, and of velocities, m/s.
 NEAR = 2e-6
@@ -134,8 +135,9 @@ class SensorSensitivity:
         Raises
         ------
         ModelError
-            What the question itself raises; a reaction.
+            What the question itself raises; a reaction; friction.
         """
+        refuse_friction(self._family.base, name)
         if name in ("reaction", "reaction_moment"):
             raise in_motion(name)
         here, d = self._sensors._arrays(), self._d

@@ -22,6 +22,7 @@ from ..system.core import (
 )
 from ..system.system import System
 from .family import Family
+from .memory import Memory
 from .nearby import Nearby
 
 
@@ -126,6 +127,7 @@ def starts(
     given: list[tuple[FloatArray, FloatArray]],
     states: Any,
     when: Any,
+    memory: Memory | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """For each family the derivatives of a consistent start, see :meth:`Start.accelerated`, and held ones.
 
@@ -140,6 +142,8 @@ def starts(
         At the start.
     when : tuple
         See :class:`Start`.
+    memory : Memory, optional
+        That of friction at the start, whose derivatives are filled.
 
     Returns
     -------
@@ -163,6 +167,13 @@ def starts(
         rows[k], pushes[k, 0] = begin.shapes(given[k], at, None), at((0.0, 0.0, 1.0))
         here = Way(*(x[None].copy() for x in states))
         held[k] = nearby.families[k].at_steps(*here, when, gaps=False).held[:2, 0]
+    if memory:
+        first_s = rows.copy()
+        first_s[:, :2] += held
+        for d in first_s:
+            follow_supports(system.core.supports, *d)
+        memory.begin(begin.q, begin.v, first_s[:, :2])
+        pushes[:, 0] += memory.push(way, tables)
     return begin.accelerated(rows, pushes[:, 0], nearby.turn), held
 
 

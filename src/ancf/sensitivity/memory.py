@@ -1,0 +1,236 @@
+"""Derivatives of what friction on grounds and surfaces remembers of the way, from step to step.
+
+With the memory z_n (anchors and limits) in which step n begins, the step and what it leaves behind are
+
+    R(q, v, a; z_n, p) = 0,     z_{n+1} = g(q, v; z_n, p),
+
+so that R_z dz_n joins what a parameter does to the residual, and
+
+    dz_{n+1} = g_q s_q + g_v s_v + g_z dz_n + g_p.
+
+Both are pointwise: derivatives along directions are differences, lengths, velocities and limits by
+themselves, taken more closely at points where they would reach over a kink.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..batches import Batches
+from ..compiled import traits
+from ..errors import ModelError
+from ..solvers.sensitivity import Way
+from ..system.core import apply_supports, keep_memory, place_supports, residual
+from ..system.system import System
+from .family import Family
+from .remembering import friction_of
+
+#: Arrays of a memory that depend smoothly on the state.
+LENGTHS, FORCES = ("anchor",), ("limit", "before")
+#: Changes of places, m, of velocities, m/s, and of limits in their size, of the differences.
+FAR, FAST, STRONG = 1e-6, 1e-6, 1e-5
+#: Part of a difference by which it agrees with the next one, each this much closer, and how many there are.
+BENT, CLOSE, CLOSER = 1e-3, 4.0, 5
+#: The same of round-off, in the largest entry.
+NOISE = 1e-9
+
+Row = dict[str, FloatArray]  # by "part.array"
+Function = Callable[[float], FloatArray]
+
+
+class Memory:
+    """What friction remembers in a run, with its derivatives by all parameters.
+
+    Parameters
+    ----------
+    system : System
+        On whose arrays sensitivities are computed; its memory is that in which the next step begins.
+    families : list of Family
+
+    Attributes
+    ----------
+    names : list of str
+        Batches with such friction; none: there is nothing to follow.
+    """
+
+    def __init__(self, system: System, families: list[Family]) -> None:
+        self.system, self.families, self.names = system, families, friction_of(system)
+        self.batches = Batches(system.parts[name] for name in self.names)
+        self._none = np.zeros(system.size)
+        self._own = self._arrays(system)
+        self._blank = {name: x.copy() for name, x in self._own.items()}
+        self.d: list[Row] = [self._zeros() for _ in families]
+
+    def __bool__(self) -> bool:
+        return bool(self.names)
+
+    def start(self, here: Row) -> None:
+        """Remember what a run does at its start, ``here``."""
+        for name, own in self._own.items():
+            own[...] = here[name]
+        self.share()
+
+    def begin(self, q: FloatArray, v: FloatArray, s: FloatArray) -> None:
+        """Take the derivatives of that from those of the state at the start, (p, 2, size)."""
+        here = {name: x.copy() for name, x in self._own.items()}
+        self._put(self._blank, {}, 0.0)
+        self.step(q, v, s)
+        self.start(here)
+
+    def share(self) -> None:
+        """Let the systems of all families remember the same."""
+        for family in self.families:
+            for own in family.systems:
+                for name, x in self._arrays(own).items():
+                    x[...] = self._own[name]
+
+    def push(self, way: Way, tables: Any) -> FloatArray:
+        """What derivatives of the memory do to the residual of a state, (p, size), zero where it is held."""
+        made = np.zeros((len(self.families), self.system.size))
+        core = self.system.core
+        q, v, a = (x[0].copy() for x in way)
+        place_supports(core.supports, core.loads.value, tables, 0, q, v, a)
+        given = core.ws, q, v, a, self._none
+        kept = {name: x.copy() for name, x in self._own.items()}
+        for row, d in zip(made, self.d, strict=True):
+            for keys, far in ((LENGTHS, FAR), (FORCES, STRONG * self._limit(kept))):
+                part = {name: x for name, x in d.items() if name.split(".")[1] in keys}
+
+                def force(x: float, part: Row = part) -> FloatArray:
+                    self._put(kept, part, x)
+                    r: FloatArray = np.empty(self.system.size)
+                    residual(self.batches, *given, r)
+                    return r
+
+                row += derivative(force, far, _size(part))
+            apply_supports(core.supports, row)
+            row[core.supports.held], row[self.system.n :] = 0.0, 0.0
+        self._put(kept, {}, 0.0)
+        return made
+
+    def step(self, q: FloatArray, v: FloatArray, s: FloatArray) -> None:
+        """Remember an accepted step that ends in a state with these derivatives, (p, 2, size)."""
+        kept = {name: x.copy() for name, x in self._own.items()}
+        found = [self._along(kept, d, q, v, own) for d, own in zip(self.d, s, strict=True)]
+        for family, d in zip(self.families, found, strict=True):
+            if set(self.names) & family.changed:
+                self._add_own(family, kept, q, v, d)
+        self.d = found
+        self._put(kept, {}, 0.0)
+        keep_memory(self.batches, q, v)
+        self.share()
+
+    def _along(self, kept: Row, d: Row, q: FloatArray, v: FloatArray, s: FloatArray) -> Row:
+        """Derivative of what a step leaves along a state and a memory."""
+        lengths, forces = (
+            {name: d[name] for name in d if name.split(".")[1] in own} for own in (LENGTHS, FORCES)
+        )
+        size = float(np.max(np.abs(s[0]) * self._weight(), initial=0.0))
+        moves: tuple[tuple[Any, Any, Row, float, float], ...] = (
+            (s[0], self._none, lengths, FAR, max(size, _size(lengths))),
+            (self._none, s[1], {}, FAST, float(np.max(np.abs(s[1]) * self._weight(), initial=0.0))),
+            (self._none, self._none, forces, STRONG * self._limit(kept), _size(forces)),
+        )
+        total = np.zeros(sum(x.size for x in d.values()))
+        for dq, dv, part, far, most in moves:
+
+            def left(x: float, dq: FloatArray = dq, dv: FloatArray = dv, part: Row = part) -> FloatArray:
+                self._put(kept, part, x)
+                keep_memory(self.batches, q + x * dq, v + x * dv)
+                return np.concatenate([self._own[name].ravel() for name in d])
+
+            total += derivative(left, far, most)
+        ends = np.cumsum([x.size for x in d.values()])[:-1]
+        return {name: x.reshape(d[name].shape) for name, x in zip(d, np.split(total, ends), strict=True)}
+
+    def _add_own(self, family: Family, kept: Row, q: FloatArray, v: FloatArray, d: Row) -> None:
+        """Add what a parameter itself does to the memory that a step leaves."""
+        self._put(kept, {}, 0.0)
+        keep_memory(self.batches, q, v)
+        here = {name: self._own[name].copy() for name in d}
+        for own, weight in family.around():
+            if own is self.system:
+                continue
+            arrays = self._arrays(own)
+            for name, x in arrays.items():
+                x[...] = kept[name]
+            keep_memory(Batches(own.parts[name] for name in self.names), q, v)
+            for name, x in d.items():
+                x += weight * (arrays[name] - here[name])
+
+    def _weight(self) -> FloatArray:
+        """Of unknowns and shadows, with which changes are measured."""
+        weight = np.ones(self.system.size)
+        own = self.system.core.weight
+        weight[: len(own)] = own
+        return weight
+
+    def _arrays(self, system: System) -> Row:
+        """All that these batches remember, by "part.array"."""
+        return {
+            f"{name}.{key}": getattr(system.parts[name], key)
+            for name in self.names
+            for key in traits(system.parts[name]).memory
+            if getattr(system.parts[name], key).size
+        }
+
+    def _zeros(self) -> Row:
+        return {
+            name: np.zeros_like(x)
+            for name, x in self._own.items()
+            if name.split(".")[1] in (*LENGTHS, *FORCES)
+        }
+
+    def _put(self, kept: Row, d: Row, x: float) -> None:
+        """Let the system remember ``kept`` + x d."""
+        for name, own in self._own.items():
+            own[...] = kept[name] + x * d[name] if name in d else kept[name]
+
+    def _limit(self, kept: Row) -> float:
+        """The size of limits."""
+        most = (np.max(np.abs(x), initial=0.0) for name, x in kept.items() if name.split(".")[1] in FORCES)
+        return float(max(most, default=0.0)) or 1.0
+
+
+def _size(d: Row) -> float:
+    return max((float(np.max(np.abs(x), initial=0.0)) for x in d.values()), default=0.0)
+
+
+def derivative(function: Function, far: float, size: float) -> FloatArray | float:
+    """Derivative at 0 of what is smooth but for kinks, whose argument has changes of a size.
+
+    Each entry is that of the first two differences which agree, made one of order four.
+    """
+    if size == 0.0:
+        return 0.0
+    h = far / size
+    before = _central(function, h)
+    found, left = before, np.ones(before.shape, dtype=bool)
+    for k in range(CLOSER):
+        h /= CLOSE
+        now = _central(function, h)
+        apart = np.abs(now - before)
+        agrees = apart <= BENT * np.maximum(np.abs(now), np.abs(before))
+        agrees |= apart <= NOISE * np.max(np.abs(now), initial=0.0)
+        taken = left & agrees if k > 0 else left
+        found = np.where(taken, now + (now - before) / (CLOSE * CLOSE - 1.0), found)
+        left = left & ~agrees
+        if not np.any(left):
+            break
+        before = now
+    return found
+
+
+def _central(function: Function, h: float) -> FloatArray:
+    return (function(h) - function(-h)) / (2.0 * h)
+
+
+def refuse_start(memory: Memory, start: Any, where: str) -> None:
+    """Raise ModelError for a start from a state, whose memory does not know its derivatives."""
+    if memory and start is not None:
+        what = "the derivatives of what friction remembers in the state that is given are not known"
+        raise ModelError(where, what, "start from the initial shape")

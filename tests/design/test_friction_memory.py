@@ -1,0 +1,121 @@
+"""Sensitivities through friction that remembers the way: against extrapolated differences of whole runs."""
+
+import numpy as np
+import pytest
+
+import ancf
+from ancf.sensitivity.parameters import parameters_of
+
+TIGHT = ancf.Newton(tolerance=1e-14, modified=False)
+TRAPEZOIDAL = ancf.Trapezoidal(newton=TIGHT)
+DAMPED = ancf.GeneralizedAlpha(rho_inf=0.8, newton=TIGHT)
+
+
+def dragged(pull=6.0, aside=0.0, elements=2):
+    """A cable on a ground, dragged to and fro by its end."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section(EA=2e3, EI=0.5, rhoA=0.5, diameter=0.02)
+    line = model.add_beam("line", start=(0, 0, 0), end=(1, 0, 0), elements=elements, section=section)
+    model.add_ground("on", height=-0.0005, stiffness=5e5, damping=2e3, friction=0.3, stick=2e4)
+    model.add_force(line.end, lambda t: (pull * np.sin(30 * t), aside * np.sin(17 * t), 0.0))
+    return model
+
+
+def fallen(friction=0.3, turns=False, radius=0.2):
+    """A cable with one end held that falls on a drum, which may turn with its block."""
+    model = ancf.Model(gravity=(0.2, 0.3, -9.81))
+    section = ancf.Section(EA=500.0, EI=0.5, rhoA=0.2, diameter=0.02)
+    line = model.add_beam("line", start=(0, 0, 0), end=(1, 0.02, 0), elements=3, section=section)
+    place, on = (0.5, 0, -0.0102 - radius), {}
+    if turns:
+        block = model.add_rigid_body("block", at=place, mass=0.3, inertia=(2e-3, 3e-3, 2e-3))
+        model.hinge(block.at(0, 0, 0), place, axis=(0, 1, 0), name="hinge")
+        place, on = (0.0, 0.0, 0.0), {"on": block}
+    drum = model.add_surface("drum", ancf.Cylinder(radius=radius, axis=(0, 1, 0), at=place), **on)
+    model.add_contact(line, drum, stiffness=2e4, damping=30.0, friction=friction, name="on")
+    model.pin(line.start)
+    return model
+
+
+def path(model, **given):
+    result = ancf.simulate(model, **given)
+    return result, np.asarray(result.position(model.bodies["line"].end))
+
+
+def differences(parameter, change, given):
+    """Central differences, those of half the change taken twice, to order four."""
+
+    def central(h):
+        ends = [path(parameter.at(parameter.value + x), **given)[1] for x in (h, -h)]
+        return (ends[0] - ends[1]) / (2.0 * h)
+
+    return (4.0 * central(0.5 * change) - central(change)) / 3.0
+
+
+def apart(model, names, method, step, steps=30, change=1e-4):
+    """Largest difference to those of runs by parameter, in the largest derivative."""
+    given = {"t_end": steps * step, "step": step, "integrator": method}
+    result, _ = path(model, sensitivities=names, **given)
+    found = {}
+    for parameter in parameters_of(model, names, "test"):
+        mine = np.asarray(result.sensitivity(parameter.name).position(model.bodies["line"].end))
+        theirs = differences(parameter, change * (abs(parameter.value) or 1.0), given)
+        size = float(np.max(np.abs(mine)))
+        found[parameter.name] = float(np.max(np.abs(theirs - mine))) / size
+    return found
+
+
+@pytest.mark.parametrize(
+    ("model", "method", "step", "names", "change"),
+    [
+        (dragged(pull=0.3), TRAPEZOIDAL, 1e-3, ["line.rhoA", "line.length"], 1e-4),
+        (dragged(), DAMPED, 1e-3, ["line.EA", "line.rhoA", "on.stick"], 1e-4),
+        (dragged(), DAMPED, 1e-3, ["line.length"], 1e-6),
+        (dragged(elements=3), TRAPEZOIDAL, 5e-4, ["line.EA"], 1e-4),
+        (dragged(aside=4.0), DAMPED, 1e-3, ["on.friction", "on.damping", "line.rhoA"], 1e-4),
+    ],
+    ids=["sticks", "slips", "length", "fine", "aside"],
+)
+def test_grounds(model, method, step, names, change):
+    found = apart(model, names, method, step, change=change)
+    assert max(found.values()) < 1e-7, found
+
+
+@pytest.mark.parametrize(
+    ("model", "method", "step", "names"),
+    [
+        (fallen(), TRAPEZOIDAL, 1e-3, ["on.stiffness", "line.length"]),
+        (fallen(0.02), DAMPED, 2e-3, ["on.friction", "line.EA"]),
+        (fallen(0.1, turns=True), DAMPED, 1e-3, ["on.friction", "gravity[0]"]),
+    ],
+    ids=["sticks", "slips", "turns"],
+)
+def test_drums(model, method, step, names):
+    """Where points begin to touch, differences of their forces reach over a kink."""
+    found = apart(model, names, method, step, change=1e-4 if step == 1e-3 else 1e-5)
+    assert max(found.values()) < 1e-5, found
+
+
+def test_remainder():
+    """Of Taylor's formula: of order two where events stay."""
+    model, given = dragged(aside=4.0), {"t_end": 0.03, "step": 1e-3, "integrator": DAMPED}
+    result, here = path(model, sensitivities=["on.friction"], **given)
+    slope = np.asarray(result.sensitivity("on.friction").position(model.bodies["line"].end))
+    (parameter,) = parameters_of(model, ["on.friction"], "test")
+    changes = 1e-3 * 0.5 ** np.arange(3)
+    left = [np.max(np.abs(path(parameter.at(0.3 + h), **given)[1] - here - h * slope)) for h in changes]
+    orders = np.log2(np.array(left[:-1]) / left[1:])
+    assert np.all(np.abs(orders - 2.0) < 0.05), orders
+
+
+def test_gradients_go_forwards():
+    model, given = dragged(), {"t_end": 0.02, "step": 1e-3}
+    _, slope = ancf.gradient(model, "last(position(line.end)[0])", ["on.friction"], **given)
+    result = ancf.simulate(model, sensitivities=["on.friction"], **given)
+    mine = result.sensitivity("on.friction").position(model.bodies["line"].end)[-1, 0]
+    assert slope["on.friction"] == pytest.approx(mine, rel=1e-12)
+
+
+def test_what_is_refused():
+    with pytest.raises(ancf.ModelError, match="remembers the way"):
+        ancf.equilibrium(fallen(), sensitivities=["line.EA"])
