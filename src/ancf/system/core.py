@@ -72,7 +72,7 @@ class Joints(NamedTuple):
     """
 
     multipliers: IntArray  # unknowns
-    weight: FloatArray  # of their rows: one over the size of the model of what is in m, 1 of directions
+    weight: FloatArray  # of their rows: of places one over the size of the model or a metre, of directions 1
     mask: FloatArray  # (size,) 1 for multipliers, else 0
     level: FloatArray  # (3,) weights of C, dC/dt, d2C/dt2 in their rows now
     batches: Batches  # with constraints

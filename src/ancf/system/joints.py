@@ -40,8 +40,11 @@ def core_joints(batches: list[Any], system: Any, supports: Supports) -> Joints:
 
 
 def _row_weights(system: Any) -> FloatArray:
-    """Of the rows of all multipliers: one over the size of the model, 1 where they hold directions."""
-    weight, batch = np.full(system.size, 1.0 / system.model.size), system.parts.get("joints")
+    """Of the rows of all multipliers: one over the size of the model, 1 where they hold directions.
+
+    A share of the length of a line would be a gap that is seen: what is longer than a metre counts as one.
+    """
+    weight, batch = np.full(system.size, 1.0 / min(system.model.size, 1.0)), system.parts.get("joints")
     if batch is not None:
         of_places = _entries(system, batch, _place_unknowns(system))[-1]
         weight[batch.unknown[~of_places]] = 1.0
