@@ -143,6 +143,13 @@ def announce(say: Callable[[str], None]) -> None:
     _listener.say = say
 
 
+def check_model(given: object) -> None:
+    """Raise ModelError for what is no Model."""
+    if not isinstance(given, Model):
+        hint = "a model file is computed by: ancf run FILE" if isinstance(given, str | Path) else ""
+        raise ModelError("model", f"must be a Model, is {checks.shown(given)}", hint)
+
+
 @contextmanager
 def expected(model: Model, method: Integrator | None = None) -> Iterator[None]:
     """Here kernels may have to be compiled for a model, and for a method if it is simulated.
@@ -152,10 +159,7 @@ def expected(model: Model, method: Integrator | None = None) -> Iterator[None]:
     ModelError
         What is to be computed is no model.
     """
-    given: object = model
-    if not isinstance(given, Model):
-        hint = "a model file is computed by: ancf run FILE" if isinstance(given, str | Path) else ""
-        raise ModelError("model", f"must be a Model, is {checks.shown(given)}", hint)
+    check_model(model)
     if _listener.work is not None:
         yield
         return

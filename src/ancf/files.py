@@ -194,9 +194,10 @@ def results_at(path: Path) -> Path:
 
 
 def no_results(folder: Path) -> ModelError:
-    """A folder that names no results file; the hint has those of other names."""
-    found = sorted(file.name for file in folder.glob("*.h5"))[:MOST_NAMED]
-    hint = f"name the file: {', '.join(found)}" if found else ""
+    """A folder that names no results file; the hint has those of other names, or else its model files."""
+    named = [sorted(file.name for file in folder.glob(end))[:MOST_NAMED] for end in ("*.h5", "*.toml")]
+    files = next((found for found in named if found), [])
+    hint = f"name the file: {', '.join(files)}" if files else ""
     return ModelError(str(folder), f"is a folder without {RESULTS}", hint)
 
 

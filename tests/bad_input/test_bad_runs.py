@@ -526,6 +526,7 @@ class TestFiles:
         ancf.damped_modes,
         lambda model: ancf.simulate(model, t_end=1.0, step=0.1),
         lambda model: ancf.stepper(model, step=0.1),
+        lambda model: ancf.stepper(model, start="run.h5"),
     ],
 )
 def test_no_model(model, compute):

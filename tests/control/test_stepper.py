@@ -211,13 +211,14 @@ class TestSaved:
         "method", [ancf.Trapezoidal(), ancf.Radau(adaptive=False), ancf.Explicit(check=False)]
     )
     def test_goes_on(self, method, tmp_path):
-        path, given = tmp_path / "stop.h5", {"step": 1e-3, "integrator": method, "sensors": ["body"]}
+        path, given = tmp_path / "results.h5", {"step": 1e-3, "integrator": method, "sensors": ["body"]}
         run = ancf.stepper(pushed(), **given)
         run.inputs["thrust"] = 0.7
         run.advance(33)
         run.save(path)
-        again = ancf.stepper(pushed(), start=path)
-        assert again.inputs == {"thrust": 0.7, "side": 0.5}
+        again, in_folder = (ancf.stepper(pushed(), start=place) for place in (path, tmp_path))
+        assert np.array_equal(in_folder.q, again.q)
+        assert again.inputs == in_folder.inputs == {"thrust": 0.7, "side": 0.5}
         assert ancf.load(path).state().position("body") == pytest.approx(run.position("body"), abs=0)
         resumed = ancf.resume(path, t_end=0.073)
         for one in (run, again):

@@ -235,6 +235,12 @@ class TestFile:
         with pytest.raises(ancf.ModelError, match=r"results\.h5: is not a results file of ancf"):
             ancf.load(tmp_path)
 
+    def test_a_folder_of_model_files_names_them(self, tmp_path):
+        for name in ("line", "crane"):
+            (tmp_path / f"{name}.toml").write_text("")
+        with pytest.raises(ancf.ModelError, match=r"results\.h5 \(name the file: crane\.toml, line\.toml\)"):
+            ancf.load(tmp_path)
+
 
 def test_run_that_goes_on(tmp_path):
     """A file is read while it grows: each load sees what is there then, and keeps seeing that."""

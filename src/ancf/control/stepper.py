@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..compilation import check_model
 from ..errors import ModelError, SolveError
 from ..files import writing
 from ..model import checks
@@ -189,6 +190,7 @@ def stepper(
         There are no accelerations at the start.
     """
     if isinstance(start, str | Path):
+        check_model(model)
         given = {"step": step, "integrator": integrator, "sensors": sensors}
         for key, value in given.items():
             if value is not None:

@@ -18,6 +18,9 @@ from .checks import nearest
 
 Compiled = Callable[[Any], Any]
 MAX_LENGTH = 5000
+#: What numbers of NumPy are shown as, and what to do about it where texts are put together.
+NUMPY_NUMBER = re.compile(r"(np|numpy)\.\w+\(")
+NUMPY_SHOWN = "NumPy shows its numbers so: put float(...) of them into the text"
 
 
 def _ramp(t: Any, t0: Any, t1: Any) -> Any:
@@ -214,7 +217,7 @@ class Expression:
     def _unknown(self, node: ast.AST) -> ModelError:
         hints: list[tuple[type[ast.AST], str]] = [
             (ast.BinOp, "write ** for a power" if "^" in self.text else ""),
-            (ast.Call, "write * for a product"),
+            (ast.Call, NUMPY_SHOWN if NUMPY_NUMBER.match(ast.unparse(node)) else "write * for a product"),
             (ast.IfExp, "write where(condition, a, b)"),
         ]
         hint = next((text for kind, text in hints if isinstance(node, kind)), "")
