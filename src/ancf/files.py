@@ -195,9 +195,9 @@ def results_at(path: Path) -> Path:
 
 def no_results(folder: Path) -> ModelError:
     """A folder that names no results file; the hint has those of other names, or else its model files."""
-    named = [sorted(file.name for file in folder.glob(end))[:MOST_NAMED] for end in ("*.h5", "*.toml")]
-    files = next((found for found in named if found), [])
-    hint = f"name the file: {', '.join(files)}" if files else ""
+    results, models = (sorted(file.name for file in folder.glob(end)) for end in ("*.h5", "*.toml"))
+    found = ", ".join((results or models)[:MOST_NAMED])
+    hint = f"name the file: {found}" if results else f"it has model files: {found}" if models else ""
     return ModelError(str(folder), f"is a folder without {RESULTS}", hint)
 
 

@@ -238,7 +238,9 @@ class TestFile:
     def test_a_folder_of_model_files_names_them(self, tmp_path):
         for name in ("line", "crane"):
             (tmp_path / f"{name}.toml").write_text("")
-        with pytest.raises(ancf.ModelError, match=r"results\.h5 \(name the file: crane\.toml, line\.toml\)"):
+        with pytest.raises(
+            ancf.ModelError, match=r"results\.h5 \(it has model files: crane\.toml, line\.toml\)"
+        ):
             ancf.load(tmp_path)
 
 

@@ -59,8 +59,8 @@ def gradient(
     much as a few runs, and memory that does not grow with their number, nor much with that of the steps.
     Others, with friction on grounds and surfaces, contacts of cables or of bodies with each other, winches,
     laws that stay in Python or clamps that turn with time, take the sensitivities of :func:`ancf.simulate`,
-    whose cost grows with the number of
-    parameters, as does what is asked of a contact. The numbers are the same.
+    whose cost grows with the number of parameters, as does what is asked of a contact. The numbers are the
+    same.
 
     Parameters
     ----------

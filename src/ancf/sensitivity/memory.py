@@ -26,6 +26,7 @@ from ..errors import ModelError
 from ..solvers.sensitivity import Way
 from ..system.core import apply_supports, keep_memory, place_supports, residual
 from ..system.system import System
+from .answers import derivative
 from .family import Family
 from .remembering import friction_of
 
@@ -33,10 +34,6 @@ from .remembering import friction_of
 LENGTHS, FORCES = ("anchor",), ("limit", "before")
 #: Changes of places, m, of velocities, m/s, and of limits in their size, of the differences.
 FAR, FAST, STRONG = 1e-6, 1e-6, 1e-5
-#: Part of a difference by which it agrees with the next one, each this much closer, and how many there are.
-BENT, CLOSE, CLOSER = 1e-3, 4.0, 5
-#: The same of round-off, in the largest entry.
-NOISE = 1e-9
 
 Row = dict[str, FloatArray]  # by "part.array"
 Function = Callable[[float], FloatArray]
@@ -106,7 +103,7 @@ class Memory:
                     residual(self.batches, *given, r)
                     return r
 
-                row += derivative(force, far, _size(part))
+                row += _derivative(force, far, _size(part))
             apply_supports(core.supports, row)
             row[core.supports.held], row[self.system.n :] = 0.0, 0.0
         self._put(kept, {}, 0.0)
@@ -143,7 +140,7 @@ class Memory:
                 keep_memory(self.batches, q + x * dq, v + x * dv)
                 return np.concatenate([self._own[name].ravel() for name in d])
 
-            total += derivative(left, far, most)
+            total += _derivative(left, far, most)
         ends = np.cumsum([x.size for x in d.values()])[:-1]
         return {name: x.reshape(d[name].shape) for name, x in zip(d, np.split(total, ends), strict=True)}
 
@@ -200,33 +197,9 @@ def _size(d: Row) -> float:
     return max((float(np.max(np.abs(x), initial=0.0)) for x in d.values()), default=0.0)
 
 
-def derivative(function: Function, far: float, size: float) -> FloatArray | float:
-    """Derivative at 0 of what is smooth but for kinks, whose argument has changes of a size.
-
-    Each entry is that of the first two differences which agree, made one of order four.
-    """
-    if size == 0.0:
-        return 0.0
-    h = far / size
-    before = _central(function, h)
-    found, left = before, np.ones(before.shape, dtype=bool)
-    for k in range(CLOSER):
-        h /= CLOSE
-        now = _central(function, h)
-        apart = np.abs(now - before)
-        agrees = apart <= BENT * np.maximum(np.abs(now), np.abs(before))
-        agrees |= apart <= NOISE * np.max(np.abs(now), initial=0.0)
-        taken = left & agrees if k > 0 else left
-        found = np.where(taken, now + (now - before) / (CLOSE * CLOSE - 1.0), found)
-        left = left & ~agrees
-        if not np.any(left):
-            break
-        before = now
-    return found
-
-
-def _central(function: Function, h: float) -> FloatArray:
-    return (function(h) - function(-h)) / (2.0 * h)
+def _derivative(function: Function, far: float, size: float) -> FloatArray | float:
+    """Derivative at 0, by differences over ``far`` of what changes by a size."""
+    return derivative(function, 0.5 * far / size) if size > 0.0 else 0.0
 
 
 def refuse_start(memory: Memory, start: Any, where: str) -> None:

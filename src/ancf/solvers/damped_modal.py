@@ -26,7 +26,7 @@ from ..system.contacts import touching
 from ..system.core import apply_load, assemble, follow_supports, residual
 from ..system.system import System
 from .modal import motions
-from .quadratic import lowest
+from .quadratic import ComplexArray, lowest
 from .standing import Standing, vectors_and_arms
 
 MANY = 1500  # unknowns, as all of it is dense
@@ -37,8 +37,6 @@ ALIKE = 1e-4  # derivatives of forces that change when the model is turned, of t
 ROUNDED = 32.0 * np.finfo(float).eps  # of stiffness times place: what round-off leaves of elastic forces
 ROUNDS = 30  # of Newton's method
 TURN = 0.3  # rad, by which a model is turned to see whether it turns freely
-
-ComplexArray = np.ndarray
 
 
 class Damped:
