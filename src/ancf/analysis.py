@@ -82,11 +82,13 @@ def equilibrium(
     time = checks.number(time, "equilibrium.time")
     names = None if of is None else _names(model, of)
     with expected(model):
-        state = _at_rest(independent(model), names, load_steps, time)
+        state, leaned = _at_rest(independent(model), names, load_steps, time)
     if sensitivities:
         from .sensitivity.compute import of_state
 
-        state.derivatives = of_state(state, names, _parameters(model, sensitivities, SENSITIVITIES[0]))
+        state.derivatives = of_state(
+            state, leaned, names, _parameters(model, sensitivities, SENSITIVITIES[0])
+        )
     return state
 
 
@@ -103,13 +105,15 @@ def equilibria(model: Model, times: Iterable[float]) -> list[State]:
     """The equilibria at several times, each as :func:`equilibrium` finds it; the model is compiled once."""
     with expected(model):
         system = independent(model)
-        return [_at_rest(system, None, 1, time) for time in times]
+        return [_at_rest(system, None, 1, time)[0] for time in times]
 
 
-def _at_rest(system: System, names: list[str] | None, load_steps: int, time: float) -> State:
-    q, stats = statics.equilibrium(system, names, load_steps, time)
+def _at_rest(
+    system: System, names: list[str] | None, load_steps: int, time: float
+) -> tuple[State, statics.Leaned]:
+    q, stats, leaned = statics.equilibrium(system, names, load_steps, time)
     known = remembered.Remembered(memory=remembered.memory_of(system), balanced=True)
-    return State(system, float(time), q, system.motion(q, time), stats, known)
+    return State(system, float(time), q, system.motion(q, time), stats, known), leaned
 
 
 def simulate(

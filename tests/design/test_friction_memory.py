@@ -37,6 +37,103 @@ def fallen(friction=0.3, turns=False, radius=0.2):
     return model
 
 
+def laid(friction=0.4, elements=6, bent=True):
+    """A mooring whose upper end moves: lowered onto the ground, or from a path on which it nearly lies."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section(EA=1e5, EI=1.0, rhoA=5.0, diameter=0.05)
+    model.add_ground("on", height=-5.0, stiffness=2e5, damping=1e4, friction=friction, stick=5e4)
+    shape = {"path": [(0, 0, -5), (8, 0, -5), (14, 0.5, 0)]}
+    shape = shape if bent else {"start": (0, 0, -4.995), "end": (14, 0.5, 0), "length": 15.2}
+    line = model.add_beam("line", elements=elements, section=section, **shape)
+    model.pin(line.start)
+    model.pin(line.end, displacement=lambda t: (0.02 * np.sin(6 * t), 0.0, 0.0))
+    return model
+
+
+def hung(friction=0.3, elements=8):
+    """A rope over a drum with a force at its end."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section(EA=5e3, EI=0.05, rhoA=0.2, diameter=0.02)
+    line = model.add_beam("line", start=(-0.8, 0, 0), end=(0.6, 0.02, 0), elements=elements, section=section)
+    drum = model.add_surface("drum", ancf.Cylinder(radius=0.2, axis=(0, 1, 0), at=(0, 0, -0.2102)))
+    model.add_contact(line, drum, stiffness=1e5, damping=30.0, friction=friction, name="on")
+    model.pin(line.start, name="left")
+    model.add_force(line.end, lambda t: (0.0, 0.0, -3.0 - np.sin(9 * t)))
+    return model
+
+
+def shape_of(model, names=()):
+    """Places and tensions of the equilibrium."""
+    state = ancf.equilibrium(model, sensitivities=names)
+    line = model.bodies["line"]
+    points = [line.at(part * line.length) for part in (0.1, 0.5, 0.8)]
+
+    def answers(one):
+        return np.concatenate([*map(one.position, points), [1e-3 * one.tension(points[2])]])
+
+    return answers(state), [answers(state.sensitivity(name)) for name in names]
+
+
+@pytest.mark.parametrize(
+    ("model", "names"),
+    [
+        (laid(), ["line.EA", "line.rhoA", "on.friction", "on.stiffness"]),
+        (laid(bent=False, elements=8), ["line.EA", "line.rhoA", "gravity[2]"]),
+        (laid(friction=0.02), ["on.friction", "line.rhoA"]),
+        (hung(), ["line.EA", "line.rhoA", "on.friction", "on.stiffness"]),
+        (hung(0.05, elements=6), ["gravity[2]", "on.friction"]),
+    ],
+    ids=["path", "lowered", "little", "drum", "slippery"],
+)
+def test_equilibria(model, names):
+    """Against extrapolated differences of equilibria, each found anew."""
+    for parameter, mine in zip(parameters_of(model, names, "test"), shape_of(model, names)[1], strict=True):
+        size = parameter.value
+
+        def central(h, parameter=parameter):
+            return (
+                shape_of(parameter.at(parameter.value + h))[0]
+                - shape_of(parameter.at(parameter.value - h))[0]
+            ) / (2 * h)
+
+        theirs = (4 * central(5e-5 * size) - central(1e-4 * size)) / 3
+        assert np.max(np.abs(theirs - mine)) < 1e-7 * np.max(np.abs(mine)), parameter.name
+
+
+@pytest.mark.parametrize(
+    ("model", "names", "bar"),
+    [
+        (laid(bent=False), ["line.EA", "on.stiffness"], 1e-7),
+        (laid(), ["on.friction", "line.rhoA"], 1e-7),
+        (laid(bent=False, elements=8), ["gravity[2]"], 1e-7),
+        (hung(), ["on.friction", "line.EA", "on.stiffness"], 1e-6),
+        (hung(0.05, elements=6), ["line.rhoA"], 1e-7),
+    ],
+    ids=["lowered", "path", "finer", "drum", "slippery"],
+)
+def test_runs_from_equilibria(model, names, bar):
+    """There points are just at their limits; a second run goes on from the first."""
+    given = {"step": 2e-3, "integrator": DAMPED}
+
+    def runs(own, names=()):
+        start = ancf.equilibrium(own, sensitivities=names)
+        first = ancf.simulate(own, start=start, t_end=0.03, sensitivities=names, **given)
+        return ancf.simulate(own, start=first.state(), t_end=0.05, sensitivities=names, **given)
+
+    result = runs(model, names)
+    for parameter in parameters_of(model, names, "test"):
+        mine = result.sensitivity(parameter.name).dq
+
+        def central(h, parameter=parameter):
+            return (
+                runs(parameter.at(parameter.value + h)).q[:] - runs(parameter.at(parameter.value - h)).q[:]
+            ) / (2 * h)
+
+        size = parameter.value
+        theirs = (4 * central(5e-5 * size) - central(1e-4 * size)) / 3
+        assert np.max(np.abs(theirs - mine)) < bar * np.max(np.abs(mine)), parameter.name
+
+
 def path(model, **given):
     result = ancf.simulate(model, **given)
     return result, np.asarray(result.position(model.bodies["line"].end))
@@ -118,4 +215,21 @@ def test_gradients_go_forwards():
 
 def test_what_is_refused():
     with pytest.raises(ancf.ModelError, match="remembers the way"):
-        ancf.equilibrium(fallen(), sensitivities=["line.EA"])
+        ancf.simulate(rolling(), t_end=0.004, step=1e-3, sensitivities=["gravity[2]"])
+    model, given = dragged(), {"t_end": 0.004, "step": 1e-3}
+    result = ancf.simulate(model, sensitivities=["line.EA"], **given)
+    with pytest.raises(ancf.ModelError, match="derivatives of what friction remembers") as error:
+        ancf.simulate(model, start=result.state(1), sensitivities=["line.EA"], **given)
+    assert "start from an equilibrium" in str(error.value)
+    with pytest.raises(ancf.ModelError, match="reaction is not known where there is friction"):
+        ancf.equilibrium(hung(), sensitivities=["line.EA"]).sensitivity("line.EA").reaction("left")
+
+
+def rolling():
+    """A ball on a floor, with friction that sticks."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    ball = model.add_rigid_body("ball", at=(0, 0, 0.1), mass=1.0, inertia=(4e-3, 4e-3, 4e-3))
+    skin = model.add_surface("skin", ancf.Sphere(radius=0.1), on=ball)
+    floor = model.add_surface("floor", ancf.Plane(at=(0, 0, 0), normal=(0, 0, 1)))
+    model.add_contact(skin, floor, stiffness=1e5, damping=300.0, friction=0.3)
+    return model

@@ -93,7 +93,7 @@ class RubBatch(NamedTuple):
     far: FloatArray
     bond: NDArray[np.int64]  # zero: friction knows of no point that is held against its pressure
     anchor: FloatArray  # (n, points, 3) memory: where friction has no force, in axes of what carries
-    limit: FloatArray  # (n, points) memory: largest friction, N/m
+    limit: FloatArray  # (n, points) memory: largest friction, N/m; negative: it has that size, see drawn
     before: FloatArray  # (n, points) memory: normal force at the end of the step before, N/m
     most: FloatArray  # (n,) memory: the largest limit of a row
     lit: NDArray[np.int64]  # (n + 1,) memory: how many rows have a limit, and which
@@ -132,7 +132,10 @@ def anchor_at(batch, e, p, q):
 
 @formula
 def drawn(batch, e, p, r, u, n, body, q):
-    """The vector w of the friction, its size, and the factor f of the force -f w; whether it slips."""
+    """The vector w of the friction, its size, and the factor f of the force -f w; whether it slips.
+
+    Where derivatives of a step that slips are taken, the limit is negative: it slips in all their states.
+    """
     data, anchor = batch.data[batch.contact[e]], anchor_at(batch, e, p, q)
     k, c = data[STICK], data[DRAG]
     a = carried(body, anchor[0], anchor[1], anchor[2])
@@ -143,7 +146,7 @@ def drawn(batch, e, p, r, u, n, body, q):
     w = x - normal * n[0], y - normal * n[1], z - normal * n[2]
     size = math.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
     if size > batch.limit[e, p]:
-        return w, size, batch.limit[e, p] / size, True
+        return w, size, abs(batch.limit[e, p]) / size, True
     return w, size, 1.0, False
 
 
@@ -164,7 +167,7 @@ def rub_force(batch, q, v, a, r, ws):
         e = batch.lit[1 + i]
         row, sums = row_of(batch, e, q, v), nothing()
         for p in range(batch.weight.shape[1]):
-            if batch.limit[e, p] > 0.0:
+            if batch.limit[e, p] != 0.0:
                 place, x, u, n = rubbed(batch, e, p, row)
                 w, _, f, _ = drawn(batch, e, p, place, u, n, row[2], q)
                 sums = with_force(batch, e, p, x, (-f * w[0], -f * w[1], -f * w[2]), sums)

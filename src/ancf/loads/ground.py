@@ -84,7 +84,7 @@ class GroundBatch(NamedTuple):
     size: NDArray[np.int64]  # (m, 3) numbers of x and y of a table of heights, 0: a plane; its first number
     table: FloatArray  # (j,) x, y and z of the tables, one after the other
     anchor: FloatArray  # (n, points, 3) memory: where friction has no force
-    limit: FloatArray  # (n, points) memory: largest friction, N/m
+    limit: FloatArray  # (n, points) memory: largest friction, N/m; negative: it has that size, see drawn_at
     drift: FloatArray  # (n, points, 3) memory: by how much anchors move with the length; no rows: no winch
     since: FloatArray  # (n,) memory: length at the last accepted step, m, 0: none; no rows as well
 
@@ -172,7 +172,10 @@ def anchor_at(batch, e, p, q):
 
 @formula
 def drawn_at(batch, e, p, q, r, u, n):
-    """The vector w of the friction, its size, and the factor f of the force -f w; whether it slips."""
+    """The vector w of the friction, its size, and the factor f of the force -f w; whether it slips.
+
+    Where derivatives of a step that slips are taken, the limit is negative: it slips in all their states.
+    """
     ground, anchor, d = batch.grounds[batch.ground[e]], anchor_at(batch, e, p, q), batch.diameter[e]
     stick, c = ground[STICK], ground[DRAG]
     x, y, z = (
@@ -184,7 +187,7 @@ def drawn_at(batch, e, p, q, r, u, n):
     w = x - normal * n[0], y - normal * n[1], z - normal * n[2]
     size = math.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
     if d * size > batch.limit[e, p]:
-        return w, size, batch.limit[e, p] / size, True
+        return w, size, abs(batch.limit[e, p]) / size, True
     return w, size, d, False
 
 
@@ -194,7 +197,7 @@ def ground_force(batch, q, v, a, r, ws):
     for e in range(batch.base.shape[0]):
         for p in range(batch.weight.shape[1]):
             at, u, n, N, _, _ = touch_at(batch, e, p, q, v)
-            if batch.limit[e, p] > 0.0:
+            if batch.limit[e, p] != 0.0:
                 w, _, f, _ = drawn_at(batch, e, p, q, at, u, n)
                 f0, f1, f2 = N * n[0] - f * w[0], N * n[1] - f * w[1], N * n[2] - f * w[2]
                 add_material(batch, e, p, f0, f1, f2, q, r)
@@ -213,7 +216,7 @@ def ground_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                 continue
             nn, one, ww = c_stiffness * by_g + c_damping * by_rate, 0.0, 0.0
             w = 0.0, 0.0, 0.0
-            if batch.limit[e, p] > 0.0:
+            if batch.limit[e, p] != 0.0:
                 w, size, f, slips = drawn_at(batch, e, p, q, at, u, n)
                 one = f * (c_stiffness * ground[STICK] + c_damping * ground[DRAG])
                 if slips:

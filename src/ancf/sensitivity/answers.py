@@ -25,6 +25,7 @@ from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 from .branches import Change, changed, kinks_of
 from .family import Family
+from .remembering import Row, refuse_friction
 
 #: Change of a state, in sizes of the model, of the differences of an answer, and of velocities per second.
 MOVED = 1e-4
@@ -131,6 +132,7 @@ class Sensitivity:
     ) -> None:
         self._family, self.t = family, t
         self._q, self._v, self._dq, self.dv = q, v, dq, dv
+        self.memory: Row | None = None  # of what friction remembers in the last state, None: not known
 
     @property
     def dq(self) -> FloatArray:
@@ -148,6 +150,7 @@ class Sensitivity:
             raise AttributeError(f"a sensitivity has no {name!r}", name=name, obj=self)
 
         def answer(*items: Any) -> FloatArray:
+            refuse_friction(self._family.base, name)
             linear = is_linear(name, self._family.base)
             return self.answer(lambda face: getattr(face, name)(*map(text_of, items)), linear)
 
@@ -178,7 +181,9 @@ class Sensitivity:
     def state(self, index: int = -1) -> Sensitivity:
         """Of the state at a stored time of a history."""
         rows = (x[index] for x in (self._q, self._v, self.dq, self.dv))
-        return Sensitivity(self._family, float(self.t[index]), *rows)
+        made = Sensitivity(self._family, float(self.t[index]), *rows)
+        made.memory = self.memory if index in (-1, len(self.t) - 1) else None
+        return made
 
     def branches(self, by: float) -> list[Change]:
         """Slack springs and contacts that slacken or open at other stored times if the parameter changes.

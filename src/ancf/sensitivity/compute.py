@@ -13,18 +13,23 @@ from ..preparation import Prepared, carried_out
 from ..results.result import Result
 from ..results.state import State
 from ..solvers.record import Progress
+from ..solvers.statics import Leaned
 from ..system.system import System
 from .answers import Face, Sensitivity
 from .base import check_differentiable
 from .family import Family
 from .follow import Following
+from .leaning import Leaning
+from .memory import Memory
 from .parameters import Parameter
 from .samples import SensorSensitivity
 from .statics import of_equilibrium
 
 
-def of_state(state: State, names: list[str] | None, parameters: list[Parameter]) -> dict[str, Sensitivity]:
-    """Sensitivities of an equilibrium of some bodies, or of all.
+def of_state(
+    state: State, leaned: Leaned, names: list[str] | None, parameters: list[Parameter]
+) -> dict[str, Sensitivity]:
+    """Sensitivities of an equilibrium of some bodies, or of all; ``leaned``: what friction did in it.
 
     Raises
     ------
@@ -34,7 +39,7 @@ def of_state(state: State, names: list[str] | None, parameters: list[Parameter])
         The equilibrium is neutral.
     """
     system = state.system
-    check_differentiable(system, "equilibrium.sensitivities")
+    check_differentiable(system, "equilibrium.sensitivities", follows=True)
     slack = [item.name for item in system.model.connections if isinstance(item, Spring) and item.slack]
 
     def branches(beside: System) -> tuple[bool, ...]:
@@ -44,11 +49,15 @@ def of_state(state: State, names: list[str] | None, parameters: list[Parameter])
     families = [Family(parameter, system, branches=branches) for parameter in parameters]
     others = [] if names is None else [name for name in system.model.bodies if name not in names]
     core = system.holding(others) if others else system.core
-    found = of_equilibrium(system, core, state.q, state.t, families)
-    return {
+    memory = Memory(system, families)
+    friction = Leaning(memory, core, state.q, leaned) if memory else None
+    found = of_equilibrium(system, core, state.q, state.t, families, friction)
+    made = {
         family.name: Sensitivity(family, state.t, state.q, state.v, dq, dv)
         for family, (dq, dv) in zip(families, found, strict=True)
     }
+    memory.hand_to(list(made.values()))
+    return made
 
 
 def with_sensitivities(
@@ -77,6 +86,7 @@ def with_sensitivities(
         family.name: Sensitivity(family, t, q, v, *own)
         for family, own in zip(following.families, following.found(), strict=True)
     }
+    following.memory.hand_to(list(result.derivatives.values()))
     if following.samples.sampling.width:
         sensors = result.sensors
         sensors.derivatives = {

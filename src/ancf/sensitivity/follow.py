@@ -26,7 +26,7 @@ from ..system.system import System
 from .base import check_differentiable, matrices_of, moved_with
 from .family import Family
 from .histories import Histories
-from .memory import Memory, refuse_start
+from .memory import Memory
 from .nearby import Nearby
 from .parameters import Parameter, check_known
 from .samples import Samples
@@ -99,12 +99,12 @@ class Following:
         self.families = [Family(parameter, self.system, shifts=True) for parameter in parameters]
         self.nearby = Nearby(self.families, self.system, shifts=True)
         self.memory = Memory(self.system, self.families)
-        refuse_start(self.memory, start, where)
         self.turn = self.nearby.turn_abreast()
         self.m = moved_with(self.system, matrices_of(self.system.core, self.system.size, moving=True))
         self.ahead, self.room = ahead_of(self.system.core, self.m), room_for(self.system.size)
         self.edge = edge_for(self.system.size, len(self.m.edge))
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
+        self.memory.take(start, where)
         self.taken, self.done = 0, 0  # steps taken in and followed
         self.handed = 0, 0  # states and samples that a file has
         self.waiting: list[tuple[FloatArray, FloatArray, FloatArray]] = []  # q, v, a of steps to be followed
@@ -240,6 +240,8 @@ class Following:
         when = run.time(done), h, run.t_start, run.t_end
         projects = rule.projects and len(system.multipliers) > 0
         tables = system.inputs.tables(*when[:2], count, *when[2:])
+        if self.memory:
+            self.memory.choose(way.q[0], way.v[0])
         found = self.nearby.at_steps(way, when, tables, projects)
         rooms, pushes = (self.m, self.ahead, self.room, self.edge), (found.push, found.gap, self.turn)
         if self.memory:

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..compiled import traits
 from ..errors import ModelError
 from ..system.system import System
+
+#: Arrays of a memory, or their derivatives, by "part.array".
+Row = dict[str, FloatArray]
 
 #: Batches whose memory is followed from step to step, see :mod:`ancf.sensitivity.memory`.
 FOLLOWED = {"ground", "rubbing"}
@@ -32,3 +36,6 @@ def refuse_friction(system: System, question: str) -> None:
     if question in ("friction_force", "slipping") and friction_of(system):
         what = "the derivative of friction is not known"
         raise ModelError(f"sensitivity.{question}", what, "ask for the tension on both sides of the contact")
+    if question in ("reaction", "reaction_moment") and friction_of(system):
+        what = "the derivative of a reaction is not known where there is friction"
+        raise ModelError(f"sensitivity.{question}", what, "ask for the tension next to the support")

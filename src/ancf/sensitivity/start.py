@@ -154,6 +154,8 @@ def starts(
     first, step, *limits = when
     q, v, a = states
     begin = Start(system, m, q, v, a, when)
+    if memory:
+        memory.choose(begin.q, begin.v)
     way, tables = Way(*(x[None].copy() for x in states)), system.inputs.tables(first, step, 1, *limits)
     pushes, held, rows = (np.zeros((len(nearby.families), k, system.size)) for k in (1, 2, 3))
     nearby.know()
@@ -173,6 +175,7 @@ def starts(
         for d in first_s:
             follow_supports(system.core.supports, *d)
         memory.begin(begin.q, begin.v, first_s[:, :2])
+        memory.choose(begin.q, begin.v)
         pushes[:, 0] += memory.push(way, tables)
     return begin.accelerated(rows, pushes[:, 0], nearby.turn), held
 

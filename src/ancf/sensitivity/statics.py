@@ -15,8 +15,9 @@ from ..solvers.statics import STENCIL_STEP
 from ..system.contacts import touching
 from ..system.core import Core, assemble, follow_supports, place_supports, restrict
 from ..system.system import System
-from .base import matrices_of
+from .base import matrices_of, moved_with
 from .family import Family
+from .leaning import Leaning
 
 #: Residual of the equations, relative to their right-hand side, that is aimed at and that is accepted.
 AIMED, ACCEPTED = 1e-13, 1e-8
@@ -25,7 +26,12 @@ DIRECTIONS, AGAIN = 60, 5
 
 
 def of_equilibrium(
-    system: System, core: Core, q: FloatArray, time: float, families: list[Family]
+    system: System,
+    core: Core,
+    q: FloatArray,
+    time: float,
+    families: list[Family],
+    friction: Leaning | None = None,
 ) -> list[tuple[FloatArray, FloatArray]]:
     """Derivatives of the state vectors q and v of an equilibrium, (size,) each, by family.
 
@@ -38,32 +44,64 @@ def of_equilibrium(
     q : (size,)
     time : float, s
     families : list of Family
+    friction : Leaning, optional
+        That remembers the way; the derivatives of its memory are filled.
 
     Raises
     ------
     SolveError
         The equilibrium is neutral: it has no derivative.
     """
+    if friction is not None:
+        friction.begin(_leant(system, core, time, families, friction))
     system.level[:] = 1.0, 0.0, 0.0
     h, q, zero = STENCIL_STEP, q.copy(), np.zeros_like(q)
     tables = system.inputs.tables(time - h, h, 1, time, np.inf)
     place_supports(core.supports, core.loads.value, tables, 0, q, zero, zero.copy())
-    solve = _solver(system, core, q)
+    solve = _solver(system, core, q, friction)
     found = []
-    for family in families:
+    for k, family in enumerate(families):
         family.know(system)
         push = family.at_rest(core, q, (time, h))
+        shift = follow(core, push.held[0, 0].copy()) if friction is not None else push.held[0, 0]
+        if friction is not None:
+            push.push[0] += friction.push(k) + friction.times(shift)
         s = solve(push.push[0], family.name)
         follow_supports(core.supports, s, np.zeros_like(s), np.zeros_like(s))
         dq = s + push.held[0, 0]
         found.append((dq, family.of_motion(q, dq, time)))
+    if friction is not None:
+        friction.end(np.array(found))
     return found
 
 
-def _solver(system: System, core: Core, q: FloatArray):  # type: ignore[no-untyped-def]
+def _leant(system: System, core: Core, time: float, families: list[Family], friction: Leaning) -> FloatArray:
+    """Derivatives of the shape from which friction acts, (p, 2, size)."""
+    q, h = friction.shape, STENCIL_STEP
+    if friction.laid:
+        friction.leave_out()
+        rows = [dq for dq, _ in of_equilibrium(system, core, q, time, families)]
+    else:
+        rows = []
+        for family in families:
+            family.know(system)
+            d = family.of_states(time)[0].copy()
+            d[core.supports.held] = 0.0
+            d[system.n :] = 0.0
+            rows.append(follow(core, d + family.at_rest(core, q, (time, h)).held[0, 0]))
+    return np.stack([rows, np.zeros((len(rows), q.size))], axis=1)
+
+
+def follow(core: Core, d: FloatArray) -> FloatArray:
+    """The same derivative with the shadows of its free unknowns."""
+    follow_supports(core.supports, d, np.zeros_like(d), np.zeros_like(d))
+    return d
+
+
+def _solver(system: System, core: Core, q: FloatArray, friction: Leaning | None):  # type: ignore[no-untyped-def]
     """A function that solves K s = -push, with the exact K of the state."""
     n, still = system.n, np.zeros_like(q)
-    m = matrices_of(core, q.size, moving=False)
+    m = moved_with(system, matrices_of(core, q.size, moving=False))
     assemble(core.batches, core.ws, q, still, core.A, 0.0, 0.0, 1.0)
     restrict(core.supports, core.A)
     K = csc_array(to_sparse(core.A, system.places) + touching(core, q, n).matrix())
@@ -79,6 +117,8 @@ def _solver(system: System, core: Core, q: FloatArray):  # type: ignore[no-untyp
         d[0, core.supports.held] = 0.0
         products_along(core, m, q, still, still, d, np.zeros((0, 3, 3)), still, r)
         y: FloatArray = r[:n].copy()
+        if friction is not None:
+            y += friction.times(d[0])[:n]
         y[core.supports.held] = x[core.supports.held]
         return y
 
@@ -87,16 +127,17 @@ def _solver(system: System, core: Core, q: FloatArray):  # type: ignore[no-untyp
         size = float(np.linalg.norm(b))
         if size == 0.0:
             return s
+        b /= size  # products by differences take what is next to nothing for nothing
         x = lu.solve(b)
-        if len(m.rough) or len(m.joined):
+        if len(m.rough) or len(m.joined) or friction is not None:
             before = LinearOperator((n, n), matvec=lu.solve, dtype=np.float64)
             whole = LinearOperator((n, n), matvec=times, dtype=np.float64)
             x, _ = gmres(whole, b, x0=x, M=before, rtol=AIMED, restart=DIRECTIONS, maxiter=AGAIN)
         else:
             x += lu.solve(b - times(x))
-        if not _is_solution(times(x) - b, lu.solve, x, size):
+        if not _is_solution(times(x) - b, lu.solve, x, 1.0):
             raise _neutral(name)
-        s[:n] = x
+        s[:n] = size * x
         return s
 
     return solve

@@ -60,9 +60,11 @@ class Iteration:
     last: float = np.inf  # length of the last correction
     held: bool = False  # whether surfaces and friction hold what they touch
     plain: bool = True  # whether an indefinite matrix is taken as it is where loads follow
+    laid: FloatArray | None = None  # where cables lay without friction, if that acts from there
 
     def __post_init__(self) -> None:
         self.zero = np.zeros_like(self.q)
+        self.begun = {name: x.copy() for name, x in self.system.memory.items()}  # what is remembered at first
         self.lu: SuperLU | None = None
         arcs = self.system.numbering.arcs
         slides = [c for c in self.system.model.connections if isinstance(c, Slide)]

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import time as clock
 from itertools import product
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -40,10 +40,18 @@ MOST_EVENTS = 4  # openings and closings of a contact
 FINER = 1, 7, 31  # times as many steps of the loads where something touches and no equilibrium was found
 
 
+class Leaned(NamedTuple):
+    """From what friction acts in an equilibrium."""
+
+    shape: FloatArray  # (size,) in which it has no force
+    laid: bool  # that is where cables lay without friction, not the initial shape
+    memory: dict[str, FloatArray]  # in which the equilibrium was found, by "part.array"
+
+
 def equilibrium(
     system: System, of: list[str] | None, load_steps: int, time: float
-) -> tuple[FloatArray, Stats]:
-    """State vector of a stable equilibrium under the loads at ``time`` and what it took.
+) -> tuple[FloatArray, Stats, Leaned]:
+    """State vector of a stable equilibrium under the loads at ``time``, what it took and what friction did.
 
     Raises
     ------
@@ -66,15 +74,18 @@ def equilibrium(
     apply_load(core.loads, tables.value[0], force)
     keep_memory(core.remembering, q, v)  # friction opposes the way from the initial shape
     it = Iteration(system, core, q, force, core.loads.value.copy())
+    first = q.copy()
     slack = Slack(system, q, force)
     try:
         halvings = attempt(it, slack, load_steps)
     finally:
         slack.set(0.0, 0.0)
         core.loads.value[:] = it.inputs
+    kept = {name: x.copy() for name, x in system.memory.items()}
+    leaned = Leaned(first if it.laid is None else it.laid, it.laid is not None, kept)
     keep_memory(core.remembering, it.q, it.zero)
     seconds = clock.process_time() - cpu
-    return it.q, Stats(load_steps, it.iterations, it.jacobians, it.jacobians, halvings, seconds)
+    return it.q, Stats(load_steps, it.iterations, it.jacobians, it.jacobians, halvings, seconds), leaned
 
 
 def bring_on(it: Iteration, slack: Slack, load_steps: int) -> int:
@@ -111,7 +122,7 @@ def lay(it: Iteration) -> None:
     else:
         if not ways or least_stretch(it.system, it.q) > min(least_stretch(it.system, before), 1.0) - PRESSED:
             return
-    it.q, it.mu = before, mu
+    it.q, it.mu, it.laid = before, mu, before.copy()
     for batch, way in ways:
         way(batch, it.q)
     bring_late(it)
@@ -133,7 +144,9 @@ def attempt(it: Iteration, slack: Slack, load_steps: int) -> int:
     """
     first, q = None, it.q.copy()
     for (finer, holds), plain in product(_attempts(it.core, q), _plain(it)):
-        it.q, it.mu, it.held, it.plain = q.copy(), 0.0, holds, plain
+        it.q, it.mu, it.held, it.plain, it.laid = q.copy(), 0.0, holds, plain, None
+        for name, x in it.system.memory.items():
+            x[...] = it.begun[name]
         grips(it.core, it.q, holds)
         try:
             halvings = bring_on(it, slack, finer * load_steps)
