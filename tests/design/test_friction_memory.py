@@ -37,13 +37,16 @@ def fallen(friction=0.3, turns=False, radius=0.2):
     return model
 
 
-def laid(friction=0.4, elements=6, bent=True):
-    """A mooring whose upper end moves: lowered onto the ground, or from a path on which it nearly lies."""
+def laid(friction=0.4, elements=6, bent=True, length=15.2):
+    """A mooring whose upper end moves: lowered onto the ground, or from a path on which it nearly lies.
+
+    A long one would be pressed by friction from where it is drawn: that acts from where it comes down.
+    """
     model = ancf.Model(gravity=(0.0, 0.0, -9.81))
     section = ancf.Section(EA=1e5, EI=1.0, rhoA=5.0, diameter=0.05)
     model.add_ground("on", height=-5.0, stiffness=2e5, damping=1e4, friction=friction, stick=5e4)
     shape = {"path": [(0, 0, -5), (8, 0, -5), (14, 0.5, 0)]}
-    shape = shape if bent else {"start": (0, 0, -4.995), "end": (14, 0.5, 0), "length": 15.2}
+    shape = shape if bent else {"start": (0, 0, -4.995), "end": (14, 0.5, 0), "length": length}
     line = model.add_beam("line", elements=elements, section=section, **shape)
     model.pin(line.start)
     model.pin(line.end, displacement=lambda t: (0.02 * np.sin(6 * t), 0.0, 0.0))
@@ -80,10 +83,11 @@ def shape_of(model, names=()):
         (laid(), ["line.EA", "line.rhoA", "on.friction", "on.stiffness"]),
         (laid(bent=False, elements=8), ["line.EA", "line.rhoA", "gravity[2]"]),
         (laid(friction=0.02), ["on.friction", "line.rhoA"]),
+        (laid(friction=0.8, bent=False, length=17.0, elements=8), ["line.EA", "line.rhoA"]),
         (hung(), ["line.EA", "line.rhoA", "on.friction", "on.stiffness"]),
         (hung(0.05, elements=6), ["gravity[2]", "on.friction"]),
     ],
-    ids=["path", "lowered", "little", "drum", "slippery"],
+    ids=["path", "lowered", "little", "long", "drum", "slippery"],
 )
 def test_equilibria(model, names):
     """Against extrapolated differences of equilibria, each found anew."""
@@ -106,10 +110,11 @@ def test_equilibria(model, names):
         (laid(bent=False), ["line.EA", "on.stiffness"], 1e-7),
         (laid(), ["on.friction", "line.rhoA"], 1e-7),
         (laid(bent=False, elements=8), ["gravity[2]"], 1e-7),
+        (laid(friction=0.8, bent=False, length=17.0, elements=8), ["line.rhoA"], 1e-7),
         (hung(), ["on.friction", "line.EA", "on.stiffness"], 1e-6),
         (hung(0.05, elements=6), ["line.rhoA"], 1e-7),
     ],
-    ids=["lowered", "path", "finer", "drum", "slippery"],
+    ids=["lowered", "path", "finer", "long", "drum", "slippery"],
 )
 def test_runs_from_equilibria(model, names, bar):
     """There points are just at their limits; a second run goes on from the first."""

@@ -59,7 +59,7 @@ class Leaning:
 
     def leave_out(self) -> None:
         """Let there be no friction."""
-        self.memory.start({name: np.zeros_like(x) for name, x in self._kept.items()})
+        self.memory.start(self.memory.none)
 
     def begin(self, shapes: FloatArray) -> None:
         """Begin with the derivatives of the shape from which friction acts, (p, 2, size)."""

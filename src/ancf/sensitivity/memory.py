@@ -55,6 +55,8 @@ class Memory:
     ----------
     names : list of str
         Batches with such friction; none: there is nothing to follow.
+    none : dict of str to ndarray
+        What is remembered of no motion.
     """
 
     def __init__(self, system: System, families: list[Family]) -> None:
@@ -62,7 +64,8 @@ class Memory:
         self.batches = Batches(system.parts[name] for name in self.names)
         self._none = np.zeros(system.size)
         self._own = self.arrays_of(system)
-        self._blank, self._now = self.copy(), self.copy()
+        self._now = self.copy()
+        self.none = {name: x if name.endswith(".far") else np.zeros_like(x) for name, x in self._now.items()}
         self.d: list[Row] = [self.zeros() for _ in families]
         self.known = False  # derivatives are given with the start
 
@@ -98,7 +101,7 @@ class Memory:
         if self.known:
             return
         here = self._now
-        self.start(self._blank)
+        self.start(self.none)
         self.step(q, v, s)
         self.start(here)
 
