@@ -8,6 +8,7 @@ Motions are similar for any units of length, time and mass: every number is that
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import ancf
 
@@ -188,3 +189,53 @@ def test_units_change_no_modes(build):
         found.append(np.concatenate([plain, np.abs(damped)]) * units[1])
     for mine in found[1:]:
         np.testing.assert_allclose(mine, found[0], rtol=1e-7, atol=1e-4)
+
+
+@pytest.mark.parametrize(("time", "windy"), [(1e-4, False), (1e-2, False), (1e-2, True), (10.0, True)])
+def test_units_of_time_change_no_force_of_what_is_driven(time, windy):
+    """Rates of a given motion at one moment were differences over a millisecond, however fast it was."""
+
+    def run(u):
+        wire = u.beam(
+            "cable", (0, 0, 0), (1.0, 0.2, 0.1), diameter=0.03, drag=(1.2, 0.1), added_mass=(1.0, 0.2)
+        )
+        rate = float(u(9.0, 0, -1))
+        shaken = f"0.02*(sin({rate!r}*t + 0.1) - sin(0.1))"
+        pin = u.model.pin(wire.start, displacement=(shaken, 0, shaken))
+        wind = f"{float(u(3.0, 0, -1))!r}*sin({rate!r}*t)"
+        if windy:
+            u.model.add_fluid("air", density=30.0, velocity=(0, wind, wind))
+        ran = ancf.simulate(u.model, t_end=float(u(0.02, 0, 1)), step=float(u(2e-3, 0, 1)))
+        found = ran.acceleration(wire.start), ran.reaction(pin), ran.acceleration(wire.end)
+        return np.array(found) * u.of[1] ** 2, rate * u.of[1] * (ran.t / u.of[1])
+
+    found, turned = run(Units(1.0, time, 1.0))
+    wanted, _ = run(Units())
+    exact = -0.02 * 9.0**2 * np.sin(turned + 0.1)
+    np.testing.assert_allclose(found[0][:, 0], exact, rtol=0, atol=2e-6)
+    np.testing.assert_allclose(found, wanted, rtol=0, atol=2e-6 * np.abs(wanted).max())
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_torsion_spring_whose_axis_is_free_knows_no_directions(swapped):
+    """One normal of the axis counted, which was chosen by the global axes: turned models came apart."""
+
+    def run(turn, swapped=False):
+        model = ancf.Model()
+        given = {"mass": 0.3, "inertia": (0.01, 0.012, 0.015), "axes": turn.as_matrix()}
+        one, two = (model.add_rigid_body(name, at=turn.apply(at), **given) for name, at in PAIR.items())
+        model.connect(one.at(0.3, 0, 0.0), two.at(-0.3, 0.0, 0.0))
+        ends, sense = ((two, one), -1.0) if swapped else ((one, two), 1.0)
+        axis = turn.apply((0.2, 0.3, 1.0))
+        model.add_torsion_spring(*ends, axis=axis, stiffness=3.0, damping=0.02, angle=0.4 * sense)
+        model.add_force(one.at(0.1, 0.1, 0.1), turn.apply((1.0, 2.0, 3.0)))
+        ran = ancf.simulate(model, t_end=0.2, step=4e-3, integrator=ancf.Trapezoidal(formulation="index2"))
+        return turn.inv().apply(ran.position(two.at(0.1, 0.2, 0.0)))
+
+    wanted = run(Rotation.identity())
+    for vector in ((0.0, 0.0, 1.9), (0.3, -1.1, 2.0)):
+        found = run(Rotation.from_rotvec(vector), swapped)
+        np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-9)
+
+
+PAIR = {"one": (0, 0, 0), "two": (0.6, 0, 0)}

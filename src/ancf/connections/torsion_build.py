@@ -45,13 +45,13 @@ def torsion_springs(items: Sequence[TorsionSpring], slots: dict[str, IntArray]) 
 def _turned(point: Point, axis: FloatArray, slots: dict[str, IntArray]) -> list[tuple[Vector, FloatArray]]:
     """Vectors that turn with a body, and their initial parts (3,) normal to an axis.
 
-    Of a beam with a cross-section r_y and r_z, in the shares in which they take a torque, see
+    Of a rigid body two normals: of one alone the direction would count where the axis is free to tilt. Of a
+    beam with a cross-section r_y and r_z, in the shares in which they take a torque, see
     :mod:`ancf.loads.section_moment`; of a cable its slope.
     """
     body = point.body
     if not isinstance(body, Beam):
-        along = normals(axis)[0]
-        return [(axis_of(point, along, slots), along)]
+        return [(axis_of(point, along, slots), along) for along in normals(axis)]
     slopes = slopes_of(point, slots)
     section = body.section
     if not body.has_section:

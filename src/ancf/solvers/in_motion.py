@@ -9,8 +9,6 @@ from ..system.core import residual
 from ..system.system import System
 from .start import consistent_start
 
-STENCIL_STEP = 1e-3  # of the differences that give rates of given motions, s
-
 
 def in_motion(system: System, q: FloatArray, v: FloatArray, time: float) -> tuple[FloatArray, FloatArray]:
     """Accelerations, and forces out of balance, which in the rows of held unknowns are reactions, N.
@@ -29,8 +27,7 @@ def in_motion(system: System, q: FloatArray, v: FloatArray, time: float) -> tupl
     SolveError
         The mass matrix is singular, or a force is not finite.
     """
-    h = STENCIL_STEP
-    tables = system.inputs.tables(time - h, h, 1, time, np.inf, (q, v), still=True)
+    tables = system.inputs.moment(time, (q, v))
     q, v = q.copy(), v.copy()
     f, r = np.zeros((2, system.size))
     a = consistent_start(system, q, v, tables, f)

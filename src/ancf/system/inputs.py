@@ -18,6 +18,10 @@ from .supports import Constraints, Motion, Rotation
 
 #: Points of the difference formulas for the rates of given motions: sixth order.
 STENCIL = 7
+#: Their step at a moment of which no run is known, s, and how many times a quarter of it may be better.
+MOMENT, QUARTERS = 1e-3, 12
+#: Change of second derivatives by a quarter of the step that is none, and digits of values.
+SETTLED, DIGITS = 1e-6, 100 * float(np.finfo(np.float64).eps)
 
 
 @dataclass(frozen=True)
@@ -126,6 +130,22 @@ class Inputs:
             self._lengths(drive, made, times, step, here, still)
         return made
 
+    def moment(self, time: float, here: tuple[FloatArray, FloatArray]) -> Tables:
+        """Tables at one time in s, of which no steps are known; rates are as fine as motions need."""
+        made = self.tables(time - MOMENT, MOMENT, 1, time, np.inf, here, still=True)
+        times, column = np.array([time]), 0
+        for k, motion in enumerate(self.motions):
+            columns = slice(column, column := column + len(motion.unknowns))
+            if motion.drive is None and motion.rates is None:
+                step = suited(motion.values, time)
+                if step < MOMENT:
+                    made.motion[:, columns] = self._motion(k, times, step, time, np.inf)
+        for k, r in enumerate(self.rotations):
+            values = r.turned if r.angle is None else r.angle.table
+            if r.rate is None and (step := suited(values, time)) < MOMENT:
+                made.rotation[:, k] = self._rotation(r, times, step, time, np.inf)
+        return made
+
     def _lengths(
         self,
         drive: Drive,
@@ -227,6 +247,22 @@ def differences(
         rate += weights[0, s, :, None] * value
         second += weights[1, s, :, None] * value
     return values[below : below + n], rate / step, second / step**2
+
+
+def suited(function: Callable[[FloatArray], FloatArray], time: float) -> float:
+    """Step in s, ``MOMENT`` or less, of the differences from a time on that see how a function changes."""
+    times, step = np.array([time]), MOMENT
+    values, _, second = differences(function, times, step, time, np.inf)
+    best, least = step, math.inf
+    for _ in range(QUARTERS):
+        finer = differences(function, times, 0.25 * step, time, np.inf)[2]
+        change = float(np.max(np.abs(second - finer)))
+        if change < least:
+            best = step
+        if change <= SETTLED * np.max(np.abs(finer)) + DIGITS * np.max(np.abs(values)) / (0.25 * step) ** 2:
+            return best
+        step, second, least = 0.25 * step, finer, min(change, least)
+    return best
 
 
 def _amplitudes(functions: list[TimeFunction], times: FloatArray, given: dict[str, float]) -> FloatArray:

@@ -79,9 +79,8 @@ def support_name(system: System, support: Any) -> str:
 def _out_of_balance(system: System, q: FloatArray, time: float) -> tuple[FloatArray, FloatArray]:
     """Internal forces less loads, and the loads, in physical components."""
     zero, f, r = np.zeros(system.size), np.zeros(system.size), np.zeros(system.size)
-    h = 1e-3
     system.place(time, q, zero.copy(), zero.copy())
-    tables = system.inputs.tables(time - h, h, 1, time, np.inf, (q, zero), still=True)
+    tables = system.inputs.moment(time, (q, zero))
     apply_load(system.core.loads, tables.value[0], f)
     residual(system.core.batches, system.core.ws, q, zero, zero, f, r)
     return r, f

@@ -280,9 +280,7 @@ class System(Derived):
         """Put supports where they are at ``time``, and inputs of loads; fills the shadows."""
         if self.inputs.still and not len(self.value) and not self.constraints.rotations:
             return  # nothing moves, and nothing is seen along other axes
-        h = 1e-3
-        tables = self.inputs.tables(time - h, h, 1, time, np.inf, (q, v), still=True)
-        place_supports(self.supports, self.value, tables, 0, q, v, a)
+        place_supports(self.supports, self.value, self.inputs.moment(time, (q, v)), 0, q, v, a)
 
     def _set_motion(self, q: FloatArray, v: FloatArray, a: FloatArray, time: float) -> None:
         """Initial rigid motions of the bodies; what a support holds follows the support."""
