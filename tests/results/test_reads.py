@@ -71,3 +71,19 @@ def test_long_files_are_read_as_often_as_short_ones(question, files, monkeypatch
         if isinstance(answer, np.ndarray):
             assert len(answer) == states + 1
     assert counts[1] <= counts[0] + 2
+
+
+def test_states_of_a_file_are_arrays_for_numpy(tmp_path):
+    """np.asarray of them was an array without dimensions, and len() an error."""
+    made = model()
+    ran = ancf.simulate(made, t_end=0.004, step=1e-3, file=tmp_path / "run.h5")
+    read = ancf.load(tmp_path / "run.h5")
+    memory = ancf.simulate(made, t_end=0.004, step=1e-3)
+    for result in (ran, read):
+        np.testing.assert_array_equal(np.asarray(result.q), memory.q)
+        np.testing.assert_array_equal(np.abs(result.v), np.abs(memory.v))
+        assert len(result.q) == 5
+        assert sum(1 for _ in result.q) == 5
+        for beyond in (5, -6):
+            with pytest.raises(IndexError, match="there are 5"):
+                result.q[beyond]

@@ -14,7 +14,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
 from ..model.beam import Beam
-from ..model.bodies import PointMass
+from ..model.bodies import PointMass, RigidBody
 from ..model.connections import Spring
 from ..model.model import Model
 from ..model.torsion import TorsionSpring
@@ -91,7 +91,7 @@ def imbalance(system: System, q: FloatArray, time: float, known: Remembered | No
     loose[free] = force[free]
     if float(np.sum(np.abs(loose))) <= BALANCED * carried + ROUND_OFF * _stiffness(system):
         return None
-    return _described(system, loose, r)
+    return _described(system, q, loose, r)
 
 
 def of_motion(system: System, q: FloatArray, v: FloatArray) -> list[str]:
@@ -151,7 +151,7 @@ def _in_newtons(system: System, r: FloatArray, weight: FloatArray) -> FloatArray
     return found
 
 
-def _described(system: System, loose: FloatArray, r: FloatArray) -> Imbalance:
+def _described(system: System, q: FloatArray, loose: FloatArray, r: FloatArray) -> Imbalance:
     """Sum and place of what is out of balance: forces, or where there are hardly any, moments."""
     first = np.unique(np.concatenate([slots[:, 0] for slots in system.numbering.slots.values()]))
     forces = np.array([np.linalg.norm(loose[i : i + 3]) for i in first])
@@ -160,7 +160,15 @@ def _described(system: System, loose: FloatArray, r: FloatArray) -> Imbalance:
         return Imbalance(float(np.sum(forces)), "N", _place(system, int(first[np.argmax(forces)])))
     if worst in system.numbering.arcs.values():
         return Imbalance(float(abs(r[worst])), "N", system.numbering.describe(worst))
-    return Imbalance(float(abs(r[worst])), "N m", _place(system, worst))
+    return Imbalance(_moment(system, q, r, worst), "N m", _place(system, worst))
+
+
+def _moment(system: System, q: FloatArray, r: FloatArray, unknown: int) -> float:
+    """Moment of a rigid body, which its axes share, or the force in an unknown of a slope, N m."""
+    for name, slots in system.numbering.slots.items():
+        if isinstance(system.model.bodies[name], RigidBody) and np.any(abs(slots + 1 - unknown) < 2):
+            return float(np.linalg.norm(sum(np.cross(q[i : i + 3], r[i : i + 3]) for i in slots[0, 1:])))
+    return float(abs(r[unknown]))
 
 
 def _place(system: System, unknown: int) -> str:

@@ -178,10 +178,16 @@ class ReadStore:
 
 
 class Rows:
-    """The first rows of a data set."""
+    """The first rows of a data set, which are read when they are asked for; NumPy takes them as an array."""
 
     def __init__(self, data: Any, rows: int) -> None:
         self._data, self.shape = data, (rows, *data.shape[1:])
+
+    def __len__(self) -> int:
+        return int(self.shape[0])
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> FloatArray:
+        return np.asarray(self[:], dtype=dtype)
 
     def __getitem__(self, key: Any) -> FloatArray:
         first, *rest = key if isinstance(key, tuple) else (key,)
@@ -190,8 +196,10 @@ class Rows:
         if isinstance(first, slice):
             start, stop, stride = first.indices(self.shape[0])
             first = slice(start, stop, stride)
+        elif not -len(self) <= first < len(self):
+            raise IndexError(f"state {first} is asked for, and there are {len(self)}")
         elif first < 0:
-            first += self.shape[0]
+            first += len(self)
         try:
             if rest and isinstance(rest[-1], np.ndarray):  # HDF5 reads columns in ascending order alone
                 columns, order = np.unique(rest[-1], return_inverse=True)
