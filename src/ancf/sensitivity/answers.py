@@ -25,7 +25,7 @@ from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
 from .branches import Change, changed, kinks_of
 from .family import Family
-from .remembering import Row, refuse_friction
+from .remembering import Resting, Row, refuse_friction
 
 #: Change of a state, in sizes of the model, of the differences of an answer, and of velocities per second.
 MOVED = 1e-4
@@ -133,6 +133,7 @@ class Sensitivity:
         self._family, self.t = family, t
         self._q, self._v, self._dq, self.dv = q, v, dq, dv
         self.memory: Row | None = None  # of what friction remembers in the last state, None: not known
+        self.resting: Resting | None = None  # the same of an equilibrium with friction
 
     @property
     def dq(self) -> FloatArray:
@@ -218,7 +219,7 @@ class Sensitivity:
         ModelError
             What the question itself raises.
         """
-        return self._of(question, False, self._family.around())
+        return self._at(question, False, self._family.around())
 
     def answer(self, question: Callable[[Face], Any], linear: bool = False) -> FloatArray:
         """The same for a question that a state or a result answers by itself.
@@ -230,7 +231,15 @@ class Sensitivity:
             It is linear in the state.
         """
         each = zip(self._family.systems, self._family.weights, strict=True)
-        return self._of(question, linear, list(each))
+        return self._at(question, linear, list(each))
+
+    def _at(
+        self, question: Callable[[Face], Any], linear: bool, around: list[tuple[System, float]]
+    ) -> FloatArray:
+        if self.resting is None:
+            return self._of(question, linear, around)
+        with self.resting.brought([self._family.base, *(system for system, _ in around)]):
+            return self._of(question, linear, around)
 
     def _of(
         self, question: Callable[[Face], Any], linear: bool, around: list[tuple[System, float]]
@@ -248,6 +257,8 @@ class Sensitivity:
         for e, dq, dv in self._moves():
 
             def moved(x: float, dq: FloatArray = dq, dv: FloatArray = dv) -> FloatArray:
+                if self.resting is not None and dq is self.dq:
+                    self.resting.bring(family.base, x)
                 near = Face(family.base, self._q + x * dq, self._v + x * dv, t, True)
                 return np.asarray(question(near), dtype=np.float64)
 

@@ -57,6 +57,8 @@ def of_state(
         for family, (dq, dv) in zip(families, found, strict=True)
     }
     memory.hand_to(list(made.values()))
+    if memory:
+        memory.rest(list(made.values()))
     return made
 
 

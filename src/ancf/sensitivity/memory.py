@@ -30,7 +30,7 @@ from ..system.core import apply_supports, keep_memory, place_supports, residual
 from ..system.system import System
 from .answers import derivative
 from .family import Family
-from .remembering import Row, friction_of
+from .remembering import Resting, Row, friction_of
 
 #: Arrays of a memory that depend smoothly on the state.
 LENGTHS, FORCES = ("anchor",), ("limit", "before")
@@ -128,6 +128,15 @@ class Memory:
         """Let sensitivities, one for each family, know those of the last state."""
         for own, d in zip(sensitivities, self.d, strict=True):
             own.memory = d
+
+    def rest(self, sensitivities: list[Any]) -> None:
+        """Let those of an equilibrium know the whole."""
+        held = {
+            name: np.where(x > 0.0, HELD, x) if name.endswith(".limit") else x
+            for name, x in self._now.items()
+        }
+        for own, d in zip(sensitivities, self.d, strict=True):
+            own.resting = Resting(held, d)
 
     def share(self) -> None:
         """Let the systems of all families remember the same."""

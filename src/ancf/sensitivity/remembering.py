@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import numpy as np
 
 from ..arrays import FloatArray
@@ -36,6 +39,39 @@ def refuse_friction(system: System, question: str) -> None:
     if question in ("friction_force", "slipping") and friction_of(system):
         what = "the derivative of friction is not known"
         raise ModelError(f"sensitivity.{question}", what, "ask for the tension on both sides of the contact")
-    if question in ("reaction", "reaction_moment") and friction_of(system):
-        what = "the derivative of a reaction is not known where there is friction"
-        raise ModelError(f"sensitivity.{question}", what, "ask for the tension next to the support")
+
+
+class Resting:
+    """What friction remembers in an equilibrium, and its derivatives, for answers that ask for forces there.
+
+    What has slipped is just at its limit and taken to stick: its force has the same derivative.
+
+    Parameters
+    ----------
+    memory : dict of str to ndarray
+        With limits that nothing reaches.
+    d : dict of str to ndarray
+        Derivatives.
+    """
+
+    def __init__(self, memory: Row, d: Row) -> None:
+        self.memory, self.d = memory, d
+
+    def bring(self, system: System, x: float = 0.0) -> None:
+        """Let a system remember what the equilibrium leaves if the parameter changes by x."""
+        for name, own in system.memory.items():
+            if name in self.memory:
+                own[...] = self.memory[name] + x * self.d[name] if name in self.d else self.memory[name]
+
+    @contextmanager
+    def brought(self, systems: list[System]) -> Iterator[None]:
+        """Let systems remember it for a while."""
+        before = [{name: x.copy() for name, x in system.memory.items()} for system in systems]
+        for system in systems:
+            self.bring(system)
+        try:
+            yield
+        finally:
+            for system, kept in zip(systems, before, strict=True):
+                for name, x in system.memory.items():
+                    x[...] = kept[name]
