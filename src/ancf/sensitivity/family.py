@@ -44,7 +44,10 @@ ABOVE = (
 STEEP = 0.2
 #: The step where forces have kinks, which no value may reach: a taut dropper is stretched by 0.1 mm.
 TINY = 1e-7
-KINKED = {"springs", "contacts", "pressing", "rubbing", "crossing", "gripping", "bumping", "rolling"}
+KINKED = {
+    *("springs", "contacts", "pressing", "rubbing", "crossing", "gripping", "bumping", "rolling"),
+    "ground",
+}
 #: The same where all is linear; energies are quadratic then.
 PAIR = ((-3.0, 3.0), (-1 / 6, 1 / 6))
 
@@ -157,7 +160,8 @@ class Family(Pushing):
             return self._take(h, *BOTH)
         except ModelError:
             if p != 0.0:
-                raise
+                self._forget()
+                return self._take(tiny, *PAIR)  # so far from its value there is no such model
         return self._take(h, *ABOVE)  # it may not be negative
 
     def _is_steep(self, acts: Acts) -> bool:

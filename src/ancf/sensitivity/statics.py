@@ -19,8 +19,9 @@ from .base import matrices_of, moved_with
 from .family import Family
 from .leaning import Leaning
 
-#: Residual of the equations, relative to their right-hand side, that is aimed at and that is accepted.
-AIMED, ACCEPTED = 1e-13, 1e-8
+#: Residual of the equations, relative to their right-hand side, that is aimed at and that is accepted; part
+#: of the solution by which what is left may change it: on stiff grounds that is round-off of places.
+AIMED, ACCEPTED, CHANGED = 1e-13, 1e-8, 1e-7
 #: Directions of a search before it begins again, and how often it does.
 DIRECTIONS, AGAIN = 60, 5
 
@@ -153,7 +154,7 @@ def _is_solution(
     large = float(np.linalg.norm(x))
     if float(np.linalg.norm(left)) <= ACCEPTED * max(size, large):
         return True
-    return float(np.linalg.norm(solve(left))) <= ACCEPTED * large
+    return float(np.linalg.norm(solve(left))) <= CHANGED * large
 
 
 def _neutral(name: str = "") -> SolveError:
