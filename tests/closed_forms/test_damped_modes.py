@@ -395,3 +395,18 @@ def test_a_force_across_the_velocity(push):
     wanted = np.sqrt(100.0 + half**2) + np.array([-half, half])
     assert modes.eigenvalues.imag == pytest.approx(wanted, rel=1e-9)
     assert np.abs(modes.eigenvalues.real).max() < 1e-9 * wanted[1]
+
+
+@pytest.mark.parametrize("angle", ["0", "0.5*(1 - cos(pi*t))", "0.3*sin(t)**2"])
+def test_an_arm_on_a_motor_at_rest(angle):
+    """Rates of given motions that begin at rest are round-off and no motion."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section.rectangle(height=0.01, width=0.03, E=7e10, rho=2700.0)
+    beam = model.add_beam(
+        "arm", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section, element="nonlocking"
+    )
+    model.clamp(beam.start, rotation_vector=[0, f"-({angle})", 0])
+    rest = ancf.equilibrium(model)
+    found = ancf.damped_modes(model, about=rest, count=3)
+    wanted = 2.0 * np.pi * np.asarray(ancf.modes(model, about=rest, count=3).frequencies_hz)
+    assert np.sort(np.imag(found.eigenvalues)) == pytest.approx(np.sort(wanted), rel=1e-6)

@@ -192,7 +192,9 @@ class TimeFunction:
     def _components(self, given: Any) -> list[Expression | Series | float]:
         if isinstance(given, str) or not isinstance(given, Sequence | np.ndarray):
             wanted = "a list of 3 numbers or formulas, a function of t or a table"
-            raise ModelError(self.where, f"must be {wanted}, is {checks.shown(given)}")
+            hint = 'a column of a file: ancf.Series.read("file.csv", "column"), one for each direction'
+            names = isinstance(given, str) and given.lower().endswith((".csv", ".txt", ".dat"))
+            raise ModelError(self.where, f"must be {wanted}, is {checks.shown(given)}", hint if names else "")
         count = 1 if isinstance(given, np.ndarray) and given.ndim == 0 else len(given)
         if count != 3:
             raise ModelError(self.where, f"has {count} components, wanted 3")

@@ -6,6 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from ..arrays import FloatArray
+from ..errors import ModelError
 from . import auto_elements, checks, describe, followers, rebuild
 from .beam import Beam
 from .connecting import PointLike
@@ -24,6 +25,24 @@ from .tables import Readable, Sheet
 
 LoadT = TypeVar("LoadT", bound=Load)
 
+
+#: Words that users try, and what does it.
+OTHER_WORDS = {
+    "seabed": "add_ground(...) makes a seabed",
+    "floor": "add_ground(...) makes a floor",
+    "buoy": "add_rigid_body(...) or add_point_mass(...) makes a buoy, add_fluid(...) the water",
+    "cable": 'add_beam(...) makes a cable, element="cable" by default',
+    "rope": 'add_beam(...) makes a rope, element="cable" by default',
+    "line": 'add_beam(...) makes a line, element="cable" by default',
+    "pulley": "add_surface(...) and add_contact(...) make a pulley",
+    "drum": "add_surface(...) and add_contact(...) make a drum",
+    "current": "add_fluid(..., velocity=...) has a current",
+    "wave": "add_fluid(..., waves=...) has waves",
+    "wind": "add_fluid(..., velocity=...) has a wind",
+    "motor": "clamp(..., rotation_vector=...) turns as functions of time say",
+    "fix": "clamp(...) holds position and direction, pin(...) the position",
+    "mass": "add_point_mass(...) or add_rigid_body(...)",
+}
 
 #: What one of the parts of a model is called.
 ONE = {"bodies": "body", "supports": "support", "loads": "load", "connections": "connection"}
@@ -56,6 +75,9 @@ class Model(Supporting, Readable):
 
     def __init__(self, gravity: Any = (0.0, 0.0, 0.0), title: str = "") -> None:
         super().__init__()
+        if isinstance(gravity, int | float):
+            what = f"must be a list of three numbers, is {checks.shown(gravity)}"
+            raise ModelError("Model.gravity", what, f"(0, 0, {-abs(gravity):g}) where z points upwards")
         self.gravity: FloatArray = checks.vector(gravity, "Model.gravity")
         self.title = checks.text(title, "Model.title")
         self.supports: list[Support] = []
@@ -74,7 +96,9 @@ class Model(Supporting, Readable):
             for kind in all_kinds():
                 if kind.method == name and kind.add is not None:
                     return partial(called_as(kind.add, name), self)
-            raise AttributeError(f"Model has no attribute {name!r}", name=name, obj=self)
+            said = f"Model has no attribute {name!r}"
+            hint = next((way for word, way in OTHER_WORDS.items() if word in name), "")
+            raise AttributeError(f"{said}: {hint}" if hint else said, name=name, obj=self)
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *(kind.method for kind in all_kinds())})

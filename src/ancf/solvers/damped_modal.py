@@ -24,6 +24,7 @@ from ..linalg.sparse import to_sparse
 from ..model.winch import Winch
 from ..system.contacts import touching
 from ..system.core import apply_load, assemble, follow_supports, residual
+from ..system.reactions import AT_REST
 from ..system.system import System
 from .modal import motions
 from .quadratic import ComplexArray, lowest
@@ -278,7 +279,8 @@ def rotation_of(system: System, q: FloatArray, v: FloatArray) -> tuple[FloatArra
     places = _vectors(system.slots)
     rates = v[places]
     largest = float(np.max(np.abs(rates), initial=0.0))
-    if largest == 0.0:
+    moving = np.abs(v[: system.n]) * system.core.weight
+    if np.max(moving, initial=0.0) <= AT_REST:  # round-off of given motions
         return np.zeros(3), np.zeros(3)
     first = np.concatenate([slots[:, 0] for slots in system.slots.values()])
     moved = np.isin(places[:, 0], first)
