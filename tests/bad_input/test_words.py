@@ -1,4 +1,4 @@
-"""What users try first, by other words or in other units, is told what does it."""
+"""What users try first, by other words, is told what does it."""
 
 import pytest
 
@@ -34,14 +34,6 @@ def test_nothing_is_guessed():
 def test_gravity_is_a_vector():
     with pytest.raises(ancf.ModelError, match=r"Model.gravity: .*\(0, 0, -9.81\) where z points upwards"):
         ancf.Model(gravity=9.81)
-
-
-@pytest.mark.parametrize("degrees", [180, -90.0])
-def test_waves_in_degrees(degrees):
-    with pytest.raises(
-        ancf.ModelError, match=r"Waves.jonswap.direction: .* rad, more than a turn .*degrees are"
-    ):
-        ancf.Waves.jonswap(height=6, period=12, direction=degrees)
 
 
 def test_a_file_in_place_of_its_columns():

@@ -23,9 +23,6 @@ FOUND, MOST_ROUNDS = 1e-14, 60
 
 REGULAR, JONSWAP, PIERSON_MOSKOWITZ = "regular", "jonswap", "pierson-moskowitz"
 STRETCHINGS = ("wheeler", "none")
-#: A whole turn, rad, and round-off.
-ROUND = 2.0 * math.pi + 1e-6
-
 _COMMON = {"height", "period", "direction", "depth", "ramp", "stretching"}
 _KEYS = {
     REGULAR: _COMMON | {"phase"},
@@ -109,10 +106,6 @@ class Waves:
         self.height = checks.positive(given["height"], f"{where}.height")
         self.period = checks.positive(given["period"], f"{where}.period")
         self.direction = checks.number(given.get("direction", 0.0), f"{where}.direction")
-        if abs(self.direction) > ROUND:
-            what = f"is {self.direction:g} rad, more than a turn"
-            hint = f"directions are in rad: {self.direction:g} degrees are {math.radians(self.direction):.6g}"
-            raise ModelError(f"{where}.direction", what, hint)
         depth = given.get("depth")
         self.depth = math.inf if depth is None else checks.positive(depth, f"{where}.depth")
         self.ramp = checks.non_negative(given.get("ramp", self.period), f"{where}.ramp")
