@@ -5,6 +5,7 @@ import pytest
 
 import ancf
 from ancf.sensitivity.parameters import parameters_of
+from slopes import extrapolated, off
 
 TIGHT = ancf.Newton(tolerance=1e-14, modified=False)
 TRAPEZOIDAL = ancf.Trapezoidal(newton=TIGHT)
@@ -92,17 +93,9 @@ def shape_of(model, names=()):
 )
 def test_equilibria(model, names):
     """Against extrapolated differences of equilibria, each found anew."""
-    for parameter, mine in zip(parameters_of(model, names, "test"), shape_of(model, names)[1], strict=True):
-        size = parameter.value
-
-        def central(h, parameter=parameter):
-            return (
-                shape_of(parameter.at(parameter.value + h))[0]
-                - shape_of(parameter.at(parameter.value - h))[0]
-            ) / (2 * h)
-
-        theirs = (4 * central(5e-5 * size) - central(1e-4 * size)) / 3
-        assert np.max(np.abs(theirs - mine)) < 1e-7 * np.max(np.abs(mine)), parameter.name
+    for name, mine in zip(names, shape_of(model, names)[1], strict=True):
+        theirs = extrapolated(lambda own: shape_of(own)[0], model, name, step=1e-4, levels=2)
+        assert off(mine, theirs) < 1e-7, name
 
 
 @pytest.mark.parametrize(
@@ -127,17 +120,9 @@ def test_runs_from_equilibria(model, names, bar):
         return ancf.simulate(own, start=first.state(), t_end=0.05, sensitivities=names, **given)
 
     result = runs(model, names)
-    for parameter in parameters_of(model, names, "test"):
-        mine = result.sensitivity(parameter.name).dq
-
-        def central(h, parameter=parameter):
-            return (
-                runs(parameter.at(parameter.value + h)).q[:] - runs(parameter.at(parameter.value - h)).q[:]
-            ) / (2 * h)
-
-        size = parameter.value
-        theirs = (4 * central(5e-5 * size) - central(1e-4 * size)) / 3
-        assert np.max(np.abs(theirs - mine)) < bar * np.max(np.abs(mine)), parameter.name
+    for name in names:
+        theirs = extrapolated(lambda own: runs(own).q[:], model, name, step=1e-4, levels=2)
+        assert off(result.sensitivity(name).dq, theirs) < bar, name
 
 
 def path(model, **given):
@@ -145,26 +130,16 @@ def path(model, **given):
     return result, np.asarray(result.position(model.bodies["line"].end))
 
 
-def differences(parameter, change, given):
-    """Central differences, those of half the change taken twice, to order four."""
-
-    def central(h):
-        ends = [path(parameter.at(parameter.value + x), **given)[1] for x in (h, -h)]
-        return (ends[0] - ends[1]) / (2.0 * h)
-
-    return (4.0 * central(0.5 * change) - central(change)) / 3.0
-
-
 def apart(model, names, method, step, steps=30, change=1e-4):
     """Largest difference to those of runs by parameter, in the largest derivative."""
     given = {"t_end": steps * step, "step": step, "integrator": method}
     result, _ = path(model, sensitivities=names, **given)
     found = {}
-    for parameter in parameters_of(model, names, "test"):
-        mine = np.asarray(result.sensitivity(parameter.name).position(model.bodies["line"].end))
-        theirs = differences(parameter, change * (abs(parameter.value) or 1.0), given)
-        size = float(np.max(np.abs(mine)))
-        found[parameter.name] = float(np.max(np.abs(theirs - mine))) / size
+    for name in names:
+        mine = np.asarray(result.sensitivity(name).position(model.bodies["line"].end))
+        found[name] = off(
+            mine, extrapolated(lambda own: path(own, **given)[1], model, name, step=change, levels=2)
+        )
     return found
 
 

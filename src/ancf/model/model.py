@@ -97,7 +97,7 @@ class Model(Supporting, Readable):
                 if kind.method == name and kind.add is not None:
                     return partial(called_as(kind.add, name), self)
             said = f"Model has no attribute {name!r}"
-            hint = next((way for word, way in OTHER_WORDS.items() if word in name), "")
+            hint = next((OTHER_WORDS[word] for word in name.split("_") if word in OTHER_WORDS), "")
             raise AttributeError(f"{said}: {hint}" if hint else said, name=name, obj=self)
 
     def __dir__(self) -> list[str]:

@@ -72,12 +72,7 @@ def of_system(system: System) -> Remembered:
     places = {name: float(system.measured[system.measures[name][ARC]]) for name in _contacts(system.model)}
     held = dict(zip(_slides(system.model), modes, strict=True))
     inputs = system.inputs
-    return Remembered(held, places, memory_of(system), dict(inputs.given), inputs.changes > 0)
-
-
-def memory_of(system: System) -> dict[str, FloatArray]:
-    """Copies of what batches remember."""
-    return {name: x.copy() for name, x in system.memory.items()}
+    return Remembered(held, places, system.kept_memory(), dict(inputs.given), inputs.changes > 0)
 
 
 def restore(system: System, known: Remembered) -> None:

@@ -254,11 +254,13 @@ class Sensitivity:
                 )
         if linear:
             return np.asarray(total + question(Face(family.base, self.dq, self.dv, t)))
-        for e, dq, dv in self._moves():
+        for e, dq, dv, places in self._moves():
 
-            def moved(x: float, dq: FloatArray = dq, dv: FloatArray = dv) -> FloatArray:
-                if self.resting is not None and dq is self.dq:
-                    self.resting.bring(family.base, x)
+            def moved(
+                x: float, dq: FloatArray = dq, dv: FloatArray = dv, places: bool = places
+            ) -> FloatArray:
+                if self.resting is not None:
+                    self.resting.bring(family.base, x if places else 0.0)
                 near = Face(family.base, self._q + x * dq, self._v + x * dv, t, True)
                 return np.asarray(question(near), dtype=np.float64)
 
@@ -266,15 +268,17 @@ class Sensitivity:
         found: FloatArray = np.asarray(total)
         return found
 
-    def _moves(self) -> list[tuple[float, FloatArray, FloatArray]]:
-        """Sizes and directions of the changes of the state."""
+    def _moves(self) -> list[tuple[float, FloatArray, FloatArray, bool]]:
+        """Sizes and directions of the changes of the state; whether places change, not velocities."""
         n, weight = self._family.base.n, self._family.base.core.weight
         found = []
         for dq, dv, x in ((self.dq, 0 * self.dv, self.dq), (0 * self.dq, self.dv, self.dv)):
             most = float(np.max(np.abs(x[..., :n]) * weight, initial=0.0))
             most = most if most > LEAST else float(np.max(np.abs(x), initial=0.0))
+            if most <= LEAST and x is self.dq and self.resting is not None:
+                most = self.resting.size  # only what is remembered changes
             if most > LEAST:
-                found.append((MOVED / most, dq, dv))
+                found.append((MOVED / most, dq, dv, x is self.dq))
         return found
 
 

@@ -45,7 +45,14 @@ STEEP = 0.2
 #: The step where forces have kinks, which no value may reach: a taut dropper is stretched by 0.1 mm.
 TINY = 1e-7
 KINKED = {
-    *("springs", "contacts", "pressing", "rubbing", "crossing", "gripping", "bumping", "rolling"),
+    "springs",
+    "contacts",
+    "pressing",
+    "rubbing",
+    "crossing",
+    "gripping",
+    "bumping",
+    "rolling",
     "ground",
 }
 #: The same where all is linear; energies are quadratic then.

@@ -10,8 +10,6 @@ so that (R_q + R_L L_q) s = -R_p - R_L L_p - R_z dz.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from ..arrays import FloatArray
@@ -22,7 +20,7 @@ from ..solvers.statics import Leaned
 from ..system.core import Core, keep_memory
 from ..system.system import System
 from .family import Family
-from .memory import FAR, FORCES, Memory, slope
+from .memory import FAR, FORCES, Memory, slope, split
 from .remembering import Row
 
 #: What is remembered of the step before: without it limits are those of a state at rest.
@@ -111,15 +109,12 @@ class Leaning:
         """L_q s."""
         system = self.memory.system
         here = self._limits(system, self.q)
-        size = float(np.max(np.abs(s) * self.memory.weight(), initial=0.0))
-        change: Callable[[float], FloatArray] = lambda x: np.concatenate(  # noqa: E731
-            [x.ravel() for x in self._limits(system, self.q + x * s).values()]
-        )
-        total = slope(change, FAR, size) * np.ones(sum(x.size for x in here.values()))
-        ends = np.cumsum([x.size for x in here.values()])[:-1]
-        return {
-            name: x.reshape(here[name].shape) for name, x in zip(here, np.split(total, ends), strict=True)
-        }
+
+        def limits(x: float) -> FloatArray:
+            return np.concatenate([own.ravel() for own in self._limits(system, self.q + x * s).values()])
+
+        size = float(np.max(np.abs(s) * system.weights(), initial=0.0))
+        return split(slope(limits, FAR, size) * np.ones(sum(x.size for x in here.values())), here)
 
     def _add_own(self, family: Family, d: Row) -> None:
         """Add L_p."""

@@ -136,7 +136,8 @@ class Memory:
             for name, x in self._now.items()
         }
         for own, d in zip(sensitivities, self.d, strict=True):
-            own.resting = Resting(held, d)
+            anchors = {name: x for name, x in d.items() if name.split(".")[1] in LENGTHS}
+            own.resting = Resting(held, anchors)
 
     def share(self) -> None:
         """Let the systems of all families remember the same."""
@@ -191,10 +192,11 @@ class Memory:
         lengths, forces = (
             {name: d[name] for name in d if name.split(".")[1] in own} for own in (LENGTHS, FORCES)
         )
-        size = float(np.max(np.abs(s[0]) * self.weight(), initial=0.0))
+        weights = self.system.weights()
+        size = float(np.max(np.abs(s[0]) * weights, initial=0.0))
         moves: tuple[tuple[Any, Any, Row, float, float], ...] = (
             (s[0], self._none, lengths, FAR, max(size, _size(lengths))),
-            (self._none, s[1], {}, FAST, float(np.max(np.abs(s[1]) * self.weight(), initial=0.0))),
+            (self._none, s[1], {}, FAST, float(np.max(np.abs(s[1]) * weights, initial=0.0))),
             (self._none, self._none, forces, STRONG * self._limit(), _size(forces)),
         )
         total = np.zeros(sum(x.size for x in d.values()))
@@ -206,8 +208,7 @@ class Memory:
                 return np.concatenate([self._own[name].ravel() for name in d])
 
             total += slope(left, far, most)
-        ends = np.cumsum([x.size for x in d.values()])[:-1]
-        return {name: x.reshape(d[name].shape) for name, x in zip(d, np.split(total, ends), strict=True)}
+        return split(total, d)
 
     def _add_own(self, family: Family, kept: Row, q: FloatArray, v: FloatArray, d: Row) -> None:
         """Add what a parameter itself does to the memory that a step leaves."""
@@ -223,13 +224,6 @@ class Memory:
             keep_memory(Batches(own.parts[name] for name in self.names), q, v)
             for name, x in d.items():
                 x += weight * (arrays[name] - here[name])
-
-    def weight(self) -> FloatArray:
-        """Of unknowns and shadows, with which changes are measured."""
-        weight = np.ones(self.system.size)
-        own = self.system.core.weight
-        weight[: len(own)] = own
-        return weight
 
     def arrays_of(self, system: System) -> Row:
         """All that these batches remember, by "part.array"."""
@@ -269,6 +263,12 @@ class Memory:
 
 def _size(d: Row) -> float:
     return max((float(np.max(np.abs(x), initial=0.0)) for x in d.values()), default=0.0)
+
+
+def split(total: FloatArray, like: Row) -> Row:
+    """Arrays like these, which lie one after the other."""
+    ends = np.cumsum([x.size for x in like.values()])[:-1]
+    return {name: x.reshape(like[name].shape) for name, x in zip(like, np.split(total, ends), strict=True)}
 
 
 def slope(function: Function, far: float, size: float) -> FloatArray | float:

@@ -51,27 +51,29 @@ class Resting:
     memory : dict of str to ndarray
         With limits that nothing reaches.
     d : dict of str to ndarray
-        Derivatives.
+        Derivatives of places where friction has no force.
     """
 
     def __init__(self, memory: Row, d: Row) -> None:
         self.memory, self.d = memory, d
 
+    @property
+    def size(self) -> float:
+        """The largest derivative, m per unit."""
+        return max((float(np.max(np.abs(x), initial=0.0)) for x in self.d.values()), default=0.0)
+
     def bring(self, system: System, x: float = 0.0) -> None:
         """Let a system remember what the equilibrium leaves if the parameter changes by x."""
-        for name, own in system.memory.items():
-            if name in self.memory:
-                own[...] = self.memory[name] + x * self.d[name] if name in self.d else self.memory[name]
+        system.bring_memory(self.memory | {name: self.memory[name] + x * d for name, d in self.d.items()})
 
     @contextmanager
     def brought(self, systems: list[System]) -> Iterator[None]:
         """Let systems remember it for a while."""
-        before = [{name: x.copy() for name, x in system.memory.items()} for system in systems]
+        before = [system.kept_memory() for system in systems]
         for system in systems:
             self.bring(system)
         try:
             yield
         finally:
             for system, kept in zip(systems, before, strict=True):
-                for name, x in system.memory.items():
-                    x[...] = kept[name]
+                system.bring_memory(kept)

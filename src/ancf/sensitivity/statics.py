@@ -64,12 +64,10 @@ def of_equilibrium(
     for k, family in enumerate(families):
         family.know(system)
         push = family.at_rest(core, q, (time, h))
-        shift = follow(core, push.held[0, 0].copy()) if friction is not None else push.held[0, 0]
         if friction is not None:
-            push.push[0] += friction.push(k) + friction.times(shift)
+            push.push[0] += friction.push(k) + friction.times(_followed(core, push.held[0, 0].copy()))
         s = solve(push.push[0], family.name)
-        follow_supports(core.supports, s, np.zeros_like(s), np.zeros_like(s))
-        dq = s + push.held[0, 0]
+        dq = _followed(core, s) + push.held[0, 0]
         found.append((dq, family.of_motion(q, dq, time)))
     if friction is not None:
         friction.end(np.array(found))
@@ -89,12 +87,12 @@ def _leant(system: System, core: Core, time: float, families: list[Family], fric
             d = family.of_states(time)[0].copy()
             d[core.supports.held] = 0.0
             d[system.n :] = 0.0
-            rows.append(follow(core, d + family.at_rest(core, q, (time, h)).held[0, 0]))
+            rows.append(_followed(core, d + family.at_rest(core, q, (time, h)).held[0, 0]))
     return np.stack([rows, np.zeros((len(rows), q.size))], axis=1)
 
 
-def follow(core: Core, d: FloatArray) -> FloatArray:
-    """The same derivative with the shadows of its free unknowns."""
+def _followed(core: Core, d: FloatArray) -> FloatArray:
+    """The same derivative, the shadows of its free unknowns filled."""
     follow_supports(core.supports, d, np.zeros_like(d), np.zeros_like(d))
     return d
 
@@ -136,7 +134,7 @@ def _solver(system: System, core: Core, q: FloatArray, friction: Leaning | None)
             x, _ = gmres(whole, b, x0=x, M=before, rtol=AIMED, restart=DIRECTIONS, maxiter=AGAIN)
         else:
             x += lu.solve(b - times(x))
-        if not _is_solution(times(x) - b, lu.solve, x, 1.0):
+        if not _is_solution(times(x) - b, lu.solve, x):
             raise _neutral(name)
         s[:n] = size * x
         return s
@@ -144,15 +142,13 @@ def _solver(system: System, core: Core, q: FloatArray, friction: Leaning | None)
     return solve
 
 
-def _is_solution(
-    left: FloatArray, solve: Callable[[FloatArray], FloatArray], x: FloatArray, size: float
-) -> bool:
-    """Whether what is left of a right-hand side of some size is nothing, or changes the solution by nothing.
+def _is_solution(left: FloatArray, solve: Callable[[FloatArray], FloatArray], x: FloatArray) -> bool:
+    """Whether what is left of a right-hand side of size 1 is nothing, or changes the solution by nothing.
 
     It may be round-off of forces much larger than the right-hand side.
     """
     large = float(np.linalg.norm(x))
-    if float(np.linalg.norm(left)) <= ACCEPTED * max(size, large):
+    if float(np.linalg.norm(left)) <= ACCEPTED * max(1.0, large):
         return True
     return float(np.linalg.norm(solve(left))) <= CHANGED * large
 

@@ -279,9 +279,7 @@ def rotation_of(system: System, q: FloatArray, v: FloatArray) -> tuple[FloatArra
     places = _vectors(system.slots)
     rates = v[places]
     largest = float(np.max(np.abs(rates), initial=0.0))
-    weight = np.ones(system.size)
-    weight[: system.n] = system.core.weight
-    if np.max(np.abs(rates) * weight[places], initial=0.0) <= AT_REST:  # round-off of given motions
+    if np.max(np.abs(rates) * system.weights()[places], initial=0.0) <= AT_REST:  # round-off of given motions
         return np.zeros(3), np.zeros(3)
     first = np.concatenate([slots[:, 0] for slots in system.slots.values()])
     moved = np.isin(places[:, 0], first)

@@ -64,7 +64,7 @@ class Iteration:
 
     def __post_init__(self) -> None:
         self.zero = np.zeros_like(self.q)
-        self.begun = {name: x.copy() for name, x in self.system.memory.items()}  # what is remembered at first
+        self.begun = self.system.kept_memory()  # what is remembered at first
         self.lu: SuperLU | None = None
         arcs = self.system.numbering.arcs
         slides = [c for c in self.system.model.connections if isinstance(c, Slide)]

@@ -81,8 +81,7 @@ def equilibrium(
     finally:
         slack.set(0.0, 0.0)
         core.loads.value[:] = it.inputs
-    kept = {name: x.copy() for name, x in system.memory.items()}
-    leaned = Leaned(first if it.laid is None else it.laid, it.laid is not None, kept)
+    leaned = Leaned(first if it.laid is None else it.laid, it.laid is not None, system.kept_memory())
     keep_memory(core.remembering, it.q, it.zero)
     seconds = clock.process_time() - cpu
     return it.q, Stats(load_steps, it.iterations, it.jacobians, it.jacobians, halvings, seconds), leaned
@@ -145,8 +144,7 @@ def attempt(it: Iteration, slack: Slack, load_steps: int) -> int:
     first, q = None, it.q.copy()
     for (finer, holds), plain in product(_attempts(it.core, q), _plain(it)):
         it.q, it.mu, it.held, it.plain, it.laid = q.copy(), 0.0, holds, plain, None
-        for name, x in it.system.memory.items():
-            x[...] = it.begun[name]
+        it.system.bring_memory(it.begun)
         grips(it.core, it.q, holds)
         try:
             halvings = bring_on(it, slack, finer * load_steps)

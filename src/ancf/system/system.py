@@ -129,9 +129,8 @@ class System(Derived):
 
     def __reduce__(self) -> Any:
         """Addresses of compiled operations hold in one process alone: another one makes the system again."""
-        memory = {name: array.copy() for name, array in self.memory.items()}
-        kept = self.model, self.spare, self.sensors, self.measured
-        return _again, (*kept, memory, bool(self.core.accounted))
+        kept = self.model, self.spare, self.sensors, self.measured, self.kept_memory()
+        return _again, (*kept, bool(self.core.accounted))
 
     @property
     def memory(self) -> dict[str, FloatArray]:
@@ -142,6 +141,22 @@ class System(Derived):
             for key in traits(batch).memory
             if getattr(batch, key).size
         }
+
+    def kept_memory(self) -> dict[str, FloatArray]:
+        """Copies of what batches remember, see :meth:`bring_memory`."""
+        return {name: x.copy() for name, x in self.memory.items()}
+
+    def bring_memory(self, kept: dict[str, FloatArray]) -> None:
+        """Let batches remember what was kept; what is not there stays."""
+        for name, x in self.memory.items():
+            if name in kept:
+                x[...] = kept[name]
+
+    def weights(self) -> FloatArray:
+        """With which changes of unknowns are measured, 1 for their shadows, (size,)."""
+        weights = np.ones(self.size)
+        weights[: self.n] = self.core.weight
+        return weights
 
     @property
     def measuring(self) -> tuple[Any, ...]:
@@ -334,8 +349,7 @@ def _again(
     """A system that was pickled."""
     made = System(model, spare)
     made.model, made.sensors, made.measured[...] = model, sensors, measured
-    for name, array in made.memory.items():
-        array[...] = memory[name]
+    made.bring_memory(memory)
     if not accounted:
         made.skip_energies()
     return made
