@@ -16,7 +16,7 @@ def notes(known: Any) -> list[str]:
     where = " and ".join(f'"{name}"' for name in grounds)
     why = "over all the way from the initial shape it would press a cable or leave no equilibrium"
     much = (
-        "forces where cables lie are nearly those without friction, and may jump with a number of the model"
+        "forces where cables lie are nearly those without friction, and may jump with the model's numbers"
     )
     hint = "draw cables by a path near where they lie"
     return [f"friction on {where} holds cables from where they came down without it: {why}; {much}; {hint}"]
