@@ -15,8 +15,6 @@ def notes(known: Any) -> list[str]:
         return []
     where = " and ".join(f'"{name}"' for name in grounds)
     why = "over all the way from the initial shape it would press a cable or leave no equilibrium"
-    much = (
-        "forces where cables lie are nearly those without friction, and may jump with the model's numbers"
-    )
+    much = "forces where cables lie are nearly those without friction, and may jump with the model's numbers"
     hint = "draw cables by a path near where they lie"
     return [f"friction on {where} holds cables from where they came down without it: {why}; {much}; {hint}"]
