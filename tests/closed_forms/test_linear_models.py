@@ -146,3 +146,23 @@ def test_compound_pendulum(mass, arm):
     np.testing.assert_allclose(found[:, 1], arm * S**2 * turn, rtol=1e-9, atol=1e-12)
     np.testing.assert_allclose(np.abs(found[:, 2]), np.abs(mass * arm * S**2 * turn - 1.0), rtol=1e-9)
     assert len(linear.A) == 2
+
+
+@pytest.mark.parametrize("word", ["acceleration", "velocity"])
+@pytest.mark.parametrize("across", [0.0, 3.0, -8.0])
+def test_a_force_across_on_a_base_that_moves(across, word):
+    """m x'' + d (x' - s') + k (x - s) = -a y and m y'' + d y' + k y = a x: the stiffness is not symmetric."""
+    m, k, d = 0.7, 20.0, 0.9
+    model = ancf.Model()
+    base = model.add_point_mass("base", at=(0, 0, 0), mass=1.0)
+    model.pin(base, name="hook")
+    body = model.add_point_mass("p", at=(1, 0, 0), mass=m)
+    model.hold(body, position="z")
+    model.add_spring(base, body, stiffness=k, damping=d)
+    model.add_force(body, [f"{-across}*y", f"{across}*(x - 1) - {k}*y - {d}*vy", "0"])
+    linear = ancf.linearise(model, inputs=[f"{word}(hook)[0]"], outputs=["position(p)[0]", "position(p)[1]"])
+    hz = np.array([0.05, 0.4, 1.1])
+    s = 2j * np.pi * hz
+    A, pulled = m * s**2 + d * s + k, (k + d * s) / s ** (2 if word == "acceleration" else 1)
+    wanted = np.array([A, across + 0.0 * s]).T * (pulled / (A**2 + across**2))[:, None]
+    np.testing.assert_allclose(linear.frequency_response(hz)[:, :, 0], wanted, rtol=1e-7, atol=1e-12)

@@ -9,7 +9,7 @@ from scipy.signal import lsim
 
 import ancf
 from ancf.errors import ModelError, SolveError
-from ancf.solvers.linear import slope
+from ancf.solvers.linear import all_modes, slope
 from helpers import EXACT, SOLIDS, rate, square
 
 DAMPED = {"damping": 0.06, "axial_damping": 2.0, "bending_damping": 0.01}
@@ -453,9 +453,10 @@ def test_reduction_keeps_the_static_gain_and_the_lowest_modes(name, element, mod
     left = []
     for hz in (2e-3 * small.left_out_hz, 1e-3 * small.left_out_hz):
         a, b = (one.frequency_response(hz)[0] for one in (whole, small))
-        left.append(np.abs(a - b) / np.max(np.abs(a), axis=0))
-    assert np.all(left[0] < 0.02)
-    assert np.all((left[1] < 0.6 * left[0]) | (left[0] < 1e-9))
+        left.append(np.abs(a - b) / np.abs(a))
+    assert np.max(left) < 2e-3
+    pushed = [one[:, 0] for one in left]
+    assert np.all(pushed[1] < 0.6 * pushed[0])
     twice = whole.reduced(modes + 3).reduced(modes)
     for key in "ABCD":
         mine, other = getattr(small, key), getattr(twice, key)
@@ -491,6 +492,10 @@ def test_it_prints_and_is_kept():
     )
     chain = parts.outputs_at[1] * parts.C[0] + parts.outputs_at[0] * parts.C[1]
     assert linear.C[1] == pytest.approx(chain, rel=1e-8)
+    by_object = ancf.linearise(model, about=state, outputs=named, inputs=[model.inputs["push"]])
+    assert by_object.frequency_response(0.0)[0] == pytest.approx(linear.frequency_response(0.0)[0], rel=1e-8)
+    winched = driven(length=1.5, speed=None)  # has an input that acts on nothing as well
+    assert ancf.linearise(winched, about=ancf.equilibrium(winched)).inputs == ("pay",)
     again = pickle.loads(pickle.dumps(linear))
     assert np.array_equal(again.A, linear.A)
     assert again.state(state) == pytest.approx(linear.state(state))
@@ -513,16 +518,22 @@ def test_inputs_of_a_run_go_on():
     )
 
 
-@pytest.mark.parametrize("scale", [1.0, 1e4])
+@pytest.mark.parametrize("scale", [1.7, 1.3e4])
 def test_slopes_settle(scale):
     """Of straight lines at once, of curves with a smaller step, and beside what cannot be asked for."""
 
     def root(x):
         if 0.01 * scale + x < 0.0:
             raise ModelError("here", "no root")
-        return np.array([np.sqrt(0.01 + x / scale), np.sin(3.0 * x / scale), 2.0 * x / scale + 1e3])
+        return np.array([np.sqrt(0.01 + x / scale), np.sin(3.0 * x / scale)])
 
-    assert slope(root, scale) * scale == pytest.approx([5.0, 3.0, 2.0], rel=1e-8)
+    assert slope(root, scale) * scale == pytest.approx([5.0, 3.0], rel=5e-12)
+    assert slope(lambda x: np.array([2.0 * x / scale + 1e3]), scale) * scale == pytest.approx(
+        [2.0], rel=1e-12
+    )
+    for beside, error in ((1e2, 2e-10), (1e6, 1e-7)):  # round-off of which does not let it settle
+        noisy = slope(lambda x, beside=beside: np.array([np.sin(3.1 * x / scale) + beside]), scale) * scale
+        assert noisy == pytest.approx([3.1], rel=error)
 
     def none(x):
         raise ModelError("here", "never")
@@ -708,3 +719,201 @@ def test_what_joints_hold_cannot_be_moved():
     model.hold(base, position="xyz", name="hook")
     model.connect(base.at(0.2, 0, 0), (0.2, 0, 0))
     refused(model, "cannot move: joints hold it", inputs=["acceleration(hook)[0]"])
+
+
+def test_a_hanging_body_turns_freely():
+    """About the line of a rope nothing resists: the double zero is exact, other modes keep their digits."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e4, EI=0.1, rhoA=0.2, damping=0.1)
+    line = model.add_beam("rope", start=(0, 0, 0), end=(0, 0, -2), elements=6, section=section)
+    model.pin(line.start)
+    load = body(model, (0, 0, -2.2))
+    model.connect(line.end, load.at(0, 0, 0.2))
+    state = ancf.equilibrium(model)
+    linear = ancf.linearise(model, about=state)
+    assert linear.frequencies_hz[0] == 0.0
+    assert np.all(np.abs(linear.eigenvalues[:2]) < 1e-12)
+    wanted = ancf.modes(model, about=state, count=12).frequencies_hz
+    assert linear.frequencies_hz[1:12] == pytest.approx(wanted[1:], rel=1e-9)
+
+
+@pytest.mark.parametrize("stiffness", [1e3, 1e7])
+@pytest.mark.parametrize("element", ["cable", "nonlocking"])
+def test_low_modes_keep_their_digits(element, stiffness):
+    """Of a body on soft springs at a beam that is stiff: M x = mu K x, with the highest mode far above."""
+    model = ancf.Model()
+    section = square(element, EA=stiffness, EI=stiffness * 1e-4, rhoA=0.4)
+    line = model.add_beam(
+        "beam", start=(0, 0, 0), end=(1, 0, 0), elements=6, section=section, element=element
+    )
+    for k, point in enumerate((line.start, line.at(0.5), line.end)):
+        for c in np.eye(3):
+            model.add_spring(point, point.initial_position + 2.0 * c, stiffness=2e-3 + 1e-4 * k)
+    wanted = ancf.modes(model, count=5).frequencies_hz
+    linear = ancf.linearise(model)
+    low = wanted > 1e-2  # the twist is neutral
+    assert np.sum(low) >= 4
+    assert linear.frequencies_hz[:5][low] == pytest.approx(wanted[low], rel=1e-8)
+
+
+def test_modes_are_orthogonal():
+    rng = np.random.default_rng(3)
+    scale = 10.0 ** np.linspace(0.0, 5.0, 40)
+    Q = np.linalg.qr(rng.standard_normal((40, 40)))[0]
+    M = np.diag(1.0 + rng.random(40))
+    K = np.sqrt(M) @ (Q * scale**2) @ Q.T @ np.sqrt(M)
+    values, vectors = all_modes(0.5 * (K + K.T), M)
+    np.testing.assert_allclose(vectors.T @ M @ vectors, np.eye(40), rtol=0, atol=1e-13)
+    assert values == pytest.approx(scale**2, rel=1e-6)
+
+
+def test_a_body_on_two_supports_follows_one():
+    """A rigid bar between two carriages, one of which is moved: the other end stays, the middle goes half."""
+    model = ancf.Model()
+    bar = model.add_rigid_body("bar", at=(0, 0, 0), mass=2.0, inertia=(0.1, 0.2, 0.2))
+    ends = [
+        model.add_point_mass(name, at=(x, 0, 0), mass=1.0) for name, x in (("left", -1.0), ("right", 1.0))
+    ]
+    for end, x in zip(ends, (-1.0, 1.0), strict=True):
+        model.connect(end, bar.at(x, 0, 0))
+    model.pin(ends[0], name="fixed")
+    model.hold(ends[1], position="yz", name="moved")
+    model.add_torsion_spring(bar, (0, 0, 0), axis=(1, 0, 0), stiffness=2.0)
+    linear = ancf.linearise(
+        model,
+        inputs=["acceleration(moved)[2]"],
+        outputs=["position(bar)[2]", "reaction(moved)[2]", "acceleration(bar)[2]"],
+    )
+    hz = np.array([0.3, 2.0])
+    found = linear.frequency_response(hz)[:, :, 0]
+    s = -1.0 / (2 * np.pi * hz) ** 2
+    wanted = np.array([0.5 * s, 1.0 + 0.5 + 0.05 + 0.0 * s, 0.5 + 0.0 * s]).T  # 1 + m/4 + I/4
+    np.testing.assert_allclose(found, wanted, rtol=1e-9)
+
+
+def test_inputs_leave_loads_as_they_are():
+    """A moment and a following force of inputs have their first values again when matrices are made."""
+    found = []
+    for given in (("push", "turn"), ("turn", "push"), ()):
+        model = ancf.Model()
+        line = rope(model, (0, 0, 0), (1, 0, 0), "cable")
+        model.clamp(line.start)
+        push, turn = model.add_input("push", 0.4), model.add_input("turn", 0.02)
+        model.add_follower_force(line.end, (-push, 0, 0))
+        model.add_moment(line.end, (0, turn, 0))
+        state = ancf.equilibrium(model)
+        found.append(ancf.linearise(model, about=state, inputs=given).eigenvalues[:8])
+    for mine in found[:2]:
+        assert mine == pytest.approx(found[2], rel=1e-9)
+
+
+@pytest.mark.parametrize("element", ["cable", "nonlocking"])
+def test_moments_turn_with_the_load(element):
+    """The moment of a clamp of a beam with a large force along it, beside differences of equilibria."""
+    outputs = ["reaction_moment(wall)[0]", "reaction_moment(wall)[1]", "reaction_moment(wall)[2]"]
+
+    def made(push):
+        model = ancf.Model()
+        line = rope(model, (0, 0, 0), (0.8, 0.1, 0.2), element)
+        model.clamp(line.start, name="wall")
+        u = model.add_input("push", push)
+        model.add_force(line.end, (80.0, 3.0 * u, 2.0 - u))
+        return model
+
+    state = ancf.equilibrium(made(0.5))
+    linear = ancf.linearise(made(0.5), about=state, outputs=outputs)
+    h = 4e-3
+    near, far = (
+        np.array([answers(ancf.equilibrium(made(0.5 + s * d)), outputs) for s in (1, -1)]) for d in (h, 2 * h)
+    )
+    wanted = (8 * (near[0] - near[1]) - (far[0] - far[1])) / (12 * h)
+    assert linear.frequency_response(0.0)[0, :, 0] == pytest.approx(wanted, rel=1e-6, abs=1e-8)
+
+
+@pytest.mark.parametrize("damping", [0.0, 5.0])
+def test_damping_is_part_of_an_output(damping):
+    """Tension of a damped rope: strain and its rate, from places and from velocities."""
+    model = ancf.Model()
+    section = ancf.Section(EA=1e3, EI=0.1, rhoA=1e-3, axial_damping=damping)
+    line = model.add_beam("rope", start=(0, 0, 0), end=(2, 0, 0), elements=2, section=section)
+    model.clamp(line.start)
+    load = model.add_point_mass("load", at=(2, 0, 0), mass=1.0)
+    model.connect(line.end, load)
+    model.hold(load, position="yz")
+    model.add_force(load, (model.add_input("pull"), 0, 0))
+    linear = ancf.linearise(model, outputs=["tension(rope.at(1))", "position(load)[0]", "velocity(load)[0]"])
+    tension, place, speed = linear.frequency_response([0.3, 2.0])[:, :, 0].T
+    assert tension == pytest.approx((1e3 * place + damping * speed) / 2.0, rel=2e-3)
+
+
+@pytest.mark.parametrize("modes", [2, 3, 6])
+@pytest.mark.parametrize("element", ["cable", "original"])
+def test_reduction_of_what_follows(element, modes):
+    """Where modes are coupled by a following force, those left out have a part in all four matrices."""
+    model, outputs = built("following", element)
+    whole = ancf.linearise(model, about=ancf.equilibrium(model), outputs=[*outputs, "reaction(hook)[0]"])
+    small = whole.reduced(modes)
+    at_rest = small.frequency_response(0.0)[0]
+    assert at_rest == pytest.approx(whole.frequency_response(0.0)[0], rel=1e-9)
+    kept = [whole.states.index(name) for name in small.states]
+    assert not np.allclose(small.A, whole.A[np.ix_(kept, kept)], rtol=1e-9, atol=0.0)
+
+
+@pytest.mark.parametrize("heavy", [1.0, 1e12])
+@pytest.mark.parametrize("stiffness", [1e4, 1e9])
+def test_stiff_beams_turn_freely(stiffness, heavy):
+    """The twist of a stiff beam on two pins is neutral, however large the stiffnesses that cancel in it.
+
+    A heavy mass beside it makes the mean frequency small, of which the zero is no share then.
+    """
+    model = ancf.Model()
+    section = square("nonlocking", EA=stiffness, EI=1e-3 * stiffness, rhoA=0.5)
+    line = model.add_beam(
+        "beam", start=(0, 0, 0), end=(0.6, 0.5, 0.7), elements=4, section=section, element="nonlocking"
+    )
+    model.pin(line.start)
+    model.pin(line.end)
+    far = model.add_point_mass("far", at=(5, 0, 0), mass=heavy)
+    model.hold(far, position="yz")
+    model.add_spring(far, (6, 0, 0), stiffness=heavy)
+    linear = ancf.linearise(model)
+    assert linear.frequencies_hz[0] == 0.0
+    assert linear.frequencies_hz[1] == pytest.approx(1.0 / (2 * np.pi), rel=1e-9)
+    assert np.abs(linear.eigenvalues[:2]).max() < 1e-9
+
+
+@pytest.mark.parametrize("tension", [1e2, 1e7])
+def test_forces_of_inputs_keep_their_digits(tension):
+    """Small inputs beside large forces at rest."""
+    model = ancf.Model()
+    section = ancf.Section(EA=100.0 * tension, EI=0.5, rhoA=0.4)
+    line = model.add_beam("rope", start=(0, 0, 0), end=(1, 0, 0), elements=4, section=section, length=0.98)
+    model.pin(line.start)
+    model.pin(line.end)
+    turn = model.add_input("turn")
+    model.add_force(line.at(0.49), (0.0, turn, 0.0))
+    linear = ancf.linearise(model, about=ancf.equilibrium(model), outputs=["position(rope.at(0.49))[1]"])
+    shape = linear.C[0, : len(linear.frequencies_hz)]
+    pushed = linear.B[len(linear.frequencies_hz) :, 0]
+    assert pushed == pytest.approx(
+        shape, rel=1e-9, abs=1e-11
+    )  # the place that is asked is the place of the force
+
+
+def test_reaction_beside_a_winch():
+    """The pin of a rope that a winch pays out carries the load and what more of the rope weighs."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=2e5, EI=0.05, rhoA=0.3, damping=0.05, axial_damping=40.0)
+    line = model.add_beam("rope", start=(0, 0, 0), end=(0, 0, -1.5), elements=4, section=section)
+    load = model.add_point_mass("load", at=(0, 0, -1.5), mass=2.0)
+    model.connect(line.end, load)
+    model.pin(line.start, name="hook")
+    pay = model.add_input("pay", 0.0, unit="m/s")
+    model.winch(line.start, length=1.5, speed=pay, acceleration=1e9, name="drum")
+    state = ancf.equilibrium(model)
+    with pytest.raises(ModelError, match=r'"reaction.hook..2." depends on how fast "pay" changes'):
+        ancf.linearise(model, about=state, outputs=["reaction(hook)[2]"])
+    linear = ancf.linearise(model, about=state, outputs=["tension(rope.start)", "position(load)[2]"])
+    tension, place = linear.frequency_response([1e-3])[0, :, 0] * (2j * np.pi * 1e-3)  # per metre
+    assert place == pytest.approx(-1.0, rel=1e-3)
+    assert tension == pytest.approx(0.3 * 9.81, rel=2e-2)

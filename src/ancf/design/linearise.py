@@ -55,7 +55,8 @@ def linearise(
     about : State, optional
         Equilibrium, at rest; default the initial shape. A state that is no equilibrium is named in ``notes``.
     inputs : sequence of str or Input, optional
-        Inputs of the model by name, default all of them, and motions of supports beside the given ones:
+        Inputs of the model by name, default all that act on loads or are speeds of winches, and motions of
+        supports beside the given ones:
         ``"acceleration(SUPPORT)[2]"`` in m/s^2 along z, whose displacement and velocity become states, or
         ``"velocity(SUPPORT)[2]"`` in m/s, whose displacement becomes one. An input that is the speed of a
         winch acts without the limit of its acceleration.
@@ -161,7 +162,7 @@ class _Inputs:
     def __init__(self, system: System, time: float, given: Any) -> None:
         self.system, self.time, self.model = system, time, system.model
         if given is None:
-            given = list(self.model.inputs)
+            given = [name for name in self.model.inputs if self._pushes(name) or self._drives(name)]
         if isinstance(given, str | Input) or not isinstance(given, Sequence):
             what = f"must be a list of inputs, is {checks.shown(given)}"
             raise ModelError("linearise.inputs", what, 'such as inputs=["thrust"]')

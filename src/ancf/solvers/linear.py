@@ -26,11 +26,11 @@ from numpy.linalg import LinAlgError
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError, SolveError
-from ..later import csc_array, eigh
+from ..later import coo_array, csc_array, eigh
 from ..system.core import apply_load, residual
 from .damped_modal import Damped, physical
 from .modal import dense, motions
-from .quadratic import NEUTRAL
+from .quadratic import NEUTRAL, SHIFT, UNSEEN
 
 #: Share of a motion of a support by which joints may be open.
 OPEN = 1e-8
@@ -111,14 +111,17 @@ class Linear:
         self.made, self.moved, self.forces = made, moved, forces
         f, lam, axes = made.free, made.lam, made.axes
         parts = made.whole()
-        self.M, self.D, self.K = (csc_array(axes.T @ x @ axes) for x in parts)
+        self.M, self.D, self.K = (
+            _with_columns(csc_array(axes.T @ x @ axes), moved, k) for k, x in enumerate(parts)
+        )
         self.physical = parts[2]
         mass = self.M[f][:, f].toarray()
         Z = motions(self.K[lam][:, f].toarray(), np.diag(mass).copy()) if len(lam) else np.eye(len(f))
         self.own = np.sqrt(np.maximum(np.diag(mass), 0.0))
         self.own[self.own == 0.0] = np.max(self.own)
         self.squares, self.shapes = self._modes(Z, mass)
-        self.columns = self._columns()
+        held = [one.unknown for one in moved]
+        self.columns = [x[:, held].toarray() for x in (self.M, self.D, self.K)]
         self.follows = self._at_rest(self._follows())
         self._assemble()
 
@@ -134,7 +137,8 @@ class Linear:
         shapes = Z @ vectors
         across, size = abs(self.made.axes), np.abs(shapes)
         terms = csc_array(across.T @ abs(self.physical) @ across)[f][:, f]
-        noise = NEUTRAL * np.sum(size * (terms @ size), axis=0)
+        least = (UNSEEN * SHIFT) ** 2 * float(abs(self.K[f][:, f]).sum() / np.abs(mass).sum())
+        noise = NEUTRAL * np.sum(size * (terms @ size), axis=0) + least  # as of the damped modes
         squares = np.where(np.abs(squares) <= noise, 0.0, squares)
         order = np.argsort(squares, kind="stable")
         return squares[order], shapes[:, order]
@@ -143,15 +147,6 @@ class Linear:
         """Symmetric or, with -1, antisymmetric part of the stiffness: exactly none of what is symmetric."""
         whole, axes = self.physical, self.made.axes
         return csc_array(axes.T @ (0.5 * (whole + sign * whole.T)) @ axes)
-
-    def _columns(self) -> FloatArray:
-        """Columns of mass, damping and stiffness of what inputs move, (3, n, moved)."""
-        found = np.zeros((3, self.M.shape[0], len(self.moved)))
-        for j, one in enumerate(self.moved):
-            for k, matrix in enumerate((self.M, self.D, self.K)):
-                column = matrix[:, [one.unknown]].toarray()[:, 0] if one.columns is None else one.columns[k]
-                found[k, :, j] = column
-        return found
 
     def _follows(self) -> FloatArray:
         """How the free unknowns follow what inputs move through joints, (free, moved)."""
@@ -206,8 +201,7 @@ class Linear:
         self.damping = P.T @ (self.D[f][:, f] @ P)
         ddp = -self.damping @ dp - (self.squares[:, None] * p + beside @ p) - m @ dds - d @ ds - k @ s
         ddp[:, u] += P.T @ self.forces[f]
-        rates = ddp + m[:, first] @ dds[first]
-        whole = np.vstack([dp, ds, rates, dds[second]])
+        whole = np.vstack([dp, ds, ddp, dds[second]])  # of e' = p'' + m u' without u', which p'' has alone
         self.A, self.B = whole[:, :states], whole[:, states : states + inputs]
         self._moments = m[:, first], first
         self._unknowns = [(P @ y + X @ z, z) for y, z in ((p, s), (dp, ds), (ddp, dds))]
@@ -222,11 +216,6 @@ class Linear:
         for x, (free, held) in zip((q, v, a), self._unknowns, strict=True):
             x[f], x[moved] = free, held
         r = self.M @ a + self.D @ v + self.K @ q
-        for one in self.moved:  # of a length the matrices have no column
-            if one.columns is not None:
-                own = zip(one.columns, (a, v, q), (self.M, self.D, self.K), strict=True)
-                for column, x, matrix in own:
-                    r += np.outer(column - matrix[:, [one.unknown]].toarray()[:, 0], x[one.unknown])
         r[:, self._inputs] -= self.forces
         if len(lam):
             carried = self.K[f][:, lam].toarray()
@@ -267,6 +256,16 @@ class Linear:
         whole_q, whole_v = np.zeros((2, self.states, len(f) + len(moved)))
         whole_q[: count + len(moved)], whole_v[count + len(moved) :] = of_q, of_v
         return np.concatenate([f, moved]), whole_q, whole_v
+
+
+def _with_columns(matrix: csc_array, moved: list[Moved], k: int) -> csc_array:
+    """A matrix with the columns of what is moved that it has not, the k-th of each."""
+    for one in moved:
+        if one.columns is not None:
+            rows = np.arange(matrix.shape[0])
+            entries = (one.columns[k], (rows, np.full(len(rows), one.unknown)))
+            matrix = csc_array(matrix + coo_array(entries, shape=matrix.shape))
+    return matrix
 
 
 def all_modes(K: FloatArray, M: FloatArray) -> tuple[FloatArray, FloatArray]:
