@@ -166,3 +166,22 @@ def test_a_force_across_on_a_base_that_moves(across, word):
     A, pulled = m * s**2 + d * s + k, (k + d * s) / s ** (2 if word == "acceleration" else 1)
     wanted = np.array([A, across + 0.0 * s]).T * (pulled / (A**2 + across**2))[:, None]
     np.testing.assert_allclose(linear.frequency_response(hz)[:, :, 0], wanted, rtol=1e-7, atol=1e-12)
+
+
+@pytest.mark.parametrize(("mass", "arm", "below"), [(2.0, 1.0, 0.4), (0.5, 0.3, 0.0), (7.0, 4.0, 1.5)])
+def test_pendulum_below_a_vessel_that_surges(mass, arm, below):
+    """(I + m l^2) phi'' + m g l phi = -m l s'': what the vessel, held altogether, takes to be moved."""
+    g, inertia, own = 9.81, 0.2, 5.0
+    model = ancf.Model(gravity=(0, 0, -g))
+    vessel = model.add_rigid_body("vessel", at=(0, 0, 0), mass=own, inertia=(0.1, 0.1, 0.1))
+    model.clamp(vessel, name="sea")
+    bob = model.add_rigid_body("bob", at=(0, 0, -below - arm), mass=mass, inertia=(0.1, inertia, 0.1))
+    model.hinge(vessel.at(0, 0, -below), bob.at(0, 0, arm), axis=(0, 1, 0), name="pivot")
+    outputs = ["position(bob)[0]", "acceleration(bob)[0]", "reaction(sea)[0]", "reaction_moment(sea)[1]"]
+    state = ancf.equilibrium(model)
+    linear = ancf.linearise(model, about=state, inputs=["acceleration(sea)[0]"], outputs=outputs)
+    s2 = S[1:] ** 2
+    swing = -mass * arm**2 / ((inertia + mass * arm**2) * s2 + mass * g * arm)  # l phi
+    along = 1.0 + s2 * swing
+    wanted = np.array([along / s2, along, own + mass * along, -below * mass * along]).T
+    np.testing.assert_allclose(linear.frequency_response(HZ[1:])[:, :, 0], wanted, rtol=1e-8, atol=1e-9)
