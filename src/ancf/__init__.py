@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from .design.distributions import Discrete, LogNormal, Normal, Triangular, Uniform
     from .design.fit import Fit
     from .design.gradient import gradient
+    from .design.linear_model import LinearModel
+    from .design.linearise import linearise
     from .design.minimise import Optimum, minimise
     from .design.sampling import sample
     from .design.study import study
@@ -68,6 +70,8 @@ _LATER = {
     "Newton": "model.integrators",
     "calibrate": "design.calibrate",
     "gradient": "design.gradient",
+    "linearise": "design.linearise",
+    "LinearModel": "design.linear_model",
     "jax_function": "design.bridges.jax",
     "torch_function": "design.bridges.torch",
     "minimise": "design.minimise",
@@ -95,6 +99,7 @@ __all__ = [
     "GeneralizedAlpha",
     "Gusts",
     "Interrupted",
+    "LinearModel",
     "LogNormal",
     "Mesh",
     "Model",
@@ -126,6 +131,7 @@ __all__ = [
     "equilibrium",
     "gradient",
     "jax_function",
+    "linearise",
     "load",
     "minimise",
     "modes",

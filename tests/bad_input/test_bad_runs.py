@@ -524,6 +524,7 @@ class TestFiles:
         ancf.equilibrium,
         ancf.modes,
         ancf.damped_modes,
+        ancf.linearise,
         lambda model: ancf.simulate(model, t_end=1.0, step=0.1),
         lambda model: ancf.stepper(model, step=0.1),
         lambda model: ancf.stepper(model, start="run.h5"),

@@ -106,7 +106,7 @@ def check_asked(model: Any, formulas: Iterable[Formula]) -> None:
     """Raise ModelError if a formula asks for what a model does not have."""
     for formula in formulas:
         for quantity, item in formula.asked:
-            _sensor(model, quantity, item, formula.where)
+            sensor_of(model, quantity, item, formula.where, QUANTITIES[quantity].nouns)
 
 
 def check_paths(read: Callable[[Mapping[str, Any]], Any], values: Mapping[str, Any]) -> None:
@@ -118,15 +118,14 @@ def check_paths(read: Callable[[Mapping[str, Any]], Any], values: Mapping[str, A
             raise
 
 
-def _sensor(model: Any, quantity: str, item: str, where: str) -> Any:
-    """What records an item; ModelError if it is not there or is not asked that."""
+def sensor_of(model: Any, quantity: str, item: str, where: str, nouns: tuple[str, ...]) -> Any:
+    """What records an item; ModelError if it is not there, or none of these nouns, which are asked that."""
     from ..viz.pictures.questions import noun_of
 
     try:
         found = model.sensor(item)
     except ModelError as error:
         raise ModelError(where, f"{quantity}({item}): {error.what}", error.hint) from None
-    nouns = QUANTITIES[quantity].nouns
     noun = noun_of(model, found)
     if noun not in nouns:
         raise ModelError(where, f"{quantity}() is asked of a {' or '.join(nouns)}, {item} is a {noun}")

@@ -93,19 +93,28 @@ class Damped:
         found: FloatArray = csc_array(self.axes.T @ A @ self.axes)[rows][:, columns].toarray()
         return found
 
+    def whole(self) -> tuple[csc_array, csc_array, csc_array]:
+        """Mass, damping and stiffness as they act along global axes, held unknowns included, each (n, n).
+
+        Damping is without the gyroscopic part, stiffness without the centrifugal one; joints are rows and
+        columns of it.
+        """
+        stiffness, damping = self.standing.beyond(self.q)
+        system = self.system
+        touches = touching(system.core, self.q, system.n, lambda row: physical(system, row)[: system.n])
+        K = self._whole(0.0, 0.0, 1.0) + csc_array(stiffness) + touches.matrix()
+        resisting = self._whole(0.0, 1.0, 0.0) + csc_array(damping) + touches.brakes()
+        return self.M, csc_array(resisting), csc_array(K)
+
     def matrices(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Mass, damping with the gyroscopic part, stiffness with the centrifugal one, constraints.
 
         Leaves the sizes of what cancels in the stiffness in ``terms``.
         """
         f = self.free
-        stiffness, damping = self.standing.beyond(self.q)
-        system = self.system
-        touches = touching(system.core, self.q, system.n, lambda row: _physical(system, row)[: system.n])
-        K = self._whole(0.0, 0.0, 1.0) + csc_array(stiffness) + touches.matrix()
+        _, resisting, K = self.whole()
         if self.braked is not None:
             K = csc_array(K + self.braked @ self.W)
-        resisting = self._whole(0.0, 1.0, 0.0) + csc_array(damping) + touches.brakes()
         M = self._part(self.M, f, f)
         D = self._part(csc_array(resisting + 2.0 * (self.M @ self.W)), f, f)
         centrifugal = self.M @ self.W @ self.W
@@ -117,7 +126,7 @@ class Damped:
     def _forces(self) -> tuple[FloatArray, float, FloatArray]:
         """What the rotation leaves in the free unknowns and constraints, the largest force, round-off."""
         system = self.system
-        arm = _physical(system, self.q)
+        arm = physical(system, self.q)
         for slots in system.numbering.slots.values():
             for c in range(3):
                 arm[np.unique(slots[:, 0]) + c] -= self.centre[c]
@@ -129,7 +138,7 @@ class Damped:
 
     def _rounded(self) -> FloatArray:
         """Round-off of elastic forces, (n,): of sums of stiffness times place that cancel, the largest."""
-        sums = abs(self._whole(0.0, 0.0, 1.0)) @ np.abs(_physical(self.system, self.q))
+        sums = abs(self._whole(0.0, 0.0, 1.0)) @ np.abs(physical(self.system, self.q))
         weight = np.where(self.system.core.weight > 0.0, self.system.core.weight, 1.0)
         found: FloatArray = ROUNDED * weight * np.max(sums / weight)
         return found
@@ -139,7 +148,7 @@ class Damped:
         core, f, r = self.system.core, np.zeros(self.system.size), np.zeros(self.system.size)
         apply_load(core.loads, core.loads.value, f)
         residual(core.batches, core.ws, q, self.standing.velocity(q), np.zeros_like(q), f, r)
-        return _physical(self.system, r)
+        return physical(self.system, r)
 
     def _check_surroundings(self) -> None:
         """Nothing whose resistance depends on more than the velocity stands still around what turns."""
@@ -163,7 +172,7 @@ class Damped:
         turned[places] += arms @ R.T - arms
         T = _on_vectors(self.system, R, 1.0)
         before, after = self._residual(self.q), self._residual(turned)
-        arm = self.M @ (self.W @ (self.W @ _physical(self.system, self.q)))
+        arm = self.M @ (self.W @ (self.W @ physical(self.system, self.q)))
         largest = max(float(np.max(np.abs(x))) for x in (after, before, arm))
         off = np.abs(after - T @ before) > SYMMETRIC * largest + 2.0 * self._rounded()
         if np.any(off) or not self._softens_alike(turned, T):
@@ -339,7 +348,7 @@ def _axes(system: System) -> csc_array:
     return csc_array(coo_array((given, (i, j)), shape=(system.n, system.n)))
 
 
-def _physical(system: System, x: FloatArray) -> FloatArray:
+def physical(system: System, x: FloatArray) -> FloatArray:
     """Global components (n,) of a state vector or of forces, whose shadows have them."""
     found = x[: system.n].copy()
     supports = system.core.supports

@@ -80,7 +80,7 @@ def _eigen(K: csc_array, M: csc_array, C: csc_array, count: int) -> tuple[FloatA
         return values, Z @ vectors
     shift = -1e-6 * float(abs(K).sum() / abs(M).sum())  # below zero: K alone may be singular
     if n <= DENSE or count > n // 3:
-        return _dense(K.toarray(), M.toarray(), count, shift)
+        return dense(K.toarray(), M.toarray(), count, shift)
     lu, shift = _below_all(K, M, shift)
     start = np.random.default_rng(1).standard_normal(n)
     inverse = LinearOperator((n, n), matvec=lu.solve, dtype=np.float64)
@@ -88,7 +88,7 @@ def _eigen(K: csc_array, M: csc_array, C: csc_array, count: int) -> tuple[FloatA
         values, vectors = eigsh(K, k=count, M=M, sigma=shift, which="LM", v0=start, OPinv=inverse)
     except RuntimeError as error:  # more neutral motions than modes were asked for
         if n <= MANY:
-            return _dense(K.toarray(), M.toarray(), count, shift)
+            return dense(K.toarray(), M.toarray(), count, shift)
         hint = "hold what moves without a force, or ask for more modes"
         raise SolveError("modes", f"the iteration does not end: {error}", hint) from None
     order = np.argsort(values)
@@ -142,7 +142,7 @@ def _own_stiffness(system: System, q: FloatArray, K: csc_array, x: FloatArray, f
     return own if abs(own) > noise else 0.0
 
 
-def _dense(K: FloatArray, M: FloatArray, count: int, shift: float) -> tuple[FloatArray, FloatArray]:
+def dense(K: FloatArray, M: FloatArray, count: int, shift: float) -> tuple[FloatArray, FloatArray]:
     """Lowest modes by way of M x = mu (K - shift M) x.
 
     The largest mu come out to their own round-off; that of the highest frequency, which is very high for
