@@ -422,3 +422,25 @@ def test_an_arm_on_a_motor_at_rest(angle):
     found = ancf.damped_modes(model, about=rest, count=3)
     wanted = 2.0 * np.pi * np.asarray(ancf.modes(model, about=rest, count=3).frequencies_hz)
     assert np.sort(np.imag(found.eigenvalues)) == pytest.approx(np.sort(wanted), rel=1e-6)
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.1, 3.0])
+@pytest.mark.parametrize("elements", [3, 6, 9])
+@pytest.mark.parametrize("hung", ["ball", "turning in a current"])
+def test_neutral_motions_take_no_digits(hung, elements, damping):
+    """A body that spins freely below a rope: all other eigenvalues are those of the linear model, in modes."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e4, EI=0.1, rhoA=0.2, damping=damping, diameter=0.01, drag=(1.2, 0.1))
+    rope = model.add_beam("rope", start=(0, 0, 0), end=(0, 0, -2), elements=elements, section=section)
+    model.pin(rope.start)
+    body = model.add_rigid_body("body", at=(0, 0, -2.2), mass=2.0, inertia=(0.02, 0.03, 0.04))
+    model.connect(rope.end, body.at(0, 0, 0.2))
+    if hung != "ball":
+        model.add_fluid("air", density=1.2, velocity=(3.0, 1.0, 0))
+    state = ancf.equilibrium(model)
+    values = ancf.linearise(model, about=state).eigenvalues
+    found = ancf.damped_modes(model, about=state, count=20 if elements == 3 else 40).eigenvalues
+    vibrate = found[np.abs(found) > 1e-3]  # what spins has the stiffness that an equilibrium leaves, if any
+    assert len(vibrate) >= len(found) - 2
+    for value in vibrate:
+        assert np.min(np.abs(values - value)) <= 1e-9 * np.abs(value)

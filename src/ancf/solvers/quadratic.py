@@ -36,20 +36,61 @@ def lowest(
         Of a pair that with the positive imaginary part.
     shapes : ndarray of complex, shape (n, count)
     """
-    m, d, k = (Z.T @ matrix @ Z for matrix in (M, D, K))
-    n = len(m)
     sigma = SHIFT * float(np.sqrt(np.abs(K).sum() / np.abs(M).sum()) or 1.0)
-    A = np.block([[np.zeros((n, n)), np.eye(n)], [-k, -d]])
-    B = np.block([[np.eye(n), np.zeros((n, n))], [np.zeros((n, n)), m]])
-    mu, vectors = eig(np.linalg.solve(A - sigma * B, B))
-    finite = np.flatnonzero(np.abs(mu) > 1e-14 * np.max(np.abs(mu)))
-    values, shapes = sigma + 1.0 / mu[finite], Z @ vectors[:n, finite]
+    values, shapes = _about(M, D, K, Z, sigma)
     neutral = _is_neutral(M, D, terms, values, shapes, UNSEEN * sigma)
     still = _independent(M, shapes[:, neutral])
+    free = _unresisted(M, D, K, Z, still, sigma)
+    if free.shape[1]:
+        values, shapes = _beside(M, D, K, Z, free, sigma)
+        neutral = _is_neutral(M, D, terms, values, shapes, UNSEEN * sigma)
     upper = np.flatnonzero(~neutral & (values.imag > -1e-9 * np.abs(values)))
     order = upper[np.argsort(np.abs(values[upper]), kind="stable")]
     found = np.concatenate([np.zeros(still.shape[1]), values[order]])
     return found[:count], np.hstack([still, shapes[:, order]])[:, :count]
+
+
+def _about(
+    M: FloatArray, D: FloatArray, K: FloatArray, Z: FloatArray, sigma: float
+) -> tuple[ComplexArray, ComplexArray]:
+    """All eigenvalues and shapes among the motions Z y, by the inverse about ``sigma``."""
+    m, d, k = (Z.T @ matrix @ Z for matrix in (M, D, K))
+    n = len(m)
+    A = np.block([[np.zeros((n, n)), np.eye(n)], [-k, -d]])
+    B = np.block([[np.eye(n), np.zeros((n, n))], [np.zeros((n, n)), m]])
+    mu, vectors = eig(np.linalg.solve(A - sigma * B, B))
+    finite = np.flatnonzero(np.abs(mu) > 1e-14 * np.max(np.abs(mu), initial=0.0))
+    return sigma + 1.0 / mu[finite], Z @ vectors[:n, finite]
+
+
+def _unresisted(
+    M: FloatArray, D: FloatArray, K: FloatArray, Z: FloatArray, still: FloatArray, sigma: float
+) -> FloatArray:
+    """Of neutral motions those that nothing brakes either, (n, r), each of kinetic energy 1/2 at the speed 1.
+
+    Those are double zeros, beside which the inverse about a small shift keeps few digits of the rest.
+    """
+    if not still.shape[1]:
+        return still
+    _, resisted, turns = np.linalg.svd(D @ still)
+    resisted = np.pad(resisted, (0, still.shape[1] - len(resisted)))
+    free = still @ turns[resisted <= UNSEEN * sigma * np.linalg.norm(M @ still, 2)].T
+    if free.shape[1]:  # once more, as they came with half of the digits
+        free = Z @ np.linalg.solve(Z.T @ (K + sigma**2 * M) @ Z, Z.T @ (M @ free))
+    return _independent(M, free)
+
+
+def _beside(
+    M: FloatArray, D: FloatArray, K: FloatArray, Z: FloatArray, free: FloatArray, sigma: float
+) -> tuple[ComplexArray, ComplexArray]:
+    """Eigenvalues and shapes beside motions that nothing resists: their columns of D and K are zero.
+
+    What is normal to them has its eigenvalues alone, and takes them along, l^2 y = -(l D + K) x.
+    """
+    whole = np.linalg.qr(Z.T @ (M @ free), mode="complete")[0]
+    values, shapes = _about(M, D, K, Z @ whole[:, free.shape[1] :], sigma)
+    along = (values * (free.T @ (D @ shapes)) + free.T @ (K @ shapes)) / values**2
+    return values, shapes - free @ along
 
 
 def _is_neutral(
