@@ -96,7 +96,7 @@ def prepared(
         system = made.system
         q, v = system.initial_state(t0) if start is None else adopted(start, system, f"{where}.start")
         remembered.begin(system, q, v, None if start is None else start.known)
-        check_gaps(system, q, f"{where}.start")
+        check_gaps(system, q, f"{where}.start", t0)
         for text in unresolved(system, q, method, step):
             warnings.warn(text, UserWarning, stacklevel=4)
             made.header["notes"].append(text)

@@ -6,6 +6,8 @@ from scipy.spatial.transform import Rotation
 
 import ancf
 from ancf.cosimulation.outputs import outputs_of
+from ancf.viz.view.curves import _joints
+from ancf.viz.view.histories import Histories
 
 SPACES = {"straight": Rotation.identity(), "turned": Rotation.from_euler("xyz", (0.5, -0.9, 2.0))}
 GIVEN = {"t_end": 0.4, "step": 1e-3, "output_step": 0.02}
@@ -151,6 +153,11 @@ class TestElsewhere:
         (axes,) = run.plot("pivot", quantity=quantity).axes
         np.testing.assert_array_equal(axes.lines[0].get_ydata(), getattr(run, quantity)("pivot"))
         assert axes.get_ylabel().endswith(f"[{unit}]")
+
+    def test_in_the_viewer(self, run):
+        (curve,) = (c for c in _joints(Histories(run)) if c.panel.startswith("joint angle"))
+        assert (curve.name, curve.unit) == ("pivot", "rad")
+        assert curve.values == pytest.approx(run.joint_angle("pivot"))
 
     def test_in_formulas(self, run):
         value, _ = ancf.gradient(pendulum(), "max(abs(joint_angle(pivot)))", [], t_end=0.1, step=1e-3)

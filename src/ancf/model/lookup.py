@@ -16,7 +16,7 @@ from .beam import Beam
 from .bodies import Body, PointMass, RigidBody, kind
 from .connections import Connection, Spherical, initial_position
 from .inputs import Input, make_input
-from .kinds import GROUPS, SURROUNDINGS, kind_of
+from .kinds import GROUPS, SURROUNDINGS, all_kinds, kind_of
 from .names import POINT_LABEL, Names, numbers_of, split_label, unknown
 from .points import Point
 from .repeated import Joined
@@ -182,6 +182,9 @@ class Lookup:
         if isinstance(point, Beam):
             return own_point(point, where)
         if not isinstance(point, str):
+            if (item := _item(self, point)) is not None:
+                noun, ends = item
+                raise ModelError(where, f'must be a point, is the {noun} "{point.name}"', ends)  # type: ignore[attr-defined]
             hint = SUCH_AS
             if where.endswith(".a") and isinstance(point, list | tuple | np.ndarray) and len(point) == 3:
                 hint = "a place in space is the other end, b"
@@ -192,6 +195,15 @@ class Lookup:
         ends = [end for item in self.connections for end in kind_of(item).ends_of(item)]
         far = [float(np.max(np.abs(initial_position(e) - place))) for e in ends if isinstance(e, np.ndarray)]
         return max(far, default=0.0)
+
+
+def _item(model: Lookup, given: object) -> tuple[str, str] | None:
+    """What a support, load or connection is called that was given for a point, and what its points are."""
+    found = next((kind for kind in all_kinds() if isinstance(given, kind.item)), None)
+    if found is None:
+        return None
+    points = [str(end) for end in found.ends_of(given) if isinstance(end, Point)]
+    return found.noun, f"its point is {points[0]}" if points else ""
 
 
 def own_point(body: Body, where: str) -> Point:

@@ -360,7 +360,9 @@ def noises(model: Any) -> list[str]:
                 continue
             for series in function.series:
                 if (noise := series.noise()) is not None:
-                    found.append(_said(function.where, name, series, *noise))
+                    where = function.where
+                    where += f' of "{support.name}"' if where.startswith("supports[") else ""
+                    found.append(_said(where, name, series, *noise))
     return found
 
 
