@@ -21,7 +21,7 @@ from .model.doubts import doubts
 from .model.integrators import Explicit, Integrator
 from .model.model import Model
 from .preparation import carried_out, given_state, method_of, prepared
-from .results import remembered
+from .results import free_turns, remembered
 from .results import result as results
 from .results.accuracy import of_locked_modes
 from .results.modes import DampedModes, Modes
@@ -306,7 +306,8 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
             if given and not notes:
                 explain_unstable(error)
             raise
-    notes += of_bends(system.model, omega) + of_locked_modes(about, omega, shapes)
+    notes += of_bends(system.model, omega) + free_turns.notes(about, omega, shapes)
+    notes += of_locked_modes(about, omega, shapes)
     made = Modes(omega, shapes, about, notes=notes)
     if not parameters:
         return made
