@@ -187,7 +187,9 @@ def simulate(
     """
     if start is not None and not isinstance(start, State):
         raise ModelError(
-            "simulate.start", f"must be a State, is {checks.shown(start)}", "see ancf.equilibrium"
+            "simulate.start",
+            f"must be a State, is {checks.shown(start)}",
+            "such as start=ancf.equilibrium(model)",
         )
     checks.progress(progress, "simulate.progress")
     made = prepared(

@@ -229,7 +229,9 @@ def given_state(system: System, about: Any, where: str) -> tuple[Any, Any]:
     if about is None:
         return system.initial_state()
     if not isinstance(about, State):
-        raise ModelError(where, f"must be a State, is {checks.shown(about)}", "see ancf.equilibrium")
+        raise ModelError(
+            where, f"must be a State, is {checks.shown(about)}", "such as about=ancf.equilibrium(model)"
+        )
     return adopted(about, system, where)
 
 

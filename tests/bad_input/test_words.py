@@ -163,6 +163,23 @@ def test_what_is_no_point_is_named(swung):
             lambda: wheel().add_torsion_spring("wheel", (0, 0, 0), axis=(0, 1, 0), stiffness=0.0),
             r"joint_angle\(hinge\)",
         ),
+        (lambda: ancf.Model().add_rigid_body("b", at=(0, 0, 0), mass=1, inertia=2.0), r"\(2, 2, 2\)"),
+        (lambda: wheel().bodies["wheel"].set_motion(angular_velocity=3.0), r"along z it is \(0, 0, 3\)"),
+        (
+            lambda: ancf.simulate(wheel(), t_end=1.0, step=0.1, start="equilibrium"),
+            r"start=ancf\.equilibrium",
+        ),
+        (
+            lambda: ancf.simulate(wheel(), t_end=1.0, step=0.1, sensors=["position(wheel)"]),
+            'list .*: "wheel"',
+        ),
+        (
+            lambda: ancf.simulate(wheel(), t_end=1.0, step=0.1, controller=lambda t, y: None),
+            "one argument, the",
+        ),
+        (lambda: ancf.simulate(wheel(), t_end=0.1, step=0.1).to_csv("run.csv"), r'to_csv\("tables"\)'),
+        (lambda: ancf.Series([0, 1], [0, 1], unit="degrees"), 'did you mean "deg"'),
+        (lambda: wheel().add_pressure(wheel().bodies["wheel"].centre, 1.0, axis=(0, 0, 1)), 'is "wheel"'),
         (lambda: ancf.sample({"EA": [1, 2]}), 'method="grid"'),
         (lambda: ancf.simulate(wheel(), t_end=1.0, dt=0.1), 'did you mean "step"'),
     ],
@@ -221,3 +238,25 @@ def test_a_file_in_place_of_its_columns():
     )
     with pytest.raises(ancf.ModelError, match=r"ancf\.Series\.read"):
         model.pin(line.start, displacement="vessel.csv")
+
+
+@pytest.mark.parametrize("name", ["Heave", "HEAVE", "heav"])
+def test_a_column_of_nearly_that_name(name, tmp_path):
+    (tmp_path / "vessel.csv").write_text("t [s],heave [m]\n0,1\n1,2\n")
+    with pytest.raises(ancf.ModelError, match='did you mean "heave"'):
+        ancf.Series.read(tmp_path / "vessel.csv", name)
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [({"time": [0, 1], "a": [0, 1]}, 'the times stand under "t", not "time"'), ({"a": [0, 1]}, 'wanted "t"')],
+)
+def test_data_without_times(data, said):
+    with pytest.raises(ancf.ModelError, match=said):
+        ancf.calibrate(lambda k: wheel(), data, parameters={"k": (0.1, 1.0)}, step=0.1)
+
+
+def test_a_study_of_a_number_without_a_name():
+    samples = ancf.sample({"k": [1.0, 2.0]}, method="grid")
+    with pytest.raises(ancf.ModelError, match=r'return \{"tension": 1\.0\}'):
+        ancf.study(lambda k: 2.0 * k, samples, workers=0)

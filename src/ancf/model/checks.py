@@ -135,6 +135,9 @@ def curve(value: object, where: str) -> FloatArray:
 
 def vector(value: object, where: str) -> FloatArray:
     """Three finite numbers."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        what = f"must be a list of three numbers, is {shown(value)}"
+        raise ModelError(where, what, f"along z it is (0, 0, {value:g})")
     return array(value, where, (3,))
 
 

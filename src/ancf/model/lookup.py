@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from copy import copy
@@ -22,6 +23,8 @@ from .points import Point
 from .repeated import Joined
 from .supports import Support
 
+#: A question as formulas of studies have it.
+QUESTION = re.compile(r"[a-z_]+\((.+)\)")
 #: What a point is written like, for messages.
 SUCH_AS = "such as beam.start, beam.end or beam.at(0.5), a point mass or a rigid body"
 
@@ -142,7 +145,11 @@ class Lookup:
         if POINT_LABEL.fullmatch(item.strip()) or item.strip().partition(".")[0] in self.bodies:
             return self._point(item, where)
         names = [*self.bodies, *(c.name for c in self.connections), *(s.name for s in self.supports)]
-        raise unknown(where, "point, spring, joint or support", item, names)
+        error = unknown(where, "point, spring, joint or support", item, names)
+        if asked := QUESTION.fullmatch(item.strip()):
+            hint = f'list what is asked: "{asked[1]}"; the sensors answer the question'
+            raise ModelError(error.where, error.what, hint)
+        raise error
 
     @contextmanager
     def located(self, place: str) -> Iterator[None]:
@@ -168,7 +175,8 @@ class Lookup:
                 raise ModelError(where, f'body "{body.name}" belongs to another model')
             return body
         if not isinstance(body, str):
-            raise ModelError(where, f"must be a body or its name, is {checks.shown(body)}")
+            hint = f'the body of {body} is "{body.body.name}"' if isinstance(body, Point) else ""
+            raise ModelError(where, f"must be a body or its name, is {checks.shown(body)}", hint)
         if body not in self.bodies:
             raise unknown(where, "body", body, self.bodies)
         return self.bodies[body]
