@@ -112,7 +112,7 @@ def _at_rest(
     system: System, names: list[str] | None, load_steps: int, time: float
 ) -> tuple[State, statics.Leaned]:
     q, stats, leaned = statics.equilibrium(system, names, load_steps, time)
-    known = remembered.Remembered(memory=system.kept_memory(), balanced=True)
+    known = remembered.Remembered(memory=system.kept_memory(), balanced=True, laid=leaned.laid)
     return State(system, float(time), q, system.motion(q, time), stats, known), leaned
 
 

@@ -225,6 +225,8 @@ class Traits:
     memory : tuple of str
         Arrays of floats with what the batch remembers of the motion so far, see :func:`remember`: a step
         that is tried again finds them as they were, states and files keep them.
+    goes_round : bool
+        What it remembers is how often it has gone round, which equilibria follow where supports turn far.
     follows : function, optional
         ``follows(batch)``: whether a load may take energy from nothing, as a moment in fixed directions or a
         current does, so that its matrix says nothing about stability; default every load does.
@@ -279,6 +281,7 @@ class Traits:
     turn: Callable[..., Any] | None = None
     rows: Callable[[Any, Any], tuple[Any, Any, Any]] | None = None
     memory: tuple[str, ...] = ()
+    goes_round: bool = False
     follows: Callable[[Any], bool] | None = None
     late: Callable[[Any], Callable[[Any, Any], float] | None] | None = None
     laid: Callable[[Any, Any], None] | None = None

@@ -35,7 +35,7 @@ from .results.provenance import versions
 from .results.read_store import ReadStore
 from .results.result import Result, load, read
 from .results.room import ROOM
-from .results.setting_off import setting_off
+from .results.setting_off import missed, setting_off
 from .results.state import State
 from .results.store import FileStore, MemoryStore
 from .solvers.record import Progress
@@ -100,6 +100,7 @@ def prepared(
         for text in unresolved(system, q, method, step):
             warnings.warn(text, UserWarning, stacklevel=4)
             made.header["notes"].append(text)
+        made.header["notes"] += missed(system, start, q, level=4)
         made.header["notes"] += setting_off(system, start, v, t0, t_end, step)
         made.run.start(q, v)
     return made

@@ -343,6 +343,18 @@ def test_dampers_of_bearings_stand_still(hold, rate):
         assert near.imag == pytest.approx(wanted.imag, rel=2e-2)  # the pull of the springs beside the axis
 
 
+@pytest.mark.parametrize("rate", [3.0, 7.0, 50.0, 900.0])
+def test_springs_as_strong_as_the_centrifugal_force(rate):
+    """k = m W^2: in axes that turn with it a mass may rest anywhere in its plane."""
+    model = ancf.Model()
+    for k, at in enumerate([(0.4, 0, 0), (-0.1, 0.3, 0), (-0.2, -0.2, 0.1)]):
+        mass = model.add_point_mass(f"m{k}", at=at, mass=0.3)
+        model.add_spring(mass, (0, 0, at[2]), stiffness=0.3 * rate**2, length=0.0)
+        mass.set_motion(velocity=np.cross((0, 0, rate), at))
+        model.hold(mass, position="z")
+    assert np.all(ancf.damped_modes(model, count=6).eigenvalues == 0.0)
+
+
 def test_bearings_that_are_not_alike_from_all_sides_are_refused():
     def softer_upwards(model, rotor, x):
         between_springs(model, rotor, x, stiffness=(1e4, 2e4))

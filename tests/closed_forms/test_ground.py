@@ -235,7 +235,13 @@ class TestFriction:
             assert np.array_equal(x, before[name])
 
 
-def catenary(friction, elements=100, k=1e8, length=500.0, nodes=None):
+def catenary(*given, **more):
+    """Force at the anchor and both at the fairlead, see :func:`lying_catenary`."""
+    state, anchor, fairlead = lying_catenary(*given, **more)
+    return -state.reaction(anchor)[0], *state.reaction(fairlead)[[0, 2]]
+
+
+def lying_catenary(friction, elements=100, k=1e8, length=500.0, nodes=None):
     """Of MoorPy: XF 400 m, ZF 200 m, EA 7.51e12 N, w 800 N/m; the anchor lies as the line does."""
     low = -800.0 / (k * D)
     model = ancf.Model(gravity=(0, 0, -G))
@@ -252,8 +258,7 @@ def catenary(friction, elements=100, k=1e8, length=500.0, nodes=None):
     )
     anchor, fairlead = model.pin(line.start), model.pin(line.end)
     model.add_ground("seabed", 0.0, stiffness=k, friction=friction)
-    state = ancf.equilibrium(model)
-    return -state.reaction(anchor)[0], *state.reaction(fairlead)[[0, 2]]
+    return ancf.equilibrium(model), anchor, fairlead
 
 
 class TestMoorPy:
@@ -311,6 +316,19 @@ class TestMoorPy:
         assert anchor > -1e-3 * fairlead
         assert along == pytest.approx(fairlead, rel=5e-3)
         assert held == pytest.approx(up, rel=1e-3)
+
+    @pytest.mark.parametrize("length", [460.0, 500.0, 520.0, 560.0])
+    @pytest.mark.parametrize("friction", [0.0, 0.1, 2.0])
+    def test_it_is_said_where_friction_acts_from(self, friction, length):
+        """Whether the anchor feels it, with the line as it is drawn, can be told from the notes alone."""
+        state, anchor, _ = lying_catenary(friction, elements=40, k=1e7, length=length)
+        free, place, _ = lying_catenary(0.0, elements=40, k=1e7, length=length)
+        said = [
+            note for note in state.notes if note.startswith('friction on "seabed" holds cables from where')
+        ]
+        felt = abs(state.reaction(anchor)[0] / free.reaction(place)[0] - 1.0) > 1e-3
+        lies = length > 470.0  # a taut one touches nothing
+        assert len(said) == (friction > 0.0 and lies and not felt)
 
     def test_a_slack_line_needs_a_fine_mesh(self):
         """Its curvature jumps where it touches down: the order comes near two."""

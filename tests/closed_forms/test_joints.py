@@ -105,9 +105,14 @@ class TestSpherical:
             with pytest.raises(ancf.ModelError, match="ball"):
                 result.multiplier(joint)
 
-    def test_hanging_chain(self):
-        """Ground, cable, rigid body, beam, mass: each joint carries what hangs below it."""
-        model = ancf.Model(gravity=(0, 0, -G))
+    @pytest.mark.parametrize("weight", [1.0, *np.random.default_rng(3).uniform(0.7, 1.3, 30)])
+    def test_hanging_chain(self, weight):
+        """Ground, cable, rigid body, beam, mass: each joint carries what hangs below it.
+
+        The body spins freely between its ball joints, by what round-off leaves there.
+        """
+        g = G * weight
+        model = ancf.Model(gravity=(0, 0, -g))
         aside(model)
         c = cable(model, "c", (0, 0, 0), (0.6, 0, -0.8))
         r = model.add_rigid_body("r", at=(0.6, 0, -1.0), mass=0.7, inertia=(0.01, 0.01, 0.002))
@@ -121,10 +126,10 @@ class TestSpherical:
         ]
         model.hold(r, position="y")
         state = ancf.equilibrium(model)
-        weights = np.array([c.section.rhoA * c.length, 0.7, b.section.rhoA * b.length, 0.5]) * G
+        weights = np.array([c.section.rhoA * c.length, 0.7, b.section.rhoA * b.length, 0.5]) * g
         below = np.cumsum(weights[::-1])[::-1]
-        for joint, weight in zip(joints, below, strict=True):  # the second of each pair receives it
-            assert state.multiplier(joint) == pytest.approx((0, 0, -weight), abs=1e-6)
+        for joint, carried in zip(joints, below, strict=True):  # the second of each pair receives it
+            assert state.multiplier(joint) == pytest.approx((0, 0, -carried), abs=1e-6)
         assert state.tension(c.end) == pytest.approx(below[1], rel=0.05)
         for joint in joints[1:]:
             assert state.position(joint.a) == pytest.approx(state.position(joint.b), abs=1e-10)

@@ -196,6 +196,7 @@ implements(
     remember=torsion_turns,
     role=Role.DISSIPATES,
     memory=("last",),
+    goes_round=True,
     damped=lambda batch: bool(np.any(batch.data[:, 1])),
     exact=lambda batch, moving: not (moving and np.any(batch.data[:, 1])),
 )

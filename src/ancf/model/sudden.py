@@ -54,6 +54,11 @@ def sudden(
     return found
 
 
+def moved_with(model: Any, support: Support) -> list[Body]:
+    """What a support moves: its beam, and what is joined to the mass or rigid body that it moves."""
+    return list(_beside(support, _joined(model)))
+
+
 def _joined(model: Any) -> dict[str, list[Body]]:
     """By the name of a body what moves with it: beams that are joined to it, and what no support holds."""
     held = {support.point.body.name for support in model.supports}

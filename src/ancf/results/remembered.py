@@ -43,6 +43,8 @@ class Remembered:
         Inputs have changed during the run.
     balanced : bool
         It is the state of an equilibrium.
+    laid : bool
+        In it friction on grounds acts from where cables came down without it.
     """
 
     modes: dict[str, int] = field(default_factory=dict)
@@ -51,6 +53,7 @@ class Remembered:
     inputs: dict[str, float] = field(default_factory=dict)
     led: bool = False
     balanced: bool = False
+    laid: bool = False
 
     def until(self, index: int, q: Any, v: Any, arcs: dict[str, int]) -> Remembered:
         """The same at an earlier stored state, shapes of q and v (n_t, size).

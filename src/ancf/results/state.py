@@ -18,7 +18,7 @@ from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import accuracy, motions, sharp_bends, tension, turned_bends, wavering
+from . import accuracy, laid, motions, sharp_bends, tension, turned_bends, wavering
 from .below import of_bodies
 from .momenta import Momenta
 from .motions import Motions
@@ -148,7 +148,7 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
     def notes(self) -> list[str]:
         """What to know of an equilibrium that nobody asked for: cables that are pressed harder than they can
         stand, that bend too sharply for their elements, whose forces waver within these, or are so stiff that
-        they bend too little, bodies below a ground.
+        they bend too little, bodies below a ground, friction that does not act from the initial shape.
 
         It takes about as long as an iteration of the equilibrium, when it is asked for.
         """
@@ -156,7 +156,15 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
         bent = sharp_bends.notes(sharp_bends.sharp_bends(self))
         wavers = wavering.notes(wavering.waverings(self))
         turned = turned_bends.notes(self)
-        return [*pressed, *bent, *turned, *wavers, *of_bodies(self), *accuracy.of_state(self)]
+        return [
+            *pressed,
+            *bent,
+            *turned,
+            *wavers,
+            *laid.notes(self),
+            *of_bodies(self),
+            *accuracy.of_state(self),
+        ]
 
     def sensitivity(self, name: str) -> Any:
         """Derivatives by a parameter of everything that the state answers, per unit of it.

@@ -21,7 +21,7 @@ PLAIN = 150  # of them without a line search
 MOST_HALVINGS = 12  # of a load step
 LEAST_SLOPE = 1e-6  # |r_x| of a cable, below which its direction and curvature mean nothing
 WHOLE = 1e-12  # of the path, by which its end may be missed
-SPUN = 1e-5  # accepted where sections spin freely, which leaves their angle open
+SPUN = 1e-5  # accepted where sections or bodies spin freely, which leaves their angle open
 LONGEST = 0.3  # largest change of a slope, or of a position in sizes of the model, in one correction
 NO_MOTION = 1e-300  # of a correction: the share that LONGEST leaves of it is whole
 REDUCED = 0.5  # of the residual: what a correction leaves when round-off has not been reached
@@ -91,6 +91,10 @@ def settle(it: Iteration, share: float) -> str | None:
         it.last = norm = it.length(dq)
         accepted = max(it.accepted, SPUN) if it.spinning else it.accepted
         settled = norm <= TOLERANCE or (norm <= accepted and _stalled(it, dq, r, share))
+        if (
+            not settled and it.mu > 0.0 and norm <= SPUN
+        ):  # what nothing holds goes as far as round-off lets it
+            settled = it.drifts(dq) and _stalled(it, dq, r, share)
         if settled and (it.mu == 0.0 or it.harmless()):
             it.q = it.moved(dq, 1.0)
             return _degenerate(it)

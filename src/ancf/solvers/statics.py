@@ -30,6 +30,7 @@ from .record import Stats
 from .slack import LET_OUT, Slack
 from .static_iteration import Iteration
 from .static_path import follow_path, settle
+from .turning import Turning
 
 STENCIL_STEP = 1e-3  # of the differences that give rates of given motions, s
 RENEWED, MOST_RENEWED = 1e-9, 240  # change of what comes last that is none, and rounds
@@ -77,7 +78,7 @@ def equilibrium(
     first = q.copy()
     slack = Slack(system, q, force)
     try:
-        halvings = attempt(it, slack, load_steps)
+        halvings = attempt(it, slack, Turning(system.model, time), load_steps)
     finally:
         slack.set(0.0, 0.0)
         core.loads.value[:] = it.inputs
@@ -87,10 +88,12 @@ def equilibrium(
     return it.q, Stats(load_steps, it.iterations, it.jacobians, it.jacobians, halvings, seconds), leaned
 
 
-def bring_on(it: Iteration, slack: Slack, load_steps: int) -> int:
+def bring_on(it: Iteration, slack: Slack, turning: Turning, load_steps: int) -> int:
     """The loads, then what slack cables need, then what comes last; returns the halvings of steps."""
     slack.set(1.0, 1.0)
-    halvings = follow_path(it, lambda share: share, load_steps, "of the load")
+    turning.begin(it)
+    steps = max(load_steps, turning.steps)
+    halvings = follow_path(it, lambda share: turning.load(it, share), steps, "of the load")
     if slack.found:
         halvings += follow_path(it, slack.let_out, LET_OUT, "of the slack")
         try:
@@ -134,7 +137,7 @@ def grips(core: Core, q: FloatArray, holds: bool) -> bool:
     return any(found)
 
 
-def attempt(it: Iteration, slack: Slack, load_steps: int) -> int:
+def attempt(it: Iteration, slack: Slack, turning: Turning, load_steps: int) -> int:
     """Bring on the loads while what is touched holds, or while it only pushes and there is no friction.
 
     Where friction alone holds a cable there is no equilibrium without it, and a cable that just touches has
@@ -147,7 +150,7 @@ def attempt(it: Iteration, slack: Slack, load_steps: int) -> int:
         it.system.bring_memory(it.begun)
         grips(it.core, it.q, holds)
         try:
-            halvings = bring_on(it, slack, finer * load_steps)
+            halvings = bring_on(it, slack, turning, finer * load_steps)
             if holds:
                 let_go(it)
             return halvings

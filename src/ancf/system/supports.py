@@ -32,6 +32,18 @@ class Rotation:
     acceleration: TimeFunction | None = None
     vector: TimeFunction | None = None
 
+    def part(self, time: float, share: float) -> FloatArray:
+        """R (3, 3) when a share of the turn at a time is there."""
+        from scipy.spatial.transform import Rotation as Turn
+
+        return Turn.from_rotvec(share * self.turn(time)).as_matrix() @ self.R0
+
+    def turn(self, time: float) -> FloatArray:
+        """Axis times angle (3,) at a time, rad."""
+        if self.vector is not None:
+            return self.vector(time)
+        return self.axis * (0.0 if self.angle is None else self.angle(time)[0])
+
     @property
     def moves(self) -> bool:
         """Whether it depends on time."""
@@ -56,10 +68,14 @@ class Rotation:
 
 @dataclass(frozen=True)
 class Motion:
-    """Given motion of unknowns: ``values(t)`` of shape (n, k) for times (n,)."""
+    """Given motion of unknowns: ``values(t)`` of shape (n, k) for times (n,).
+
+    ``part(time, share)`` (k,) is where they are when a share of the motion from the initial shape is there.
+    """
 
     unknowns: list[int]
     values: Callable[[FloatArray], FloatArray]
+    part: Callable[[float, float], FloatArray] | None = None  # None: the whole is there from the beginning
     rates: Callable[[FloatArray], tuple[FloatArray, FloatArray]] | None = None
     drive: Winch | None = None  # it follows from step to step
 
@@ -101,7 +117,7 @@ def collect(model: Model, numbering: Numbering) -> Constraints:
         if isinstance(joint, Slide) and joint.motion is not None:
             arc = numbering.arcs[joint.name]
             constraints.held.add(arc)
-            constraints.motions.append(Motion([arc], joint.motion.table))
+            constraints.motions.append(_slid(arc, joint))
             constraints.driven.add(arc)
     return constraints
 
@@ -187,8 +203,19 @@ def _move(
     """Let the held components ``parts`` of a position follow a displacement from its initial value."""
     table = displacement.table
     unknowns = [slot + c for c in parts]
-    constraints.motions.append(Motion(unknowns, lambda t: (position + table(t))[:, parts]))
+
+    def part(time: float, share: float) -> FloatArray:
+        return (position + share * displacement(time))[parts]
+
+    constraints.motions.append(Motion(unknowns, lambda t: (position + table(t))[:, parts], part))
     constraints.driven.add(slot)
+
+
+def _slid(arc: int, joint: Slide) -> Motion:
+    """Motion of a joint that is driven along its carrier."""
+    motion, first = joint.motion, joint.s
+    assert motion is not None
+    return Motion([arc], motion.table, lambda time, share: first + share * (motion(time) - first))
 
 
 def _hold_slope(constraints: Constraints, slot: int, clamp: Clamp, vector: FloatArray) -> None:
@@ -204,8 +231,12 @@ def _hold_slope(constraints: Constraints, slot: int, clamp: Clamp, vector: Float
     constraints.held |= {slot, slot + 1, slot + 2}
     length = float(np.linalg.norm(vector))
     unknowns = [slot, slot + 1, slot + 2]
+
+    def part(time: float, share: float) -> FloatArray:
+        return length * rotation.part(time, share)[:, 0]
+
     if clamp.rotation_vector is not None:
-        constraints.motions.append(Motion(unknowns, lambda t: length * rotation.turned(t)[:, ::3]))
+        constraints.motions.append(Motion(unknowns, lambda t: length * rotation.turned(t)[:, ::3], part))
     if clamp.rotation is None:
         return
     angle, rate, acceleration = clamp.rotation, clamp.rotation_rate, clamp.rotation_acceleration
@@ -217,7 +248,7 @@ def _hold_slope(constraints: Constraints, slot: int, clamp: Clamp, vector: Float
         return length * rotation.matrices(angle.table(t)[:, 0], first, second)[:, order, :, 0]
 
     exact = None if rate is None else (lambda t: (slope(1, t), slope(2, t)))
-    constraints.motions.append(Motion(unknowns, lambda t: slope(0, t), exact))
+    constraints.motions.append(Motion(unknowns, lambda t: slope(0, t), part, exact))
 
 
 def axes(tangent: FloatArray) -> FloatArray:
