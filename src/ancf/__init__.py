@@ -154,7 +154,8 @@ def __getattr__(name: str) -> Any:
     if name in _PACKAGES:
         return import_module(f".{name}", __name__)
     if name not in _LATER:
-        said = f"module 'ancf' has no attribute {name!r}"
+        hint = import_module(".model.model", __name__).offered(name)
+        said = f"module 'ancf' has no attribute {name!r}" + (f": {hint}" if hint else "")
         raise AttributeError(said, name=name, obj=sys.modules[__name__])
     value = getattr(import_module(f".{_LATER[name]}", __name__), name)
     if name not in _EACH_STEP:

@@ -21,7 +21,7 @@ from .model.doubts import doubts
 from .model.integrators import Explicit, Integrator
 from .model.model import Model
 from .preparation import carried_out, given_state, method_of, prepared
-from .results import remembered
+from .results import free_turns, remembered
 from .results import result as results
 from .results.accuracy import of_locked_modes
 from .results.modes import DampedModes, Modes
@@ -187,7 +187,9 @@ def simulate(
     """
     if start is not None and not isinstance(start, State):
         raise ModelError(
-            "simulate.start", f"must be a State, is {checks.shown(start)}", "see ancf.equilibrium"
+            "simulate.start",
+            f"must be a State, is {checks.shown(start)}",
+            "such as start=ancf.equilibrium(model)",
         )
     checks.progress(progress, "simulate.progress")
     made = prepared(
@@ -306,7 +308,8 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
             if given and not notes:
                 explain_unstable(error)
             raise
-    notes += of_bends(system.model, omega) + of_locked_modes(about, omega, shapes)
+    notes += of_bends(system.model, omega) + free_turns.notes(about, omega, shapes)
+    notes += of_locked_modes(about, omega, shapes)
     made = Modes(omega, shapes, about, notes=notes)
     if not parameters:
         return made

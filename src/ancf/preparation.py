@@ -96,7 +96,7 @@ def prepared(
         system = made.system
         q, v = system.initial_state(t0) if start is None else adopted(start, system, f"{where}.start")
         remembered.begin(system, q, v, None if start is None else start.known)
-        check_gaps(system, q, f"{where}.start")
+        check_gaps(system, q, f"{where}.start", t0)
         for text in unresolved(system, q, method, step):
             warnings.warn(text, UserWarning, stacklevel=4)
             made.header["notes"].append(text)
@@ -230,7 +230,9 @@ def given_state(system: System, about: Any, where: str) -> tuple[Any, Any]:
     if about is None:
         return system.initial_state()
     if not isinstance(about, State):
-        raise ModelError(where, f"must be a State, is {checks.shown(about)}", "see ancf.equilibrium")
+        raise ModelError(
+            where, f"must be a State, is {checks.shown(about)}", "such as about=ancf.equilibrium(model)"
+        )
     return adopted(about, system, where)
 
 

@@ -428,7 +428,7 @@ def test_an_arm_on_a_motor_at_rest(angle):
 @pytest.mark.parametrize("elements", [3, 6, 9])
 @pytest.mark.parametrize("hung", ["ball", "turning in a current"])
 def test_neutral_motions_take_no_digits(hung, elements, damping):
-    """A body that spins freely below a rope: all other eigenvalues are those of the linear model, in modes."""
+    """A body that spins freely below a rope: other eigenvalues are those of the linear model in modes."""
     model = ancf.Model(gravity=(0, 0, -9.81))
     section = ancf.Section(EA=1e4, EI=0.1, rhoA=0.2, damping=damping, diameter=0.01, drag=(1.2, 0.1))
     rope = model.add_beam("rope", start=(0, 0, 0), end=(0, 0, -2), elements=elements, section=section)

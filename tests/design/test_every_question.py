@@ -25,6 +25,7 @@ OTHERS = {
     "contact_line",
     "derived",
     "fixed",
+    "has_angle",
     "held_supports",
     "plot",
     "plot_shape",

@@ -189,7 +189,8 @@ step = 1e-3
     (tmp_path / "rod.toml").write_text(text + (f'start = "{start}"\n' if start != "rest" else ""))
     ran = call("check", str(tmp_path / "rod.toml"))
     assert ran.code == 0
-    assert "rotation: its rate is 3 rad/s from t = 0 s on" in " ".join((ran.said + ran.out).split())
+    said = " ".join((ran.said + ran.out).split())
+    assert 'supports[0].rotation of "clamp at rod.start": its rate is 3 rad/s from t = 0 s on' in said
 
 
 @pytest.mark.parametrize(

@@ -209,7 +209,7 @@ BAD_BEAMS = [
     ({"start": (1, 2, "3")}, "start[2]", "must be a number"),
     ({"start": (1, NAN, 3)}, "start[1]", "finite"),
     ({"start": np.array([1, INF, 3])}, "start[1]", "finite"),
-    ({"start": 5}, "start", "list of numbers"),
+    ({"start": 5}, "start", "list of three numbers"),
     ({"start": (1e308, 0, 0), "end": (-1e308, 0, 0)}, "start", "within 1e+100 m"),
     ({"length": 0}, "length", "must be > 0, is 0"),
     ({"length": -1.0}, "length", "must be > 0"),

@@ -79,7 +79,7 @@ class TestAxesOfStraightBeams:
             ((0, 0, 0), "", "zero vector"),
             ((0, 1), "", "wanted (3,)"),
             ((0, NAN, 1), "[1]", "finite"),
-            ("y", "", "list of numbers"),
+            ("y", "", "list of three numbers"),
         ],
     )
     def test_bad(self, y_axis, place, phrase):

@@ -144,7 +144,7 @@ class TestRigidBody:
         ("inertia", "key", "phrase"),
         [
             (None, "", "a rigid body needs its inertia: three principal moments or a 3x3 matrix"),
-            (0.1, "", "must be a list of numbers"),
+            (0.1, "", "three principal moments or a 3x3 matrix"),
             ("big", "", "must be a list of numbers"),
             ((1, 2), "", "has shape (2,), wanted (3,)"),
             ([], "", "wanted (3,)"),

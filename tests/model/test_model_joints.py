@@ -94,7 +94,7 @@ class TestSpherical:
             ("rope.end", "hub", "rope.end and hub.centre are 1.41421 m apart, must coincide"),
             ("rope.end", (1, 0, 1e-3), "rope.end and the position [1.0, 0.0, 0.001] are 0.001 m apart"),
             ("rope.end", (1, 0), "wanted (3,)"),
-            ("rope.end", 3.0, "must be a list of numbers"),
+            ("rope.end", 3.0, "must be a list of three numbers"),
             ("rope.end", "rope.at(1.0)", "is the same node as rope.end"),
             ("bar.at(0.2)", "bar.at(0.2)", "is the same point as bar.at(0.2)"),
             ("tip", "tip", "tip is the same node as tip"),

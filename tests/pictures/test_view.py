@@ -188,6 +188,7 @@ class TestHistories:
         model = ancf.Model()
         body = model.add_point_mass("mass", at=(0, 0, 0), mass=1.0)
         whole = SimpleNamespace(
+            model=model,
             bodies={"mass": body},
             slots={"mass": np.array([[0]])},
             springs={},

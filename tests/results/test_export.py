@@ -350,7 +350,8 @@ class TestTables:
         (path,) = (f for f in write_csv(result, tmp_path) if f.stem == "joints")
         found, values = table(path), result.multiplier(hinge)
         names = [f"hinge force {c} [N]" for c in "xyz"] + [f"hinge moment {k} [N m]" for k in (1, 2)]
-        assert list(found) == ["t [s]", *names]
+        assert list(found) == ["t [s]", *names, "hinge angle [rad]"]
+        np.testing.assert_array_equal(found["hinge angle [rad]"], result.joint_angle(hinge))
         for k, name in enumerate(names):
             assert np.array_equal(found[name], values[:, k])
         assert np.all(values[-1, 3:] != 0.0)

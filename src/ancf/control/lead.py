@@ -63,7 +63,9 @@ def led(made: Prepared, controller: Controller, every: int, where: str) -> Prepa
             raise
         except Exception as error:
             what = f"at t = {live.t:.6g} s the controller raised {type(error).__name__}: {error}"
-            raise ModelError(f"{where}.controller", what) from error
+            alone = isinstance(error, TypeError) and error.__traceback__.tb_next is None  # type: ignore[union-attr]
+            hint = "it is called with one argument, the run: def controller(run)" if alone else ""
+            raise ModelError(f"{where}.controller", what, hint) from error
         if found is not None:
             what = f"returned {checks.shown(found)} at t = {live.t:.6g} s, which nothing takes"
             name = next(iter(live.inputs), "thrust")

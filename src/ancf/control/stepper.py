@@ -218,7 +218,7 @@ def stepper(
 def _check_start(start: Any) -> None:
     if start is not None and not isinstance(start, State):
         what = f"must be a State or a file, is {checks.shown(start)}"
-        raise ModelError("stepper.start", what, "see ancf.equilibrium")
+        raise ModelError("stepper.start", what, "such as start=ancf.equilibrium(model)")
 
 
 def refuse_adaptive(method: Integrator, where: str) -> None:

@@ -25,6 +25,7 @@ MOMENT_OF_JOINT, MOMENT_OF_CLAMP = {"joint_moment": "N m"}, {"reaction_moment": 
 #: Questions whose parts are along x, y and z.
 ALONG_AXES = (*OF_POINT, *OF_SUPPORT, *MOMENT_OF_JOINT, *MOMENT_OF_CLAMP)
 OF_TORSION = {"torsion_angle": "rad", "torsion_moment": "N m"}
+OF_TURNING = {"joint_angle": "rad", "joint_rate": "rad/s"}
 OF_CONTACT = {"contact_force": "N", "contact_gap": "m"}
 #: Of a strip, which has one place on a wire; of a contact that rubs.
 OF_STRIP, OF_RUBBING = {"arc_length": "m"}, {"friction_force": "N", "slipping": "1"}
@@ -79,6 +80,7 @@ def _questions(run: Stepper) -> Iterator[tuple[Any, str, str]]:
             questions = questions | {"arc_length": "m"}
         elif name in run.joints:
             questions = questions | MOMENT_OF_JOINT
+            questions = questions | (OF_TURNING if run.has_angle(name) else {})
         if name in listing.columns:
             questions = questions | OF_CONTACT | (OF_RUBBING if run.sensors.rubs(name) else OF_STRIP)
         questions = questions | (OF_SUPPORT if name in listing.held else {})

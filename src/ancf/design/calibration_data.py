@@ -97,7 +97,9 @@ def columns_of(data: Any) -> dict[str, FloatArray]:
     made = {str(name): _column(column, f'{where}["{name}"]') for name, column in found.items()}
     if TIME not in made or len(made) < 2:
         what = f'has the columns {checks.listed(made)}: wanted "t" and at least one that was measured'
-        raise ModelError(where, what)
+        named = next((name for name in made if name.lower() in ("time", "times", "seconds")), "")
+        hint = f'the times stand under "t", not "{named}"' if named else ""
+        raise ModelError(where, what, hint)
     times = made[TIME]
     if len(times) < 1 or not np.all(np.isfinite(times)) or np.any(np.diff(times) <= 0) or times[0] < 0:
         raise ModelError(f'{where}["t"]', "must be increasing times from 0 on, s")

@@ -83,7 +83,8 @@ def sample(
         design["count"] = len(next(iter(columns.values())))
     else:
         if count is None:
-            raise ModelError("sample.count", f"is missing: {method} needs how many")
+            hint = 'method="grid" takes all combinations of listed values'
+            raise ModelError("sample.count", f"is missing: {method} needs how many", hint)
         count = checks.integer(count, "sample.count", 1, MOST)
         u = unit_samples(method, count, len(kinds), seed)
         if len(u) > MOST:

@@ -42,7 +42,8 @@ def _numbers(given: Any) -> dict[str, float]:
         They are none.
     """
     if not isinstance(given, Mapping) or not given:
-        raise ModelError(WRONG_KIND, f"must be numbers by name, are {shown(given)} ({type(given).__name__})")
+        what = f"must be numbers by name, are {shown(given)} ({type(given).__name__})"
+        raise ModelError(WRONG_KIND, what, 'such as return {"tension": 1.0}')
     made = {}
     for name, value in given.items():
         array = np.asarray(value) if not isinstance(value, str | bool) else np.asarray("")

@@ -234,6 +234,9 @@ def as_inertia(given: Any, where: str) -> FloatArray:
     if given is None:
         what = "a rigid body needs its inertia: three principal moments or a 3x3 matrix, kg m^2"
         raise ModelError(where, what, "a body without rotation is a point mass: model.add_point_mass(...)")
+    if isinstance(given, int | float) and not isinstance(given, bool):
+        what = f"must be three principal moments or a 3x3 matrix, is {checks.shown(given)}"
+        raise ModelError(where, what, f"alike about all axes it is ({given:g}, {given:g}, {given:g})")
     rows = given if isinstance(given, list | tuple) else np.atleast_1d(np.asarray(given, dtype=object))
     if not any(isinstance(row, list | tuple | np.ndarray) for row in rows):
         matrix = np.diag(checks.vector(given, where))

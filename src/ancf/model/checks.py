@@ -17,6 +17,10 @@ ALL = 100  # choices that a message lists
 LARGEST = 1e100  # of a coordinate in m or of an inertia in kg m^2
 
 
+#: Axes by their letters, for messages.
+AXES = {"x": "(1, 0, 0)", "y": "(0, 1, 0)", "z": "(0, 0, 1)"}
+
+
 def shown(value: object, limit: int = 60) -> str:
     """Short text of a value for a message."""
     text = repr(value)
@@ -131,6 +135,9 @@ def curve(value: object, where: str) -> FloatArray:
 
 def vector(value: object, where: str) -> FloatArray:
     """Three finite numbers."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        what = f"must be a list of three numbers, is {shown(value)}"
+        raise ModelError(where, what, f"along z it is (0, 0, {value:g})")
     return array(value, where, (3,))
 
 
@@ -144,6 +151,9 @@ def place(value: object, where: str) -> FloatArray:
 
 def direction(value: object, where: str) -> FloatArray:
     """Unit vector along three numbers that are not all zero; one that is of unit length stays as it is."""
+    if isinstance(value, str) and value.strip().lower() in AXES:
+        what = f"must be a list of three numbers, is {shown(value)}"
+        raise ModelError(where, what, f"{AXES[value.strip().lower()]} is along {value.strip().lower()}")
     clean = vector(value, where)
     largest = float(np.max(np.abs(clean)))
     if largest == 0.0:

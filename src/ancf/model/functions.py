@@ -192,12 +192,10 @@ class TimeFunction:
     def _components(self, given: Any) -> list[Expression | Series | float]:
         if isinstance(given, str) or not isinstance(given, Sequence | np.ndarray):
             wanted = "a list of 3 numbers or formulas, a function of t or a table"
-            hint = 'a column of a file: ancf.Series.read("file.csv", "column"), one for each direction'
-            names = isinstance(given, str) and given.lower().endswith((".csv", ".txt", ".dat"))
-            raise ModelError(self.where, f"must be {wanted}, is {checks.shown(given)}", hint if names else "")
+            raise ModelError(self.where, f"must be {wanted}, is {checks.shown(given)}", _three(given))
         count = 1 if isinstance(given, np.ndarray) and given.ndim == 0 else len(given)
         if count != 3:
-            raise ModelError(self.where, f"has {count} components, wanted 3")
+            raise ModelError(self.where, f"has {count} components, wanted 3", "along x, y and z")
         return [self._component(part, f"{self.where}[{i}]") for i, part in enumerate(given)]
 
     def _component(self, part: Any, where: str) -> Expression | Series | float:
@@ -271,6 +269,15 @@ def call(
     if not np.all(np.isfinite(value)):
         raise ModelError(where, f"{place} the function returned {checks.shown(got)}, must be finite")
     return value.astype(np.float64).reshape(size)
+
+
+def _three(given: Any) -> str:
+    """How one value is written as three."""
+    if isinstance(given, str) and given.lower().endswith((".csv", ".txt", ".dat")):
+        return 'a column of a file: ancf.Series.read("file.csv", "column"), one for each direction'
+    if isinstance(given, str):
+        return f'along x it is ["{given}", 0, 0]'
+    return f"along x it is ({given:g}, 0, 0)" if isinstance(given, int | float) else ""
 
 
 def _wanted(size: int) -> str:

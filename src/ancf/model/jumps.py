@@ -18,6 +18,9 @@ from ..errors import ModelError
 from .functions import TimeFunction
 from .joints import Slide
 
+#: How places in files and descriptions begin.
+NUMBERED = ("supports[", "connections[")
+
 Table = Callable[[FloatArray], FloatArray]
 
 #: Times at which a motion is looked at, of the first steps and of the whole, and corners looked at closer.
@@ -41,7 +44,8 @@ class Jump(NamedTuple):
     def __str__(self) -> str:
         if self.body:
             text = f"its rate is {self.size:.3g} {self.unit}/s from t = {self.time:.4g} s on"
-            hint = f'let it grow from zero, or give "{self.body}" that motion by set_motion'
+            grow = "let it grow from zero (ramp= of a Series, ramp(t, 0, 5) in a formula)"
+            hint = f'{grow}, or give "{self.body}" that motion by set_motion'
             push = f'"{self.body}" does not move so: an impulse whose size depends on the step'
             return f"{self.where}: {text}, {push}; {hint}"
         if self.of_value:
@@ -93,7 +97,7 @@ def motions(model: Any) -> Iterator[Motion]:
         yield from motion_of(support)
     for joint in model.connections:
         if isinstance(joint, Slide) and _varies(joint.motion):
-            yield Motion(joint.motion.where, "m", joint.motion.table)
+            yield Motion(place_of(joint, joint.motion), "m", joint.motion.table)
 
 
 def motion_of(support: Any, exact: bool = False) -> Iterator[Motion]:
@@ -103,9 +107,15 @@ def motion_of(support: Any, exact: bool = False) -> Iterator[Motion]:
         function = None if known and key == "rotation" else getattr(support, key, None)
         if _varies(function):
             straight = any(series.interpolation == "linear" for series in function.series)
-            yield Motion(function.where, unit, function.table, straight)
+            yield Motion(place_of(support, function), unit, function.table, straight)
     if _varies(function := getattr(support, "rotation_vector", None)):
-        yield Motion(function.where, "rad", _turned(function))
+        yield Motion(place_of(support, function), "rad", _turned(function))
+
+
+def place_of(item: Any, function: TimeFunction) -> str:
+    """Where a motion is given: as in the script, or of a file or a description with the name of its item."""
+    where = function.where
+    return f'{where} of "{item.name}"' if where.startswith(NUMBERED) else where
 
 
 def _varies(function: Any) -> TypeGuard[TimeFunction]:

@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 
 from ..errors import ArgumentError
 from .checks import listed, nearest
+from .other_words import argument_of
 
 T = TypeVar("T")
 
@@ -105,7 +106,8 @@ def _refused(
     accepted = f"accepted: {listed(known, LISTED)}" if known else "it takes none"
     for name in keywords:
         if name not in known:
-            return ArgumentError(where, f'unknown argument "{name}", {accepted}', nearest(name, known))
+            hint = nearest(name, known) or argument_of(where, name, known)
+            return ArgumentError(where, f'unknown argument "{name}", {accepted}', hint)
     by_place = [p.name for p in parameters if p.kind is p.POSITIONAL_OR_KEYWORD]
     count = len(arguments) - len(signature.parameters) + len(parameters)
     if count > len(by_place):

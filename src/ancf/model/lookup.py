@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from copy import copy
@@ -16,12 +17,14 @@ from .beam import Beam
 from .bodies import Body, PointMass, RigidBody, kind
 from .connections import Connection, Spherical, initial_position
 from .inputs import Input, make_input
-from .kinds import GROUPS, SURROUNDINGS, kind_of
+from .kinds import GROUPS, SURROUNDINGS, all_kinds, kind_of
 from .names import POINT_LABEL, Names, numbers_of, split_label, unknown
 from .points import Point
 from .repeated import Joined
 from .supports import Support
 
+#: A question as formulas of studies have it.
+QUESTION = re.compile(r"[a-z_]+\((.+)\)")
 #: What a point is written like, for messages.
 SUCH_AS = "such as beam.start, beam.end or beam.at(0.5), a point mass or a rigid body"
 
@@ -142,7 +145,11 @@ class Lookup:
         if POINT_LABEL.fullmatch(item.strip()) or item.strip().partition(".")[0] in self.bodies:
             return self._point(item, where)
         names = [*self.bodies, *(c.name for c in self.connections), *(s.name for s in self.supports)]
-        raise unknown(where, "point, spring, joint or support", item, names)
+        error = unknown(where, "point, spring, joint or support", item, names)
+        if asked := QUESTION.fullmatch(item.strip()):
+            hint = f'list what is asked: "{asked[1]}"; the sensors answer the question'
+            raise ModelError(error.where, error.what, hint)
+        raise error
 
     @contextmanager
     def located(self, place: str) -> Iterator[None]:
@@ -168,7 +175,8 @@ class Lookup:
                 raise ModelError(where, f'body "{body.name}" belongs to another model')
             return body
         if not isinstance(body, str):
-            raise ModelError(where, f"must be a body or its name, is {checks.shown(body)}")
+            hint = f'the body of {body} is "{body.body.name}"' if isinstance(body, Point) else ""
+            raise ModelError(where, f"must be a body or its name, is {checks.shown(body)}", hint)
         if body not in self.bodies:
             raise unknown(where, "body", body, self.bodies)
         return self.bodies[body]
@@ -182,6 +190,9 @@ class Lookup:
         if isinstance(point, Beam):
             return own_point(point, where)
         if not isinstance(point, str):
+            if (item := _item(self, point)) is not None:
+                noun, ends = item
+                raise ModelError(where, f'must be a point, is the {noun} "{point.name}"', ends)  # type: ignore[attr-defined]
             hint = SUCH_AS
             if where.endswith(".a") and isinstance(point, list | tuple | np.ndarray) and len(point) == 3:
                 hint = "a place in space is the other end, b"
@@ -192,6 +203,15 @@ class Lookup:
         ends = [end for item in self.connections for end in kind_of(item).ends_of(item)]
         far = [float(np.max(np.abs(initial_position(e) - place))) for e in ends if isinstance(e, np.ndarray)]
         return max(far, default=0.0)
+
+
+def _item(model: Lookup, given: object) -> tuple[str, str] | None:
+    """What a support, load or connection is called that was given for a point, and what its points are."""
+    found = next((kind for kind in all_kinds() if isinstance(given, kind.item)), None)
+    if found is None:
+        return None
+    points = [str(end) for end in found.ends_of(given) if isinstance(end, Point)]
+    return found.noun, f"its point is {points[0]}" if points else ""
 
 
 def own_point(body: Body, where: str) -> Point:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from ..arrays import FloatArray
 from ..errors import ModelError
-from . import auto_elements, checks, describe, followers, rebuild
+from . import auto_elements, checks, describe, followers, other_words, rebuild
 from .beam import Beam
 from .connecting import PointLike
 from .functions import check_inputs
@@ -26,23 +26,20 @@ from .tables import Readable, Sheet
 LoadT = TypeVar("LoadT", bound=Load)
 
 
-#: Words that users try, and what does it.
-OTHER_WORDS = {
-    "seabed": "add_ground(...) makes a seabed",
-    "floor": "add_ground(...) makes a floor",
-    "buoy": "add_rigid_body(...) or add_point_mass(...) makes a buoy, add_fluid(...) the water",
-    "cable": 'add_beam(...) makes a cable, element="cable" by default',
-    "rope": 'add_beam(...) makes a rope, element="cable" by default',
-    "line": 'add_beam(...) makes a line, element="cable" by default',
-    "pulley": "add_surface(...) and add_contact(...) make a pulley",
-    "drum": "add_surface(...) and add_contact(...) make a drum",
-    "current": "add_fluid(..., velocity=...) has a current",
-    "wave": "add_fluid(..., waves=...) has waves",
-    "wind": "add_fluid(..., velocity=...) has a wind",
-    "motor": "clamp(..., rotation_vector=...) turns as functions of time say",
-    "fix": "clamp(...) holds position and direction, pin(...) the position",
-    "mass": "add_point_mass(...) or add_rigid_body(...)",
-}
+def _hint(name: str) -> str:
+    """What does what a name says that a Model does not have."""
+    methods = {kind.method for kind in (*all_kinds(), *SURROUNDINGS.values())} | MAKING
+    return other_words.method_of(name, methods) or other_words.hint_of(name, other_words.OF_MODEL)
+
+
+def offered(name: str) -> str:
+    """What does what a name says that the package does not have."""
+    hint = other_words.hint_of(name, other_words.OF_PACKAGE)
+    return hint or (f"model.{own}" if (own := _hint(name)) else "")
+
+
+#: Methods that make bodies and inputs.
+MAKING = {"add_beam", "add_point_mass", "add_rigid_body", "add_input"}
 
 #: What one of the parts of a model is called.
 ONE = {"bodies": "body", "supports": "support", "loads": "load", "connections": "connection"}
@@ -97,7 +94,7 @@ class Model(Supporting, Readable):
                 if kind.method == name and kind.add is not None:
                     return partial(called_as(kind.add, name), self)
             said = f"Model has no attribute {name!r}"
-            hint = next((OTHER_WORDS[word] for word in name.split("_") if word in OTHER_WORDS), "")
+            hint = _hint(name)
             raise AttributeError(f"{said}: {hint}" if hint else said, name=name, obj=self)
 
     def __dir__(self) -> list[str]:

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..errors import ModelError
 from . import checks
 
 #: Keywords of a section that fluids and grounds ask for.
 IN_FLUID = ("diameter", "drag", "added_mass")
+#: What is usual along the axis of a smooth line, for messages.
+_ALONG = {"Section.drag": "0.01", "Section.added_mass": "0.0"}
 
 
 def in_fluid(diameter: Any, drag: Any, added_mass: Any) -> dict[str, Any]:
@@ -29,5 +32,8 @@ def in_fluid(diameter: Any, drag: Any, added_mass: Any) -> dict[str, Any]:
 def _pair(given: Any, where: str) -> tuple[float, float] | None:
     if given is None:
         return None
+    if isinstance(given, int | float):
+        what = f"must be two numbers, normal to the axis and along it, is {checks.shown(given)}"
+        raise ModelError(where, what, f"({given:g}, {_ALONG[where]})")
     normal, tangential = checks.array(given, where, (2,)).tolist()
     return checks.non_negative(normal, f"{where}[0]"), checks.non_negative(tangential, f"{where}[1]")

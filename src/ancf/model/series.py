@@ -329,10 +329,12 @@ def _clock(found: Mapping[str, Any], time: str, where: str) -> str:
 def _head(found: Mapping[str, Any], name: Any, where: str) -> str:
     if name in found:
         return str(name)
+    plain_of = {split_unit(head)[0]: head for head in found}
     plain = [head for head in found if split_unit(head)[0] == name]
     if len(plain) == 1:
         return plain[0]
-    hint = checks.nearest(name, found)
+    alike = [head for head in plain_of if isinstance(name, str) and head.lower() == name.lower()]
+    hint = f'did you mean "{alike[0]}"?' if alike else checks.nearest(name, [*found, *plain_of])
     raise ModelError(where, f'is "{name}", the file has the columns {checks.listed(found)}', hint)
 
 
@@ -360,7 +362,9 @@ def noises(model: Any) -> list[str]:
                 continue
             for series in function.series:
                 if (noise := series.noise()) is not None:
-                    found.append(_said(function.where, name, series, *noise))
+                    where = function.where
+                    where += f' of "{support.name}"' if where.startswith("supports[") else ""
+                    found.append(_said(where, name, series, *noise))
     return found
 
 

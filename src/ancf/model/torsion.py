@@ -85,7 +85,8 @@ def make_torsion_spring(
     k = checks.non_negative(stiffness, f"{where}.stiffness")
     c = checks.non_negative(damping, f"{where}.damping")
     if k == 0.0 and c == 0.0:
-        raise ModelError(f"{where}.stiffness", "stiffness and damping are both 0")
+        hint = "an angle is measured without a spring: joint_angle(hinge) of results and runs"
+        raise ModelError(f"{where}.stiffness", "stiffness and damping are both 0", hint)
     direction = checks.direction(axis, f"{where}.axis")
     made = TorsionSpring(name, a, b, direction, k, c, checks.number(angle, f"{where}.angle"))
     if _firmness(made.frame) == 0:

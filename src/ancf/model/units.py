@@ -32,6 +32,17 @@ UNITS = {unit: scale for kind in KINDS.values() for unit, scale in kind.items()}
 #: A head whose brackets hold a unit, and no component of a formula.
 SPACED = re.compile(r"\s[\[(][^\[(]*[\])]$")
 
+#: Units by their words.
+WORDS = {
+    "degree": "deg",
+    "radian": "rad",
+    "metre": "m",
+    "meter": "m",
+    "second": "s",
+    "newton": "N",
+    "feet": "ft",
+}
+
 
 def factor(unit: Any, where: str, of: str | None = None) -> float:
     """What a unit is in those of the package; ModelError if it is unknown, or of another kind than ``of``."""
@@ -39,7 +50,9 @@ def factor(unit: Any, where: str, of: str | None = None) -> float:
         if of is not None and unit.strip() not in KINDS[of]:
             raise ModelError(where, f"is {checks.shown(unit)}, wanted one of {checks.listed([*KINDS[of]])}")
         return UNITS[unit.strip()]
-    raise ModelError(where, f"is {checks.shown(unit)}, known are {checks.listed(list(UNITS)[1:], 60)}")
+    word = WORDS.get(unit.strip().lower().removesuffix("s")) if isinstance(unit, str) else None
+    near = f'did you mean "{word}"?' if word else checks.nearest(unit, UNITS)
+    raise ModelError(where, f"is {checks.shown(unit)}, known are {checks.listed(list(UNITS)[1:], 60)}", near)
 
 
 def kind_of(unit: str) -> str:

@@ -61,7 +61,7 @@ class VelocityField:
         self.law: Any = None
         self.once: str | None = None
         given, rest = self.given, [0.0, 0.0, 0.0]
-        if isinstance(given, Mapping) and "z" in given:
+        if isinstance(given, Mapping) and not {"t", "value"} & set(given):
             self._read_profile(given)
         elif callable(given) and not isinstance(given, Missing) and _arguments(given) == len(NAMES):
             self.law = given
@@ -117,8 +117,12 @@ class VelocityField:
     def _read_profile(self, given: Mapping[str, Any]) -> None:
         if set(given) != {"z", "velocity"}:
             what = f'a profile has the keys "z" and "velocity", not {sorted(map(str, given))}'
-            raise ModelError(self.where, what)
+            hint = '{"z": [0, -50], "velocity": [[1, 0, 0], [0.2, 0, 0]]}; over time {"t": ..., "value": ...}'
+            raise ModelError(self.where, what, hint)
         z = checks.array(given["z"], f"{self.where}.z", (None,))
+        if np.ndim(given["velocity"]) == 1:
+            what = f"has one number at each height, wanted three: {checks.shown(given['velocity'])}"
+            raise ModelError(f"{self.where}.velocity", what, "along x it is [[1.0, 0, 0], ...]")
         velocity = checks.array(given["velocity"], f"{self.where}.velocity", (None, 3))
         checks.increasing(z, f"{self.where}.z", "heights", " m")
         if len(velocity) != len(z):

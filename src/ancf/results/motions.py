@@ -48,7 +48,7 @@ class Motions:
 
         Parameters
         ----------
-        support : Pin, Clamp, Hold or its name
+        support : Pin, Clamp, Hold or its name, or the point that one of them holds
 
         Raises
         ------

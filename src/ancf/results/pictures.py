@@ -42,8 +42,8 @@ class Plotted:
             "curvature", "bending_moment", "torque" or "twist" of points; "spring_force" (default) or
             "spring_length" of springs; "contact_force" (default), "contact_gap" or "arc_length" of
             contacts; "arc_length" (default), "arc_rate", "normal_force" or "sliding_friction" of sliding
-            joints; "multiplier" (default) or "joint_moment" of joints; "reaction" (default) or
-            "reaction_moment" of supports; "energy" of the whole.
+            joints; "multiplier" (default), "joint_moment", "joint_angle" or "joint_rate" of joints;
+            "reaction" (default) or "reaction_moment" of supports; "energy" of the whole.
         x : str
             Along the axis of x: "t", or a scalar quantity of the same items.
         plane : str

@@ -13,6 +13,7 @@ from ..connections.spring_damper import DISTANCE, FORCE
 from ..errors import ModelError, named
 from ..model.bodies import PointMass, RigidBody
 from ..model.connections import Spring
+from ..model.held import support_asked
 from ..model.points import Point
 from ..system.contact_fields import ContactFields
 from ..system.probe import BeamProbe, Probe, R, locate
@@ -193,9 +194,13 @@ class Sensors(SpringFields, ContactFields, Led, Plotted):
 
     def _support(self, support: Any) -> str:
         name = getattr(support, "name", support)
-        if not isinstance(name, str) or name not in self.listing.held:
-            raise ModelError(named(name), "is no support that the sensors have recorded", self._recorded())
-        return name
+        if isinstance(name, str) and name in self.listing.held:
+            return name
+        try:
+            return support_asked(self.model, support, self.listing.held, "reaction")
+        except ModelError:
+            what = "is no support that the sensors have recorded"
+            raise ModelError(named(str(name)), what, self._recorded()) from None
 
     def _whole_probe(self, probe: Probe) -> Probe:
         """Where a point is in whole state vectors."""

@@ -9,6 +9,7 @@ from ..later import eig
 
 SHIFT = 1e-6  # of a mean frequency: about what eigenvalues are found
 NEUTRAL = 256.0 * np.finfo(float).eps  # of the stiffnesses that cancel: what is zero
+SLOW, BESIDE = 1e3, 0.6  # times the shift: what is slow; of the slowest other, its shift, which is none of it
 UNSEEN = 0.1  # of the shift: frequencies below are zero where nothing resists
 SAME = 1e-3  # by which motions differ that are one
 
@@ -37,17 +38,31 @@ def lowest(
     shapes : ndarray of complex, shape (n, count)
     """
     sigma = SHIFT * float(np.sqrt(np.abs(K).sum() / np.abs(M).sum()) or 1.0)
-    values, shapes = _about(M, D, K, Z, sigma)
+    values, shapes = _both(M, D, K, Z, sigma)
     neutral = _is_neutral(M, D, terms, values, shapes, UNSEEN * sigma)
     still = _independent(M, shapes[:, neutral])
-    free = _unresisted(M, D, K, Z, still, sigma)
-    if free.shape[1]:
-        values, shapes = _beside(M, D, K, Z, free, sigma)
-        neutral = _is_neutral(M, D, terms, values, shapes, UNSEEN * sigma)
     upper = np.flatnonzero(~neutral & (values.imag > -1e-9 * np.abs(values)))
     order = upper[np.argsort(np.abs(values[upper]), kind="stable")]
     found = np.concatenate([np.zeros(still.shape[1]), values[order]])
     return found[:count], np.hstack([still, shapes[:, order]])[:, :count]
+
+
+def _both(
+    M: FloatArray, D: FloatArray, K: FloatArray, Z: FloatArray, sigma: float
+) -> tuple[ComplexArray, ComplexArray]:
+    """What is slow about ``sigma``, the rest about a shift of its own size.
+
+    A motion that nothing resists is a double zero, beside which the inverse about a small shift keeps few
+    digits of all others.
+    """
+    values, shapes = _about(M, D, K, Z, sigma)
+    slow = np.abs(values) <= SLOW * sigma
+    if not np.any(slow) or np.all(slow):
+        return values, shapes
+    least = float(np.min(np.abs(values[~slow])))
+    others, forms = _about(M, D, K, Z, BESIDE * least)
+    quick = np.abs(others) > np.sqrt(SLOW * sigma * least)
+    return np.concatenate([values[slow], others[quick]]), np.hstack([shapes[:, slow], forms[:, quick]])
 
 
 def _about(
@@ -61,36 +76,6 @@ def _about(
     mu, vectors = eig(np.linalg.solve(A - sigma * B, B))
     finite = np.flatnonzero(np.abs(mu) > 1e-14 * np.max(np.abs(mu), initial=0.0))
     return sigma + 1.0 / mu[finite], Z @ vectors[:n, finite]
-
-
-def _unresisted(
-    M: FloatArray, D: FloatArray, K: FloatArray, Z: FloatArray, still: FloatArray, sigma: float
-) -> FloatArray:
-    """Of neutral motions those that nothing brakes either, (n, r), each of kinetic energy 1/2 at the speed 1.
-
-    Those are double zeros, beside which the inverse about a small shift keeps few digits of the rest.
-    """
-    if not still.shape[1]:
-        return still
-    _, resisted, turns = np.linalg.svd(D @ still)
-    resisted = np.pad(resisted, (0, still.shape[1] - len(resisted)))
-    free = still @ turns[resisted <= UNSEEN * sigma * np.linalg.norm(M @ still, 2)].T
-    if free.shape[1]:  # once more, as they came with half of the digits
-        free = Z @ np.linalg.solve(Z.T @ (K + sigma**2 * M) @ Z, Z.T @ (M @ free))
-    return _independent(M, free)
-
-
-def _beside(
-    M: FloatArray, D: FloatArray, K: FloatArray, Z: FloatArray, free: FloatArray, sigma: float
-) -> tuple[ComplexArray, ComplexArray]:
-    """Eigenvalues and shapes beside motions that nothing resists: their columns of D and K are zero.
-
-    What is normal to them has its eigenvalues alone, and takes them along, l^2 y = -(l D + K) x.
-    """
-    whole = np.linalg.qr(Z.T @ (M @ free), mode="complete")[0]
-    values, shapes = _about(M, D, K, Z @ whole[:, free.shape[1] :], sigma)
-    along = (values * (free.T @ (D @ shapes)) + free.T @ (K @ shapes)) / values**2
-    return values, shapes - free @ along
 
 
 def _is_neutral(

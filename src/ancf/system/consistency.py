@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,9 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
 from ..later import csc_array, null_space, splu, svd
 from ..linalg.sparse import to_sparse
+from ..model.functions import TimeFunction
 from ..model.joints import Slide
+from ..model.touching import bodies_of
 from .core import assemble, constraints, restrict
 from .system import System
 
@@ -21,6 +23,8 @@ NAMED = 0.05
 SINGULAR, MANY = 0.1, 1200
 #: Largest gap of a joint at the start, in sizes of the model; a sliding joint has its own.
 GAP = 1e-6
+#: Given motions of supports and their units.
+MOTIONS = {"displacement": "m", "rotation": "rad", "rotation_vector": "rad"}
 
 
 class Rows(NamedTuple):
@@ -116,8 +120,8 @@ def _gaps(system: System, q: FloatArray) -> FloatArray:
     return r
 
 
-def check_gaps(system: System, q: FloatArray, where: str) -> None:
-    """Raise ModelError if a joint's points are apart in the state q from which a run starts."""
+def check_gaps(system: System, q: FloatArray, where: str, t: float) -> None:
+    """Raise ModelError if a joint's points are apart in the state q from which a run starts at the time t."""
     if not len(system.multipliers):
         return
     gaps = _gaps(system, q)
@@ -134,4 +138,25 @@ def check_gaps(system: System, q: FloatArray, where: str) -> None:
         if gap > allowed:
             what = f'"{joint.name}" does not meet: its points are {gap:.6g} m apart, at most {allowed:.3g} m'
             hint = "start from ancf.equilibrium(model), or place the bodies where they meet"
-            raise ModelError(where, what, hint)
+            raise ModelError(where, what, _begins(system, joint, t) or hint)
+
+
+def _begins(system: System, joint: Any, t: float) -> str:
+    """What is said of given motions that take a body of a joint away at once, "" if there are none."""
+    bodies = bodies_of(joint)
+    for support in system.model.supports:
+        if support.point.body.name not in bodies:
+            continue
+        given = {key: getattr(support, key, None) for key in MOTIONS}
+        found = {key: f for key, f in given.items() if _is_known(f) and np.any(f(t))}
+        sizes = (f"{key} with {np.linalg.norm(f(t)):.4g} {MOTIONS[key]}" for key, f in found.items())
+        if found:
+            series = any(function.series for function in found.values())
+            cure = "relative=True of a Series counts from there" if series else "let it begin with zero"
+            begins = f'"{support.name}" begins its {", its ".join(sizes)}'
+            return f"{begins}: {cure}, or start from ancf.equilibrium(model)"
+    return ""
+
+
+def _is_known(function: Any) -> TypeGuard[TimeFunction]:
+    return isinstance(function, TimeFunction) and not function.missing

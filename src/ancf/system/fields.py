@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from ..model.beam import Beam
 from ..model.bodies import Body, PointMass, RigidBody, kind
 from ..model.lookup import own_point, parse_point
 from ..model.names import unknown
+from ..model.other_words import OF_RESULT, hint_of
 from ..model.points import Point
 from . import sections
 from .probe import R_X, R_XX, R_Y, R_Z, BeamProbe, Probe, locate
@@ -59,6 +61,13 @@ class Fields:
     _lengths: Mapping[str, tuple[int, float]] = MappingProxyType({})
     _q: FloatArray
     _v: FloatArray
+
+    if not TYPE_CHECKING:  # a misspelled question is an error
+
+        def __getattr__(self, name: str) -> Any:
+            said = f"{type(self).__name__} has no attribute {name!r}"
+            hint = "" if name.startswith("_") else hint_of(name, OF_RESULT)
+            raise AttributeError(f"{said}: {hint}" if hint else said, name=name, obj=self)
 
     def position(self, point: Point | PointMass | RigidBody | str) -> FloatArray:
         """Position r, m."""
@@ -187,7 +196,7 @@ class Fields:
 
     def _probe(self, point: Point | PointMass | RigidBody | str) -> Probe:
         if isinstance(point, str):
-            place = parse_point(self.bodies, point)
+            place = self._parsed(point)
         else:
             place = point if isinstance(point, Point) else own_point(point, "point")
         body = self.bodies.get(place.body.name)
@@ -195,6 +204,16 @@ class Fields:
             names = ", ".join(self.bodies)
             raise ModelError(str(place), f'there is no body "{place.body.name}" here, there are: {names}')
         return locate(replace(place, body=body), self.slots[body.name], self._length_of(body.name))
+
+    def _parsed(self, label: str) -> Point:
+        """The point of a label; of a support's name the error says what it holds."""
+        try:
+            return parse_point(self.bodies, label)
+        except ModelError as error:
+            supports = getattr(getattr(self, "model", None), "supports", ())
+            held = next((item.point for item in supports if item.name == label), None)
+            hint = f"the support of that name holds {held}: ask that" if held is not None else error.hint
+            raise ModelError(error.where, error.what, hint) from None
 
     def _length_of(self, name: str) -> tuple[int, float]:
         return self._lengths.get(name, (-1, 0.0))

@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.connections import Spring
-from ..model.names import unknown
+from ..model.held import support_asked
 from .core import apply_load, residual
 from .system import System
 
@@ -68,12 +68,8 @@ def held_part(system: System, name: str, r: FloatArray) -> FloatArray:
 
 
 def support_name(system: System, support: Any) -> str:
-    """Name of a support; ModelError if there is no such one."""
-    name = getattr(support, "name", support)
-    positions = system.constraints.positions
-    if not isinstance(name, str) or name not in positions:
-        raise unknown("reaction", "support", name, positions)
-    return name
+    """Name of a support, or of the one at a point; ModelError if there is no such one."""
+    return support_asked(system.model, support, system.constraints.positions, "reaction")
 
 
 def _out_of_balance(system: System, q: FloatArray, time: float) -> tuple[FloatArray, FloatArray]:

@@ -10,10 +10,10 @@ from ..arrays import FloatArray
 from ..model.connections import Spring
 from ..model.names import unknown
 from ..model.points import Point
-from .torsion_fields import TorsionFields
+from .joint_angles import JointAngles
 
 
-class SpringFields(TorsionFields):
+class SpringFields(JointAngles):
     """Values of springs; shapes are () for a state, (n_t,) for a history.
 
     A spring is the object that the model gave, or its name.

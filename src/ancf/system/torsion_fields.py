@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..connections.torsion import TorsionBatch
 from ..connections.torsion_build import torsion_springs
-from ..errors import ModelError
+from ..errors import ModelError, named
 from ..model.names import unknown
 from ..model.torsion import TorsionSpring
 from .fields import Fields
@@ -24,6 +24,10 @@ class TorsionFields(Fields):
 
     model: Any
 
+    def has_angle(self, name: str) -> bool:
+        """Whether a joint has an angle, see :class:`ancf.system.joint_angles.JointAngles`."""
+        raise NotImplementedError
+
     def torsion_angle(self, spring: TorsionSpring | str) -> FloatArray:
         """Angle by which the first end of a torsion spring has turned against the second, rad.
 
@@ -33,7 +37,7 @@ class TorsionFields(Fields):
             There is no such torsion spring.
         """
         _, batch = self._torsion(spring)
-        angle: FloatArray = _angle(batch, self.q)
+        angle: FloatArray = angle_of(batch, self.q)
         return np.unwrap(angle) if angle.ndim else angle
 
     def torsion_moment(self, spring: TorsionSpring | str) -> FloatArray:
@@ -45,8 +49,7 @@ class TorsionFields(Fields):
             There is no such torsion spring.
         """
         item, batch = self._torsion(spring)
-        S, C, dS, dC = _sums(batch, self.q, self.v)
-        rate = batch.data[0, 3] * (C * dS - S * dC) / (S * S + C * C)
+        rate = rate_of(batch, self.q, self.v)
         moment: FloatArray = item.stiffness * (self.torsion_angle(spring) - item.angle) + item.damping * rate
         return moment
 
@@ -59,10 +62,11 @@ class TorsionFields(Fields):
         name = getattr(spring, "name", spring)
         found = self.torsion_springs.get(name) if isinstance(name, str) else None
         if found is None:
+            if isinstance(name, str) and self.has_angle(name):
+                raise ModelError(named(name), "is no torsion spring", f'joint_angle("{name}") is its angle')
             raise unknown("spring", "torsion spring", name, self.torsion_springs)
         batch = torsion_springs([found], self.slots)
-        used = batch.base[(batch.base >= 0) | np.any(_factors(batch) != 0.0, axis=0)]
-        if np.any(used < 0):
+        if not is_known(batch):
             raise ModelError(f'"{name}"', "was not recorded by the sensors", "list it in sensors")
         return found, batch
 
@@ -77,14 +81,27 @@ def angles(batch: TorsionBatch, q: FloatArray) -> FloatArray:
     now = np.empty(len(batch.base))
     for e, last in enumerate(batch.last.tolist()):
         one = TorsionBatch._make(array[e : e + 1] for array in batch)
-        now[e] = _angle(one, q)
+        now[e] = angle_of(one, q)
         now[e] += 2 * np.pi * np.round((last - now[e]) / (2 * np.pi))
     return now
 
 
-def _angle(batch: TorsionBatch, q: Any) -> Any:
+def angle_of(batch: TorsionBatch, q: Any) -> Any:
+    """Angle of the one spring of a batch in states (..., size), within half a turn, rad."""
     S, C = _sums(batch, q, None)
     return batch.data[0, 3] * np.arctan2(S, C)
+
+
+def rate_of(batch: TorsionBatch, q: Any, v: Any) -> Any:
+    """Its rate, rad/s."""
+    S, C, dS, dC = _sums(batch, q, v)
+    return batch.data[0, 3] * (C * dS - S * dC) / (S * S + C * C)
+
+
+def is_known(batch: TorsionBatch) -> bool:
+    """Whether all unknowns of the one spring of a batch were recorded."""
+    used = batch.base[(batch.base >= 0) | np.any(_factors(batch) != 0.0, axis=0)]
+    return not np.any(used < 0)
 
 
 def _factors(batch: TorsionBatch) -> FloatArray:

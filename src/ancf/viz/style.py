@@ -105,6 +105,8 @@ UNITS = {
     "sliding_friction": "N",
     "multiplier": "N",
     "joint_moment": "N m",
+    "joint_angle": "rad",
+    "joint_rate": "rad/s",
     "reaction": "N",
     "reaction_moment": "N m",
     "spring_force": "N",
@@ -118,7 +120,13 @@ UNITS = {
     "frequency": "Hz",
 }
 #: Symbols that stand in labels instead of the name.
-SYMBOLS = {"t": "$t$", "multiplier": "force of the joint", "joint_moment": "moment of the joint"}
+SYMBOLS = {
+    "t": "$t$",
+    "multiplier": "force of the joint",
+    "joint_moment": "moment of the joint",
+    "joint_angle": "angle of the joint",
+    "joint_rate": "rate of the joint",
+}
 
 #: Settings that matplotlib holds while a figure is made and saved.
 SETTINGS: dict[Any, Any] = {

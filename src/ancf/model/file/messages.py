@@ -12,6 +12,8 @@ from pydantic import ValidationError
 from ...errors import ModelError
 from ..checks import ALL, listed, nearest, shown
 from ..expression import QUANTITY
+from ..kinds import GROUPS
+from ..other_words import argument_of
 from .entries import NESTED, TAGGED, FileEntry
 from .fields import Entry
 from .parameters import leaves
@@ -102,8 +104,12 @@ def _of_detail(detail: dict[str, Any], entry_at: Tables) -> ModelError:
         return _wrong_kind(where, given, context["key"], context["allowed"].split())
     if kind == "extra_forbidden":
         key, allowed = str(detail["loc"][-1]), list(entry_at(detail["loc"][:-1]).model_fields)
-        hint = elsewhere(key, entry_at(())) or nearest(key, allowed)
+        hint = elsewhere(key, entry_at(())) or nearest(key, allowed) or argument_of("", key, allowed)
+        hint = hint or (_kind_called(key) if entry_at(()) is FileEntry and len(detail["loc"]) == 1 else "")
         return ModelError(where, f"unknown key, allowed: {listed(allowed, 30)}", hint)
+    if kind == "list_type" and (field := _field(detail, entry_at)) is not None:
+        what, _ = _of_value(kind, given, context, detail["msg"])
+        return ModelError(where, what, (field.description or "").rstrip("."))
     if kind == "missing":
         field = _field(detail, entry_at)
         said = "" if field is None else (field.description or "").rstrip(".") + _as_table(field, where)
@@ -117,6 +123,14 @@ def elsewhere(key: str, top: type[Entry]) -> str:
     if "" in homes:
         return f'"{key}" belongs at the top of the file, above the first table'
     return f'"{key}" is a key of {" and ".join(homes)}' if 0 < len(homes) <= MOST_HOMES else ""
+
+
+def _kind_called(key: str) -> str:
+    """How a table is written that was called by its kind, ``hinges`` or ``pin``; "" if it is of none."""
+    for group, kinds in GROUPS.items():
+        if any(key.lower() in (kind.word, f"{kind.word}s") for kind in kinds):
+            return f'[[{group}]] with type = "{key.lower().removesuffix("s")}"'
+    return ""
 
 
 @cache

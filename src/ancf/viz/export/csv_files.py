@@ -44,6 +44,9 @@ def write_csv(result: Result, folder: str | Path, points: Sequence[str] | None =
     ModelError
         There is no such point, nothing was stored, or a file cannot be written; then nothing was written.
     """
+    if Path(folder).suffix.lower() == ".csv" and not Path(folder).is_dir():
+        what = f"writes several tables into a folder, and {str(folder)!r} is the name of one"
+        raise ModelError("write_csv", what, 'to_csv("tables"), or to_pandas().to_csv("table.csv") for one')
     place, found = all_tables(result, folder, points, "write_csv")
     with writing(place, place):
         return [tables.write_table(place / f"{name}.csv", columns) for name, columns in found]

@@ -139,7 +139,7 @@ def spring_columns(result: Result) -> Iterator[Column]:
 
 
 def joint_columns(result: Result, names: Sequence[str]) -> Iterator[Column]:
-    """Forces of joints, and arc lengths of sliding joints, at the stored times."""
+    """Forces and angles of joints, and arc lengths of sliding joints, at the stored times."""
     yield "t [s]", result.t
     for name in names:
         yield from joint_parts(result, name)
@@ -153,10 +153,12 @@ def energy_columns(result: Result) -> Iterator[Column]:
 
 
 def joint_parts(known: Any, name: str) -> Iterator[Column]:
-    """Multipliers, and s of a sliding joint."""
+    """Multipliers, s of a sliding joint, the angle of one that turns about an axis."""
     values = known.multiplier(name)
     for k in range(values.shape[1]):
         label = f"force {FORCES[k]} [N]" if k < len(FORCES) else f"moment {k - len(FORCES) + 1} [N m]"
         yield f"{name} {label}", values[:, k]
     if name in known.arcs:
         yield f"{name} s [m]", known.arc_length(name)
+    if known.has_angle(name):
+        yield f"{name} angle [rad]", known.joint_angle(name)

@@ -34,6 +34,7 @@ WORDS = (
     (r".*slipping", "share of the contact that slips"),
     (r".* s", "arc length at which the joint or contact is"),
     (r".*force ([xyz])", "component {0} of the force of the joint, global axes"),
+    (r".*angle", "angle of the first end against the second about the axis of the joint or spring"),
     (r".*moment \d", "moment of the joint, about an axis that it holds"),
     (r".*force", "force of the spring, positive in tension, or of the contact, positive in pressure"),
     (r"kinetic|strain|potential|total", "energy"),

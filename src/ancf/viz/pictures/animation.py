@@ -122,6 +122,9 @@ def animate(
     mode: int = 0,
 ) -> Animation:
     """Moving picture, with what it was given checked; see :meth:`ancf.Result.animate`."""
+    if isinstance(color, str) and color.lower().endswith((".gif", ".mp4", ".png")):
+        what = f"is {checks.shown(color)}, the name of a file"
+        raise ModelError("animate.color", what, f'animate().save("{color}") writes it')
     checks.choice(color, "animate.color", (*QUANTITIES, "plain"))
     checks.integer(frames, "animate.frames", 1, MOST_FRAMES)
     if isinstance(source, Modes):

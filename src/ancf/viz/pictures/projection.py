@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +22,8 @@ AXES = "xyz"
 FLAT, LONG = 0.02, 15.0
 #: Smallest extent that is shown, in a plane and in space, and the margin around all, of the largest extent.
 LEAST, LEAST_SPACE, MARGIN = 0.25, 0.3, 0.05
+#: Shares of the width and the height of its place that the box of a picture in space fills.
+FILLED = 0.62, 0.9
 #: Where the eye is, degrees.
 ELEVATION, AZIMUTH = 22.0, -60.0
 
@@ -71,13 +74,23 @@ class Projection:
         return made
 
     def _finish_space(self, axes: Any) -> None:
-        axes.set_box_aspect(self.box, zoom=1.45 - 0.65 * self.box[2])
         axes.set_in_layout(False)  # it reaches beyond its place, which the layout cannot know
         axes.view_init(elev=ELEVATION, azim=AZIMUTH)
+        axes.set_box_aspect(self.box)
+        axes.set_box_aspect(self.box, zoom=self._zoom(axes))
         axes.tick_params("both", pad=-1.0)
         for axis, part in zip((axes.xaxis, axes.yaxis, axes.zaxis), self.box, strict=True):
             axis.labelpad = -6.0 if axis is axes.zaxis and part < 0.6 else -1.0
             axis.get_major_locator().set_params(nbins=5 if part > 0.5 else 3)
+
+    def _zoom(self, axes: Any) -> float:
+        """What lets the box of all axes fill its place, which is as high as the square they are drawn in."""
+        from mpl_toolkits.mplot3d.proj3d import proj_transform
+
+        corners = np.array(list(product(*zip(self.low, self.high, strict=True)))).T
+        seen = np.array(proj_transform(*corners, axes.get_proj())[:2])
+        width, height = np.ptp(seen, axis=1) / axes.viewLim.size
+        return float(min(FILLED[0] * 100.0 / self.height(100.0) / width, FILLED[1] / height))
 
     @property
     def box(self) -> FloatArray:

@@ -53,6 +53,8 @@ QUANTITIES: dict[str, Question] = {
     "sliding_friction": Question("sliding_friction", (SLIDE,)),
     "multiplier": Question("multiplier", (JOINT, SLIDE), vector=True),
     "joint_moment": Question("joint_moment", (JOINT,), vector=True),
+    "joint_angle": Question("joint_angle", (JOINT,)),
+    "joint_rate": Question("joint_rate", (JOINT,)),
     "reaction": Question("reaction", (SUPPORT,), vector=True),
     "reaction_moment": Question("reaction_moment", (SUPPORT,), vector=True),
 }

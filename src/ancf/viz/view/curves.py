@@ -94,13 +94,15 @@ def _components(trace: Trace, mask: Any) -> list[Curve]:
 
 
 def _joints(states: Any, said: str = "") -> list[Curve]:
-    """Arc lengths of sliding joints and forces of all joints; rigid bodies' own multipliers are none."""
+    """Arc lengths, angles and forces of joints; rigid bodies' own multipliers are none."""
+    angles = {name: states.joint_angle(name) for name in states.joints if states.has_angle(name)}
     arcs = {name: states.arc_length(name) for name in states.arcs}
     forces = {}
     for name in states.joints:
         if name not in states.bodies:
             forces[name] = np.linalg.norm(states.multiplier(name)[..., :3], axis=-1)
     found = _most_varied(states.t, arcs, "m", f"arc length{said}")
+    found += _most_varied(states.t, angles, "rad", f"joint angle{said}")
     return found + _most_varied(states.t, forces, "N", f"joint force{said}")
 
 

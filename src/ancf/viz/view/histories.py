@@ -25,6 +25,7 @@ class Histories(SpringFields, JointFields):
     """
 
     def __init__(self, source: Any) -> None:
+        self.model = source.model
         self._bodies, self._slots, self._lengths = source.bodies, source.slots, source.lengths
         self._springs, self._joints, self._arcs = source.springs, source.joints, source.arcs
         count, size = source.q.shape
