@@ -97,7 +97,8 @@ def prepared(
         q, v = system.initial_state(t0) if start is None else adopted(start, system, f"{where}.start")
         remembered.begin(system, q, v, None if start is None else start.known)
         check_gaps(system, q, f"{where}.start", t0)
-        for text in unresolved(system, q, method, step):
+        at_rest = start is not None and start.known.balanced
+        for text in unresolved(system, q, method, step, at_rest=at_rest):
             warnings.warn(text, UserWarning, stacklevel=4)
             made.header["notes"].append(text)
         made.header["notes"] += missed(system, start, q, level=4)

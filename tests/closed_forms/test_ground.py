@@ -143,6 +143,19 @@ class TestSteps:
             assert f"{rate:.3g} rad/s" in text
             assert f"take {0.5 / rate:.2g} s" in text
 
+    @pytest.mark.parametrize(("height", "said"), [(0.5, True), (1.9, True), (2.5, False)])
+    def test_what_hangs_at_rest_farther_above_than_it_is_long_does_not_fall(self, height, said):
+        model = ancf.Model(gravity=(0, 0, -G))
+        section = ancf.Section(EA=1e5, EI=0.1, rhoA=RHOA, diameter=D)
+        cable = model.add_beam("cable", start=(0, 0, 0), end=(2.0, 0, 0), elements=4, section=section)
+        model.pin(cable.start)
+        model.pin(cable.end)
+        model.add_ground("ground", height=-height - 0.1, stiffness=1e6)
+        with warnings.catch_warnings(record=True) as heard:
+            warnings.simplefilter("always")
+            ancf.stepper(model, step=1e-2, start=ancf.equilibrium(model))
+        assert len([w for w in heard if "would bounce" in str(w.message)]) == said
+
     @pytest.mark.parametrize("zeta", [0.0, 1.0])
     def test_there_energy_appears_and_below_it_does_not(self, zeta):
         """After an impact there is more than it fell with, damped or not, but with rho_inf = 0."""

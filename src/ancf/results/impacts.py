@@ -16,25 +16,29 @@ from ..system.system import System
 RESOLVED = 0.5
 
 
-def unresolved(system: System, q: FloatArray, method: Any, step: float) -> list[str]:
+def unresolved(
+    system: System, q: FloatArray, method: Any, step: float, *, at_rest: bool = False
+) -> list[str]:
     """What is said of cables and beams that will fall on grounds, from above them in the state q.
 
     On a spring of the stiffness k d a cable of the mass rhoA bounces with sqrt(k d/rhoA).  A step in which
     that is a radian or more finds it deep in the ground and throws it out with more than it had, damped or
-    not; `GeneralizedAlpha(rho_inf=0)` alone does not.  What lies there from the start does not fall.
+    not; `GeneralizedAlpha(rho_inf=0)` alone does not.  What lies there from the start does not fall, nor
+    does what hangs ``at_rest`` farther above than it is long.
     """
     if not isinstance(method, NewmarkFamily) or getattr(method, "rho_inf", 1.0) == 0.0:
         return []
-    found = [_said(ground, system, q, step) for ground in system.model.grounds]
+    found = [_said(ground, system, q, step, at_rest) for ground in system.model.grounds]
     return [text for text in found if text]
 
 
-def _said(ground: Ground, system: System, q: FloatArray, step: float) -> str:
+def _said(ground: Ground, system: System, q: FloatArray, step: float, at_rest: bool) -> str:
     rates = {}
     for name, beam in system.model.beams.items():
         if ground.acts_on(name) and beam.section.diameter:
             places = q[system.slots[name][:, :1] + np.arange(3)]
-            if max(ground.depth(place) for place in places) < 0.0:
+            farthest = -beam.length if at_rest else -math.inf
+            if farthest < max(ground.depth(place) for place in places) < 0.0:
                 rates[name] = math.sqrt(ground.stiffness * beam.section.diameter / beam.section.rhoA)
     name = max(rates, key=rates.__getitem__, default="")
     if not name or rates[name] * step <= RESOLVED:
