@@ -100,7 +100,7 @@ class TestTurnsAreCounted:
 
     @pytest.mark.parametrize("angle", [1.0, 3.0, 3.3, 4.0, 7.0, -20.0])
     @pytest.mark.parametrize("vector", [True, False])
-    def test_torsion_spring(self, vector, angle):
+    def test_torsion_spring(self, tmp_path, vector, angle):
         """k angle^2 / 2; in a run from there, and seen from the other body, the same."""
         model = ancf.Model()
         given = {"mass": 1.0, "inertia": (0.1, 0.1, 0.1)}
@@ -112,8 +112,25 @@ class TestTurnsAreCounted:
         model.add_torsion_spring(base, hub, axis=(0, 0, 1), stiffness=1.0)
         state = ancf.equilibrium(model)
         assert state.energy.strain == pytest.approx(1.5 * angle**2, rel=1e-9)
-        run = ancf.simulate(model, t_end=0.01, step=1e-3, start=state)
+        first, second = model.connections
+        run = ancf.simulate(
+            model, t_end=0.01, step=1e-3, start=state, sensors=[first, second], file=tmp_path / "r.h5"
+        )
         assert run.energy.strain[-1] == pytest.approx(1.5 * angle**2, rel=1e-9)
+        seen = []
+        held = ancf.simulate(
+            model,
+            t_end=3e-3,
+            step=1e-3,
+            start=state,
+            controller=lambda live: seen.append(live.torsion_moment(first)),
+        )
+        known = (state, run, run.sensors, run.state(-1), held, ancf.load(tmp_path / "r.h5"))
+        for one in known:
+            assert np.ravel(one.torsion_angle(first)) == pytest.approx(angle, rel=1e-9)
+            assert np.ravel(one.torsion_moment(first)) == pytest.approx(2.0 * angle, rel=1e-9)
+            assert np.ravel(one.torsion_moment(second)) == pytest.approx(-1.0 * angle, rel=1e-9)
+        assert seen == pytest.approx([2.0 * angle] * len(seen), rel=1e-9)
 
 
 class TestElsewhereThanTheStart:

@@ -12,6 +12,7 @@ from ..contact.rubbed import RUBBED
 from ..errors import ModelError
 from ..model import checks
 from ..model.names import unknown
+from ..model.torsion import TorsionSpring
 from ..preparation import Prepared
 from ..results import motions, remembered
 from ..results.given import Given
@@ -125,6 +126,9 @@ class Live(State):
         if isinstance(self._run, Run):
             return self._run.felt()
         return motions.of_state(self.system, self._q, self._v, self.t, self.known)
+
+    def _turned_to(self, spring: TorsionSpring) -> float | None:
+        return self._remembered_turn(spring, self.system.memory)
 
     def _memory_of(self, part: str) -> dict[str, FloatArray] | None:
         """As it is now; before the first step nothing has acted yet, and what the run begins with counts."""

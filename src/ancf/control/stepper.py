@@ -149,6 +149,7 @@ class _Whole:
         self.model, self.bodies, self.slots = run.model, run.bodies, run.slots
         self.springs, self.joints, self.arcs = run._springs, run._joints, run._arcs
         self.lengths, self._kept, self._led = run.lengths, run._history, run._led
+        self._turned_to = run._turned_to
 
 
 def stepper(

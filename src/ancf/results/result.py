@@ -163,6 +163,9 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Led, Filmed, Readabl
             self._moving = motions.of_history(self._system, self.q, self.v, self.t, known)
         return self._moving
 
+    def _turned_to(self, spring: Any) -> float | None:
+        return self._remembered_turn(spring, self._last.memory)
+
     def _known(self, index: int) -> Remembered:
         known = self._last.until(index, self.q, self.v, self._arcs)
         given = self._kept() if self.model.inputs and not known.inputs else None

@@ -67,6 +67,10 @@ class Sensors(SpringFields, ContactFields, Led, Plotted):
         t: FloatArray = self._arrays()["time"]
         return t
 
+    def _turned_to(self, spring: Any) -> float | None:
+        found: float | None = self._source._turned_to(spring)
+        return found
+
     def _led(self) -> bool:
         return bool(self._source._led())
 

@@ -128,6 +128,9 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
             parts["rubbing"] = parts["rubbing"]._replace(**known)
         return contact_line(parts, items, item, self.q, self.v)
 
+    def _turned_to(self, spring: Any) -> float | None:
+        return self._remembered_turn(spring, self.known.memory)
+
     def _memory_of(self, part: str) -> dict[str, FloatArray] | None:
         found = {
             key.partition(".")[2]: x for key, x in self.known.memory.items() if key.startswith(f"{part}.")

@@ -14,12 +14,16 @@ from ..model.names import unknown
 from ..model.torsion import TorsionSpring
 from .fields import Fields
 
+#: Under which name a system keeps how far its torsion springs have turned.
+MEMORY = "torsion springs.last"
+
 
 class TorsionFields(Fields):
     """Angles and moments of torsion springs; shapes are () for a state, (n_t,) for a history.
 
-    A torsion spring is the object that the model gave, or its name. The angle of a state is within half a
-    turn of the initial one; in a history full turns are counted from time to time.
+    A torsion spring is the object that the model gave, or its name. In a history full turns are counted from
+    time to time, so that the last angle is that which the spring remembers; where it remembers none, the
+    first one, as that of a state, is within half a turn of the initial one.
     """
 
     model: Any
@@ -36,9 +40,23 @@ class TorsionFields(Fields):
         ModelError
             There is no such torsion spring.
         """
-        _, batch = self._torsion(spring)
+        item, batch = self._torsion(spring)
         angle: FloatArray = angle_of(batch, self.q)
-        return np.unwrap(angle) if angle.ndim else angle
+        angle = np.unwrap(angle) if angle.ndim else angle
+        last = self._turned_to(item)
+        if last is None or not angle.size:
+            return angle
+        turned: FloatArray = angle + 2 * np.pi * np.round((last - np.ravel(angle)[-1]) / (2 * np.pi))
+        return turned
+
+    def _turned_to(self, spring: TorsionSpring) -> float | None:
+        """The angle that a spring remembers of the last state, with its turns; None where it is not known."""
+        return None
+
+    def _remembered_turn(self, spring: TorsionSpring, memory: dict[str, FloatArray]) -> float | None:
+        """The same from what batches remember, see ``System.memory``."""
+        found = memory.get(MEMORY)
+        return None if found is None else float(found[list(self.torsion_springs).index(spring.name)])
 
     def torsion_moment(self, spring: TorsionSpring | str) -> FloatArray:
         """Moment of a torsion spring about its axis, N m, damping included, positive against a growing angle.
