@@ -26,7 +26,7 @@ from ..system.contacts import touching
 from ..system.core import apply_load, assemble, follow_supports, residual
 from ..system.reactions import AT_REST
 from ..system.system import System
-from .modal import motions
+from .modal import motions, unscaled
 from .quadratic import ComplexArray, lowest
 from .standing import Standing, vectors_and_arms
 
@@ -78,14 +78,10 @@ class Damped:
     def _whole(
         self, mass: float, damping: float, stiffness: float, batches: Batches | None = None
     ) -> csc_array:
-        core, joints = self.system.core, self.system.parts.get("joints")
+        core = self.system.core
         parts = core.batches if batches is None else batches
-        kept = None if joints is None else joints.scale.copy()
-        if joints is not None:
-            joints.scale[:] = 0.0  # the matrices themselves, without the multiples of C^T C that help a solve
-        assemble(parts, core.ws, self.q, np.zeros_like(self.q), core.A, mass, damping, stiffness)
-        if joints is not None:
-            joints.scale[:] = kept
+        with unscaled(self.system):
+            assemble(parts, core.ws, self.q, np.zeros_like(self.q), core.A, mass, damping, stiffness)
         return csc_array(to_sparse(core.A, self.system.places))
 
     def _part(self, A: csc_array, rows: IntArray, columns: IntArray) -> FloatArray:

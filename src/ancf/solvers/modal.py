@@ -1,13 +1,16 @@
 """Natural modes about an equilibrium: K x = omega^2 M x on the free unknowns.
 
 A neutral motion, such as a rigid one of a body that nothing holds, comes out with an omega^2 of round-off
-of either sign.  A negative one counts as such when x.K x is no larger than what it changes by with the last
-digits of the state and of the products, whatever the other modes are.  Whether the lowest mode has been
+of either sign.  It counts as zero when x.K x is no larger than what it changes by with the last digits of
+the state and of the products, whatever the other modes are.  Whether the lowest mode has been
 found at all is a matter of inertia: K - sigma M has a negative pivot for each eigenvalue below sigma
 (Sylvester), and sigma is lowered until none is left.
 """
 
 from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import numpy as np
 from numpy.linalg import LinAlgError
@@ -25,8 +28,8 @@ from .roundoff import shaken
 
 MANY = 4000  # unknowns up to which joints are eliminated by dense algebra
 DENSE = 300  # unknowns up to which all modes are computed by dense algebra
-SHAKEN = 30.0  # changes of x.K x with the last digits that do not count
-PRODUCTS = 30.0  # units of the last digit that its terms lose in their sum
+MORE = 2.0  # times x.K x: an eigenvalue that is round-off
+SURELY, ROUNDED = 30.0, 3.0  # times the round-off of x.K x: what is surely negative; what is zero
 LOWERED = 60  # times that the shift is lowered
 
 
@@ -56,11 +59,15 @@ def natural_modes(system: System, q: FloatArray, count: int) -> tuple[FloatArray
     K, C = csc_array(whole[free][:, free]), csc_array(whole[lam][:, free])
     M = csc_array(_matrix(system, q, 1.0, 0.0)[free][:, free])
     values, vectors = _eigen(K, M, C, count)
-    for k in np.flatnonzero(values < 0.0):
-        own = _own_stiffness(system, q, K, vectors[:, k], free)
-        if own < 0.0:
+    for k in range(count):
+        own, noise, spin = _own_stiffness(system, q, K, vectors[:, k], free)
+        if values[k] < 0.0 and own < -(SURELY * noise + spin):
             what = f"mode {k + 1} has omega^2 = {values[k]:.4g} 1/s^2: the state is not a stable equilibrium"
             raise SolveError("modes", what, "give about=ancf.equilibrium(model)")
+        seen = own if own > ROUNDED * noise else 0.0
+        if 0.0 < values[k] < MORE * seen:
+            break  # so are those above
+        values[k] = seen if values[k] > 0.0 else 0.0  # x.K x has more digits of what is nearly nothing
     shapes = np.zeros((count, system.size))
     shapes[:, free] = vectors.T
     for shape in shapes:
@@ -129,17 +136,21 @@ def _below_all(K: csc_array, M: csc_array, shift: float) -> tuple[SuperLU, float
     raise SolveError("modes", "there is no lowest mode", "check stiffnesses and masses")
 
 
-def _own_stiffness(system: System, q: FloatArray, K: csc_array, x: FloatArray, free: IntArray) -> float:
-    """x.K x, zero where round-off leaves nothing of it; x has the unknowns ``free``."""
+def _own_stiffness(
+    system: System, q: FloatArray, K: csc_array, x: FloatArray, free: IntArray
+) -> tuple[float, float, float]:
+    """x.K x, its round-off, and the share of spins in it that an equilibrium leaves open.
+
+    x has the unknowns ``free``.
+    """
     own = float(x @ (K @ x))
     terms = float(np.abs(x) @ (abs(K) @ np.abs(x)))
     stiffness = [_matrix(system, near, 0.0, 1.0)[free][:, free] for near in (q, *shaken(system, q))]
     first, *others = (float(x @ (A @ x)) for A in stiffness)
-    noise = SHAKEN * max(abs(other - first) for other in others) + PRODUCTS * np.finfo(float).eps * terms
+    noise = max(abs(other - first) for other in others) + np.finfo(float).eps * terms
     spin, whole = Spin(system, system.core.supports.held), np.zeros(system.n)
     whole[free] = x
-    noise += FREE_SPIN * float(whole @ spin.times(whole, q))  # which an equilibrium leaves open
-    return own if abs(own) > noise else 0.0
+    return own, noise, FREE_SPIN * float(whole @ spin.times(whole, q))
 
 
 def dense(K: FloatArray, M: FloatArray, count: int, shift: float) -> tuple[FloatArray, FloatArray]:
@@ -160,6 +171,25 @@ def dense(K: FloatArray, M: FloatArray, count: int, shift: float) -> tuple[Float
 def _matrix(system: System, q: FloatArray, mass: float, stiffness: float) -> csc_array:
     """Whole matrix mass M + stiffness K with the supports applied."""
     core = system.core
-    assemble(core.batches, core.ws, q, np.zeros_like(q), core.A, mass, 0.0, stiffness)
+    with unscaled(system):
+        assemble(core.batches, core.ws, q, np.zeros_like(q), core.A, mass, 0.0, stiffness)
     restrict(core.supports, core.A)
     return to_sparse(core.A, system.places)
+
+
+@contextmanager
+def unscaled(system: System) -> Iterator[None]:
+    """The matrices themselves, without the multiples of C^T C that help a solve.
+
+    They do nothing among motions with C x = 0, but with what a gap leaves of their second derivatives.
+    """
+    joints = system.parts.get("joints")
+    if joints is None:
+        yield
+        return
+    kept = joints.scale.copy()
+    joints.scale[:] = 0.0
+    try:
+        yield
+    finally:
+        joints.scale[:] = kept

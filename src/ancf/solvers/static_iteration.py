@@ -159,6 +159,16 @@ class Iteration:
         solve_matrix(self.core.factor, x)
         return x
 
+    def renew_multipliers(self, share: float) -> None:
+        """Those that balance the forces of a state, with the last factorisation.
+
+        The scale of the gaps in the forces may have changed between the last two matrices: multipliers then
+        still balance gaps that are closed.
+        """
+        unknown = np.setdiff1d(self.system.multipliers, self.core.supports.held)
+        if len(unknown) and not len(self.core.joints.tail):
+            self.q[unknown] -= self.solve(self.out_of_balance(self.q, share))[unknown]
+
     def length(self, dq: FloatArray) -> float:
         """Largest entry, positions in sizes of the model."""
         return float(np.max(np.abs(dq) * self.core.weight))

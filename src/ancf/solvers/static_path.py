@@ -97,6 +97,7 @@ def settle(it: Iteration, share: float) -> str | None:
             settled = it.drifts(dq) and _stalled(it, dq, r, share)
         if settled and (it.mu == 0.0 or it.harmless()):
             it.q = it.moved(dq, 1.0)
+            it.renew_multipliers(share)
             return _degenerate(it)
         if regular and it.mu > 0.0 and norm < BALANCED and not disturbed and not it.harmless():
             disturbed = True  # balanced, but not stable

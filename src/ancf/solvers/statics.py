@@ -21,7 +21,7 @@ from ..arrays import FloatArray
 from ..compiled import traits
 from ..connections.sliding import LEFT
 from ..errors import SolveError
-from ..system.core import Core, apply_load, first_event, keep_memory, place_supports
+from ..system.core import Core, apply_load, first_event, keep_memory, place_supports, residual
 from ..system.system import System
 from .events import happen
 from .floating import check_supported
@@ -82,10 +82,27 @@ def equilibrium(
     finally:
         slack.set(0.0, 0.0)
         core.loads.value[:] = it.inputs
+    _whole_multipliers(it)
     leaned = Leaned(first if it.laid is None else it.laid, it.laid is not None, system.kept_memory())
     keep_memory(core.remembering, it.q, it.zero)
     seconds = clock.process_time() - cpu
     return it.q, Stats(load_steps, it.iterations, it.jacobians, it.jacobians, halvings, seconds), leaned
+
+
+def _whole_multipliers(it: Iteration) -> None:
+    """Let multipliers be the forces of joints without what the scaled gaps added to them.
+
+    In the last digits gaps are round-off, but scaled by a stiffness they are forces, which only multipliers
+    that differ by as much balance: left so, these would stiffen or soften what turns.
+    """
+    joints = it.system.parts.get("joints")
+    if joints is None:
+        return
+    r = np.empty_like(it.q)
+    residual(it.core.batches, it.core.ws, it.q, it.zero, it.zero, it.force, r)
+    free = ~np.isin(joints.unknown, it.core.supports.held)
+    it.q[joints.unknown[free]] += (joints.alpha * r[joints.unknown])[free]
+    joints.alpha[:] = 0.0
 
 
 def bring_on(it: Iteration, slack: Slack, turning: Turning, load_steps: int) -> int:
