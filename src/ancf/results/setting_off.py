@@ -92,7 +92,7 @@ def missed(system: System, start: State | None, q: FloatArray, level: int = 3) -
 def _missed(system: System, start: State | None, q: FloatArray) -> Iterator[tuple[str, float]]:
     for support in system.model.supports:
         body = support.point.body
-        if isinstance(support, Winch) or not moved_with(system.model, support):
+        if isinstance(support, Winch):
             continue
         node = node_of(body, support.point.x)
         slots = system.slots[body.name][node]
@@ -108,7 +108,7 @@ def _missed(system: System, start: State | None, q: FloatArray) -> Iterator[tupl
         size_of_model = 1.0 / float(system.core.weight[slots[0]])
         length = float(np.min(np.diff(body.node_x))) if isinstance(body, Beam) else size_of_model
         size = max(float(sizes[0]) / length, turned)
-        if size > MISSED:
+        if size > MISSED and moved_with(system.model, support):
             far = f"{sizes[0]:.3g} m away" if sizes[0] / length >= turned else f"turned by {turned:.3g}"
             shape = "the initial shape" if start is None else "the given start"
             jolt = "a jolt in the first step; start from ancf.equilibrium(model), or draw it there"
