@@ -66,7 +66,9 @@ def run(case: Overhead, shape: catenary.Form, contact: str) -> catenary.Run:
         until=end,
         contact=contact,
         step=case.step,
-        integrator=ancf.GeneralizedAlpha(case.rho, newton=ancf.Newton(tolerance=1e-9, corotate=False)),
+        integrator=ancf.GeneralizedAlpha(
+            case.rho, newton=ancf.Newton(tolerance=1e-9, corotate=contact == "joint")
+        ),
     )
 
 

@@ -96,11 +96,15 @@ def ready(
 
 
 def integrator_of(plan: Plan, sleeps: bool) -> ancf.GeneralizedAlpha:
-    """Generalised-alpha; a joint, which has no mass of its own, needs more damping not to chatter."""
+    """Generalised-alpha; a joint, which has no mass of its own, needs more damping not to chatter.
+
+    What a matrix that turns with the wires saves of a joint's iterations is more than what it costs.
+    """
     base = TOLERANCE * (WITH_SLEEP if sleeps else 1.0)
     tolerance = min(max(base * (plan.step / STEP) ** 2, 1e-2 * base), LOOSEST)
-    newton = ancf.Newton(tolerance=tolerance, corotate=False)
-    if plan.touch.kind == "joint":
+    joint = plan.touch.kind == "joint"
+    newton = ancf.Newton(tolerance=tolerance, corotate=joint)
+    if joint:
         return ancf.GeneralizedAlpha(0.5, formulation="ggl", newton=newton)
     return ancf.GeneralizedAlpha(0.9, newton=newton)
 

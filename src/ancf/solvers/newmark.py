@@ -48,7 +48,7 @@ from .apart import (
     zones_held,
     zones_let_go,
 )
-from .carry import carry, unbalanced
+from .carry import carry, keeps_rows, unbalanced
 from .corotation import turn
 from .corrections import UNLIMITED, largest, update
 from .entwined import solve_apart
@@ -95,8 +95,10 @@ LAST = 2
 FURTHEST = 0.5
 
 #: Error of the accelerations that is left in a step with constraints: what is left in q returns divided
-#: by B, with one sign, where a joint keeps it from being felt as a displacement.  And the least tolerance.
-JOINTED, FINEST = 1e-6, 1e-15
+#: by B, with one sign, where a joint keeps it from being felt as a displacement.  Rows that are kept with
+#: the matrix may turn for long and add it up; those of sliding joints are made anew in each step.  And the
+#: least tolerance.
+KEPT, RENEWED, FINEST = 1e-6, 1e-5, 1e-15
 
 
 @recorded
@@ -152,7 +154,8 @@ def newton(core, s, h, rule, modified, B, G, apart):
     eta = max(s.memo[ETA] ** AGED, STALE)
     tolerance = rule.tolerance
     if has_joints:
-        tolerance = max(min(tolerance, JOINTED * B * largest(s.a, core.weight)), FINEST)
+        jointed = KEPT if keeps_rows(core.joints) else RENEWED
+        tolerance = max(min(tolerance, jointed * B * largest(s.a, core.weight)), FINEST)
     tolerance = max(tolerance, s.memo[NOISE])
     s.memo[NOISE] *= FADING
     older, old, since, whole = -1.0, -1.0, 0, True
