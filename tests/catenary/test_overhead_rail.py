@@ -168,3 +168,15 @@ class TestFile:
             rail(messenger_wire=cable, system_height=1.0)
         with pytest.raises(ModelError, match=r"messenger_wire: is given beside a conductor rail"):
             rail(messenger_wire=replace(cable, rail=False), system_height=1.0)
+
+    @pytest.mark.parametrize("warmer", [0.5, 3.0, 8.0])
+    def test_one_that_is_pressed_between_fixed_ends(self, warmer):
+        """Between fixed ends heat presses a rail with EA alpha dT, less what its sag takes up."""
+        full = RAIL.EA * RAIL.expansion * warmer
+        line, mesh = rail(anchors="fixed", conditions=Conditions(temperature=10.0 + warmer))
+        with pytest.raises(ModelError, match=r"conditions\.temperature.*the rail is pressed with") as caught:
+            form(line, mesh)
+        pressed = float(str(caught.value).split("pressed with ")[1].split(" N")[0])
+        assert 0.7 * full < pressed < full
+        cold, mesh = rail(anchors="fixed", conditions=Conditions(temperature=10.0 - warmer))
+        assert pressed < form(cold, mesh).pull[0].min() < full

@@ -19,6 +19,8 @@ from .shape import Strung, WireShape
 
 #: Distance of the places between which gusts are interpolated, m, and time in which they grow, s.
 GUST_SPACING, GUST_RAMP = 10.0, 1.0
+#: Places nearer to each other are one, m: nodes are rounded, the sums of spans are not.
+SAME = 1e-6
 #: A part of a wire along the track and its sideways load: from and to in m, N per m of track.
 Piece = tuple[float, float, float]
 
@@ -33,7 +35,7 @@ def curve_pull(line: Line, shape: WireShape, name: str) -> list[Piece]:
     if not any(line.cants) and not any(span.radius is not None for span in line.spans):
         return []
     low, high = float(shape.nodes.x[0]), float(shape.nodes.x[-1])
-    cuts = [x for x in line.supports.tolist() if low < x < high]
+    cuts = [x for x in line.supports.tolist() if low + SAME < x < high - SAME]
     pieces = [(a, b, shape.wire.tension * c) for a, b, c in _curved(line, [low, *cuts, high])]
     if name == "messenger" and line.stitch is not None:
         for a, b in stitch_ends(line).tolist():

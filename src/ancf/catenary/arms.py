@@ -107,7 +107,7 @@ def _arms_of(
         if arm.lateral is None:
             holds[k] = model.hold(point, position="y")
         else:
-            add_long_spring(model, point, 1, arm.lateral, force[1], f"{name} sideways")
+            _add_lateral_arm(model, point, arm.lateral, force[1], f"{name} sideways")
     return arms, holds
 
 
@@ -126,6 +126,16 @@ def _add_vertical_arm(
     if load != 0.0:
         model.add_force(point, (0.0, 0.0, load), name=name)
     return None
+
+
+def _add_lateral_arm(model: ancf.Model, point: Point, stiffness: float, load: float, name: str) -> None:
+    """The sideways spring of a steady arm, beside its force at rest.
+
+    A spring that pulled with this force would hold the wire upwards too, by force over length, and one that
+    pushed would let it go: what `vertical` says would be more in one curve and less in the other.
+    """
+    add_long_spring(model, point, 1, stiffness, 0.0, name)
+    model.add_force(point, (0.0, load, 0.0), name=f"{name}, at rest")
 
 
 def add_long_spring(

@@ -309,4 +309,7 @@ def _check_taut(built: Form, found: Form) -> None:
         if left < SLACK * was:
             degrees = line.temperature if air.temperature is None else air.temperature
             what = f"is {degrees:g} degrees Celsius, the {name} is slack: {left:.0f} of {was:.0f} N are left"
+            if line.contact_wire.rail:
+                what = f"is {degrees:g} degrees Celsius, the rail is pressed with {-left:.0f} N"
+                what += " between its ends, which may buckle it and is not computed"
             raise ModelError("line.conditions.temperature", what, 'anchors = "tension", or a smaller change')

@@ -58,10 +58,11 @@ class Kind(NamedTuple):
 
 def cables_of(system: System) -> CableBatch | None:
     """The cables of a system in which nothing keeps parts from sleeping; None in others."""
-    found = [b for b in system.parts.values() if isinstance(b, CableBatch) and len(b.base)]
-    others = [n for n, b in system.parts.items() if len(b[0]) and n not in KNOWN and b not in found]
+    found = {n: b for n, b in system.parts.items() if isinstance(b, CableBatch) and len(b.base)}
+    others = [n for n, b in system.parts.items() if len(b[0]) and n not in KNOWN and n not in found]
     plain = not system.core.accounted and not system.constraints.rotations and not len(system.multipliers)
-    return found[0] if len(found) == 1 and not others and plain and system.core.near else None
+    able = len(found) == 1 and not others and plain and system.core.near
+    return next(iter(found.values())) if able else None
 
 
 def parts_of(system: System, cables: CableBatch, cuts: IntArray) -> list[Part]:
@@ -169,9 +170,10 @@ class Matrices:
         self._pattern = _pattern(system.places)
         values = self._values()
         self.whole, self.force = [self._matrix(x) for x in values], self._residual()
-        self.alone = []
-        for number in range(2):  # neighbours share a boundary: every other part is taken away at a time
-            lanes = [lanes_of(cables, part.elements) for part in parts[number::2]]
+        self.alone, self.group = [], _apart(parts)
+        for number in range(max(self.group, default=-1) + 1):  # one group after the other is taken away
+            group = [part for part, own in zip(parts, self.group, strict=True) if own == number]
+            lanes = [lanes_of(cables, part.elements) for part in group]
             mine = [(own, sleep(cables, own)) for own in lanes]
             without = self._values()
             self.alone.append(([x - y for x, y in zip(values, without, strict=True)], self._residual()))
@@ -180,7 +182,7 @@ class Matrices:
 
     def of_part(self, k: int, part: Part) -> tuple[list[Blocks], FloatArray]:
         """M, C and K of part k, and its forces on its boundary at rest, N."""
-        alone, force = self.alone[k % 2]
+        alone, force = self.alone[self.group[k]]
         i, b = part.inner, part.edge
         pattern, place = self._pattern
         number = pattern[b][:, b].toarray()  # from 1 on, 0: nothing there
@@ -209,6 +211,19 @@ class Matrices:
         apply_load(core.loads, now.value[0], f)
         residual(core.batches, core.ws, self.q, zero, zero, f, r)
         return r
+
+
+def _apart(parts: list[Part]) -> list[int]:
+    """Groups of parts, each by its number, in which no two share a boundary; they come in any order."""
+    group: list[int] = []
+    for k, part in enumerate(parts):
+        beside = {
+            own
+            for own, other in zip(group, parts[:k], strict=True)
+            if np.intersect1d(part.edge, other.edge).size
+        }
+        group.append(next(number for number in range(k + 1) if number not in beside))
+    return group
 
 
 def _pattern(places: Places) -> tuple[csr_array, IntArray]:

@@ -33,6 +33,8 @@ from .mixed import Mixed
 ACCEPTED = 1e-9  # of a correction, where round-off keeps it above the tolerance
 SLENDER = 5e5  # EA L^2/EI of a beam up to which ACCEPTED is above round-off
 SHORT = 1.0  # longest correction with sliding joints, in sizes of the model
+#: Share to which a larger mu has to shorten a correction, and how often in a row it may fail to.
+SHORTER, MOST_IDLE = 0.9, 4
 AT_END = 1e-9  # of the length of a line: a sliding point that is no farther from its end has no equilibrium
 LEAST_MU = 1e-15  # of the ratio of stiffness to mass
 MORE_MU, MOST_MU = 5.0, 60  # factor by which mu grows until the matrix will do, and how often
@@ -232,15 +234,27 @@ class Iteration:
         """The same, and mu is also large enough to keep the correction short.
 
         A point that slides down a slope has no stiffness at all until it has found its place; nor has a rope
-        that was drawn with a bend, across its plane, until it is taut.
+        that was drawn with a bend, across its plane, until it is taut. What closes the gap of a sliding
+        joint stays as long as it is whatever mu is: of the shortest correction a part is taken then.
         """
+        shortest, best, idle = np.inf, self.mu, 0
         for _ in range(MOST_MU):
             if self.factorise(self.mu) == 0:
                 dq = self.solve(r)
-                if self.length(dq) <= SHORT:
+                length = self.length(dq)
+                if length <= SHORT:
                     return dq
+                idle = idle + 1 if length > SHORTER * shortest else 0
+                if length < shortest:
+                    shortest, best = length, self.mu
+                if idle == MOST_IDLE and self.arcs:
+                    break
             self.mu = max(MORE_MU * self.mu, COUNTED_MU * self.ratio)
-        raise self.failure("equilibrium", "no regularisation makes the stiffness positive definite")
+        self.mu = best
+        if self.arcs and np.isfinite(shortest) and self.factorise(self.mu) == 0:
+            return self.solve(r) * (SHORT / shortest)
+        problem = "no regularisation makes the stiffness positive definite"
+        raise self.failure("equilibrium", problem, "begin nearer to where it comes to rest")
 
     def failure(self, where: str, problem: str, hint: str = "") -> SolveError:
         """Error of an iteration that found nothing."""
