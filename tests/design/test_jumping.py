@@ -43,7 +43,7 @@ def on_cable(how):
     model.pin(wire.start, displacement=(0, 0, "0.01*sin(9*t)"))
     tip = model.add_point_mass("tip", at=(1, 0, -0.3), mass=0.5)
     model.connect(tip, wire.end)
-    model.add_spring(tip, (1, 0, 0.7), stiffness=60.0, length=0.9, name="coil")
+    model.add_spring(tip, (1, 0, 0.7), stiffness=60.0, damping=0.4, length=0.9, name="coil")
     bead = model.add_point_mass("bead", at=wire.initial_position(0.9), mass=0.3)
     bead.set_motion(velocity=(3.0, 0, -0.9))
     model.slide(bead, along=wire, at_end=how, name="ring", mass=0.05)
@@ -190,32 +190,47 @@ def test_a_function_of_the_number(how):
         assert found == pytest.approx(wanted, abs=1e-7 * np.max(np.abs(wanted)))
 
 
+@pytest.mark.parametrize("how", ["clamp", "release"])
+def test_a_motion_of_a_support(how):
+    """It moves what is held before the jump and after it."""
+    _, _, t_end = on_cable(how)
+
+    def build(value):
+        model, _, _ = on_cable(how)
+        wire = model.bodies["wire"]
+        model.hold(wire.at(wire.length / 3), position="y", displacement=(0, f"{value}*sin(20*t)", 0))
+        return model
+
+    method = EXACT["generalized index3"]
+    own = run(build(0.02), t_end, method, sensitivities={"swing": (0.02, build)}).sensitivity("swing")
+    above, below = (run(build(0.02 + x), t_end, method) for x in (1e-6, -1e-6))
+    places = [x.position("wire.at(0.3)") for x in (own, above, below)]
+    for found, one, other in ((own.dv, above.v, below.v), places):
+        wanted = (one - other) / 2e-6
+        assert np.max(np.abs(found - wanted)) < 1e-5 * np.max(np.abs(wanted))
+
+
 @pytest.mark.parametrize("every", [2, 7])
 @pytest.mark.parametrize("make", [lambda: on_cable("clamp"), leaping_on_a_cable])
 def test_stored_states_and_sensors(make, every):
-    """What is stored of each step, of some, and by sensors is the same."""
+    """What is stored of each step, of some, and by sensors is the same; a damper feels the velocities."""
     model, names, t_end = make()
-    whole = run(model, t_end, EXACT["generalized index3"], sensitivities=names)
-    some = run(
-        model,
-        t_end,
-        EXACT["generalized index3"],
-        sensitivities=names,
-        output_step=every * 1e-3,
-        sensors=[model.bodies[mass_of(names)], model.bodies["wire"].at(0.31)],
-    )
+    method, coil = EXACT["generalized index3"], "coil.length" in names
+    points = model.bodies[mass_of(names)], model.bodies["wire"].at(0.31)
+    whole = run(model, t_end, method, sensitivities=names)
+    sensed = {"sensors": [*points, *(["coil"] if coil else [])], "output_step": every * 1e-3}
+    some = run(model, t_end, method, sensitivities=names, **sensed)
     at = np.searchsorted(whole.t, some.t - 1e-9)
-    mass = model.bodies[mass_of(names)]
+    asked = [("position", point) for point in points] + [("velocity", point) for point in points]
+    asked += [("spring_force", "coil")] if coil else []
     for name in names:
         one, other = whole.sensitivity(name), some.sensitivity(name)
         assert other.dq == pytest.approx(one.dq[at], rel=1e-12, abs=1e-12 * np.max(np.abs(one.dq)))
         assert other.dv == pytest.approx(one.dv[at], rel=1e-12, abs=1e-12 * np.max(np.abs(one.dv)))
-        sensed = some.sensors.sensitivity(name)
-        for point in (mass, model.bodies["wire"].at(0.31)):
-            for question in ("position", "velocity"):
-                wanted = getattr(one, question)(point)
-                found = getattr(sensed, question)(point)
-                assert found == pytest.approx(wanted, abs=1e-9 * np.max(np.abs(wanted)))
+        for question, item in asked:
+            wanted = getattr(one, question)(item)
+            found = getattr(some.sensors.sensitivity(name), question)(item)
+            assert found == pytest.approx(wanted, abs=1e-7 * np.max(np.abs(wanted)))
 
 
 @pytest.mark.parametrize("method", EXACT)
