@@ -58,7 +58,8 @@ def gradient(
     contacts of strips and wires, have an adjoint: the derivatives by all parameters together take about as
     much as a few runs, and memory that does not grow with their number, nor much with that of the steps.
     Others, with friction on grounds and surfaces, contacts of cables or of bodies with each other, winches,
-    laws that stay in Python or clamps that turn with time, take the sensitivities of :func:`ancf.simulate`,
+    laws that stay in Python or clamps that turn with time, or in which a sliding joint opens, closes or
+    reaches an end, take the sensitivities of :func:`ancf.simulate`,
     whose cost grows with the number of parameters, as does what is asked of a contact. The numbers are the
     same.
 
@@ -85,7 +86,7 @@ def gradient(
     ModelError
         The formula, a parameter or a number is wrong.
     SolveError
-        The run fails, or its derivative jumps, as where a sliding joint reaches the end of its carrier.
+        The run fails, or a step is cut into parts.
     """
     formula = Formula(checks.text(objective, WHERE), WHERE, OF_RUN)
     check_asked(model, [formula])

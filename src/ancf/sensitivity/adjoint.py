@@ -28,7 +28,8 @@ from ..system.system import System
 from .answers import LINEAR, Face
 from .base import check_differentiable, matrices_of
 from .family import Family
-from .follow import Trail, check_method, given_start, refuse_breaks, when_cut
+from .follow import Trail, check_method, given_start, when_cut
+from .jumps import end_at_jumps
 from .nearby import Nearby
 from .parameters import Parameter
 from .start import Start
@@ -149,7 +150,7 @@ class Adjoint:
         self._sums: dict[Key, Any] = {}  # of states with the derivatives by linear answers, (2, c, size)
         self._shifts: FloatArray | None = None  # factors of C of joints at the steps of a block, (n, size)
         self.blocks: list[Block] = []
-        refuse_breaks(self.run)
+        end_at_jumps(self.run, UnsolvedError)  # over these sensitivities go forwards
         self._prepare()
 
     def _check(self, made: Prepared, start: State | None, where: str) -> None:

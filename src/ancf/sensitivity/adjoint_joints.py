@@ -20,7 +20,7 @@ from ..system.system import System
 from .adjoint import Adjoint, UnsolvedError
 from .adjoint_sloped import SlopedAdjoint
 from .base import matrices_of
-from .follow import check_shift
+from .follow import shifted
 from .remembering import friction_of
 from .start import Start
 
@@ -35,7 +35,8 @@ class JoinedAdjoint(Adjoint):
     """A simulation with joints that is gone through forwards and backwards; see :class:`Adjoint`."""
 
     def _check(self, made: Prepared, start: State | None, where: str) -> None:
-        check_shift(made, start, where)
+        if shifted(made, start) is not None:
+            raise UnsolvedError
         super()._check(made, start, where)
 
     def _prepare(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NoReturn
+from typing import Any
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from ..system.system import System
 from .base import check_differentiable, matrices_of, moved_with
 from .family import Family
 from .histories import Histories
+from .jumps import Anew, Jump, note_jumps, refuse_all, refuse_at_start
 from .memory import Memory
 from .nearby import Nearby
 from .parameters import Parameter, check_known
@@ -64,6 +65,10 @@ class Trail:
             self.before = np.stack([m.v, m.a, m.abar])
         return made
 
+    def begin(self, jump: Jump) -> None:
+        """Go on from what a jump has left."""
+        self.before = jump.after[[1, 2, 2]]
+
 
 class Following:
     """Recorder that hands states on to a store and carries sensitivities along.
@@ -95,7 +100,7 @@ class Following:
         self.run: Any = made.run
         self.system = System(made.system.model, like=made.system)
         check_differentiable(self.system, where, follows=True)
-        check_shift(made, start, where)
+        self.shifted = shifted(made, start)
         self.families = [Family(parameter, self.system, shifts=True) for parameter in parameters]
         self.nearby = Nearby(self.families, self.system, shifts=True)
         self.memory = Memory(self.system, self.families)
@@ -114,7 +119,7 @@ class Following:
         led = every == 1 and not self.samples.sampling.width and self._leads()
         self.histories = Histories(len(self.families), count, self.system.size, led)
         self._kept = np.zeros(0)
-        refuse_breaks(self.run)
+        self.jumps = note_jumps(self.run, refuse_all if self.memory else refuse_at_start)
 
     def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
         """States of a block, see :class:`ancf.solvers.record.Recorder`."""
@@ -167,7 +172,11 @@ class Following:
         when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
         states = run.memory.q.copy(), run.memory.v.copy(), run.memory.a.copy()
         self.memory.start(run.system.memory)
-        found, held = starts(system, self.m, self.nearby, self.given, states, when, self.memory)
+        if self.shifted is not None:
+            found = Anew(run, system, self.shifted, run.t_start).derivatives(self.families, self.given)
+            held = self._let_go(found)
+        else:
+            found, held = starts(system, self.m, self.nearby, self.given, states, when, self.memory)
         self.s = abreast(found)
         self.histories.begin(found, held)
         first = found[:, None, :3].copy()
@@ -192,19 +201,39 @@ class Following:
         run, h = self.run, self.run.h if self.taken < self.run.full else self.run.rest
         self.taken += len(q)
         when_cut(run, self.taken)
+        while self.jumps:
+            jump = self.jumps.pop(0)
+            count = jump.number - (self.taken - len(q))
+            self._take_to(jump, q[:count].copy(), v[:count].copy(), h)
+            q, v = q[count:], v[count:]
+        if not len(q):
+            return
         self.waiting.append((q, v, self.trail.accelerations(v, h, last=True)))
         ready = sum(len(one[0]) for one in self.waiting)
         if ready >= LANES or self.taken in (run.full, run.steps):
-            whole = len(self.waiting) == 1
-            parts = zip(*self.waiting, strict=True)
-            q, v, a = self.waiting[0] if whole else (np.concatenate(own) for own in parts)
-            self.waiting.clear()
-            self._follow(q, v, a, h)
+            self._follow(*self._waited(), h)
         else:
             self.waiting[-1] = q.copy(), v.copy(), self.waiting[-1][2]
 
-    def _follow(self, q: FloatArray, v: FloatArray, a: FloatArray, h: float) -> None:
-        """Carry on over steps of a length, and store those to keep."""
+    def _take_to(self, jump: Jump, q: FloatArray, v: FloatArray, h: float) -> None:
+        """Take in the steps to a jump, after the last of which is what the jump has left, and follow them."""
+        q[-1], v[-1] = jump.before[:2]
+        a = self.trail.accelerations(v, h, last=False)
+        a[-1] = jump.before[2]
+        self.trail.begin(jump)
+        self.waiting.append((q, v, a))
+        self._follow(*self._waited(), h, jump)
+
+    def _waited(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """The steps that wait, which do no longer."""
+        parts, self.waiting = self.waiting, []
+        q, v, a = parts[0] if len(parts) == 1 else (np.concatenate(own) for own in zip(*parts, strict=True))
+        return q, v, a
+
+    def _follow(
+        self, q: FloatArray, v: FloatArray, a: FloatArray, h: float, jump: Jump | None = None
+    ) -> None:
+        """Carry on over steps of a length, perhaps with a jump after the last, and store those to keep."""
         count = len(q)
         keep = self._kept_of(self.done + count, count)
         most = int(ROOM / (8 * self.system.size * (4 * len(self.families) + 3)))
@@ -212,15 +241,37 @@ class Following:
         for begin in range(0, count, most):
             rows = slice(begin, min(begin + most, count))
             way = Way(q[rows].copy(), v[rows].copy(), a[rows])
+            here = jump if rows.stop == count else None
             if self.every == 1 and not self.samples.sampling.width:
                 self._block(way, h, self.done + begin, self.histories.rows, self.histories.stored)
                 self.histories.stored += len(way.q)
+                if here is not None:
+                    self._jump(here, way, self.histories.rows[:, : self.histories.stored])
                 continue
             made = self._room(len(way.q))
             self._block(way, h, self.done + begin, made, 0)
+            if here is not None:
+                self._jump(here, way, made)
             self.histories.keep(made[:, np.flatnonzero(keep[rows]), :2])
             self.samples.take(way.q, way.v, made)
         self.done += count
+
+    def _jump(self, jump: Jump, way: Way, made: FloatArray) -> None:
+        """Carry on over a jump: the last state, and the last derivatives ``made``, are what it has left."""
+        anew = Anew(self.run, self.system, jump.before[:2], jump.t, jump.code)
+        d = anew.derivatives(self.families, made[:, -1, :2])
+        made[:, -1] = d[:, : made.shape[2]]
+        way.q[-1], way.v[-1], way.a[-1] = jump.after
+        self._let_go(d)
+        self.s = abreast(d)
+
+    def _let_go(self, d: FloatArray) -> FloatArray:
+        """Take from derivatives (p, 4, size) what supports move that is in the pushes; that of q and v."""
+        held = np.zeros((len(d), 2, self.system.size))
+        for k in self.nearby.others:
+            held[k][:, self.system.held] = d[k][:2, self.system.held]
+            d[k][:, self.system.held] = 0.0
+        return held
 
     def _room(self, count: int) -> FloatArray:
         """Room for derivatives of q, v and, of sensors, a, (p, count, 2 or 3, size), used again and again."""
@@ -270,16 +321,6 @@ def check_method(made: Prepared, where: str) -> None:
         raise ModelError(where, what, "take ancf.Trapezoidal or ancf.GeneralizedAlpha")
 
 
-def refuse_breaks(run: Any) -> None:
-    """Let a run stop where it would begin anew: there the derivative jumps."""
-
-    def happened(code: int, t: float, number: int) -> NoReturn:
-        what = "a sliding joint opens, closes or reaches an end there, where the derivative jumps"
-        raise SolveError(f"sensitivities at t = {t:.6g} s, step {number}", what, "end the run before")
-
-    run.happened = happened
-
-
 def given_start(
     families: list[Family], t0: float, system: System, start: State | None, where: str
 ) -> list[tuple[FloatArray, FloatArray]]:
@@ -310,17 +351,17 @@ def when_cut(run: Any, done: int) -> None:
         raise SolveError(f"sensitivities before t = {run.time(done):.6g} s", what, "take a smaller step")
 
 
-def check_shift(made: Prepared, start: State | None, where: str) -> None:
-    """Raise ModelError if joints have changed the initial motion: how that depends on masses is left out."""
+def shifted(made: Prepared, start: State | None) -> tuple[FloatArray, FloatArray] | None:
+    """Initial places and velocities, if joints have changed them."""
     run: Any = made.run
     system = made.system
     if not len(system.multipliers):
-        return
-    given = system.initial_state(run.t_start) if start is None else adopted(start, system, where)
+        return None
+    given = system.initial_state(run.t_start) if start is None else adopted(start, system, "simulate")
     free = np.setdiff1d(system.free, system.multipliers)
     weight = system.core.weight[free]
-    for word, mine, theirs in zip(("places", "velocities"), given, (run.memory.q, run.memory.v), strict=True):
+    for mine, theirs in zip(given, (run.memory.q, run.memory.v), strict=True):
         change, size = (float(np.max(np.abs(x[free]) * weight, initial=0.0)) for x in (mine - theirs, theirs))
         if change > SHIFTED * max(size, 1.0):
-            what = f"the {word} at the start do not fit the joints, which change them by {change:.2g}"
-            raise ModelError(where, what, "set_motion(...) that fits, or start from an equilibrium")
+            return given
+    return None
