@@ -24,7 +24,7 @@ def slider(space, kind, on, swapped=False):
     base = body(model, "base", (0, 0, 0), space, 3.0)
     model.hinge(base.at(0, 0, 0.2), space.apply((0, 0, 0.2)), axis=space.apply((0, 1, 0)), name="pivot")
     carriage = body(model, "carriage", 0.3 * axis, space)
-    ends = carriage.centre, base.at(0, 0, 0) if on == "base" else (0.0, 0.0, 0.0)
+    ends = carriage.centre, base.at(0, 0, 0) if on == "base" else -0.1 * axis
     getattr(model, kind)(*(ends[::-1] if swapped else ends), axis=2.5 * axis, name="guide")
     model.add_force(carriage, space.apply((3.0, 1.0, 9.0)))
     model.add_moment(carriage, space.apply((0.02, 0.01, 0.03)))

@@ -47,10 +47,9 @@ class JointTravels(JointAngles):
             As for :meth:`joint_displacement`.
         """
         _, gap, axis = self._led_along(joint)
-        d, u = values_of(gap, self.q), values_of(axis, self.q)
-        dd, du = (values_of(x, self.v, rates=True) for x in (gap, axis))
-        size = dot(u, u)
-        rate: FloatArray = (dot(dd, u) + dot(d, du) - dot(d, u) * dot(u, du) / size) / np.sqrt(size)
+        along = values_of(axis, self.q)
+        # the joint holds the gap along the axis, so that turns and stretches of the axis have no part
+        rate: FloatArray = dot(values_of(gap, self.v, rates=True), along) / np.sqrt(dot(along, along))
         return rate
 
     def has_travel(self, name: str) -> bool:
