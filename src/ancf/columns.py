@@ -45,7 +45,8 @@ def read_columns(path: Path, where: str) -> dict[str, list[Any]]:
             raise ModelError(where, f"{path}, row {number}: has {len(row)} entries, the head has {len(head)}")
     for k, name in enumerate(head):
         if not name or name in head[:k]:
-            raise ModelError(where, f'{path}: column {k + 1} has the name "{name}", must be unique')
+            hint = "" if name else "a table of pandas has its rows' numbers there: to_csv(..., index=False)"
+            raise ModelError(where, f'{path}: column {k + 1} has the name "{name}", must be unique', hint)
     comma = separator != ","
     return {name: _column([row[k].strip() for row in rows[1:]], comma) for k, name in enumerate(head)}
 

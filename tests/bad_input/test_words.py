@@ -1,5 +1,7 @@
 """What users try first, by other words, is told what does it."""
 
+import copy
+import pickle
 import re
 from types import SimpleNamespace
 
@@ -88,6 +90,53 @@ def test_questions_by_other_words(swung, known):
 def test_names_of_the_package(name, said):
     with pytest.raises(AttributeError, match=f"module 'ancf' has no attribute '{name}': .*{said}"):
         getattr(ancf, name)
+
+
+@pytest.mark.parametrize(
+    ("cls", "name", "said"),
+    [
+        ("Waves", "airy", r"Waves\.regular\(height=, period="),
+        ("Waves", "stokes_5th", r"waves are linear: Waves\.regular"),
+        ("Waves", "irregular", r"Waves\.jonswap\(.*Waves\.pierson_moskowitz"),
+        ("Waves", "PM", r"Waves\.pierson_moskowitz"),
+        ("Section", "tube", r"Section\.from_moments\(A="),
+        ("Section", "round", r"Section\.circle\(diameter="),
+        ("Section", "rope", r"Section\(EA=, EI=, rhoA="),
+        ("Series", "from_csv", r"Series\.read\("),
+    ],
+)
+def test_names_of_classes(cls, name, said):
+    """What they say is there; an unknown word says nothing more, and objects and their copies are as ever."""
+    kind = getattr(ancf, cls)
+    with pytest.raises(AttributeError, match=rf"^{cls} has no attribute '{name}': .*{said}") as caught:
+        getattr(kind, name)
+    for word in re.findall(rf"{cls}\.(\w+)", str(caught.value)):
+        assert callable(getattr(kind, word))
+    with pytest.raises(AttributeError, match=r"has no attribute 'frobnicate'$"):
+        kind.frobnicate  # noqa: B018
+
+
+def test_objects_of_told_classes():
+    waves = ancf.Waves.regular(height=1.0, period=5.0)
+    assert not hasattr(waves, "airy")
+    for copied in (pickle.loads(pickle.dumps(waves)), copy.deepcopy(waves)):
+        assert (copied.height, copied.period) == (1.0, 5.0)
+    section = ancf.Section(EA=1.0, EI=2.0, rhoA=3.0)
+    assert copy.deepcopy(section) == section
+
+
+@pytest.mark.parametrize("given", [{}, {"speed": 0.1}, {"speed": 0.1, "acceleration": 1.0}])
+def test_a_winch_without_a_length(given):
+    """What the message says is right."""
+    model = ancf.Model()
+    line = model.add_beam(
+        "line", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=ancf.Section(EA=1e3, EI=1.0, rhoA=1.0)
+    )
+    with pytest.raises(ancf.ModelError, match=r'winch: wants "length" .*length=line.length, beside speed='):
+        model.winch(line.start, **given)
+    if "acceleration" in given:
+        model.pin(line.start)
+        model.winch(line.start, length=line.length, **given)
 
 
 @pytest.mark.parametrize("known", ["state", "result", "sensors"])

@@ -186,8 +186,7 @@ class TestLive:
         try:
             opened = Opened(browser, view.url)
             assert opened.ask("LAST") == 30
-            assert opened.ask("__ancf.frame") == 0
-            opened.seek(30)
+            assert opened.ask("__ancf.frame") == 30
             opened.tab.get_by_label("path of beam.end").uncheck()
             shorter(whole, tmp_path / "more.h5", 61)
             (tmp_path / "more.h5").replace(path)

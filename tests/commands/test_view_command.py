@@ -1,5 +1,6 @@
 """``ancf view`` as a command, and what it says of wrong input."""
 
+import shutil
 import sys
 
 import h5py
@@ -85,6 +86,25 @@ class TestCommand:
         assert opened == []
         call("out/results.h5", "--open")
         assert opened == [(tmp_path / "out/view.html").as_uri()]
+
+    def test_live_names_runs_that_may_be_meant(self, call, tmp_path, monkeypatch):
+        """Where it waits for a file; what it waits for is that of the folder, as long as it is not there."""
+        waited = []
+
+        def sleep(seconds):
+            waited.append(seconds)
+            raise KeyboardInterrupt
+
+        monkeypatch.setattr("ancf.cli.view.time.sleep", sleep)
+        (tmp_path / "empty").mkdir()
+        assert call("--live", "empty").out == "waiting for empty/results.h5\n"
+        (tmp_path / "runs/first").mkdir(parents=True)
+        for name in ("runs/first/results.h5", "runs/second.h5"):
+            shutil.copy(tmp_path / "out/results.h5", tmp_path / name)
+        said = "waiting for runs/results.h5; other runs are in runs/first, runs/second.h5\n"
+        assert call("--live", "runs").out == said
+        assert call("--live", "runs/third.h5").out == "waiting for runs/third.h5\n"
+        assert len(waited) == 3
 
     @pytest.mark.parametrize(
         ("arguments", "says"),

@@ -27,6 +27,8 @@ gravity = [0, 0, -9.81]
 [[inputs]]
 name = "thrust"
 value = 0.5
+unit = "N"
+description = "pull of the drive"
 
 [[inputs]]
 name = "lift"
@@ -257,6 +259,8 @@ def test_description_is_valid_and_complete(units, version):
     by_name = {v.name: v for v in description.modelVariables}
     assert {n for n, v in by_name.items() if v.causality == "input"} == {"thrust", "lift"}
     assert float(by_name["thrust"].start) == 0.5
+    assert by_name["thrust"].description == "pull of the drive [N]"
+    assert not by_name["lift"].description
     wanted = {"'rope.at(1)'.position.x", "rope.end.tension", "tie.length", "hook.multiplier[1]"}
     assert wanted <= by_name.keys()
     assert "load.tension" not in by_name

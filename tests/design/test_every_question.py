@@ -26,6 +26,8 @@ OTHERS = {
     "derived",
     "fixed",
     "has_angle",
+    "has_angles",
+    "has_travel",
     "held_supports",
     "plot",
     "plot_shape",
@@ -42,6 +44,18 @@ def twisting():
     model.hinge(body.at(-0.2, 0, 0), (0.8, 0, 0), (0, 1, 0), name="hinge")
     model.add_torsion_spring(body, (1, 0, 0), axis=(0, 1, 0), stiffness=4.0, damping=0.1, name="coil")
     return model, ["hub.mass", "coil.stiffness"]
+
+
+def guided():
+    """A carriage on an inclined rail and a spring, and a body that hangs from it on a universal joint."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    cart = model.add_rigid_body("cart", at=(0, 0, 0), mass=1.2, inertia=(0.02, 0.03, 0.04))
+    hung = model.add_rigid_body("hung", at=(0.1, 0.05, -0.3), mass=0.5, inertia=(0.01, 0.02, 0.02))
+    model.prismatic(cart, (0, 0, 0), axis=(0.8, 0, 0.6), name="guide")
+    arms = {"axis_a": (1, 0, 0), "axis_b": (0, 1, 0)}
+    model.universal(hung.at(-0.1, -0.05, 0.2), cart.at(0, 0, -0.1), **arms, name="cross")
+    model.add_spring(cart, (1, 0.2, 0.9), stiffness=30.0, damping=0.4, length=0.4, name="coil")
+    return model, ["cart.mass", "coil.stiffness", "gravity"]
 
 
 def beam():
@@ -83,6 +97,9 @@ ITEMS = {
     JOINT: (both, "hinge"),
     SUPPORT: (both, "anchor"),
 }
+#: Those that are asked of joints of a kind.
+OF_KINDS = dict.fromkeys(("joint_angles", "joint_rates"), (guided, "cross"))
+OF_KINDS |= dict.fromkeys(("joint_displacement", "joint_velocity"), (guided, "guide"))
 CASES = [
     (name, noun)
     for name, question in QUANTITIES.items()
@@ -108,7 +125,7 @@ def agree(build, text, names):
 
 @pytest.mark.parametrize(("quantity", "noun"), CASES)
 def test_gradient_of_every_quantity(quantity, noun):
-    build, item = ITEMS[noun]
+    build, item = OF_KINDS.get(quantity, ITEMS[noun])
     asked = f"{quantity}({item})"
     text = f"integral(norm({asked})**2)" if QUANTITIES[quantity].vector else f"integral({asked}**2)"
     model, names = build()

@@ -9,6 +9,9 @@ import ancf
 from ancf.design.formulas import Formula, Vocabulary
 
 WORDS = Vocabulary(("t", "uplift", "sigma"), ("tension", "position"))
+ALL_WORDS = Vocabulary(
+    WORDS.names, ("position", "velocity", "tension", "curvature", "reaction", "spring_force")
+)
 T = np.linspace(0.0, 2.0, 41)
 PULL = np.sin(3.0 * T) + T
 PLACE = np.stack([np.cos(T), T**2, -T], axis=1)
@@ -85,6 +88,28 @@ def test_what_is_no_formula(text, phrase):
         Formula(text, "outputs.x", WORDS)
     assert phrase in str(caught.value)
     assert caught.value.where == "outputs.x"
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("cable.start position z", "position(cable.start)[2]"),
+        ("cable.at(0.5, 0, 0) velocity x", "velocity(cable.at(0.5, 0, 0))[0]"),
+        ("cable.start  tension", "tension(cable.start)"),
+        ("left end reaction y", 'reaction("left end")[1]'),
+        ("tie force", "spring_force(tie)"),
+        ("position(cable.start).y", "position(cable.start)[1]"),
+        ("cable.start.z", "position(cable.start)[2]"),
+        ("cable.end.tension", "tension(cable.end)"),
+        ("cable.end", "position(cable.end)[0], [1] or [2]"),
+    ],
+)
+def test_what_a_column_of_tables_is_here(text, meant):
+    """What is said instead is a formula itself."""
+    with pytest.raises(ancf.ModelError) as caught:
+        Formula(text, "outputs.x", ALL_WORDS)
+    assert caught.value.hint.startswith(f"write {meant}")
+    assert Formula(meant.split(", [")[0], "outputs.x", ALL_WORDS).asked
 
 
 @pytest.mark.parametrize(

@@ -144,6 +144,7 @@ class TestModels:
             ("E\n1\n", 'lacks "bodies.beam.elements"'),
             ("E, bodies.beam.elements\n1\n", "row 2: has 1 entries, the head has 2"),
             ("E, E\n1, 2\n", 'column 2 has the name "E", must be unique'),
+            (", E\n0, 2\n", "index=False"),
             ("E, bodies.beam.elements\n", "has no rows"),
             (None, "no such file"),
         ],

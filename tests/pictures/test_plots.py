@@ -503,8 +503,21 @@ class TestMovies:
         assert head[4:8] == b"ftyp"
         assert path.stat().st_size > 1000
 
+    def test_mp4_by_the_program_that_a_package_brings(self, result, tmp_path, monkeypatch):
+        """A stand-in keeps what it was told and the pictures that it was given."""
+        program = tmp_path / "brought"
+        program.write_text('#!/bin/sh\nfor last; do :; done\nexec /bin/cat > "$last"\n')
+        program.chmod(0o700)
+        brings = types.SimpleNamespace(get_ffmpeg_exe=lambda: str(program))
+        monkeypatch.setitem(sys.modules, "imageio_ffmpeg", brings)
+        monkeypatch.setenv("PATH", str(tmp_path))
+        path = write_movie(make_scene(result, frames=3), tmp_path / "rope.mp4", width=300)
+        with_sides = path.stat().st_size / 3 / 4 / 300
+        assert with_sides == int(with_sides) > 100  # three pictures of four bytes for each place
+
     def test_mp4_without_ffmpeg(self, result, tmp_path, monkeypatch):
         monkeypatch.setenv("PATH", str(tmp_path))
+        monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
         with pytest.raises(ancf.ModelError, match=r"needs the program ffmpeg.*write a .gif"):
             result.animate().save(tmp_path / "rope.mp4")
 

@@ -440,6 +440,14 @@ class TestCommand:
         assert call(file, "--to", "vtk", "-o", "new", "--start", 0.1, "--end", 0.2).code == 0
         assert Read("new/results.vtkhdf").count == 11
 
+    def test_the_end_of_the_name_says_what_is_written(self, call, file):
+        assert call(file, "-o", "a.vtkhdf", "--frames", 3).out == "written: a.vtkhdf\n"
+        assert Read("a.vtkhdf").count == 3
+        assert call(file, "-o", "a.XLSX", "--points", "bob").out == "written: a.XLSX\n"
+        assert openpyxl.load_workbook("a.XLSX").sheetnames[0] == "about"
+        assert call(file, "-o", "a.gif", "--frames", 2).code == 0
+        assert Path("a.gif").read_bytes()[:4] == b"GIF8"
+
     def test_csv(self, call, file):
         ran = call(file, "--to", "csv", "--points", "wire.at(0.7, 0, 0),bob", "-o", "tables")
         assert ran.code == 0
@@ -515,6 +523,8 @@ class TestCommand:
     @pytest.mark.parametrize(
         ("arguments", "said"),
         [
+            ((), '--to: is missing: one of "vtk", "csv"'),
+            (("-o", "a.csv"), "or -o with a file that ends so"),
             (("--to", "vkt"), 'did you mean "vtk"?'),
             (
                 ("--to", "csv", "--frames", 3),

@@ -470,6 +470,8 @@ class TestCommandLine:
             ("wire.at(9)", "outside"),
             ("wire", "is no point"),
             ("wire.mid", '"wire.mid" is no point, a point is written like'),
+            ("wire.end.tension", r'the point is "wire.end", of which tension\(wire.end\) may be asked'),
+            ("wire.at(0.5).z", r'"wire.at\(0.5\)", of which position\(wire.at\(0.5\)\)\[2\] may be asked'),
         ):
             data = tomllib.loads(STUDY + f'sensors = ["bob", "{bad}"]\n')
             with pytest.raises(ancf.ModelError, match=what) as caught:

@@ -114,7 +114,7 @@ def info(file: AnyInput) -> None:
 @app.command()
 def export(
     results: exporting.ResultsFile,
-    to: exporting.Kind,
+    to: exporting.Kind = None,
     output: exporting.Target = None,
     points: exporting.Points = None,
     frames: exporting.Frames = None,

@@ -32,7 +32,7 @@ OPTIONS = {
 
 
 def export_file(
-    file: Path, to: str, output: Path | None, options: dict[str, Any], quiet: bool = False
+    file: Path, to: str | None, output: Path | None, options: dict[str, Any], quiet: bool = False
 ) -> None:
     """Write a results file in another format and print what was written.
 
@@ -40,7 +40,8 @@ def export_file(
     ----------
     file : Path
         Results file or its folder, also of a run that was stopped, failed or goes on.
-    to : "vtk", "csv", "parquet", "xlsx", "mp4" or "gif"
+    to : "vtk", "csv", "parquet", "xlsx", "mp4" or "gif", optional
+        Default as `output` ends.
     output : Path, optional
         File to write, or folder; default beside the results file.
     options : dict
@@ -54,7 +55,7 @@ def export_file(
         Something is wrong with what was given; nothing was written.
 
     """
-    to = checks.choice(ALSO.get(to, to), "--to", tuple(SUFFIXES))
+    to = _kind(to, output)
     given = _given(to, options)
     file = results_at(file)
     result = open_result(file)
@@ -74,6 +75,17 @@ def split_points(text: str) -> list[str]:
     """Points that commas outside brackets separate: ``beam.end,beam.at(0.5, 0, 0.01)``."""
     labels = [part.strip() for part in re.split(r",(?![^()]*\))", text)]
     return [label for label in labels if label]
+
+
+def _kind(to: str | None, output: Path | None) -> str:
+    """What is to be written, by the word after --to or else by the end of the file after -o."""
+    if to is None:
+        ends = {end: kind for kind, end in SUFFIXES.items() if end}
+        to = ends.get("" if output is None else output.suffix.lower())
+    if to is None:
+        what = f"is missing: one of {checks.listed(tuple(SUFFIXES))}"
+        raise ModelError("--to", what, "or -o with a file that ends so")
+    return checks.choice(ALSO.get(to, to), "--to", tuple(SUFFIXES))
 
 
 def _given(to: str, options: dict[str, Any]) -> dict[str, Any]:

@@ -11,7 +11,13 @@ ResultsFile = Annotated[
     Path, typer.Argument(metavar="RESULTS.h5", help="Results file, or its folder.", show_default=False)
 ]
 Kind = Annotated[
-    str, typer.Option("--to", metavar="KIND", help="vtk, csv, parquet, xlsx, mp4 or gif.", show_default=False)
+    str | None,
+    typer.Option(
+        "--to",
+        metavar="KIND",
+        help="vtk, csv, parquet, xlsx, mp4 or gif; default as the file after -o ends.",
+        show_default=False,
+    ),
 ]
 Target = Annotated[
     Path | None,

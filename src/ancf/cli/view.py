@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ModelError
-from ..files import RESULTS, exists, results_at
+from ..files import MOST_NAMED, RESULTS, exists, results_at
 from .results_file import open_result
 from .screen import console
 
@@ -92,7 +92,7 @@ def _follow(sources: list[Path], output: Path | None, options: dict[str, Any], s
         raise ModelError("--live", "follows one results file and writes none", "leave -o and other files out")
     [path] = sources
     if not exists(path):
-        console().print(f"waiting for {path}", soft_wrap=True)
+        console().print(f"waiting for {path}{_others(path)}", soft_wrap=True)
     while not _begun(path):
         time.sleep(WAIT)
     view = LiveView(path, options)
@@ -101,6 +101,14 @@ def _follow(sources: list[Path], output: Path | None, options: dict[str, Any], s
         webbrowser.open(view.url)
     with suppress(KeyboardInterrupt):
         view.serve()
+
+
+def _others(path: Path) -> str:
+    """Of a file that is not there yet the runs beside it and in folders there, which may be meant."""
+    found = [*path.parent.glob("*.h5"), *path.parent.glob(f"*/{RESULTS}")] if path.name == RESULTS else []
+    named = [str(file.parent if file.name == RESULTS else file) for file in sorted(found)]
+    more = f" and {len(named) - MOST_NAMED} more" if len(named) > MOST_NAMED else ""
+    return f"; other runs are in {', '.join(named[:MOST_NAMED])}{more}" if named else ""
 
 
 def _begun(path: Path) -> bool:

@@ -55,6 +55,7 @@ class {name}(Fmi{n}Slave):
 {independent}        for name in motion.inputs:
             variable = {number}(
                 name,
+                description=motion.said(name),
                 causality=Fmi{n}Causality.input,
                 variability=Fmi{n}Variability.continuous,
                 getter=lambda name=name: motion.inputs[name],

@@ -56,6 +56,11 @@ class Motion:
         if self._run is not None:
             self._run.inputs[name] = value
 
+    def said(self, name: str) -> str:
+        """What the model file says of an input, and its unit, as far as it does."""
+        item = self.study.model.inputs[name]
+        return " ".join(part for part in (item.description, f"[{item.unit}]" if item.unit else "") if part)
+
     def value(self, output: Output) -> float:
         """What an output is now."""
         return output.value(self.run)

@@ -26,6 +26,10 @@ MOMENT_OF_JOINT, MOMENT_OF_CLAMP = {"joint_moment": "N m"}, {"reaction_moment": 
 ALONG_AXES = (*OF_POINT, *OF_SUPPORT, *MOMENT_OF_JOINT, *MOMENT_OF_CLAMP)
 OF_TORSION = {"torsion_angle": "rad", "torsion_moment": "N m"}
 OF_TURNING = {"joint_angle": "rad", "joint_rate": "rad/s"}
+OF_CROSS = {"joint_angles": "rad", "joint_rates": "rad/s"}
+OF_TRAVEL = {"joint_displacement": "m", "joint_velocity": "m/s"}
+#: Questions whose parts have numbers.
+COUNTED = (*OF_JOINT, *OF_CROSS)
 OF_CONTACT = {"contact_force": "N", "contact_gap": "m"}
 #: Of a strip, which has one place on a wire; of a contact that rubs.
 OF_STRIP, OF_RUBBING = {"arc_length": "m"}, {"friction_force": "N", "slipping": "1"}
@@ -81,6 +85,8 @@ def _questions(run: Stepper) -> Iterator[tuple[Any, str, str]]:
         elif name in run.joints:
             questions = questions | MOMENT_OF_JOINT
             questions = questions | (OF_TURNING if run.has_angle(name) else {})
+            questions = questions | (OF_CROSS if run.has_angles(name) else {})
+            questions = questions | (OF_TRAVEL if run.has_travel(name) else {})
         if name in listing.columns:
             questions = questions | OF_CONTACT | (OF_RUBBING if run.sensors.rubs(name) else OF_STRIP)
         questions = questions | (OF_SUPPORT if name in listing.held else {})
@@ -97,7 +103,7 @@ def _parts(run: Stepper, of: str, question: str, unit: str) -> Iterator[Output]:
         .removeprefix("torsion_")
     )
     for k in range(count):
-        part = f".{'xyz'[k]}" if question in ALONG_AXES else (f"[{k + 1}]" if question in OF_JOINT else "")
+        part = f".{'xyz'[k]}" if question in ALONG_AXES else (f"[{k + 1}]" if question in COUNTED else "")
         yield Output(f"{structured(of)}.{word}{part}", question, of, k, unit)
 
 

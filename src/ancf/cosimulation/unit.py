@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import shutil
 import tempfile
 import weakref
@@ -44,6 +45,8 @@ class FmuController:
         By the name of an input of the run, the output of the unit that it follows.
     parameters : mapping of str to float, optional
         Numbers of the unit that are set before it starts.
+    restart : bool
+        Whether a resumed run may start the unit anew where it is, if the unit cannot give its state.
 
     Raises
     ------
@@ -52,8 +55,9 @@ class FmuController:
 
     Notes
     -----
-    A run that begins anew, also from another state, starts the unit anew. A resumed one cannot bring it to
-    where it was. FMI: Functional Mock-up Interface 2.0.4 and 3.0.1, Modelica Association.
+    A run that begins anew, also from another state, starts the unit anew. A resumed one brings it to where it
+    was, if its description says that its state can be written and read (``canGetAndSetFMUState`` and
+    ``canSerializeFMUState``). FMI: Functional Mock-up Interface 2.0.4 and 3.0.1, Modelica Association.
     """
 
     def __init__(
@@ -64,8 +68,10 @@ class FmuController:
         inputs: Mapping[str, Question],
         outputs: Mapping[str, str],
         parameters: Mapping[str, float] | None = None,
+        restart: bool = False,
     ) -> None:
         self.path, self.step = Path(path), checks.positive(step, f"{WHERE}.step")
+        self.restart = checks.flag(restart, f"{WHERE}.restart")
         self.folder = tempfile.mkdtemp(prefix="ancf-")
         self._end = weakref.finalize(self, shutil.rmtree, self.folder, True)
         self._about = _read(self.path, self.folder)
@@ -79,6 +85,7 @@ class FmuController:
         ]
         self._unit: _Instance | None = None
         self._t = 0.0
+        self._begun: tuple[float, list[tuple[int, float]]] = (0.0, [])
 
     @property
     def __name__(self) -> str:
@@ -109,12 +116,53 @@ class FmuController:
             run.inputs[name] = checks.number(value, f"{WHERE}.outputs[{name!r}] at t = {t + self.step:.6g} s")
         self._t = t + self.step
 
+    def state(self) -> dict[str, Any]:
+        """What the unit remembers, for the checkpoint of a run: its state as text, if it can give that.
+
+        Raises
+        ------
+        ModelError
+            The unit refuses.
+        """
+        if self._unit is None:
+            return {}
+        kept = {"t": self._t, "begun": list(self._begun)}
+        if not self._about.keeps_state:
+            return kept
+        found = self._do(self._t, "to give its state", self._unit.state)
+        return kept | {"unit": base64.b64encode(found).decode("ascii")}
+
+    def restore(self, state: Mapping[str, Any]) -> None:
+        """Bring the unit to where it was, from what :meth:`state` gave.
+
+        Raises
+        ------
+        ModelError
+            The unit refuses, or cannot give its state and must not start anew.
+        """
+        if state and "unit" in state and self._about.keeps_state:
+            start, values = state["begun"]
+            self._begin(start, [(int(at), value) for at, value in values])
+            assert self._unit is not None
+            self._do(state["t"], "its state", self._unit.restore, base64.b64decode(state["unit"]))
+            self._t = state["t"]
+            return
+        self._drop()
+        if state and not self.restart:
+            what = "cannot give its state (canSerializeFMUState): a resumed run would not be the same"
+            hint = f"compute the run anew, or {WHERE}(..., restart=True) starts the unit anew at this time"
+            raise ModelError(str(self.path), what, hint)
+
     def _begin(self, t: float, values: list[tuple[int, float]]) -> None:
-        if self._unit is not None:
-            self._unit.end()
+        self._drop()
         self._unit = self._do(t, "a start", _Instance, self._about, self.folder)
         self._do(t, "a start", self._unit.begin, t, [*self._set, *values])
-        self._t = t
+        self._begun, self._t = (t, values), t
+
+    def _drop(self) -> None:
+        if self._unit is not None:
+            self._unit.end()
+        self._unit = None
 
     def _do(self, t: float, what: str, function: Callable[..., Any], *arguments: Any) -> Any:
         """Call the unit; what it says against it is one message."""
@@ -125,15 +173,19 @@ class FmuController:
 
     def close(self) -> None:
         """End the unit and remove what was unpacked; done by itself when the controller is forgotten."""
-        if self._unit is not None:
-            self._unit.end()
-            self._unit = None
+        self._drop()
         self._end()
 
 
 class _About(NamedTuple):
     version: str  # "2.0" or "3.0"
     description: Any  # of FMPy
+
+    @property
+    def keeps_state(self) -> bool:
+        """Whether the state of the unit can be written and read."""
+        can = self.description.coSimulation
+        return bool(can.canGetAndSetFMUstate and can.canSerializeFMUstate)
 
 
 class _Instance:
@@ -173,6 +225,22 @@ class _Instance:
         told = self.slave.doStep(t, step)
         if told is not None and told[1]:
             raise RuntimeError("it has ended")
+
+    def state(self) -> bytes:
+        """What it remembers."""
+        state = self.slave.getFMUState()
+        try:
+            return bytes(self.slave.serializeFMUState(state))
+        finally:
+            self.slave.freeFMUState(state)
+
+    def restore(self, kept: bytes) -> None:
+        """Make it remember what it did."""
+        state = self.slave.deserializeFMUState(kept)
+        try:
+            self.slave.setFMUState(state)
+        finally:
+            self.slave.freeFMUState(state)
 
     def end(self) -> None:
         """Free it."""

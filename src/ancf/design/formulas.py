@@ -13,6 +13,7 @@ import numpy as np
 from ..errors import ModelError, SolveError
 from ..model.checks import listed, nearest
 from ..model.expression import CONSTANTS, FUNCTIONS, OPERATORS
+from .meant import meant_by
 
 MOST_CHARACTERS = 2000
 
@@ -116,7 +117,8 @@ class Formula:
         except (SyntaxError, ValueError) as error:
             if isinstance(error, ModelError):
                 raise
-            raise ModelError(where, f'"{text}" is no formula: {getattr(error, "msg", error)}') from None
+            what = f'"{text}" is no formula: {getattr(error, "msg", error)}'
+            raise ModelError(where, what, meant_by(text)) from None
         except (RecursionError, MemoryError):
             raise ModelError(where, "the formula is nested too deeply") from None
 
@@ -286,7 +288,7 @@ class Formula:
     def _unknown(self, node: ast.AST) -> ModelError:
         what = f'"{self.text}": "{ast.unparse(node)}" is not allowed'
         names = listed(self.words.quantities) if self.words.quantities else listed(self.words.names)
-        return ModelError(self.where, what, f"there are: {names}")
+        return ModelError(self.where, what, meant_by(self.text) or f"there are: {names}")
 
 
 def _applied(function: Callable[..., Any], parts: list[Callable[[Answers], Any]]) -> Callable[[Answers], Any]:

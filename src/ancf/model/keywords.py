@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 
 from ..errors import ArgumentError
 from .checks import listed, nearest
-from .other_words import argument_of
+from .other_words import WANTED, argument_of
 
 T = TypeVar("T")
 
@@ -116,7 +116,8 @@ def _refused(
     given = {*by_place[:count], *keywords}
     missing = [p.name for p in parameters if p.default is p.empty and p.name in known and p.name not in given]
     if missing:
-        return ArgumentError(where, f"wants {listed(missing, LISTED)}", accepted)
+        hint = next((WANTED[where, name] for name in missing if (where, name) in WANTED), accepted)
+        return ArgumentError(where, f"wants {listed(missing, LISTED)}", hint)
     twice = [name for name in by_place[:count] if name in keywords]
     return (
         ArgumentError(where, f"{listed(twice, LISTED)} given twice, by place and by keyword")

@@ -9,6 +9,8 @@ from ..errors import ModelError
 from . import checks
 
 BODY_NAME = re.compile(r"\w([\w -]*\w)?")
+#: What is asked of a point, and is tried as a part of its name.
+OF_POINT = ("x", "y", "z", "position", "velocity", "speed", "tension", "strain", "curvature", "twist")
 POINT_LABEL = re.compile(r"(?P<body>.*)\.(?:(?P<word>start|end|centre)|at\((?P<inside>[^()]*)\))")
 BEAM_PLACES = ("arc length", "place along local y", "place along local z")
 
@@ -70,8 +72,17 @@ def split_label(label: str, bodies: Iterable[str], where: str) -> tuple[str, str
     if found is None:
         example = "beam.start, beam.end, beam.at(0.5) or beam.at(0.5, 0.01, 0)"
         what = f'"{label}" is no point, a point is written like {example}'
-        raise ModelError(where, what, checks.nearest(label, bodies))
+        raise ModelError(where, what, _asked_of(label) or checks.nearest(label, bodies))
     return found["body"], found["word"] or "at", found["inside"] or ""
+
+
+def _asked_of(label: str) -> str:
+    """Of a point with a question behind it, ``rope.end.tension``, how it is written; "" of others."""
+    point, _, word = label.strip().rpartition(".")
+    asked = f"position({point})[{'xyz'.index(word)}]" if word in ("x", "y", "z") else f"{word}({point})"
+    if not POINT_LABEL.fullmatch(point) or word not in OF_POINT:
+        return ""
+    return f'the point is "{point}", of which {asked} may be asked'
 
 
 def numbers_of(inside: str, label: str, where: str, *, rigid: bool) -> tuple[float, ...]:

@@ -47,7 +47,7 @@ OF_MODEL = {
     "actuator": "add_moment(...) or add_force(...) acts, as an input of add_input(...) says",
     "controller": "add_input(...) makes what it gives, ancf.simulate(..., controller=...) calls it",
     "torque": "add_moment(...) acts as a torque",
-    "encoder": "hinge(...) has an angle: joint_angle(hinge) of results and runs",
+    "encoder": "hinge(...) has an angle: joint_angle(hinge) of results and runs; see ancf docs encoder",
     "sensor": "sensor(...) looks one up; ancf.simulate(..., sensors=[...]) records",
     "joint": "hinge(...), connect(...), prismatic(...), universal(...), weld(...) and slide(...) are joints",
     "revolute": "hinge(...) turns about an axis",
@@ -87,6 +87,8 @@ OF_RESULT = {
     "orientation": "section_rotation(body), its axes as columns",
     "quaternion": "section_rotation(body), of which scipy's Rotation.from_matrix(...).as_quat() makes them",
     "euler": 'section_rotation(body), of which scipy\'s Rotation.from_matrix(...).as_euler("xyz") makes them',
+    "travel": "joint_displacement(joint) of a prismatic one, arc_length(joint) of a sliding one",
+    "stroke": "joint_displacement(joint) of a prismatic one, arc_length(joint) of a sliding one",
     "angle": "joint_angle(hinge), twist(point) of a beam, torsion_angle(spring)",
     "tensions": "tension(point) of each point, such as [tension(line.at(x)) for x in ...]",
     "range": "tension(line.at(x)).max() for each x, see ancf docs range graph",
@@ -140,6 +142,31 @@ OF_PACKAGE = {
     "view": "result.view(); the command ancf view",
 }
 
+_ONE_WAVE = "Waves.regular(height=, period=) is one linear wave, after Airy"
+_SEA = "Waves.jonswap(height=, period=) or Waves.pierson_moskowitz(height=, period=) is an irregular sea"
+_MOMENTS = "Section.from_moments(A=, I_y=, I_z=, ...) has any shape with two axes of symmetry"
+#: What classes offer, by what was asked of them.
+OF_CLASSES = {
+    "Waves": {
+        **dict.fromkeys(("airy", "linear", "sine", "harmonic", "monochromatic", "single"), _ONE_WAVE),
+        **dict.fromkeys(("stokes", "stream", "cnoidal"), f"waves are linear: {_ONE_WAVE}"),
+        **dict.fromkeys(("irregular", "random", "spectrum", "sea", "torsethaugen"), _SEA),
+        **dict.fromkeys(
+            ("pm", "pierson", "bretschneider", "issc"),
+            "Waves.pierson_moskowitz(height=, period=)",
+        ),
+    },
+    "Section": {
+        **dict.fromkeys(("tube", "pipe", "hollow", "annulus", "moments", "i", "h", "profile"), _MOMENTS),
+        **dict.fromkeys(
+            ("round", "rod", "wire", "circular", "disk"), "Section.circle(diameter=, E=, rho=) is round"
+        ),
+        **dict.fromkeys(("rope", "chain", "cable"), "Section(EA=, EI=, rhoA=) takes what a data sheet says"),
+        **dict.fromkeys(("square", "box", "rectangular"), "Section.rectangle(width=, height=, E=, rho=)"),
+    },
+    "Series": dict.fromkeys(("csv", "load", "file"), 'Series.read("file.csv", "column") reads one'),
+}
+
 #: Arguments, in small letters, and what they may be called here: the first that a call knows.
 OF_ARGUMENTS = {
     "dt": ("step",),
@@ -190,6 +217,13 @@ OF_ARGUMENTS = {
 #: Joints, and arguments that springs beside them have.
 TURNING = ("hinge", "cylindrical", "planar", "universal")
 RESISTING = ("stiffness", "damping", "friction", "k", "c", "spring")
+#: What is said of an argument that a call wants, by both.
+WANTED = {
+    ("winch", "length"): (
+        "length= is what is paid out at the start, m, such as length=line.length, beside speed= and"
+        " acceleration= of its drive; or alone a function of time, such as length='10 - 0.1*t'"
+    ),
+}
 #: What is said of a call, or of an argument that nothing here is called.
 TOLD = {
     "Waves": "Waves.regular(...), Waves.jonswap(...) or Waves.pierson_moskowitz(...) makes them",

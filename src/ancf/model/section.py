@@ -13,6 +13,7 @@ from .section_moments import check_moments, of_similar_rectangle
 from .section_sheet import of_section
 from .shapes import Circle, Rectangle
 from .tables import Readable, Sheet
+from .told import Told
 
 __all__ = ["MATERIAL", "Circle", "Rectangle", "Section"]
 
@@ -25,7 +26,7 @@ DAMPINGS = ("damping", "axial_damping", "bending_damping", "slope_damping")
 
 
 @dataclass(frozen=True, slots=True, init=False)
-class Section(Readable):
+class Section(Readable, metaclass=Told):
     """Stiffnesses, mass and damping per length of a beam; every argument by keyword.
 
     ``Section(EA=, EI=, rhoA=)`` is enough for a cable. The two beams need a section of a material:

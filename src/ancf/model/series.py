@@ -12,6 +12,7 @@ from ..arrays import FloatArray
 from ..columns import read_columns, split_unit
 from ..errors import ModelError
 from . import checks
+from .told import Told
 from .units import factor, kind_of
 
 INTERPOLATIONS = ("linear", "spline")
@@ -22,7 +23,7 @@ FILE_KEYS = ("csv", "column", "unit", "time", "time_unit", "interpolation", "cut
 HIGH, LEAST = 0.25, 1.0
 
 
-class Series:
+class Series(metaclass=Told):
     """Values at increasing times, between which they are joined by straight lines or by a smooth curve.
 
     It stands where a function of time may: for all components, or for one of three. Before the first and

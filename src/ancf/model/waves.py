@@ -11,6 +11,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from . import checks
+from .told import Told
 
 #: Height of a wave over tanh(k h) times its length, at which it breaks (Miche 1944).
 STEEPEST = 0.142
@@ -33,7 +34,7 @@ SPECTRA = tuple(_KEYS)
 MOST_COMPONENTS, MOST_SEED = 2000, 2**32
 
 
-class Waves:
+class Waves(metaclass=Told):
     """A sum of linear waves, made by :meth:`regular`, :meth:`jonswap` or :meth:`pierson_moskowitz`.
 
     The surface is at ``eta = R(t) sum A cos(k s - omega t + phase)`` above the highest place ``below`` of the

@@ -18,7 +18,6 @@ over its mass, in place of p'.  u' stays only in what depends on accelerations, 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,39 +25,16 @@ from numpy.linalg import LinAlgError
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError, SolveError
-from ..later import coo_array, csc_array, eigh
-from ..system.core import apply_load, residual
-from .damped_modal import Damped, physical
+from ..later import csc_array, eigh
+from .damped_modal import Damped
+from .linear_moved import Moved, along_of, more_of, reading_of
 from .modal import dense, motions
 from .quadratic import NEUTRAL, SHIFT, UNSEEN
 
 #: Share of a motion of a support by which joints may be open.
 OPEN = 1e-8
-#: Change of a difference that is none, and how often a quarter of its step is taken.
-SETTLED, QUARTERS = 1e-11, 14
 #: Ratio of two squares of frequencies that are apart, and how far from the best place they are looked for.
 APART, NEAR = 1.01, 1e3
-
-
-@dataclass(frozen=True)
-class Moved:
-    """A held unknown that inputs move.
-
-    Parameters
-    ----------
-    unknown : int
-    order : int
-        1: inputs give its rate, 2: its second rate.
-    gain : ndarray, shape (inputs,)
-        Of the inputs in that.
-    columns : (3, n) ndarray or None
-        Its columns of mass, damping and stiffness, where the matrices have none.
-    """
-
-    unknown: int
-    order: int
-    gain: FloatArray
-    columns: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -111,17 +87,16 @@ class Linear:
         self.made, self.moved, self.forces = made, moved, forces
         f, lam, axes = made.free, made.lam, made.axes
         parts = made.whole()
-        self.M, self.D, self.K = (
-            _with_columns(csc_array(axes.T @ x @ axes), moved, k) for k, x in enumerate(parts)
-        )
+        self.M, self.D, self.K = (csc_array(axes.T @ x @ axes) for x in parts)
         self.physical = parts[2]
         mass = self.M[f][:, f].toarray()
         Z = motions(self.K[lam][:, f].toarray(), np.diag(mass).copy()) if len(lam) else np.eye(len(f))
         self.own = np.sqrt(np.maximum(np.diag(mass), 0.0))
         self.own[self.own == 0.0] = np.max(self.own)
         self.squares, self.shapes = self._modes(Z, mass)
-        held = [one.unknown for one in moved]
-        self.columns = [x[:, held].toarray() for x in (self.M, self.D, self.K)]
+        self.along = along_of(moved, made.system.n)
+        more = more_of(moved, made.system.n)
+        self.columns = [x @ self.along + y for x, y in zip((self.M, self.D, self.K), more, strict=True)]
         self.follows = self._at_rest(self._follows())
         self._assemble()
 
@@ -161,7 +136,8 @@ class Linear:
         left = np.max(np.abs(C @ X + moving), axis=0)
         for one, gap, whole in zip(self.moved, left, np.max(np.abs(moving), axis=0), strict=True):
             if gap > OPEN * whole:
-                what = f"{self.made.system.numbering.describe(one.unknown)} cannot move: joints hold it"
+                held = self.made.system.numbering.describe(int(one.unknowns[0]))
+                what = f"{held} cannot move: joints hold it"
                 raise ModelError("linearise.inputs", what, "leave the input out, or free what holds it")
         followed: FloatArray = X / self.own[:, None]
         return followed
@@ -211,12 +187,14 @@ class Linear:
         """See :class:`Directions`."""
         made, system = self.made, self.made.system
         width, f, lam = self._unknowns[0][0].shape[1], made.free, made.lam
-        moved = np.array([one.unknown for one in self.moved], dtype=np.int64)
-        q, v, a = np.zeros((3, system.n, width))
-        for x, (free, held) in zip((q, v, a), self._unknowns, strict=True):
-            x[f], x[moved] = free, held
-        r = self.M @ a + self.D @ v + self.K @ q
+        r = np.zeros((system.n, width))
         r[:, self._inputs] -= self.forces
+        q, v, a = np.zeros((3, system.n, width))
+        parts = (self.K, self.D, self.M)
+        for x, (free, moved), A, c in zip((q, v, a), self._unknowns, parts, self.columns[::-1], strict=True):
+            x[f] = free
+            r += A @ x + c @ moved
+            x += self.along @ moved
         if len(lam):
             carried = self.K[f][:, lam].toarray()
             q[lam] = -np.linalg.lstsq(carried / self.own[:, None], r[f] / self.own[:, None], rcond=1e-13)[0]
@@ -240,32 +218,23 @@ class Linear:
 
         Returns
         -------
-        unknowns : ndarray, shape (k,)
+        places : ndarray, shape (k,)
+            In state vectors.
         of_q, of_v : ndarray, shape (states, k)
         """
-        f, count = self.made.free, len(self.squares)
-        moved = np.array([one.unknown for one in self.moved], dtype=np.int64)
+        f, count, moves = self.made.free, len(self.squares), len(self.moved)
+        places, read = reading_of(self.moved)
         m, first = self._moments
         projected = self.shapes.T @ self.M[f][:, f]
         beside = -projected @ self.follows
-        none = np.zeros((len(moved), len(f)))
-        held = np.eye(len(moved))
-        of_q = np.vstack([np.hstack([projected, beside]), np.hstack([none, held])])
+        of_q, of_v = np.zeros((2, self.states, len(f) + len(places)))
+        of_q[:count, : len(f)] = of_v[count + moves : 2 * count + moves, : len(f)] = projected
+        of_q[:count, len(f) :] = beside @ read
+        of_q[count : count + moves, len(f) :] = read
         beside[:, first] += m
-        of_v = np.vstack([np.hstack([projected, beside]), np.hstack([none, held])[~first]])
-        whole_q, whole_v = np.zeros((2, self.states, len(f) + len(moved)))
-        whole_q[: count + len(moved)], whole_v[count + len(moved) :] = of_q, of_v
-        return np.concatenate([f, moved]), whole_q, whole_v
-
-
-def _with_columns(matrix: csc_array, moved: list[Moved], k: int) -> csc_array:
-    """A matrix with the columns of what is moved that it has not, the k-th of each."""
-    for one in moved:
-        if one.columns is not None:
-            rows = np.arange(matrix.shape[0])
-            entries = (one.columns[k], (rows, np.full(len(rows), one.unknown)))
-            matrix = csc_array(matrix + coo_array(entries, shape=matrix.shape))
-    return matrix
+        of_v[count + moves : 2 * count + moves, len(f) :] = beside @ read
+        of_v[2 * count + moves :, len(f) :] = read[~first]
+        return np.concatenate([f, places]), of_q, of_v
 
 
 def all_modes(K: FloatArray, M: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -292,75 +261,3 @@ def _parting(values: FloatArray, shift: float) -> int:
     if not len(near):
         return len(values) if values[-1] < NEAR * best else 0
     return int(near[np.argmax(ratio[near])]) + 1
-
-
-def forces_of(made: Damped, name: str) -> FloatArray:
-    """Forces of an input on all unknowns along their own axes, per unit of it, (n,)."""
-    inputs, first = made.system.inputs, made.system.inputs.given[name]
-
-    def pushed(by: float) -> FloatArray:
-        inputs.give(name, first + by)
-        try:
-            return -_out_of_balance(made, made.q, made.v, made.a, loads_alone=True)
-        finally:
-            inputs.give(name, first)
-
-    found: FloatArray = slope(pushed, max(abs(first), 1.0))
-    return found
-
-
-def columns_of(made: Damped, unknown: int) -> FloatArray:
-    """Columns of mass, damping and stiffness of a length that a winch changes, (3, n)."""
-    size = float(made.q[unknown])
-
-    def column(k: int) -> FloatArray:
-        def changed(by: float) -> FloatArray:
-            a, v, q = (x.copy() for x in (made.a, made.v, made.q))
-            (a, v, q)[k][unknown] += by
-            return _out_of_balance(made, q, v, a)
-
-        return slope(changed, 1e-2 * size)
-
-    return np.array([column(k) for k in range(3)])
-
-
-def _out_of_balance(
-    made: Damped, q: FloatArray, v: FloatArray, a: FloatArray, loads_alone: bool = False
-) -> FloatArray:
-    """Forces out of balance along the axes of the unknowns, (n,); of loads alone where these alone change."""
-    system, core = made.system, made.system.core
-    before = core.loads.value.copy()
-    core.loads.value[:] = system.inputs.moment(made.time, (q, v)).value[0]
-    f, r = np.zeros(system.size), np.zeros(system.size)
-    apply_load(core.loads, core.loads.value, f)
-    residual(core.external if loads_alone else core.batches, core.ws, q, v, a, f, r)
-    core.loads.value[:] = before
-    found: FloatArray = made.axes.T @ physical(system, r)
-    return found
-
-
-def slope(value: Callable[[float], FloatArray], step: float) -> FloatArray:
-    """Derivative of value(x) at 0 by differences of order four, with a step at which it has settled.
-
-    Raises
-    ------
-    ModelError
-        What the value itself raises, however small the step.
-    """
-    best, least, before = np.zeros(()), np.inf, None
-    for attempt in range(QUARTERS):
-        try:
-            near, far = ((value(x) - value(-x)) / (2.0 * x) for x in (step, 2.0 * step))
-        except ModelError:
-            if attempt == QUARTERS - 1:
-                raise
-            step *= 0.25
-            continue
-        found = (4.0 * near - far) / 3.0
-        change = np.inf if before is None else float(np.max(np.abs(found - before), initial=0.0))
-        if before is None or change < least:
-            best, least = found, change
-        if change <= SETTLED * np.max(np.abs(found), initial=0.0):
-            break
-        before, step = found, 0.25 * step
-    return best

@@ -12,6 +12,7 @@ from ..connections.torsion_build import torsion_springs
 from ..errors import ModelError, named
 from ..model.guides import Cylindrical, Planar, Prismatic
 from ..model.joints import Revolute
+from ..model.rigid_joints import Universal
 from ..model.torsion import TorsionSpring
 from .torsion_fields import TorsionFields, angle_of, is_known, rate_of
 
@@ -74,8 +75,16 @@ class JointAngles(TorsionFields):
     def _unturned(self, name: Any, known: dict[str, Turning]) -> ModelError:
         what = "is no hinge, cylindrical or planar joint here"
         there = f"there are: {', '.join(known)}" if known else "there are none"
-        hint = f'torsion_angle("{name}") is that of a torsion spring' if name in self.torsion_springs else ""
-        return ModelError(named(name), f"{what}; {there}", hint)
+        return ModelError(named(name), f"{what}; {there}", self._other_motion(name))
+
+    def _other_motion(self, name: Any) -> str:
+        """What is asked of a connection that has no axis to turn about, "" if nothing is."""
+        item = next((one for one in self.model.connections if one.name == name), None)
+        if isinstance(item, TorsionSpring):
+            return f'torsion_angle("{name}") is that of a torsion spring'
+        if isinstance(item, Universal):
+            return f'joint_angles("{name}") has the two of a universal joint'
+        return f'joint_displacement("{name}") is its way' if isinstance(item, Prismatic) else ""
 
 
 def turning_joints(connections: list[Any]) -> dict[str, Turning]:

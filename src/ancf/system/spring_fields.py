@@ -10,10 +10,10 @@ from ..arrays import FloatArray
 from ..model.connections import Spring
 from ..model.names import unknown
 from ..model.points import Point
-from .joint_angles import JointAngles
+from .cross_angles import CrossAngles
 
 
-class SpringFields(JointAngles):
+class SpringFields(CrossAngles):
     """Values of springs; shapes are () for a state, (n_t,) for a history.
 
     A spring is the object that the model gave, or its name.

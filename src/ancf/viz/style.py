@@ -107,6 +107,10 @@ UNITS = {
     "joint_moment": "N m",
     "joint_angle": "rad",
     "joint_rate": "rad/s",
+    "joint_angles": "rad",
+    "joint_rates": "rad/s",
+    "joint_displacement": "m",
+    "joint_velocity": "m/s",
     "reaction": "N",
     "reaction_moment": "N m",
     "spring_force": "N",
@@ -126,6 +130,10 @@ SYMBOLS = {
     "joint_moment": "moment of the joint",
     "joint_angle": "angle of the joint",
     "joint_rate": "rate of the joint",
+    "joint_angles": "angle of the joint",
+    "joint_rates": "rate of the joint",
+    "joint_displacement": "way of the joint",
+    "joint_velocity": "velocity of the joint",
 }
 
 #: Settings that matplotlib holds while a figure is made and saved.

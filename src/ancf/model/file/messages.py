@@ -32,6 +32,12 @@ WANTED = {
     "model_type": "a table",
     "finite_number": "a finite number",
 }
+#: Kinds of bodies, by what they may be called; "" is the default.
+BODIES_CALLED = {
+    **dict.fromkeys(("beam", "cable", "rope", "line"), ""),
+    **dict.fromkeys(("point_mass", "mass"), "point_mass"),
+    "rigid_body": "rigid_body",
+}
 #: What pydantic names the kinds of one value by, behind its place.
 KINDS = ("float", "int", "str", "bool")
 Tables = Callable[[tuple[int | str, ...]], type[Entry]]
@@ -104,8 +110,9 @@ def _of_detail(detail: dict[str, Any], entry_at: Tables) -> ModelError:
         return _wrong_kind(where, given, context["key"], context["allowed"].split())
     if kind == "extra_forbidden":
         key, allowed = str(detail["loc"][-1]), list(entry_at(detail["loc"][:-1]).model_fields)
-        hint = elsewhere(key, entry_at(())) or nearest(key, allowed) or argument_of("", key, allowed)
-        hint = hint or (_kind_called(key) if entry_at(()) is FileEntry and len(detail["loc"]) == 1 else "")
+        at_top = entry_at(()) is FileEntry and len(detail["loc"]) == 1
+        hint = elsewhere(key, entry_at(())) or (_kind_called(key) if at_top else "")
+        hint = hint or nearest(key, allowed) or argument_of("", key, allowed)
         return ModelError(where, f"unknown key, allowed: {listed(allowed, 30)}", hint)
     if kind == "list_type" and (field := _field(detail, entry_at)) is not None:
         what, _ = _of_value(kind, given, context, detail["msg"])
@@ -127,10 +134,19 @@ def elsewhere(key: str, top: type[Entry]) -> str:
 
 def _kind_called(key: str) -> str:
     """How a table is written that was called by its kind, ``hinges`` or ``pin``; "" if it is of none."""
+    body = next(
+        (kind for word, kind in BODIES_CALLED.items() if key.lower() in (word, *_plurals(word))), None
+    )
+    if body is not None:
+        return f'[[bodies]] with type = "{body}"' if body else "[[bodies]]"
     for group, kinds in GROUPS.items():
         if any(key.lower() in (kind.word, f"{kind.word}s") for kind in kinds):
             return f'[[{group}]] with type = "{key.lower().removesuffix("s")}"'
     return ""
+
+
+def _plurals(word: str) -> tuple[str, ...]:
+    return f"{word}s", f"{word}es", f"{word.removesuffix('y')}ies"
 
 
 @cache

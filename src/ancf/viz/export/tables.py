@@ -153,7 +153,7 @@ def energy_columns(result: Result) -> Iterator[Column]:
 
 
 def joint_parts(known: Any, name: str) -> Iterator[Column]:
-    """Multipliers, s of a sliding joint, the angle of one that turns about an axis."""
+    """Multipliers, s of a sliding joint, angles of one that turns about axes, the way along one."""
     values = known.multiplier(name)
     for k in range(values.shape[1]):
         label = f"force {FORCES[k]} [N]" if k < len(FORCES) else f"moment {k - len(FORCES) + 1} [N m]"
@@ -162,3 +162,8 @@ def joint_parts(known: Any, name: str) -> Iterator[Column]:
         yield f"{name} s [m]", known.arc_length(name)
     if known.has_angle(name):
         yield f"{name} angle [rad]", known.joint_angle(name)
+    if known.has_angles(name):
+        angles = known.joint_angles(name)
+        yield from ((f"{name} angle {k + 1} [rad]", angles[:, k]) for k in range(2))
+    if known.has_travel(name):
+        yield f"{name} displacement [m]", known.joint_displacement(name)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -43,7 +44,7 @@ def write_movie(
     ----------
     scene : Scene
     path : path
-        ``.mp4``, which needs the program ffmpeg, or ``.gif``.
+        ``.mp4``, which needs the program ffmpeg or the package imageio-ffmpeg, or ``.gif``.
     color : "tension", "curvature", "speed" or "plain"
     fps : int
         Pictures per second.
@@ -102,10 +103,12 @@ def _lay_out(figure: Figure, dpi: float) -> None:
 
 
 def _writer(target: Path, fps: int) -> AbstractMovieWriter:
+    from matplotlib import rcParams
     from matplotlib.animation import FFMpegWriter, PillowWriter
 
     if target.suffix.lower() == ".gif":
         return PillowWriter(fps=fps)
+    rcParams["animation.ffmpeg_path"] = ffmpeg()  # until the figure is done, see style.settings
     pixels = ["-pix_fmt", "yuv420p", "-loglevel", "error"]  # every player knows this format
     return FFMpegWriter(fps=fps, codec="h264", extra_args=pixels)
 
@@ -117,11 +120,20 @@ def _file(path: Any) -> Path:
     target = Path(path)
     if target.suffix.lower() not in FILES:
         raise ModelError(str(path), f'is no kind of movie: "{target.suffix}"', f"use {' or '.join(FILES)}")
-    if target.suffix.lower() == ".mp4" and shutil.which("ffmpeg") is None:
-        raise ModelError(
-            str(path), "needs the program ffmpeg, which is not here", "install it or write a .gif"
-        )
+    if target.suffix.lower() == ".mp4" and not ffmpeg():
+        hint = "install it, or pip install imageio-ffmpeg, or write a .gif"
+        raise ModelError(str(path), "needs the program ffmpeg, which is not here", hint)
     return target
+
+
+def ffmpeg() -> str:
+    """The program ffmpeg, of the system or else of the package imageio-ffmpeg; "" if neither is here."""
+    if found := shutil.which("ffmpeg"):
+        return found
+    try:
+        return str(import_module("imageio_ffmpeg").get_ffmpeg_exe())
+    except (ImportError, RuntimeError):
+        return ""
 
 
 def _even(figure: Figure, width: int) -> float:

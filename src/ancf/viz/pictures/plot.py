@@ -124,10 +124,11 @@ def _components(
     """One item: its components in a panel, and moments in another; several items: a panel per component."""
     if len(names) == 1:
         columns = values[0][:, :3].T
-        curves = [Curve(f"{names[0]} {c}", along[0], v) for c, v in zip(AXES, columns, strict=False)]
+        letters = QUANTITIES[quantity].letters
+        curves = [Curve(f"{names[0]} {c}", along[0], v) for c, v in zip(letters, columns, strict=False)]
         yield Panel(style.axis_label(quantity), curves)
         return
-    for k, letter in enumerate(AXES):
+    for k, letter in enumerate(QUANTITIES[quantity].letters):
         columns_of = zip(names, along, values, strict=True)
         curves = [Curve(name, x, value[:, k]) for name, x, value in columns_of if value.shape[1] > k]
         yield Panel(style.axis_label(quantity, letter), curves)

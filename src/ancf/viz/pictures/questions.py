@@ -19,11 +19,12 @@ from ...model.supports import Clamp, Hold, Pin
 
 
 class Question(NamedTuple):
-    """A method of a result, what it is asked of, and whether the answer has components."""
+    """A method of a result, what it is asked of, and whether the answer has components, with their names."""
 
     method: str
     nouns: tuple[str, ...]
     vector: bool = False
+    letters: str = "xyz"
 
 
 POINT = "point"
@@ -55,6 +56,10 @@ QUANTITIES: dict[str, Question] = {
     "joint_moment": Question("joint_moment", (JOINT,), vector=True),
     "joint_angle": Question("joint_angle", (JOINT,)),
     "joint_rate": Question("joint_rate", (JOINT,)),
+    "joint_angles": Question("joint_angles", (JOINT,), vector=True, letters="12"),
+    "joint_rates": Question("joint_rates", (JOINT,), vector=True, letters="12"),
+    "joint_displacement": Question("joint_displacement", (JOINT,)),
+    "joint_velocity": Question("joint_velocity", (JOINT,)),
     "reaction": Question("reaction", (SUPPORT,), vector=True),
     "reaction_moment": Question("reaction_moment", (SUPPORT,), vector=True),
 }

@@ -94,14 +94,20 @@ def _components(trace: Trace, mask: Any) -> list[Curve]:
 
 
 def _joints(states: Any, said: str = "") -> list[Curve]:
-    """Arc lengths, angles and forces of joints; rigid bodies' own multipliers are none."""
+    """Arc lengths, ways, angles and forces of joints; rigid bodies' own multipliers are none."""
     angles = {name: states.joint_angle(name) for name in states.joints if states.has_angle(name)}
+    for name in states.joints:
+        if states.has_angles(name):
+            both = states.joint_angles(name)
+            angles |= {f"{name}, {k + 1}": both[:, k] for k in range(2)}
+    ways = {name: states.joint_displacement(name) for name in states.joints if states.has_travel(name)}
     arcs = {name: states.arc_length(name) for name in states.arcs}
     forces = {}
     for name in states.joints:
         if name not in states.bodies:
             forces[name] = np.linalg.norm(states.multiplier(name)[..., :3], axis=-1)
     found = _most_varied(states.t, arcs, "m", f"arc length{said}")
+    found += _most_varied(states.t, ways, "m", f"joint displacement{said}")
     found += _most_varied(states.t, angles, "rad", f"joint angle{said}")
     return found + _most_varied(states.t, forces, "N", f"joint force{said}")
 

@@ -12,7 +12,9 @@ async function ask() {
   await renew(plain);
 }
 
+// Who opens the page while a run goes on wants to see where it is.
 async function keepAsking() {
+  seek(LAST);
   for (;;) {
     try {
       await ask();
