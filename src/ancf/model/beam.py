@@ -165,7 +165,7 @@ class Beam:
 
         """
         where = f"{self.name}.at"
-        clean = checks.number(x, where)
+        clean = checks.answered(x, where)
         slack = NODE_TOLERANCE * self.length
         if self.closed:
             clean %= self.length

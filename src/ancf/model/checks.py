@@ -45,6 +45,11 @@ def number(value: object, where: str) -> float:
     return clean
 
 
+def answered(value: object, where: str) -> float:
+    """A finite float, or an array without axes, as states answer."""
+    return number(value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value, where)
+
+
 def positive(value: object, where: str) -> float:
     """A finite number > 0."""
     clean = number(value, where)
