@@ -34,6 +34,7 @@ SIDES = {
     "fast": ("peer_exudyn", {"EXUDYN_MODULE": "fast"}),
 }
 Piece = Callable[[], Any]
+PAGES = "python docs/readme_figures.py", "python docs/verification_book.py"
 
 
 def arguments() -> argparse.Namespace:
@@ -162,6 +163,8 @@ def main() -> None:
             store.remember()
     show(store.results, console)
     console.print(f"[dim]{time.perf_counter() - begin:.0f} s, {store.file or 'not stored'}[/]")
+    if store.file == HERE / "results.json" and not options.show:
+        console.print("pages with these numbers, which tests compare: " + " && ".join(PAGES), highlight=False)
 
 
 if __name__ == "__main__":
