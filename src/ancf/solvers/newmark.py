@@ -79,6 +79,8 @@ STALE, AGED = 0.03, 0.8
 #: until all has been tried.
 ROUND_OFF, AT_KINKS = 1e4, 1e2
 LARGEST_ROUND_OFF = 1e-7
+#: Up to which corrections are round-off, whatever the tolerance, if one with a matrix of its own is no smaller.
+TINIEST = 1e-13
 #: By which round-off that was seen once is forgotten from step to step.
 FADING = 0.99
 #: It diverges: so large a correction, a ratio of two, or one above 1 after so many iterations with a new one.
@@ -158,7 +160,7 @@ def newton(core, s, h, rule, modified, B, G, apart):
         tolerance = max(min(tolerance, jointed * B * largest(s.a, core.weight)), FINEST)
     tolerance = max(tolerance, s.memo[NOISE])
     s.memo[NOISE] *= FADING
-    older, old, since, whole = -1.0, -1.0, 0, True
+    older, old, since, whole, last = -1.0, -1.0, 0, True, -1.0
     noise = AT_KINKS if core.sticks and modified else ROUND_OFF
     noise = min(noise * rule.tolerance, LARGEST_ROUND_OFF)
     other = modified and s.memo[KNOWN] == 0.0 and not has_joints and not core.damped  # start, see unresolved
@@ -205,6 +207,9 @@ def newton(core, s, h, rule, modified, B, G, apart):
         if fresh and theta > rule.contraction and size <= noise:
             s.memo[NOISE], s.memo[ETA] = 2.0 * norm, 1.0
             return OK
+        if not modified and 0.0 < rule.contraction * last < norm and size <= TINIEST:
+            return OK
+        last = norm
         if size > FLOWN or theta >= GROWN or (theta >= 1.0 and fresh and iteration > tries):
             return DIVERGED
         # of a taut wire position and slope take turns: two corrections tell how fast they shrink

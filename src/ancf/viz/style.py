@@ -189,6 +189,13 @@ def settings() -> Iterator[None]:
         yield
 
 
+def set_program(name: str, path: str) -> None:
+    """Where matplotlib finds a program that writes movies, until the figure is done."""
+    from matplotlib import rcParams
+
+    rcParams[f"animation.{name}_path"] = path
+
+
 @contextmanager
 def new_figure(width: float, height: float) -> Iterator[Figure]:
     """Empty figure of a size in mm, in the style of the package; needs no display."""

@@ -103,12 +103,11 @@ def _lay_out(figure: Figure, dpi: float) -> None:
 
 
 def _writer(target: Path, fps: int) -> AbstractMovieWriter:
-    from matplotlib import rcParams
     from matplotlib.animation import FFMpegWriter, PillowWriter
 
     if target.suffix.lower() == ".gif":
         return PillowWriter(fps=fps)
-    rcParams["animation.ffmpeg_path"] = ffmpeg()  # until the figure is done, see style.settings
+    style.set_program("ffmpeg", ffmpeg())
     pixels = ["-pix_fmt", "yuv420p", "-loglevel", "error"]  # every player knows this format
     return FFMpegWriter(fps=fps, codec="h264", extra_args=pixels)
 
