@@ -79,7 +79,7 @@ STALE, AGED = 0.03, 0.8
 #: until all has been tried.
 ROUND_OFF, AT_KINKS = 1e4, 1e2
 LARGEST_ROUND_OFF = 1e-7
-#: Up to which corrections are round-off, whatever the tolerance, if one with a matrix of its own is no smaller.
+#: Up to which corrections are round-off, whatever the tolerance, if a matrix of its own makes one no smaller.
 TINIEST = 1e-13
 #: By which round-off that was seen once is forgotten from step to step.
 FADING = 0.99
