@@ -154,6 +154,21 @@ def test_bodies_on_joints_of_a_body_that_turns(name, element, held, axis):
     np.testing.assert_allclose(found / scale, wanted[1:] / scale, rtol=0, atol=5e-4)
 
 
+@pytest.mark.parametrize("step", [2e-3, 1e-3, 5e-4, 2e-4])
+@each(HUBS)
+def test_full_newton_steps_end_at_round_off(name, element, held, axis, step):
+    """With a tolerance that is less than the round-off of a correction, from the first step on."""
+    state = ancf.equilibrium(made(name, element, **held)[0])
+    moving = made(name, element, rotation_vector=about(axis, "1e-3*(1 - cos(7*t))**2"), **held)[0]
+    method = ancf.Trapezoidal(newton=EXACT)
+    result = ancf.simulate(moving, t_end=60 * step, step=step, start=state, integrator=method)
+    assert result.stats.retries == 0
+    looser = ancf.Trapezoidal(newton=ancf.Newton(tolerance=1e-12, modified=False))
+    other = ancf.simulate(moving, t_end=60 * step, step=step, start=state, integrator=looser)
+    kept = np.setdiff1d(np.arange(result.system.size), result.system.multipliers)
+    assert result.q[:, kept] == pytest.approx(other.q[:, kept], abs=1e-9)
+
+
 @each(TURNED + HUBS)
 def test_static_gain_of_a_turn_is_that_of_equilibria(name, element, held, axis):
     """Where all stands still after a turn, beside extrapolated differences of equilibria."""
