@@ -189,11 +189,11 @@ def settings() -> Iterator[None]:
         yield
 
 
-def set_program(name: str, path: str) -> None:
-    """Where matplotlib finds a program that writes movies, until the figure is done."""
+def set_ffmpeg(path: str) -> None:
+    """Where matplotlib finds the program that writes movies, until the figure is done."""
     from matplotlib import rcParams
 
-    rcParams[f"animation.{name}_path"] = path
+    rcParams["animation.ffmpeg_path"] = path
 
 
 @contextmanager

@@ -107,7 +107,7 @@ def _writer(target: Path, fps: int) -> AbstractMovieWriter:
 
     if target.suffix.lower() == ".gif":
         return PillowWriter(fps=fps)
-    style.set_program("ffmpeg", ffmpeg())
+    style.set_ffmpeg(ffmpeg())
     pixels = ["-pix_fmt", "yuv420p", "-loglevel", "error"]  # every player knows this format
     return FFMpegWriter(fps=fps, codec="h264", extra_args=pixels)
 
