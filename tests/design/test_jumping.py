@@ -6,7 +6,6 @@ from jointed import NEWTON
 
 import ancf
 from ancf.model.vary import value_of, varied
-from ancf.sensitivity.jumps import refuse_at_start
 from ancf.solvers.stepping import Run
 from motions import ball
 from slopes import remainder_slopes
@@ -248,17 +247,31 @@ def test_gradients(make, method):
         assert slope[name] == pytest.approx((sides[0] - sides[1]) / 6e-5, rel=1e-6)
 
 
+def floored(model):
+    """The same with a rope on a ground, whose friction remembers the way."""
+    section = ancf.Section(EA=1e4, EI=1.0, rhoA=0.3, diameter=0.02)
+    model.add_beam("rope", start=(3, 0, 0.01), end=(4, 0, 0.01), elements=2, section=section)
+    model.add_ground("floor", height=0.0, stiffness=1e4, friction=0.3, on=["rope"])
+    return model
+
+
 class TestRefusals:
     def test_friction_that_remembers(self):
         model, names, t_end = on_rod("release")
-        section = ancf.Section(EA=1e4, EI=1.0, rhoA=0.3, diameter=0.02)
-        model.add_beam("rope", start=(3, 0, 0.01), end=(4, 0, 0.01), elements=2, section=section)
-        model.add_ground("floor", height=0.0, stiffness=1e4, friction=0.3)
         with pytest.raises(ancf.SolveError, match="friction with memory is not followed"):
-            run(model, t_end, ancf.Trapezoidal(), sensitivities=names)
+            run(floored(model), t_end, ancf.Trapezoidal(), sensitivities=names)
 
-    @pytest.mark.parametrize("code", [0, 2, 4, 6])
-    def test_ends_at_the_start(self, code):
-        with pytest.raises(ancf.SolveError, match="reaches an end at the start"):
-            refuse_at_start(code, 0.0, 0)
-        refuse_at_start(code, 0.1, 5)
+    @pytest.mark.parametrize("method", ALL)
+    def test_friction_that_remembers_and_a_motion_that_joints_change(self, method):
+        model, names, _ = on_cable("clamp")
+        with pytest.raises(ancf.ModelError, match="joints change the initial motion"):
+            run(floored(model), 0.01, ALL[method], sensitivities=names)
+
+    @pytest.mark.parametrize("method", ALL)
+    @pytest.mark.parametrize("speed", [-0.3, 0.3])
+    def test_pulled_open_at_the_start(self, speed, method):
+        """The motion has been shifted with the contact closed, which is open then."""
+        model, pan, _ = ball(force=(0, 0, 2 * G - 8.0))
+        pan.set_motion(velocity=(0.5, 0, speed))
+        with pytest.raises(ancf.SolveError, match="where the run starts"):
+            run(model, 0.05, ALL[method], sensitivities=["pan.mass"])

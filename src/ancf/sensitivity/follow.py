@@ -26,7 +26,7 @@ from ..system.system import System
 from .base import check_differentiable, matrices_of, moved_with
 from .family import Family
 from .histories import Histories
-from .jumps import Anew, Jump, note_jumps, refuse_all, refuse_at_start
+from .jumps import Anew, Jump, note_jumps
 from .memory import Memory
 from .nearby import Nearby
 from .parameters import Parameter, check_known
@@ -104,6 +104,7 @@ class Following:
         self.families = [Family(parameter, self.system, shifts=True) for parameter in parameters]
         self.nearby = Nearby(self.families, self.system, shifts=True)
         self.memory = Memory(self.system, self.families)
+        self._check_shift(where)
         self.turn = self.nearby.turn_abreast()
         self.m = moved_with(self.system, matrices_of(self.system.core, self.system.size, moving=True))
         self.ahead, self.room = ahead_of(self.system.core, self.m), room_for(self.system.size)
@@ -119,7 +120,26 @@ class Following:
         led = every == 1 and not self.samples.sampling.width and self._leads()
         self.histories = Histories(len(self.families), count, self.system.size, led)
         self._kept = np.zeros(0)
-        self.jumps = note_jumps(self.run, refuse_all if self.memory else refuse_at_start)
+        self.jumps = note_jumps(self.run, bool(self.memory))
+
+    def _check_shift(self, where: str) -> None:
+        """Raise an error for a motion that joints change at the start in a way that is not followed."""
+        if self.shifted is None:
+            return
+        if self.memory:
+            what = "joints change the initial motion, and friction remembers the way"
+            raise ModelError(where, what, "set_motion(...) that fits, or start from an equilibrium")
+        self._know_joints()
+        m = self.run.memory
+        Anew(self.run, self.system, self.shifted, self.run.t_start).check((m.q, m.v))
+
+    def _know_joints(self) -> None:
+        """Let joints be as those of the run are at its start."""
+        system, run = self.system, self.run
+        mine, theirs = system.parts.get("slides"), run.system.parts.get("slides")
+        if mine is not None and theirs is not None:
+            mine.mode[...], mine.open[...] = theirs.mode, theirs.open
+        system.measured[...] = run.system.measured
 
     def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
         """States of a block, see :class:`ancf.solvers.record.Recorder`."""
@@ -165,10 +185,7 @@ class Following:
     def _begin(self) -> None:
         """Sensitivities of the consistent start."""
         run, system = self.run, self.system
-        mine, theirs = system.parts.get("slides"), run.system.parts.get("slides")
-        if mine is not None and theirs is not None:
-            mine.mode[...], mine.open[...] = theirs.mode, theirs.open
-        system.measured[...] = run.system.measured
+        self._know_joints()
         when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
         states = run.memory.q.copy(), run.memory.v.copy(), run.memory.a.copy()
         self.memory.start(run.system.memory)

@@ -9,13 +9,11 @@ parameter at a fixed state are differences of order four and more.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
 from ..arrays import FloatArray
-from ..connections.sliding import PULLS
 from ..errors import SolveError
 from ..solvers.events import happen
 from ..solvers.sensitivity import ABAR, A, Q, V
@@ -26,6 +24,8 @@ from .memory import slope
 
 #: Change of the state of the differences, in sizes of the model, and of velocities in these per second.
 FAR = 1e-4
+#: The same up to which two states are one.
+ALIKE = 1e-9
 
 
 class Jump(NamedTuple):
@@ -47,34 +47,22 @@ class Jump(NamedTuple):
     after: FloatArray
 
 
-def note_jumps(run: Any, refuse: Callable[[int, float, int], None]) -> list[Jump]:
-    """Let a run note its jumps in a list, of which it takes none that ``refuse`` refuses."""
+def note_jumps(run: Any, remembers: bool) -> list[Jump]:
+    """Let a run note its jumps in a list, but end at the first one if friction remembers the way."""
     found: list[Jump] = []
     happened, m = run.happened, run.memory
 
     def noted(code: int, t: float, number: int) -> None:
-        refuse(code, t, number)
+        if remembers:
+            what = "a sliding joint opens, closes or reaches an end "
+            what += "there, beyond which friction with memory is not followed"
+            raise SolveError(f"sensitivities at t = {t:.6g} s, step {number}", what, "end the run before")
         before = np.stack([m.q, m.v, m.a])
         happened(code, t, number)
-        if number > 0:
-            found.append(Jump(number, code, t, before, np.stack([m.q, m.v, m.a])))
+        found.append(Jump(number, code, t, before, np.stack([m.q, m.v, m.a])))
 
     run.happened = noted
     return found
-
-
-def refuse_at_start(code: int, t: float, number: int) -> None:
-    """Raise SolveError for a joint to which something happens where a run starts, but that it opens."""
-    if number == 0 and code % 4 != PULLS:
-        what = "a sliding joint reaches an end at the start, where the derivative jumps"
-        raise SolveError(f"sensitivities at t = {t:.6g} s", what, "begin beside it")
-
-
-def refuse_all(code: int, t: float, number: int) -> None:
-    """Raise SolveError: memory is not followed over that."""
-    what = "a sliding joint opens, closes or reaches an end "
-    what += "there, beyond which friction with memory is not followed"
-    raise SolveError(f"sensitivities at t = {t:.6g} s, step {number}", what, "end the run before")
 
 
 def end_at_jumps(run: Any, error: type[Exception]) -> None:
@@ -123,6 +111,13 @@ class Anew:
         a = consistent_start(system, q, v, tables)
         system.level[:] = self._level
         return np.stack([q, v, a])
+
+    def check(self, states: Any) -> None:
+        """Raise SolveError if it does not lead to the places and velocities that a run has after it."""
+        for mine, own in zip(self(self.base, *self.state)[:2], states, strict=True):
+            if np.max(np.abs(mine - own) * self.weights, initial=0.0) > ALIKE:
+                what = "something happens to a sliding joint where the run starts, which is not followed"
+                raise SolveError("sensitivities at the start", what, "begin beside it")
 
     def along(self, d: FloatArray) -> FloatArray:
         """Derivative along that of the state before, (2, size)."""
