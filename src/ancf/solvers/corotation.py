@@ -20,9 +20,21 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..compiled import formula, inline_kernel
 from ..records import recorded
-from ..simd import LANES, gather, gather_nodes, greatest, load, put, put_nodes, sqrt, store, vector
+from ..simd import LANES, gather, gather_nodes, greatest, put, put_nodes, sqrt, vector
 from ..system.system import System
 from ..vectors import dot
+from .corotation_along import (
+    Along,
+    along_of,
+    bend,
+    cross,
+    none_along,
+    remember_along,
+    rows_of,
+    set_rows_of,
+    turn_back_along,
+    turn_forth_along,
+)
 
 
 @recorded
@@ -37,6 +49,7 @@ class Frames(NamedTuple):
     begin: int  # number of the first of these blocks in the matrix
     axes: FloatArray  # (chunks, 6, LANES) unit tangent and unit normal towards r_y when the matrix was made
     Q: FloatArray  # (chunks, 9, LANES) rotation since then, row by row
+    along: Along  # how it changes between short elements
 
 
 def allocate(
@@ -79,6 +92,7 @@ def allocate(
         begin=begin,
         axes=np.zeros((len(chunks), 6, LANES)),
         Q=np.zeros((len(chunks), 9, LANES)),
+        along=none_along(len(chunks)),
     )
 
 
@@ -115,8 +129,8 @@ def _paired(slots: IntArray) -> bool:
     return len(slots) % 2 == 0 and bool(np.all(slots[1::2] == slots[::2] + 3))
 
 
-def turning_nodes(system: System) -> Frames:
-    """Frames of a system."""
+def turning_nodes(system: System, step: float = 0.0) -> Frames:
+    """Frames of a system in steps of a length, s."""
     joints = system.parts.get("joints")
     attached = np.zeros(0, dtype=np.int64) if joints is None else joints.slot
 
@@ -126,7 +140,8 @@ def turning_nodes(system: System) -> Frames:
         return system.places.of(renewed[None, :], slots[:, None])
 
     slots = [system.numbering.each(name) for name in system.numbering.slots]
-    return allocate(slots, system.core.supports.held, attached, tail if len(renewed) else None)
+    frames = allocate(slots, system.core.supports.held, attached, tail if len(renewed) else None)
+    return frames._replace(along=along_of(system, step, frames.first, frames.slot))
 
 
 def flies(system: System) -> bool:
@@ -162,26 +177,6 @@ def across(frames, k):
     return frames.first[k + 1] - frames.first[k] > 2
 
 
-@formula
-def rows_of(array, k, first):
-    """Vectors in three rows of a chunk."""
-    return vector(load(array, k, first), load(array, k, first + 1), load(array, k, first + 2))
-
-
-@formula
-def set_rows_of(array, k, first, x):
-    """Write vectors into three rows of a chunk."""
-    store(x[0], array, k, first)
-    store(x[1], array, k, first + 1)
-    store(x[2], array, k, first + 2)
-
-
-@formula
-def cross(a, b):
-    """Vector products."""
-    return vector(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
 @inline_kernel
 def remember(frames, q):
     """The matrix is being made now: no rotation yet."""
@@ -193,6 +188,8 @@ def remember(frames, q):
         for c in range(9):
             for m in range(LANES):
                 frames.Q[k, c, m] = 1.0 if c % 4 == 0 else 0.0
+        if frames.along.row[k] >= 0:
+            remember_along(frames.along, q, frames.along.row[k], t)
 
 
 @formula
@@ -204,6 +201,9 @@ def turn(frames, q):
             turn_axes(frames.Q, k, old, rows_of(frames.axes, k, 3), t, normal_at(frames, q, k, t))
         else:
             turn_tangent(frames.Q, k, old, t)
+            if frames.along.row[k] >= 0:
+                a, b, c = rows_of(frames.Q, k, 0), rows_of(frames.Q, k, 3), rows_of(frames.Q, k, 6)
+                bend(frames.along, q, frames.along.row[k], old, a, b, c)
 
 
 @formula
@@ -232,7 +232,9 @@ def turn_back(frames, r):
     """r -> Q^T r."""
     for k in range(frames.nodes.shape[0]):
         a, b, c = rows_of(frames.Q, k, 0), rows_of(frames.Q, k, 3), rows_of(frames.Q, k, 6)
-        if frames.paired[k]:
+        if frames.along.row[k] >= 0:
+            turn_back_along(frames.along, frames.along.row[k], r, frames.slot, frames.first[k], a, b, c)
+        elif frames.paired[k]:
             for m in range(frames.first[k], frames.first[k + 1], 2):
                 x, y = gather_nodes(r, frames.slot, m)
                 x, y = x[0] * a + x[1] * b + x[2] * c, y[0] * a + y[1] * b + y[2] * c
@@ -248,7 +250,9 @@ def turn_forth(frames, r):
     """r -> Q r."""
     for k in range(frames.nodes.shape[0]):
         a, b, c = rows_of(frames.Q, k, 0), rows_of(frames.Q, k, 3), rows_of(frames.Q, k, 6)
-        if frames.paired[k]:
+        if frames.along.row[k] >= 0:
+            turn_forth_along(frames.along, frames.along.row[k], r, frames.slot, frames.first[k], a, b, c)
+        elif frames.paired[k]:
             for m in range(frames.first[k], frames.first[k + 1], 2):
                 x, y = gather_nodes(r, frames.slot, m)
                 x, y = vector(dot(a, x), dot(b, x), dot(c, x)), vector(dot(a, y), dot(b, y), dot(c, y))

@@ -78,7 +78,7 @@ class Run(Asleep):
         self.look = FIRST_LOOK if system.core.accounted else self.steps
         self.control: Control | None = None
         self.use(integrator)
-        self.memory: Memory = allocate(system.size, turning_nodes(system), room_for_patches(system))
+        self.memory: Memory = allocate(system.size, turning_nodes(system, step), room_for_patches(system))
         self.sampling = sampling_of(system)
         self.bridge = Bridge(self)
         self.tabled: Tables | None = None  # what is left of a block's after parts of a line have turned
