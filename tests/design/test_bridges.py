@@ -136,7 +136,7 @@ def test_bad_input(jax):
     with pytest.raises(ancf.ModelError, match=r"shape \(1,\), have \(2,\)"):
         function(jax.numpy.ones(2))
     with pytest.raises(Exception, match=r"ModelError: beam\.EI"):  # an error of JAX that quotes it
-        function(-jax.numpy.ones(1))
+        float(function(-jax.numpy.ones(1)))  # on an accelerator it comes where the number is read
 
 
 @pytest.mark.parametrize("word", ["jax", "torch"])

@@ -53,7 +53,7 @@ def jax_function(
     ------
     ModelError
         JAX is not installed (extra ``jax``), or what is given is wrong. What is wrong in a run JAX raises as
-        an error of its own, which quotes the message.
+        an error of its own, which quotes the message; on an accelerator where the number is read.
     """
     jax, np = extra("jax", "jax"), extra("jax.numpy", "jax")
     settings = {"t_end": t_end, "step": step, "integrator": integrator}
