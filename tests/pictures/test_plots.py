@@ -1,9 +1,6 @@
 """Pictures of results, states and modes: what is drawn are the result's numbers, with their units."""
 
-import itertools
-import shutil
 import sys
-import types
 
 import numpy as np
 import pytest
@@ -11,50 +8,11 @@ from PIL import Image
 
 import ancf
 from ancf.viz import style
-from ancf.viz.pictures.movie import write_movie
 from ancf.viz.pictures.picture import Picture
 from ancf.viz.pictures.projection import best_axes, projection
 from ancf.viz.pictures.shape import times_of
 from ancf.viz.scene import make_scene
 from commands import python
-
-
-@pytest.fixture(scope="module")
-def built():
-    """A cable in a plane with a mass at its end, a slack and a taut spring; its clamp and its result."""
-    model = ancf.Model(gravity=(0, 0, -9.81), title="Rope")
-    section = ancf.Section(EA=1e3, EI=0.05, rhoA=0.1)
-    rope = model.add_beam("rope", start=(0, 0, 0), end=(1, 0, 0), elements=4, section=section)
-    ball = model.add_point_mass("ball", at=(1, 0, 0), mass=0.1)
-    model.connect(ball, rope.end)
-    model.clamp(rope.start)
-    model.add_spring(rope.at(0.5), (0.5, 0, 0.3), stiffness=10.0, name="taut")
-    model.add_spring(rope.at(0.5), (0.5, 0, -0.5), stiffness=10.0, slack=True, name="loose")
-    result = ancf.simulate(model, t_end=0.2, step=1e-3, output_step=2e-3, sensors=["rope.end", "taut"])
-    return model, result
-
-
-@pytest.fixture(scope="module")
-def model(built):
-    return built[0]
-
-
-@pytest.fixture(scope="module")
-def result(built):
-    return built[1]
-
-
-@pytest.fixture(scope="module")
-def spatial():
-    """A beam with a cross-section, pushed out of its plane."""
-    model = ancf.Model()
-    section = ancf.Section.rectangle(0.05, 0.1, E=1e6, rho=1e3)
-    arm = model.add_beam(
-        "arm", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section, element="nonlocking"
-    )
-    model.clamp(arm.start)
-    model.add_force(arm.end, (0, 8, 5))
-    return ancf.simulate(model, t_end=0.3, step=5e-3)
 
 
 @pytest.fixture(scope="module")
@@ -469,124 +427,3 @@ class TestPicture:
         picture.axes[0].set_title("mine")
         assert isinstance(picture, Picture)
         assert picture.figure.axes[0].get_title() == "mine"
-
-
-class TestMovies:
-    def test_gif_has_the_frames(self, result, tmp_path):
-        path = result.animate(trace=["ball"], frames=5).save(tmp_path / "rope.gif", fps=20, width=301)
-        with Image.open(path) as movie:
-            assert movie.n_frames == 5
-            assert movie.size[0] == 300
-            assert movie.info["duration"] == 50
-            frames = []
-            for k in range(5):
-                movie.seek(k)
-                frames.append(np.asarray(movie.convert("L"), dtype=float))
-        assert all(np.abs(a - b).max() > 50 for a, b in itertools.pairwise(frames))
-        assert frames[0].std() > 10
-
-    def test_mode(self, model, tmp_path):
-        modes = ancf.modes(model, about=ancf.equilibrium(model), count=2)
-        path = modes.animate(1, frames=4).save(tmp_path / "mode.gif", width=200)
-        with Image.open(path) as movie:
-            assert movie.n_frames == 4
-
-    def test_space(self, spatial, tmp_path):
-        path = write_movie(make_scene(spatial, frames=2), tmp_path / "arm.gif", color="speed", width=300)
-        with Image.open(path) as movie:
-            assert movie.n_frames == 2
-
-    @pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="needs ffmpeg")
-    def test_mp4(self, result, tmp_path):
-        path = write_movie(make_scene(result, frames=4), tmp_path / "rope.mp4", fps=10, width=333)
-        head = path.read_bytes()[:12]
-        assert head[4:8] == b"ftyp"
-        assert path.stat().st_size > 1000
-
-    def test_mp4_by_the_program_that_a_package_brings(self, result, tmp_path, monkeypatch):
-        """A stand-in keeps what it was told and the pictures that it was given."""
-        program = tmp_path / "brought"
-        program.write_text('#!/bin/sh\nfor last; do :; done\nexec /bin/cat > "$last"\n')
-        program.chmod(0o700)
-        brings = types.SimpleNamespace(get_ffmpeg_exe=lambda: str(program))
-        monkeypatch.setitem(sys.modules, "imageio_ffmpeg", brings)
-        monkeypatch.setenv("PATH", str(tmp_path))
-        path = write_movie(make_scene(result, frames=3), tmp_path / "rope.mp4", width=300)
-        with_sides = path.stat().st_size / 3 / 4 / 300
-        assert with_sides == int(with_sides) > 100  # three pictures of four bytes for each place
-
-    def test_mp4_without_ffmpeg(self, result, tmp_path, monkeypatch):
-        monkeypatch.setenv("PATH", str(tmp_path))
-        monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
-        with pytest.raises(ancf.ModelError, match=r"needs the program ffmpeg.*write a .gif"):
-            result.animate().save(tmp_path / "rope.mp4")
-
-    @pytest.mark.parametrize(
-        ("options", "message"),
-        [
-            ({"fps": 0}, "movie.fps"),
-            ({"width": 10}, "movie.width"),
-            ({"view": "xq"}, "movie.view"),
-            ({"color": "heat"}, "movie.color"),
-        ],
-    )
-    def test_wrong_options(self, result, tmp_path, options, message):
-        with pytest.raises(ancf.ModelError, match=message):
-            write_movie(make_scene(result, frames=2), tmp_path / "a.gif", **options)
-
-    def test_wrong_file(self, result, tmp_path):
-        with pytest.raises(ancf.ModelError, match=r"use .html, .mp4, .gif"):
-            result.animate().save(tmp_path / "a.avi")
-        with pytest.raises(ancf.ModelError, match=r"use .mp4 or .gif"):
-            write_movie(make_scene(result, frames=2), tmp_path / "a.mov")
-        (tmp_path / "file").write_text("")
-        with pytest.raises(ancf.ModelError, match="cannot be written"):
-            result.animate(frames=1).save(tmp_path / "file" / "a.gif")
-
-
-class TestAnimation:
-    @pytest.fixture
-    def asked(self, monkeypatch):
-        """A stand-in for the viewer that keeps what it was asked."""
-        given = {}
-
-        def view_page(source, **options):
-            given.update(options, source=source)
-            return '<p title="a & b">page</p>'
-
-        def write_view(source, path, **options):
-            path.write_text(view_page(source, **options), encoding="utf-8")
-            return path
-
-        stand_in = types.ModuleType("ancf.viz.view")
-        stand_in.view_page, stand_in.write_view = view_page, write_view
-        monkeypatch.setitem(sys.modules, "ancf.viz.view", stand_in)
-        return given
-
-    def test_notebook(self, result, model, asked):
-        found = result.animate(
-            "speed", trace=[model.bodies["ball"], "rope.end"], frames=7, end=0.1
-        )._repr_html_()
-        assert 'srcdoc="&lt;p title=&quot;a &amp; b&quot;&gt;page&lt;/p&gt;"' in found
-        assert asked["source"] is result
-        assert (asked["color"], asked["frames"], asked["end"]) == ("speed", 7, 0.1)
-        assert asked["trace"] == ("ball", "rope.end")
-
-    def test_page(self, result, asked, tmp_path):
-        path = result.animate().save(str(tmp_path / "rope.html"))
-        assert path.read_text() == '<p title="a & b">page</p>'
-        assert asked["trace"] is None
-
-    def test_mode(self, model, asked):
-        modes = ancf.modes(model, about=ancf.equilibrium(model), count=3)
-        modes.animate(2)._repr_html_()
-        assert (asked["mode"], asked["color"]) == (2, "plain")
-        with pytest.raises(ancf.ModelError, match=r"animate.mode: must be between 0 and 2"):
-            modes.animate(3)
-
-    def test_wrong_trace(self, result):
-        with pytest.raises(ancf.ModelError, match="unknown body 'rop'"):
-            result.animate(trace=["rop.end"])
-
-    def test_repr_is_one_line(self, result):
-        assert repr(result.animate()).startswith("Animation(Result('Rope', 101 states")
