@@ -32,13 +32,14 @@ FOLDER = ROOT / "docs" / "verification"
 CHAPTERS = {
     "closed_forms": ("Closed forms", ("closed-forms", "connections", "overhead")),
     "orders": ("Convergence orders", ("orders",)),
+    "derivatives": ("Derivatives", ("derivatives",)),
     "methods": ("Agreement across methods", ()),
     "peers": ("Independent programs", ()),
     "paper": ("The paper, figure by figure", ()),
     "en50318": ("EN 50318", ("en50318",)),
 }
 #: Chapters that each check belongs to one of.
-JUDGED = ("closed_forms", "orders", "paper", "en50318")
+JUDGED = ("closed_forms", "orders", "derivatives", "paper", "en50318")
 #: Test files that assert the numbers of an exhibit too, beside tests/paper/test_paper_checks.py.
 TESTS = {
     "fig1": "kernels/test_elements.py",
@@ -49,6 +50,7 @@ TESTS = {
     "closed_forms/test_redundant_joints.py closed_forms/test_damped_modes.py closed_forms/test_followers.py "
     "closed_forms/test_initial_velocities.py orders/test_auto_elements.py",
     "orders": "orders/test_orders.py orders/test_radau.py orders/test_explicit.py",
+    "derivatives": "design/test_sensitivities.py design/test_taylor.py design/test_gradient.py",
     "overhead": "catenary/test_overhead_states.py catenary/test_overhead_layout.py "
     "catenary/test_overhead_route.py catenary/test_overhead_measured.py catenary/test_overhead_rail.py "
     "catenary/test_overhead_bodies.py catenary/test_overhead_twin.py catenary/test_overhead_arms.py "
@@ -80,6 +82,7 @@ def pages() -> dict[str, str]:
     bodies = {
         "closed_forms": exhibits(made, CLOSED, of("closed_forms", made)),
         "orders": exhibits(made, ORDERS, of("orders", made)),
+        "derivatives": exhibits(made, DERIVATIVES, of("derivatives", made)),
         "methods": methods(made),
         "peers": peers(made),
         "paper": exhibits(made, PAPER, of("paper", made)),
@@ -164,6 +167,12 @@ ORDERS = [
     """Errors fall with a power of the element length or of the step. The power is measured from
 successive refinements, `rate`, and compared with theory: a wrong term in an element or a method shows
 here before it shows anywhere else."""
+]
+DERIVATIVES = [
+    """Exact derivatives by numbers of a model ([](../howto/sensitivities.md)), of all entries of an answer
+over all stored times, beside central differences of whole computations that are extrapolated; and what is
+left of a change of the number when the derivative is taken away, which falls with its square. A derivative
+that leaves something out fails both."""
 ]
 PAPER = [
     """Figures 1 to 14 and table 2 of Gerstmayr and Shabana (2006), recomputed by `ancf reproduce

@@ -5,6 +5,7 @@ import json
 import numpy as np
 
 from ancf.model.vary import value_of, varied
+from ancf.paper import differences
 
 
 def once(function):
@@ -21,27 +22,8 @@ def once(function):
 
 
 def extrapolated(function, model, name, step=1e-2, levels=5):
-    """Derivative of function(model) by a number of the model: central differences, extrapolated (Romberg).
-
-    Returns the entry of the table that agrees best with its neighbours.
-    """
-    p = value_of(model, name)
-    unit = abs(p) if p else 1.0
-
-    def at(x):
-        return np.asarray(function(varied(model, name, p + x * step * unit)))
-
-    rows, best = [], (np.inf, None)
-    for k in range(levels):
-        e = 2.0**-k
-        row = [(at(e) - at(-e)) / (2 * e * step * unit)]
-        for j in range(k):
-            row.append(row[j] + (row[j] - rows[-1][j]) / (4 ** (j + 1) - 1))
-        for j in range(1, k + 1):
-            change = np.max(np.abs(row[j] - rows[-1][min(j, k - 1)]))
-            best = min(best, (change, row[j]), key=lambda pair: pair[0])
-        rows.append(row)
-    return best[1]
+    """Derivative of function(model) by a number of the model: central differences, extrapolated (Romberg)."""
+    return differences.extrapolated(function, model, name, step, levels)
 
 
 def off(found, wanted):

@@ -34,6 +34,7 @@ JUDGED = {
     "closed-forms": [("value", "times", 1.001), ("reference", "times", 1.001)],
     "connections": [("value", "times", 1.001), ("reference", "times", 1.001)],
     "orders": [("rate", "add", 0.3)],
+    "derivatives": [("error", "add", 2e-7), ("order", "add", 0.1)],
     "overhead": [("value", "times", 1.05), ("reference", "add", 40.0)],
     "en50318": [("value", "times", 1.5)],
 }
@@ -62,6 +63,10 @@ COLUMNS = {
     "table2": [*PARTS, "t", *COUNTERS, "cpu_seconds", "paper_seconds", "tip_x", "tip_y", "tip_z"],
     "closed-forms": [*NUMBER, "deviation", "tolerance", "unit", "origin"],
     "connections": [*NUMBER, "deviation", "tolerance", "unit", "origin"],
+    "derivatives": [
+        *("computation", "asked", "parameter", "derivative", "reference", "error", "order", "change"),
+        *(f"left_{k}" for k in range(1, 5)),
+    ],
     "orders": ["study", "over", "element", "order", "size", "error", "rate"],
     "overhead": ["name", "value", "reference", "tolerance", "unit", "origin"],
     "en50318": ["case", "speed_kmh", "quantity", "unit", "value", "low", "high", "verdict", "tag"],
@@ -326,7 +331,7 @@ class TestReproduce:
         assert full["rows"]
         assert all(len(row) == len(full["columns"]) for row in full["rows"])
         kinds = {"cable", "original", "nonlocking"}
-        if name not in ("closed-forms", "connections", "orders", "overhead"):  # many names
+        if name not in ("closed-forms", "connections", "orders", "derivatives", "overhead"):  # many names
             assert {row[0] for row in full["rows"]} == KINDS.get(name, kinds)
         assert len(full["notes"]) >= 4
         assert all(isinstance(note, str) for note in full["notes"])

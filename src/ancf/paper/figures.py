@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Protocol, cast
 from . import (
     closed_forms,
     connections,
+    derivatives,
     en50318,
     fig1,
     fig2,
@@ -77,6 +78,7 @@ FIGURES: Mapping[str, FigureModule] = {
         "closed-forms": closed_forms,
         "connections": connections,
         "orders": orders,
+        "derivatives": derivatives,
         "overhead": overhead_numbers,
         "en50318": en50318,
     }.items()

@@ -12,6 +12,7 @@ GROUPS: tuple[tuple[str, ...], ...] = (
     ("fig14", "fig13"),
     ("fig2", "fig3", "fig6", "fig4", "fig5", "fig7", "fig8"),
     ("en50318", "overhead"),
+    ("derivatives",),
     ("orders",),
     ("fig1",),
     ("fig12",),
