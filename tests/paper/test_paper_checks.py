@@ -34,7 +34,7 @@ JUDGED = {
     "closed-forms": [("value", "times", 1.001), ("reference", "times", 1.001)],
     "connections": [("value", "times", 1.001), ("reference", "times", 1.001)],
     "orders": [("rate", "add", 0.3)],
-    "derivatives": [("error", "add", 2e-7), ("order", "add", 0.1)],
+    "derivatives": [("derivative", "times", 1.001), ("reference", "times", 1.001), ("order", "add", 0.1)],
     "overhead": [("value", "times", 1.05), ("reference", "add", 40.0)],
     "en50318": [("value", "times", 1.5)],
 }
@@ -64,7 +64,8 @@ COLUMNS = {
     "closed-forms": [*NUMBER, "deviation", "tolerance", "unit", "origin"],
     "connections": [*NUMBER, "deviation", "tolerance", "unit", "origin"],
     "derivatives": [
-        *("computation", "asked", "parameter", "derivative", "reference", "error", "order", "change"),
+        *("computation", "asked", "parameter", "derivative", "reference", "largest", "error"),
+        *("order", "change"),
         *(f"left_{k}" for k in range(1, 5)),
     ],
     "orders": ["study", "over", "element", "order", "size", "error", "rate"],
