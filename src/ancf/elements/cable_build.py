@@ -44,6 +44,9 @@ __all__ = ["BATCH", "build", "initial_vectors", "reference_strains", "renumbered
 BATCH = CableBatch
 #: Constants of an element that stay in lanes without one, where all others are zero.
 LENGTHS = 2
+#: Angle by which the natural shape bends an element, rad, below which it is straight: less is round-off of
+#: the curvature where the strain changes along the element, with which that bend would turn at random.
+STRAIGHT = 1e-9
 
 
 def build(beams: Sequence[Beam], slots: Sequence[IntArray]) -> CableBatch:
@@ -156,7 +159,8 @@ def reference_strains(beam: Beam) -> tuple[FloatArray, FloatArray]:
     """Strains of the interpolated natural shape.
 
     The natural axial strain is what interpolation alone causes (the true initial stretch stays); the
-    natural curvature is that of the natural shape, zero of a straight one.
+    natural curvature is that of the natural shape, zero of a straight one, and where it is round-off: a
+    spline through points of a straight piece beside a bend never becomes quite straight.
 
     Returns
     -------
@@ -183,7 +187,8 @@ def reference_strains(beam: Beam) -> tuple[FloatArray, FloatArray]:
         xa, xb = gauss(beam.gauss[0])[0], gauss(beam.gauss[1])[0]
         r_s = hermite(xa, h, 1) @ values / natural.stretch
         eps0[e, : len(xa)] = axial_strain(r_s, beam.strain)
-        kappa0[e, : len(xb)] = curvature(hermite(xb, h, 1) @ values, hermite(xb, h, 2) @ values, beam.strain)
+        kappa = curvature(hermite(xb, h, 1) @ values, hermite(xb, h, 2) @ values, beam.strain)
+        kappa0[e, : len(xb)] = np.where(kappa * h < STRAIGHT, 0.0, kappa)
     return eps0, kappa0
 
 
