@@ -65,7 +65,7 @@ COLUMNS = {
     "connections": [*NUMBER, "deviation", "tolerance", "unit", "origin"],
     "derivatives": [
         *("computation", "asked", "parameter", "derivative", "reference", "largest", "error"),
-        *("order", "change"),
+        *("accepted", "order", "change"),
         *(f"left_{k}" for k in range(1, 5)),
     ],
     "orders": ["study", "over", "element", "order", "size", "error", "rate"],
