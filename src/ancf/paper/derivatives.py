@@ -47,8 +47,8 @@ NOTES = [
     "farthest from 2; none where all is round-off.",
     "Runs: trapezoidal rule, Newton's method to round-off. Differences: five widths, each half of the one "
     "before, extrapolated (Romberg); the entry of the table that agrees best with its neighbours.",
-    f"{CASE}: by the natural length of a dropper, through form finding, slack droppers and contact, beside two "
-    f"runs with {1e6 * CHANGE:g} um more and less, so little that droppers slacken in the same order.",
+    f"{CASE}: by the natural length of a dropper, through form finding, slack droppers and contact, beside "
+    f"two runs with {1e6 * CHANGE:g} um more and less, so little that droppers slacken in the same order.",
 ]
 
 
@@ -88,7 +88,9 @@ def draw(table: Table, figure: Figure) -> None:
             if row[-1] is not None:
                 change, *left_over = (float(x) for x in row[-len(LEFT) - 1 :])
                 _remainders(right, change, left_over, color)
-    left.axvline(BAR, color="black", linewidth=0.8, linestyle="--", label="accepted")
+    accepted = [float(table.values("accepted", computation=group)[0]) for group in groups]
+    rows_of = np.arange(len(groups))
+    left.vlines(accepted, rows_of - 0.35, rows_of + 0.35, color="black", linewidth=1.2, label="accepted")
     left.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=6.5)
     left.set(xscale="log", xlim=(0.5 * LEAST, 10 * LINE_BAR), xlabel="error of the derivative, relative")
     left.set_yticks(range(len(groups)), groups, fontsize=6.5)
