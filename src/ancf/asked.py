@@ -63,6 +63,32 @@ def add_slopes_beside(batch, q, v, a, d, r, ws):
     raise TypeError(f"{type(batch).__name__} does not know the slopes of its forces")
 
 
+def choose_memory(batch, q, v, out):
+    """Write what the batch remembers to ``out``, with limits as derivatives of a step that ends in the state
+    want them: negative where friction slips, as it then does in all states, beyond reach where it sticks.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know what its memory does")
+
+
+def add_memory_slopes(batch, q, v, z, r, ws):
+    """Add the derivatives of the force along eight changes of the memory, z (m, 8), to r (size, 8)."""
+    raise TypeError(f"{type(batch).__name__} does not know what its memory does")
+
+
+def remember_along(batch, q, v, d, z, ws):
+    """Let z, changes of what a step began with in eight lanes, be those of what it leaves; d as in
+    :func:`add_force_slopes`.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know what its memory does")
+
+
+def add_memory_changes(batch, q, v, rates, kinds, begin, out, ws):
+    """Add what changes of the batch's numbers do to what a step leaves to where in ``out`` each begins, every
+    eighth; see :func:`add_changes`.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know what its memory does")
+
+
 #: Operations that only sensitivities ask for, by their names in :func:`implements`.
 OF_SENSITIVITIES: dict[str, Any] = {
     "rate_stiffness": add_rate_stiffness,
@@ -74,4 +100,8 @@ OF_SENSITIVITIES: dict[str, Any] = {
     "work_slopes": add_work_slopes,
     "force_slopes": add_force_slopes,
     "slopes_beside": add_slopes_beside,
+    "memory_choice": choose_memory,
+    "memory_slopes": add_memory_slopes,
+    "memory_along": remember_along,
+    "memory_changes": add_memory_changes,
 }

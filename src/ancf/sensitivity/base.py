@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -34,14 +35,18 @@ from .remembering import followed, friction_of
 SHORT = 2e-7
 
 
-def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matrices:
+def matrices_of(
+    core: Core, size: int, moving: bool, back: bool = False, marked: Iterable[tuple[Any, Any]] = ()
+) -> Matrices:
     """Room for the matrices of sensitivities, the masses of exact batches filled in.
 
+    ``marked``: batches and those that are asked in place of them, which remember what steps do.
     ``back``: of an adjoint, which asks batches for products with matrices, as far as they know these, and for
     what velocities add to them, and not for the matrices themselves.
     """
     rate = add_rate_work if back else add_rate_stiffness
-    batches = [batch for batch in core.batches if len(batch[0])]
+    instead = {id(batch): other for batch, other in marked}
+    batches = [instead.get(id(batch), batch) for batch in core.batches if len(batch[0])]
     exact = [batch for batch in batches if _exact(batch, False)]
     turning = moving and bool(np.any(core.supports.rot_moving >= 0))
     changed = [batch for batch in exact if moving and not _exact(batch, True)]

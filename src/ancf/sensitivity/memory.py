@@ -68,6 +68,7 @@ class Memory:
         self.none = {name: x if name.endswith(".far") else np.zeros_like(x) for name, x in self._now.items()}
         self.d: list[Row] = [self.zeros() for _ in families]
         self.known = False  # derivatives are given with the start
+        self.beside: Row = {}  # arrays of other batches that remember the same
 
     def __bool__(self) -> bool:
         return bool(self.names)
@@ -140,11 +141,17 @@ class Memory:
             own.resting = Resting(held, anchors)
 
     def share(self) -> None:
-        """Let the systems of all families remember the same."""
+        """Let the systems of all families, and what else there is, remember the same."""
+        for name, x in self.beside.items():
+            x[...] = self._own[name]
         for family in self.families:
             for own in family.systems:
                 for name, x in self.arrays_of(own).items():
                     x[...] = self._own[name]
+
+    def put_back(self) -> None:
+        """Let the system remember what the next step begins with."""
+        self.put(self._now)
 
     def push(self, way: Way, tables: Any) -> FloatArray:
         """What derivatives of the memory do to the residual of a state, (p, size), zero where it is held."""

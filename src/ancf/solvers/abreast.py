@@ -18,6 +18,7 @@ from .abreast_room import add_push, follow_abreast, kept, predicted, sizes_of, t
 from .ahead import look_ahead
 from .edge import corrected_at_edge, edge_anew, solve_rows, to_local_abreast, to_shadows_abreast
 from .foreseen import foresee
+from .friction import add_remembered, bring, remember_changes, remember_group
 from .local import add_local, add_locals, look_near
 from .rare import add_slopes_along, add_slopes_beside_all
 from .scheme import coefficients
@@ -87,7 +88,7 @@ def add_others(core, m, x, room, lane):
 
 
 @inline_kernel
-def out_of_balance(core, m, matrices, x, turn, push, n, first, moves, room):
+def out_of_balance(core, m, matrices, x, turn, push, friction, n, first, moves, room):
     """r = M s_a + C s_v + K s_q + R_p as the solve wants it, of step n and parameters from ``first`` on."""
     r, count = room.r, min(LANES, push.shape[0] - first)
     follow_abreast(core.supports, room.d)
@@ -99,6 +100,7 @@ def out_of_balance(core, m, matrices, x, turn, push, n, first, moves, room):
                 add_others(core, m, x, room, k)
     add_slopes_along(m.joined, x[0], x[1], x[2], room.d, r, core.ws)
     add_locals(core, m, x, room, count)
+    add_remembered(friction, first // LANES, x[0], x[1], r, core.ws)
     to_local_abreast(core.supports, r)
     add_push(room, push, n, first, count)
     for k in range(core.supports.held.shape[0]):
@@ -226,7 +228,9 @@ def not_done(room, weight, count, enough):
 
 
 @inline_kernel
-def solved(core, m, factor, matrices, x, turn, push, gap, n, first, joined, at_once, edge, room, B, G):
+def solved(
+    core, m, factor, matrices, x, turn, push, gap, friction, n, first, joined, at_once, edge, room, B, G
+):
     """Corrections of predicted sensitivities, perhaps ``at_once``; a status."""
     joints, count = core.joints, min(LANES, push.shape[0] - first)
     rough = m.rough.table.shape[0] > 0
@@ -244,7 +248,7 @@ def solved(core, m, factor, matrices, x, turn, push, gap, n, first, joined, at_o
             out_again(core, m, matrices[2], x, room, count, B, G)
         else:
             moves = not at_once or turn.shape[0] > 0
-            out_of_balance(core, m, matrices, x, turn, push, n, first, moves, room)
+            out_of_balance(core, m, matrices, x, turn, push, friction, n, first, moves, room)
         if at_once and jointed:
             corrected_at_edge(core, m, factor, x, gap, n, first, count, joined, edge, room, G / B, 1.0 / B)
             return OK
@@ -276,6 +280,7 @@ def follow_steps(core, m, ahead, room, edge, tables, way, push, gap, turn, h, sc
     Parameters
     ----------
     core, m, ahead, room, edge : Core, Matrices, Ahead, Abreast, Edge
+        With what friction remembers in the steps; derivatives of that at the start are changed to the end's.
     tables : Tables
         At the ends of the steps.
     way : Way
@@ -295,7 +300,7 @@ def follow_steps(core, m, ahead, room, edge, tables, way, push, gap, turn, h, sc
     Steps done and the status of the last one.
     """
     B, G = coefficients(h, scheme)
-    at_once = takes_one(m, edge)
+    at_once, friction = takes_one(m, edge), ahead.friction
     level = core.joints.level
     level[0], level[1], level[2] = joined.w0, joined.w1, joined.w2
     for n in range(way.q.shape[0]):
@@ -308,19 +313,20 @@ def follow_steps(core, m, ahead, room, edge, tables, way, push, gap, turn, h, sc
         matrices = (ahead.K[lane], ahead.C[lane], ahead.W[lane])
         x = (way.q[n], way.v[n], way.a[n])
         drive(core.supports, core.loads.value, tables, n, x[0], x[1], x[2])
+        bring(friction, n)
         if at_once and edge.c.shape[1] > 0:
             own = (joined, edge, room, G / B, 1.0 / B)
             if not edge_anew(core, m, factor, matrices, x, *own):
                 return n, SINGULAR
         for g in range(s.shape[0]):
             predicted(s[g], room.d, h, scheme, 0.0 if at_once else 1.0)
-            axes, first = turn[g], LANES * g
-            status = solved(
-                core, m, factor, matrices, x, axes, push, gap, n, first, joined, at_once, edge, room, B, G
-            )
+            axes, first, own = turn[g], LANES * g, (joined, at_once, edge, room, B, G)
+            status = solved(core, m, factor, matrices, x, axes, push, gap, friction, n, first, *own)
             if status != OK:
                 return n, status
             follow_abreast(core.supports, room.d)
             turn_abreast(core.supports, axes, x, room.d)
+            remember_group(friction, g, x[0], x[1], room.d, core.ws)
             kept(room, s[g], scheme, out, place + n, LANES * g)
+        remember_changes(friction, x[0], x[1], core.ws)
     return way.q.shape[0], OK

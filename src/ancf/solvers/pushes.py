@@ -13,6 +13,7 @@ from ..arrays import FloatArray, IntArray
 from ..batches import Batches, add_force_of, add_forces
 from ..compiled import inline_kernel, kernel
 from ..system.core import drive, external_force, onto_shadows, to_local
+from .friction import bring
 from .rare import add_changes_of, add_number_work_of
 
 
@@ -71,7 +72,7 @@ def add_changed(changes, q, v, a, step, push, ws):
 
 
 @kernel
-def add_pushes(core, uses, changes, turn, first, loaded, tables, way, work, push):
+def add_pushes(core, uses, changes, turn, first, loaded, tables, way, friction, work, push):
     """Add the forces of the batches to the pushes, and bring these into the form that the solve wants.
 
     Parameters
@@ -89,6 +90,8 @@ def add_pushes(core, uses, changes, turn, first, loaded, tables, way, work, push
         At the ends of the steps.
     way : Way
         States there.
+    friction : Friction
+        With what batches remember in the steps.
     work : (size,)
     push : (rows, steps, size)
         Filled; at the start what other loads do, in the same.
@@ -97,6 +100,7 @@ def add_pushes(core, uses, changes, turn, first, loaded, tables, way, work, push
     for step in range(way.q.shape[0]):
         q, v, a = way.q[step], way.v[step], way.a[step]
         drive(core.supports, core.loads.value, tables, step, q, v, a)
+        bring(friction, step)
         for p in range(push.shape[0]):
             row, steady = push[p, step], first[p]
             if loaded[p]:
