@@ -252,3 +252,22 @@ def test_in_the_last_hundredth(part):
     assert agree(r, wanted[0], 1e-7)
     assert agree(z[:, 0], wanted[1], 1e-7)
     assert np.any(r)
+
+
+@pytest.mark.parametrize(("share", "slips"), [(0.9, True), (1 - 1e-6, True), (1 - 5e-8, False), (1.1, False)])
+@pytest.mark.parametrize("way", [1e-4, 2e-3])
+def test_at_the_limit(way, share, slips):
+    """Friction that is a share of its limit beyond it sticks, if that is round-off."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section(EA=1e3, EI=2.0, rhoA=1.0, diameter=0.05)
+    model.add_beam("rope", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
+    model.add_ground("floor", height=0.001, stiffness=3e4, damping=2e3, friction=0.3, stick=8e3)
+    system = System(model)
+    (q, v), batch = system.initial_state(), system.parts["ground"]
+    traits(batch).laid(batch, q)
+    batch.anchor[..., 1] -= way
+    batch.limit[...] = share * 0.05 * 8e3 * way
+    out = np.zeros(batch.anchor.size + batch.limit.size)
+    choose(knowing(choose_memory, [batch]), q, v, out)
+    limits = out[batch.anchor.size :]
+    assert np.array_equal(limits, -batch.limit.ravel()) if slips else np.all(limits > 1e9)
