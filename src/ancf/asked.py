@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-#: Unknowns that a part touches, see :func:`touched`.
-MOST_TOUCHED = 120
-
 
 def add_rate_stiffness(batch, q, v, S, W, ws):
     """Add what the derivative of the batch's forces by q has because of v, and the tangent at v has not.
@@ -25,13 +22,6 @@ def add_rate_work(batch, q, v, x, out, ws):
 def add_tangent_work(batch, q, v, x, by_q, by_v, by_a, ws):
     """Add K x, C x and M x, of the matrices of :func:`add_tangent`, to ``by_q``, ``by_v`` and ``by_a``."""
     raise TypeError(f"{type(batch).__name__} does not know the products of its matrices")
-
-
-def touched(batch, q, out):
-    """Write the unknowns and shadows on which the batch's forces depend in and near the state q, and on which
-    alone they act, to ``out``, some perhaps twice; their number, up to MOST_TOUCHED for each part.
-    """
-    raise TypeError(f"{type(batch).__name__} does not know what it touches")
 
 
 def add_number_work(batch, q, v, a, x, out, ws):
@@ -94,7 +84,6 @@ OF_SENSITIVITIES: dict[str, Any] = {
     "rate_stiffness": add_rate_stiffness,
     "rate_work": add_rate_work,
     "tangent_work": add_tangent_work,
-    "touches": touched,
     "number_work": add_number_work,
     "changes": add_changes,
     "work_slopes": add_work_slopes,

@@ -45,7 +45,6 @@ from .compiled import (
     remember,
     remember_along,
     strain_energy,
-    touched,
 )
 from .operations import OPERATIONS
 from .records import RecordType, hold_kinds, words_and_kind
@@ -54,13 +53,12 @@ from .words import begin_of
 _COLUMNS = 1 + len(OPERATIONS)
 _NONE = np.zeros((0, _COLUMNS), dtype=np.int64)
 FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, 9)
-RATES, TOUCHED, NUMBERS, WORKS, SLOPES, ALONG, BESIDE, CHANGES, PRODUCTS = range(9, 18)
-CHOICE, REMEMBERED, KEEPING, OWN_CHANGES = range(18, _COLUMNS)
+RATES, NUMBERS, WORKS, SLOPES, ALONG, BESIDE, CHANGES, PRODUCTS = range(9, 17)
+CHOICE, REMEMBERED, KEEPING, OWN_CHANGES = range(17, _COLUMNS)
 #: Operations compiled for those who ask for them, see :mod:`ancf.solvers.rare`, and their columns.
 RARE = {
     measure: MEASURE,
     add_rate_stiffness: RATES,
-    touched: TOUCHED,
     add_number_work: NUMBERS,
     add_rate_work: WORKS,
     add_work_slopes: SLOPES,

@@ -20,7 +20,6 @@ from numba import types
 from numba.extending import overload
 
 from . import kept, kernel_cache
-from .asked import MOST_TOUCHED as MOST_TOUCHED
 from .asked import OF_SENSITIVITIES
 from .asked import add_changes as add_changes
 from .asked import add_force_slopes as add_force_slopes
@@ -34,7 +33,6 @@ from .asked import add_tangent_work as add_tangent_work
 from .asked import add_work_slopes as add_work_slopes
 from .asked import choose_memory as choose_memory
 from .asked import remember_along as remember_along
-from .asked import touched as touched
 from .parts import PartCompiler, part
 
 F = TypeVar("F", bound=Callable[..., Any])

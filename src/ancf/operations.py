@@ -29,7 +29,6 @@ from .compiled import (
     remember_along,
     separate_kernel,
     strain_energy,
-    touched,
 )
 
 
@@ -91,12 +90,6 @@ def rate_stiffness_at(record, q, v, S, W, ws):
 def rate_work_at(record, q, v, x, out, ws):
     """``add_rate_work`` of the batch at an address."""
     add_rate_work(record, q, v, x, out, ws)
-
-
-@separate_kernel
-def touched_at(record, q, out):
-    """``touched`` of the batch at an address."""
-    return touched(record, q, out)
 
 
 @separate_kernel
@@ -173,7 +166,6 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     measure: (measure_at, (_V, _V), types.none),
     remember: (remember_at, (_V, _V), types.none),
     add_rate_stiffness: (rate_stiffness_at, (_V, _V, _V, _V, _V), types.none),
-    touched: (touched_at, (_V, _V), types.int64),
     add_number_work: (number_work_at, (_V, _V, _V, _V, _V, _V), types.none),
     add_rate_work: (rate_work_at, (_V, _V, _V, _V, _V), types.none),
     add_work_slopes: (work_slopes_at, (_V, _V, _V, _V, _V, _V, _V, _V), types.none),

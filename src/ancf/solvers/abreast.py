@@ -19,7 +19,6 @@ from .ahead import look_ahead
 from .edge import corrected_at_edge, edge_anew, solve_rows, to_local_abreast, to_shadows_abreast
 from .foreseen import foresee
 from .friction import add_remembered, bring, remember_changes, remember_group
-from .local import add_local, add_locals, look_near
 from .rare import add_slopes_along, add_slopes_beside_all
 from .scheme import coefficients
 from .sensitivity import DIFFERENCED, ENOUGH, MOST, add_lossy, both_along, is_done
@@ -81,7 +80,7 @@ def add_others(core, m, x, room, lane):
         r[i] = 0.0
     if m.lossy.table.shape[0] > 0:
         add_lossy(core, m, x, d, r)
-    if m.rough.table.shape[0] > 0 and not m.local:
+    if m.rough.table.shape[0] > 0:
         both_along(m.rough, core, m, x, d, r)
     for i in range(r.shape[0]):
         room.r[i, lane] += r[i]
@@ -94,12 +93,11 @@ def out_of_balance(core, m, matrices, x, turn, push, friction, n, first, moves, 
     follow_abreast(core.supports, room.d)
     turn_abreast(core.supports, turn, x, room.d)
     products(core, m, matrices[0], matrices[1], matrices[2], moves, room)
-    if m.lossy.table.shape[0] > 0 or (m.rough.table.shape[0] > 0 and not m.local):
+    if m.lossy.table.shape[0] > 0 or m.rough.table.shape[0] > 0:
         for k in range(count):
             if room.open[k] > 0.0:
                 add_others(core, m, x, room, k)
     add_slopes_along(m.joined, x[0], x[1], x[2], room.d, r, core.ws)
-    add_locals(core, m, x, room, count)
     add_remembered(friction, first // LANES, x[0], x[1], r, core.ws)
     to_local_abreast(core.supports, r)
     add_push(room, push, n, first, count)
@@ -147,7 +145,7 @@ def correct(core, room, B, G):
 
 
 @inline_kernel
-def out_again(core, m, W, x, room, lanes, B, G):
+def out_again(core, m, W, x, room, B, G):
     """r = what is out of balance after the corrections in r: what these do that is not in the factors."""
     r, seen, supports = room.r, room.seen, core.supports
     for i in range(r.shape[0]):
@@ -168,14 +166,6 @@ def out_again(core, m, W, x, room, lanes, B, G):
             store(load(r, i + c), r, j + c)
     if m.joined.table.shape[0] > 0:
         add_beside(core, m, x, seen, r, B, G)
-    if m.rough.table.shape[0] > 0:
-        count = look_near(m, x)
-        for lane in range(lanes):
-            if room.open[lane] > 0.0:
-                for t in range(count):
-                    change = seen[int(m.near[0, t]), lane]
-                    m.near[1, t], m.near[2, t], m.near[3, t] = change, (G / B) * change, change / B
-                add_local(core, m, x, count, r, lane)
     to_local_abreast(supports, r)
     turned_back(core, r)
 
@@ -235,17 +225,17 @@ def solved(
     joints, count = core.joints, min(LANES, push.shape[0] - first)
     rough = m.rough.table.shape[0] > 0
     jointed = m.joined.table.shape[0] > 0
-    known = m.lossy.table.shape[0] == 0 and not m.turning and (m.local or not rough)
+    known = m.lossy.table.shape[0] == 0 and not m.turning and not rough
     known = known and (not jointed or all_beside(core, m))
     projects = joined.projects and joints.multipliers.shape[0] > 0
     enough = DIFFERENCED if rough else ENOUGH
-    again = matrices[2].shape[0] > 0 or rough or jointed
-    foresees = rough and known and not projects
+    again = matrices[2].shape[0] > 0 or jointed
+    foresees = m.outside and known and not projects
     for k in range(LANES):
         room.before[k], room.open[k], room.shift[k] = np.inf, 1.0 if k < count else 0.0, 0.0
     for round in range(MOST):
         if round > 0 and known and not projects:
-            out_again(core, m, matrices[2], x, room, count, B, G)
+            out_again(core, m, matrices[2], x, room, B, G)
         else:
             moves = not at_once or turn.shape[0] > 0
             out_of_balance(core, m, matrices, x, turn, push, friction, n, first, moves, room)

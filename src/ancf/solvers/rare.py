@@ -22,7 +22,6 @@ from ..batches import (
     RATES,
     REMEMBERED,
     SLOPES,
-    TOUCHED,
     WORKS,
     Batches,
     address_of,
@@ -42,10 +41,9 @@ from ..compiled import (
     choose_memory,
     inline_kernel,
     remember_along,
-    touched,
 )
 
-_rate, _touched, _numbers = caller_of(add_rate_stiffness), caller_of(touched, 0), caller_of(add_number_work)
+_rate, _numbers = caller_of(add_rate_stiffness), caller_of(add_number_work)
 _work, _slopes = caller_of(add_rate_work), caller_of(add_work_slopes)
 _along, _beside = caller_of(add_force_slopes), caller_of(add_slopes_beside)
 _changes, _products = caller_of(add_changes), caller_of(add_tangent_work)
@@ -121,15 +119,6 @@ def add_slopes_beside_all(batches, q, v, a, d, r, ws):
     table = batches.table
     for k in range(table.shape[0]):
         _beside(table[k, BESIDE], table[k, 0], (q, v, a, d, r, ws))
-
-
-@inline_kernel
-def all_touched(batches, q, out):
-    """What all of the :class:`Batches` touch, see :func:`ancf.compiled.touched`."""
-    table, count = batches.table, 0
-    for k in range(table.shape[0]):
-        count += _touched(table[k, TOUCHED], table[k, 0], (q, out[count:]))
-    return count
 
 
 @inline_kernel
