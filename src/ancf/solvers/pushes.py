@@ -192,11 +192,24 @@ def weigh_pushes(core, uses, known, begin, tables, way, lam, work, pushed, numbe
 
 
 @kernel
-def weigh_loads(loads, value, work, lam):
-    """Sum over the steps of lambda, (steps, size) with its shadows, times dead loads of these inputs."""
-    total = 0.0
+def weigh_loads(loads, value, total, lam):
+    """Sum over the steps of lambda, (steps, size) with its shadows, times dead loads of these inputs.
+
+    ``total``: the sum of lambda over the steps, which all that does not change is weighed with.
+    """
+    found = 0.0
+    for i in range(total.shape[0]):
+        found += total[i] * loads.still[i]
     for step in range(lam.shape[0]):
-        external_force(loads, value[step], work)
-        for i in range(work.shape[0]):
-            total += lam[step, i] * work[i]
-    return total
+        load, x = value[step], lam[step]
+        for m in range(loads.hung_slot.shape[0]):
+            length, i = load[loads.hung_row[m], 0], loads.hung_slot[m]
+            for c in range(3):
+                found += length * loads.hung[m, c] * x[i + c]
+        for k in range(loads.start.shape[0] - 1):
+            size = load[loads.grows[k], 0] if loads.grows[k] >= 0 else 1.0
+            for m in range(loads.start[k], loads.start[k + 1]):
+                i, w = loads.slot[m], size * loads.factor[m]
+                for c in range(3):
+                    found += w * load[k, c] * x[i + c]
+    return found
