@@ -163,7 +163,7 @@ def test_contacts(damping, step, method):
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("stiffness", [5e5, 5e6])
 def test_forwards_along_a_stiff_strip(stiffness, method):
-    """Stiffer than the inertia of a step: what follows corrections is foreseen, they would grow."""
+    """Far stiffer than what holds it: the contact is not in the matrix of a step."""
     model, text = contact_line(stiffness), "integral(norm(velocity(head))**2) + mean(position(head)[2])"
     agree(model, text, OF_LINE, settings(method), 1e-9)
 
