@@ -70,6 +70,19 @@ def moored(elements: int = 32, **sea: Any) -> ancf.Model:
     return model
 
 
+def lying(elements: int = 32) -> ancf.Model:
+    """A mooring line that lies on a ground with friction, whose upper end moves."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    damping = {"axial_damping": 1e5, "bending_damping": 1.0, "damping": 0.1}
+    section = ancf.Section(EA=5e6, EI=10.0, rhoA=20.0, diameter=0.08, **damping)
+    path = [(0, 0, -20), (40, 0, -20), (70, 2, 0)]
+    rope = model.add_beam("rope", path=path, elements=elements, section=section)
+    model.add_ground("bed", height=-20.0, stiffness=2e5, damping=1e4, friction=0.4, stick=5e4)
+    model.pin(rope.start)
+    model.pin(rope.end, displacement=("0.5*sin(0.8*t)", "0.3*sin(0.5*t)", "0.3*sin(0.9*t)"))
+    return model
+
+
 def of_moored() -> list[str]:
     """Sixteen numbers of that model."""
     own = [f"rope.{name}" for name in ("EI", "rhoA", "EA", "length", "bending_damping", "axial_damping")]
@@ -126,6 +139,8 @@ def cases() -> dict[str, tuple[ancf.Model, list[str], str, dict[str, Any]]]:
     end, middle = tip.format("rope.end"), tip.format("rope.at(50)")
     of_lined = ["head.mass", "lift.stiffness", "lift.length", "strip.stiffness"]
     of_lined += [f"dropper{k}.length" for k in range(12)]
+    of_lying = [f"rope.{name}" for name in (*NUMBERS, "diameter")] + [f"gravity[{k}]" for k in range(3)]
+    of_lying += [f"bed.{name}" for name in ("stiffness", "friction", "damping", "stick", "height")]
     of_solid = ["rope.E", "rope.rho", "rope.axial_damping", "rope.bending_damping", "rope.length"]
     of_solid += [f"gravity[{k}]" for k in range(3)]
     return {
@@ -138,6 +153,9 @@ def cases() -> dict[str, tuple[ancf.Model, list[str], str, dict[str, Any]]]:
         "current, 32 elements, 1000 steps": lambda: _hung(moored(), of_moored(), middle),
         "waves, 32 elements, 1000 steps": lambda: _hung(moored(waves=SEA), of_moored(), middle),
         "strip, 32 elements, 1000 steps": (lined(), of_lined, tip.format("head"), _set(1000, 1e-3)),
+        "friction on a bed, 32 elements, 1000 steps": lambda: _hung(
+            lying(), of_lying, tip.format("rope.at(35)")
+        ),
         "damped solid, 16 elements, 500 steps": (solid(False), of_solid, end, _set(500, 1e-3)),
         "moment, 16 elements, 500 steps": (solid(True), of_solid, end, _set(500, 1e-3)),
         "7.4, 6+2 elements, 2000 steps": (sliding.build(), own, tip.format("slider.end"), _set(2000, 2e-4)),
@@ -178,7 +196,7 @@ def measured(model: ancf.Model, names: list[str], objective: str, settings: dict
 
 if __name__ == "__main__":
     heads = [*map(str, COUNTS), "each", *(f"g {n}" for n in COUNTS), "g each"]
-    print(f"{'runs':36}{'run, s':>8}", *(f"{head:>6}" for head in heads))
+    print(f"{'runs':44}{'run, s':>8}", *(f"{head:>6}" for head in heads))
     for name, make in cases().items():
         if not sys.argv[1:] or any(word in name for word in sys.argv[1:]):
             case = make() if callable(make) else make
@@ -186,4 +204,4 @@ if __name__ == "__main__":
             k, n = len(COUNTS), len(case[1]) - COUNTS[0]
             forward, back = found[:k], found[k:]
             row = [*forward, (forward[-1] - forward[0]) / n, *back, (back[-1] - back[0]) / n]
-            print(f"{name:36}{run:8.3f}", *(f"{x:6.2f}" for x in row), flush=True)
+            print(f"{name:44}{run:8.3f}", *(f"{x:6.2f}" for x in row), flush=True)

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-#: Unknowns that a part touches, see :func:`touched`.
-MOST_TOUCHED = 120
-
 
 def add_rate_stiffness(batch, q, v, S, W, ws):
     """Add what the derivative of the batch's forces by q has because of v, and the tangent at v has not.
@@ -25,13 +22,6 @@ def add_rate_work(batch, q, v, x, out, ws):
 def add_tangent_work(batch, q, v, x, by_q, by_v, by_a, ws):
     """Add K x, C x and M x, of the matrices of :func:`add_tangent`, to ``by_q``, ``by_v`` and ``by_a``."""
     raise TypeError(f"{type(batch).__name__} does not know the products of its matrices")
-
-
-def touched(batch, q, out):
-    """Write the unknowns and shadows on which the batch's forces depend in and near the state q, and on which
-    alone they act, to ``out``, some perhaps twice; their number, up to MOST_TOUCHED for each part.
-    """
-    raise TypeError(f"{type(batch).__name__} does not know what it touches")
 
 
 def add_number_work(batch, q, v, a, x, out, ws):
@@ -63,15 +53,44 @@ def add_slopes_beside(batch, q, v, a, d, r, ws):
     raise TypeError(f"{type(batch).__name__} does not know the slopes of its forces")
 
 
+def choose_memory(batch, q, v, out):
+    """Write what the batch remembers to ``out``, with limits as derivatives of a step that ends in the state
+    want them: negative where friction slips, as it then does in all states, beyond reach where it sticks.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know what its memory does")
+
+
+def add_memory_slopes(batch, q, v, z, r, ws):
+    """Add the derivatives of the force along eight changes of the memory, z (m, 8), to r (size, 8)."""
+    raise TypeError(f"{type(batch).__name__} does not know what its memory does")
+
+
+def remember_along(batch, q, v, d, z, ws):
+    """Let z, changes of what a step began with in eight lanes, be those of what it leaves; d as in
+    :func:`add_force_slopes`.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know what its memory does")
+
+
+def add_memory_changes(batch, q, v, rates, kinds, begin, out, ws):
+    """Add what changes of the batch's numbers do to what a step leaves to where in ``out`` each begins, every
+    eighth; see :func:`add_changes`.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know what its memory does")
+
+
 #: Operations that only sensitivities ask for, by their names in :func:`implements`.
 OF_SENSITIVITIES: dict[str, Any] = {
     "rate_stiffness": add_rate_stiffness,
     "rate_work": add_rate_work,
     "tangent_work": add_tangent_work,
-    "touches": touched,
     "number_work": add_number_work,
     "changes": add_changes,
     "work_slopes": add_work_slopes,
     "force_slopes": add_force_slopes,
     "slopes_beside": add_slopes_beside,
+    "memory_choice": choose_memory,
+    "memory_slopes": add_memory_slopes,
+    "memory_along": remember_along,
+    "memory_changes": add_memory_changes,
 }

@@ -27,6 +27,8 @@ from .compiled import (
     add_force,
     add_force_slopes,
     add_inertia,
+    add_memory_changes,
+    add_memory_slopes,
     add_number_work,
     add_rate_stiffness,
     add_rate_work,
@@ -34,14 +36,15 @@ from .compiled import (
     add_tangent,
     add_tangent_work,
     add_work_slopes,
+    choose_memory,
     does_something,
     find_event,
     inline_kernel,
     inverted,
     measure,
     remember,
+    remember_along,
     strain_energy,
-    touched,
 )
 from .operations import OPERATIONS
 from .records import RecordType, hold_kinds, words_and_kind
@@ -50,12 +53,12 @@ from .words import begin_of
 _COLUMNS = 1 + len(OPERATIONS)
 _NONE = np.zeros((0, _COLUMNS), dtype=np.int64)
 FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, 9)
-RATES, TOUCHED, NUMBERS, WORKS, SLOPES, ALONG, BESIDE, CHANGES, PRODUCTS = range(9, _COLUMNS)
+RATES, NUMBERS, WORKS, SLOPES, ALONG, BESIDE, CHANGES, PRODUCTS = range(9, 17)
+CHOICE, REMEMBERED, KEEPING, OWN_CHANGES = range(17, _COLUMNS)
 #: Operations compiled for those who ask for them, see :mod:`ancf.solvers.rare`, and their columns.
 RARE = {
     measure: MEASURE,
     add_rate_stiffness: RATES,
-    touched: TOUCHED,
     add_number_work: NUMBERS,
     add_rate_work: WORKS,
     add_work_slopes: SLOPES,
@@ -63,6 +66,10 @@ RARE = {
     add_slopes_beside: BESIDE,
     add_changes: CHANGES,
     add_tangent_work: PRODUCTS,
+    choose_memory: CHOICE,
+    add_memory_slopes: REMEMBERED,
+    remember_along: KEEPING,
+    add_memory_changes: OWN_CHANGES,
 }
 
 

@@ -20,17 +20,19 @@ from numba import types
 from numba.extending import overload
 
 from . import kept, kernel_cache
-from .asked import MOST_TOUCHED as MOST_TOUCHED
 from .asked import OF_SENSITIVITIES
 from .asked import add_changes as add_changes
 from .asked import add_force_slopes as add_force_slopes
+from .asked import add_memory_changes as add_memory_changes
+from .asked import add_memory_slopes as add_memory_slopes
 from .asked import add_number_work as add_number_work
 from .asked import add_rate_stiffness as add_rate_stiffness
 from .asked import add_rate_work as add_rate_work
 from .asked import add_slopes_beside as add_slopes_beside
 from .asked import add_tangent_work as add_tangent_work
 from .asked import add_work_slopes as add_work_slopes
-from .asked import touched as touched
+from .asked import choose_memory as choose_memory
+from .asked import remember_along as remember_along
 from .parts import PartCompiler, part
 
 F = TypeVar("F", bound=Callable[..., Any])

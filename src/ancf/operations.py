@@ -12,6 +12,8 @@ from .compiled import (
     add_force,
     add_force_slopes,
     add_inertia,
+    add_memory_changes,
+    add_memory_slopes,
     add_number_work,
     add_rate_stiffness,
     add_rate_work,
@@ -19,13 +21,14 @@ from .compiled import (
     add_tangent,
     add_tangent_work,
     add_work_slopes,
+    choose_memory,
     find_event,
     inverted,
     measure,
     remember,
+    remember_along,
     separate_kernel,
     strain_energy,
-    touched,
 )
 
 
@@ -90,12 +93,6 @@ def rate_work_at(record, q, v, x, out, ws):
 
 
 @separate_kernel
-def touched_at(record, q, out):
-    """``touched`` of the batch at an address."""
-    return touched(record, q, out)
-
-
-@separate_kernel
 def work_slopes_at(record, q, v, a, x, by_q, by_v, by_a, ws):
     """``add_work_slopes`` of the batch at an address."""
     add_work_slopes(record, q, v, a, x, by_q, by_v, by_a, ws)
@@ -126,6 +123,30 @@ def changes_at(record, q, v, a, rates, kinds, begin, out, ws):
 
 
 @separate_kernel
+def memory_choice_at(record, q, v, out):
+    """``choose_memory`` of the batch at an address."""
+    choose_memory(record, q, v, out)
+
+
+@separate_kernel
+def memory_slopes_at(record, q, v, z, r, ws):
+    """``add_memory_slopes`` of the batch at an address."""
+    add_memory_slopes(record, q, v, z, r, ws)
+
+
+@separate_kernel
+def memory_along_at(record, q, v, d, z, ws):
+    """``remember_along`` of the batch at an address."""
+    remember_along(record, q, v, d, z, ws)
+
+
+@separate_kernel
+def memory_changes_at(record, q, v, rates, kinds, begin, out, ws):
+    """``add_memory_changes`` of the batch at an address."""
+    add_memory_changes(record, q, v, rates, kinds, begin, out, ws)
+
+
+@separate_kernel
 def tangent_work_at(record, q, v, x, by_q, by_v, by_a, ws):
     """``add_tangent_work`` of the batch at an address."""
     add_tangent_work(record, q, v, x, by_q, by_v, by_a, ws)
@@ -145,7 +166,6 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     measure: (measure_at, (_V, _V), types.none),
     remember: (remember_at, (_V, _V), types.none),
     add_rate_stiffness: (rate_stiffness_at, (_V, _V, _V, _V, _V), types.none),
-    touched: (touched_at, (_V, _V), types.int64),
     add_number_work: (number_work_at, (_V, _V, _V, _V, _V, _V), types.none),
     add_rate_work: (rate_work_at, (_V, _V, _V, _V, _V), types.none),
     add_work_slopes: (work_slopes_at, (_V, _V, _V, _V, _V, _V, _V, _V), types.none),
@@ -153,4 +173,8 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     add_slopes_beside: (slopes_beside_at, (_V, _V, _V, _VECTORS, _LANES, _V), types.none),
     add_changes: (changes_at, (_V, _V, _V, _V, _PLACES, _PLACES, _V, _V), types.none),
     add_tangent_work: (tangent_work_at, (_V, _V, _V, _V, _V, _V, _V), types.none),
+    choose_memory: (memory_choice_at, (_V, _V, _V), types.none),
+    add_memory_slopes: (memory_slopes_at, (_V, _V, _LANES, _LANES, _V), types.none),
+    remember_along: (memory_along_at, (_V, _V, _VECTORS, _LANES, _V), types.none),
+    add_memory_changes: (memory_changes_at, (_V, _V, _V, _PLACES, _PLACES, _V, _V), types.none),
 }

@@ -12,12 +12,15 @@ TRAPEZOIDAL = ancf.Trapezoidal(newton=TIGHT)
 DAMPED = ancf.GeneralizedAlpha(rho_inf=0.8, newton=TIGHT)
 
 
-def dragged(pull=6.0, aside=0.0, elements=2):
-    """A cable on a ground, dragged to and fro by its end."""
+def dragged(pull=6.0, aside=0.0, elements=2, friction=0.3, height=-0.0005, drum=False):
+    """A cable on a ground, perhaps on a drum as well, dragged to and fro by its end."""
     model = ancf.Model(gravity=(0.0, 0.0, -9.81))
     section = ancf.Section(EA=2e3, EI=0.5, rhoA=0.5, diameter=0.02)
     line = model.add_beam("line", start=(0, 0, 0), end=(1, 0, 0), elements=elements, section=section)
-    model.add_ground("on", height=-0.0005, stiffness=5e5, damping=2e3, friction=0.3, stick=2e4)
+    model.add_ground("on", height=height, stiffness=5e5, damping=2e3, friction=friction, stick=2e4)
+    if drum:
+        surface = model.add_surface("drum", ancf.Cylinder(radius=0.2, axis=(0, 1, 0), at=(0.5, 0, -0.2102)))
+        model.add_contact(line, surface, stiffness=2e4, damping=30.0, friction=0.2, name="over")
     model.add_force(line.end, lambda t: (pull * np.sin(30 * t), aside * np.sin(17 * t), 0.0))
     return model
 
@@ -172,6 +175,49 @@ def test_drums(model, method, step, names):
     """Where points begin to touch, differences of their forces reach over a kink."""
     found = apart(model, names, method, step, change=1e-4 if step == 1e-3 else 1e-5)
     assert max(found.values()) < 1e-5, found
+
+
+HILLS = {
+    "x": [-1.0, 0.2, 0.7, 2.0],
+    "y": [-1.0, 1.0],
+    "z": [[-0.01, 0.0], [0.001, -0.002], [-0.002, 0.0], [0.0, 0.0]],
+}
+
+
+@pytest.mark.parametrize(
+    ("given", "method", "step"),
+    [
+        ({"elements": 2, "friction": 0.05}, DAMPED, 1e-3),
+        ({"elements": 5, "friction": 0.3}, TRAPEZOIDAL, 5e-4),
+        ({"elements": 3, "friction": 2.0}, DAMPED, 5e-4),
+        ({"elements": 3, "friction": 0.3, "height": HILLS}, DAMPED, 5e-4),
+        ({"elements": 3, "friction": 0.3, "drum": True}, DAMPED, 5e-4),
+    ],
+    ids=["slips", "some", "sticks", "hills", "drum"],
+)
+def test_many_at_once(given, method, step):
+    """Eleven parameters, over blocks of steps that do not fit eight; the same one by one."""
+    names = ["line.EA", "line.EI", "line.rhoA", "line.length", "line.diameter", "gravity[0]", "gravity[2]"]
+    names += ["on.friction", "on.stiffness", "on.damping", "on.stick"]
+    model, run = dragged(aside=4.0, **given), {"t_end": 37 * step, "step": step, "integrator": method}
+    together = ancf.simulate(model, sensitivities=names, **run)
+    for name in names:
+        alone = ancf.simulate(model, sensitivities=[name], **run).sensitivity(name)
+        change = np.abs(together.sensitivity(name).dq - alone.dq)
+        assert np.max(change) <= 1e-10 * np.max(np.abs(alone.dq)), name
+    hilly = "height" in given  # whose edges changes are not to reach: differences have more round-off
+    others = ["line.EA", "gravity[2]", "on.damping"]
+    found = apart(model, others, method, step, steps=37, change=1e-5 if hilly else 1e-4)
+    found |= apart(model, ["line.length"], method, step, steps=37, change=1e-6)
+    assert max(found.values()) < (1e-6 if hilly else 1e-7), found
+
+
+def test_starts_stay_as_they_are():
+    """A second run from the same state has the same derivatives."""
+    model, given = laid(bent=False), {"t_end": 0.02, "step": 2e-3}
+    start = ancf.equilibrium(model, sensitivities=["line.EA"])
+    first, second = (ancf.simulate(model, start=start, sensitivities=["line.EA"], **given) for _ in range(2))
+    assert np.array_equal(first.sensitivity("line.EA").dq, second.sensitivity("line.EA").dq)
 
 
 def test_remainder():

@@ -7,6 +7,7 @@ from ancf.batches import Batches
 from ancf.compiled import add_changes, does_something, traits
 from ancf.elements.cable_columns import DAMPED, INV_L, LENGTH
 from ancf.sensitivity.nearby import changes_of
+from ancf.solvers.friction import no_friction
 from ancf.solvers.pushes import Uses, add_pushes
 from ancf.solvers.sensitivity import Way
 from ancf.system.core import residual
@@ -18,11 +19,11 @@ def found_by_kernel(system, rates, way, name="cable"):
     """Derivatives of the residuals along changes of the numbers, (changes, steps, size)."""
     count, steps = len(rates), len(way.q)
     uses = Uses(Batches(), np.zeros(1, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0))
-    changes = changes_of(system, [{name: rate} if rate is not None else {} for rate in rates])
+    changes = changes_of(system.parts, [{name: rate} if rate is not None else {} for rate in rates])
     first, push = np.zeros((count, system.size)), np.full((count, steps, system.size), np.nan)
     tables = system.inputs.tables(0.0, 0.1, steps, 0.0, 1.0)
     given = np.zeros((0, 0, 3, 3)), first, np.zeros(count, dtype=bool), tables, way
-    add_pushes(system.core, uses, changes, *given, np.zeros(system.size), push)
+    add_pushes(system.core, uses, changes, *given, no_friction(), np.zeros(system.size), push)
     return push
 
 

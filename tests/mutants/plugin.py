@@ -22,12 +22,15 @@ _OPERATIONS = {
     "rate_stiffness": "add_rate_stiffness",
     "rate_work": "add_rate_work",
     "tangent_work": "add_tangent_work",
-    "touches": "touched",
     "number_work": "add_number_work",
     "changes": "add_changes",
     "work_slopes": "add_work_slopes",
     "force_slopes": "add_force_slopes",
     "slopes_beside": "add_slopes_beside",
+    "memory_choice": "choose_memory",
+    "memory_slopes": "add_memory_slopes",
+    "memory_along": "remember_along",
+    "memory_changes": "add_memory_changes",
 }
 _DEFAULTS = {
     "inertia": compiled.no_inertia,

@@ -25,15 +25,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..compiled import Role, formula, implements, inline_kernel, kernel
+from ..compiled import Role, implements, inline_kernel, kernel
 from ..vectors import dot
-from .carrier import COLUMNS, element_at, line, shape, slider
+from .carrier import COLUMNS, line, shape
+from .contact_along import contact_slopes_along
 from .contact_slopes import contact_number_work, contact_work_slopes
-from .contact_touch import ARC, ASIDE, DAMPING, FORCE, OVERLAP, STIFFNESS, add_row, crossing, touch
+from .contact_touch import ARC, ASIDE, DAMPING, FORCE, OVERLAP, STIFFNESS, add_row, touch
 from .in_matrix import no_pairs, no_places
-
-#: Part of an element's length within which a neighbour counts as touched, too.
-BESIDE = 0.01
 
 
 class ContactBatch(NamedTuple):
@@ -68,33 +66,6 @@ def contact_force(batch, q, v, a, r, ws):
 @inline_kernel
 def contact_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Nothing, see the text above."""
-
-
-@inline_kernel
-def contact_touches(batch, q, out):
-    """See :func:`ancf.compiled.touched`: the strip's point and the element at it, near its end the next."""
-    count = 0
-    for j in range(batch.slot.shape[0]):
-        s = crossing(batch, j, q, slider(batch, j, q, 1.0))[1]
-        e, begin, end = element_at(batch, j, s), batch.first[j], batch.first[j + 1] - 1
-        near = BESIDE * batch.x[e, 1]
-        low = max(e - 1, begin) if s - batch.x[e, 0] < near else e
-        high = min(e + 1, end) if batch.x[e, 0] + batch.x[e, 1] - s < near else e
-        for k in range(COLUMNS):
-            count = write_slot(batch.slot[j, k], out, count)
-            for n in range(low, high + 1):
-                count = write_slot(batch.line_slot[n, k], out, count)
-    return count
-
-
-@formula
-def write_slot(i, out, count):
-    """Write the three unknowns of a slot, if it is one; the number of unknowns then."""
-    if i < 0:
-        return count
-    for c in range(3):
-        out[count + c] = i + c
-    return count + 3
 
 
 @inline_kernel
@@ -160,7 +131,8 @@ implements(
     force=contact_force,
     tangent=contact_tangent,
     energy=contact_energy,
-    touches=contact_touches,
+    force_slopes=contact_slopes_along,
+    slopes_beside=contact_slopes_along,
     work_slopes=contact_work_slopes,
     number_work=contact_number_work,
     numbers=lambda batch: batch.data.ravel(),

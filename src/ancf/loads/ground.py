@@ -51,11 +51,19 @@ from .along import (
     scaled,
     stretch_at,
     upstream,
-    velocity_at,
     wound,
 )
+from .ground_along import (
+    ground_choice,
+    ground_memory_slopes,
+    ground_remember_along,
+    ground_slopes_along,
+    ground_slopes_beside,
+)
+from .ground_numbers import NUMBERED, ground_changes, ground_memory_changes, kinds_of, numbers
+from .ground_points import anchor_at, drawn_at, touch_at
 from .ground_slopes import ground_work_slopes
-from .relief import DRAG, FRICTION, SOFT, STICK, depth_at, pressure
+from .relief import DRAG, FRICTION, STICK
 
 #: Gauss points of an element.
 POINTS = 10
@@ -142,53 +150,6 @@ def _refuse_buried(item, body, model):
             if depth > BURIED * body.section.diameter:
                 what = f'"{support.name}" is {depth:.4g} m below the ground "{item.name}"'
                 raise ModelError(item.name, what, "lower the ground, or raise the point that is held")
-
-
-@formula
-def touch_at(batch, e, p, q, v):
-    """Place, velocity and normal at point p of row e; normal force with its derivatives."""
-    k, d = batch.ground[e], batch.diameter[e]
-    at = place_at(batch, e, p, q)
-    g, n = depth_at(batch, k, at[0], at[1], at[2])
-    if g <= -SOFT * d:
-        return at, (0.0, 0.0, 0.0), n, 0.0, 0.0, 0.0
-    u = velocity_at(batch, e, p, q, v)
-    rate = -(u[0] * n[0] + u[1] * n[1] + u[2] * n[2])
-    N, by_g, by_rate = pressure(batch.grounds[k], d, g, rate)
-    return at, u, n, N, by_g, by_rate
-
-
-@formula
-def anchor_at(batch, e, p, q):
-    """The anchor of the material that is at point p of row e."""
-    x, y, z = batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2]
-    i = batch.winch[e]
-    if i >= 0 and batch.since[e] > 0.0:
-        c = q[i] / batch.since[e] - 1.0
-        drift = batch.drift[e, p]
-        x, y, z = x + c * drift[0], y + c * drift[1], z + c * drift[2]
-    return x, y, z
-
-
-@formula
-def drawn_at(batch, e, p, q, r, u, n):
-    """The vector w of the friction, its size, and the factor f of the force -f w; whether it slips.
-
-    Where derivatives of a step that slips are taken, the limit is negative: it slips in all their states.
-    """
-    ground, anchor, d = batch.grounds[batch.ground[e]], anchor_at(batch, e, p, q), batch.diameter[e]
-    stick, c = ground[STICK], ground[DRAG]
-    x, y, z = (
-        stick * (r[0] - anchor[0]) + c * u[0],
-        stick * (r[1] - anchor[1]) + c * u[1],
-        stick * (r[2] - anchor[2]) + c * u[2],
-    )
-    normal = x * n[0] + y * n[1] + z * n[2]
-    w = x - normal * n[0], y - normal * n[1], z - normal * n[2]
-    size = math.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
-    if d * size > batch.limit[e, p]:
-        return w, size, abs(batch.limit[e, p]) / size, True
-    return w, size, d, False
 
 
 @inline_kernel
@@ -313,7 +274,17 @@ implements(
     force=ground_force,
     tangent=ground_tangent,
     work_slopes=ground_work_slopes,
-    sloped=lambda batch: not (np.any(batch.grounds[:, FRICTION]) or np.any(batch.winch >= 0)),
+    force_slopes=ground_slopes_along,
+    slopes_beside=ground_slopes_beside,
+    sloped=lambda batch: not np.any(batch.winch >= 0),
+    changes=ground_changes,
+    numbers=numbers,
+    numbered=NUMBERED,
+    kinds=kinds_of,
+    memory_choice=ground_choice,
+    memory_slopes=ground_memory_slopes,
+    memory_along=ground_remember_along,
+    memory_changes=ground_memory_changes,
     remember=ground_remember,
     role=Role.EXTERNAL,
     slots=("base", "winch"),

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
 from ..batches import Batches
 from ..compiled import (
-    MOST_TOUCHED,
     Role,
     add_force_slopes,
     add_rate_stiffness,
@@ -17,7 +17,6 @@ from ..compiled import (
     add_tangent_work,
     add_work_slopes,
     does_something,
-    touched,
     traits,
 )
 from ..errors import ModelError
@@ -34,14 +33,18 @@ from .remembering import followed, friction_of
 SHORT = 2e-7
 
 
-def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matrices:
+def matrices_of(
+    core: Core, size: int, moving: bool, back: bool = False, marked: Iterable[tuple[Any, Any]] = ()
+) -> Matrices:
     """Room for the matrices of sensitivities, the masses of exact batches filled in.
 
+    ``marked``: batches and those that are asked in place of them, which remember what steps do.
     ``back``: of an adjoint, which asks batches for products with matrices, as far as they know these, and for
     what velocities add to them, and not for the matrices themselves.
     """
     rate = add_rate_work if back else add_rate_stiffness
-    batches = [batch for batch in core.batches if len(batch[0])]
+    instead = {id(batch): other for batch, other in marked}
+    batches = [instead.get(id(batch), batch) for batch in core.batches if len(batch[0])]
     exact = [batch for batch in batches if _exact(batch, False)]
     turning = moving and bool(np.any(core.supports.rot_moving >= 0))
     changed = [batch for batch in exact if moving and not _exact(batch, True)]
@@ -57,14 +60,12 @@ def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matr
     resting = [batch for batch in exact if not any(batch is one for one in known)]
     K, C, M = (np.zeros_like(core.A) for _ in range(3))
     W = np.zeros(core.A.size if known and not back else 0)
-    local = not back and all(does_something(type(batch), touched) for batch in rough)
+    outside = any(traits(batch).row is not None or traits(batch).rows is not None for batch in others)
     known_by = (add_work_slopes,) if back else (add_force_slopes, add_slopes_beside)
     slopes = knowing(known_by[0], joints, *known_by[1:])
     plain = Batches(exact), Batches(resting), Batches(stirring)
     kinds = *plain, knowing(rate, known), knowing(add_tangent_work, worked), Batches(lossy), slopes
-    left = knowing(touched, rough) if local else Batches(rough)
-    near = np.zeros((7, MOST_TOUCHED * sum(len(batch[0]) for batch in rough) if local else 0))
-    flags = local, turning, bool(core.damped)
+    flags = outside, turning, bool(core.damped)
     rows = size if joints else 0
     along, found = lane_rows(3 * rows).reshape(3, rows, LANES), lane_rows(rows)
     stiff = [batch for batch in joints if hasattr(batch, "alpha")]
@@ -74,7 +75,7 @@ def matrices_of(core: Core, size: int, moving: bool, back: bool = False) -> Matr
     edge = row[:0] if whole else edge  # what tangents of others leave out is not in few rows
     work = np.zeros((10, size))
     made = Matrices(
-        *kinds, left, K, C, M, W, *flags, moved_by(core), work, near, along, found, alpha, row, edge
+        *kinds, Batches(rough), K, C, M, W, *flags, moved_by(core), work, along, found, alpha, row, edge
     )
     apart = 1.0 + 0.5 * np.sin(np.arange(size, dtype=np.float64))  # springs between places that are not one
     exact_masses(made, core.ws, apart, np.zeros(size))

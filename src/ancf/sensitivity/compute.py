@@ -88,6 +88,8 @@ def with_sensitivities(
         family.name: Sensitivity(family, t, q, v, *own)
         for family, own in zip(following.families, following.found(), strict=True)
     }
+    if following.abreast:
+        following.abreast.end()
     following.memory.hand_to(list(result.derivatives.values()))
     if following.samples.sampling.width:
         sensors = result.sensors

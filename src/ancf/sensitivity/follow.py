@@ -20,7 +20,7 @@ from ..solvers.ahead import ahead_of
 from ..solvers.checkpoint import Snapshot
 from ..solvers.edge import edge_for
 from ..solvers.record import Stats
-from ..solvers.sensitivity import Constraining, Way, accelerations
+from ..solvers.sensitivity import Constraining, Matrices, Way, accelerations
 from ..solvers.status import OK
 from ..system.system import System
 from .base import check_differentiable, matrices_of, moved_with
@@ -28,6 +28,7 @@ from .family import Family
 from .histories import Histories
 from .jumps import Anew, Jump, note_jumps
 from .memory import Memory
+from .memory_abreast import memory_abreast
 from .nearby import Nearby
 from .parameters import Parameter, check_known
 from .samples import Samples
@@ -106,7 +107,8 @@ class Following:
         self.memory = Memory(self.system, self.families)
         self._check_shift(where)
         self.turn = self.nearby.turn_abreast()
-        self.m = moved_with(self.system, matrices_of(self.system.core, self.system.size, moving=True))
+        self.abreast = memory_abreast(self.memory, self.nearby)
+        self.m = moved_with(self.system, self._matrices())
         self.ahead, self.room = ahead_of(self.system.core, self.m), room_for(self.system.size)
         self.edge = edge_for(self.system.size, len(self.m.edge))
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
@@ -121,6 +123,12 @@ class Following:
         self.histories = Histories(len(self.families), count, self.system.size, led)
         self._kept = np.zeros(0)
         self.jumps = note_jumps(self.run, bool(self.memory))
+
+    def _matrices(self) -> Matrices:
+        """Room for the matrices of the steps."""
+        marked = self.abreast.marked if self.abreast else {}
+        instead = [(self.system.parts[name], batch) for name, batch in marked.items()]
+        return matrices_of(self.system.core, self.system.size, moving=True, marked=instead)
 
     def _check_shift(self, where: str) -> None:
         """Raise an error for a motion that joints change at the start in a way that is not followed."""
@@ -195,6 +203,9 @@ class Following:
         else:
             found, held = starts(system, self.m, self.nearby, self.given, states, when, self.memory)
         self.s = abreast(found)
+        if self.abreast:
+            self.memory.put_back()
+            self.abreast.begin()
         self.histories.begin(found, held)
         first = found[:, None, :3].copy()
         first[:, 0, :2] += held
@@ -253,8 +264,10 @@ class Following:
         """Carry on over steps of a length, perhaps with a jump after the last, and store those to keep."""
         count = len(q)
         keep = self._kept_of(self.done + count, count)
-        most = int(ROOM / (8 * self.system.size * (4 * len(self.families) + 3)))
-        most = 1 if self.memory else max(most // LANES, 1) * LANES
+        numbers = self.system.size * (4 * len(self.families) + 3)
+        numbers += len(self.abreast.now) if self.abreast else 0
+        most = max(int(ROOM / (8 * numbers)) // LANES, 1) * LANES
+        most = 1 if self.memory and not self.abreast else most
         for begin in range(0, count, most):
             rows = slice(begin, min(begin + most, count))
             way = Way(q[rows].copy(), v[rows].copy(), a[rows])
@@ -308,11 +321,13 @@ class Following:
         when = run.time(done), h, run.t_start, run.t_end
         projects = rule.projects and len(system.multipliers) > 0
         tables = system.inputs.tables(*when[:2], count, *when[2:])
-        if self.memory:
+        if self.abreast:
+            self.ahead = self.ahead._replace(friction=self.abreast.look(way, tables))
+        elif self.memory:
             self.memory.choose(way.q[0], way.v[0])
         found = self.nearby.at_steps(way, when, tables, projects)
         rooms, pushes = (self.m, self.ahead, self.room, self.edge), (found.push, found.gap, self.turn)
-        if self.memory:
+        if self.memory and not self.abreast:
             found.push[:, 0] += self.memory.push(way, tables)
         n, status = follow_steps(
             system.core, *rooms, tables, way, *pushes, h, run.scheme, joined, self.s, out, place
@@ -323,7 +338,7 @@ class Following:
             raise SolveError(f"sensitivities at t = {t:.6g} s", what, "take a smaller step")
         for k, held in found.held.items():
             out[k, place : place + count] += np.moveaxis(held[: out.shape[2]], 0, 1)
-        if self.memory:
+        if self.memory and not self.abreast:
             self.memory.step(way.q[0], way.v[0], out[:, place, :2])
 
     def found(self) -> list[tuple[Any, FloatArray]]:

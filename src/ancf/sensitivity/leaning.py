@@ -16,11 +16,12 @@ from ..arrays import FloatArray
 from ..batches import Batches
 from ..compiled import traits
 from ..errors import SolveError
+from ..solvers.kinks import FAR
 from ..solvers.statics import Leaned
 from ..system.core import Core, keep_memory
 from ..system.system import System
 from .family import Family
-from .memory import FAR, FORCES, Memory, slope, split
+from .memory import FORCES, Memory, slope, split
 from .remembering import Row
 
 #: What is remembered of the step before: without it limits are those of a state at rest.

@@ -17,6 +17,7 @@ both sides of the kink have the same derivative, but only along all changes toge
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -25,8 +26,9 @@ from ..arrays import FloatArray
 from ..batches import Batches
 from ..compiled import traits
 from ..errors import ModelError
+from ..solvers.kinks import FORCE, LENGTH, LIMIT, Remembering, add_forces_along, leave_along
 from ..solvers.sensitivity import Way
-from ..system.core import apply_supports, keep_memory, place_supports, residual
+from ..system.core import apply_supports, keep_memory, place_supports
 from ..system.system import System
 from .answers import derivative
 from .family import Family
@@ -34,8 +36,6 @@ from .remembering import Resting, Row, friction_of
 
 #: Arrays of a memory that depend smoothly on the state.
 LENGTHS, FORCES = ("anchor",), ("limit", "before")
-#: Changes of places, m, of velocities, m/s, and of limits in their size, of the differences.
-FAR, FAST, STRONG = 1e-6, 1e-6, 1e-5
 #: Part of a limit by which a force is not beyond it, and a limit that nothing reaches, N/m.
 JUST, HELD = 1e-7, 1e100
 
@@ -65,9 +65,11 @@ class Memory:
         self._none = np.zeros(system.size)
         self._own = self.arrays_of(system)
         self._now = self.copy()
+        self._lay_out()
         self.none = {name: x if name.endswith(".far") else np.zeros_like(x) for name, x in self._now.items()}
         self.d: list[Row] = [self.zeros() for _ in families]
         self.known = False  # derivatives are given with the start
+        self.beside: Row = {}  # arrays of other batches that remember the same
 
     def __bool__(self) -> bool:
         return bool(self.names)
@@ -140,11 +142,21 @@ class Memory:
             own.resting = Resting(held, anchors)
 
     def share(self) -> None:
-        """Let the systems of all families remember the same."""
-        for family in self.families:
-            for own in family.systems:
-                for name, x in self.arrays_of(own).items():
-                    x[...] = self._own[name]
+        """Let the systems of all families, and what else there is, remember the same."""
+        for name, x in self.beside.items():
+            x[...] = self._own[name]
+        for x, own in self._shared:
+            x[...] = own
+
+    @cached_property
+    def _shared(self) -> list[tuple[FloatArray, FloatArray]]:
+        """Arrays of the systems of all families, and those of the same in the model itself."""
+        systems = [own for family in self.families for own in family.systems]
+        return [(x, self._own[name]) for own in systems for name, x in self.arrays_of(own).items()]
+
+    def put_back(self) -> None:
+        """Let the system remember what the next step begins with."""
+        self.put(self._now)
 
     def push(self, way: Way, tables: Any) -> FloatArray:
         """What derivatives of the memory do to the residual of a state, (p, size), zero where it is held."""
@@ -152,32 +164,24 @@ class Memory:
         core = self.system.core
         q, v, a = (x[0].copy() for x in way)
         place_supports(core.supports, core.loads.value, tables, 0, q, v, a)
-        for row, d in zip(made, self.d, strict=True):
-            self.add_push(d, (q, v, a), row)
+        add_forces_along(self._remembering(self._own), core.ws, self._rows(self.d), q, v, a, made)
+        for row in made:
             apply_supports(core.supports, row)
             row[core.supports.held], row[self.system.n :] = 0.0, 0.0
         return made
 
     def add_push(self, d: Row, state: tuple[FloatArray, FloatArray, FloatArray], r: FloatArray) -> None:
         """Add what derivatives d of the memory do to the residual of a state (q, v, a), before supports."""
-        given = self.system.core.ws, *state, self._none
-        kept = self.copy()
-        for keys, far in ((LENGTHS, FAR), (FORCES, STRONG * self._limit())):
-            part = {name: x for name, x in d.items() if name.split(".")[1] in keys}
-
-            def force(x: float, part: Row = part) -> FloatArray:
-                self.put(kept, part, x)
-                found: FloatArray = np.empty(self.system.size)
-                residual(self.batches, *given, found)
-                return found
-
-            r += slope(force, far, _size(part))
-        self.put(kept)
+        memory, ws = self._remembering(self._own), self.system.core.ws
+        add_forces_along(memory, ws, self._rows([d]), *state, r[None])
 
     def step(self, q: FloatArray, v: FloatArray, s: FloatArray) -> None:
         """Remember an accepted step that ends in a state with these derivatives, (p, 2, size)."""
-        kept = self.copy()
-        found = [self._along(kept, d, q, v, own) for d, own in zip(self.d, s, strict=True)]
+        kept, rows = self.copy(), self._rows(self.d)
+        left, weight = np.zeros_like(rows), self.system.weights()
+        leave_along(self._remembering(kept), rows, q, v, np.ascontiguousarray(s), weight, left)
+        shapes = {name: (own, self._own[name].shape) for name, own in self._smooth.items()}
+        found = [{name: row[own].reshape(x) for name, (own, x) in shapes.items()} for row in left]
         for family, d in zip(self.families, found, strict=True):
             if set(self.names) & family.changed:
                 self._add_own(family, kept, q, v, d)
@@ -187,28 +191,50 @@ class Memory:
         self._now = self.copy()
         self.share()
 
-    def _along(self, kept: Row, d: Row, q: FloatArray, v: FloatArray, s: FloatArray) -> Row:
-        """Derivative of what a step leaves along a state and a memory."""
-        lengths, forces = (
-            {name: d[name] for name in d if name.split(".")[1] in own} for own in (LENGTHS, FORCES)
-        )
-        weights = self.system.weights()
-        size = float(np.max(np.abs(s[0]) * weights, initial=0.0))
-        moves: tuple[tuple[Any, Any, Row, float, float], ...] = (
-            (s[0], self._none, lengths, FAR, max(size, _size(lengths))),
-            (self._none, s[1], {}, FAST, float(np.max(np.abs(s[1]) * weights, initial=0.0))),
-            (self._none, self._none, forces, STRONG * self._limit(), _size(forces)),
-        )
-        total = np.zeros(sum(x.size for x in d.values()))
-        for dq, dv, part, far, most in moves:
+    def _rows(self, d: list[Row]) -> FloatArray:
+        """Derivatives of memories, (p, n), zero where they have none."""
+        made = np.zeros((len(d), len(self._differences.smooth)))
+        for rows, row in zip(made, d, strict=True):
+            for name, own in self._smooth.items():
+                if name in row:
+                    rows[own] = row[name].ravel()
+        return made
 
-            def left(x: float, dq: FloatArray = dq, dv: FloatArray = dv, part: Row = part) -> FloatArray:
-                self.put(kept, part, x)
-                keep_memory(self.batches, q + x * dq, v + x * dv)
-                return np.concatenate([self._own[name].ravel() for name in d])
+    def _remembering(self, kept: Row) -> Remembering:
+        """What differences begin with, that is kept."""
+        self._start[0][:] = np.concatenate([kept[name].ravel() for name in self._floats])
+        if len(self._start[1]):
+            counts = [x.ravel() for name, x in kept.items() if name not in self._floats]
+            self._start[1][:] = np.concatenate(counts)
+        return self._differences._replace(limit=self._limit())
 
-            total += slope(left, far, most)
-        return split(total, d)
+    def _lay_out(self) -> None:
+        """Make batches whose memory are parts of one array of numbers and one of counts."""
+        floats = {name: x for name, x in self._own.items() if x.dtype == np.float64}
+        ends = np.cumsum([0, *(x.size for x in floats.values())]).tolist()
+        self._floats = {name: slice(*ends[k : k + 2]) for k, name in enumerate(floats)}
+        self._numbers = np.zeros(ends[-1])
+        counts = {name: x for name, x in self._own.items() if name not in floats}
+        last = np.cumsum([0, *(x.size for x in counts.values())]).tolist()
+        self._counts = np.zeros(last[-1], dtype=np.int64)
+        views = {name: self._numbers[rows].reshape(floats[name].shape) for name, rows in self._floats.items()}
+        for k, (name, x) in enumerate(counts.items()):
+            views[name] = self._counts[last[k] : last[k + 1]].reshape(x.shape)
+        made = []
+        for name in self.names:
+            own = {key.split(".")[1]: x for key, x in views.items() if key.split(".")[0] == name}
+            made.append(self.system.parts[name]._replace(**own))
+        names = [name for name in floats if name.split(".")[1] in (*LENGTHS, *FORCES)]
+        rows = [np.arange(self._floats[name].start, self._floats[name].stop) for name in names]
+        kinds = [np.full(len(own), kind_of(name)) for own, name in zip(rows, names, strict=True)]
+        ends = np.cumsum([0, *map(len, rows)]).tolist()
+        self._smooth = {name: slice(*ends[k : k + 2]) for k, name in enumerate(names)}
+        none = np.zeros(0, dtype=np.int64)
+        smooth, size = np.concatenate([none, *rows]), self.system.size
+        self._start = np.zeros_like(self._numbers), np.zeros_like(self._counts)
+        begins = self._numbers, self._counts, *self._start, smooth, np.concatenate([none, *kinds])
+        room = np.zeros_like(self._numbers), np.zeros((6, size)), np.zeros((6, len(smooth)))
+        self._differences = Remembering(Batches(made), *begins, *room, np.zeros((2, size)), 1.0)
 
     def _add_own(self, family: Family, kept: Row, q: FloatArray, v: FloatArray, d: Row) -> None:
         """Add what a parameter itself does to the memory that a step leaves."""
@@ -263,6 +289,11 @@ class Memory:
 
 def _size(d: Row) -> float:
     return max((float(np.max(np.abs(x), initial=0.0)) for x in d.values()), default=0.0)
+
+
+def kind_of(name: str) -> int:
+    """Of the numbers of an array of a memory."""
+    return LENGTH if name.split(".")[1] in LENGTHS else LIMIT if name.endswith(".limit") else FORCE
 
 
 def split(total: FloatArray, like: Row) -> Row:

@@ -11,6 +11,7 @@ from ..arrays import BoolArray, FloatArray
 from ..batches import Batches
 from ..compiled import Role, add_changes, traits
 from ..simd import LANES
+from ..solvers.friction import no_friction
 from ..solvers.pushes import Changes, Uses, add_loads, add_pushes
 from ..solvers.rare import knowing
 from ..solvers.sensitivity import Way
@@ -59,16 +60,24 @@ class Nearby:
         self.rows = [k for k, family in enumerate(families) if family.joined and k not in own]
         self.plain = [k for k, family in enumerate(families) if family.plain or family.joined or k in own]
         self.others = [k for k in range(len(families)) if k not in self.plain]
+        self.friction = no_friction()  # that remembers the way, see MemoryAbreast
+        self.marked: dict[str, Any] = {}  # batches that know what it does in a step
         self._work, self._kept = np.zeros(system.size), [np.zeros(0), np.zeros(0)]
         self._weights: dict[int, Any] = {}  # derivatives of steady loads
         self._first: tuple[FloatArray, BoolArray] | None = None  # the same of all plain ones
 
     @cached_property
+    def rates(self) -> dict[int, dict[str, FloatArray]]:
+        """Changes of numbers by plain parameter and batch, where these are all and known."""
+        return {k: rates_of(self.families[k], forces=True) for k in self.plain}
+
+    @cached_property
     def _plainly(self) -> tuple[Uses, Changes, FloatArray]:
         """What the plain ones ask for, see :func:`ancf.solvers.pushes.add_pushes`."""
-        rates = {k: rates_of(self.families[k], forces=True) for k in self.plain}
+        rates = self.rates
         left = {k: self.families[k].changed - rates[k].keys() for k in self.plain}
-        changes = changes_of(self.system, [rates[k] for k in self.plain])
+        parts = self.system.parts | self.marked
+        changes = changes_of(parts, [rates[k] for k in self.plain])
         return uses_of(self.families, self.plain, left), changes, self._turns_of(self.plain)
 
     def _turns_of(self, chosen: list[int]) -> FloatArray:
@@ -143,8 +152,8 @@ class Nearby:
             none = np.zeros((len(found), system.size)), np.zeros(len(found), dtype=bool)
             system.level[:] = level
             self.know()
-            given = system.core, self.of_rows, changes_of(system, []), np.zeros((0, 0, 3, 3)), *none
-            add_pushes(*given, tables, way, self._work, found)
+            given = system.core, self.of_rows, changes_of(system.parts, []), np.zeros((0, 0, 3, 3)), *none
+            add_pushes(*given, tables, way, self.friction, self._work, found)
             system.level[:] = before
             self.know()
             found *= system.core.joints.mask
@@ -165,7 +174,8 @@ class Nearby:
             for weight, loads, value in self.families[self.plain[row]].loads_used(when, tables):
                 add_loads(loads, value, weight, self._work, rows[row])
         if self.plain:
-            add_pushes(self.system.core, *self._plainly, first, loaded, tables, way, self._work, rows)
+            given = *self._plainly, first, loaded, tables, way, self.friction
+            add_pushes(self.system.core, *given, self._work, rows)
 
     def _steadily(self, when: tuple[float, float, float, float], tables: Any) -> tuple[FloatArray, BoolArray]:
         """What steady loads do to the residual by plain parameter, (p, size), and which have others, (p,)."""
@@ -221,12 +231,14 @@ def uses_of(families: list[Family], chosen: list[int], names: dict[int, set[str]
     )
 
 
-def changes_of(system: System, rates: list[dict[str, FloatArray]]) -> Changes:
-    """Of the numbers of batches of a system: by parameter what :func:`rates_of` finds."""
-    names = sorted({name for found in rates for name in found})
+def changes_of(
+    parts: dict[str, Any], rates: list[dict[str, FloatArray]], names: list[str] | None = None
+) -> Changes:
+    """Of the numbers of all batches, or of these: by parameter what :func:`rates_of` finds."""
+    names = sorted({name for found in rates for name in found}) if names is None else names
     rows = [[k for k, found in enumerate(rates) if name in found] for name in names]
     each = [[rates[k][name] for k in own] for name, own in zip(names, rows, strict=True)]
-    batches = [system.parts[name] for name in names]
+    batches = [parts[name] for name in names]
     kinds = [
         [np.asarray(traits(batch).kinds(batch, rate), dtype=np.int64) for rate in own]  # type: ignore[misc]
         for batch, own in zip(batches, each, strict=True)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..compiled import traits
+from ..compiled import add_number_work, does_something, traits
 from .alike import OWN
 from .family import Family
 
@@ -21,7 +21,9 @@ def rates_of(family: Family, forces: bool = False) -> dict[str, FloatArray]:
     for name in family.changed:
         batch = family.base.parts[name]
         numbers, keys = traits(batch).numbers, traits(batch).numbered
-        if numbers is None or (forces and traits(batch).kinds is None):
+        if numbers is None or not (
+            traits(batch).kinds if forces else does_something(type(batch), add_number_work)
+        ):
             continue
         each = [system.parts[name] for system in family.systems]
         if any(not _has_other(batch, other, keys) for other in each):
@@ -45,5 +47,5 @@ def _has_other(batch: Any, other: Any, keys: tuple[str, ...]) -> bool:
     return batch is other or all(
         mine is theirs or np.array_equal(mine, theirs)
         for key, mine, theirs in zip(batch._fields, joined(batch, other), joined(other, batch), strict=True)
-        if key not in keys and key not in OWN
+        if key not in keys and key not in OWN and key not in traits(batch).memory
     )

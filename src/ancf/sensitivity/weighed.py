@@ -84,9 +84,9 @@ class Weighed:
                 continue
             for weight, loads, value in families[k].loads_used(when, tables):
                 if len(loads.start) == 1 or len(value) == 1:  # the same at all times
-                    made[k] -= weight * weigh_loads(loads, value[:1], work, total[None])
+                    made[k] -= weight * weigh_loads(loads, value[:1], total, total[None])
                 else:
-                    made[k] -= weight * weigh_loads(loads, value, work, lam)
+                    made[k] -= weight * weigh_loads(loads, value, total, lam)
         return made
 
     def in_all(self, when: tuple[float, float, float, float], tables: Any) -> FloatArray:

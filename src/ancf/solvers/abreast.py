@@ -18,7 +18,7 @@ from .abreast_room import add_push, follow_abreast, kept, predicted, sizes_of, t
 from .ahead import look_ahead
 from .edge import corrected_at_edge, edge_anew, solve_rows, to_local_abreast, to_shadows_abreast
 from .foreseen import foresee
-from .local import add_local, add_locals, look_near
+from .friction import add_remembered, bring, remember_changes, remember_group
 from .rare import add_slopes_along, add_slopes_beside_all
 from .scheme import coefficients
 from .sensitivity import DIFFERENCED, ENOUGH, MOST, add_lossy, both_along, is_done
@@ -80,25 +80,25 @@ def add_others(core, m, x, room, lane):
         r[i] = 0.0
     if m.lossy.table.shape[0] > 0:
         add_lossy(core, m, x, d, r)
-    if m.rough.table.shape[0] > 0 and not m.local:
+    if m.rough.table.shape[0] > 0:
         both_along(m.rough, core, m, x, d, r)
     for i in range(r.shape[0]):
         room.r[i, lane] += r[i]
 
 
 @inline_kernel
-def out_of_balance(core, m, matrices, x, turn, push, n, first, moves, room):
+def out_of_balance(core, m, matrices, x, turn, push, friction, n, first, moves, room):
     """r = M s_a + C s_v + K s_q + R_p as the solve wants it, of step n and parameters from ``first`` on."""
     r, count = room.r, min(LANES, push.shape[0] - first)
     follow_abreast(core.supports, room.d)
     turn_abreast(core.supports, turn, x, room.d)
     products(core, m, matrices[0], matrices[1], matrices[2], moves, room)
-    if m.lossy.table.shape[0] > 0 or (m.rough.table.shape[0] > 0 and not m.local):
+    if m.lossy.table.shape[0] > 0 or m.rough.table.shape[0] > 0:
         for k in range(count):
             if room.open[k] > 0.0:
                 add_others(core, m, x, room, k)
     add_slopes_along(m.joined, x[0], x[1], x[2], room.d, r, core.ws)
-    add_locals(core, m, x, room, count)
+    add_remembered(friction, first // LANES, x[0], x[1], r, core.ws)
     to_local_abreast(core.supports, r)
     add_push(room, push, n, first, count)
     for k in range(core.supports.held.shape[0]):
@@ -145,7 +145,7 @@ def correct(core, room, B, G):
 
 
 @inline_kernel
-def out_again(core, m, W, x, room, lanes, B, G):
+def out_again(core, m, W, x, room, B, G):
     """r = what is out of balance after the corrections in r: what these do that is not in the factors."""
     r, seen, supports = room.r, room.seen, core.supports
     for i in range(r.shape[0]):
@@ -166,14 +166,6 @@ def out_again(core, m, W, x, room, lanes, B, G):
             store(load(r, i + c), r, j + c)
     if m.joined.table.shape[0] > 0:
         add_beside(core, m, x, seen, r, B, G)
-    if m.rough.table.shape[0] > 0:
-        count = look_near(m, x)
-        for lane in range(lanes):
-            if room.open[lane] > 0.0:
-                for t in range(count):
-                    change = seen[int(m.near[0, t]), lane]
-                    m.near[1, t], m.near[2, t], m.near[3, t] = change, (G / B) * change, change / B
-                add_local(core, m, x, count, r, lane)
     to_local_abreast(supports, r)
     turned_back(core, r)
 
@@ -226,25 +218,27 @@ def not_done(room, weight, count, enough):
 
 
 @inline_kernel
-def solved(core, m, factor, matrices, x, turn, push, gap, n, first, joined, at_once, edge, room, B, G):
+def solved(
+    core, m, factor, matrices, x, turn, push, gap, friction, n, first, joined, at_once, edge, room, B, G
+):
     """Corrections of predicted sensitivities, perhaps ``at_once``; a status."""
     joints, count = core.joints, min(LANES, push.shape[0] - first)
     rough = m.rough.table.shape[0] > 0
     jointed = m.joined.table.shape[0] > 0
-    known = m.lossy.table.shape[0] == 0 and not m.turning and (m.local or not rough)
+    known = m.lossy.table.shape[0] == 0 and not m.turning and not rough
     known = known and (not jointed or all_beside(core, m))
     projects = joined.projects and joints.multipliers.shape[0] > 0
     enough = DIFFERENCED if rough else ENOUGH
-    again = matrices[2].shape[0] > 0 or rough or jointed
-    foresees = rough and known and not projects
+    again = matrices[2].shape[0] > 0 or jointed
+    foresees = m.outside and known and not projects
     for k in range(LANES):
         room.before[k], room.open[k], room.shift[k] = np.inf, 1.0 if k < count else 0.0, 0.0
     for round in range(MOST):
         if round > 0 and known and not projects:
-            out_again(core, m, matrices[2], x, room, count, B, G)
+            out_again(core, m, matrices[2], x, room, B, G)
         else:
             moves = not at_once or turn.shape[0] > 0
-            out_of_balance(core, m, matrices, x, turn, push, n, first, moves, room)
+            out_of_balance(core, m, matrices, x, turn, push, friction, n, first, moves, room)
         if at_once and jointed:
             corrected_at_edge(core, m, factor, x, gap, n, first, count, joined, edge, room, G / B, 1.0 / B)
             return OK
@@ -276,6 +270,7 @@ def follow_steps(core, m, ahead, room, edge, tables, way, push, gap, turn, h, sc
     Parameters
     ----------
     core, m, ahead, room, edge : Core, Matrices, Ahead, Abreast, Edge
+        With what friction remembers in the steps; derivatives of that at the start are changed to the end's.
     tables : Tables
         At the ends of the steps.
     way : Way
@@ -295,7 +290,7 @@ def follow_steps(core, m, ahead, room, edge, tables, way, push, gap, turn, h, sc
     Steps done and the status of the last one.
     """
     B, G = coefficients(h, scheme)
-    at_once = takes_one(m, edge)
+    at_once, friction = takes_one(m, edge), ahead.friction
     level = core.joints.level
     level[0], level[1], level[2] = joined.w0, joined.w1, joined.w2
     for n in range(way.q.shape[0]):
@@ -308,19 +303,20 @@ def follow_steps(core, m, ahead, room, edge, tables, way, push, gap, turn, h, sc
         matrices = (ahead.K[lane], ahead.C[lane], ahead.W[lane])
         x = (way.q[n], way.v[n], way.a[n])
         drive(core.supports, core.loads.value, tables, n, x[0], x[1], x[2])
+        bring(friction, n)
         if at_once and edge.c.shape[1] > 0:
             own = (joined, edge, room, G / B, 1.0 / B)
             if not edge_anew(core, m, factor, matrices, x, *own):
                 return n, SINGULAR
         for g in range(s.shape[0]):
             predicted(s[g], room.d, h, scheme, 0.0 if at_once else 1.0)
-            axes, first = turn[g], LANES * g
-            status = solved(
-                core, m, factor, matrices, x, axes, push, gap, n, first, joined, at_once, edge, room, B, G
-            )
+            axes, first, own = turn[g], LANES * g, (joined, at_once, edge, room, B, G)
+            status = solved(core, m, factor, matrices, x, axes, push, gap, friction, n, first, *own)
             if status != OK:
                 return n, status
             follow_abreast(core.supports, room.d)
             turn_abreast(core.supports, axes, x, room.d)
+            remember_group(friction, g, x[0], x[1], room.d, core.ws)
             kept(room, s[g], scheme, out, place + n, LANES * g)
+        remember_changes(friction, x[0], x[1], core.ws)
     return way.q.shape[0], OK

@@ -13,6 +13,7 @@ from ..linalg.eight import Eight, allocate_eight, factorise_eight
 from ..records import recorded
 from ..simd import LANES
 from ..system.core import Core, drive, restrict
+from .friction import Friction, bring, no_friction
 from .sensitivity import Matrices, stiffnesses
 
 
@@ -26,13 +27,15 @@ class Ahead(NamedTuple):
     eight: Eight  # all of M/B + (G/B) C + K
     last: FloatArray  # (2, size) what velocities added to K^T lambda in the last steps of an adjoint
     rate: FloatArray  # (1,) by which corrections of lambda shrink, at most
+    friction: Friction  # that remembers the way
 
 
 def ahead_of(core: Core, m: Matrices) -> Ahead:
     """Room for the matrices of a model."""
     K, C = np.zeros((2, LANES, core.A.size))
     last = np.zeros((2, m.work.shape[1]))
-    return Ahead(K, C, np.zeros((LANES, m.W.size)), allocate_eight(core.factor), last, np.zeros(1))
+    W, eight = np.zeros((LANES, m.W.size)), allocate_eight(core.factor)
+    return Ahead(K, C, W, eight, last, np.zeros(1), no_friction())
 
 
 @inline_kernel
@@ -78,6 +81,7 @@ def look_ahead(core, m, ahead, tables, way, first, B, G, both):
     for k in range(count):
         n = first + k
         drive(core.supports, core.loads.value, tables, n, way.q[n], way.v[n], way.a[n])
+        bring(ahead.friction, n)
         x = (way.q[n], way.v[n])
         matrices_at(core, m, ahead.K[k], ahead.C[k], ahead.W[k], ahead.eight.A[k], x[0], x[1], B, G)
     definite = core.joints.multipliers.shape[0] == 0

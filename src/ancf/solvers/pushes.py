@@ -13,6 +13,7 @@ from ..arrays import FloatArray, IntArray
 from ..batches import Batches, add_force_of, add_forces
 from ..compiled import inline_kernel, kernel
 from ..system.core import drive, external_force, onto_shadows, to_local
+from .friction import bring
 from .rare import add_changes_of, add_number_work_of
 
 
@@ -71,7 +72,7 @@ def add_changed(changes, q, v, a, step, push, ws):
 
 
 @kernel
-def add_pushes(core, uses, changes, turn, first, loaded, tables, way, work, push):
+def add_pushes(core, uses, changes, turn, first, loaded, tables, way, friction, work, push):
     """Add the forces of the batches to the pushes, and bring these into the form that the solve wants.
 
     Parameters
@@ -89,6 +90,8 @@ def add_pushes(core, uses, changes, turn, first, loaded, tables, way, work, push
         At the ends of the steps.
     way : Way
         States there.
+    friction : Friction
+        With what batches remember in the steps.
     work : (size,)
     push : (rows, steps, size)
         Filled; at the start what other loads do, in the same.
@@ -97,6 +100,7 @@ def add_pushes(core, uses, changes, turn, first, loaded, tables, way, work, push
     for step in range(way.q.shape[0]):
         q, v, a = way.q[step], way.v[step], way.a[step]
         drive(core.supports, core.loads.value, tables, step, q, v, a)
+        bring(friction, step)
         for p in range(push.shape[0]):
             row, steady = push[p, step], first[p]
             if loaded[p]:
@@ -188,11 +192,24 @@ def weigh_pushes(core, uses, known, begin, tables, way, lam, work, pushed, numbe
 
 
 @kernel
-def weigh_loads(loads, value, work, lam):
-    """Sum over the steps of lambda, (steps, size) with its shadows, times dead loads of these inputs."""
-    total = 0.0
+def weigh_loads(loads, value, total, lam):
+    """Sum over the steps of lambda, (steps, size) with its shadows, times dead loads of these inputs.
+
+    ``total``: the sum of lambda over the steps, which all that does not change is weighed with.
+    """
+    found = 0.0
+    for i in range(total.shape[0]):
+        found += total[i] * loads.still[i]
     for step in range(lam.shape[0]):
-        external_force(loads, value[step], work)
-        for i in range(work.shape[0]):
-            total += lam[step, i] * work[i]
-    return total
+        load, x = value[step], lam[step]
+        for m in range(loads.hung_slot.shape[0]):
+            length, i = load[loads.hung_row[m], 0], loads.hung_slot[m]
+            for c in range(3):
+                found += length * loads.hung[m, c] * x[i + c]
+        for k in range(loads.start.shape[0] - 1):
+            size = load[loads.grows[k], 0] if loads.grows[k] >= 0 else 1.0
+            for m in range(loads.start[k], loads.start[k + 1]):
+                i, w = loads.slot[m], size * loads.factor[m]
+                for c in range(3):
+                    found += w * load[k, c] * x[i + c]
+    return found

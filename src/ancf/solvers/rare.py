@@ -13,12 +13,15 @@ from ..batches import (
     ALONG,
     BESIDE,
     CHANGES,
+    CHOICE,
+    KEEPING,
     NUMBERS,
+    OWN_CHANGES,
     PRODUCTS,
     RARE,
     RATES,
+    REMEMBERED,
     SLOPES,
-    TOUCHED,
     WORKS,
     Batches,
     address_of,
@@ -27,20 +30,25 @@ from ..batches import (
 from ..compiled import (
     add_changes,
     add_force_slopes,
+    add_memory_changes,
+    add_memory_slopes,
     add_number_work,
     add_rate_stiffness,
     add_rate_work,
     add_slopes_beside,
     add_tangent_work,
     add_work_slopes,
+    choose_memory,
     inline_kernel,
-    touched,
+    remember_along,
 )
 
-_rate, _touched, _numbers = caller_of(add_rate_stiffness), caller_of(touched, 0), caller_of(add_number_work)
+_rate, _numbers = caller_of(add_rate_stiffness), caller_of(add_number_work)
 _work, _slopes = caller_of(add_rate_work), caller_of(add_work_slopes)
 _along, _beside = caller_of(add_force_slopes), caller_of(add_slopes_beside)
 _changes, _products = caller_of(add_changes), caller_of(add_tangent_work)
+_choose, _memory_slopes = caller_of(choose_memory), caller_of(add_memory_slopes)
+_along_memory, _memory_changes = caller_of(remember_along), caller_of(add_memory_changes)
 
 
 def knowing(stub: Any, batches: Iterable[Any], *others: Any) -> Batches:
@@ -114,15 +122,6 @@ def add_slopes_beside_all(batches, q, v, a, d, r, ws):
 
 
 @inline_kernel
-def all_touched(batches, q, out):
-    """What all of the :class:`Batches` touch, see :func:`ancf.compiled.touched`."""
-    table, count = batches.table, 0
-    for k in range(table.shape[0]):
-        count += _touched(table[k, TOUCHED], table[k, 0], (q, out[count:]))
-    return count
-
-
-@inline_kernel
 def add_number_work_of(batches, k, q, v, a, x, out, ws):
     """``add_number_work`` of one of the :class:`Batches`."""
     table = batches.table
@@ -134,3 +133,31 @@ def add_changes_of(batches, k, q, v, a, rates, kinds, begin, out, ws):
     """``add_changes`` of one of the :class:`Batches`."""
     table = batches.table
     _changes(table[k, CHANGES], table[k, 0], (q, v, a, rates, kinds, begin, out, ws))
+
+
+@inline_kernel
+def choose_memory_of(batches, k, q, v, out):
+    """``choose_memory`` of one of the :class:`Batches`."""
+    table = batches.table
+    _choose(table[k, CHOICE], table[k, 0], (q, v, out))
+
+
+@inline_kernel
+def add_memory_slopes_of(batches, k, q, v, z, r, ws):
+    """``add_memory_slopes`` of one of the :class:`Batches`."""
+    table = batches.table
+    _memory_slopes(table[k, REMEMBERED], table[k, 0], (q, v, z, r, ws))
+
+
+@inline_kernel
+def remember_along_of(batches, k, q, v, d, z, ws):
+    """``remember_along`` of one of the :class:`Batches`."""
+    table = batches.table
+    _along_memory(table[k, KEEPING], table[k, 0], (q, v, d, z, ws))
+
+
+@inline_kernel
+def add_memory_changes_of(batches, k, q, v, rates, kinds, begin, out, ws):
+    """``add_memory_changes`` of one of the :class:`Batches`."""
+    table = batches.table
+    _memory_changes(table[k, OWN_CHANGES], table[k, 0], (q, v, rates, kinds, begin, out, ws))

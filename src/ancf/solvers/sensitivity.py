@@ -61,12 +61,11 @@ class Matrices(NamedTuple):
     C: FloatArray
     M: FloatArray
     W: FloatArray  # what is antisymmetric of the stiffness; no values if there is none
-    local: bool  # rough batches know what they touch
+    outside: bool  # contacts are not in the matrix of a step
     turning: bool  # axes of supports turn, which the factors of a step do not know
     damped: bool  # C is not zero
     moved: float  # change of a state, in sizes of the model, of differences
     work: FloatArray  # (10, size)
-    near: FloatArray  # (7, unknowns) of what rough batches touch: unknown, s_q, s_v, s_a, and differences
     along: FloatArray  # (3, size, 8) and (size, 8) directions of joints, and what comes of them; of no joint
     found: FloatArray  # (0, 0, 8) and (0, 8)
     alpha: FloatArray  # of rows of joints with such, see joint, (k,)
