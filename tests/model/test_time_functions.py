@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+import ancf
 from ancf.errors import ModelError
 from ancf.model import TimeFunction
 
@@ -256,3 +257,21 @@ def test_keyboard_interrupt_goes_through():
 def test_size_is_1_or_3():
     with pytest.raises(ValueError, match="size"):
         TimeFunction(1.0, 2, "load")
+
+
+@pytest.mark.parametrize(
+    "give",
+    [
+        lambda model, beam, f: model.pin(beam.end, displacement=(f, 0, 0)),
+        lambda model, beam, f: model.add_force(beam.end, [0, f, 1.0]),
+        lambda model, beam, f: model.add_distributed_load(beam, (0, 0, f)),
+        lambda model, beam, f: model.add_fluid("air", 1.2, velocity=(0, f, 0), on=[]),
+    ],
+)
+@pytest.mark.parametrize("function", [np.sin, lambda t: 0.1 * t])
+def test_a_function_for_one_component_is_told_to_give_three(give, function):
+    model = ancf.Model()
+    section = ancf.Section(EA=1e4, EI=0.1, rhoA=0.1)
+    beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
+    with pytest.raises(ancf.ModelError, match=r"\[\d\]: must be a number, is a function: one of t gives all"):
+        give(model, beam, function)

@@ -204,7 +204,7 @@ def spring_number_work(batch, q, v, a, x, out, ws):
         out[first + STIFFNESS] += moved * extension
         out[first + DAMPING] += moved * rate
         out[first + LENGTH] -= moved * (batch.data[e, STIFFNESS] + looked_up(batch, 2 * e, extension)[1])
-        if batch.data[e, FRICTION] != 0.0:
+        if batch.data[e, SLACK] == 0.0:
             creep = batch.data[e, CREEP]
             share = math.tanh(rate / creep)
             out[first + FRICTION] += moved * share

@@ -62,7 +62,7 @@ class FileBuild:
     columns: tuple[str, ...]
     times: FloatArray = field(repr=False)
 
-    def __call__(self, **values: Any) -> dict[str, FloatArray]:
+    def __call__(self, /, **values: Any) -> dict[str, FloatArray]:
         """Columns (n,) with these values."""
         return histories(self.case.read(values), self.formulas(), self.times)
 

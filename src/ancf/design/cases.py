@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 OF_STATES = ("twist",)
 #: How the error of a key says that there is none.
 UNKNOWN = "unknown key"
-OF_MODEL = Vocabulary(("t", "frequency"), tuple(QUANTITIES))
+FREQUENCY = "frequency"
+OF_MODEL = Vocabulary(("t", FREQUENCY), tuple(QUANTITIES))
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,12 @@ class ModelCase:
         ModelError
             One is no formula.
         """
-        return [(n, Formula(text, f"outputs.{n}", OF_MODEL)) for n, text in self.outputs]
+        made = [(n, Formula(text, f"outputs.{n}", OF_MODEL)) for n, text in self.outputs]
+        for _, formula in made:
+            if FREQUENCY in formula.whole:
+                what = f'"{formula.text}": {FREQUENCY} has as many entries as there are motions'
+                raise ModelError(formula.where, what, f"name one from the lowest, {FREQUENCY}[0]")
+        return made
 
     def read(self, values: Mapping[str, Any]) -> Study:
         """The study of the model file with these values, by name."""
@@ -81,7 +87,7 @@ class ModelCase:
             raise ModelError("model", "nothing to compute", hint)
         check_asked(study.model, (formula for _, formula in self.formulas))
 
-    def __call__(self, **values: Any) -> dict[str, float]:
+    def __call__(self, /, **values: Any) -> dict[str, float]:
         """Outputs of the case with these values."""
         study = self.read(values)
         answers = _ModelAnswers(study, self.formulas)
@@ -138,13 +144,14 @@ class _ModelAnswers:
     def __init__(self, study: Study, formulas: list[tuple[str, Formula]]) -> None:
         self.study, settings = study, study.simulation
         asked = list(dict.fromkeys(pair for _, formula in formulas for pair in formula.asked))
-        self._count = 1 + max((f.highest for _, f in formulas if "frequency" in f.named), default=-1)
+        self._count = 1 + max((f.highest for _, f in formulas if FREQUENCY in f.named), default=-1)
         self._start = self._state()
         self._sampled: Any = None
+        self._stored: Any = None
         if settings is None:
             return
         whole = any(quantity in OF_STATES for quantity, _ in asked)
-        items = [] if whole else list(dict.fromkeys(item for _, item in asked))
+        items = list(dict.fromkeys(item for quantity, item in asked if quantity not in OF_STATES))
         steps = max(1, round(settings.t_end / settings.step))
         result = simulate(
             study.model,
@@ -152,10 +159,10 @@ class _ModelAnswers:
             step=settings.step,
             start=self._start if settings.start == "equilibrium" else None,
             integrator=settings.integrator,
-            output_step=settings.output_step if whole else steps * settings.step,
+            output_step=settings.step if whole else steps * settings.step,
             sensors=items or None,
         )
-        self._sampled = result.sensors if items else result
+        self._stored, self._sampled = result, result.sensors if items else result
 
     def _state(self) -> Any:
         settings, given = self.study.simulation, self.study.equilibrium
@@ -166,7 +173,7 @@ class _ModelAnswers:
 
     def value(self, name: str) -> Any:
         """Times of the run, or frequencies in Hz about its start."""
-        if name == "frequency":
+        if name == FREQUENCY:
             return modes(self.study.model, about=self._start, count=max(self._count, 1)).frequencies_hz
         return np.zeros(1) if self._sampled is None else self._sampled.t
 
@@ -174,4 +181,4 @@ class _ModelAnswers:
         """History at every step, or the one state of an equilibrium."""
         if self._sampled is None:
             return ask(self._start, quantity, item)[None]
-        return ask(self._sampled, quantity, item)
+        return ask(self._stored if quantity in OF_STATES else self._sampled, quantity, item)

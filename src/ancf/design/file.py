@@ -125,7 +125,7 @@ class FileCase:
 
     inner: ModelCase | LineCase
 
-    def __call__(self, **values: Any) -> dict[str, float]:
+    def __call__(self, /, **values: Any) -> dict[str, float]:
         """Outputs of a case."""
         return self.inner(**values)
 
@@ -181,11 +181,14 @@ def _entry_at(parts: tuple[int | str, ...]) -> type[Entry]:
 
 
 def _names(entry: StudyEntry) -> list[str]:
+    from .study import CASE, MESSAGE, STATUS
+
     names = [p.path if p.name is None else p.name for p in entry.parameters]
     outputs = [o.name for o in entry.outputs]
+    own = (CASE, STATUS, MESSAGE)
     for group, found in (("parameters", names), ("outputs", outputs)):
         for k, name in enumerate(found):
-            if name in found[:k] or (group == "outputs" and name in names):
+            if name in found[:k] or name in own or (group == "outputs" and name in names):
                 raise ModelError(f"{group}[{k}].name", f'"{name}" is the name of another column already')
     return names
 
@@ -222,7 +225,10 @@ def _samples(entry: StudyEntry, names: list[str], path: Path) -> DataFrame:
             if name not in names:
                 what = f'there is no parameter "{name}"'
                 raise ModelError(f"correlations[{k}].between", what, checks.nearest(name, names))
-        pairs[given.between[0], given.between[1]] = given.value
+        pair = (given.between[0], given.between[1])
+        if pair in pairs or pair[::-1] in pairs:
+            raise ModelError(f"correlations[{k}].between", f"{pair[0]} and {pair[1]} have one already")
+        pairs[pair] = given.value
     try:
         return sample(
             kinds, method=sampling.method, count=sampling.count, seed=sampling.seed, correlations=pairs

@@ -14,6 +14,7 @@ from ..errors import ModelError, SolveError
 from ..model.checks import listed, nearest
 from ..model.expression import CONSTANTS, FUNCTIONS, OPERATORS
 from .meant import meant_by
+from .work import NotFiniteError
 
 MOST_CHARACTERS = 2000
 
@@ -99,6 +100,8 @@ class Formula:
         Names that it uses.
     highest : int
         Largest index of a name, -1 without any.
+    whole : set of str
+        Names of which it uses more than entries counted from the first.
 
     Raises
     ------
@@ -111,6 +114,7 @@ class Formula:
         self.asked: list[tuple[str, str]] = []
         self.named: set[str] = set()
         self.highest = -1
+        self.whole: set[str] = set()
         try:
             tree = ast.parse(" ".join(text.split())[:MOST_CHARACTERS], mode="eval").body
             self._compiled = self._compile(tree)
@@ -137,7 +141,7 @@ class Formula:
             raise ModelError(self.where, what, self._one_number(found, case))
         number = float(found.reshape(-1)[0])
         if not math.isfinite(number):
-            raise ModelError(self.where, f'"{self.text}" is {number}, must be a finite number')
+            raise NotFiniteError(self.where, f'"{self.text}" is {number}, must be a finite number')
         return number
 
     def _computed(self, case: Answers) -> Any:
@@ -209,6 +213,7 @@ class Formula:
         if name not in self.words.names:
             raise self._unknown_name(name)
         self.named.add(name)
+        self.whole.add(name)
         return lambda case: case.value(name)
 
     def _entry(self, inner: ast.AST, place: ast.AST) -> Callable[[Answers], Any]:
@@ -220,9 +225,11 @@ class Formula:
         if not isinstance(index, int) or isinstance(index, bool):
             what = f'"{self.text}": "{ast.unparse(place)}" is no place in a list'
             raise ModelError(self.where, what, "a whole number, from 0")
+        before = set(self.whole)
+        whole, text = self._compile(inner), ast.unparse(inner)
         if isinstance(inner, ast.Name) and index >= 0:
             self.highest = max(self.highest, index)
-        whole, text = self._compile(inner), ast.unparse(inner)
+            self.whole -= {inner.id} - before
 
         def entry(case: Answers) -> Any:
             values = np.asarray(whole(case))

@@ -41,12 +41,15 @@ class Outcome:
         Why it failed, or what to know of it.
     seconds : float
         It took, s.
+    wrong_kind : bool
+        Whether its outputs are no numbers at all; known only where it was computed.
     """
 
     status: str
     outputs: dict[str, float] = field(default_factory=dict)
     message: str = ""
     seconds: float = 0.0
+    wrong_kind: bool = False
 
     @property
     def failed(self) -> bool:
@@ -56,9 +59,15 @@ class Outcome:
 
 def case_key(values: Mapping[str, Any]) -> str:
     """By what a case is known: its values to the last bit, in any order."""
-    plain = {name: v if isinstance(v, str) else float(v).hex() for name, v in values.items()}
+    plain = {name: v if isinstance(v, str) else _bits(v) for name, v in values.items()}
     text = json.dumps(plain, sort_keys=True, ensure_ascii=False)
     return hashlib.sha256(text.encode("utf-8")).hexdigest()[:32]
+
+
+def _bits(value: float) -> str:
+    """A number to its last bit; 2 and 2.0 are the same, whole ones beyond 2**53 have more digits."""
+    number = float(value)
+    return number.hex() if number == value else str(value)
 
 
 class Journal:

@@ -144,7 +144,7 @@ class LineCase:
             check(one)
         _ = self.formulas
 
-    def __call__(self, **values: Any) -> dict[str, float]:
+    def __call__(self, /, **values: Any) -> dict[str, float]:
         """Outputs of the case with these values."""
         line, settings = self.read(values)
         answers = _AtRest(line) if self.run is None else _Passing(line, settings)

@@ -207,6 +207,8 @@ def _correlated(u: FloatArray, names: list[str], pairs: Mapping[Any, float], met
         for name in pair:
             if name not in names:
                 raise ModelError(where, f'there is no parameter "{name}"', checks.nearest(name, names))
+        if pair[::-1] in pairs:
+            raise ModelError(where, "stands there the other way round too", "give one of both")
         i, j = (names.index(name) for name in pair)
         matrix[i, j] = matrix[j, i] = checks.between(value, where, -1.0, 1.0)
     try:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from .extras import extra
+from .order import places_of
 from .sampling import DESIGN, DRAWN, LEVELS, unit_samples
 
 if TYPE_CHECKING:
@@ -21,6 +22,11 @@ LEVEL = 0.95
 #: Bins of a parameter for its main effect, and the fewest cases in one.
 BINS, FEWEST = 10, 5
 RESAMPLES = 1000
+#: Methods that depend on which row is which.
+ORDERED = ("saltelli", "morris")
+LOST = (
+    "The rows are no longer those of the design: without knowing which belong together there are no indices."
+)
 
 
 def summary(table: DataFrame, design: dict[str, Any] | None) -> dict[str, Any]:
@@ -35,14 +41,18 @@ def summary(table: DataFrame, design: dict[str, Any] | None) -> dict[str, Any]:
     """
     method = design["method"] if design else "list"
     failed = int((table["status"] == "failed").sum())
-    made: dict[str, Any] = {"cases": len(table), "failed": failed, "note": _note(table, method, failed)}
+    places = places_of(table, design) if design is not None and method in ORDERED else None
+    lost = method in ORDERED and places is None
+    note = _note(table, method, failed) + (f" {LOST}" if lost else "")
+    made: dict[str, Any] = {"cases": len(table), "failed": failed, "note": note}
     random = drawn_rows(table)
     made["outputs"] = {name: _described(column(table, name)[random], method) for name in outputs_of(table)}
     made["effects"] = {name: effects(table, name) for name in outputs_of(table)}
-    if method in ("saltelli", "morris") and design is not None:
+    if method in ORDERED and design is not None:
         indices = _sobol if method == "saltelli" else _morris
-        whole = len(table) == len(_unit(design))
-        made[method] = {name: indices(table, name, design) for name in outputs_of(table)} if whole else {}
+        whole = places is not None and np.array_equal(np.sort(places), np.arange(len(_unit(design))))
+        rows = table.iloc[np.argsort(np.asarray(places))] if whole else table
+        made[method] = {name: indices(rows, name, design) for name in outputs_of(table)} if whole else {}
     return made
 
 
@@ -71,11 +81,11 @@ def is_drawn(method: str) -> bool:
 def drawn_rows(table: DataFrame) -> Any:
     """Which rows describe the distribution: of "saltelli" the two independent ones of each base point."""
     design = table.attrs.get(DESIGN)
-    if design is None or design["method"] != "saltelli":
+    places = places_of(table, design) if design is not None and design["method"] == "saltelli" else None
+    if design is None or places is None:
         return np.ones(len(table), dtype=bool)
     group = len(design["parameters"]) + 2
-    place = np.arange(len(table)) % group
-    return (place == 0) | (place == group - 1)
+    return np.isin(places % group, (0, group - 1))
 
 
 def _note(table: DataFrame, method: str, failed: int) -> str:
@@ -195,17 +205,30 @@ def is_full(table: DataFrame) -> bool:
 
 
 def _bins(x: Any) -> Iterator[tuple[Any, Any]]:
-    """Places and members of the bins: the values themselves where they are few."""
+    """Places and members of the bins: the values themselves where they are few, or words.
+
+    Equal values are in one bin, that of the middle one of them, in whatever order the rows are.
+    """
     levels = list(dict.fromkeys(x.tolist()))
-    if len(levels) <= BINS:
+    if len(levels) <= BINS or any(isinstance(level, str) for level in levels):
         if len(levels) > 1:
             for level in sorted(levels, key=lambda v: (isinstance(v, str), v)):
                 yield level, x == level
         return
     count = max(2, min(BINS, len(x) // FEWEST))
     order = np.argsort(x, kind="stable")
-    for part in np.array_split(order, count):
+    bins = np.concatenate([np.full(len(part), k) for k, part in enumerate(np.array_split(order, count))])
+    starts = np.flatnonzero(np.diff(x[order], prepend=np.nan) != 0.0)
+    sizes = np.diff(starts, append=len(x))
+    bins = np.repeat(bins[starts + (sizes - 1) // 2], sizes)
+    for k in np.unique(bins):
+        part = order[bins == k]
         yield float(np.mean(x[part])), part
+
+
+def _seed(design: dict[str, Any]) -> int:
+    """For resamples; SALib takes 0 for no seed."""
+    return int(design["seed"] % 2**32) or 2**32 - 1
 
 
 def _unit(design: dict[str, Any]) -> FloatArray:
@@ -235,7 +258,7 @@ def _sobol(table: DataFrame, output: str, design: dict[str, Any]) -> dict[str, A
         calc_second_order=False,
         num_resamples=RESAMPLES,
         conf_level=LEVEL,
-        seed=design["seed"] % 2**32,
+        seed=_seed(design),
     )
     for k, name in enumerate(names):
         made["indices"][name] = {key: float(found[key][k]) for key in ("S1", "S1_conf", "ST", "ST_conf")}
@@ -258,7 +281,7 @@ def _morris(table: DataFrame, output: str, design: dict[str, Any]) -> dict[str, 
         num_resamples=RESAMPLES,
         conf_level=LEVEL,
         num_levels=LEVELS,
-        seed=design["seed"] % 2**32,
+        seed=_seed(design),
     )
     for k, name in enumerate(names):
         made["indices"][name] = {

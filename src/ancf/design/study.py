@@ -20,7 +20,7 @@ from .extras import pandas
 from .finished import FILES
 from .journal import Journal, Outcome, case_key
 from .processes import Case, Processes
-from .work import WRONG_KIND, Function, outcome, packed
+from .work import Function, outcome, packed
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -281,7 +281,7 @@ def _carry_out(
 
 def _check_first(one: Outcome, known: Mapping[str, Outcome]) -> None:
     """Raise ModelError if the very first outputs are no numbers: it is the function that is wrong."""
-    if len(known) == 1 and one.failed and one.message.startswith(WRONG_KIND):
+    if len(known) == 1 and one.wrong_kind:
         where, _, what = one.message.partition(": ")
         raise ModelError(where, what)
 

@@ -113,7 +113,7 @@ class SweepCase:
             text = repr((self.line, sorted(self.settings.items()), self.supply, self.mesh))
         return {"sweep": self.line.title, "hash": hashlib.sha256(text.encode("utf-8")).hexdigest()[:16]}
 
-    def __call__(self, **values: Any) -> dict[str, float]:
+    def __call__(self, /, **values: Any) -> dict[str, float]:
         """Quantities that are accepted or not, of each pantograph by its number, and whether all are."""
         given = {"spacing": values[SPACING]} if SPACING in values else {}
         done = run_line(self.form, speed=values[SPEED] / 3.6, **given, **self.settings)

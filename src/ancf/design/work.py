@@ -20,6 +20,10 @@ Function = Callable[..., Mapping[str, float]]
 WRONG_KIND = "outputs"
 
 
+class NotFiniteError(ModelError):
+    """A case has an output that is no finite number: others may have one."""
+
+
 def outcome(function: Function, values: Mapping[str, Any]) -> Outcome:
     """Call the function with the values of one case; an error is an outcome too."""
     start = time.perf_counter()
@@ -28,7 +32,9 @@ def outcome(function: Function, values: Mapping[str, Any]) -> Outcome:
         try:
             outputs = _numbers(function(**values))
         except Exception as error:
-            return Outcome(FAILED, {}, _told(error), time.perf_counter() - start)
+            wrong = isinstance(error, ModelError) and error.where.startswith(WRONG_KIND)
+            wrong = wrong and not isinstance(error, NotFiniteError)
+            return Outcome(FAILED, {}, _told(error), time.perf_counter() - start, wrong)
     told = dict.fromkeys(str(w.message) for w in caught if w.category is UserWarning)
     return Outcome(OK, outputs, "; ".join(f"warning: {text}" for text in told), time.perf_counter() - start)
 
@@ -52,7 +58,7 @@ def _numbers(given: Any) -> dict[str, float]:
             raise ModelError(f"{WRONG_KIND}.{name}", what)
         number = float(array.reshape(-1)[0])
         if not math.isfinite(number):
-            raise ModelError(str(name), f"is {number}, must be a finite number")
+            raise NotFiniteError(str(name), f"is {number}, must be a finite number")
         made[str(name)] = number
     return made
 

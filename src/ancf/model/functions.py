@@ -205,6 +205,9 @@ class TimeFunction:
             if part.size != 1:
                 raise ModelError(where, f"has {part.size} values at each time, wanted 1")
             return part
+        if callable(part) and self.size > 1:
+            what = "must be a number, is a function: one of t gives all three components"
+            raise ModelError(where, what, "such as lambda t: (0.1*t, 0.0, 0.0)")
         if not isinstance(part, str | Signal):
             return checks.number(part, where)
         there = part.inputs if isinstance(part, Signal) else known()

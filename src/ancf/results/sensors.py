@@ -209,7 +209,8 @@ class Sensors(SpringFields, ContactFields, Led, Plotted):
     def _whole_probe(self, probe: Probe) -> Probe:
         """Where a point is in whole state vectors."""
         place = Point(probe.body, probe.x, "", probe.y, probe.z)
-        return locate(place, self._whole_slots[probe.body.name])
+        element = probe.element if isinstance(probe, BeamProbe) else None
+        return locate(place, self._whole_slots[probe.body.name], element=element)
 
     def spring_length(self, spring: Spring | str) -> FloatArray:
         """See :meth:`ancf.Result.spring_length`."""

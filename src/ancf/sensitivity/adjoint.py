@@ -338,7 +338,7 @@ class Adjoint:
             self._sums[key] = self._sums.get(key, 0.0) + np.stack([weights @ q, weights @ v])
         for k, system, weight in self._others() if others else ():
             here = self.asked(Face(self.system, q, v, 0.0), others) if here is None else here
-            found = self.asked(Face(system, q, v, 0.0), others)
+            found = self.asked(Face(system, q, v, 0.0, base=self.system), others)
             total[k] += weight * float(sum(np.sum(slopes[key] * (found[key] - here[key])) for key in others))
         return total
 
@@ -347,8 +347,9 @@ class Adjoint:
         total = np.zeros(len(self.families))
 
         def answers(system: System) -> float:
-            each = ((key, Face(system, sums[0], sums[1], 0.0)) for key, sums in self._sums.items())
-            found = (self.asked(face, [key])[key] for key, face in each)
+            base, each = self.system, self._sums.items()
+            faces = ((key, Face(system, s[0], s[1], 0.0, base=base)) for key, s in each)
+            found = (self.asked(face, [key])[key] for key, face in faces)
             return float(sum(np.trace(made.reshape(len(made), -1)) for made in found))
 
         here = answers(self.system)

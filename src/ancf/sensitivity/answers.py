@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -11,7 +12,10 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
+from ..model.beam import Beam
+from ..model.bodies import Body
 from ..model.describe import point as point_text
+from ..model.lookup import parse_point
 from ..model.points import Point
 from ..results import moments
 from ..results.momenta import Momenta
@@ -40,11 +44,20 @@ PLACES = ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12))
 class Face(SpringFields, ContactFields, Momenta):
     """What can be asked of state vectors of a system, one (size,) or a history (n, size).
 
-    ``beside``: they are changed, or the system is another one, for a difference.
+    ``beside``: they are changed, or the system is another one, for a difference. ``base``: then points are
+    those of this system.
     """
 
-    def __init__(self, system: System, q: FloatArray, v: FloatArray, t: float, beside: bool = False) -> None:
-        self.beside = beside
+    def __init__(
+        self,
+        system: System,
+        q: FloatArray,
+        v: FloatArray,
+        t: float,
+        beside: bool = False,
+        base: System | None = None,
+    ) -> None:
+        self.beside, self.base = beside, None if base is system else base
         self.system, self.model, self.t = system, system.model, t
         self._q, self._v = q, v
         self._bodies, self._slots = self.model.bodies, system.slots
@@ -59,6 +72,12 @@ class Face(SpringFields, ContactFields, Momenta):
         if point not in self._found:
             self._found[point] = super()._probe(point)
         return self._found[point]
+
+    def _parsed(self, label: str) -> Point:
+        return super()._parsed(label) if self.base is None else parse_point(self.base.model.bodies, label)
+
+    def _there(self, place: Point, body: Body) -> tuple[Point, int | None]:
+        return super()._there(place, body) if self.base is None else on_another(place, self.base, body)
 
     def _contact_system(self) -> System:
         return self.system
@@ -248,7 +267,7 @@ class Sensitivity:
         for system, weight in around:
             if system is not family.base:
                 total = total + weight * (
-                    np.asarray(question(Face(system, self._q, self._v, t, True))) - here
+                    np.asarray(question(Face(system, self._q, self._v, t, True, family.base))) - here
                 )
         if linear:
             return np.asarray(total + question(Face(family.base, self.dq, self.dv, t)))
@@ -309,6 +328,21 @@ def in_motion(question: str) -> ModelError:
     what = "derivatives of reactions are known of equilibria only"
     hint = "ask the state of ancf.equilibrium, or in motion for the force of a spring or joint there"
     return ModelError(f"sensitivity.{question}", what, hint)
+
+
+def on_another(place: Point, base: System, body: Body) -> tuple[Point, int | None]:
+    """A point of a model on the same body of another one, as long or not: in the element that holds it here.
+
+    Beyond the end of that element its shape goes on, so that an answer has no jump from one to the next. Ends
+    stay ends.
+    """
+    own = base.model.bodies[body.name]
+    if place.body is body or not isinstance(own, Beam) or not isinstance(body, Beam):
+        return replace(place, body=body), None
+    if own.elements != body.elements:
+        return replace(place, body=body), None
+    x = body.length if place.x == own.length else place.x
+    return replace(place, body=body, x=x), own.element_at(place.x)
 
 
 def text_of(item: Any) -> Any:

@@ -25,7 +25,7 @@ from ..system.system import System
 from .alike import Known, alike, changed, same_inputs, same_loads
 from .parameters import Parameter
 from .pushing import Pushing
-from .remembering import friction_of
+from .remembering import friction_of, with_same_friction
 from .trial import Trial
 from .turns import axes_rates, ends_rates, moves_ends, slopes_local, slopes_rates, stands
 from .values import fed_alike, few_of, quiet_state
@@ -361,7 +361,7 @@ class Family(Pushing):
                 raise ModelError(self.name, what, "take a small number in place of 0")
             what = f"with {value:.8g} the model has other unknowns than with {self.parameter.value:.8g}"
             raise ModelError(self.name, what, "the number of elements, nodes and joints has to stay")
-        return system
+        return with_same_friction(self.base, system, self.name)
 
     def know(self, system: System) -> None:
         """Let all systems be as one that runs: its joints, and the weights of their rows."""

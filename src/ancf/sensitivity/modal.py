@@ -16,7 +16,7 @@ from ..system.contacts import touching
 from ..system.core import assemble, follow_supports, restrict
 from ..system.fields import Fields
 from ..system.system import System
-from .answers import text_of
+from .answers import Face, text_of
 from .base import check_differentiable
 from .family import Family
 from .parameters import Parameter
@@ -73,7 +73,8 @@ class ModalSensitivity:
         total = _displacements(modes.about.system, self.shapes, item)
         here = _displacements(modes.about.system, modes.shapes, item)
         for system, weight in zip(self._family.systems, self._family.weights, strict=True):
-            total = total + weight * (_displacements(system, modes.shapes, item) - here)
+            near = Face(system, modes.shapes, modes.shapes, 0.0, True, modes.about.system).position(item)
+            total = total + weight * (near - here)
         return total
 
 

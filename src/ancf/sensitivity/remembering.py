@@ -41,6 +41,14 @@ def refuse_friction(system: System, question: str) -> None:
         raise ModelError(f"sensitivity.{question}", what, "ask for the tension on both sides of the contact")
 
 
+def with_same_friction(base: System, system: System, name: str) -> System:
+    """The system; ModelError where friction is there with this value of a number alone, without a memory."""
+    if friction_of(system) != friction_of(base):
+        what = "friction that remembers the way is there with other values alone"
+        raise ModelError(name, what, "take a small number in place of 0")
+    return system
+
+
 class Resting:
     """What friction remembers in an equilibrium, and its derivatives, for answers that ask for forces there.
 

@@ -8,12 +8,15 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
+from ..model.bodies import Body
+from ..model.lookup import parse_point
+from ..model.points import Point
 from ..results.sensors import Sensors
 from ..solvers.sampling import sample_rows, sample_slopes, sampling_of
 from ..solvers.sensitivity import LEAST
 from ..system.sensors import Listing
 from ..system.system import System
-from .answers import MOVED, PLACES, Face, derivative, in_motion, is_linear, text_of
+from .answers import MOVED, PLACES, Face, derivative, in_motion, is_linear, on_another, text_of
 from .family import Family
 from .remembering import refuse_friction
 
@@ -85,8 +88,15 @@ class Samples:
 class _Recorded(Sensors):
     """Samples with other numbers."""
 
-    def __init__(self, sensors: Sensors, whole: Any, arrays: dict[str, FloatArray]) -> None:
+    def __init__(self, sensors: Sensors, whole: Any, arrays: dict[str, FloatArray], base: System) -> None:
         super().__init__(sensors.listing, lambda: arrays, whole)
+        self._base = base
+
+    def _parsed(self, label: str) -> Point:
+        return parse_point(self._base.model.bodies, label)
+
+    def _there(self, place: Point, body: Body) -> tuple[Point, int | None]:
+        return on_another(place, self._base, body)
 
     def _check(self, probe: Any, point: Any, known: Any) -> None:
         """The sensors themselves were asked before, with bodies of their own."""
@@ -165,7 +175,7 @@ class SensorSensitivity:
 
     def _with(self, system: System, arrays: dict[str, FloatArray]) -> _Recorded:
         whole = Face(system, np.zeros(system.size), np.zeros(system.size), 0.0)
-        return _Recorded(self._sensors, _Whole(whole), arrays)
+        return _Recorded(self._sensors, _Whole(whole), arrays, self._family.base)
 
 
 class _Whole:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..arrays import FloatArray
+from ..arrays import FloatArray, IntArray
 from ..errors import SolveError
 from ..later import LinearOperator, csc_array, gmres, splu
 from ..linalg.sparse import to_sparse
@@ -59,15 +59,18 @@ def of_equilibrium(
     h, q, zero = STENCIL_STEP, q.copy(), np.zeros_like(q)
     tables = system.inputs.tables(time - h, h, 1, time, np.inf)
     place_supports(core.supports, core.loads.value, tables, 0, q, zero, zero.copy())
-    solve = _solver(system, core, q, friction)
-    found = []
+    solve, stiff = _solver(system, core, q, friction)
+    found, left = [], np.setdiff1d(core.supports.held, system.held)
     for k, family in enumerate(families):
         family.know(system)
         push = family.at_rest(core, q, (time, h))
+        own = _described(core, family, left, time)
+        if np.any(own):
+            push.push[0, : system.n] += stiff(own)
         if friction is not None:
             push.push[0] += friction.push(k) + friction.times(_followed(core, push.held[0, 0].copy()))
         s = solve(push.push[0], family.name)
-        dq = _followed(core, s) + push.held[0, 0]
+        dq = _followed(core, s) + own + push.held[0, 0]
         found.append((dq, family.of_motion(q, dq, time)))
     if friction is not None:
         friction.end(np.array(found))
@@ -91,6 +94,14 @@ def _leant(system: System, core: Core, time: float, families: list[Family], fric
     return np.stack([rows, np.zeros((len(rows), q.size))], axis=1)
 
 
+def _described(core: Core, family: Family, left: IntArray, time: float) -> FloatArray:
+    """Derivative of the places of bodies that are left out of an equilibrium, where they are described."""
+    own = np.zeros(family.base.size)
+    if len(left):
+        own[left] = family.of_states(time)[0][left]
+    return _followed(core, own)
+
+
 def _followed(core: Core, d: FloatArray) -> FloatArray:
     """The same derivative, the shadows of its free unknowns filled."""
     follow_supports(core.supports, d, np.zeros_like(d), np.zeros_like(d))
@@ -98,7 +109,7 @@ def _followed(core: Core, d: FloatArray) -> FloatArray:
 
 
 def _solver(system: System, core: Core, q: FloatArray, friction: Leaning | None):  # type: ignore[no-untyped-def]
-    """A function that solves K s = -push, with the exact K of the state."""
+    """A function that solves K s = -push, with the exact K of the state, and one that makes K d of held d."""
     n, still = system.n, np.zeros_like(q)
     m = moved_with(system, matrices_of(core, q.size, moving=False))
     assemble(core.batches, core.ws, q, still, core.A, 0.0, 0.0, 1.0)
@@ -109,6 +120,14 @@ def _solver(system: System, core: Core, q: FloatArray, friction: Leaning | None)
     except RuntimeError:
         raise _neutral() from None
     d, r = np.zeros((3, q.size)), np.empty_like(q)
+
+    def stiff(x: FloatArray) -> FloatArray:
+        d[:] = 0.0
+        d[0, :] = x
+        products_along(core, m, q, still, still, d, np.zeros((0, 3, 3)), still, r)
+        y: FloatArray = r[:n] + (0.0 if friction is None else friction.times(d[0])[:n])
+        y[core.supports.held] = 0.0
+        return y
 
     def times(x: FloatArray) -> FloatArray:
         d[:] = 0.0
@@ -139,7 +158,7 @@ def _solver(system: System, core: Core, q: FloatArray, friction: Leaning | None)
         s[:n] = size * x
         return s
 
-    return solve
+    return solve, stiff
 
 
 def _is_solution(left: FloatArray, solve: Callable[[FloatArray], FloatArray], x: FloatArray) -> bool:

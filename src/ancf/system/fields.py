@@ -203,7 +203,12 @@ class Fields:
         if body is None:
             names = ", ".join(self.bodies)
             raise ModelError(str(place), f'there is no body "{place.body.name}" here, there are: {names}')
-        return locate(replace(place, body=body), self.slots[body.name], self._length_of(body.name))
+        there, element = self._there(place, body)
+        return locate(there, self.slots[body.name], self._length_of(body.name), element)
+
+    def _there(self, place: Point, body: Body) -> tuple[Point, int | None]:
+        """A point on the body of that name here, and the element in which it is looked at."""
+        return replace(place, body=body), None
 
     def _parsed(self, label: str) -> Point:
         """The point of a label; of a support's name the error says what it holds."""

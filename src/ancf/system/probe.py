@@ -145,15 +145,18 @@ def lengths_of(model: Model, unknowns: dict[str, IntArray]) -> dict[str, tuple[i
     return {name: (int(unknowns[w.name][0]), w.beam.length if w.at_start else 0.0) for name, w in there}
 
 
-def locate(point: Point, slots: IntArray, length: tuple[int, float] = (-1, 0.0)) -> Probe:
+def locate(
+    point: Point, slots: IntArray, length: tuple[int, float] = (-1, 0.0), element: int | None = None
+) -> Probe:
     """Probe at a point of a body whose nodes have these slots, shape (nodes, vectors + internal).
 
-    ``length``: of a cable with a winch, see :func:`lengths_of`.
+    ``length``: of a cable with a winch, see :func:`lengths_of`. ``element``: another one than that which
+    holds the point, whose shape is continued up to there.
     """
     body, x, y, z = point.body, point.x, point.y, point.z
     if not isinstance(body, Beam):
         return Probe(body, x, y, z, slots[0], _rigid_factors(point, slots.shape[1]))
-    e = body.element_at(x)
+    e = body.element_at(x) if element is None else element
     h = float(body.node_x[e + 1] - body.node_x[e])
     S = _factors(body, (x - body.node_x[e]) / h, h, y, z)
     vectors = KINDS[body.element].vectors
