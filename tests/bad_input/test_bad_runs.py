@@ -353,7 +353,7 @@ class TestEquilibria:
         model.add_force(beam.end, (1e300, 0, 0))
         failed("equilibrium", ancf.equilibrium, model)
 
-    @pytest.mark.parametrize("EA", [1e13, 2e15, 1e18])
+    @pytest.mark.parametrize("EA", [1e14, 2e15, 1e18])
     def test_a_stiffness_that_round_off_takes(self, EA):
         """Finer steps do not help: the cause is named, and what is stiff enough."""
         model = ancf.Model(gravity=(0, 0, -9.81))

@@ -39,8 +39,9 @@ LOSSY, NEAR, FAR = 3e-4, 8.0 / 12.0, -1.0 / 12.0
 #: be smaller, and the same where central differences have more round-off; the part below which they end when
 #: the next one is not smaller; of long lines, whose places have more round-off, when it is as large.
 MOST, ENOUGH, DIFFERENCED, NOISY, ROUGH = 60, 1e-13, 1e-10, 1e-8, 1e-6
-#: A correction, or a sensitivity, that is none, whatever its units.
-LEAST = 1e-200
+#: A correction, or a sensitivity, that is none, whatever its units: what has decayed so far is round-off of
+#: forces that are not small.
+LEAST = 1e-60
 #: Places of the vectors of a sensitivity.
 Q, V, A, ABAR = range(4)
 
