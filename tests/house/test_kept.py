@@ -308,6 +308,27 @@ def test_processes_write_at_once(tmp_path):
     assert sizes == [[1 + 97 * n for n in range(40)]] * 4
 
 
+def filled_when(told, folder):
+    told.wait()
+    filled(folder, 0)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no locks")
+def test_a_process_waits_for_who_writes(tmp_path):
+    fork = multiprocessing.get_context("fork")
+    told = fork.Event()
+    process = fork.Process(target=filled_when, args=(told, str(tmp_path)))
+    process.start()
+    with kept.alone(str(tmp_path)):
+        told.set()
+        process.join(1.0)
+        waits = process.is_alive()
+    process.join()
+    assert waits
+    assert process.exitcode == 0
+    assert len(kept.Shelf(str(tmp_path), "stamp").find(b"0 39")) == 1 + 97 * 39
+
+
 OF_THE_PACKAGE = """
 import ancf, sys
 from numba.core import event

@@ -85,7 +85,7 @@ class Memory:
         """Let points do what they do in the state at the end of a step, stick or slip, until :meth:`step`."""
         chosen = {name: x.copy() for name, x in self._now.items()}
         limits = [name for name in chosen if name.endswith(".limit")]
-        self.put(self._now, {name: JUST * self._now[name] for name in limits}, 1.0)
+        self.put(self._now | {name: (1.0 + JUST) * self._now[name] for name in limits})
         keep_memory(self.batches, q, v)
         for name in limits:
             anchor, limit = name.replace("limit", "anchor"), chosen[name]
@@ -272,12 +272,10 @@ class Memory:
         """What the system remembers."""
         return {name: x.copy() for name, x in self._own.items()}
 
-    def put(self, kept: Row, d: Row | None = None, x: float = 0.0) -> None:
-        """Let the system remember ``kept`` + x d, where limits are negative by their size."""
+    def put(self, kept: Row) -> None:
+        """Let the system remember this."""
         for name, own in self._own.items():
             own[...] = kept[name]
-            if d and name in d:
-                own += np.where(kept[name] < 0.0, -x, x) * d[name] if name.endswith(".limit") else x * d[name]
 
     def _limit(self) -> float:
         """The size of limits."""
