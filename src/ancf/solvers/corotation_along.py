@@ -25,7 +25,7 @@ from ..system.system import System
 from ..vectors import dot
 
 #: Stiffness that would be wrong, of a beam whose curvature changes by one over its length, in inertias.
-STIFF = 0.3
+STIFF = 0.4
 
 
 @recorded
