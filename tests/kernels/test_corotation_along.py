@@ -4,30 +4,13 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.compiled import kernel
 from ancf.solvers import corotation, corotation_along
-from ancf.solvers.corotation import remember, turn, turn_back, turn_forth
 from ancf.system.system import System
 from helpers import rotation
+from turned_frames import back, forth, turned
 
 RNG = np.random.default_rng(4)
 SECTION = ancf.Section(EA=1e4, EI=1.0, rhoA=0.1)
-
-
-@kernel
-def turned(frames, before, now):
-    remember(frames, before)
-    turn(frames, now)
-
-
-@kernel
-def back(frames, r):
-    turn_back(frames, r)
-
-
-@kernel
-def forth(frames, r):
-    turn_forth(frames, r)
 
 
 def spiral(x, bent, twisted):

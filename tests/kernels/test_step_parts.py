@@ -15,7 +15,7 @@ from ancf.linalg.border import room_for_border
 from ancf.simd import LANES
 from ancf.solvers import corotation as turning
 from ancf.solvers.carry import carry
-from ancf.solvers.corotation import remember, turn, turn_back, turn_forth, turn_rows
+from ancf.solvers.corotation import turn_rows
 from ancf.solvers.corrections import largest, shift, update
 from ancf.solvers.low_rank import eliminate
 from ancf.solvers.memory import FIRST_LIMIT, H_FACTOR, H_PREV, LIMIT, aligned, allocate
@@ -26,6 +26,7 @@ from ancf.system.core import inertia
 from ancf.system.inputs import differences
 from ancf.system.system import System
 from helpers import SOLIDS, cable, random_rate, rotation, shaken
+from turned_frames import back, forth, turned
 
 RNG = np.random.default_rng(3)
 TRAPEZOIDAL = Scheme(0.25, 0.5, 0.0, 0.0)
@@ -210,22 +211,6 @@ def test_quadratic_part_of_the_strains(kind):
 
 
 @kernel
-def turned(frames, before, now):
-    remember(frames, before)
-    turn(frames, now)
-
-
-@kernel
-def back(frames, r):
-    turn_back(frames, r)
-
-
-@kernel
-def forth(frames, r):
-    turn_forth(frames, r)
-
-
-@kernel
 def rows(frames, border, A):
     turn_rows(frames, border, A)
 
@@ -403,7 +388,7 @@ class TestCarry:
         model.pin(bar)
         model.connect(bar.at(0.5, 0, 0), load)
         system = System(model)
-        memory = allocate(system.size, turning.turning_nodes(system), ())
+        memory = allocate(system.size, turning.turning_nodes(system, 0.01), ())
         memory.q[:], memory.f[:] = system.initial_state()[0], system.core.loads.gravity
         memory.a[:] = random_rate(system)
         system.core.joints.level[:] = 1.0, 0.0, 0.0  # the initial state keeps the constraints

@@ -129,7 +129,7 @@ def _paired(slots: IntArray) -> bool:
     return len(slots) % 2 == 0 and bool(np.all(slots[1::2] == slots[::2] + 3))
 
 
-def turning_nodes(system: System, step: float = 0.0) -> Frames:
+def turning_nodes(system: System, step: float) -> Frames:
     """Frames of a system in steps of a length, s."""
     joints = system.parts.get("joints")
     attached = np.zeros(0, dtype=np.int64) if joints is None else joints.slot

@@ -77,9 +77,8 @@ def _is_short(beam: Beam, step: float) -> bool:
     """Whether what is wrong between the nodes of a beam would be felt in steps of this length, s."""
     if beam.has_section or beam.elements < 2:
         return False
-    inertia = 4.0 * beam.section.rhoA / step**2
     wrong = 12.0 * beam.section.EI / (np.min(np.diff(beam.node_x)) * beam.length) ** 2
-    return bool(wrong > STIFF * inertia)
+    return bool(wrong * step**2 > STIFF * 4.0 * beam.section.rhoA)
 
 
 @formula

@@ -12,6 +12,7 @@ from ..arrays import FloatArray, IntArray
 from ..batches import Batches, add_forces, remember_all
 from ..compiled import inline_kernel, kernel
 from ..records import recorded
+from .sensitivity import extent
 
 #: Part of a derivative by which differences of order two that reach over no kink agree, part of the largest
 #: one below which that does not matter; how much closer others are taken, and how often.
@@ -146,15 +147,6 @@ def add_forces_along(memory, ws, d, q, v, a, r):
             if size > 0.0:
                 far = FAR if k == 0 else STRONG * memory.limit
                 force_along(memory, ws, q, v, a, 0.5 * far / size, r[p])
-
-
-@inline_kernel
-def extent(x, weight):
-    """Largest entry by size, weighted."""
-    size = 0.0
-    for i in range(x.shape[0]):
-        size = max(size, abs(x[i]) * weight[i])
-    return size
 
 
 @kernel
