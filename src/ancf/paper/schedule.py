@@ -7,12 +7,12 @@ from collections.abc import Iterable
 
 #: Exhibits that share runs, or kernels that the first run compiles; those that take long come first.
 GROUPS: tuple[tuple[str, ...], ...] = (
+    ("derivatives",),
     ("fig10", "fig11", "fig9", "table2"),
     ("closed-forms", "connections"),
     ("fig14", "fig13"),
     ("fig2", "fig3", "fig6", "fig4", "fig5", "fig7", "fig8"),
     ("en50318", "overhead"),
-    ("derivatives",),
     ("orders",),
     ("fig1",),
     ("fig12",),
