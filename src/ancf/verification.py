@@ -260,7 +260,7 @@ def _outputs(known: Answer, model: Model, labels: Sequence[str], parts: int) -> 
         yield _Output(f"{name} energy {at}", "J", np.array([value]))
     for item in model.connections:
         if item.name in known.joints:
-            force = np.linalg.norm(np.atleast_2d(known.multiplier(item))[:, :3], axis=1)
+            force = np.linalg.norm(np.atleast_2d(known.joint_force(item)), axis=1)
             yield _Output(f"{item.name} largest force", "N", force.max(keepdims=True))
     if isinstance(known, Result) and known.provenance["settings"].get("sensors"):
         (_, times), *columns = sensor_columns(known.sensors, inside=False)

@@ -157,7 +157,10 @@ def test_a_support_by_its_point(swung, known, question):
 @pytest.mark.parametrize(
     ("point", "said"),
     [
-        ("rope.end", r'rope\.end: is held by no support here; supports are: "fairlead".*multiplier\("tie"\)'),
+        (
+            "rope.end",
+            r'rope\.end: is held by no support here; supports are: "fairlead".*joint_force\("tie"\)',
+        ),
         ("rope.at(0.51)", r'is held by several supports: "left", "right" \(ask one\)'),
         ("fairled", 'unknown support .*did you mean "fairlead"'),
         ("rope", 'unknown support .*known: "fairlead"'),

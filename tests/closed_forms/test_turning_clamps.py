@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from itertools import permutations
+from typing import ClassVar
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -14,12 +17,16 @@ ELEMENTS = {"cable": CABLE, "original": SQUARE, "nonlocking": SQUARE}
 AXIS = np.array([2.0, -1.0, 2.0]) / 3.0
 
 
-def run(element: str, stretch: str, **turn: object) -> ancf.Result:
+def run(
+    element: str, stretch: str = "free", more: dict[str, object] | None = None, **turn: object
+) -> ancf.Result:
     model = ancf.Model(gravity=(0, 0, -9.81))
     beam = model.add_beam(
         "beam", start=(0, 0, 0), end=(0.5, 0, 0), elements=3, section=ELEMENTS[element], element=element
     )
     model.clamp(beam.start, stretch=stretch, **turn)
+    if more is not None:
+        model.clamp(beam.start, **more)
     return ancf.simulate(model, t_end=0.1, step=1e-3)
 
 
@@ -95,3 +102,56 @@ class TestGiven:
         one, two = (ancf.simulate(m, t_end=0.02, step=1e-3).position("beam.end") for m in (model, again))
         np.testing.assert_array_equal(one, two)
         assert "sin(t)" in repr(again.supports[0]) or "sin(t)" in str(again)
+
+
+class TestTwoClamps:
+    """A second clamp of a node adds a motion or the stretch to the first one."""
+
+    MOTIONS: ClassVar[dict[str, dict[str, object]]] = {
+        "turn": {"rotation": "0.5*sin(6*t)", "axis": (0, 1, 0)},
+        "way": {"displacement": ["0.1*t**2", 0, "0.2*t**2"]},
+        "stretch": {"stretch": "fixed"},
+    }
+
+    @pytest.mark.parametrize("pair", list(permutations(MOTIONS, 2)), ids="-".join)
+    @pytest.mark.parametrize("element", ELEMENTS)
+    def test_are_one_with_both(self, element, pair):
+        """In either order, also the force and the moment of the wall, which the first one has."""
+        given = [self.MOTIONS[name] for name in pair]
+        two, one = run(element, **given[0], more=given[1]), run(element, **given[0], **given[1])
+        np.testing.assert_array_equal(two.q, one.q)
+        first, second = two.model.supports
+        for ask in ("reaction", "reaction_moment"):
+            np.testing.assert_array_equal(getattr(two, ask)(first), getattr(one, ask)(first.name))
+            assert not np.any(getattr(two, ask)(second))
+
+    @pytest.mark.parametrize("name", ["rotation", "displacement"])
+    @pytest.mark.parametrize("vector", [False, True])
+    def test_may_not_both_move(self, name, vector):
+        """The first one was forgotten without a word."""
+        turn = {"rotation_vector": lambda t: t * AXIS} if vector else {"rotation": "t"}
+        given = {"rotation": {"rotation": "2*t"}, "displacement": {"displacement": [0, "t", 0]}}[name]
+        with pytest.raises(
+            ancf.ModelError, match=rf"{name}: .* has a {name} of beam.start already \(give one"
+        ):
+            run("cable", **(given if name == "displacement" else turn), more=given)
+
+    @pytest.mark.parametrize("again", [{}, {"stretch": "free"}])
+    @pytest.mark.parametrize("stretch", ["free", "fixed"])
+    def test_that_hold_nothing_more_are_refused(self, stretch, again):
+        with pytest.raises(ancf.ModelError, match=r"clamps beam\.start already"):
+            run("cable", stretch, more=again)
+
+    def test_moment_of_holds(self):
+        """Of a pin none, of what holds the slope there all."""
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        beam = model.add_beam("beam", start=(0, 0, 0), end=(0.5, 0, 0), elements=3, section=CABLE)
+        pin, hold, other = (
+            model.pin(beam.start),
+            model.hold(beam.start, slope="z"),
+            model.hold(beam.start, slope="y"),
+        )
+        state = ancf.equilibrium(model)
+        assert state.reaction_moment(hold) == pytest.approx((0, -0.2 * 0.5 * 9.81 * 0.25, 0), rel=2e-3)
+        assert not np.any(state.reaction_moment(pin))
+        assert not np.any(state.reaction_moment(other))

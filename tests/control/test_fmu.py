@@ -217,14 +217,14 @@ def by_the_stepper(folder, first=0.5):
     model = ancf.Model.from_dict(plain)
     run = ancf.stepper(model, step=1e-3, start=ancf.equilibrium(model))
     seen = {
-        name: [] for name in ("rope.end.position.x", "load.velocity.z", "tie.force", "hook.multiplier[3]")
+        name: [] for name in ("rope.end.position.x", "load.velocity.z", "tie.force", "hook.joint_force.z")
     }
 
     def look():
         seen["rope.end.position.x"].append(run.position("rope.end")[0])
         seen["load.velocity.z"].append(run.velocity("load")[2])
         seen["tie.force"].append(run.spring_force("tie"))
-        seen["hook.multiplier[3]"].append(run.multiplier("hook")[2])
+        seen["hook.joint_force.z"].append(run.joint_force("hook")[2])
 
     look()
     for k in range(30):
@@ -261,7 +261,7 @@ def test_description_is_valid_and_complete(units, version):
     assert float(by_name["thrust"].start) == 0.5
     assert by_name["thrust"].description == "pull of the drive [N]"
     assert not by_name["lift"].description
-    wanted = {"'rope.at(1)'.position.x", "rope.end.tension", "tie.length", "hook.multiplier[1]"}
+    wanted = {"'rope.at(1)'.position.x", "rope.end.tension", "tie.length", "hook.joint_force.x"}
     assert wanted <= by_name.keys()
     assert "load.tension" not in by_name
     assert by_name["tie.length"].description == "[m]"

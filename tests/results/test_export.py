@@ -342,19 +342,19 @@ class TestTables:
         assert np.array_equal(energy["drift [J]"], result.energy.drift)
 
     def test_moments_of_a_joint(self, tmp_path):
-        """Behind its three forces, counted from one."""
+        """Behind its force, along global axes."""
         model = ancf.Model(gravity=(0, 0, -9.81))
         hub = model.add_rigid_body("hub", at=(1, 0.2, 0), mass=1.0, inertia=(0.01, 0.02, 0.03))
         hinge = model.hinge(hub.at(-1, -0.2, 0), (0, 0, 0), axis=(0, 1, 0), name="hinge")
         result = ancf.simulate(model, t_end=0.02, step=0.01)
         (path,) = (f for f in write_csv(result, tmp_path) if f.stem == "joints")
-        found, values = table(path), result.multiplier(hinge)
-        names = [f"hinge force {c} [N]" for c in "xyz"] + [f"hinge moment {k} [N m]" for k in (1, 2)]
+        found, values = table(path), np.hstack([result.multiplier(hinge)[:, :3], result.joint_moment(hinge)])
+        names = [f"hinge {what} {c} [{u}]" for what, u in (("force", "N"), ("moment", "N m")) for c in "xyz"]
         assert list(found) == ["t [s]", *names, "hinge angle [rad]"]
         np.testing.assert_array_equal(found["hinge angle [rad]"], result.joint_angle(hinge))
         for k, name in enumerate(names):
             assert np.array_equal(found[name], values[:, k])
-        assert np.all(values[-1, 3:] != 0.0)
+        assert np.all(values[-1, [3, 5]] != 0.0)  # it turns freely about y
 
     def test_moments_of_clamps(self, tmp_path):
         """Of what a clamp holds, not of a pin; at every step."""

@@ -18,18 +18,18 @@ from ..results.state import State
 OF_POINT = {"position": "m", "velocity": "m/s"}
 OF_LINE = {"tension": "N"}
 OF_SPRING = {"spring_force": "N", "spring_length": "m"}
-OF_JOINT = {"multiplier": "N"}
+OF_JOINT = {"joint_force": "N"}
 OF_SUPPORT = {"reaction": "N"}
 #: Of joints that do not slide, and of clamps.
 MOMENT_OF_JOINT, MOMENT_OF_CLAMP = {"joint_moment": "N m"}, {"reaction_moment": "N m"}
 #: Questions whose parts are along x, y and z.
-ALONG_AXES = (*OF_POINT, *OF_SUPPORT, *MOMENT_OF_JOINT, *MOMENT_OF_CLAMP)
+ALONG_AXES = (*OF_POINT, *OF_SUPPORT, *OF_JOINT, *MOMENT_OF_JOINT, *MOMENT_OF_CLAMP)
 OF_TORSION = {"torsion_angle": "rad", "torsion_moment": "N m"}
 OF_TURNING = {"joint_angle": "rad", "joint_rate": "rad/s"}
 OF_CROSS = {"joint_angles": "rad", "joint_rates": "rad/s"}
 OF_TRAVEL = {"joint_displacement": "m", "joint_velocity": "m/s"}
 #: Questions whose parts have numbers.
-COUNTED = (*OF_JOINT, *OF_CROSS)
+COUNTED = (*OF_CROSS,)
 OF_CONTACT = {"contact_force": "N", "contact_gap": "m"}
 #: Of a strip, which has one place on a wire; of a contact that rubs.
 OF_STRIP, OF_RUBBING = {"arc_length": "m"}, {"friction_force": "N", "slipping": "1"}

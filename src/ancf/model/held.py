@@ -60,4 +60,4 @@ def _point(model: Any, given: Any) -> Point | None:
 def _carried(model: Any, point: Point) -> str:
     """The joint that carries a point which no support holds."""
     joints = [item.name for item in model.connections if point in (getattr(item, k, None) for k in "ab")]
-    return f'multiplier("{joints[0]}") is the force of the joint there' if joints else ""
+    return f'joint_force("{joints[0]}") is the force of the joint there' if joints else ""

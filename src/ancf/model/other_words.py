@@ -76,8 +76,8 @@ OF_MODEL = {
 #: Questions to states and results.
 OF_RESULT = {
     "reactions": "reaction(support) is the force of one, reaction_moment(support) the moment of a clamp",
-    "force": "tension(point), reaction(support), spring_force(spring), multiplier(joint)",
-    "forces": "tension(point), reaction(support), spring_force(spring), multiplier(joint)",
+    "force": "tension(point), reaction(support), spring_force(spring), joint_force(joint)",
+    "forces": "tension(point), reaction(support), spring_force(spring), joint_force(joint)",
     "moment": "bending_moment(point), section_moment(point), joint_moment(joint), reaction_moment(support)",
     "moments": "bending_moment(point), section_moment(point), joint_moment(joint), reaction_moment(support)",
     "stress": "stress_tensor(point) of a beam with a cross-section; of a cable tension(point) over its area",

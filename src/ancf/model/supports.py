@@ -213,7 +213,7 @@ def _letters(value: Any, where: str) -> str:
 
 
 def check_overlap(where: str, new: Support, others: list[Support]) -> None:
-    """No component of a node may be held twice; a second clamp refines the first one."""
+    """No component of a node may be held twice; a second clamp adds to the first one."""
     for other in others:
         _refuse_second_winch(where, new, other)
         if isinstance(other, Clamp) and isinstance(new, Clamp):
@@ -227,12 +227,24 @@ def check_overlap(where: str, new: Support, others: list[Support]) -> None:
 
 
 def _refuse_repeated(where: str, new: Clamp, other: Clamp) -> None:
-    """A second clamp of a node that neither moves it nor holds its stretch is the first one again."""
-    same_node = other.point.body is new.point.body and node_of(other.point) == node_of(new.point)
-    moves = (new.rotation, new.rotation_vector, new.displacement)
-    if same_node and new.stretch == other.stretch and all(motion is None for motion in moves):
+    """A second clamp of a node that holds nothing more is the first one again, or moves it otherwise."""
+    if other.point.body is not new.point.body or node_of(other.point) != node_of(new.point):
+        return
+    for name, motion, given in zip(("rotation", "displacement"), _motions(new), _motions(other), strict=True):
+        if motion is not None and given is not None:
+            what = f'"{other.name}" has a {name} of {new.point} already'
+            raise ModelError(
+                f"{where}.{name}", what, "give one of the two, with both motions in one function"
+            )
+    holds_more = new.stretch == "fixed" and other.stretch == "free"
+    if not holds_more and all(motion is None for motion in _motions(new)):
         what = f'"{other.name}" clamps {new.point} already'
         raise ModelError(f"{where}.point", what, "keep one of them; a second one gives a motion or a stretch")
+
+
+def _motions(clamp: Clamp) -> tuple[TimeFunction | None, TimeFunction | None]:
+    """How a clamp turns, and how it moves."""
+    return clamp.rotation or clamp.rotation_vector, clamp.displacement
 
 
 def _refuse_second_winch(where: str, new: Support, other: Support) -> None:

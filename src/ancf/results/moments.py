@@ -1,8 +1,9 @@
-"""Moments that supports and joints exert, N m, along global axes.
+"""Moments that supports and joints exert, N m, and forces of joints, N, along global axes.
 
 The slopes of a node and the directors of a rigid body are vectors d that turn with it.  A small turn theta of
 the node moves each by theta x d, so that forces F on these unknowns do the work theta . sum d x F: the sum is
-the moment about the node, however the vectors stretch.
+the moment about the node, however the vectors stretch.  A force anywhere on a body comes to its positions
+with weights whose sum is one: the forces on these add up to it.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError, named
-from ..model.joints import Slide
+from ..model.joints import Slide, Spherical
 from ..model.kind import body_of
 from ..model.kinds import kind_of
 from ..model.points import Point
@@ -47,10 +48,7 @@ def of_joint(system: System, item: Any, q: FloatArray) -> FloatArray:
     item : connection with multipliers
     q : ndarray, shape (..., size)
     """
-    first, *others = kind_of(item).ends_of(item)
-    second = body_of(others[-1]) if others else None
-    body, sign = (body_of(first), -1.0) if second is None else (second, 1.0)
-    assert body is not None
+    first, body, sign = _second_end(item)
     received = _received(system, item, q)
     slots = system.slots[body.name][:, : system.numbering.shared[body.name]]
     about = system.probe(first).field(q) if isinstance(first, Point) else np.asarray(first.position)
@@ -61,8 +59,34 @@ def of_joint(system: System, item: Any, q: FloatArray) -> FloatArray:
     return sign * moment
 
 
-def checked_joint(system: System, joint: Any) -> Any:
-    """The joint of a model with multipliers that an object or a name means.
+def force_of_joint(system: System, item: Any, q: FloatArray) -> FloatArray:
+    """Force that the second end of a joint receives, a body or the ground, shape (..., 3).
+
+    Parameters
+    ----------
+    system : System
+    item : connection with multipliers
+    q : ndarray, shape (..., size)
+    """
+    if isinstance(item, Slide):
+        return np.array(q[..., system.joints[item.name][:3]])
+    _, body, sign = _second_end(item)
+    places = np.unique(system.slots[body.name][:, 0])[:, None] + np.arange(3)
+    force: FloatArray = _received(system, item, q)[..., places].sum(axis=-2)
+    return sign * force
+
+
+def _second_end(item: Any) -> tuple[Any, Any, float]:
+    """First end of a joint, the body on which its forces are looked for, and -1 if that is the first one."""
+    first, *others = kind_of(item).ends_of(item)
+    second = body_of(others[-1]) if others else None
+    body, sign = (body_of(first), -1.0) if second is None else (second, 1.0)
+    assert body is not None
+    return first, body, sign
+
+
+def checked_joint(system: System, joint: Any, slides: bool = False) -> Any:
+    """The joint of a model with multipliers that an object or a name means; ``slides``: or a sliding one.
 
     Raises
     ------
@@ -71,17 +95,23 @@ def checked_joint(system: System, joint: Any) -> Any:
     """
     name = getattr(joint, "name", joint)
     items = {c.name: c for c in system.model.connections if c.name in system.joints}
-    items = {key: c for key, c in items.items() if not isinstance(c, Slide)}
+    items = {key: c for key, c in items.items() if slides or not isinstance(c, Slide)}
     if not isinstance(name, str) or name not in items:
+        if slides:
+            items |= {c.name: c for c in system.model.connections if isinstance(c, Spherical)}
         there = f"there are: {', '.join(items)}" if items else "there are none"
-        raise ModelError(named(name), f"is no joint with a moment here; {there}")
+        raise ModelError(named(name), f"is no joint with a {'force' if slides else 'moment'} here; {there}")
     return items[name]
 
 
 def _received(system: System, item: Any, q: FloatArray) -> FloatArray:
     """Forces of a joint on the unknowns, shape (..., size): see :mod:`ancf.connections.joint`."""
     batch, received = system.parts["joints"], np.zeros(q.shape)
-    for n in np.flatnonzero(np.isin(batch.unknown, system.joints[item.name])):
+    rows = np.flatnonzero(np.isin(batch.unknown, system.joints[item.name]))
+    _refuse_common(
+        system, item, {int(s) for n in rows for s in batch.slot[batch.start[n] : batch.start[n + 1]]}
+    )
+    for n in rows:
         entries = range(batch.start[n], batch.start[n + 1])
         vectors = [batch.constant[n, 3 * k : 3 * k + 3] + np.zeros((*q.shape[:-1], 3)) for k in range(2)]
         for k in entries:
@@ -92,6 +122,15 @@ def _received(system: System, item: Any, q: FloatArray) -> FloatArray:
             slot = batch.slot[k]
             received[..., slot : slot + 3] -= batch.factor[k] * strength * vectors[1 - batch.second[k]]
     return received
+
+
+def _refuse_common(system: System, item: Any, slots: set[int]) -> None:
+    """Of a node that both bodies share, and near which the joint acts, nobody can tell who receives what."""
+    bodies = {body.name for body in map(body_of, kind_of(item).ends_of(item)) if body is not None}
+    for slot in slots if len(bodies) == 2 else ():
+        if all(np.any(system.slots[name] == slot) for name in bodies):
+            what = f"it acts on an element at a node that {' and '.join(sorted(bodies))} share"
+            raise ModelError(named(item.name), what, "let an element end between the two")
 
 
 def turned(q: FloatArray, forces: FloatArray, vectors: IntArray, acting: IntArray) -> FloatArray:

@@ -14,6 +14,7 @@ from ..solvers.in_motion import in_motion
 from ..system.reactions import held_part, reaction, support_name
 from ..system.system import System
 from . import moments, remembered
+from .parted import Parted, shared_joint
 from .remembered import Remembered
 
 _FRICTION = (
@@ -68,7 +69,8 @@ class Motions:
         """Moment of the ground on the node or body of a support, N m, about it, along global axes.
 
         Of a rigid body it is about the centre of mass, of the end of a beam about the node. With a prescribed
-        rotation it is the moment of the motor. It is the part of all supports that hold one node together.
+        rotation it is the moment of the motor. Of several supports that hold directions of one node the one
+        that was added first has all of it.
 
         Parameters
         ----------
@@ -89,7 +91,6 @@ class Motions:
         """Moment that the second end of a joint receives, N m, about the joint's point, along global axes.
 
         The second end is ``b`` of a weld or hinge, the body of ``clamp(point, to=body)``, or the ground.
-        Its force is the first three of :meth:`multiplier`.
 
         Parameters
         ----------
@@ -102,6 +103,34 @@ class Motions:
         """
         item = moments.checked_joint(self.system, joint)
         return moments.of_joint(self.system, item, np.array(self.q[...]))
+
+    def joint_force(self: Any, joint: Any) -> FloatArray:
+        """Force that the second end of a joint receives, N, along global axes.
+
+        The second end is ``b`` of a joint of two points, the carrier of a sliding joint, the body of
+        ``clamp(point, to=body)``, or the ground. The first end receives the opposite.
+
+        Nodes that a spherical joint ties share their position, without multipliers: there it is what
+        the equations of motion of one of the bodies miss, as a :meth:`reaction` is.
+
+        Parameters
+        ----------
+        joint : joint, or its name
+
+        Raises
+        ------
+        ModelError
+            There is no such joint; of nodes that share their position, supports hold both, or as for
+            :meth:`acceleration`.
+        """
+        ball = shared_joint(self.system, joint)
+        if ball is None:
+            item = moments.checked_joint(self.system, joint, slides=True)
+            return moments.force_of_joint(self.system, item, np.array(self.q[...]))
+        parted, accelerations = Parted(self.system, ball), np.atleast_2d(self._in_motion()[0])
+        states = zip(self._each_state(), accelerations, strict=True)
+        found = [parted.force(q, v, a, t, known) for (q, v, t, known), a in states]
+        return found[0] if self.q.ndim == 1 else np.array(found).reshape(-1, 3)
 
     def held_supports(self: Any) -> list[str]:
         """Names of the supports that have a reaction."""

@@ -42,8 +42,8 @@ class Plotted:
             "curvature", "bending_moment", "torque" or "twist" of points; "spring_force" (default) or
             "spring_length" of springs; "contact_force" (default), "contact_gap" or "arc_length" of
             contacts; "arc_length" (default), "arc_rate", "normal_force" or "sliding_friction" of sliding
-            joints; "multiplier" (default), "joint_moment", "joint_angle", "joint_rate", "joint_angles",
-            "joint_rates", "joint_displacement" or "joint_velocity" of joints;
+            joints; "joint_force" (default), "joint_moment", "multiplier", "joint_angle", "joint_rate",
+            "joint_angles", "joint_rates", "joint_displacement" or "joint_velocity" of joints;
             "reaction" (default) or "reaction_moment" of supports; "energy" of the whole.
         x : str
             Along the axis of x: "t", or a scalar quantity of the same items.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -162,6 +162,10 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Led, Filmed, Readabl
             known = [self._known(k) for k in range(len(self.t))]
             self._moving = motions.of_history(self._system, self.q, self.v, self.t, known)
         return self._moving
+
+    def _each_state(self) -> Iterator[Any]:
+        q, v = self.q[...], self.v[...]
+        return ((q[k], v[k], float(t), self._known(k)) for k, t in enumerate(self.t))
 
     def _turned_to(self, spring: Any) -> float | None:
         return self._remembered_turn(spring, self._last.memory)

@@ -23,6 +23,7 @@ from ..system.spring_fields import SpringFields
 from ..system.system import System
 from . import moments
 from .given import Given, Led
+from .parted import shared_joint
 from .pictures import Plotted
 from .sensitivities import sensitivity_of
 
@@ -152,16 +153,41 @@ class Sensors(SpringFields, ContactFields, Led, Plotted):
         ModelError
             The joint was not recorded, or by an earlier version; or it is a sliding one.
         """
+        return self._carried(joint, "its moment", moments.of_joint)
+
+    def has_force(self, name: str) -> bool:
+        """Whether all that the force of a joint needs was recorded."""
+        item = next((c for c in self.model.connections if c.name == name), None)
+        own = item is not None and super().has_force(name)
+        return own and bool(np.all(np.isin(unknowns_of(self._system, item), self.listing.index)))
+
+    def _carried(
+        self, joint: Any, what: str, of: Callable[..., FloatArray], slides: bool = False
+    ) -> FloatArray:
+        """A force or moment of a joint."""
         system = self._system
-        item = moments.checked_joint(system, joint)
+        item = moments.checked_joint(system, joint, slides)
         if item.name not in self._joints:
             raise ModelError(named(item.name), "was not recorded by the sensors", self._recorded())
-        if not np.all(np.isin(unknowns_of(system, item), self.listing.index)):
-            raise _not_recorded(joint, "its moment")
+        if not self.has_force(item.name):
+            raise _not_recorded(joint, what)
         # what the joint does not touch is the same with and without its forces: it stays as it starts
         whole = np.tile(system.initial_state()[0], (len(self.t), 1))
         whole[:, self.listing.index] = self.q[...]
-        return moments.of_joint(system, item, whole)
+        return of(system, item, whole)
+
+    def joint_force(self, joint: Any) -> FloatArray:
+        """Force that the second end of a joint receives, N, shape (n, 3), see :meth:`ancf.Result`.
+
+        Raises
+        ------
+        ModelError
+            The joint was not recorded, or by an earlier version.
+        """
+        if shared_joint(self._system, joint) is not None:
+            what = "its nodes share their position, sensors record nothing of it"
+            raise ModelError(named(getattr(joint, "name", joint)), what, "ask the result or a state")
+        return self._carried(joint, "its force", moments.force_of_joint, slides=True)
 
     @cached_property
     def _system(self) -> System:

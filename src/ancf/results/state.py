@@ -200,5 +200,8 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
             self._moving = motions.of_state(self.system, self.q, self.v, self.t, self.known)
         return self._moving
 
+    def _each_state(self) -> list[Any]:
+        return [(self.q, self.v, self.t, self.known)]
+
     def _reaction_at_rest(self, name: str) -> FloatArray | None:
         return motions.at_rest(self.system, self.q, self.v, self.t, self.known, name)

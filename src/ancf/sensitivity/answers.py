@@ -109,6 +109,10 @@ class Face(SpringFields, ContactFields, Momenta):
         """See :meth:`ancf.State.joint_moment`."""
         return moments.of_joint(self.system, moments.checked_joint(self.system, joint), self.q)
 
+    def joint_force(self, joint: Any) -> FloatArray:
+        """See :meth:`ancf.State.joint_force`; of joints with multipliers alone."""
+        return moments.force_of_joint(self.system, moments.checked_joint(self.system, joint, True), self.q)
+
     def acceleration(self, point: Any) -> FloatArray:
         """Of states it has no derivative: they do not keep it."""
         hint = "let sensors record the point: result.sensors.sensitivity(...).acceleration(point)"

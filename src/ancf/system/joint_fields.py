@@ -6,6 +6,7 @@ from typing import Any
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError, named
+from ..model.joints import Slide, Spherical
 
 
 class JointFields:
@@ -46,8 +47,9 @@ class JointFields:
     def multiplier(self, joint: Any) -> FloatArray:
         """Multipliers of a joint.
 
-        The first three are the force, N, that the second body receives: the carrier of a sliding joint,
-        ``b`` of a spherical joint or hinge, the rigid body of a clamp.  Those that hold axes follow, N m.
+        They are numbers of the rows of a joint: see :meth:`joint_force` and ``joint_moment`` for what it
+        carries. Of a sliding joint, and of joints that keep two points together, the first three are the
+        force, N, that the second body receives. Those that hold axes follow, N m.
         Nodes that a spherical joint ties at their centrelines share their unknowns, without multipliers.
 
         Raises
@@ -63,6 +65,17 @@ class JointFields:
             unknowns = unknowns[:-1]
         values: FloatArray = self.q[..., unknowns]  # type: ignore[attr-defined]
         return values
+
+    def has_force(self, name: str) -> bool:
+        """Whether a joint has multipliers; of sensors, and all that its force needs was recorded."""
+        connections = self.model.connections  # type: ignore[attr-defined]
+        return name in self._joints and any(item.name == name for item in connections)
+
+    def has_moment(self, name: str) -> bool:
+        """The same of a joint that holds directions, and not points alone."""
+        connections = self.model.connections  # type: ignore[attr-defined]
+        points = {item.name for item in connections if isinstance(item, Slide | Spherical)}
+        return self.has_force(name) and name not in points
 
     def _arc(self, joint: Any) -> int:
         name = getattr(joint, "name", joint)

@@ -95,6 +95,7 @@ def _places(index: IntArray, unknowns: IntArray) -> IntArray:
 class Probed(Protocol):
     """What a System has."""
 
+    model: Any
     joints: dict[str, IntArray]
     slots: dict[str, IntArray]
     measures: dict[str, IntArray]
@@ -157,11 +158,23 @@ def listing(
 
 
 def turning(system: Probed, item: Support) -> IntArray:
-    """First unknowns (d,) of the vectors that turn with the node or body of a support: slopes, directors."""
+    """First unknowns (d,) of the vectors that turn with the node or body of a support: slopes, directors.
+
+    Of several supports that hold directions there the first one has them, others none.
+    """
     body = item.point.body
-    node = (body.node_at(item.point.x) or 0) if isinstance(body, Beam) else 0
+    node = _node_of(item)
+    holding = (s for s in system.model.supports if s.point.body is body and _node_of(s) == node)
+    turning_ones = (s.name for s in holding if any(not part.startswith("position") for part in s.held))
+    if item.name != next(turning_ones, None):
+        return _none()
     slots: IntArray = system.slots[body.name][node, 1 : system.numbering.shared[body.name]]
     return slots
+
+
+def _node_of(item: Support) -> int:
+    body = item.point.body
+    return (body.node_at(item.point.x) or 0) if isinstance(body, Beam) else 0
 
 
 def _moving(system: Probed, item: Connection | Support, ends: bool) -> list[IntArray]:

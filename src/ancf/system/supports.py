@@ -92,7 +92,7 @@ class Constraints:
 
 
 def collect(model: Model, numbering: Numbering) -> Constraints:
-    """All supports of the model; a later clamp of the same node refines the earlier one."""
+    """All supports of the model; a later clamp of the same node adds to the earlier one."""
     constraints = Constraints(positions=_held_positions(model, numbering))
     clamps: dict[int, Clamp] = {}
     for support in model.supports:
@@ -186,7 +186,8 @@ def _refined(earlier: Clamp | None, later: Clamp) -> Clamp:
             axis=earlier.axis,
             rotation_vector=earlier.rotation_vector,
         )
-    return later if later.displacement is not None else replace(later, displacement=earlier.displacement)
+    stretch = "fixed" if "fixed" in (earlier.stretch, later.stretch) else "free"
+    return replace(later, stretch=stretch, displacement=later.displacement or earlier.displacement)
 
 
 def _hold_position(

@@ -104,6 +104,7 @@ UNITS = {
     "normal_force": "N",
     "sliding_friction": "N",
     "multiplier": "N",
+    "joint_force": "N",
     "joint_moment": "N m",
     "joint_angle": "rad",
     "joint_rate": "rad/s",
@@ -126,7 +127,7 @@ UNITS = {
 #: Symbols that stand in labels instead of the name.
 SYMBOLS = {
     "t": "$t$",
-    "multiplier": "force of the joint",
+    "joint_force": "force of the joint",
     "joint_moment": "moment of the joint",
     "joint_angle": "angle of the joint",
     "joint_rate": "rate of the joint",

@@ -19,8 +19,6 @@ from ...results.sensors import Sensors
 
 Column = tuple[str, FloatArray]
 
-#: Components of multipliers by unit: forces come first, what holds axes follows.
-FORCES = "xyz"
 ENERGIES = ("kinetic", "strain", "potential", "total", "dissipated", "supplied", "balance", "drift")
 MOTION = {"position": "m", "velocity": "m/s"}
 #: What the points of beams and cables know beside position and velocity.
@@ -153,11 +151,11 @@ def energy_columns(result: Result) -> Iterator[Column]:
 
 
 def joint_parts(known: Any, name: str) -> Iterator[Column]:
-    """Multipliers, s of a sliding joint, angles of one that turns about axes, the way along one."""
-    values = known.multiplier(name)
-    for k in range(values.shape[1]):
-        label = f"force {FORCES[k]} [N]" if k < len(FORCES) else f"moment {k - len(FORCES) + 1} [N m]"
-        yield f"{name} {label}", values[:, k]
+    """Force and moment, s of a sliding joint, angles of one that turns about axes, the way along one."""
+    if known.has_force(name):
+        yield from vector_columns(f"{name} force", known.joint_force(name), "N")
+    if known.has_moment(name):
+        yield from vector_columns(f"{name} moment", known.joint_moment(name), "N m")
     if name in known.arcs:
         yield f"{name} s [m]", known.arc_length(name)
     if known.has_angle(name):

@@ -104,8 +104,8 @@ def _panels(source: Any, what: Sequence[Any], quantity: str | None, x: str) -> I
         names = [label(item) for item in items]
         if QUANTITIES[asked].vector:
             yield from _components(asked, names, along, values)
-            if asked == "multiplier" and len(items) == 1 and values[0].shape[1] > 3:
-                yield from _moment(source, items[0], along[0], values[0])
+            if asked == "joint_force" and len(items) == 1:
+                yield from _moment(source, items[0], along[0])
         else:
             curves = [Curve(*given) for given in zip(names, along, values, strict=True)]
             yield Panel(style.axis_label(asked), curves)
@@ -134,14 +134,12 @@ def _components(
         yield Panel(style.axis_label(quantity, letter), curves)
 
 
-def _moment(source: Any, item: Any, along: FloatArray, values: FloatArray) -> Iterator[Panel]:
-    """Moment of a joint along global axes; of sensors the multipliers that hold its axes, by number."""
+def _moment(source: Any, item: Any, along: FloatArray) -> Iterator[Panel]:
+    """Moment of a joint that has one along global axes."""
     name, text = label(item), style.axis_label("joint_moment")
-    try:
-        moment, letters = ask(source, "joint_moment", item), list(AXES)
-    except ModelError:
-        moment, letters = values[:, 3:], [str(k + 1) for k in range(values.shape[1] - 3)]
-    yield Panel(text, [Curve(f"{name} {c}", along, v) for c, v in zip(letters, moment.T, strict=True)])
+    if source.has_moment(name):
+        moment = ask(source, "joint_moment", item)
+        yield Panel(text, [Curve(f"{name} {c}", along, v) for c, v in zip(AXES, moment.T, strict=True)])
 
 
 def _energies(source: Any, what: Sequence[Any], quantity: str | None, x: str) -> list[Panel]:

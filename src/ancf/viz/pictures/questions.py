@@ -53,6 +53,7 @@ QUANTITIES: dict[str, Question] = {
     "normal_force": Question("normal_force", (SLIDE,), vector=True),
     "sliding_friction": Question("sliding_friction", (SLIDE,)),
     "multiplier": Question("multiplier", (JOINT, SLIDE), vector=True),
+    "joint_force": Question("joint_force", (JOINT, SLIDE), vector=True),
     "joint_moment": Question("joint_moment", (JOINT,), vector=True),
     "joint_angle": Question("joint_angle", (JOINT,)),
     "joint_rate": Question("joint_rate", (JOINT,)),
@@ -72,7 +73,7 @@ DEFAULTS = {
     CONTACT: "contact_force",
     SURFACE_CONTACT: "contact_force",
     SLIDE: "arc_length",
-    JOINT: "multiplier",
+    JOINT: "joint_force",
     SUPPORT: "reaction",
 }
 

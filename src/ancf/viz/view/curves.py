@@ -102,10 +102,8 @@ def _joints(states: Any, said: str = "") -> list[Curve]:
             angles |= {f"{name}, {k + 1}": both[:, k] for k in range(2)}
     ways = {name: states.joint_displacement(name) for name in states.joints if states.has_travel(name)}
     arcs = {name: states.arc_length(name) for name in states.arcs}
-    forces = {}
-    for name in states.joints:
-        if name not in states.bodies:
-            forces[name] = np.linalg.norm(states.multiplier(name)[..., :3], axis=-1)
+    carry = [name for name in states.joints if states.has_force(name)]
+    forces = {name: np.linalg.norm(states.joint_force(name), axis=-1) for name in carry}
     found = _most_varied(states.t, arcs, "m", f"arc length{said}")
     found += _most_varied(states.t, ways, "m", f"joint displacement{said}")
     found += _most_varied(states.t, angles, "rad", f"joint angle{said}")

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...arrays import FloatArray
 from ...model.beam import Beam
+from ...results import moments
 from ...system.joint_fields import JointFields
 from ...system.spring_fields import SpringFields
 
@@ -25,7 +26,7 @@ class Histories(SpringFields, JointFields):
     """
 
     def __init__(self, source: Any) -> None:
-        self.model = source.model
+        self.model, self._source = source.model, source
         self._bodies, self._slots, self._lengths = source.bodies, source.slots, source.lengths
         self._springs, self._joints, self._arcs = source.springs, source.joints, source.arcs
         count, size = source.q.shape
@@ -34,6 +35,11 @@ class Histories(SpringFields, JointFields):
         self.t: FloatArray = source.t[::stride]
         self._q: FloatArray = np.asarray(source.q[::stride])
         self._v: FloatArray = np.asarray(source.v[::stride])
+
+    def joint_force(self, joint: Any) -> FloatArray:
+        """See :meth:`ancf.Result.joint_force`; of joints with multipliers."""
+        system = self._source.system
+        return moments.force_of_joint(system, moments.checked_joint(system, joint, True), self._q)
 
     def every(self, inside: slice, stride: int) -> Histories:
         """Every so-manieth of a part of the states, the last one included."""
