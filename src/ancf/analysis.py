@@ -34,6 +34,7 @@ from .solvers.damped_modal import damped_modes_about
 from .solvers.modal import natural_modes
 from .solvers.record import Progress
 from .solvers.stability import stable_limit
+from .system.left_out import come_apart
 from .system.redundancy import independent
 from .system.system import System
 
@@ -112,6 +113,8 @@ def _at_rest(
     system: System, names: list[str] | None, load_steps: int, time: float
 ) -> tuple[State, statics.Leaned]:
     q, stats, leaned = statics.equilibrium(system, names, load_steps, time)
+    if (problem := come_apart(system, q, f"equilibrium at t = {time:.6g} s")) is not None:
+        raise problem
     known = remembered.Remembered(memory=system.kept_memory(), balanced=True, laid=leaned.laid)
     return State(system, float(time), q, system.motion(q, time), stats, known), leaned
 

@@ -41,6 +41,7 @@ from .results.store import FileStore, MemoryStore
 from .solvers.record import Progress
 from .solvers.runs import AnyRun, run_of
 from .system.consistency import check_gaps
+from .system.left_out import heeded
 from .system.redundancy import independent
 from .system.sensors import Listing, listing
 from .system.system import System
@@ -174,7 +175,7 @@ def carried_out(
 
     with _salvaged(system), kept(signal.SIGINT):
         try:
-            run.go(store if recorder is None else recorder, look)
+            run.go(heeded(system, store if recorder is None else recorder), look)
         except StorageError:
             raise
         except (SolveError, ModelError) as error:

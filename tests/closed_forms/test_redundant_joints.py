@@ -160,3 +160,72 @@ class TestRefused:
         model.hinge(door.at(-0.5, 0, 0), (0, 0, 0), axis=(0, 0.2, 1), name="lower")
         result = ancf.simulate(model, t_end=0.1, step=1e-2)
         assert np.abs(result.position(door) - (0.5, 0, 0)).max() < 1e-9
+
+
+def driven(motion, turn=SPACE, **more):
+    """A rigid body on two hinges to the ground in one line, which a given motion of one support drives."""
+    model = ancf.Model(gravity=turn.apply((0, 0, -G)))
+    door = model.add_rigid_body("door", at=(0, 0, 0), mass=2.0, inertia=(0.1, 0.2, 0.3))
+    rod = model.add_beam("rod", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=ROD)
+    model.clamp(rod.start, to=door, name="grip")
+    axis = (0, 1, 0)
+    for k, y in enumerate((-0.3, 0.3)):
+        model.hinge(door.at(0, y, 0), (0, y, 0), axis=axis, name=f"h{k}")
+    model.clamp(rod.start, name="drive", **motion)
+    return model, rod
+
+
+ROD = ancf.Section(EA=1e4, EI=5.0, rhoA=0.3)
+METHODS = {
+    "ggl": ancf.Trapezoidal(),
+    "index2": ancf.Trapezoidal(formulation="index2"),
+    "index1": ancf.Trapezoidal(formulation="index1"),
+    "alpha": ancf.GeneralizedAlpha(rho_inf=0.8),
+    "radau": ancf.Radau(),
+}
+
+
+class TestDriven:
+    """Rows that are left out because supports hold them have to agree with the motions of these."""
+
+    @pytest.mark.parametrize("method", METHODS)
+    def test_a_motion_that_agrees_is_followed(self, method):
+        model, _ = driven({"rotation": "sin(3*t)", "axis": (0, 1, 0)})
+        run = ancf.simulate(model, t_end=0.5, step=1e-3, output_step=0.01, integrator=METHODS[method])
+        turned = run.section_rotation("door")[-1] @ (1, 0, 0)
+        angle = np.sin(1.5)
+        assert turned == pytest.approx((np.cos(angle), 0, -np.sin(angle)), abs=1e-5)
+        assert any("are held by other joints already" in note for note in run.notes)
+
+    @pytest.mark.parametrize("method", METHODS)
+    @pytest.mark.parametrize(
+        "motion", [{"displacement": ["0.2*t**2", 0, "0.1*t**2"]}, {"rotation": "t**2", "axis": (0, 0.6, 0.8)}]
+    )
+    def test_one_that_does_not_ends_the_run(self, method, motion):
+        """It went on without the hinge. What was computed until then stays."""
+        model, _ = driven(motion)
+        with pytest.raises(ancf.SolveError, match=r"\"h\d\" is off by 0\.000\d+ (m|rad)") as caught:
+            ancf.simulate(model, t_end=0.5, step=1e-3, output_step=5e-3, integrator=METHODS[method])
+        assert "a given motion of a support contradicts it" in str(caught.value)
+        t = caught.value.result.t
+        assert 0.0 < t[-1] < 0.1
+        assert f"t = {t[-1]:.6g} s" in str(caught.value)
+
+    @pytest.mark.parametrize("before", [0, 5])
+    def test_of_a_run_that_is_led(self, before):
+        model, _ = driven({"displacement": ["0.2*t**2", 0, 0]})
+        run = ancf.stepper(model, step=2e-3)
+        for _ in range(before):
+            run.advance()
+        with pytest.raises(ancf.SolveError, match="others held that at the start, and no longer do"):
+            run.advance(100)
+        assert 0.01 < run.t < 0.1  # where it was before the step in which it was seen
+
+    @pytest.mark.parametrize(("time", "works"), [(0.0, True), (1.0, False)])
+    def test_of_an_equilibrium(self, time, works):
+        model, _ = driven({"displacement": [0, 0, "0.1*t"]})
+        if works:
+            assert ancf.equilibrium(model, time=time).position("door") == pytest.approx((0, 0, 0))
+        else:
+            with pytest.raises(ancf.SolveError, match=r"equilibrium at t = 1 s: .* is off by 0\.\d+ (m|rad)"):
+                ancf.equilibrium(model, time=time)

@@ -23,6 +23,7 @@ from ..results.sensors import Sensors
 from ..results.state import State
 from ..results.store import FileStore, MemoryStore
 from ..solvers.stepping import Run
+from ..system.left_out import heeded
 from ..system.sensors import by_ends
 from .ahead import Ahead
 from .foreseen import Foreseen
@@ -46,7 +47,9 @@ class Stepper(Live):
         if not run.begun:
             run.begin(self._store)
             self._store.forget()
-        self._ahead = Ahead(run, self._store) if isinstance(run, Run) else None
+        self._ahead: Ahead | None = None
+        if isinstance(run, Run) and not len(self.system.spare):  # nobody has to look at each state
+            self._ahead = Ahead(run, self._store)
 
     def advance(self, steps: int = 1) -> None:
         """Take some steps with the inputs as they are.
@@ -81,7 +84,7 @@ class Stepper(Live):
         try:
             for _ in range(steps):
                 before = run.snapshot()
-                run.take(1, self._store)
+                run.take(1, heeded(self.system, self._store))
                 self._store.forget()
         except (SolveError, ModelError):
             run.restore(before)

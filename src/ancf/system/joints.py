@@ -46,9 +46,15 @@ def _row_weights(system: Any) -> FloatArray:
     """
     weight, batch = np.full(system.size, 1.0 / min(system.model.size, 1.0)), system.parts.get("joints")
     if batch is not None:
-        of_places = _entries(system, batch, _place_unknowns(system))[-1]
-        weight[batch.unknown[~of_places]] = 1.0
+        weight[np.setdiff1d(batch.unknown, rows_of_places(system))] = 1.0
     found: FloatArray = weight[system.multipliers]
+    return found
+
+
+def rows_of_places(system: Any) -> IntArray:
+    """Multipliers of the rows of fixed joints that hold places, and not directions alone."""
+    batch = system.parts["joints"]
+    found: IntArray = batch.unknown[_entries(system, batch, _place_unknowns(system))[-1]]
     return found
 
 
