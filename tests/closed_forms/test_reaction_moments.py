@@ -1,6 +1,7 @@
 """Moments of supports and joints: balance with loads, changes of angular momentum, work, bad questions."""
 
 import tomllib
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -289,3 +290,30 @@ class TestAsked:
         with pytest.raises(ModelError, match=r'must be one of "position".*"energy"') as caught:
             run.plot("wall", quantity="x")
         assert "more" not in caught.value.what
+
+
+class TestBeginsToMove:
+    """An equilibrium is one whatever the given motions of supports do next."""
+
+    MOTIONS: ClassVar[dict[str, dict[str, object]]] = {
+        "turns": {"rotation": "2*t**2", "axis": (0, 0.6, 0.8)},
+        "moves": {"displacement": ["0.1*(1 - cos(9*t))", 0, "t**2"]},
+        "turns by a vector": {"rotation_vector": ["3*t**2", 0, "t**2"]},
+    }
+
+    @pytest.mark.parametrize("motion", MOTIONS)
+    @pytest.mark.parametrize("element", ["cable", "nonlocking"])
+    def test_as_without_the_motion(self, element, motion):
+        found = []
+        for given in ({}, self.MOTIONS[motion]):
+            model = ancf.Model(gravity=(0.3, -0.8, -9.7))
+            section = square(element, EA=3e3, EI=4.0, rhoA=0.7)
+            beam = model.add_beam(
+                "beam", start=(0, 0, 0), end=(0.8, 0.2, 0), elements=3, section=section, element=element
+            )
+            wall = model.clamp(beam.start, **given)
+            model.add_force(beam.end, (0.2, 0.5, 0.1))
+            state = ancf.equilibrium(model)
+            found.append((state.reaction(wall), state.reaction_moment(wall)))
+        for asked in zip(*found, strict=True):
+            assert asked[1] == pytest.approx(asked[0], rel=1e-9, abs=1e-9)

@@ -113,3 +113,47 @@ def test_iterations(form):
             stats = result.stats
             assert stats.newton_iterations < 3.5 * stats.steps
             assert stats.jacobians < 0.5 * stats.steps
+
+
+def ring_on_a_cable(weight, moving, friction, elements):
+    """A cable that is let go, held by a ring, or with a bead on it; all weighs so many times as much."""
+    stiff = {"EA": 194.0 * weight, "EI": 0.63 * weight, "rhoA": 0.84 * weight}
+    model = ancf.Model(gravity=(7.9, 3.7, -4.8))
+    section = ancf.Section(**stiff, bending_damping=0.01 * weight)
+    ends = {"start": (0.3, -0.5, -0.8), "end": (0.1, -0.1, -1.3)}
+    cable = model.add_beam("cable", **ends, elements=elements, section=section)
+    model.clamp(cable.start)
+    at = tuple(cable.at(0.23).initial_position)
+    point = model.add_point_mass("bead", at=at, mass=0.3 * weight) if moving else at
+    model.slide(point, along=cable, friction=friction, name="joint")
+    return model
+
+
+class TestForcesOfJoints:
+    """Smooth, so that their second differences fall with the square of the step, down to very fine ones."""
+
+    @pytest.mark.parametrize("friction", [0.0, 0.2])
+    @pytest.mark.parametrize("moving", [False, True], ids=["ring", "bead"])
+    @pytest.mark.parametrize(("weight", "elements"), [(1e-6, 1), (1.0, 1), (1.0, 2), (1e3, 2), (1e6, 2)])
+    @pytest.mark.parametrize("method", ["index1", "index2", "ggl"])
+    def test_of_what_slides(self, method, weight, elements, moving, friction):
+        """Its multipliers lost their digits across the line where it is bent: 100 N in place of 3 N."""
+        model, found, iterations = ring_on_a_cable(weight, moving, friction, elements), [], []
+        for step in (1e-5, 1e-6):
+            run = ancf.simulate(model, t_end=60 * step, step=step, integrator=METHODS[method](ancf.Newton()))
+            force = run.multiplier("joint")
+            found.append(np.max(np.abs(np.diff(force, 2, axis=0))) / np.max(np.abs(force)))
+            iterations.append(run.stats.newton_iterations)
+        assert found[1] < max(0.04 * found[0], 5e-6)
+        assert iterations[1] < 80
+
+    @pytest.mark.parametrize("joint", JOINTS)
+    @pytest.mark.parametrize("method", ["index1", "index2", "ggl"])
+    def test_of_fixed_ones(self, method, joint):
+        model, found = pair(joint), []
+        name = model.connections[0].name
+        for step in (1e-4, 1e-5, 1e-6):
+            run = ancf.simulate(model, t_end=60 * step, step=step, integrator=METHODS[method](ancf.Newton()))
+            force = run.joint_force(name)
+            found.append(np.max(np.abs(np.diff(force, 2, axis=0))) / np.max(np.abs(force)))
+        assert all(fine < max(0.04 * coarse, 3e-6) for coarse, fine in pairwise(found))

@@ -12,8 +12,8 @@ RNG = np.random.default_rng(11)
 
 
 @kernel
-def inverse(A, original):
-    return invert_symmetric(A, 0, original)
+def inverse(A, original, in_order):
+    return invert_symmetric(A, 0, original, in_order)
 
 
 @kernel
@@ -29,10 +29,10 @@ def with_eigenvalues(values, scale):
     return 0.5 * (A + A.T)
 
 
-def inverted(A):
+def inverted(A, in_order=False):
     """Its inverse and the number of negative pivots."""
     found = A.flatten()
-    negative = inverse(found, A.flatten())
+    negative = inverse(found, A.flatten(), in_order)
     return found.reshape(6, 6), negative
 
 
@@ -53,15 +53,17 @@ def test_inverse(negative, least, scale):
         assert np.max(np.abs(residual)) < 1e-13 / least
 
 
+@pytest.mark.parametrize("in_order", [False, True])
 @pytest.mark.parametrize("left", [2.0**-k for k in (10, 25, 28, 40)])
-def test_what_is_left_of_a_pivot(left):
+def test_what_is_left_of_a_pivot(left, in_order):
     """A pivot that has lost nearly all is no pivot while there is a better one: no digits are lost."""
     A = np.eye(6)
     A[:3, :3] = [[1.0, 1.0, 0.5], [1.0, 1.0 + left, 0.25], [0.5, 0.25, 2.0]]  # 1/left is in the inverse
-    found, count = inverted(A)
-    assert count == 1 if left < 0.02 else 0
-    exact = exactly(A)
-    assert np.max(np.abs(found - exact) / np.max(np.abs(exact))) < 1e-14
+    for sign in (1.0, -1.0):
+        found, count = inverted(sign * A, in_order)
+        assert count == (1 if sign > 0 else 5)
+        exact = exactly(sign * A)
+        assert np.max(np.abs(found - exact) / np.max(np.abs(exact))) < 1e-14 + 1e-16 / left * in_order
 
 
 def exactly(A):
@@ -83,7 +85,7 @@ def test_no_inverse(at, entry):
     """A row of zeros, or what is not a number, is singular wherever it stands."""
     A = with_eigenvalues(np.ones(6), np.ones(6)) + np.ones((6, 6))
     A[at] = A[:, at] = entry
-    assert inverse(A.flatten(), A.flatten()) == -1
+    assert inverse(A.flatten(), A.flatten(), False) == inverse(A.flatten(), A.flatten(), True) == -1
 
 
 def test_products():
@@ -98,3 +100,34 @@ def test_products():
     assert not C[:36].any()
     assert not CT[:36].any()
     assert np.array_equal(D[36:], before[36:])
+
+
+@pytest.mark.parametrize("slope", [0.0, 1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("give", [1e-7, 1e-11, 1e-15])
+def test_multipliers_before_what_slides(give, slope):
+    """Three multipliers, against each of which a step gives little, and the place on a line that they hold.
+
+    Taken last, after that place, two of them keep no digit of what gives across the line.
+    """
+    along = np.array([0.3, -0.5, 0.8])
+    lower = np.tril(RNG.uniform(0.5, 1.0, (3, 3)))
+    A = np.eye(6)
+    A[:3, :3], A[:3, 3], A[3, :3], A[3, 3] = -give * lower @ lower.T, -along, -along, slope
+    found, count = inverted(A, in_order=True)
+    wanted = exactly(A)
+    assert count == 3
+    size = np.sqrt(np.abs(np.outer(np.diag(wanted), np.diag(wanted)))) + np.abs(wanted)
+    assert np.max(np.abs(found - wanted)[:3, :3]) < 1e-11 * np.max(np.abs(wanted[:3, :3]))
+    assert np.all(np.abs(found - wanted)[3] <= 1e-9 * size[3])
+
+
+@pytest.mark.parametrize("negative", [1, 3, 6])
+def test_in_order_where_that_does_not_do(negative):
+    """A first pivot that vanishes, or that loses all: the largest ones come first then."""
+    for _ in range(20):
+        values = np.geomspace(0.1, 1.0, 6) * np.where(np.arange(6) < negative, -1.0, 1.0)
+        A = with_eigenvalues(values, np.ones(6))
+        A[0, 0] = 0.0
+        found, count = inverted(A, in_order=True)
+        assert np.max(np.abs(A @ found - np.eye(6))) < 1e-10 * max(1.0, np.max(np.abs(found)))
+        assert count == int(np.sum(np.linalg.eigvalsh(A) < 0.0))

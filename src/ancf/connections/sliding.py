@@ -36,8 +36,9 @@ SLIDES, FROZEN, FREE = range(3)
 LEFT, PULLS, TOUCHES = range(3)
 #: What stands for zero in the rows of released directions.
 FREED = 1e-3
-#: In the matrix alone, m/N: a pivot for lambda where only s can move; the iteration makes up for it.
-PIVOT = 1e-15
+#: In the matrix alone, m/N: a pivot for lambda where only s can move; the iteration makes up for it.  Where
+#: rates of C are held it is at most what a step gives to so many kg: heavy bodies give little in short steps.
+PIVOT, HEAVY = 1e-15, 1e9
 
 
 class SlidingBatch(NamedTuple):
@@ -171,6 +172,8 @@ def add_piece(A, place, w, batch, j):
 def sliding_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add the rows of lambda and s; what is above the diagonal blocks follows from symmetry."""
     scale = batch.level[0] * c_stiffness + batch.level[1] * c_damping + batch.level[2] * c_mass
+    rates = batch.level[1] != 0.0 or batch.level[2] != 0.0
+    pivot = min(PIVOT, 1.0 / (HEAVY * max(c_mass, 1.0))) if rates else PIVOT
     for j in range(batch.unknown.shape[0]):
         i, own = batch.unknown[j], batch.own[j]
         e = element_at(batch, j, q[i + 3])
@@ -194,7 +197,7 @@ def sliding_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
             held = keep(batch, j, unit)
             for m in range(3):
                 A[own + 6 * m + c] -= FREED * (unit[m] - held[m])
-            A[own + 7 * c] -= scale * PIVOT
+            A[own + 7 * c] -= scale * pivot
         if not slides:
             A[own + 21] += 1.0
             continue

@@ -143,7 +143,7 @@ class Live(State):
                 known["acted"] = known["limit"]
         return known or None
 
-    def _reaction_at_rest(self, name: str) -> FloatArray | None:
+    def _at_rest(self, name: str) -> FloatArray | None:
         return None
 
     @property

@@ -208,7 +208,7 @@ class Outputs:
         if quantity == "reaction":
             return np.array([held_part(self.system, name, r) for r in forces])
         support = next(one for one in self.system.model.supports if one.name == name)
-        here = self.state._in_motion()[1]
+        here = self.state._held_forces(name)
         vectors = turning(self.system, support)
         q = np.broadcast_to(self.state.q, forces.shape)
         by_force = moments.turned(q, forces, vectors, vectors)

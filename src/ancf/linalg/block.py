@@ -157,10 +157,63 @@ def invert_definite(A, o, original):
 
 
 @inline_kernel
-def invert_symmetric(A, o, original):
-    """Invert the 6x6 block at ``A[o]`` in place by sweeps; number of negative pivots, -1 if singular."""
+def sweep(A, o, p):
+    """Sweep the symmetric block at ``A[o]`` on pivot p."""
+    y = replaced(load_six(A, o + 6 * p), p, -1.0) * (1.0 / A[o + 7 * p])
+    for i in range(6):
+        if i != p:
+            row = replaced(load_six(A, o + 6 * i), p, 0.0)
+            store_six(row - every(A[o + 6 * p + i]) * y, A, o + 6 * i)
+    store_six(y, A, o + 6 * p)
+
+
+@formula
+def swept_back(A, o):
+    """From all pivots swept to the inverse."""
+    for i in range(0, 36, 6):
+        store_six(-load_six(A, o + i), A, o + i)
+    mirror(A, o)
+
+
+@inline_kernel
+def invert_in_order(A, o):
+    """Invert the block at ``A[o]`` in place by pivots in their order, of either sign.
+
+    Returns the number of negative ones, or -1, with the block as it was, if one is too small beside what it
+    was at first.
+    """
+    rows, negative = six(A, o), 0
+    for p in range(6):
+        d = A[o + 7 * p]
+        if not abs(d) > CLEAR * abs(at(rows, p)):
+            put_six(rows, A, o)
+            return -1
+        negative += d < 0.0
+        sweep(A, o, p)
+    swept_back(A, o)
+    return negative
+
+
+@formula
+def at(rows, p):
+    """Entry p of the diagonal of a block."""
+    if p < 3:
+        return rows[0][0] if p == 0 else (rows[1][1] if p == 1 else rows[2][2])
+    return rows[3][3] if p == 3 else (rows[4][4] if p == 4 else rows[5][5])
+
+
+@inline_kernel
+def invert_symmetric(A, o, original, in_order):
+    """Invert the 6x6 block at ``A[o]`` in place by sweeps; number of negative pivots, -1 if singular.
+
+    The largest pivot comes first. ``in_order``: they come as they are, if that will do.
+    """
     if invert_definite(A, o, original):
         return 0
+    if in_order:
+        negative = invert_in_order(A, o)
+        if negative >= 0:
+            return negative
     negative = 0
     done = 0
     for _ in range(6):
@@ -173,13 +226,6 @@ def invert_symmetric(A, o, original):
         done |= 1 << p
         d = A[o + 7 * p]
         negative += d < 0.0
-        y = replaced(load_six(A, o + 6 * p), p, -1.0) * (1.0 / d)
-        for i in range(6):
-            if i != p:
-                row = replaced(load_six(A, o + 6 * i), p, 0.0)
-                store_six(row - every(A[o + 6 * p + i]) * y, A, o + 6 * i)
-        store_six(y, A, o + 6 * p)
-    for i in range(0, 36, 6):
-        store_six(-load_six(A, o + i), A, o + i)
-    mirror(A, o)
+        sweep(A, o, p)
+    swept_back(A, o)
     return negative

@@ -54,9 +54,10 @@ class Factor(NamedTuple):
     T: FloatArray  # (36 longest row,) workspace, L D of one row
     place: NDArray[np.int64]  # (n,) workspace, place of a column in the row at hand
     fill: int  # address of factorise_at
+    in_order: bool  # pivots in a block come in the order of its unknowns, see invert_symmetric
 
 
-def allocate(row_start: NDArray[np.int64], column: NDArray[np.int64]) -> Factor:
+def allocate(row_start: NDArray[np.int64], column: NDArray[np.int64], in_order: bool = False) -> Factor:
     """Factor with the pattern of L given by rows, values not yet computed."""
     n = len(row_start) - 1
     longest = int(np.max(np.diff(row_start), initial=1))
@@ -69,6 +70,7 @@ def allocate(row_start: NDArray[np.int64], column: NDArray[np.int64]) -> Factor:
         np.zeros(36 * max(longest, 1)),
         np.full(n, -1, dtype=np.int64),
         0,
+        in_order,
     )
     return factor._replace(fill=addresses.address_of(factorise_at, _given(), types.int64))
 
@@ -77,7 +79,7 @@ def allocate(row_start: NDArray[np.int64], column: NDArray[np.int64]) -> Factor:
 def _given() -> tuple[Any, ...]:
     """Types of what :func:`factorise_at` takes: to ask each factor for its own takes longer than all else."""
     index, vector = np.zeros(0, dtype=np.int64), np.zeros(0)
-    return VECTOR, type_of(Factor(index, index, *4 * (vector,), index, 0)), types.int64
+    return VECTOR, type_of(Factor(index, index, *4 * (vector,), index, 0, False)), types.int64
 
 
 @inline_kernel
@@ -109,7 +111,7 @@ def factorise_row(A, factor, i):
         mirror(D_inv, 36 * i)
     for k in range(first, last):
         place[column[k]] = -1
-    return invert_symmetric(D_inv, 36 * i, A)
+    return invert_symmetric(D_inv, 36 * i, A, factor.in_order)
 
 
 @inline_kernel

@@ -75,7 +75,7 @@ def _room(head: int, rows: int, widest: int) -> Border:
         R=np.zeros(36 * rows * widest),
         RT=np.zeros(36 * rows * widest),
         S=np.zeros(36 * (rows + len(column))),
-        small=allocate(start.astype(np.int64), column.astype(np.int64)),
+        small=allocate(start.astype(np.int64), column.astype(np.int64), True),  # multipliers come before s
         y=np.zeros(6 * rows),
         part=np.zeros(36),
         turned=np.zeros(6 * rows * widest),

@@ -293,7 +293,7 @@ def factorise_lanes(factor, e, definite, both):
 def factor_of(factor, e, m):
     """The factors of matrix m."""
     own = e.L[m], e.LT[m], e.D_inv[m]
-    return Factor(factor.row_start, factor.column, *own, factor.T, factor.place, factor.fill)
+    return Factor(factor.row_start, factor.column, *own, factor.T, factor.place, factor.fill, factor.in_order)
 
 
 @kernel

@@ -11,7 +11,8 @@ from ..errors import ModelError
 from ..model.supports import Support
 from ..model.winch import Winch
 from ..solvers.in_motion import in_motion
-from ..system.reactions import held_part, reaction, support_name
+from ..system import reactions
+from ..system.reactions import held_part, support_name
 from ..system.system import System
 from . import moments, remembered
 from .parted import Parted, shared_joint
@@ -58,10 +59,7 @@ class Motions:
         """
         system = self.system
         name = support_name(system, support)
-        still: FloatArray | None = self._reaction_at_rest(name)
-        if still is not None:
-            return still
-        forces = self._in_motion()[1]
+        forces = self._held_forces(name)
         found = [held_part(system, name, r) for r in np.atleast_2d(forces)]
         return found[0] if forces.ndim == 1 else np.array(found).reshape(-1, 3)
 
@@ -83,9 +81,8 @@ class Motions:
         """
         system = self.system
         name = support_name(system, support)
-        self.reaction(name)  # of what is no equilibrium and should be one it says so
         item = next(item for item in system.model.supports if item.name == name)
-        return moments.of_support(system, item, self.q[...], self._in_motion()[1])
+        return moments.of_support(system, item, self.q[...], self._held_forces(name))
 
     def joint_moment(self: Any, joint: Any) -> FloatArray:
         """Moment that the second end of a joint receives, N m, about the joint's point, along global axes.
@@ -127,16 +124,23 @@ class Motions:
         if ball is None:
             item = moments.checked_joint(self.system, joint, slides=True)
             return moments.force_of_joint(self.system, item, np.array(self.q[...]))
-        parted, accelerations = Parted(self.system, ball), np.atleast_2d(self._in_motion()[0])
-        states = zip(self._each_state(), accelerations, strict=True)
-        found = [parted.force(q, v, a, t, known) for (q, v, t, known), a in states]
+        parted, states = Parted(self.system, ball), list(self._each_state())
+        rests = all(known.balanced for *_, known in states)
+        accelerations = [None] * len(states) if rests else np.atleast_2d(self._in_motion()[0])
+        each = zip(states, accelerations, strict=True)
+        found = [parted.force(q, v, a, t, known) for (q, v, t, known), a in each]
         return found[0] if self.q.ndim == 1 else np.array(found).reshape(-1, 3)
 
     def held_supports(self: Any) -> list[str]:
         """Names of the supports that have a reaction."""
         return [item.name for item in self.model.supports if not isinstance(item, Winch)]
 
-    def _reaction_at_rest(self, name: str) -> FloatArray | None:
+    def _held_forces(self: Any, name: str) -> FloatArray:
+        """What is out of balance, (..., size), for the support of a name; at rest without accelerations."""
+        still: FloatArray | None = self._at_rest(name)
+        return self._in_motion()[1] if still is None else still
+
+    def _at_rest(self, name: str) -> FloatArray | None:
         """Of an equilibrium, None for what is in motion."""
         return None
 
@@ -168,13 +172,13 @@ def of_history(
 def at_rest(
     system: System, q: FloatArray, v: FloatArray, t: float, known: Remembered, name: str
 ) -> FloatArray | None:
-    """Reaction of an equilibrium, None in motion."""
+    """What an equilibrium leaves out of balance for a support, (size,), None in motion."""
     double = system.double
     double.measured[:] = system.measured  # where contacts are looked for first
     remembered.restore(double, known)
     for key, value in known.inputs.items():
         double.inputs.give(key, value)
-    return reaction(double, q, v, t, name, known.balanced)
+    return reactions.at_rest(double, q, v, t, name, known.balanced)
 
 
 def _double(system: System, known: Remembered) -> System:

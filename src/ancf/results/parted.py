@@ -52,15 +52,23 @@ class Parted:
         self.system.skip_energies()
         self._from, self._to = _matched(system, self.system)
 
-    def force(self, q: FloatArray, v: FloatArray, a: FloatArray, t: float, known: Remembered) -> FloatArray:
-        """Force that the second end receives in a state of the whole model, N, shape (3,)."""
+    def force(
+        self, q: FloatArray, v: FloatArray, a: FloatArray | None, t: float, known: Remembered
+    ) -> FloatArray:
+        """Force that the second end receives in a state of the whole model, N, shape (3,).
+
+        ``a`` are accelerations; without them it is an equilibrium, whatever given motions do next.
+        """
         mine = self.system
         remembered.restore(mine, known)
         for name, value in known.inputs.items():
             mine.inputs.give(name, value)
-        q, v, a = (self._brought(x) for x in (q, v, a))
+        rests = a is None
+        q, v, a = (self._brought(x) for x in (q, v, np.zeros_like(q) if a is None else a))
         tables = mine.inputs.moment(t, (q, v))
         place_supports(mine.supports, mine.value, tables, 0, q, v, a)
+        if rests:
+            v, a = np.zeros((2, mine.size))
         f, r = np.zeros((2, mine.size))
         apply_load(mine.core.loads, tables.value[0], f)
         residual(mine.core.batches, mine.core.ws, q, v, a, f, r)

@@ -203,5 +203,5 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
     def _each_state(self) -> list[Any]:
         return [(self.q, self.v, self.t, self.known)]
 
-    def _reaction_at_rest(self, name: str) -> FloatArray | None:
+    def _at_rest(self, name: str) -> FloatArray | None:
         return motions.at_rest(self.system, self.q, self.v, self.t, self.known, name)

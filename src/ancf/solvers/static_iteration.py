@@ -26,6 +26,7 @@ from ..system.core import (
     restrict,
     solve_matrix,
 )
+from ..system.reactions import ROUND_OFF, largest_stiffness
 from ..system.system import System
 from .free_spin import Spin, is_neutral, lowest_square, softest_mode
 from .mixed import Mixed
@@ -43,6 +44,7 @@ NEUTRAL_MU_JOINTS = 1e-10  # NEUTRAL_MU with the stiffness that the rows of join
 PROBE, NOTHING = 1e-7, 1e-300  # of differences, positions in sizes of the model; no correction at all
 LEFT_OVER, DIRECTIONS = 1e-3, 40  # of the residual by GMRES, and how many directions it looks in
 OUTWEIGHED = 2.0  # times mu: what holds a vibration of this square is more than mu
+UNCARRIED = 1e-3  # of what joints have to carry, with the right multipliers
 COUNTED_MU = 1e-9  # with which pivots are counted where a body has no stiffness of its own
 
 
@@ -170,6 +172,23 @@ class Iteration:
         unknown = np.setdiff1d(self.system.multipliers, self.core.supports.held)
         if len(unknown) and not len(self.core.joints.tail):
             self.q[unknown] -= self.solve(self.out_of_balance(self.q, share))[unknown]
+
+    def overtaxed(self, share: float) -> str | None:
+        """The joint with the largest multiplier, if no multipliers balance a state whose gaps are closed."""
+        unknown = np.setdiff1d(self.system.multipliers, self.core.supports.held)
+        if not len(unknown) or len(self.core.joints.tail):
+            return None
+        alone = self.q.copy()
+        alone[unknown] = 0.0
+        left, carried = (self.out_of_balance(q, share) for q in (self.q, alone))
+        left[self.system.multipliers] = carried[self.system.multipliers] = 0.0
+        if not np.max(np.abs(left)) > UNCARRIED * np.max(np.abs(carried)) + ROUND_OFF * largest_stiffness(
+            self.system
+        ):
+            return None
+        worst = unknown[int(np.argmax(np.abs(self.q[unknown])))]
+        owners = self.system.numbering.multipliers.items()
+        return next(name for name, own in owners if worst in own)
 
     def length(self, dq: FloatArray) -> float:
         """Largest entry, positions in sizes of the model."""

@@ -97,7 +97,7 @@ def settle(it: Iteration, share: float) -> str | None:
         if settled and (it.mu == 0.0 or it.harmless()):
             it.q = it.moved(dq, 1.0)
             it.renew_multipliers(share)
-            return _degenerate(it)
+            return _degenerate(it, share)
         if regular and it.mu > 0.0 and norm < BALANCED and not disturbed and not it.harmless():
             disturbed = True  # balanced, but not stable
             it.q = disturb(it)
@@ -117,15 +117,19 @@ def settle(it: Iteration, share: float) -> str | None:
     return f"Newton's method did not converge in {MAX_ITERATIONS} iterations, last correction {norm:.2e}"
 
 
-def _degenerate(it: Iteration) -> str | None:
-    """What makes a settled state worthless: a section that is inside out, a cable without a tangent."""
+def _degenerate(it: Iteration, share: float) -> str | None:
+    """What makes a settled state worthless.
+
+    A section that is inside out, a cable without a tangent, or a joint whose direction has vanished.
+    """
     slot = find_inverted(it.core.batches, it.core.ws, it.q)
     if slot >= 0:
         return ": ".join(inverted(it.system, slot)[:2])
     found = it.system.shortest_slope(it.q)
     if found is not None and found[1] < LEAST_SLOPE:
         return f"{found[0]}: {VANISHED}"
-    return None
+    name = it.overtaxed(share)
+    return None if name is None else f'"{name}" has no direction left in which it could carry its load'
 
 
 def _stalled(it: Iteration, dq: FloatArray, r: FloatArray, share: float) -> bool:

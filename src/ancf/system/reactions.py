@@ -18,20 +18,6 @@ BALANCED = 1e-3  # out-of-balance force of a body's nodes, of the largest force
 ROUND_OFF = 1e-8  # the same, of the largest stiffness, N
 
 
-def reaction(
-    system: System, q: FloatArray, v: FloatArray, time: float, name: str, balanced: bool
-) -> FloatArray | None:
-    """Force of a support on its node in an equilibrium, N, shape (3,), global components; None in motion.
-
-    Raises
-    ------
-    ModelError
-        As of :func:`at_rest`.
-    """
-    r = at_rest(system, q, v, time, name, balanced)
-    return None if r is None else held_part(system, name, r)
-
-
 def at_rest(
     system: System, q: FloatArray, v: FloatArray, time: float, name: str, balanced: bool | None
 ) -> FloatArray | None:
@@ -95,10 +81,10 @@ def _loose(system: System, name: str, r: FloatArray, load: FloatArray) -> float:
     held = [i for unknowns in system.constraints.positions.values() for i in unknowns]
     largest = max(float(np.max(np.abs(r[held]))), float(np.max(np.abs(load))))
     loose = float(np.max(np.abs(r[mine]), initial=0.0))
-    return loose if loose > BALANCED * largest + ROUND_OFF * _stiffness(system) else 0.0
+    return loose if loose > BALANCED * largest + ROUND_OFF * largest_stiffness(system) else 0.0
 
 
-def _stiffness(system: System) -> float:
+def largest_stiffness(system: System) -> float:
     """Largest EA of a body and stiffness times length of a spring, N."""
     springs = [c.stiffness for c in system.model.connections if isinstance(c, Spring)]
     of_springs = max(springs) * system.model.size if springs else 0.0
