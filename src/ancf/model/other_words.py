@@ -180,7 +180,9 @@ OF_ARGUMENTS = {
     "hs": ("height",),
     "h": ("height", "step"),
     "tp": ("period",),
-    "t": ("period", "t_end"),
+    "t": ("period", "t_end", "times"),
+    "points": ("items",),
+    "columns": ("items",),
     "cd": ("drag",),
     "ca": ("added_mass",),
     "cm": ("added_mass",),
@@ -229,6 +231,7 @@ TOLD = {
     "Waves": "Waves.regular(...), Waves.jonswap(...) or Waves.pierson_moskowitz(...) makes them",
     "amplitude": "the height is twice the amplitude",
     "buoyancy": "it follows from the diameter and the density of the fluid",
+    "controller": "ancf.simulate takes one, also in a build function that returns numbers of its run",
     "youngs_modulus": "the modulus of elasticity is E",
 }
 

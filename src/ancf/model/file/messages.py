@@ -158,7 +158,9 @@ def _homes(top: type[Entry]) -> dict[str, list[str]]:
         inside = get_args(field.annotation)[1] if named else field.annotation
         title = f"[{name}.NAME]" if named else f"[[{name}]]" if _has_list(inside) else f"[{name}]"
         own = {key for entry in leaves(inside) for key in getattr(entry, "model_fields", {})}
-        found.setdefault(name, []).extend([] if own else [""])
+        # the name of a file may stand for tables
+        plain = not own or str in leaves(inside)
+        found.setdefault(name, []).extend([""] if plain else [])
         for key in own:
             found.setdefault(key, []).append(title)
     return found
