@@ -57,6 +57,19 @@ def test_of_the_top_in_a_table_of_a_line(key, table):
     assert f'"{key}" belongs at the top of the file' in str(caught.value)
 
 
+@pytest.mark.parametrize("table", ["contact_wire", "messenger_wire", "damping", "steady_arm", "spans"])
+@pytest.mark.parametrize("key", sorted(set(TABLES) - {"spans", "supports", "loads"}))
+def test_a_table_in_a_line_in_a_table_of_a_line(key, table):
+    """``dropper_rule = {...}`` below a table is a key of that table."""
+    if key in TABLES[table].model_fields:
+        return
+    tables = tomllib.loads(TOML)
+    inside = tables[table][0] if table == "spans" else tables[table]
+    inside[key] = {"first": 5.0}
+    with pytest.raises(ancf.ModelError, match=f'"{key}" belongs at the top of the file'):
+        parse_track(tables)
+
+
 @pytest.mark.parametrize("table", ["sections.rope", "bodies", "supports", "simulation"])
 @pytest.mark.parametrize(
     ("key", "home"),
