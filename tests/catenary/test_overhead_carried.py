@@ -8,7 +8,7 @@ import pytest
 from ancf import catenary
 from ancf.catenary.file import parse_track
 from ancf.catenary.form import check
-from ancf.catenary.line import LISTS, MAY_LACK, PARTS
+from ancf.catenary.line_parts import LISTS, MAY_LACK, PARTS
 from ancf.catenary.reach import without_droppers
 from ancf.errors import ModelError
 from overhead_lines import COARSE, LENGTHS, STEP, TOML, collector, short_line

@@ -16,6 +16,7 @@ from .cant import LARGEST, plumb_above
 from .conditions import COLDEST, HOTTEST, Conditions
 from .excerpt import excerpt
 from .fittings import NO_DROPPERS, DropperErrors, Droppers, Load, SteadyArm, Tensioner
+from .line_parts import check_kinds
 from .span import Span, of_supports, within
 from .stitch import StitchWire
 from .wire import Rayleigh, Wire
@@ -35,23 +36,6 @@ def check_size(spans: int, droppers: int, where: str) -> None:
     for count, most, what in ((spans, MOST_SPANS, "spans"), (droppers, MOST_DROPPERS, "droppers")):
         if count > most:
             raise ModelError(where, f"are {count} {what} in all, at most {most} can be")
-
-
-#: Parts of a line by their class; those that may lack, and those that have to be there.
-PARTS: dict[str, type] = {
-    "contact_wire": Wire,
-    "messenger_wire": Wire,
-    "droppers": Droppers,
-    "damping": Rayleigh,
-    "stitch": StitchWire,
-    "auxiliary": Auxiliary,
-    "tensioner": Tensioner,
-    "conditions": Conditions,
-    "dropper_errors": DropperErrors,
-}
-MAY_LACK = ("messenger_wire", "stitch", "auxiliary", "dropper_errors")
-NEEDED = ("contact_wire", "spans", "steady_arm")
-LISTS: dict[str, type] = {"spans": Span, "loads": Load, "steady_arm": SteadyArm}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -163,8 +147,7 @@ class Line:
 
     def __post_init__(self) -> None:
         """Check everything and spread single numbers over the supports."""
-        self._check_kinds()
-        object.__setattr__(self, "spans", tuple(self.spans))
+        check_kinds(self)
         if not self.spans:
             raise ModelError("line.spans", "has no span")
         check_size(len(self.spans), sum(len(span.droppers) for span in self.spans), "line.spans")
@@ -190,26 +173,6 @@ class Line:
         self._check_lengths()
         if self.dropper_errors is not None:
             self.dropper_errors.check("line.dropper_errors")
-
-    def _check_kinds(self) -> None:
-        given = {key: getattr(self, key) for key in (*PARTS, *LISTS)}
-        for key in LISTS:
-            values = given.pop(key)
-            if key == "steady_arm" and isinstance(values, SteadyArm):
-                continue
-            if not isinstance(values, Sequence) or isinstance(values, str):
-                what = f"must be a list of {LISTS[key].__name__}, is {checks.shown(values)}"
-                raise ModelError(f"line.{key}", what)
-            given |= {f"{key}[{k}]": value for k, value in enumerate(values)}
-        for key, value in given.items():
-            kind = PARTS.get(key) or LISTS[key.partition("[")[0]]
-            if not (isinstance(value, kind) or (value is None and key in MAY_LACK)):
-                hint = (
-                    "leave it out"
-                    if value is None and key not in NEEDED
-                    else f"catenary.{kind.__name__}(...)"
-                )
-                raise ModelError(f"line.{key}", f"must be a {kind.__name__}, is {checks.shown(value)}", hint)
 
     def _check_parts(self) -> None:
         arms = self.steady_arm
@@ -251,7 +214,6 @@ class Line:
         self.tensioner.check("line.tensioner", self.anchors)
         self.conditions.check("line.conditions", self.contact_wire, self.messenger_wire)
         self._check_wind()
-        object.__setattr__(self, "loads", tuple(self.loads))
         for k, load in enumerate(self.loads):
             load.check(f"line.loads[{k}]", self.length)
             if load.wire == "messenger" and self.messenger_wire is None:

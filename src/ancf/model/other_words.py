@@ -66,6 +66,10 @@ OF_MODEL = {
     "mass": "add_point_mass(...) or add_rigid_body(...)",
     "gravity": "gravity is given to ancf.Model(gravity=(0, 0, -9.81))",
     "velocity": "bodies of a model have it: body.set_motion(velocity=...)",
+    **dict.fromkeys(
+        ("break", "cut", "disconnect", "release", "detach", "remove"),
+        "a model without that joint starts from the state of the run before, see ancf docs rope breaks",
+    ),
     "save": "to_dict() describes a model, ancf.Model.from_dict(...) makes it again",
     "run": "ancf.simulate(model, t_end=..., step=...) runs it",
     "simulate": "ancf.simulate(model, t_end=..., step=...) runs it",
