@@ -81,6 +81,7 @@ class Inputs:
         self.loads = loads
         self.given = {} if given is None else dict(given)
         self.changes = 0
+        self.last: tuple[tuple[float, int], Tables] | None = None  # of `moment`
         self.motions = constraints.motions
         self.drives = _drives(self.motions, loads)
         own = {drive.row for drive in self.drives}
@@ -131,7 +132,16 @@ class Inputs:
         return made
 
     def moment(self, time: float, here: tuple[FloatArray, FloatArray]) -> Tables:
-        """Tables at one time in s, of which no steps are known; rates are as fine as motions need."""
+        """Tables at one time in s, of which no steps are known; rates are as fine as motions need.
+
+        Those of the last time are kept, unless lengths follow from the state: a start asks several times.
+        """
+        key = time, self.changes
+        if self.last is None or self.last[0] != key or self.drives:
+            self.last = key, self._moment(time, here)
+        return self.last[1]
+
+    def _moment(self, time: float, here: tuple[FloatArray, FloatArray]) -> Tables:
         made = self.tables(time - MOMENT, MOMENT, 1, time, np.inf, here, still=True)
         times, column = np.array([time]), 0
         for k, motion in enumerate(self.motions):
