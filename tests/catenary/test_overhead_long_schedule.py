@@ -2,6 +2,7 @@
 
 import csv
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -17,6 +18,15 @@ LONG = Droppers(EA=2e5, mass=0.1, clamp_contact=0.2, clamp_messenger=0.3)
 PITCHES = [(5.0, 10.0), (3.0, 6.5), (8.0, 40.0)]
 
 
+@cache
+def formed(pitch, degrees=None):
+    """The form of a compound line, and the line."""
+    line = compound(pitch)
+    if degrees is not None:
+        line = replace(line, conditions=catenary.Conditions(temperature=degrees))
+    return line, catenary.form(line, COARSE)
+
+
 def compound(pitch, **changes):
     first, most = pitch
     given = Auxiliary(wire=WIRE, height=0.3, droppers=LONG, places=DropperRule(first=first, pitch_max=most))
@@ -26,10 +36,8 @@ def compound(pitch, **changes):
 @pytest.mark.parametrize("pitch", PITCHES)
 @pytest.mark.parametrize("degrees", [None, -20.0, 40.0])
 def test_rows_are_those_of_the_form(pitch, degrees):
-    line = compound(pitch)
-    if degrees is not None:
-        line = replace(line, conditions=catenary.Conditions(temperature=degrees))
-    found, rows = catenary.form(line, COARSE), long_rows(catenary.form(line, COARSE))
+    line, found = formed(pitch, degrees)
+    rows = long_rows(found)
     made = found.long_droppers
     assert [row.track for row in rows] == pytest.approx(line.long_x.tolist())
     assert [row.length for row in rows] == pytest.approx((1e3 * made.length).tolist())
@@ -44,9 +52,8 @@ def test_rows_are_those_of_the_form(pitch, degrees):
 @pytest.mark.parametrize("pitch", PITCHES)
 def test_a_dropper_is_cut_alike_in_every_state(pitch):
     """What is cut belongs to the design: the same whatever the temperature of the state."""
-    line = compound(pitch)
-    states = [replace(line, conditions=catenary.Conditions(temperature=t)) for t in (-20.0, 40.0)]
-    lengths = [[row.natural for row in long_rows(catenary.form(one, COARSE))] for one in (line, *states)]
+    forms = [formed(pitch, degrees)[1] for degrees in (None, -20.0, 40.0)]
+    lengths = [[row.natural for row in long_rows(form)] for form in forms]
     assert lengths[1] == pytest.approx(lengths[0], abs=1e-6)
     assert lengths[2] == pytest.approx(lengths[0], abs=1e-6)
 
@@ -54,8 +61,7 @@ def test_a_dropper_is_cut_alike_in_every_state(pitch):
 @pytest.mark.parametrize("pitch", PITCHES)
 def test_they_carry_what_hangs_from_the_auxiliary(pitch):
     """Its weight, its clamps and the contact wire's droppers, but for what its ends carry."""
-    line = compound(pitch)
-    found = catenary.form(line, COARSE)
+    line, found = formed(pitch)
     rows = long_rows(found)
     span = (line.long_x[0], line.long_x[-1])
     inside = (line.dropper_x >= span[0]) & (line.dropper_x <= span[1])
@@ -68,9 +74,9 @@ def test_they_carry_what_hangs_from_the_auxiliary(pitch):
 
 
 def test_a_route_counts_on():
-    line = compound(PITCHES[0])
+    line, found = formed(PITCHES[0])
     route = catenary.Route(lines=(line, line), starts=(0.0, 140.0))
-    rows, alone = long_rows(catenary.form(route, COARSE)), long_rows(catenary.form(line, COARSE))
+    rows, alone = long_rows(catenary.form(route, COARSE)), long_rows(found)
     first, second = rows[: len(alone)], rows[len(alone) :]
     assert first == alone
     assert [row.span - len(LENGTHS) for row in second] == [row.span for row in alone]
