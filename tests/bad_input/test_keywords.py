@@ -160,3 +160,31 @@ def test_methods_that_kinds_bring():
         ancf.simulat  # noqa: B018
     # with these the interpreter names the near one
     assert (caught.value.name, caught.value.obj) == ("simulat", ancf)
+
+
+def described(name):
+    """Kinds and units of the arguments that a call wants, as its docstring has them."""
+    lines = (inspect.getdoc(CALLS[name]) or "").splitlines()
+    heads = [line.split(" : ") for line in lines if " : " in line and not line.startswith(" ")]
+    kinds = {argument: kind for names, kind in heads for argument in names.split(", ")}
+    parameters = inspect.signature(CALLS[name]).parameters.values()
+    wanted = [p.name for p in parameters if p.default is p.empty and p.name in KEYWORDS[name]]
+    return {argument: kinds[argument] for argument in wanted if argument in kinds}
+
+
+#: Of a winch it is said in words of its own.
+DESCRIBED = {name: kinds for name in KEYWORDS if (kinds := described(name)) and name != "Model.winch"}
+
+
+def test_many_are_described():
+    assert len(DESCRIBED) > 60
+    assert DESCRIBED["Model.hinge"]["b"] == "Point, RigidBody or (3,) m"
+
+
+@pytest.mark.parametrize("name", DESCRIBED)
+def test_what_lacks_is_described(name):
+    """A call without arguments says of each that it wants what it is, with the unit."""
+    me = (None,) if "self" in inspect.signature(CALLS[name]).parameters else ()
+    with pytest.raises(ancf.ArgumentError) as caught:
+        CALLS[name](*me)
+    assert all(kind in caught.value.hint for kind in DESCRIBED[name].values())

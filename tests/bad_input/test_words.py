@@ -234,6 +234,11 @@ def test_what_is_no_point_is_named(swung):
         (lambda: wheel().add_pressure(wheel().bodies["wheel"].centre, 1.0, axis=(0, 0, 1)), 'is "wheel"'),
         (lambda: ancf.sample({"EA": [1, 2]}), 'method="grid"'),
         (lambda: ancf.simulate(wheel(), t_end=1.0, dt=0.1), 'did you mean "step"'),
+        (lambda: run().to_pandas(points=["wheel"]), 'did you mean "items"'),
+        (lambda: run().to_pandas(columns=["wheel"]), 'did you mean "items"'),
+        (lambda: run().plot_shape(t=[0.0]), 'did you mean "times"'),
+        (lambda: ancf.calibrate(wheel, {}, parameters={}, controller=print), "a build function that returns"),
+        (lambda: ancf.gradient(wheel(), "", [], t_end=1, step=1, controller=print), "simulate takes one"),
     ],
 )
 def test_messages_say_what_to_write(call, said):
@@ -244,6 +249,11 @@ def test_messages_say_what_to_write(call, said):
 def sea(**given):
     """A fluid of an empty model."""
     return ancf.Model().add_fluid("sea", density=1025.0, **given)
+
+
+def run():
+    """A run of it."""
+    return ancf.simulate(wheel(), t_end=0.1, step=0.1)
 
 
 def wheel():

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 import catenary_stand_in as stand_in
-from ancf.catenary import Conditions, acceptance, form, statistics
+from ancf.catenary import Conditions, acceptance, elasticity, form, statistics
 from overhead_lines import COARSE, short_line
 
 LINES = {
@@ -65,3 +65,20 @@ def test_a_run_without_its_window():
     run = replace(stand_in.run(), window=(5e3, 6e3))
     assert "evaluated    from 5000 m to 6000 m" in str(run)
     assert "mean force" not in str(run)
+
+
+@pytest.mark.parametrize("forces", [(100.0,), (50.0, 150.0), (60.0, 120.0, 180.0)])
+def test_elasticities(forces):
+    found = elasticity(form(short_line(), COARSE), forces, points=5, span=1)
+    said, one = str(found), repr(found)
+    lines = said.splitlines()
+    assert lines[0] == "Elasticity along span 2"
+    assert all(
+        f"{ratio:.1f} % at {force:g} N" in said
+        for force, ratio in zip(forces, 100 * found.nonuniformity, strict=True)
+    )
+    rows = [[float(cell) for cell in line.split()] for line in lines[-len(found.x) :]]
+    assert [row[0] for row in rows] == pytest.approx(found.x.tolist(), abs=0.01)
+    for k in range(len(forces)):
+        assert [row[1 + k] for row in rows] == pytest.approx(found.value[k].tolist(), abs=1e-4)
+    assert one == f"Elasticity(span 2, {found.value.min():.4g} to {found.value.max():.4g} mm/N)"

@@ -75,6 +75,13 @@ def test_what_a_formula_asks_for():
         ("[1, 2]", "is not allowed"),
         ("'text'", "is not allowed"),
         ("open('x')", 'unknown name "open"'),
+        *(
+            (f"{name}({k})", f"{name} is no function (write {name}[{k}], counted from 0)")
+            for name in WORDS.names
+            for k in (0, 3)
+        ),
+        ("2*uplift(t)", "uplift is no function (write uplift)"),
+        ("sigma()", "sigma is no function (write sigma)"),
         ("uplift[0.5]", "is no place in a list"),
         ("uplift[sigma]", "is no place in a list"),
         ("tension()", "is asked of one item"),

@@ -34,12 +34,13 @@ step = 1e-3
 
 
 def plain(top):
-    """Keys of a kind of file that are no tables and in no table."""
-    tables = {
-        name: [leaf for leaf in leaves(field.annotation) if hasattr(leaf, "model_fields")]
-        for name, field in top.model_fields.items()
-    }
-    return [name for name, inside in tables.items() if not inside]
+    """Keys of a kind of file that are no tables, or for whose tables the name of a file may stand."""
+    kinds = {name: [*leaves(field.annotation)] for name, field in top.model_fields.items()}
+    return [
+        name
+        for name, inside in kinds.items()
+        if str in inside or not any(hasattr(leaf, "model_fields") for leaf in inside)
+    ]
 
 
 @pytest.mark.parametrize("table", ["contact_wire", "messenger_wire", "damping", "steady_arm", "spans"])
@@ -54,6 +55,19 @@ def test_of_the_top_in_a_table_of_a_line(key, table):
         parse_track(tables)
     assert "unknown key, allowed" in str(caught.value)
     assert f'"{key}" belongs at the top of the file' in str(caught.value)
+
+
+@pytest.mark.parametrize("table", ["contact_wire", "messenger_wire", "damping", "steady_arm", "spans"])
+@pytest.mark.parametrize("key", sorted(set(TABLES) - {"spans", "supports", "loads"}))
+def test_a_table_in_a_line_in_a_table_of_a_line(key, table):
+    """``dropper_rule = {...}`` below a table is a key of that table."""
+    if key in TABLES[table].model_fields:
+        return
+    tables = tomllib.loads(TOML)
+    inside = tables[table][0] if table == "spans" else tables[table]
+    inside[key] = {"first": 5.0}
+    with pytest.raises(ancf.ModelError, match=f'"{key}" belongs at the top of the file'):
+        parse_track(tables)
 
 
 @pytest.mark.parametrize("table", ["sections.rope", "bodies", "supports", "simulation"])

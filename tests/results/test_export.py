@@ -524,7 +524,9 @@ class TestCommand:
         ("arguments", "said"),
         [
             ((), '--to: is missing: one of "vtk", "csv"'),
-            (("-o", "a.csv"), "or -o with a file that ends so"),
+            (("-o", "a.csv"), "csv fills a folder: --to csv -o a"),
+            (("-o", "b/a.PARQUET"), "parquet fills a folder: --to parquet -o b/a"),
+            (("-o", "a.pdf"), "or -o with a file that ends so"),
             (("--to", "vkt"), 'did you mean "vtk"?'),
             (
                 ("--to", "csv", "--frames", 3),

@@ -9,6 +9,7 @@ import numpy as np
 
 from .galloping import said as galloping
 from .plan import RUN_IN, Plan
+from .reach import without_droppers
 from .signals import CUT_OFF, at_zero
 from .statistics import MEAN_FORCE_LAW, mean_force_target
 
@@ -32,6 +33,8 @@ def before(plan: Plan) -> Iterator[str]:
     """What is to be said about a run before it is computed."""
     yield from _speed(plan)
     yield from _lift(plan)
+    for part in plan.form.line.parts:
+        yield from without_droppers(part)
     if plan.step > LONGEST * (1.0 + 1e-9):
         text = (
             f"run.step: {1e3 * plan.step:g} ms is long for what is evaluated up to {CUT_OFF:g} Hz: standard "

@@ -25,11 +25,12 @@ from .mesh import Mesh
 from .rest import assemble, form, track_of
 from .route import Route
 from .route_form import AnyForm, RouteForm
+from .told import Told
 
 
-@dataclass(frozen=True, slots=True)
-class Elasticity:
-    """Static elasticity along one span.
+@dataclass(frozen=True, slots=True, repr=False)
+class Elasticity(Told):
+    """Static elasticity along one span; ``print`` shows it as a table.
 
     Attributes
     ----------
@@ -50,6 +51,9 @@ class Elasticity:
     force: FloatArray
     lift: FloatArray
     form: AnyForm | None = field(default=None, repr=False, compare=False)
+
+    def __repr__(self) -> str:
+        return self.in_a_line()
 
     @property
     def value(self) -> FloatArray:

@@ -102,6 +102,9 @@ def parse_track(data: dict[str, Any], source: str = "line") -> Line | Route:
     if not isinstance(sections, list) or not sections or not all(isinstance(one, dict) for one in sections):
         raise ModelError("sections", "must be tables", "[[sections]] with start, and spans or supports each")
     common = {key: value for key, value in data.items() if key != "sections"}
+    if common.get("loads") and len(sections) > 1:
+        hint = "write [[sections.loads]] below its [[sections]], position from the first support there"
+        raise ModelError("loads", "stand above the sections: each of them would carry all of them", hint)
     lines, starts = [], []
     for k, own in enumerate(sections):
         where = f"sections[{k}]"

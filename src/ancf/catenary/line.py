@@ -16,6 +16,7 @@ from .cant import LARGEST, plumb_above
 from .conditions import COLDEST, HOTTEST, Conditions
 from .excerpt import excerpt
 from .fittings import NO_DROPPERS, DropperErrors, Droppers, Load, SteadyArm, Tensioner
+from .line_parts import check_kinds
 from .span import Span, of_supports, within
 from .stitch import StitchWire
 from .wire import Rayleigh, Wire
@@ -146,7 +147,7 @@ class Line:
 
     def __post_init__(self) -> None:
         """Check everything and spread single numbers over the supports."""
-        object.__setattr__(self, "spans", tuple(self.spans))
+        check_kinds(self)
         if not self.spans:
             raise ModelError("line.spans", "has no span")
         check_size(len(self.spans), sum(len(span.droppers) for span in self.spans), "line.spans")
@@ -213,7 +214,6 @@ class Line:
         self.tensioner.check("line.tensioner", self.anchors)
         self.conditions.check("line.conditions", self.contact_wire, self.messenger_wire)
         self._check_wind()
-        object.__setattr__(self, "loads", tuple(self.loads))
         for k, load in enumerate(self.loads):
             load.check(f"line.loads[{k}]", self.length)
             if load.wire == "messenger" and self.messenger_wire is None:

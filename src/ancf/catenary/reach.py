@@ -54,12 +54,23 @@ def check_aside(line: Line, contact: WireShape) -> None:
 
 
 def cautions(line: Line, contact: WireShape) -> list[str]:
-    """What is to be said of spans in which the wire leaves strips of the usual length."""
-    return [
+    """What is to be said of spans in which the wire leaves strips of the usual length, or hangs free."""
+    aside = [
         f"{_place(line, found.span)}: {_said(line, found)}, strips of {2.0 * STRIP:g} m reach to "
         f"{STRIP:g} m; {_hint(line, found.span)}"
         for found in asides(line, contact, STRIP)
     ]
+    return without_droppers(line) + aside
+
+
+def without_droppers(line: Line) -> list[str]:
+    """What is to be said of a line whose messenger carries nothing."""
+    if line.messenger_wire is None or len(line.dropper_x):
+        return []
+    wire, longest = line.contact_wire, max(span.length for span in line.spans)
+    sag = wire.mass * line.gravity * longest**2 / (8.0 * wire.tension)
+    text = f"there are none: the messenger carries nothing, the contact wire sags by {sag:.2f} m"
+    return [f"droppers: {text}; give places, or dropper_rule"]
 
 
 def _said(line: Line, found: Aside) -> str:

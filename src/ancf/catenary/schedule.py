@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 from ..arrays import FloatArray
 from ..files import writing
@@ -121,16 +122,21 @@ def _wires(part: Line) -> range:
     return range(part.contact_wires)
 
 
-def texts(row: Row) -> list[str]:
-    """A row as it is printed and written."""
-    values = [getattr(row, item.name) for item in fields(Row)]
-    return [f"{round(value, n) + 0.0:.{n}f}" for value, n in zip(values, DECIMALS, strict=True)]
+def texts(row: Any) -> list[str]:
+    """A row as it is printed and written; one of fewer columns ends with the first ones of them."""
+    values = [getattr(row, item.name) for item in fields(row)]
+    return [f"{round(value, n) + 0.0:.{n}f}" for value, n in zip(values, DECIMALS, strict=False)]
 
 
 def write(schedule: list[Row], path: Path) -> Path:
     """Write a schedule as CSV; ModelError if the file cannot be written."""
+    return write_rows([texts(row) for row in schedule], COLUMNS, path)
+
+
+def write_rows(rows: Iterable[Sequence[str]], columns: Sequence[str], path: Path) -> Path:
+    """Write a table as CSV; ModelError if the file cannot be written."""
     with writing(path), path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
-        writer.writerow(COLUMNS)
-        writer.writerows(texts(row) for row in schedule)
+        writer.writerow(columns)
+        writer.writerows(rows)
     return path

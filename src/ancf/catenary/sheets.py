@@ -16,6 +16,7 @@ from .told import LINES, SHEETS
 
 if TYPE_CHECKING:
     from ..arrays import FloatArray
+    from .elasticity import Elasticity
     from .line import Line
     from .route import Route
     from .route_form import AnyForm
@@ -94,6 +95,22 @@ def _title(run: Run) -> str:
     return f"{run.form.line.title or 'Overhead line'}, {KMH * run.speed:.4g} km/h"
 
 
+def of_elasticity(found: Elasticity) -> Sheet:
+    """How far each place gives, and how uneven that is, by the force."""
+    heads = ("at [m]", *(f"{force:g} N [mm/N]" for force in found.force))
+    rows = [
+        (f"{x:.2f}", *(f"{e:.4f}" for e in values)) for x, values in zip(found.x, found.value.T, strict=True)
+    ]
+    ratios = zip(found.force, found.nonuniformity, strict=True)
+    facts = [("non-uniformity", ", ".join(f"{100 * ratio:.1f} % at {force:g} N" for force, ratio in ratios))]
+    return Sheet(f"Elasticity along span {found.span + 1}", facts, [Table(heads, rows, most=len(rows))])
+
+
+def line_of_elasticity(found: Elasticity) -> str:
+    """The same in a line."""
+    return f"Elasticity(span {found.span + 1}, {_range(found.value)} mm/N)"
+
+
 def _tables(run: Run) -> list[Table]:
     """A table for each pantograph; none of a run that does not cover its window."""
     try:
@@ -112,7 +129,8 @@ def _range(values: FloatArray) -> str:
 
 
 def tell() -> None:
-    """Let forms, runs and statistics print by this module."""
+    """Let forms, runs, statistics and elasticities print by this module."""
     SHEETS.update({"Form": of_form, "RouteForm": of_form, "Run": of_run, "Statistics": of_statistics})
+    SHEETS["Elasticity"], LINES["Elasticity"] = of_elasticity, line_of_elasticity
     LINES.update({"Form": line_of_form, "RouteForm": line_of_form})
     LINES.update({"Run": line_of_run, "Statistics": line_of_statistics})

@@ -12,6 +12,7 @@ from .screen import Screen, console, table
 
 if TYPE_CHECKING:
     from ..catenary import Elasticity, Line, Route
+    from ..catenary.long_schedule import LongRow
     from ..catenary.route_form import AnyForm
 
 
@@ -20,18 +21,25 @@ def show_form(name: str, output: Path | None, quiet: bool = False, given: list[s
     from .. import catenary
     from ..catenary.arm_loads import write
     from ..catenary.galloping import said
+    from ..catenary.long_schedule import long_rows, save_long_schedule
 
     line = catenary.read_line(name, assignments(given))
-    folder = None if output is None else OutputFolder(output, ("schedule.csv", "arms.csv", "form.png"))
+    names = ("schedule.csv", "long_schedule.csv", "arms.csv", "form.png")
+    folder = None if output is None else OutputFolder(output, names)
     Screen(quiet).announce_compilation()
     found = catenary.form(line)
+    long = long_rows(found)
     if not quiet:
         _print_schedule(line, found)
+        if long:
+            _print_long_schedule(long)
         _print_arms(found)
         for text in said(line):
             console().print(f"warning: {text}", soft_wrap=True)
     if folder is not None:
         _written(found.save_schedule(folder.path / "schedule.csv"), quiet)
+        if long:
+            _written(save_long_schedule(found, folder.path / "long_schedule.csv"), quiet)
         _written(write(catenary.arm_loads(found), folder.path / "arms.csv"), quiet)
         if find_spec("matplotlib") is not None:
             _written(found.plot().save(folder.path / "form.png"), quiet)
@@ -77,6 +85,18 @@ def _print_schedule(line: Line | Route, found: AnyForm) -> None:
         f"contact wire {line.parts[0].contact_support} at the supports",
         soft_wrap=True,
     )
+
+
+def _print_long_schedule(long: list[LongRow]) -> None:
+    from ..catenary.schedule import texts
+
+    heads = ("span", "long dropper", "at [m]", "track [m]", "length [mm]", "unstretched [mm]")
+    shown = table(*heads, "load at the lower end [N]")
+    for row in long:
+        shown.add_row(*texts(row))
+    where = console()
+    where.print("between messenger and auxiliary", soft_wrap=True)
+    where.print(shown)
 
 
 def _print_arms(found: AnyForm) -> None:

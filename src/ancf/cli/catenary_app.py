@@ -48,7 +48,8 @@ def catenary_form(
 ) -> None:
     """Find the form of an overhead line and print its dropper schedule and the loads of its arms.
 
-    With -o writes OUT/schedule.csv, lengths in mm, OUT/arms.csv and a picture, OUT/form.png.
+    With -o writes OUT/schedule.csv, lengths in mm, with an auxiliary wire also
+    OUT/long_schedule.csv, OUT/arms.csv and a picture, OUT/form.png.
     """
     with reported():
         from .catenary import show_form

@@ -16,6 +16,8 @@ PLACES = (Path(__file__).parent.parent / "docs", Path(__file__).parents[3] / "do
 SHOWN = 8
 #: Letters of a word that is not looked for at the beginning of longer ones.
 SHORT = 4
+#: Pages behind what is to be done: equations, checks, and what developers need.
+BEHIND = "theory/", "verification/", "architecture", "howto/write_"
 #: Words that say nothing of what is looked for.
 SMALL = frozenset(
     ("a", "an", "and", "by", "do", "for", "how", "in", "is", "of", "on", "the", "to", "what", "with")
@@ -88,7 +90,7 @@ def _about(asked: str) -> list[str]:
         named = bool(pattern.search(name.rpartition("/")[2].replace("_", " "))) or wanted in index
         titled = bool(pattern.search(title(file).casefold()))
         if count or named or titled or wanted == name:
-            theory = name.startswith("theory/")  # behind what is to be done
+            theory = name.startswith(BEHIND)
             found.append((name != wanted, not named, theory, not titled, -count, name))
     return [name for *_, name in sorted(found)]
 

@@ -84,6 +84,10 @@ def _kind(to: str | None, output: Path | None) -> str:
         to = ends.get("" if output is None else output.suffix.lower())
     if to is None:
         what = f"is missing: one of {checks.listed(tuple(SUFFIXES))}"
+        if (
+            output is not None and (end := output.suffix.lower().removeprefix(".")) in SUFFIXES
+        ):  # several tables
+            raise ModelError("--to", what, f"{end} fills a folder: --to {end} -o {output.with_suffix('')}")
         raise ModelError("--to", what, "or -o with a file that ends so")
     return checks.choice(ALSO.get(to, to), "--to", tuple(SUFFIXES))
 

@@ -11,6 +11,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
+from ..model.tables import Readable, Sheet, Table, number
 
 #: Standard deviation of a number of which nothing is known but its bounds, in units of their distance.
 UNKNOWN = 1.0 / math.sqrt(12.0)
@@ -19,8 +20,8 @@ LITTLE = math.sqrt(0.9)
 
 
 @dataclass(frozen=True)
-class Fit:
-    """What :func:`ancf.calibrate` found.
+class Fit(Readable):
+    """What :func:`ancf.calibrate` found; ``print`` shows it as tables.
 
     Parameters
     ----------
@@ -144,6 +145,27 @@ class Fit:
                 if abs(matrix[i, j]) > 0.95:
                     made.append(f"{other} and {one} are told together only: correlation {matrix[i, j]:.3f}")
         return made
+
+    def __repr__(self) -> str:
+        found = ", ".join(f"{name}={number(x)}" for name, x in self.values.items())
+        return f"Fit({found}; {self.evaluations} evaluations)"
+
+    def _sheet(self) -> Sheet:
+        intervals, errors = self.confidence(), self.deviations
+        rows = [
+            (name, number(x), number(errors[name], 3), f"{number(low)} to {number(high)}")
+            for (name, x), (low, high) in zip(self.values.items(), intervals.values(), strict=True)
+        ]
+        left = [(name, str(len(self.measured[name])), number(size, 3)) for name, size in self.rms.items()]
+        facts = [
+            ("search", f"{self.message}; {self.evaluations} evaluations"),
+            *(("note", text) for text in self.notes()),
+        ]
+        tables = [
+            Table(("parameter", "value", "standard error", "95 % confidence"), rows),
+            Table(("column", "numbers", "rms of the residuals"), left),
+        ]
+        return Sheet("Fit", facts, tables)
 
     def as_dict(self) -> dict[str, Any]:
         """All but the histories, ready for JSON."""

@@ -255,6 +255,10 @@ class Formula:
             function, least, most = FUNCTIONS[name]
             if least <= len(given) <= most:
                 return _applied(function, [self._compile(part) for part in given])
+        if name in self.words.names:
+            whole = len(given) == 1 and isinstance(given[0], ast.Constant) and isinstance(given[0].value, int)
+            hint = f"write {name}[{ast.unparse(given[0])}], counted from 0" if whole else f"write {name}"
+            raise ModelError(self.where, f'"{self.text}": {name} is no function', hint)
         if name not in FUNCTIONS and name not in REDUCTIONS and name != LENGTH:
             raise self._unknown_name(name)
         raise ModelError(self.where, f'"{self.text}": {name}() does not take {len(given)} arguments')

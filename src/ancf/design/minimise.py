@@ -12,6 +12,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
 from ..model.model import Model
+from ..model.tables import Readable, Sheet, Table, number
 from ..results.state import State
 from .calibration_data import bounds_of, start_of
 from .number import Numbers
@@ -20,8 +21,8 @@ WHERE = "minimise"
 
 
 @dataclass(frozen=True)
-class Optimum:
-    """What :func:`ancf.minimise` found.
+class Optimum(Readable):
+    """What :func:`ancf.minimise` found; ``print`` shows it as tables.
 
     Parameters
     ----------
@@ -47,6 +48,21 @@ class Optimum:
     gradients: int
     converged: bool
     message: str
+
+    def __repr__(self) -> str:
+        found = ", ".join(f"{name}={number(x)}" for name, x in self.values.items())
+        return f"Optimum({number(self.objective)} at {found})"
+
+    def _sheet(self) -> Sheet:
+        facts = [
+            ("objective", number(self.objective)),
+            ("search", f"{self.message}; {self.gradients} runs with gradients"),
+            ("note", "" if self.converged else "the search stopped before it was done"),
+        ]
+        rows = [(name, number(x), number(self.slope[name], 3)) for name, x in self.values.items()]
+        kept = [(formula, number(x)) for formula, x in self.constraints.items()]
+        tables = [Table(("parameter", "value", "derivative"), rows), Table(("constraint", "value"), kept)]
+        return Sheet("Optimum", facts, tables)
 
 
 def minimise(

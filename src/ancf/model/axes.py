@@ -81,9 +81,10 @@ def closing(y: FloatArray, tangent: FloatArray, fraction: FloatArray) -> FloatAr
 
 
 def cross(u: FloatArray, v: FloatArray) -> FloatArray:
-    """Vector products of (n, 3) and (n, 3): ``np.cross`` takes ten times as long for few."""
+    """Vector products of (..., 3) and (..., 3): ``np.cross`` takes several times as long for few."""
     one, two = [1, 2, 0], [2, 0, 1]
-    return u[:, one] * v[:, two] - u[:, two] * v[:, one]
+    product: FloatArray = u[..., one] * v[..., two] - u[..., two] * v[..., one]
+    return product
 
 
 def carried(vector: FloatArray, old: FloatArray, new: FloatArray) -> FloatArray:

@@ -7,6 +7,7 @@ signature costs anything beyond one more call: the signature is looked at when P
 from __future__ import annotations
 
 import inspect
+import re
 import sys
 from collections.abc import Callable, Iterable
 from functools import wraps
@@ -21,6 +22,8 @@ T = TypeVar("T")
 
 #: Most names that a message lists.
 LISTED = 40
+#: A parameter, or several, in a docstring: names, kind and unit, text.
+PARAMETER = re.compile(r"^(\S.*?) : (.*)\n?((?:    .*(?:\n|$))*)", re.MULTILINE)
 _seen: set[type] = set()
 
 
@@ -116,14 +119,27 @@ def _refused(
     given = {*by_place[:count], *keywords}
     missing = [p.name for p in parameters if p.default is p.empty and p.name in known and p.name not in given]
     if missing:
-        hint = next((WANTED[where, name] for name in missing if (where, name) in WANTED), accepted)
-        return ArgumentError(where, f"wants {listed(missing, LISTED)}", hint)
+        told = next((WANTED[where, name] for name in missing if (where, name) in WANTED), "")
+        told = told or "; ".join([*_described(function, missing), accepted])
+        return ArgumentError(where, f"wants {listed(missing, LISTED)}", told)
     twice = [name for name in by_place[:count] if name in keywords]
     return (
         ArgumentError(where, f"{listed(twice, LISTED)} given twice, by place and by keyword")
         if twice
         else None
     )
+
+
+def _described(function: Callable[..., Any], names: list[str]) -> list[str]:
+    """What the docstring says of parameters: kind, unit and first sentence; nothing of others."""
+    lines = (inspect.getdoc(function) or "").partition("Parameters\n----------\n")[2].partition("\n\n")[0]
+    found = []
+    for heads, kind, text in PARAMETER.findall(lines):
+        wanted = [name for name in heads.split(", ") if name in names]
+        first = " ".join(text.replace("``", "").split()).split(". ")[0].rstrip(".")
+        if wanted:
+            found.append(f"{listed(wanted)}: {kind}" + (f" ({first})" if first else ""))
+    return found
 
 
 _CODE: CodeType = called_as(guard, "").__code__

@@ -66,6 +66,10 @@ OF_MODEL = {
     "mass": "add_point_mass(...) or add_rigid_body(...)",
     "gravity": "gravity is given to ancf.Model(gravity=(0, 0, -9.81))",
     "velocity": "bodies of a model have it: body.set_motion(velocity=...)",
+    **dict.fromkeys(
+        ("break", "cut", "disconnect", "release", "detach", "remove"),
+        "a model without that joint starts from the state of the run before, see ancf docs rope breaks",
+    ),
     "save": "to_dict() describes a model, ancf.Model.from_dict(...) makes it again",
     "run": "ancf.simulate(model, t_end=..., step=...) runs it",
     "simulate": "ancf.simulate(model, t_end=..., step=...) runs it",
@@ -180,7 +184,9 @@ OF_ARGUMENTS = {
     "hs": ("height",),
     "h": ("height", "step"),
     "tp": ("period",),
-    "t": ("period", "t_end"),
+    "t": ("period", "t_end", "times"),
+    "points": ("items",),
+    "columns": ("items",),
     "cd": ("drag",),
     "ca": ("added_mass",),
     "cm": ("added_mass",),
@@ -229,6 +235,7 @@ TOLD = {
     "Waves": "Waves.regular(...), Waves.jonswap(...) or Waves.pierson_moskowitz(...) makes them",
     "amplitude": "the height is twice the amplitude",
     "buoyancy": "it follows from the diameter and the density of the fluid",
+    "controller": "ancf.simulate takes one, also in a build function that returns numbers of its run",
     "youngs_modulus": "the modulus of elasticity is E",
 }
 

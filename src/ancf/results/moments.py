@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError, named
+from ..model.axes import cross
 from ..model.joints import Slide, Spherical
 from ..model.kind import body_of
 from ..model.kinds import kind_of
@@ -55,7 +56,7 @@ def of_joint(system: System, item: Any, q: FloatArray) -> FloatArray:
     places = slots[:, :1] + np.arange(3)
     arms, pulled = q[..., places] - about[..., None, :], received[..., places]
     vectors = slots[:, 1:].ravel()
-    moment: FloatArray = np.cross(arms, pulled).sum(axis=-2) + turned(q, received, vectors, vectors)
+    moment: FloatArray = cross(arms, pulled).sum(axis=-2) + turned(q, received, vectors, vectors)
     return sign * moment
 
 
@@ -137,5 +138,5 @@ def turned(q: FloatArray, forces: FloatArray, vectors: IntArray, acting: IntArra
     """Sum of d x F, shape (..., 3), of vectors d at places in the last axis of q, and F in that of forces."""
     total: FloatArray = np.zeros((*q.shape[:-1], 3))
     for slot, place in zip(vectors.tolist(), acting.tolist(), strict=True):
-        total = total + np.cross(q[..., slot : slot + 3], forces[..., place : place + 3])
+        total = total + cross(q[..., slot : slot + 3], forces[..., place : place + 3])
     return total

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..later import csc_array
+from ..model.axes import cross
 from ..system.system import System
 
 Solve = Callable[[FloatArray], FloatArray]
@@ -108,7 +109,7 @@ class Spin:
         found = []
         for slots, stiffness in self._parts:
             y, z = (q[slots[:, k, None] + np.arange(3)] for k in range(2))
-            t = np.cross(y, z)
+            t = cross(y, z)
             t /= np.linalg.norm(t, axis=1, keepdims=True)
-            found.append((slots, 0.5 * np.hstack([np.cross(t, y), np.cross(t, z)]), stiffness))
+            found.append((slots, 0.5 * np.hstack([cross(t, y), cross(t, z)]), stiffness))
         return found

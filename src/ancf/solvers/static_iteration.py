@@ -62,6 +62,7 @@ class Iteration:
     jacobians: int = 0
     mu: float = 0.0
     last: float = np.inf  # length of the last correction
+    last_moved: int = 0  # entry that it changed most
     held: bool = False  # whether surfaces and friction hold what they touch
     plain: bool = True  # whether an indefinite matrix is taken as it is where loads follow
     laid: FloatArray | None = None  # where cables lay without friction, if that acts from there

@@ -67,7 +67,19 @@ def _advice(it: Iteration, problem: str) -> str:
     if turning:
         what = f'"{turning[0]}" is bent by nature, and nothing resists that this bend turns'
         return f'{what}: hold its plane at each node (position and slope), or take element="nonlocking"'
+    if it.last < NEAR and (name := _cable_at(it, it.last_moved)):
+        what = f'"{name}" finds no rest: where it has no tension nothing holds it sideways'
+        return f"{what}; hold or pull its ends, give it EI, or begin a run from the initial shape"
     return "give more load_steps"
+
+
+def _cable_at(it: Iteration, slot: int) -> str:
+    """Name of the cable to which an entry of the state vector belongs, "" if it is none's."""
+    for name, beam in it.system.model.beams.items():
+        first = it.system.slots[name]
+        if not beam.has_section and np.any((first <= slot) & (slot < first + 3)):
+            return name
+    return ""
 
 
 def settle(it: Iteration, share: float) -> str | None:
@@ -89,6 +101,7 @@ def settle(it: Iteration, share: float) -> str | None:
         if it.lacks_slopes() and it.length(dq) > SLOW * norm:
             dq = it.followed(dq, r, share)
         it.last = norm = it.length(dq)
+        it.last_moved = int(np.argmax(np.abs(dq) * it.core.weight))
         accepted = max(it.accepted, SPUN) if it.spinning else it.accepted
         settled = norm <= TOLERANCE or (norm <= accepted and _stalled(it, dq, r, share))
         if not settled and it.mu > 0.0 and norm <= SPUN:

@@ -18,6 +18,8 @@ from .supports import Constraints, Motion, Rotation
 
 #: Points of the difference formulas for the rates of given motions: sixth order.
 STENCIL = 7
+#: Times for which the terms of all formulas are made at once.
+FEW = 8
 #: Their step at a moment of which no run is known, s, and how many times a quarter of it may be better.
 MOMENT, QUARTERS = 1e-3, 12
 #: Change of second derivatives by a quarter of the step that is none, and digits of values.
@@ -81,6 +83,7 @@ class Inputs:
         self.loads = loads
         self.given = {} if given is None else dict(given)
         self.changes = 0
+        self.last: tuple[tuple[float, int], Tables] | None = None  # of `moment`
         self.motions = constraints.motions
         self.drives = _drives(self.motions, loads)
         own = {drive.row for drive in self.drives}
@@ -131,7 +134,16 @@ class Inputs:
         return made
 
     def moment(self, time: float, here: tuple[FloatArray, FloatArray]) -> Tables:
-        """Tables at one time in s, of which no steps are known; rates are as fine as motions need."""
+        """Tables at one time in s, of which no steps are known; rates are as fine as motions need.
+
+        Those of the last time are kept, unless lengths follow from the state: a start asks several times.
+        """
+        key = time, self.changes
+        if self.last is None or self.last[0] != key or self.drives:
+            self.last = key, self._moment(time, here)
+        return self.last[1]
+
+    def _moment(self, time: float, here: tuple[FloatArray, FloatArray]) -> Tables:
         made = self.tables(time - MOMENT, MOMENT, 1, time, np.inf, here, still=True)
         times, column = np.array([time]), 0
         for k, motion in enumerate(self.motions):
@@ -239,6 +251,11 @@ def differences(
     grid = on_grid(times[0], step, np.arange(-below, begin[-1] + STENCIL - at[0]), first)
     grid[below : below + n] = times
     values = function(grid)
+    if n <= FEW:  # the same sums, one after the other, by fewer calls
+        window = values[(begin - begin[0])[:, None] + np.arange(STENCIL)]
+        terms = _WEIGHTS[at - begin][..., None] * window[:, None]
+        sums = np.add.accumulate(terms, axis=2)[:, :, -1] + 0.0
+        return values[below : below + n], sums[:, 0] / step, sums[:, 1] / step**2
     rate, second = np.zeros((n, values.shape[1])), np.zeros((n, values.shape[1]))
     centred = bool(np.all(at - begin == half))  # all times have the same formula
     weights = _WEIGHTS[half, :, :, None] if centred else _WEIGHTS[at - begin].transpose(1, 2, 0)

@@ -13,6 +13,7 @@ from ..elements.shapes import gauss
 from ..elements.solid_build import stiffnesses
 from ..elements.solid_shapes import initial_vectors
 from ..elements.solid_strains import Vectors, dot, scalar_products
+from ..model.axes import cross
 from ..model.beam import Beam
 from .probe import R_X, R_Y, R_YX, R_Z, R_ZX, BeamProbe
 
@@ -22,16 +23,23 @@ def section(probe: BeamProbe, states: FloatArray) -> Vectors:
     return Vectors(*(probe.field(states, row) for row in (R_X, R_Y, R_Z, R_YX, R_ZX)))
 
 
-def natural_section(probe: BeamProbe) -> Vectors:
-    """Section of the natural shape at a point, without its stretch."""
-    natural = probe.beam.natural
-    if natural is None:
+def natural_section(probe: BeamProbe, nodal: FloatArray | None = None) -> Vectors:
+    """Section of the natural shape at a point, without its stretch; ``nodal`` where its element is known."""
+    nodal = natural_vectors(probe) if nodal is None else nodal
+    if not len(nodal):
         x, y, z = np.eye(3)
         return Vectors(x, y, z, np.zeros(3), np.zeros(3))
+    return Vectors(*(probe.S[row] @ nodal for row in (R_X, R_Y, R_Z, R_YX, R_ZX)))
+
+
+def natural_vectors(probe: BeamProbe) -> FloatArray:
+    """Vectors (k, 3) of the element in its natural shape, without its stretch; none of a straight one."""
+    natural = probe.beam.natural
+    if natural is None:
+        return np.zeros((0, 3))
     values = initial_vectors(natural)[probe.element : probe.element + 2]
     values[:, :2] /= natural.stretch
-    nodal = np.concatenate([values[0, :4], values[1, :4], values[0, 4:]])
-    return Vectors(*(probe.S[row] @ nodal for row in (R_X, R_Y, R_Z, R_YX, R_ZX)))
+    return np.concatenate([values[0, :4], values[1, :4], values[0, 4:]])
 
 
 def strain_tensor(probe: BeamProbe, states: FloatArray, y: float, z: float) -> FloatArray:
@@ -89,7 +97,7 @@ def resultants(probe: BeamProbe, q: FloatArray, v: FloatArray) -> tuple[FloatArr
     force = t[0] * s.a + t[6] * s.B + t[7] * s.C + t[8] * s.b + t[9] * s.c
     by_B = 2 * t[3] * s.B + t[5] * s.C + t[6] * s.a + t[11] * s.b + t[14] * s.c
     by_C = 2 * t[4] * s.C + t[5] * s.B + t[7] * s.a + t[12] * s.c + t[13] * s.b
-    return force, np.cross(s.b, by_B) + np.cross(s.c, by_C)
+    return force, cross(s.b, by_B) + cross(s.c, by_C)
 
 
 def _scalars(s: Vectors) -> list[FloatArray]:
@@ -123,7 +131,7 @@ def rotation(s: Vectors) -> FloatArray:
     y, z = _unit(s.b), _unit(s.c)
     along, across = _unit(y + z), _unit(y - z)
     y, z = (along + across) / np.sqrt(2.0), (along - across) / np.sqrt(2.0)
-    return np.stack([np.cross(y, z), y, z], axis=-1)
+    return np.stack([cross(y, z), y, z], axis=-1)
 
 
 def _unit(vector: FloatArray) -> FloatArray:
@@ -133,8 +141,8 @@ def _unit(vector: FloatArray) -> FloatArray:
 
 def twist_rate(s: Vectors) -> FloatArray:
     """Rotation of the section about its normal per reference length, rad/m, shape (...)."""
-    t = _unit(np.cross(s.b, s.c))
-    of_b, of_c = (np.cross(x, X) / dot(x, x)[..., None] for x, X in ((s.b, s.B), (s.c, s.C)))
+    t = _unit(cross(s.b, s.c))
+    of_b, of_c = (cross(x, X) / dot(x, x)[..., None] for x, X in ((s.b, s.B), (s.c, s.C)))
     return 0.5 * dot(t, of_b + of_c)
 
 
@@ -146,8 +154,8 @@ def twist(probe: BeamProbe, first: list[BeamProbe], states: FloatArray) -> Float
     xi, weight = gauss(5)
     total = np.zeros(states.shape[:-1])
     for part, share in [*((p, 1.0) for p in first), (probe, probe.xi)]:
-        h = share * part.element_length
+        h, nodal = share * part.element_length, natural_vectors(part)
         for x, w in zip(xi.tolist(), weight.tolist(), strict=True):
             there = part.moved(share * x)
-            total += w * h * (twist_rate(section(there, states)) - twist_rate(natural_section(there)))
+            total += w * h * (twist_rate(section(there, states)) - twist_rate(natural_section(there, nodal)))
     return total

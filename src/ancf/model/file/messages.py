@@ -111,7 +111,7 @@ def _of_detail(detail: dict[str, Any], entry_at: Tables) -> ModelError:
     if kind == "extra_forbidden":
         key, allowed = str(detail["loc"][-1]), list(entry_at(detail["loc"][:-1]).model_fields)
         at_top = entry_at(()) is FileEntry and len(detail["loc"]) == 1
-        hint = elsewhere(key, entry_at(())) or (_kind_called(key) if at_top else "")
+        hint = elsewhere(key, entry_at(()), given) or (_kind_called(key) if at_top else "")
         hint = hint or nearest(key, allowed) or argument_of("", key, allowed)
         return ModelError(where, f"unknown key, allowed: {listed(allowed, 30)}", hint)
     if kind == "list_type" and (field := _field(detail, entry_at)) is not None:
@@ -124,10 +124,10 @@ def _of_detail(detail: dict[str, Any], entry_at: Tables) -> ModelError:
     return ModelError(where, *_of_value(kind, given, context, detail["msg"]))
 
 
-def elsewhere(key: str, top: type[Entry]) -> str:
+def elsewhere(key: str, top: type[Entry], given: Any = None) -> str:
     """Where a key that a table does not have is known in such a file; "" if nowhere, or all over it."""
     homes = _homes(top).get(key, [])
-    if "" in homes:
+    if "" in homes or (isinstance(given, dict) and key in top.model_fields):  # a table in a line
         return f'"{key}" belongs at the top of the file, above the first table'
     return f'"{key}" is a key of {" and ".join(homes)}' if 0 < len(homes) <= MOST_HOMES else ""
 
@@ -158,7 +158,9 @@ def _homes(top: type[Entry]) -> dict[str, list[str]]:
         inside = get_args(field.annotation)[1] if named else field.annotation
         title = f"[{name}.NAME]" if named else f"[[{name}]]" if _has_list(inside) else f"[{name}]"
         own = {key for entry in leaves(inside) for key in getattr(entry, "model_fields", {})}
-        found.setdefault(name, []).extend([] if own else [""])
+        # the name of a file may stand for tables
+        plain = not own or str in leaves(inside)
+        found.setdefault(name, []).extend([""] if plain else [])
         for key in own:
             found.setdefault(key, []).append(title)
     return found

@@ -1,0 +1,84 @@
+"""The schedule of the droppers between messenger and auxiliary: what they are cut and hung by."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .conditions import expansion
+from .form import Form
+from .route_form import AnyForm
+from .schedule import texts, write_rows
+
+
+@dataclass(frozen=True, slots=True)
+class LongRow:
+    """One dropper between messenger and auxiliary.
+
+    Attributes
+    ----------
+    span, dropper : int
+        Counted from 1.
+    position : float, m
+        From the start of the span.
+    track : float, m
+        From the first support.
+    length : float, mm
+        From clamp to clamp, hanging under its load.
+    natural : float, mm
+        From clamp to clamp, unstretched at the temperature of the design: what is cut.
+    load : float, N
+        Tension at the lower end, without the dropper's own weight.
+
+    """
+
+    span: int
+    dropper: int
+    position: float
+    track: float
+    length: float
+    natural: float
+    load: float
+
+
+#: Heads of the columns of the CSV file, in the order of the fields.
+COLUMNS = ("span", "dropper", "position_m", "track_m", "length_mm", "natural_length_mm", "load_N")
+
+
+def long_rows(found: AnyForm) -> list[LongRow]:
+    """Rows in the order along each tension length, spans counted over all; none without an auxiliary."""
+    rows: list[LongRow] = []
+    spans = 0
+    forms, starts = ((found,), (0.0,)) if isinstance(found, Form) else (found.forms, found.line.starts)
+    for form, start in zip(forms, starts, strict=True):
+        rows += _of_part(form, float(start), spans)
+        spans += len(form.line.spans)
+    return rows
+
+
+def _of_part(form: Form, start: float, before: int) -> list[LongRow]:
+    line, made = form.line, form.long_droppers
+    if line.auxiliary is None or made is None:
+        return []
+    cut = made.natural / (1.0 + expansion(line) * form.warmer)
+    load = made.force - 0.5 * line.auxiliary.droppers.mass * made.length * line.gravity
+    span = np.searchsorted(line.supports, line.long_x, side="right") - 1
+    return [
+        LongRow(
+            span=before + int(span[j]) + 1,
+            dropper=j - int(np.argmax(span == span[j])) + 1,
+            position=float(x - line.supports[span[j]]),
+            track=start + float(x),
+            length=1e3 * float(made.length[j]),
+            natural=1e3 * float(cut[j]),
+            load=float(load[j]),
+        )
+        for j, x in enumerate(line.long_x)
+    ]
+
+
+def save_long_schedule(found: AnyForm, path: Path) -> Path:
+    """Write the rows as CSV; ModelError if the file cannot be written."""
+    return write_rows([texts(row) for row in long_rows(found)], COLUMNS, path)
