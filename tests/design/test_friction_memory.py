@@ -163,18 +163,18 @@ def test_grounds(model, method, step, names, change):
 
 
 @pytest.mark.parametrize(
-    ("model", "method", "step", "names"),
+    ("model", "method", "step", "names", "bar"),
     [
-        (fallen(), TRAPEZOIDAL, 1e-3, ["on.stiffness", "line.length"]),
-        (fallen(0.02), DAMPED, 2e-3, ["on.friction", "line.EA"]),
-        (fallen(0.1, turns=True), DAMPED, 1e-3, ["on.friction", "gravity[0]"]),
+        (fallen(), TRAPEZOIDAL, 1e-3, ["on.stiffness", "line.length"], 1e-7),
+        (fallen(0.02), DAMPED, 2e-3, ["on.friction", "line.EA"], 2e-7),
+        (fallen(0.1, turns=True), DAMPED, 1e-3, ["on.friction", "gravity[0]"], 5e-6),
     ],
     ids=["sticks", "slips", "turns"],
 )
-def test_drums(model, method, step, names):
-    """Where points begin to touch, differences of their forces reach over a kink."""
-    found = apart(model, names, method, step, change=1e-4 if step == 1e-3 else 1e-5)
-    assert max(found.values()) < 1e-5, found
+def test_drums(model, method, step, names, bar):
+    """Round-off of the runs, which grows as changes get smaller, leaves differences by these fewer digits."""
+    found = apart(model, names, method, step, change=1e-4)
+    assert max(found.values()) < bar, found
 
 
 HILLS = {

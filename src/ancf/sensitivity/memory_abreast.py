@@ -25,8 +25,8 @@ from .remembering import Row
 
 #: What a batch does that knows the derivatives of its memory.
 KNOWN = add_memory_slopes, remember_along, add_memory_changes
-#: Arrays of such a memory, in this order.
-REMEMBERED = "anchor", "limit"
+#: Arrays of such a memory with derivatives, in this order, and what follows them.
+REMEMBERED, BESIDE = ("anchor", "limit", "before"), ("most",)
 
 
 class MemoryAbreast:
@@ -43,17 +43,19 @@ class MemoryAbreast:
     def __init__(self, memory: Memory, nearby: Nearby) -> None:
         self.memory, self.nearby, system = memory, nearby, memory.system
         batches = [system.parts[name] for name in memory.names]
-        self.first = np.cumsum([0, *(sum(getattr(b, key).size for key in REMEMBERED) for b in batches)])
+        self.first = np.cumsum([0, *(sum(getattr(b, key).size for key in keys_of(b)) for b in batches)])
         self.remembering = knowing(choose_memory, batches)
         self.now = np.zeros(self.first[-1])
         self.marked = {}
         for name, batch, at in zip(memory.names, batches, self.first[:-1].tolist(), strict=True):
             views = {}
-            for key in REMEMBERED:
+            for key in keys_of(batch):
                 own = getattr(batch, key)
                 views[key] = self.now[at : at + own.size].reshape(own.shape)
                 memory.beside[f"{name}.{key}"] = views[key]
                 at += own.size
+            if hasattr(batch, "lit"):  # any row may have a limit in some step
+                views["lit"] = np.array([len(batch.lit) - 1, *range(len(batch.lit) - 1)])
             self.marked[name] = batch._replace(**views)
         self.chosen = np.zeros((1, len(self.now)))
         groups = -(-len(nearby.families) // LANES)
@@ -76,7 +78,7 @@ class MemoryAbreast:
     def begin(self) -> None:
         """Take the derivatives in which the first step begins."""
         for k, d in enumerate(self.memory.d):
-            own = [d[f"{name}.{key}"].ravel() for name in self.memory.names for key in REMEMBERED]
+            own = [d.get(key, np.zeros(x.size)).ravel() for key, x in self.memory.beside.items()]
             self.z[k // LANES, :, k % LANES] = np.concatenate(own)
 
     def look(self, way: Way, tables: Any) -> Friction:
@@ -93,11 +95,18 @@ class MemoryAbreast:
 
     def _row(self, z: FloatArray) -> Row:
         """The numbers of a memory by the names of their arrays."""
-        names = [f"{name}.{key}" for name in self.memory.names for key in REMEMBERED]
-        own = np.split(z, np.cumsum([self.memory.beside[name].size for name in names])[:-1])
+        beside = self.memory.beside
+        own = np.split(z, np.cumsum([x.size for x in beside.values()])[:-1])
         return {
-            name: x.reshape(self.memory.beside[name].shape).copy() for name, x in zip(names, own, strict=True)
+            name: x.reshape(like.shape).copy()
+            for (name, like), x in zip(beside.items(), own, strict=True)
+            if name.split(".")[1] in REMEMBERED
         }
+
+
+def keys_of(batch: Any) -> list[str]:
+    """Arrays of the memory of a batch that compiled code follows, as they lie one after the other."""
+    return [key for key in (*REMEMBERED, *BESIDE) if key in batch._fields]
 
 
 def memory_abreast(memory: Memory, nearby: Nearby) -> MemoryAbreast | None:

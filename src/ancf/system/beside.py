@@ -24,13 +24,13 @@ from .system import System
 
 #: Parts that can be made alone: elements, as one.
 ELEMENTS, SPRINGS, BODIES, SLIDES = "elements", "springs", "bodies", "slides"
-FLUIDS, PRESSING = "fluid", "pressing"
+FLUIDS, PRESSING, RUBBING = "fluid", "pressing", "rubbing"
 
 
 class Acts(NamedTuple):
     """What of a system a number of a model acts on, besides the initial shape and motion."""
 
-    parts: frozenset[str] = frozenset()  # ELEMENTS, SPRINGS, BODIES, SLIDES, FLUIDS, PRESSING
+    parts: frozenset[str] = frozenset()  # ELEMENTS, SPRINGS, BODIES, SLIDES, FLUIDS, PRESSING, RUBBING
     weighs: bool = False  # dead loads
     moves: bool = False  # places and axes of supports
     shapes: bool = False  # shape functions, and where points are on their bodies
@@ -70,9 +70,9 @@ def _renumbered(system: System, model: Model, acts: Acts) -> Parts:
         found |= {kind: _elements(system, kind, beams) for kind, beams in _others(system, model).items()}
     if SPRINGS in acts.parts and SPRINGS in system.parts and not acts.shapes:
         found[SPRINGS] = renumbered(system.parts[SPRINGS], system.model, model)
-    if PRESSING in acts.parts:
-        items = [one for one in model.connections if isinstance(one, SurfaceContact)]
-        found[PRESSING] = touching(system.parts[PRESSING], items)
+    items = [one for one in model.connections if isinstance(one, SurfaceContact)]
+    for name in {PRESSING, RUBBING} & acts.parts & system.parts.keys():
+        found[name] = touching(system.parts[name], items)
     if FLUIDS in acts.parts:
         found[FLUIDS] = in_fluids(system.parts[FLUIDS], model, _finder(system) if acts.shapes else None)
     return found
