@@ -175,7 +175,7 @@ def cases() -> dict[str, tuple[ancf.Model, list[str], str, dict[str, Any]]]:
             lying(), of_lying, tip.format("rope.at(35)")
         ),
         "friction on a drum, 24 elements, 1000 steps": lambda: _hung(
-            drawn(), of_drawn, tip.format("bob.point"), 1e-3
+            drawn(), of_drawn, tip.format("bob"), 1e-3
         ),
         "damped solid, 16 elements, 500 steps": (solid(False), of_solid, end, _set(500, 1e-3)),
         "moment, 16 elements, 500 steps": (solid(True), of_solid, end, _set(500, 1e-3)),

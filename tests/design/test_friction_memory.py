@@ -232,12 +232,27 @@ def test_remainder():
     assert np.all(np.abs(orders - 2.0) < 0.05), orders
 
 
-def test_gradients_go_forwards():
-    model, given = dragged(), {"t_end": 0.02, "step": 1e-3}
-    _, slope = ancf.gradient(model, "last(position(line.end)[0])", ["on.friction"], **given)
-    result = ancf.simulate(model, sensitivities=["on.friction"], **given)
-    mine = result.sensitivity("on.friction").position(model.bodies["line"].end)[-1, 0]
-    assert slope["on.friction"] == pytest.approx(mine, rel=1e-12)
+def on_turning_ground(y):
+    """The dragged cable, whose ground leans."""
+    model = dragged()
+    ground = model.grounds[0]
+    tilted = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = model.bodies["line"].section
+    line = tilted.add_beam("line", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
+    given = {"stiffness": ground.stiffness, "damping": ground.damping, "friction": 0.3, "stick": 2e4}
+    tilted.add_ground("on", height=-0.0005, normal=(0.0, y, 1.0), **given)
+    tilted.pin(line.start, displacement=(0.0, 0.0, f"{0.01 + y}*sin(9*t)**2"))
+    return tilted
+
+
+def test_gradients_that_go_forwards():
+    """Where a parameter changes how a support moves, as it changes a ground."""
+    given, end = {"t_end": 0.02, "step": 1e-3}, "last(position(line.end)[2])"
+    lean = {"lean": (0.01, on_turning_ground)}
+    _, slope = ancf.gradient(on_turning_ground(0.01), end, lean, **given)
+    result = ancf.simulate(on_turning_ground(0.01), sensitivities=lean, **given)
+    mine = result.sensitivity("lean").position(result.model.bodies["line"].end)[-1, 2]
+    assert slope["lean"] == pytest.approx(mine, rel=1e-12)
 
 
 def test_what_is_refused():

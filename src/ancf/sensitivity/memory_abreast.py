@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import FloatArray
 from ..compiled import (
     add_memory_changes,
     add_memory_slopes,
@@ -19,14 +18,12 @@ from ..simd import LANES
 from ..solvers.friction import Friction, remember_steps
 from ..solvers.rare import knowing
 from ..solvers.sensitivity import Way
+from .marked import Marked
 from .memory import Memory
 from .nearby import Nearby, changes_of
-from .remembering import Row
 
 #: What a batch does that knows the derivatives of its memory.
 KNOWN = add_memory_slopes, remember_along, add_memory_changes
-#: Arrays of such a memory with derivatives, in this order, and what follows them.
-REMEMBERED, BESIDE = ("anchor", "limit", "before"), ("most",)
 
 
 class MemoryAbreast:
@@ -42,21 +39,10 @@ class MemoryAbreast:
 
     def __init__(self, memory: Memory, nearby: Nearby) -> None:
         self.memory, self.nearby, system = memory, nearby, memory.system
-        batches = [system.parts[name] for name in memory.names]
-        self.first = np.cumsum([0, *(sum(getattr(b, key).size for key in keys_of(b)) for b in batches)])
-        self.remembering = knowing(choose_memory, batches)
-        self.now = np.zeros(self.first[-1])
-        self.marked = {}
-        for name, batch, at in zip(memory.names, batches, self.first[:-1].tolist(), strict=True):
-            views = {}
-            for key in keys_of(batch):
-                own = getattr(batch, key)
-                views[key] = self.now[at : at + own.size].reshape(own.shape)
-                memory.beside[f"{name}.{key}"] = views[key]
-                at += own.size
-            if hasattr(batch, "lit"):  # any row may have a limit in some step
-                views["lit"] = np.array([len(batch.lit) - 1, *range(len(batch.lit) - 1)])
-            self.marked[name] = batch._replace(**views)
+        own = Marked(system, memory.names)
+        self.own, self.first, self.now, self.marked = own, own.first, own.now, own.batches
+        memory.beside = own.views
+        self.remembering = knowing(choose_memory, [system.parts[name] for name in memory.names])
         self.chosen = np.zeros((1, len(self.now)))
         groups = -(-len(nearby.families) // LANES)
         self.z = lane_rows(groups * len(self.now)).reshape(groups, len(self.now), LANES)
@@ -78,8 +64,7 @@ class MemoryAbreast:
     def begin(self) -> None:
         """Take the derivatives in which the first step begins."""
         for k, d in enumerate(self.memory.d):
-            own = [d.get(key, np.zeros(x.size)).ravel() for key, x in self.memory.beside.items()]
-            self.z[k // LANES, :, k % LANES] = np.concatenate(own)
+            self.z[k // LANES, :, k % LANES] = self.own.vector(d)
 
     def look(self, way: Way, tables: Any) -> Friction:
         """Find what is remembered in the steps of a block, which follow the last ones."""
@@ -91,22 +76,7 @@ class MemoryAbreast:
 
     def end(self) -> None:
         """Let the memory know the derivatives that the last step leaves."""
-        self.memory.d = [self._row(self.z[k // LANES, :, k % LANES]) for k in range(len(self.memory.d))]
-
-    def _row(self, z: FloatArray) -> Row:
-        """The numbers of a memory by the names of their arrays."""
-        beside = self.memory.beside
-        own = np.split(z, np.cumsum([x.size for x in beside.values()])[:-1])
-        return {
-            name: x.reshape(like.shape).copy()
-            for (name, like), x in zip(beside.items(), own, strict=True)
-            if name.split(".")[1] in REMEMBERED
-        }
-
-
-def keys_of(batch: Any) -> list[str]:
-    """Arrays of the memory of a batch that compiled code follows, as they lie one after the other."""
-    return [key for key in (*REMEMBERED, *BESIDE) if key in batch._fields]
+        self.memory.d = [self.own.row(self.z[k // LANES, :, k % LANES]) for k in range(len(self.memory.d))]
 
 
 def memory_abreast(memory: Memory, nearby: Nearby) -> MemoryAbreast | None:
