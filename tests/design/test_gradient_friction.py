@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from backwards import apart, followed
 from jointed import methods
-from test_friction_memory import DAMPED, HILLS, TRAPEZOIDAL, dragged, laid
+from test_friction_memory import DAMPED, HILLS, TRAPEZOIDAL, dragged, fallen, hung, laid
 
 import ancf
 from ancf.model.vary import varied
@@ -17,6 +17,7 @@ TIP = "integral(norm(velocity(line.end))**2)"
 TEXTS = [TIP, "last(position(line.at(0.6))[0])", "smoothmax(tension(line.at(0.3)), 0.1)"]
 NAMES = ["line.EA", "line.EI", "line.rhoA", "line.length", "line.diameter", "gravity[0]", "gravity[2]"]
 GROUND = ["on.friction", "on.stiffness", "on.damping", "on.stick"]
+ON = ["on.friction", "on.stiffness", "on.damping"]
 STRONG = ancf.GeneralizedAlpha(rho_inf=0.0, newton=ancf.Newton(tolerance=1e-14, modified=False))
 
 
@@ -76,6 +77,43 @@ def test_from_a_start_that_is_fixed():
     model, names = laid(), ["line.EA", "on.friction"]
     start = ancf.equilibrium(model).fixed(names)
     check(model, names, start=start, texts=["last(position(line.at(5))[0])"], **settings(2e-3))
+
+
+@pytest.mark.parametrize("method", [TRAPEZOIDAL, DAMPED], ids=["trapezoidal", "generalized"])
+@pytest.mark.parametrize("friction", [0.02, 0.1, 0.3, 2.0])
+@pytest.mark.parametrize("step", [1e-3, 2e-3])
+def test_surfaces(friction, step, method):
+    """A cable that falls on a drum and slips there, sticks and leaves."""
+    model = fallen(friction)
+    assert adjoint_of(System(model)) is SlopedAdjoint
+    check(model, [*NAMES[:4], "gravity[0]", "gravity[2]", *ON], **settings(step, method))
+
+
+@pytest.mark.parametrize("friction", [0.05, 0.3])
+@pytest.mark.parametrize("elements", [6, 8])
+def test_drums_from_equilibria(friction, elements):
+    """A second run goes on from the first; derivatives of tensions are differences along those of states."""
+    model, names = hung(friction, elements), ["line.EA", "line.rhoA", "gravity[2]", *ON]
+    given, texts = {"step": 2e-3, "integrator": DAMPED}, ["last(position(line.end)[2])", TEXTS[2]]
+    start = ancf.equilibrium(model, sensitivities=names)
+    check(model, names, 1e-8, texts, start=start, t_end=0.05, **given)
+    first = ancf.simulate(model, start=start, t_end=0.05, sensitivities=names, **given)
+    check(model, names, 1e-8, texts, start=first.state(), t_end=0.1, **given)
+
+
+@pytest.mark.parametrize("friction", [0.05, 0.3])
+def test_ground_and_drum(friction):
+    model = dragged(aside=4.0, elements=3, friction=friction, drum=True)
+    check(model, [*NAMES, *GROUND, "over.friction", "over.stiffness"], **settings(5e-4))
+
+
+@pytest.mark.parametrize("method", ["trapezoidal index1", "trapezoidal ggl", "generalized index2"])
+@pytest.mark.parametrize("friction", [0.1, 0.5])
+def test_drums_that_turn(friction, method):
+    model = fallen(friction, turns=True)
+    assert adjoint_of(System(model)) is JoinedAdjoint
+    names = ["line.EA", "line.rhoA", "gravity[0]", "gravity[2]", "block.mass", *ON]
+    check(model, names, 1e-7, TEXTS[:2], **settings(1e-3, methods()[method], 60))
 
 
 def towed(elements=3, friction=0.3):

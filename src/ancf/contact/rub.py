@@ -47,6 +47,7 @@ from .rub_along import (
     rub_slopes_along,
     rub_slopes_beside,
 )
+from .rub_back import rub_memory_back, rub_memory_work, rub_number_work, rub_work_slopes
 from .rubbed import ahead, find, nothing_found, share_found
 from .touch import (
     DRAG,
@@ -356,6 +357,10 @@ implements(
     slopes_beside=rub_slopes_beside,
     sloped=lambda batch: not np.any(batch.winch >= 0),
     changes=rub_changes,
+    work_slopes=rub_work_slopes,
+    number_work=rub_number_work,
+    memory_work=rub_memory_work,
+    memory_back=rub_memory_back,
     numbers=numbers_of,
     numbered=("data", "weight", "shape", "reach", "mesh", "unwound", "far", "label"),
     kinds=kinds_of,

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..compiled import (
     add_memory_changes,
     add_memory_slopes,
@@ -15,9 +16,12 @@ from ..compiled import (
 )
 from ..linalg.eight import lane_rows
 from ..simd import LANES
+from ..solvers.abreast_room import abreast
 from ..solvers.friction import Friction, remember_steps
+from ..solvers.friction_start import push_start, remember_start
 from ..solvers.rare import knowing
 from ..solvers.sensitivity import Way
+from ..system.core import place_supports
 from .marked import Marked
 from .memory import Memory
 from .nearby import Nearby, changes_of
@@ -61,10 +65,29 @@ class MemoryAbreast:
         own = changes.start, changes.rates, changes.rates_from, changes.kinds, changes.kinds_from
         return Friction(batches, self.first, self.now, self.now[None], self.z, *own, begin)
 
-    def begin(self) -> None:
-        """Take the derivatives in which the first step begins."""
-        for k, d in enumerate(self.memory.d):
-            self.z[k // LANES, :, k % LANES] = self.own.vector(d)
+    def choose(self, q: FloatArray, v: FloatArray) -> None:
+        """As :meth:`Memory.choose`."""
+        self.memory.choose(q, v)
+
+    def begin(self, q: FloatArray, v: FloatArray, s: FloatArray) -> None:
+        """Take the derivatives in which the first step begins from those of a state, (p, 3, size).
+
+        Or from a start that knows its own.
+        """
+        if self.memory.known:
+            for k, d in enumerate(self.memory.d):
+                self.z[k // LANES, :, k % LANES] = self.own.vector(d)
+            return
+        self.now[:], self.z[...] = 0.0, 0.0
+        remember_start(self.memory.system.core, self.friction, q, v, abreast(s))
+
+    def push(self, way: Way, tables: Any) -> FloatArray:
+        """What they do to the residual at the start, (p, size), zero where it is held."""
+        system, made = self.memory.system, np.zeros((len(self.nearby.families), self.memory.system.size))
+        q, v, a = (x[0].copy() for x in way)
+        place_supports(system.core.supports, system.core.loads.value, tables, 0, q, v, a)
+        push_start(system.core, self.friction, q, v, lane_rows(system.size), made)
+        return made
 
     def look(self, way: Way, tables: Any) -> Friction:
         """Find what is remembered in the steps of a block, which follow the last ones."""
