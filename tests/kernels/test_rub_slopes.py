@@ -176,6 +176,40 @@ def test_changes_of_numbers(kind, on, friction, field, name):
     assert not np.any(z[:, 1])
 
 
+@SHAPES
+@pytest.mark.parametrize("field", ["data", "shape"])
+@pytest.mark.parametrize("depth", [1e-4, 1.6e-4])
+def test_where_damping_comes_on(kind, field, depth):
+    """In the first hundredths of the radius: forces of what leaves and comes, by states and numbers."""
+    system = System(beside(KINDS[kind], depth=depth, damping=50.0))
+    q, v = shaken(system, 1e-6)
+    given, batch, size = (q, v, np.zeros(system.size)), system.parts["pressing"], system.size
+    own, rng = getattr(batch, field), np.random.default_rng(7)
+    rate = rng.uniform(0.2, 1.0, own.shape) * (1e-3 if field == "shape" else own)
+    if field == "data":
+        rate[:, FRICTION:], rate[:, 0] = 0.0, 0.002 * rate[:, 0]
+    numbers = traits(batch).numbers
+    change_of = numbers(batch._replace(**{field: own + rate})) - numbers(batch)
+    kinds = np.asarray(traits(batch).kinds(batch, change_of), dtype=np.int64)
+    r, z, none = np.zeros(size), lane_rows(1), np.zeros(1, dtype=np.int64)
+    batches = knowing(add_changes, [batch], add_memory_changes)
+    change(batches, *given, change_of, kinds, none, r, none, z.reshape(-1), system.core.ws)
+    d, along, rest, w = lanes(3, size), lane_rows(size), lane_rows(size), lane_rows(size)
+    batches = knowing(add_force_slopes, [batch], add_slopes_beside, add_memory_slopes)
+    operate(batches, *given, d, z, along, rest, w, system.core.ws)
+
+    def moved(states, own):
+        r = np.zeros(size)
+        force(knowing(choose_memory, [batch._replace(**{field: own})]), *states, r, system.core.ws)
+        return (r,)
+
+    assert np.any(r)
+    assert agree(r, differences(lambda x: moved(given, own + x * rate), 1e-4)[0], 1e-6)
+    for k in range(8):
+        wanted = differences(lambda x, k=k: moved(given + x * np.moveaxis(d, -1, 0)[k], own), 1e-8)
+        assert agree(along[:, k], wanted[0], 1e-5)
+
+
 def test_the_memories_are_of_all_kinds():
     """Some points stick, some slip, some touch without either so far, in limits that grow as they may."""
     kinds = set()
