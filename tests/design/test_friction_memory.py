@@ -154,8 +154,9 @@ def apart(model, names, method, step, steps=30, change=1e-4):
         (dragged(), DAMPED, 1e-3, ["line.length"], 1e-6),
         (dragged(elements=3), TRAPEZOIDAL, 5e-4, ["line.EA"], 1e-4),
         (dragged(aside=4.0), DAMPED, 1e-3, ["on.friction", "on.damping", "line.rhoA"], 1e-4),
+        (dragged(height=1e-4, pull=20.0), DAMPED, 1e-3, ["on.friction", "on.stiffness"], 1e-4),
     ],
-    ids=["sticks", "slips", "length", "fine", "aside"],
+    ids=["sticks", "slips", "length", "fine", "aside", "touches"],
 )
 def test_grounds(model, method, step, names, change):
     found = apart(model, names, method, step, change=change)

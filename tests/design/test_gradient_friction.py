@@ -49,8 +49,9 @@ def check(model, names, bar=1e-9, texts=TEXTS, **given):
         ({"elements": 5, "friction": 0.3}, 5e-4),
         ({"elements": 3, "friction": 2.0}, 5e-4),
         ({"elements": 3, "friction": 0.3, "height": HILLS}, 5e-4),
+        ({"elements": 4, "friction": 0.3, "height": 1e-4}, 1e-3),
     ],
-    ids=["slips", "some", "sticks", "hills"],
+    ids=["slips", "some", "sticks", "hills", "touches"],
 )
 def test_grounds(given, step, method):
     model = dragged(aside=4.0, **given)
