@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from backwards import apart, followed
 from jointed import methods
-from test_friction_memory import DAMPED, HILLS, TRAPEZOIDAL, dragged, fallen, hung, laid
+from test_friction_memory import DAMPED, HILLS, TRAPEZOIDAL, dragged, fallen, hung, laid, thrown
 
 import ancf
 from ancf.model.vary import varied
@@ -72,6 +72,12 @@ def test_from_equilibria(model):
     check(model, names, 1e-9, texts, start=start, t_end=0.03, integrator=DAMPED, **given)
     first = ancf.simulate(model, start=start, t_end=0.03, sensitivities=names, integrator=DAMPED, **given)
     check(model, names, 1e-9, texts, start=first.state(), t_end=0.05, integrator=DAMPED, **given)
+
+
+def test_from_a_shape_that_changes():
+    """Anchors of what touches at the start are where it lies there."""
+    model = thrown()
+    check(model, ["line.end[0]", "line.end[1]", "line.EA", *GROUND], **settings(1e-3))
 
 
 def test_from_a_start_that_is_fixed():
