@@ -83,6 +83,22 @@ def lying(elements: int = 32) -> ancf.Model:
     return model
 
 
+def drawn(elements: int = 24) -> ancf.Model:
+    """A rope with a mass at its end over a drum with friction, drawn to and fro by its other end."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    damping = {"axial_damping": 20.0, "bending_damping": 1e-4, "damping": 0.05}
+    section = ancf.Section(EA=2e4, EI=0.05, rhoA=0.2, diameter=0.02, **damping)
+    given = {"start": (-0.8, 0, 0), "end": (0.8, 0.02, 0), "elements": elements, "section": section}
+    rope = model.add_beam("rope", **given)
+    drum = model.add_surface("drum", ancf.Cylinder(radius=0.2, axis=(0, 1, 0), at=(0, 0, -0.2102)))
+    model.add_contact(rope, drum, stiffness=1e5, damping=30.0, friction=0.1, name="on")
+    model.connect(model.add_point_mass("bob", at=(0.8, 0.02, 0), mass=0.3).point, rope.end)
+    stay = {"stiffness": 300.0, "damping": 2.0, "length": 0.5, "name": "stay"}
+    model.add_spring(rope.start, (-0.8, 0, -0.6), **stay)
+    model.add_force(rope.start, ("-2*sin(5*t)**2", 0.0, "-4*sin(9*t)**2"), name="pull")
+    return model
+
+
 def of_moored() -> list[str]:
     """Sixteen numbers of that model."""
     own = [f"rope.{name}" for name in ("EI", "rhoA", "EA", "length", "bending_damping", "axial_damping")]
@@ -141,6 +157,8 @@ def cases() -> dict[str, tuple[ancf.Model, list[str], str, dict[str, Any]]]:
     of_lined += [f"dropper{k}.length" for k in range(12)]
     of_lying = [f"rope.{name}" for name in (*NUMBERS, "diameter")] + [f"gravity[{k}]" for k in range(3)]
     of_lying += [f"bed.{name}" for name in ("stiffness", "friction", "damping", "stick", "height")]
+    of_drawn = [f"rope.{name}" for name in NUMBERS] + [f"gravity[{k}]" for k in range(3)]
+    of_drawn += ["on.friction", "on.stiffness", "on.damping", "bob.mass", "stay.stiffness", "stay.length"]
     of_solid = ["rope.E", "rope.rho", "rope.axial_damping", "rope.bending_damping", "rope.length"]
     of_solid += [f"gravity[{k}]" for k in range(3)]
     return {
@@ -156,16 +174,19 @@ def cases() -> dict[str, tuple[ancf.Model, list[str], str, dict[str, Any]]]:
         "friction on a bed, 32 elements, 1000 steps": lambda: _hung(
             lying(), of_lying, tip.format("rope.at(35)")
         ),
+        "friction on a drum, 24 elements, 1000 steps": lambda: _hung(
+            drawn(), of_drawn, tip.format("bob"), 1e-3
+        ),
         "damped solid, 16 elements, 500 steps": (solid(False), of_solid, end, _set(500, 1e-3)),
         "moment, 16 elements, 500 steps": (solid(True), of_solid, end, _set(500, 1e-3)),
         "7.4, 6+2 elements, 2000 steps": (sliding.build(), own, tip.format("slider.end"), _set(2000, 2e-4)),
     }
 
 
-def _hung(model: ancf.Model, names: list[str], objective: str) -> Any:
+def _hung(model: ancf.Model, names: list[str], objective: str, step: float = 1e-2) -> Any:
     """A case that starts from the equilibrium of a rope, of 1000 steps."""
     start = ancf.equilibrium(model, of=["rope"], sensitivities=names)
-    return model, names, objective, _set(1000, 1e-2) | {"start": start}
+    return model, names, objective, _set(1000, step) | {"start": start}
 
 
 def _set(steps: int, step: float) -> dict[str, Any]:

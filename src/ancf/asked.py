@@ -79,6 +79,20 @@ def add_memory_changes(batch, q, v, rates, kinds, begin, out, ws):
     raise TypeError(f"{type(batch).__name__} does not know what its memory does")
 
 
+def take_memory_work(batch, q, v, x, z, ws):
+    """Take the derivatives of x . force by what the batch remembers from z, (m,)."""
+    raise TypeError(f"{type(batch).__name__} does not know what its memory does")
+
+
+def take_memory_back(batch, q, v, z, by_q, by_v, numbers, ws):
+    """Let z, derivatives of a number by what a step leaves, be those by what it began with.
+
+    Those by the state and by the batch's numbers, ``Traits.numbers``, are taken from ``by_q``, ``by_v`` and
+    ``numbers``.
+    """
+    raise TypeError(f"{type(batch).__name__} does not know what its memory does")
+
+
 #: Operations that only sensitivities ask for, by their names in :func:`implements`.
 OF_SENSITIVITIES: dict[str, Any] = {
     "rate_stiffness": add_rate_stiffness,
@@ -93,4 +107,6 @@ OF_SENSITIVITIES: dict[str, Any] = {
     "memory_slopes": add_memory_slopes,
     "memory_along": remember_along,
     "memory_changes": add_memory_changes,
+    "memory_work": take_memory_work,
+    "memory_back": take_memory_back,
 }

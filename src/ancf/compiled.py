@@ -33,6 +33,8 @@ from .asked import add_tangent_work as add_tangent_work
 from .asked import add_work_slopes as add_work_slopes
 from .asked import choose_memory as choose_memory
 from .asked import remember_along as remember_along
+from .asked import take_memory_back as take_memory_back
+from .asked import take_memory_work as take_memory_work
 from .parts import PartCompiler, part
 
 F = TypeVar("F", bound=Callable[..., Any])

@@ -29,6 +29,8 @@ from .compiled import (
     remember_along,
     separate_kernel,
     strain_energy,
+    take_memory_back,
+    take_memory_work,
 )
 
 
@@ -147,6 +149,18 @@ def memory_changes_at(record, q, v, rates, kinds, begin, out, ws):
 
 
 @separate_kernel
+def memory_work_at(record, q, v, x, z, ws):
+    """``take_memory_work`` of the batch at an address."""
+    take_memory_work(record, q, v, x, z, ws)
+
+
+@separate_kernel
+def memory_back_at(record, q, v, z, by_q, by_v, numbers, ws):
+    """``take_memory_back`` of the batch at an address."""
+    take_memory_back(record, q, v, z, by_q, by_v, numbers, ws)
+
+
+@separate_kernel
 def tangent_work_at(record, q, v, x, by_q, by_v, by_a, ws):
     """``add_tangent_work`` of the batch at an address."""
     add_tangent_work(record, q, v, x, by_q, by_v, by_a, ws)
@@ -177,4 +191,6 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     add_memory_slopes: (memory_slopes_at, (_V, _V, _LANES, _LANES, _V), types.none),
     remember_along: (memory_along_at, (_V, _V, _VECTORS, _LANES, _V), types.none),
     add_memory_changes: (memory_changes_at, (_V, _V, _V, _PLACES, _PLACES, _V, _V), types.none),
+    take_memory_work: (memory_work_at, (_V, _V, _V, _V, _V), types.none),
+    take_memory_back: (memory_back_at, (_V, _V, _V, _V, _V, _V, _V), types.none),
 }

@@ -7,6 +7,7 @@ from ancf.batches import Batches
 from ancf.compiled import add_number_work, does_something, traits
 from ancf.elements.cable_columns import VISCOUS
 from ancf.elements.solid_force import LENGTH, M_YY, M_YZ, M_ZZ
+from ancf.solvers.friction import no_friction
 from ancf.solvers.pushes import Uses, weigh_pushes
 from ancf.solvers.rare import knowing
 from ancf.solvers.sensitivity import Way
@@ -28,7 +29,8 @@ def found_by_kernel(system, batch, q, v, a, x):
     tables = system.inputs.tables(0.0, 0.1, 1, 0.0, 1.0)
     way = Way(*(y[None].copy() for y in (q, v, a)))
     begin, sums = np.array([0, m]), (np.zeros(0), out, np.zeros((0, 3, 3)), total)
-    weigh_pushes(system.core, uses, known, begin, tables, way, x[None].copy(), work, *sums)
+    given = uses, known, begin, tables, way, no_friction()
+    weigh_pushes(system.core, *given, x[None].copy(), work, *sums)
     assert np.array_equal(total, x)
     return out
 

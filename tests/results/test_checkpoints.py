@@ -204,6 +204,19 @@ def test_history_of_a_new_kind_is_kept():
     assert not fresh.wear[[0, 1, 3]].any()
 
 
+def test_what_changes_later_is_as_it_was():
+    """A run that is put back forgets what it has changed since then, also where nothing was before."""
+    system, worn = with_worn(1111)
+    watched = Watched(system)
+    worn.wear[2] = 1.0
+    saved = watched.changed()
+    worn.wear[:], worn.state[1][:] = 5.0, 7
+    watched.restore(saved)
+    assert worn.wear[2].tolist() == [1.0, 1.0, 1.0]
+    assert not worn.wear[[0, 1, 3]].any()
+    assert not worn.state[1].any()
+
+
 @pytest.mark.parametrize("name", RUNS)
 def test_all_that_changes_is_in_a_snapshot(name, monkeypatch):
     """After some steps a restored run has every array of the run that was left, whatever holds it."""

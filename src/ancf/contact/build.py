@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray, IntArray
+from ..compiled import traits
 from ..elements.registry import ELEMENTS
 from ..elements.shapes import gauss, hermite
 from ..errors import ModelError
@@ -100,9 +101,14 @@ def batches(
     return found
 
 
-def renumbered(batch: PressBatch, items: Sequence[SurfaceContact]) -> PressBatch:
-    """The batch with the numbers of these contacts in place of the same ones with others."""
-    return batch._replace(data=np.array([_numbers(item) for item in items]))
+def renumbered(batch: Any, items: Sequence[SurfaceContact]) -> Any:
+    """The batch with the numbers of these contacts in place of the same ones with others.
+
+    What friction remembers is its own.
+    """
+    keys = [key for key in traits(batch).memory if key != "found"] if isinstance(batch, RubBatch) else []
+    own = {key: getattr(batch, key).copy() for key in keys}
+    return batch._replace(data=np.array([_numbers(item) for item in items]), **own)
 
 
 def _numbers(item: SurfaceContact) -> list[float]:

@@ -25,6 +25,7 @@ from ..arrays import FloatArray
 from ..compiled import VECTOR, Role, implements, inline_kernel, kernel
 from ..records import Located, beginning
 from ..vectors import dot
+from .press_along import kinds_of, press_changes, press_slopes_along, press_slopes_beside
 from .press_slopes import numbers_of, press_number_work, press_work_slopes
 from .reel import stretched, swept
 from .touch import (
@@ -320,10 +321,14 @@ implements(
     tangent=press_tangent,
     energy=press_energy,
     work_slopes=press_work_slopes,
+    force_slopes=press_slopes_along,
+    slopes_beside=press_slopes_beside,
     sloped=lambda batch: not np.any(batch.winch >= 0),
     number_work=press_number_work,
+    changes=press_changes,
+    kinds=kinds_of,
     numbers=numbers_of,
-    numbered=("data", "weight", "shape", "reach", "mesh", "far"),
+    numbered=("data", "weight", "shape", "reach", "mesh", "unwound", "far"),
     measure=press_measure,
     remember=press_remember,
     inverted=press_passed,

@@ -36,7 +36,19 @@ from ..records import Located, beginning
 from ..vectors import dot
 from .press import pressed
 from .reel import grown, stretched, swept
-from .rubbed import find, nothing_found, share_found
+from .rub_along import (
+    kinds_of,
+    numbers_of,
+    rub_changes,
+    rub_choice,
+    rub_memory_changes,
+    rub_memory_slopes,
+    rub_remember_along,
+    rub_slopes_along,
+    rub_slopes_beside,
+)
+from .rub_back import rub_memory_back, rub_memory_work, rub_number_work, rub_work_slopes
+from .rubbed import ahead, find, nothing_found, share_found
 from .touch import (
     DRAG,
     FRICTION,
@@ -64,8 +76,6 @@ from .touching import Touching
 #: Share of a change of the limits that a round of an equilibrium takes: all of it would swing past a cable
 #: that friction holds on several turns.
 TAKEN = 0.4
-#: Share of a normal force by which the one of the next step is expected to differ at most.
-GROWS = 0.1
 #: A limit that nothing reaches, N/m, and the gap in radii up to which a point counts as one that touches.
 GRIP, CLOSE = 1e100, 0.05
 
@@ -165,6 +175,8 @@ def rub_force(batch, q, v, a, r, ws):
     """Subtract the friction from r."""
     for i in range(batch.lit[0]):
         e = batch.lit[1 + i]
+        if not rubs(batch, e):
+            continue
         row, sums = row_of(batch, e, q, v), nothing()
         for p in range(batch.weight.shape[1]):
             if batch.limit[e, p] != 0.0:
@@ -179,6 +191,8 @@ def rub_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add minus the derivatives by position and velocity, the normal as it is."""
     for i in range(batch.lit[0]):
         e = batch.lit[1 + i]
+        if not rubs(batch, e):
+            continue
         data, row, lam = batch.data[batch.contact[e]], row_of(batch, e, q, v), stretched(batch, e, q)
         for p in range(batch.weight.shape[1]):
             if batch.limit[e, p] == 0.0:
@@ -269,14 +283,6 @@ def of_body(body, f):
 
 
 @inline_kernel
-def ahead(N, before):
-    """The normal force a step later, if it goes on to change as it did, and changes by little."""
-    if before == 0.0:
-        return N
-    return min(max(2.0 * N - before, (1.0 - GROWS) * N), (1.0 + GROWS) * N)
-
-
-@inline_kernel
 def rub_measure(batch, q, v):
     """Fill ``found`` for the state (q, v), with the limits that acted in it."""
     nothing_found(batch)
@@ -347,6 +353,21 @@ implements(
     RubBatch,
     force=rub_force,
     tangent=rub_tangent,
+    force_slopes=rub_slopes_along,
+    slopes_beside=rub_slopes_beside,
+    sloped=lambda batch: not np.any(batch.winch >= 0),
+    changes=rub_changes,
+    work_slopes=rub_work_slopes,
+    number_work=rub_number_work,
+    memory_work=rub_memory_work,
+    memory_back=rub_memory_back,
+    numbers=numbers_of,
+    numbered=("data", "weight", "shape", "reach", "mesh", "unwound", "far", "label"),
+    kinds=kinds_of,
+    memory_choice=rub_choice,
+    memory_slopes=rub_memory_slopes,
+    memory_along=rub_remember_along,
+    memory_changes=rub_memory_changes,
     remember=rub_remember,
     measure=rub_measure,
     role=Role.RUBS | Role.MEASURES,

@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
-from ..compiled import formula
+from ..compiled import formula, inline_kernel
 
 #: Columns of ``found``: friction of all places added up by size, N, and the share of it that slips.
 RUBBED, SLIPPED = 2, 3
+#: Share of a normal force by which the one of the next step is expected to differ at most.
+GROWS = 0.1
+
+
+@inline_kernel
+def ahead(N, before):
+    """The normal force a step later, if it goes on to change as it did, and changes by little."""
+    if before == 0.0:
+        return N
+    return min(max(2.0 * N - before, (1.0 - GROWS) * N), (1.0 + GROWS) * N)
 
 
 @formula

@@ -54,14 +54,13 @@ def gradient(
     """A number of a simulation and its exact derivatives by parameters of the model.
 
     Models of cables, beams, springs, masses, rigid bodies and joints, sliding ones as well, in fluids with
-    currents, gusts and waves, with loads of all kinds, on grounds and surfaces without friction and with
-    contacts of strips and wires, have an adjoint: the derivatives by all parameters together take about as
-    much as a few runs, and memory that does not grow with their number, nor much with that of the steps.
-    Others, with friction on grounds and surfaces, contacts of cables or of bodies with each other, winches,
-    laws that stay in Python or clamps that turn with time, or in which a sliding joint opens, closes or
-    reaches an end, take the sensitivities of :func:`ancf.simulate`,
-    whose cost grows with the number of parameters, as does what is asked of a contact. The numbers are the
-    same.
+    currents, gusts and waves, with loads of all kinds, on grounds and surfaces, with friction that remembers
+    the way, and with contacts of strips and wires, have an adjoint: derivatives by all parameters together
+    take about as much as a few runs, and memory that does not grow with their number, nor much with that of
+    the steps. Others, with contacts of cables or of bodies with each other, winches, laws that stay in Python
+    or clamps that turn with time, or in which a sliding joint opens, closes or reaches an end, take the
+    sensitivities of :func:`ancf.simulate`, whose cost grows with the number of parameters, as does what is
+    asked of a contact. The numbers are the same.
 
     Parameters
     ----------

@@ -28,13 +28,13 @@ where r has its slope, and xi the difference to the point from which the materia
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..compiled import Role, formula, implements, inline_kernel, kernel
+from ..compiled import Role, formula, implements, inline_kernel, kernel, traits
 from ..errors import ModelError
 from ..model.beam import Beam
 from ..model.fluids import require_section
@@ -62,7 +62,12 @@ from .ground_along import (
 )
 from .ground_numbers import NUMBERED, ground_changes, ground_memory_changes, kinds_of, numbers
 from .ground_points import anchor_at, drawn_at, touch_at
-from .ground_slopes import ground_work_slopes
+from .ground_slopes import (
+    ground_memory_back,
+    ground_memory_work,
+    ground_number_work,
+    ground_work_slopes,
+)
 from .relief import DRAG, FRICTION, STICK
 
 #: Gauss points of an element.
@@ -127,6 +132,15 @@ def build(items, locate, value, model):
         drift=np.zeros((moved, POINTS, 3)),
         since=np.zeros(moved),
     )
+
+
+def renumbered(batch: Any, items: Any) -> Any:
+    """The batch with the numbers of these grounds in place of the same ones with others.
+
+    What friction remembers is its own.
+    """
+    own = {key: getattr(batch, key).copy() for key in traits(batch).memory}
+    return batch._replace(grounds=np.array([_numbers(item) for item in items]), **own)
 
 
 def _numbers(item):
@@ -278,6 +292,9 @@ implements(
     slopes_beside=ground_slopes_beside,
     sloped=lambda batch: not np.any(batch.winch >= 0),
     changes=ground_changes,
+    number_work=ground_number_work,
+    memory_work=ground_memory_work,
+    memory_back=ground_memory_back,
     numbers=numbers,
     numbered=NUMBERED,
     kinds=kinds_of,

@@ -14,7 +14,7 @@ from ..model.model import Model
 from ..model.section import DAMPINGS
 from ..model.surfaces import SurfaceContact
 from ..model.winches import by_body
-from ..system.beside import BODIES, ELEMENTS, FLUIDS, PRESSING, SLIDES, SPRINGS, Acts
+from ..system.beside import BODIES, ELEMENTS, FLUIDS, GROUND, PRESSING, RUBBING, SLIDES, SPRINGS, Acts
 
 #: Of sections, those on which the forces of elements alone depend, and those on which weights do, too.
 FORCES, MASSES = {"EA", "EI", "E", *DAMPINGS}, {"rhoA", "rho"}
@@ -35,6 +35,10 @@ def acts_of(model: Model, name: str) -> Acts | None:
         return Acts(_wet(model), weighs=True) if weighs else None
     if key == "density" and any(fluid.name == owner for fluid in model.fluids):
         return Acts(_wet(model))
+    ground = next((one for one in model.grounds if one.name == owner), None)
+    if ground is not None:
+        rough = ("friction", "stick") if ground.friction > 0.0 else ()  # else friction begins
+        return Acts(frozenset((GROUND,))) if key in ("stiffness", "damping", *rough) else None
     body = model.bodies.get(owner)
     if body is None:
         return _of_connection(model, owner, key)
@@ -65,8 +69,10 @@ def _of_connection(model: Model, owner: str, key: str) -> Acts | None:
     found = next((one for one in model.connections if one.name == owner), None)
     if isinstance(found, Spring) and key in ("stiffness", "damping", "length"):
         return Acts(frozenset((SPRINGS,)))
-    smooth = isinstance(found, SurfaceContact) and found.friction == 0.0
-    return Acts(frozenset((PRESSING,))) if smooth and key in ("stiffness", "damping", "radius") else None
+    if not isinstance(found, SurfaceContact):
+        return None
+    rough = ("friction", "stick") if found.friction > 0.0 else ()  # else friction begins
+    return Acts(frozenset((PRESSING, RUBBING))) if key in ("stiffness", "damping", "radius", *rough) else None
 
 
 def _wet(model: Model) -> frozenset[str]:

@@ -8,7 +8,6 @@ bit, and the adjoint goes back through them (:mod:`ancf.solvers.adjoint`).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -19,19 +18,22 @@ from ..preparation import Prepared
 from ..results.state import State
 from ..solvers.adjoint import back_start, back_steps
 from ..solvers.ahead import ahead_of
-from ..solvers.checkpoint import Snapshot
-from ..solvers.record import Stats
+from ..solvers.friction import Friction
+from ..solvers.friction_back import Forgetting, nothing_forgotten
 from ..solvers.sensitivity import Way, accelerations
 from ..solvers.status import OK
 from ..system.core import follow_supports
 from ..system.system import System
 from .answers import LINEAR, Face
 from .base import check_differentiable, matrices_of
+from .blocks import Block, Collector
 from .family import Family
 from .follow import Trail, check_method, given_start, when_cut
 from .jumps import end_at_jumps
+from .memory_back import MemoryBack
 from .nearby import Nearby
 from .parameters import Parameter
+from .remembering import friction_of
 from .start import Start
 from .weighed import Weighed
 
@@ -56,56 +58,6 @@ class UnsolvedError(SolveError):
 
     def __init__(self) -> None:
         super().__init__("gradient", "the equations of the adjoint cannot be solved", "smaller steps")
-
-
-class Collector:
-    """Recorder that keeps what a block leaves."""
-
-    def __init__(self) -> None:
-        self.q: list[FloatArray] = []
-        self.v: list[FloatArray] = []
-        self.t: list[FloatArray] = []
-
-    def append(self, t: FloatArray, q: FloatArray, v: FloatArray, work: FloatArray) -> None:
-        """States."""
-        self.t.append(t)
-        self.q.append(q)
-        self.v.append(v)
-
-    def record(self, t: FloatArray, samples: FloatArray) -> None:
-        """Nothing."""
-
-    def update(self, stats: Stats, status: str) -> None:
-        """Nothing."""
-
-    def due(self) -> bool:
-        """Never."""
-        return False
-
-    def keep(self, snapshot: Snapshot) -> None:
-        """Nothing."""
-
-    def taken(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Times and states since the last time."""
-        made = tuple(
-            np.concatenate(parts) if len(parts) > 1 else parts[0] for parts in (self.t, self.q, self.v)
-        )
-        self.t, self.q, self.v = [], [], []
-        return made  # type: ignore[return-value]
-
-
-@dataclass
-class Block:
-    """Steps ``done + 1`` to ``done + count`` of one length h, and where they begin.
-
-    Of what is kept of them accelerations follow from velocities when they are asked for.
-    """
-
-    done: int
-    count: int
-    h: float
-    snapshot: Snapshot | None
-    kept: tuple[FloatArray, FloatArray, Trail, FloatArray] | None = None  # q, v, and a at the end
 
 
 class Adjoint:
@@ -138,11 +90,15 @@ class Adjoint:
         self._check(made, start, where)
         self.run: Any = made.run
         self.system = System(made.system.model, like=made.system)
-        check_differentiable(self.system, where)
+        self.memory = MemoryBack(self.system) if friction_of(self.system) else None
+        check_differentiable(self.system, where, follows=True)
         self.families = [Family(parameter, self.system, shifts=True) for parameter in parameters]
         self.nearby = Nearby(self.families, self.system, shifts=True)
-        self.weighed = Weighed(self.nearby)
-        self.m = matrices_of(self.system.core, self.system.size, moving=True, back=True)
+        marked = self.memory.marked if self.memory else None
+        self.weighed = Weighed(self.nearby, marked.batches if marked else None)
+        instead = marked.instead(self.system) if marked else ()
+        self.m = matrices_of(self.system.core, self.system.size, moving=True, back=True, marked=instead)
+        self._check_memory(start)
         self.ahead = ahead_of(self.system.core, self.m)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
         self.asked, self.keys, self.unknowns = asked, keys, np.unique(unknowns)
@@ -157,6 +113,21 @@ class Adjoint:
         """Raise ModelError if the method, or how the run begins, has no adjoint."""
         check_method(made, where)
 
+    def _check_memory(self, start: State | None) -> None:
+        """Raise UnsolvedError if parameters do more to what friction remembers than is gone back through."""
+        memory = self.memory
+        if memory and not (memory.allows(self.families, self.weighed) and memory.take(start, self.families)):
+            raise UnsolvedError
+
+    @property
+    def back(self) -> Forgetting:
+        """What kernels have of that."""
+        return self.memory.back if self.memory else nothing_forgotten()
+
+    def _remember(self, friction: Friction) -> None:
+        """Let batches with friction know what they remember in the steps that come."""
+        self.ahead, self.weighed.friction = self.ahead._replace(friction=friction), friction
+
     def _prepare(self) -> None:
         """What else a kind of adjoint has."""
 
@@ -166,6 +137,7 @@ class Adjoint:
         run.begin(store)
         t, q, v = store.taken()
         self.first = q[0].copy(), v[0].copy(), run.memory.a.copy()
+        self.begun = self.memory.keep(run) if self.memory else {}
         times, found = [t], [self._asked(q, v)]
         keep = 24.0 * size * run.steps <= KEPT
         most = max(1, min(int(BLOCK / (8 * size * (6 * len(self.nearby.others) + 12))), run.steps))
@@ -174,6 +146,7 @@ class Adjoint:
         while run.done < run.steps:
             h = run.h if run.done < run.full else run.rest
             block = Block(run.done, self._count(most), h, None if keep else run.snapshot())
+            block.memory = self.memory.keep(run) if self.memory else {}
             trail = Trail(run)
             self._take(block.count, store)
             t, q, v = store.taken()
@@ -206,6 +179,8 @@ class Adjoint:
             when = run.time(block.done), block.h, run.t_start, run.t_end
             lam = room[: len(way.q)]
             tables = system.inputs.tables(*when[:2], block.count, *when[2:])
+            if self.memory:
+                self._remember(self.memory.look(block.memory, way, tables))
             lost, turned = np.zeros(system.size), np.zeros((self.weighed.turning, 3, 3))
             if self._back(way, block.h, tables, wanted, (mu, lam, lost, turned)) != OK:
                 raise UnsolvedError
@@ -263,8 +238,14 @@ class Adjoint:
         first = self.first
         wanted = self._wanted(first[0][None].copy(), first[1][None].copy(), slopes)
         when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
+        if self.memory:
+            way, tables = Way(*(x[None].copy() for x in first)), system.inputs.tables(*when[:2], 1, *when[2:])
+            self._remember(self.memory.start(self.begun, way, tables))
         total = self._back_start(Start(system, self.m, *first, when), when, wanted, mu, still)
         still[self.unknowns] += wanted[0, 0]
+        if self.memory:
+            self.memory.hand_to(self.weighed)
+            total += self.memory.of_start(len(total))
         total -= self.weighed.in_all(when, system.inputs.tables(*when[:2], 1, *when[2:]))
         total += [float(mu[0] @ dq + mu[1] @ dv) for dq, dv in self.given]
         return total + self._explicit(first[0][None], first[1][None], slopes) + self._of_sums()

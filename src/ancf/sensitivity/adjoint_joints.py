@@ -11,7 +11,8 @@ from ..batches import Batches
 from ..connections.sliding import SLIDES
 from ..preparation import Prepared
 from ..results.state import State
-from ..solvers.adjoint_joints import ROOM, back_joined_start, back_joined_steps
+from ..solvers.adjoint_joints import ROOM, back_joined_steps
+from ..solvers.adjoint_joints_start import back_joined_start
 from ..solvers.mixing import ROOM as MIXING
 from ..solvers.pushes import weigh_pushes
 from ..solvers.sensitivity import Constraining, Matrices, Way
@@ -21,7 +22,7 @@ from .adjoint import Adjoint, UnsolvedError
 from .adjoint_sloped import SlopedAdjoint
 from .base import matrices_of
 from .follow import shifted
-from .remembering import friction_of
+from .memory_back import goes_back_through
 from .start import Start
 
 #: Weights of the rows for which the positions and the velocities of a start are shifted.
@@ -52,10 +53,11 @@ class JoinedAdjoint(Adjoint):
         joined = Constraining(rule.w0, rule.w1, rule.w2, rule.projects)
         rho = np.zeros_like(lam)
         self._shifts = rho if rule.projects else None
-        given = self.system.core, self.m, self.ahead, tables, way, wanted, self.unknowns
+        given = self.system.core, self.m, self.ahead, self.back, tables, way, wanted, self.unknowns
         scheme = self.run.scheme
         own = mu, lam, rho, still
-        _, status = back_joined_steps(*given, h, scheme, joined, *own, self._rate, self._room, self._mix)
+        rooms = self._rate, self._room, self._mix
+        _, status = back_joined_steps(*given, h, scheme, joined, *own, rooms)
         return int(status)
 
     def _pushed(
@@ -75,8 +77,8 @@ class JoinedAdjoint(Adjoint):
         system.level[:] = level
         for k in self.nearby.rows:
             self.families[k].know(system)
-        given = system.core, self.nearby.of_rows, Batches(), number, tables, way, rho, np.zeros(size), pushed
-        weigh_pushes(*given, nothing, np.zeros((0, 3, 3)), np.zeros(size))
+        given = system.core, self.nearby.of_rows, Batches(), number, tables, way, self.weighed.friction
+        weigh_pushes(*given, rho, np.zeros(size), pushed, nothing, np.zeros((0, 3, 3)), np.zeros(size))
         system.level[:] = before
         return pushed
 
@@ -90,7 +92,7 @@ class JoinedAdjoint(Adjoint):
     ) -> FloatArray:
         system, lam, lost = self.system, np.zeros((3, self.system.size)), np.zeros(self.system.size)
         y = begin.q, begin.v, begin.a
-        given = system.core, self.m, y, wanted[0], self.unknowns
+        given = system.core, self.m, self.ahead.friction, self.back, y, wanted[0], self.unknowns
         if back_joined_start(*given, mu, lam, lost, self._room) != OK:
             raise UnsolvedError
         still -= lost
@@ -115,11 +117,8 @@ def goes_back(system: System, m: Matrices) -> bool:
 
 
 def adjoint_of(system: System) -> type[Adjoint] | None:
-    """The adjoint of a model, if it has one: what is not exact in its matrices knows its slopes.
-
-    What friction remembers is followed forwards alone.
-    """
-    if friction_of(system):
+    """The adjoint of a model, if it has one: what is not exact in its matrices knows its slopes."""
+    if not goes_back_through(system):
         return None
     m = matrices_of(system.core, system.size, moving=True, back=True)
     if len(m.lossy) or m.turning:

@@ -21,13 +21,14 @@ class SlopedAdjoint(Adjoint):
         self._room, self._corrections = np.zeros((ROOM, self.system.size)), np.zeros(1)
 
     def _back(self, way: Way, h: float, tables: Any, wanted: FloatArray, sums: Any) -> int:
-        given = self.system.core, self.m, self.ahead, tables, way, wanted, self.unknowns
+        given = self.system.core, self.m, self.ahead, self.back, tables, way, wanted, self.unknowns
         own = *sums, self._corrections, self._room
         _, status = back_sloped_steps(*given, h, self.run.scheme, *own)
         return int(status)
 
     def _through_start(self, begin: Start, wanted: FloatArray, mu: FloatArray, sums: Any) -> None:
-        given = self.system.core, self.m, (begin.q, begin.v, begin.a), wanted[0], self.unknowns
+        friction = self.ahead.friction, self.back
+        given = self.system.core, self.m, *friction, (begin.q, begin.v, begin.a), wanted[0], self.unknowns
         own = *sums, self._corrections, self._room
         if back_sloped_start(*given, mu, *own) != OK:
             raise UnsolvedError

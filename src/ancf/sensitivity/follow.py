@@ -201,11 +201,11 @@ class Following:
             found = Anew(run, system, self.shifted, run.t_start).derivatives(self.families, self.given)
             held = self._let_go(found)
         else:
-            found, held = starts(system, self.m, self.nearby, self.given, states, when, self.memory)
+            memory = self.abreast or self.memory
+            found, held = starts(system, self.m, self.nearby, self.given, states, when, memory)
         self.s = abreast(found)
         if self.abreast:
             self.memory.put_back()
-            self.abreast.begin()
         self.histories.begin(found, held)
         first = found[:, None, :3].copy()
         first[:, 0, :2] += held

@@ -96,7 +96,7 @@ class Memory:
         self.share()
 
     def begin(self, q: FloatArray, v: FloatArray, s: FloatArray) -> None:
-        """Take the derivatives of that from those of the state at the start, (p, 2, size).
+        """Take the derivatives of that from those of the state at the start, (p, 3, size).
 
         Those of a start that knows them stay.
         """
@@ -104,7 +104,7 @@ class Memory:
             return
         here = self._now
         self.start(self.none)
-        self.step(q, v, s)
+        self.step(q, v, s[:, :2])
         self.start(here)
 
     def take(self, start: Any, where: str) -> None:

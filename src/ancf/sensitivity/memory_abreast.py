@@ -16,17 +16,18 @@ from ..compiled import (
 )
 from ..linalg.eight import lane_rows
 from ..simd import LANES
+from ..solvers.abreast_room import abreast
 from ..solvers.friction import Friction, remember_steps
+from ..solvers.friction_start import push_start, remember_start
 from ..solvers.rare import knowing
 from ..solvers.sensitivity import Way
+from ..system.core import place_supports
+from .marked import Marked
 from .memory import Memory
 from .nearby import Nearby, changes_of
-from .remembering import Row
 
 #: What a batch does that knows the derivatives of its memory.
 KNOWN = add_memory_slopes, remember_along, add_memory_changes
-#: Arrays of such a memory, in this order.
-REMEMBERED = "anchor", "limit"
 
 
 class MemoryAbreast:
@@ -42,19 +43,10 @@ class MemoryAbreast:
 
     def __init__(self, memory: Memory, nearby: Nearby) -> None:
         self.memory, self.nearby, system = memory, nearby, memory.system
-        batches = [system.parts[name] for name in memory.names]
-        self.first = np.cumsum([0, *(sum(getattr(b, key).size for key in REMEMBERED) for b in batches)])
-        self.remembering = knowing(choose_memory, batches)
-        self.now = np.zeros(self.first[-1])
-        self.marked = {}
-        for name, batch, at in zip(memory.names, batches, self.first[:-1].tolist(), strict=True):
-            views = {}
-            for key in REMEMBERED:
-                own = getattr(batch, key)
-                views[key] = self.now[at : at + own.size].reshape(own.shape)
-                memory.beside[f"{name}.{key}"] = views[key]
-                at += own.size
-            self.marked[name] = batch._replace(**views)
+        own = Marked(system, memory.names)
+        self.own, self.first, self.now, self.marked = own, own.first, own.now, own.batches
+        memory.beside = own.views
+        self.remembering = knowing(choose_memory, [system.parts[name] for name in memory.names])
         self.chosen = np.zeros((1, len(self.now)))
         groups = -(-len(nearby.families) // LANES)
         self.z = lane_rows(groups * len(self.now)).reshape(groups, len(self.now), LANES)
@@ -73,11 +65,29 @@ class MemoryAbreast:
         own = changes.start, changes.rates, changes.rates_from, changes.kinds, changes.kinds_from
         return Friction(batches, self.first, self.now, self.now[None], self.z, *own, begin)
 
-    def begin(self) -> None:
-        """Take the derivatives in which the first step begins."""
-        for k, d in enumerate(self.memory.d):
-            own = [d[f"{name}.{key}"].ravel() for name in self.memory.names for key in REMEMBERED]
-            self.z[k // LANES, :, k % LANES] = np.concatenate(own)
+    def choose(self, q: FloatArray, v: FloatArray) -> None:
+        """As :meth:`Memory.choose`."""
+        self.memory.choose(q, v)
+
+    def begin(self, q: FloatArray, v: FloatArray, s: FloatArray) -> None:
+        """Take the derivatives in which the first step begins from those of a state, (p, 3, size).
+
+        Or from a start that knows its own.
+        """
+        if self.memory.known:
+            for k, d in enumerate(self.memory.d):
+                self.z[k // LANES, :, k % LANES] = self.own.vector(d)
+            return
+        self.now[:], self.z[...] = 0.0, 0.0
+        remember_start(self.memory.system.core, self.friction, q, v, abreast(s))
+
+    def push(self, way: Way, tables: Any) -> FloatArray:
+        """What they do to the residual at the start, (p, size), zero where it is held."""
+        system, made = self.memory.system, np.zeros((len(self.nearby.families), self.memory.system.size))
+        q, v, a = (x[0].copy() for x in way)
+        place_supports(system.core.supports, system.core.loads.value, tables, 0, q, v, a)
+        push_start(system.core, self.friction, q, v, lane_rows(system.size), made)
+        return made
 
     def look(self, way: Way, tables: Any) -> Friction:
         """Find what is remembered in the steps of a block, which follow the last ones."""
@@ -89,15 +99,7 @@ class MemoryAbreast:
 
     def end(self) -> None:
         """Let the memory know the derivatives that the last step leaves."""
-        self.memory.d = [self._row(self.z[k // LANES, :, k % LANES]) for k in range(len(self.memory.d))]
-
-    def _row(self, z: FloatArray) -> Row:
-        """The numbers of a memory by the names of their arrays."""
-        names = [f"{name}.{key}" for name in self.memory.names for key in REMEMBERED]
-        own = np.split(z, np.cumsum([self.memory.beside[name].size for name in names])[:-1])
-        return {
-            name: x.reshape(self.memory.beside[name].shape).copy() for name, x in zip(names, own, strict=True)
-        }
+        self.memory.d = [self.own.row(self.z[k // LANES, :, k % LANES]) for k in range(len(self.memory.d))]
 
 
 def memory_abreast(memory: Memory, nearby: Nearby) -> MemoryAbreast | None:

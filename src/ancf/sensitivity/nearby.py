@@ -236,7 +236,7 @@ def changes_of(
 ) -> Changes:
     """Of the numbers of all batches, or of these: by parameter what :func:`rates_of` finds."""
     names = sorted({name for found in rates for name in found}) if names is None else names
-    rows = [[k for k, found in enumerate(rates) if name in found] for name in names]
+    rows = [[k for k, found in enumerate(rates) if name in found and np.any(found[name])] for name in names]
     each = [[rates[k][name] for k in own] for name, own in zip(names, rows, strict=True)]
     batches = [parts[name] for name in names]
     kinds = [

@@ -23,6 +23,7 @@ from ..system.core import (
 from ..system.system import System
 from .family import Family
 from .memory import Memory
+from .memory_abreast import MemoryAbreast
 from .nearby import Nearby
 
 
@@ -127,7 +128,7 @@ def starts(
     given: list[tuple[FloatArray, FloatArray]],
     states: Any,
     when: Any,
-    memory: Memory | None = None,
+    memory: Memory | MemoryAbreast | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """For each family the derivatives of a consistent start, see :meth:`Start.accelerated`, and held ones.
 
@@ -142,7 +143,7 @@ def starts(
         At the start.
     when : tuple
         See :class:`Start`.
-    memory : Memory, optional
+    memory : Memory or MemoryAbreast, optional
         That of friction at the start, whose derivatives are filled.
 
     Returns
@@ -174,7 +175,7 @@ def starts(
         first_s[:, :2] += held
         for d in first_s:
             follow_supports(system.core.supports, *d)
-        memory.begin(begin.q, begin.v, first_s[:, :2])
+        memory.begin(begin.q, begin.v, first_s)
         memory.choose(begin.q, begin.v)
         pushes[:, 0] += memory.push(way, tables)
     return begin.accelerated(rows, pushes[:, 0], nearby.turn), held

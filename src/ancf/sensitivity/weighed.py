@@ -13,6 +13,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..compiled import add_number_work
+from ..solvers.friction import no_friction
 from ..solvers.pushes import weigh_loads, weigh_pushes
 from ..solvers.rare import knowing
 from ..solvers.sensitivity import Way
@@ -26,10 +27,13 @@ class Weighed:
     Parameters
     ----------
     nearby : Nearby
+    marked : dict, optional
+        Batches by name that are asked in place of those of the model: they remember what steps do.
     """
 
-    def __init__(self, nearby: Nearby) -> None:
-        self.nearby, self.system = nearby, nearby.system
+    def __init__(self, nearby: Nearby, marked: dict[str, Any] | None = None) -> None:
+        self.nearby, self.system, self.marked = nearby, nearby.system, marked or {}
+        self.friction = no_friction()  # with what the marked ones remember
         families = nearby.families
         rates = {k: rates_of(families[k]) for k in nearby.plain}
         left = {k: families[k].changed - found.keys() for k, found in rates.items()}
@@ -52,7 +56,7 @@ class Weighed:
 
     def _knowing(self, name: str) -> Any:
         """The batch of the model of this name, which knows of all numbers that a parameter changes."""
-        batch = self.system.parts[name]
+        batch = self.marked.get(name, self.system.parts[name])
         for k in (k for k, found in self.rates.items() if name in found):
             for system in self.nearby.families[k].systems:
                 if system.parts[name] is not self.system.parts[name]:
@@ -75,7 +79,8 @@ class Weighed:
         made, pushed = np.zeros(len(families)), np.zeros(len(self.others))
         core, work, total = self.system.core, self.work, np.zeros(self.system.size)
         sums = pushed, self.numbers, turned, total
-        weigh_pushes(core, self.uses, self.known, self.begin, tables, way, lam, work, *sums)
+        own = self.uses, self.known, self.begin, tables, way, self.friction
+        weigh_pushes(core, *own, lam, work, *sums)
         made[self.others] = pushed
         self.turned += turned
         self.total += total

@@ -20,7 +20,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..batches import add_tangents
 from ..compiled import formula, inline_kernel, kernel
 from ..linalg.block import times
 from ..linalg.eight import factor_of
@@ -28,10 +27,12 @@ from ..simd import LANES, load_six, store_six, total
 from ..system.core import drive, onto_shadows, solve_matrix, to_local
 from .adjoint import folded, hold, take_wanted, to_start
 from .ahead import look_ahead
+from .friction import bring
+from .friction_back import is_there, through_force, through_memory
 from .mixing import NOTHING, ends_mixed, lead_on
 from .rare import add_all_slopes, add_rate_works, add_tangent_works
 from .scheme import coefficients
-from .sensitivity import ENOUGH, LEAST, MOST, NOISY, ROUGH, seen, stiffnesses, to_shadows
+from .sensitivity import LEAST, MOST, NOISY, ROUGH, seen, to_shadows
 from .status import OK, SINGULAR, SLOW
 
 #: Vectors of room: T_q^T, T_v^T, T_a^T lambda and C_q^T rho, what is to be solved for, corrections, products.
@@ -259,9 +260,17 @@ def take(core, sums, mu, back, still):
         mu[0, joints.multipliers[k]] = mu[1, joints.multipliers[k]] = 0.0
 
 
+@inline_kernel
+def take_memory(core, m, back, y, mu, room, still):
+    """Add to mu_q and mu_v what a step leaves in memories of friction does."""
+    clear(room[0:3])
+    through_memory(back, y[0], y[1], room[0], room[1], core.ws)
+    take(core, room[0:3], mu, m.work[1:3], still)
+
+
 @kernel
 def back_joined_steps(
-    core, m, ahead, tables, way, wanted, unknowns, h, scheme, joined, mu, out, shifts, still, rate, room, mix
+    core, m, ahead, back, tables, way, wanted, unknowns, h, scheme, joined, mu, out, shifts, still, rooms
 ):
     """Carry the adjoint back through the steps of a block.
 
@@ -269,20 +278,19 @@ def back_joined_steps(
     ----------
     core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out, still
         See :func:`ancf.solvers.adjoint.back_steps`.
+    back : Forgetting
     joined : Constraining
     shifts : (steps, size)
         rho, zero unless the formulation shifts positions.
-    rate : (1,)
-        By what corrections shrink, see :func:`factors`.
-    room : (ROOM, size)
-    mix : (ROOM, size) of ancf.solvers.mixing, or (0, size)
-        Room for a model whose forces begin from one step to the next, or none.
+    rooms : tuple
+        (1,) by what corrections shrink, see :func:`factors`; (ROOM, size); (ROOM, size) of
+        ancf.solvers.mixing, or (0, size): room for forces that begin from one step to the next, or none.
 
     Returns
     -------
     Steps done and the status of the last one.
     """
-    B, G = coefficients(h, scheme)
+    (rate, room, mix), (B, G) = rooms, coefficients(h, scheme)
     c1 = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
     n, size = core.weight.shape[0], mu.shape[1]
     at_level(core, joined.w0, joined.w1, joined.w2)
@@ -293,7 +301,10 @@ def back_joined_steps(
         if fresh and look_ahead(core, m, ahead, tables, way, at - k, B, G, True) >= 0:
             return step, SINGULAR
         drive(core.supports, core.loads.value, tables, at, way.q[at], way.v[at], way.a[at])
+        bring(ahead.friction, at)
         lam, y = out[at], (way.q[at], way.v[at], way.a[at])
+        if is_there(back):
+            take_memory(core, m, back, y, mu, room, still)
         take_wanted(core.supports, wanted[at], unknowns, mu, m.work[5:8], m.work[1:3])
         factor, matrices = factor_of(core.factor, ahead.eight, k), (ahead.K[k], ahead.C[k])
         rho, known = shifts[at], min(step, PAST)
@@ -305,93 +316,8 @@ def back_joined_steps(
         for i in range(size):
             room[0, i] += room[3, i]
         take(core, room[0:3], mu, m.work[1:3], still)
+        if is_there(back):
+            onto_shadows(core.supports, lam)
+            through_force(back, y[0], y[1], lam, core.ws)
         to_start(n, h, scheme, mu, lam)
     return way.q.shape[0], OK
-
-
-@inline_kernel
-def start_back(core, m, y, goal, lam, room):
-    """Fill lambda of accelerations and multipliers, with the rows for these, and the sums; a status.
-
-    ``goal``: what is to be solved for, of multipliers by T_q^T, of all others by T_a^T.
-    """
-    sums, d, r, w, mask = room[0:3], room[5], room[6], room[7:9], core.joints.mask
-    n, before = core.weight.shape[0], np.inf
-    clear(sums)
-    for i in range(lam.shape[0]):
-        lam[i] = 0.0
-    at_level(core, 0.0, 0.0, 1.0)
-    for _ in range(MOST):
-        for i in range(r.shape[0]):
-            r[i] = sums[2, i]
-        to_local(core.supports, r)
-        for i in range(n):
-            d[i] = goal[i] - (r[i] if mask[i] == 0.0 else sums[0, i])
-        change, left = corrected(core, core.factor, goal, d, lam)
-        add_products(core, m, (m.K, m.C), y, d, sums, w)
-        if may_end(change, before, min(change / before, 1.0) if before < np.inf else 1.0, ENOUGH, left):
-            return OK
-        before = change
-    return SLOW
-
-
-@inline_kernel
-def shift_back(core, m, y, mu, k, rho, room):
-    """Fill rho of the shift of mu[k], positions (0) or velocities (1), onto their rows, and the sums.
-
-    A shift goes through the factors of the masses: rho has the multipliers of accelerations due to mu[k].
-    """
-    goal, mask = room[4], core.joints.mask
-    for i in range(core.weight.shape[0]):
-        goal[i] = mu[k, i] * (1.0 - mask[i])
-    status = start_back(core, m, y, goal, rho, room)
-    for i in range(rho.shape[0]):
-        rho[i] *= mask[i]
-    clear(room[0:3])
-    at_level(core, 1.0 - k, 1.0 * k, 0.0)
-    add_all_slopes(m.joined, y[0], y[1], y[2], rho, room[0], room[1], room[2], core.ws)
-    return status
-
-
-@kernel
-def back_joined_start(core, m, y, wanted, unknowns, mu, lam, still, room):
-    """Carry the adjoint through a consistent start: accelerations, shifts of velocities and of positions.
-
-    Parameters
-    ----------
-    core, m : Core, Matrices
-        The factors of the core are those of the masses, with the rows for accelerations.
-    y : (q, v, a)
-        The state.
-    wanted, unknowns, mu, still, room
-        As of :func:`back_joined_steps`, of one state; mu_a and mu_b are used up.
-    lam : (3, size)
-        lambda, and rho of positions and of velocities.
-
-    Returns
-    -------
-    A status.
-    """
-    none = room[9]
-    clear(room[9:10])
-    take_wanted(core.supports, wanted, unknowns, mu, m.work[5:8], m.work[1:3])
-    stiffnesses(core, m, m.K, m.W, y[0], y[1], none)
-    for i in range(m.C.shape[0]):
-        m.C[i] = 0.0
-    add_tangents(m.exact, y[0], y[1], m.C, 0.0, 1.0, 0.0, core.ws)
-    for i in range(core.weight.shape[0]):
-        room[4, i] = mu[2, i] + mu[3, i] if core.joints.mask[i] == 0.0 else mu[0, i]
-    status = start_back(core, m, y, room[4], lam[0], room)
-    if status != OK:
-        return status
-    take(core, room[0:3], mu, m.work[1:3], still)
-    for k in (1, 0):
-        status = shift_back(core, m, y, mu, k, lam[1 + k], room)
-        if status != OK:
-            return status
-        take(core, room[0:3], mu, m.work[1:3], still)
-    for i in range(mu.shape[1]):
-        mu[2, i] = mu[3, i] = 0.0
-    for i in range(core.weight.shape[0], mu.shape[1]):
-        mu[0, i] = mu[1, i] = lam[0, i] = 0.0
-    return OK

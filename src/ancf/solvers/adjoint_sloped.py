@@ -19,6 +19,8 @@ from ..simd import LANES
 from ..system.core import drive, onto_shadows, solve_matrix, to_local
 from .adjoint import SURE, add_turns, folded, hold, take_wanted, to_start
 from .ahead import look_ahead
+from .friction import bring
+from .friction_back import is_there, through_force, through_memory
 from .rare import add_all_slopes, add_rate_works, add_tangent_works
 from .scheme import coefficients
 from .sensitivity import LEAST, MOST, NOISY, product, stiffnesses
@@ -206,9 +208,23 @@ def take(core, y, mu, room, still, turned):
         mu[1, i] -= back[1, i]
 
 
+@inline_kernel
+def take_memory(core, back, y, mu, room, still, turned):
+    """Add to mu_q and mu_v what a step leaves in memories of friction does."""
+    for k in range(SUMS, OWN):
+        for i in range(room.shape[1]):
+            room[k, i] = 0.0
+    through_memory(back, y[0], y[1], room[SUMS], room[SUMS + 1], core.ws)
+    take(core, y, mu, room, still, turned)
+
+
 @kernel
-def back_sloped_start(core, m, y, wanted, unknowns, mu, lam, still, turned, count, room):
-    """Carry the adjoint through the accelerations of a consistent start, as ``back_start``; a status."""
+def back_sloped_start(core, m, friction, back, y, wanted, unknowns, mu, lam, still, turned, count, room):
+    """Carry the adjoint through the accelerations of a consistent start, as ``back_start``; a status.
+
+    ``friction``: with what it remembers at the start, and what the first memory is made of.
+    """
+    bring(friction, 0)
     n, none, K, C = core.weight.shape[0], room[WORK], m.K, m.C
     take_wanted(core.supports, wanted, unknowns, mu, m.work[5:8], m.work[1:3])
     for i in range(none.shape[0]):
@@ -222,6 +238,11 @@ def back_sloped_start(core, m, y, wanted, unknowns, mu, lam, still, turned, coun
     hold(core.supports, room[GOAL])
     status = solve(core, m, core.factor, (K, C), (0.0, 0.0, 1.0), y, 0, lam, count, room)
     take(core, y, mu, room, still, turned)
+    through_force(back, y[0], y[1], lam, core.ws)
+    if back.anew:
+        bring(friction, 1)
+        take_memory(core, back, y, mu, room, still, turned)
+        bring(friction, 0)
     for i in range(lam.shape[0]):
         mu[2, i] = mu[3, i] = 0.0
         if i >= n:
@@ -231,7 +252,7 @@ def back_sloped_start(core, m, y, wanted, unknowns, mu, lam, still, turned, coun
 
 @kernel
 def back_sloped_steps(
-    core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned, count, room
+    core, m, ahead, back, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned, count, room
 ):
     """Carry the adjoint back through the steps of a block.
 
@@ -239,6 +260,7 @@ def back_sloped_steps(
     ----------
     core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned
         See :func:`ancf.solvers.adjoint.back_steps`.
+    back : Forgetting
     count : (1,)
         Corrections, added to.
     room : (ROOM, size)
@@ -257,7 +279,10 @@ def back_sloped_steps(
         if fresh and look_ahead(core, m, ahead, tables, way, at - k, B, G, True) >= 0:
             return step, SINGULAR
         drive(core.supports, core.loads.value, tables, at, way.q[at], way.v[at], way.a[at])
+        bring(ahead.friction, at)
         lam, y = out[at], (way.q[at], way.v[at], way.a[at])
+        if is_there(back):
+            take_memory(core, back, y, mu, room, still, turned)
         take_wanted(core.supports, wanted[at], unknowns, mu, m.work[5:8], m.work[1:3])
         factor, matrices = factor_of(core.factor, ahead.eight, k), (ahead.K[k], ahead.C[k])
         for i in range(size):
@@ -267,5 +292,6 @@ def back_sloped_steps(
         if status != OK:
             return step, status
         take(core, y, mu, room, still, turned)
+        through_force(back, y[0], y[1], lam, core.ws)
         to_start(n, h, scheme, mu, lam)
     return way.q.shape[0], OK

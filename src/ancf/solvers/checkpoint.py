@@ -130,5 +130,9 @@ class Watched:
         }
 
     def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:
-        """Let a system that has just been compiled be as it was when `saved` was taken."""
+        """Let the system be as it was when `saved` was taken; what is not in there is as it was compiled."""
+        for place, array in self._arrays.items():
+            before = self._before[place]
+            if place not in saved and array.tobytes() != before:
+                array[...] = np.frombuffer(before, dtype=array.dtype).reshape(array.shape)
         refill(self._roots, saved)

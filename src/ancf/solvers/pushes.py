@@ -140,7 +140,7 @@ def add_loads(loads, value, weight, work, push):
 
 
 @kernel
-def weigh_pushes(core, uses, known, begin, tables, way, lam, work, pushed, numbers, turned, total):
+def weigh_pushes(core, uses, known, begin, tables, way, friction, lam, work, pushed, numbers, turned, total):
     """Add lambda . R_p at the ends of steps to what they are for the parameters and for numbers of batches.
 
     Parameters
@@ -151,6 +151,8 @@ def weigh_pushes(core, uses, known, begin, tables, way, lam, work, pushed, numbe
         Of the model itself, which know what their numbers do.
     begin : (batches + 1,)
         Where the numbers of each of them begin.
+    friction : Friction
+        With what batches remember in the steps.
     lam : (steps, size)
         lambda at the unknowns; filled at the shadows.
     work : (size,)
@@ -167,6 +169,7 @@ def weigh_pushes(core, uses, known, begin, tables, way, lam, work, pushed, numbe
     for step in range(way.q.shape[0]):
         q, v, a, x = way.q[step], way.v[step], way.a[step], lam[step]
         drive(core.supports, core.loads.value, tables, step, q, v, a)
+        bring(friction, step)
         onto_shadows(core.supports, x)
         for i in range(work.shape[0]):
             total[i] += x[i]

@@ -15,6 +15,8 @@ from ..batches import (
     CHANGES,
     CHOICE,
     KEEPING,
+    MEMORY_BACK,
+    MEMORY_WORK,
     NUMBERS,
     OWN_CHANGES,
     PRODUCTS,
@@ -41,6 +43,8 @@ from ..compiled import (
     choose_memory,
     inline_kernel,
     remember_along,
+    take_memory_back,
+    take_memory_work,
 )
 
 _rate, _numbers = caller_of(add_rate_stiffness), caller_of(add_number_work)
@@ -49,6 +53,7 @@ _along, _beside = caller_of(add_force_slopes), caller_of(add_slopes_beside)
 _changes, _products = caller_of(add_changes), caller_of(add_tangent_work)
 _choose, _memory_slopes = caller_of(choose_memory), caller_of(add_memory_slopes)
 _along_memory, _memory_changes = caller_of(remember_along), caller_of(add_memory_changes)
+_memory_work, _memory_back = caller_of(take_memory_work), caller_of(take_memory_back)
 
 
 def knowing(stub: Any, batches: Iterable[Any], *others: Any) -> Batches:
@@ -161,3 +166,17 @@ def add_memory_changes_of(batches, k, q, v, rates, kinds, begin, out, ws):
     """``add_memory_changes`` of one of the :class:`Batches`."""
     table = batches.table
     _memory_changes(table[k, OWN_CHANGES], table[k, 0], (q, v, rates, kinds, begin, out, ws))
+
+
+@inline_kernel
+def take_memory_work_of(batches, k, q, v, x, z, ws):
+    """``take_memory_work`` of one of the :class:`Batches`."""
+    table = batches.table
+    _memory_work(table[k, MEMORY_WORK], table[k, 0], (q, v, x, z, ws))
+
+
+@inline_kernel
+def take_memory_back_of(batches, k, q, v, z, by_q, by_v, numbers, ws):
+    """``take_memory_back`` of one of the :class:`Batches`."""
+    table = batches.table
+    _memory_back(table[k, MEMORY_BACK], table[k, 0], (q, v, z, by_q, by_v, numbers, ws))

@@ -12,6 +12,7 @@ from ..contact.build import renumbered as touching
 from ..elements.registry import ELEMENTS as ELEMENTS_OF
 from ..elements.registry import offered
 from ..loads.fluid import renumbered as in_fluids
+from ..loads.ground import renumbered as on_ground
 from ..model.beam import Beam
 from ..model.model import Model
 from ..model.points import Point
@@ -24,13 +25,13 @@ from .system import System
 
 #: Parts that can be made alone: elements, as one.
 ELEMENTS, SPRINGS, BODIES, SLIDES = "elements", "springs", "bodies", "slides"
-FLUIDS, PRESSING = "fluid", "pressing"
+FLUIDS, PRESSING, RUBBING, GROUND = "fluid", "pressing", "rubbing", "ground"
 
 
 class Acts(NamedTuple):
     """What of a system a number of a model acts on, besides the initial shape and motion."""
 
-    parts: frozenset[str] = frozenset()  # ELEMENTS, SPRINGS, BODIES, SLIDES, FLUIDS, PRESSING
+    parts: frozenset[str] = frozenset()  # of ELEMENTS, SPRINGS, BODIES and so on, see above
     weighs: bool = False  # dead loads
     moves: bool = False  # places and axes of supports
     shapes: bool = False  # shape functions, and where points are on their bodies
@@ -70,9 +71,11 @@ def _renumbered(system: System, model: Model, acts: Acts) -> Parts:
         found |= {kind: _elements(system, kind, beams) for kind, beams in _others(system, model).items()}
     if SPRINGS in acts.parts and SPRINGS in system.parts and not acts.shapes:
         found[SPRINGS] = renumbered(system.parts[SPRINGS], system.model, model)
-    if PRESSING in acts.parts:
-        items = [one for one in model.connections if isinstance(one, SurfaceContact)]
-        found[PRESSING] = touching(system.parts[PRESSING], items)
+    items = [one for one in model.connections if isinstance(one, SurfaceContact)]
+    for name in {PRESSING, RUBBING} & acts.parts & system.parts.keys():
+        found[name] = touching(system.parts[name], items)
+    if GROUND in acts.parts:
+        found[GROUND] = on_ground(system.parts[GROUND], model.grounds)
     if FLUIDS in acts.parts:
         found[FLUIDS] = in_fluids(system.parts[FLUIDS], model, _finder(system) if acts.shapes else None)
     return found
