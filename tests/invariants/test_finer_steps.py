@@ -12,6 +12,7 @@ import pytest
 import ancf
 from helpers import EXACT, arc, soft
 from motions import momentum
+from random_models import RandomModel
 
 STEPS = (1e-3, 5e-4, 2.5e-4, 1.25e-4)
 #: The share of the accelerations that Newton's method may leave, 1e-6, in one step of 1 ms at 6 rad/s.
@@ -146,6 +147,14 @@ class TestForcesOfJoints:
             iterations.append(run.stats.newton_iterations)
         assert found[1] < max(0.04 * found[0], 5e-6)
         assert iterations[1] < 80
+
+    @pytest.mark.parametrize("step", [5e-5, 2.5e-5, 1e-5])
+    def test_beside_one_with_friction(self, step):
+        """A second correction that is larger, as friction follows multipliers, was taken for round-off."""
+        model = RandomModel(30).model
+        run = ancf.simulate(model, t_end=2e-3, step=step)
+        force = np.linalg.norm(run.multiplier("slide of ring along b1"), axis=1)
+        assert np.max(force) < 2.0 * force[0]
 
     @pytest.mark.parametrize("joint", JOINTS)
     @pytest.mark.parametrize("method", ["index1", "index2", "ggl"])

@@ -9,6 +9,7 @@ import os
 from typing import Any
 
 from ancf import compiled
+from ancf.asked import OF_SENSITIVITIES
 
 _OPERATIONS = {
     "force": "add_force",
@@ -19,18 +20,7 @@ _OPERATIONS = {
     "inverted": "inverted",
     "measure": "measure",
     "remember": "remember",
-    "rate_stiffness": "add_rate_stiffness",
-    "rate_work": "add_rate_work",
-    "tangent_work": "add_tangent_work",
-    "number_work": "add_number_work",
-    "changes": "add_changes",
-    "work_slopes": "add_work_slopes",
-    "force_slopes": "add_force_slopes",
-    "slopes_beside": "add_slopes_beside",
-    "memory_choice": "choose_memory",
-    "memory_slopes": "add_memory_slopes",
-    "memory_along": "remember_along",
-    "memory_changes": "add_memory_changes",
+    **{name: stub.__name__ for name, stub in OF_SENSITIVITIES.items()},
 }
 _DEFAULTS = {
     "inertia": compiled.no_inertia,

@@ -204,13 +204,16 @@ def newton(core, s, h, rule, modified, B, G, apart):
             if rule.corotate and modified:
                 count(s, iteration + 1.0, fresh)
             return OK
-        if fresh and theta > rule.contraction and size <= noise:
+        # one that is no smaller may make up for what the matrix lacks, as friction by multipliers: two tell
+        tiny = fresh and size <= noise
+        if tiny and older > 0.0 and norm > rule.contraction * max(old, older):
             s.memo[NOISE], s.memo[ETA] = 2.0 * norm, 1.0
             return OK
         if not modified and 0.0 < rule.contraction * last < norm and size <= TINIEST:
             return OK
         last = norm
-        if size > FLOWN or theta >= GROWN or (theta >= 1.0 and fresh and iteration > tries):
+        grows = theta >= GROWN or (theta >= 1.0 and fresh and iteration > tries)
+        if size > FLOWN or (grows and not tiny):
             return DIVERGED
         # of a taut wire position and slope take turns: two corrections tell how fast they shrink
         rate = math.sqrt(norm / older) if older > 0.0 and taut else theta

@@ -45,6 +45,7 @@ PROBE, NOTHING = 1e-7, 1e-300  # of differences, positions in sizes of the model
 LEFT_OVER, DIRECTIONS = 1e-3, 40  # of the residual by GMRES, and how many directions it looks in
 OUTWEIGHED = 2.0  # times mu: what holds a vibration of this square is more than mu
 UNCARRIED = 1e-3  # of what joints have to carry, with the right multipliers
+ENDLESS = 1e4  # times that are multipliers of a joint without a direction
 COUNTED_MU = 1e-9  # with which pivots are counted where a body has no stiffness of its own
 
 
@@ -183,9 +184,9 @@ class Iteration:
         alone[unknown] = 0.0
         left, carried = (self.out_of_balance(q, share) for q in (self.q, alone))
         left[self.system.multipliers] = carried[self.system.multipliers] = 0.0
-        if not np.max(np.abs(left)) > UNCARRIED * np.max(np.abs(carried)) + ROUND_OFF * largest_stiffness(
-            self.system
-        ):
+        most = float(np.max(np.abs(carried)))
+        balanced = np.max(np.abs(left)) <= UNCARRIED * most + ROUND_OFF * largest_stiffness(self.system)
+        if balanced or np.max(np.abs(self.q[unknown])) <= ENDLESS * most:
             return None
         worst = unknown[int(np.argmax(np.abs(self.q[unknown])))]
         owners = self.system.numbering.multipliers.items()
