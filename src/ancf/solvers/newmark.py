@@ -204,9 +204,10 @@ def newton(core, s, h, rule, modified, B, G, apart):
             if rule.corotate and modified:
                 count(s, iteration + 1.0, fresh)
             return OK
-        # one that is no smaller may make up for what the matrix lacks, as friction by multipliers: two tell
+        # of joints one may make up for what the matrix lacks, as friction by multipliers: two have to tell
         tiny = fresh and size <= noise
-        if tiny and older > 0.0 and norm > rule.contraction * max(old, older):
+        alike = theta > rule.contraction and (not has_joints or 0.0 < rule.contraction * older < norm)
+        if tiny and alike:
             s.memo[NOISE], s.memo[ETA] = 2.0 * norm, 1.0
             return OK
         if not modified and 0.0 < rule.contraction * last < norm and size <= TINIEST:
