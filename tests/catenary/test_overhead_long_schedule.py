@@ -9,7 +9,8 @@ import pytest
 
 from ancf import catenary
 from ancf.catenary import Auxiliary, DropperRule, Droppers, Wire
-from ancf.catenary.long_schedule import COLUMNS, long_rows, save_long_schedule
+from ancf.catenary.long_schedule import long_rows, save_long_schedule
+from ancf.catenary.schedule import LONG_COLUMNS
 from ancf.cli.catenary import show_form
 from overhead_lines import COARSE, LENGTHS, TOML, short_line
 
@@ -102,6 +103,6 @@ def test_the_command_prints_and_writes_it(long, tmp_path, capsys):
         again = save_long_schedule(found, tmp_path / "again.csv")
         assert again.read_text(encoding="utf-8") == file.read_text(encoding="utf-8")
         heads, *rows = csv.reader(file.read_text(encoding="utf-8").splitlines())
-        assert tuple(heads) == COLUMNS
+        assert tuple(heads) == LONG_COLUMNS
         told = np.array([float(row[5]) for row in rows])
         assert told == pytest.approx(1e3 * found.long_droppers.natural, abs=0.05)

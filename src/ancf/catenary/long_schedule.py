@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -10,41 +9,7 @@ import numpy as np
 from .conditions import expansion
 from .form import Form
 from .route_form import AnyForm
-from .schedule import texts, write_rows
-
-
-@dataclass(frozen=True, slots=True)
-class LongRow:
-    """One dropper between messenger and auxiliary.
-
-    Attributes
-    ----------
-    span, dropper : int
-        Counted from 1.
-    position : float, m
-        From the start of the span.
-    track : float, m
-        From the first support.
-    length : float, mm
-        From clamp to clamp, hanging under its load.
-    natural : float, mm
-        From clamp to clamp, unstretched at the temperature of the design: what is cut.
-    load : float, N
-        Tension at the lower end, without the dropper's own weight.
-
-    """
-
-    span: int
-    dropper: int
-    position: float
-    track: float
-    length: float
-    natural: float
-    load: float
-
-
-#: Heads of the columns of the CSV file, in the order of the fields.
-COLUMNS = ("span", "dropper", "position_m", "track_m", "length_mm", "natural_length_mm", "load_N")
+from .schedule import LONG_COLUMNS, LongRow, texts, write_rows
 
 
 def long_rows(found: AnyForm) -> list[LongRow]:
@@ -81,4 +46,4 @@ def _of_part(form: Form, start: float, before: int) -> list[LongRow]:
 
 def save_long_schedule(found: AnyForm, path: Path) -> Path:
     """Write the rows as CSV; ModelError if the file cannot be written."""
-    return write_rows([texts(row) for row in long_rows(found)], COLUMNS, path)
+    return write_rows([texts(row) for row in long_rows(found)], LONG_COLUMNS, path)

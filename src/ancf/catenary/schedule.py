@@ -15,8 +15,8 @@ from .route import Route
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
-    """One dropper.
+class LongRow:
+    """One dropper, whatever wires it is between.
 
     Attributes
     ----------
@@ -31,9 +31,7 @@ class Row:
     natural : float, mm
         From clamp to clamp, unstretched at the temperature of the design: what is cut.
     load : float, N
-        Tension at the lower end: what the contact wire hangs with, without the dropper's own weight.
-    contact_height, messenger_height : float, mm
-        Of the wires there, over the nominal height of the contact wire.
+        Tension at the lower end, without the dropper's own weight.
 
     """
 
@@ -44,22 +42,26 @@ class Row:
     length: float
     natural: float
     load: float
+
+
+@dataclass(frozen=True, slots=True)
+class Row(LongRow):
+    """One dropper to the contact wire, which hangs with its load.
+
+    Attributes
+    ----------
+    contact_height, messenger_height : float, mm
+        Of the wires there, over the nominal height of the contact wire.
+
+    """
+
     contact_height: float
     messenger_height: float
 
 
 #: Heads of the columns of the CSV file, in the order of the fields.
-COLUMNS = (
-    "span",
-    "dropper",
-    "position_m",
-    "track_m",
-    "length_mm",
-    "natural_length_mm",
-    "load_N",
-    "contact_height_mm",
-    "messenger_height_mm",
-)
+LONG_COLUMNS = ("span", "dropper", "position_m", "track_m", "length_mm", "natural_length_mm", "load_N")
+COLUMNS = (*LONG_COLUMNS, "contact_height_mm", "messenger_height_mm")
 DECIMALS = (0, 0, 3, 3, 1, 1, 1, 1, 1)
 
 

@@ -12,8 +12,8 @@ from .screen import Screen, console, table
 
 if TYPE_CHECKING:
     from ..catenary import Elasticity, Line, Route
-    from ..catenary.long_schedule import LongRow
     from ..catenary.route_form import AnyForm
+    from ..catenary.schedule import LongRow
 
 
 def show_form(name: str, output: Path | None, quiet: bool = False, given: list[str] | None = None) -> None:
