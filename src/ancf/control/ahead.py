@@ -134,6 +134,15 @@ class Ahead:
             found.append(([3 * load + part for part in parts], name, formula))
         return found
 
+    def rewound(self) -> None:
+        """The run is elsewhere now: go on from there with the tables that are made, if they reach there."""
+        at = self.run.done - self.base
+        if not 0 <= at <= self.made:
+            self.base, self.rows, self.made, at = self.run.done, 0, 0, 0
+            self.coming = self.next = None
+        self.at = self.given = self.handed = at
+        self.rows, self.width, self.sure = max(self.rows, at), 1, False
+
     def bridge(self) -> None:
         """A step that has failed, in smaller ones; if these fail too, everything is as it was before."""
         run, before = self.run, self.run.snapshot()

@@ -14,7 +14,7 @@ from ..files import writing
 from ..model import checks
 from ..model.integrators import Integrator, Radau, integrator_from
 from ..model.model import Model
-from ..model.settings import MOST_STEPS
+from ..model.settings import FITS, MOST_STEPS
 from ..preparation import Prepared, compiled, method_of, prepared
 from ..results.checkpoints import Checkpoint
 from ..results.given import Given, gone_on
@@ -87,10 +87,64 @@ class Stepper(Live):
                 run.take(1, heeded(self.system, self._store))
                 self._store.forget()
         except (SolveError, ModelError):
-            run.restore(before)
+            run.put_back(before)
             raise
         finally:
             self.look()
+
+    def snapshot(self) -> Checkpoint:
+        """All that decides how the run goes on from now, for :meth:`restore`.
+
+        Returns
+        -------
+        Checkpoint
+            It has the time as ``snapshot.t``, s, and can be pickled; its size is that of some fifty
+            state vectors, most of it a matrix that is kept.
+        """
+        rows = 0
+        if self.system.sensors:
+            if self._ahead is not None:
+                self._ahead.hand_over()
+            rows = self._store.recorded
+        return Checkpoint(self._run.snapshot(), 1, rows)
+
+    def restore(self, checkpoint: Checkpoint) -> None:
+        """Go back to a snapshot: the run goes on from there to the same bits, its inputs as they were then.
+
+        What was recorded since is forgotten. Of a line whose spans sleep (``reduce=True``) the matrix is made
+        anew, so that it goes on but for what Newton's method leaves, here 0.04 N of a contact force.
+
+        Parameters
+        ----------
+        checkpoint : Checkpoint
+            From :meth:`snapshot` of this run, or of another one of the same model, step and integrator.
+
+        Raises
+        ------
+        ModelError
+            It is none, or does not fit; the run is then where it was.
+        """
+        if self._ahead is not None:
+            self._ahead.hand_over()
+        self._check_checkpoint(checkpoint)
+        self._run.put_back(checkpoint.snapshot)
+        self._store.unrecord(checkpoint.samples)
+        if self._made.given is not None:
+            self._made.given.back(checkpoint.snapshot.t, self.system.inputs.given)
+        if self._ahead is not None:
+            self._ahead.rewound()
+        self.look()
+
+    def _check_checkpoint(self, given: Any) -> None:
+        where, run = "restore.checkpoint", self._run
+        if not isinstance(given, Checkpoint):
+            raise ModelError(where, f"must be what run.snapshot() gave, is {checks.shown(given)}")
+        t, done = given.snapshot.t, given.snapshot.values["done"]
+        if abs(t - (run.t_start + done * run.h)) > FITS * run.h:
+            what = f"is of step {done} at t = {t:.6g} s, where this run is not with steps of {run.h:g} s"
+            raise ModelError(where, what, "give one of a run with the same start and step")
+        if self.system.sensors and given.samples > self._store.recorded:
+            raise ModelError(where, "is later than this run, which has not recorded so much")
 
     @property
     def sensors(self) -> Sensors:
@@ -245,9 +299,8 @@ def _gone_on(model: Model, file: str | Path) -> Stepper:
     method = integrator_from(settings["integrator"], settings["method"])
     refuse_adaptive(method, "stepper")
     t0, step, listed = settings["t_start"], settings["step"], settings["sensors"]
-    t_end, ends = t0 + MOST_STEPS * step, by_ends(old.listing(model.bodies), model.connections)
-    made = compiled(model, method, t0, t_end, step, None, listed or None, settings["energy"], "stepper", ends)
-    made.run.restore(found.snapshot)
+    ends = by_ends(old.listing(model.bodies), model.connections)
+    made = _made_again(model, method, t0, step, listed or None, settings["energy"], ends, found)
     if listed:
         made = made._replace(given=gone_on(old.given, t0, found.snapshot.t, made.system.inputs.given, True))
     run = Stepper(made)
@@ -256,3 +309,31 @@ def _gone_on(model: Model, file: str | Path) -> Stepper:
         values = np.concatenate([samples[k][: found.samples] for k in ("q", "v", "measured")], axis=1)
         run._store.record(samples["time"][: found.samples], values)
     return run
+
+
+def gone_on_from(model: Model, checkpoint: Checkpoint, method: Integrator, step: float) -> Stepper:
+    """A stepper without sensors and accounts of energy, from the snapshot of one like it that began at 0 s.
+
+    Raises
+    ------
+    ModelError
+        The snapshot is of another model.
+    """
+    return Stepper(_made_again(model, method, 0.0, step, None, False, False, checkpoint))
+
+
+def _made_again(
+    model: Model,
+    method: Integrator,
+    t0: float,
+    step: float,
+    sensors: Sequence[Any] | None,
+    energy: bool,
+    ends: bool,
+    checkpoint: Checkpoint,
+) -> Prepared:
+    """A run that stands where another one of the same model left a snapshot."""
+    t_end = t0 + MOST_STEPS * step
+    made = compiled(model, method, t0, t_end, step, None, sensors, energy, "stepper", ends)
+    made.run.restore(checkpoint.snapshot)
+    return made

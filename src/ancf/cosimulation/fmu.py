@@ -24,6 +24,11 @@ from .outputs import Output, outputs_of
 #: Library that builds a unit, by version.
 LIBRARIES = {"2.0": "pythonfmu", "3.0": "pythonfmu3"}
 EXTRA = "pip install 'ancf[fmu]'"
+#: What a unit can do beside taking steps, by version.
+ABILITIES = {
+    "2.0": {"canGetAndSetFMUstate": True, "canSerializeFMUstate": True},
+    "3.0": {"canGetAndSetFMUState": True, "canSerializeFMUState": True},
+}
 
 _SCRIPT = '''"""{title}: a model of ancf for co-simulation by FMI {version}.
 
@@ -36,7 +41,7 @@ from xml.etree.ElementTree import SubElement
 from {library} import {words}
 from {library}.enums import Fmi{n}Status
 
-from ancf.cosimulation.motion import MODEL, Motion
+from ancf.cosimulation.motion import MODEL, Kept, Motion
 from ancf.errors import ModelError, SolveError
 
 
@@ -82,6 +87,20 @@ class {name}(Fmi{n}Slave):
             self.log(str(error), Fmi{n}Status.error)
             return {failed}
         return {done}
+
+    def _get_fmu_state(self):
+        return self.motion.state()
+
+    def _set_fmu_state(self, state):
+        self.motion.restore(state)
+
+    @staticmethod
+    def _fmu_state_to_bytes(state):
+        return state.to_bytes()
+
+    @staticmethod
+    def _fmu_state_from_bytes(state):
+        return Kept.from_bytes(state)
 '''
 _WORDS = {
     "2.0": {
@@ -167,7 +186,7 @@ def export_fmu(path: Path, output: Path, version: str = "3.0") -> Unit:
         script = Path(folder, f"{name.lower()}_slave.py")
         words = {"title": title, "version": version, "library": LIBRARIES[version], "name": name}
         script.write_text(_SCRIPT.format(**words, **_WORDS[version]), "utf-8")
-        made = _build(builder, script, Path(folder, "made"), files)
+        made = _build(builder, script, Path(folder, "made"), files, ABILITIES[version])
         with writing(output):
             shutil.move(made, output)
     return Unit(list(first), outputs)
@@ -183,14 +202,16 @@ def _builder(version: str) -> Any:
         raise ModelError("export-fmu", f"needs {LIBRARIES[version]}, which is not installed", EXTRA) from None
 
 
-def _build(builder: Any, script: Path, folder: Path, files: tuple[Path, ...]) -> Path:
+def _build(
+    builder: Any, script: Path, folder: Path, files: tuple[Path, ...], abilities: dict[str, bool]
+) -> Path:
     """Let the library write the unit; it imports the script from a folder on the path."""
     folder.mkdir()
     before, level = list(sys.path), logging.root.manager.disable
     sys.path.insert(0, str(script.parent))
     logging.disable(logging.INFO)
     try:
-        return Path(builder.build_FMU(script, dest=folder, project_files=set(files)))
+        return Path(builder.build_FMU(script, dest=folder, project_files=set(files), **abilities))
     finally:
         logging.disable(level)
         sys.path[:] = before

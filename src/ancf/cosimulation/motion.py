@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from pathlib import Path
 
 from ..analysis import equilibrium
-from ..control.stepper import Stepper, stepper
+from ..control.stepper import Stepper, gone_on_from, stepper
 from ..errors import ModelError
 from ..model.file import Study, read_study
 from ..model.model import Model
 from ..model.settings import FITS, SimulationSettings
+from ..results.checkpoints import Checkpoint, from_bytes, to_bytes
 from .outputs import Output
 
 #: Files in a unit.
@@ -88,6 +90,75 @@ class Motion:
             raise ModelError("do_step.interval", what, "change the communication step, or simulation.step")
         self.run.advance(last - self._done)
         self._done = last
+
+    def state(self) -> Kept:
+        """All that decides how it goes on, for :meth:`restore`."""
+        run = None if self._run is None else self._run.snapshot()
+        return Kept(dict(self.inputs), self._start, self._done, run)
+
+    def restore(self, kept: Kept) -> None:
+        """Be as when a state was taken, of this motion or of one of the same unit in another process.
+
+        Raises
+        ------
+        ModelError
+            The state is of another unit.
+        """
+        if kept.inputs.keys() != self.inputs.keys():
+            raise ModelError("state", f"is of a unit with the inputs {', '.join(kept.inputs) or 'none'}")
+        if kept.run is None:
+            self._run = None
+        elif self._run is None:
+            settings = settings_of(self.study)
+            self._run = gone_on_from(self.study.model, kept.run, settings.integrator, settings.step)
+        else:
+            self._run.restore(kept.run)
+        self.inputs = dict(kept.inputs)
+        self._start, self._done = kept.start, kept.done
+
+
+@dataclass(frozen=True)
+class Kept:
+    """State of a motion.
+
+    Parameters
+    ----------
+    inputs : dict of str to float
+    start : float, s
+        Time of the other program at which the run began.
+    done : int
+        Steps since then.
+    run : Checkpoint or None
+        None: it has not begun.
+    """
+
+    inputs: dict[str, float]
+    start: float
+    done: int
+    run: Checkpoint | None
+
+    def to_bytes(self) -> bytes:
+        """The state as bytes: a line of JSON, and the snapshot of the run."""
+        head = {name: getattr(self, name) for name in ("inputs", "start", "done")}
+        return json.dumps(head).encode() + b"\n" + (b"" if self.run is None else to_bytes(self.run))
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> Kept:
+        """The state that :meth:`to_bytes` wrote.
+
+        Raises
+        ------
+        ModelError
+            The bytes are not all of one.
+        """
+        try:
+            head, _, rest = bytes(data).partition(b"\n")
+            made = cls(**json.loads(head), run=from_bytes(rest) if rest else None)
+        except (TypeError, ValueError) as error:
+            raise ModelError("state", f"is none of this package: {error}") from None
+        if rest and made.run is None:
+            raise ModelError("state", "is not whole", "take it again")
+        return made
 
 
 def settings_of(study: Study) -> SimulationSettings:

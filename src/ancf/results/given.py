@@ -59,6 +59,10 @@ class Given:
             made.note(t, values)
         return made
 
+    def back(self, t: float, values: Mapping[str, float]) -> None:
+        """Forget what was given after t, s, when the inputs had these values."""
+        self._rows = self.until(t, values)._rows
+
     @property
     def count(self) -> int:
         """Number of rows."""

@@ -96,8 +96,7 @@ class MemoryStore:
 
     def keep(self, snapshot: Snapshot) -> None:
         """Take a snapshot from which a run can go on when the result has been saved."""
-        rows, samples = (sum(len(part[0]) for part in parts) for parts in (self._parts, self._samples))
-        self.checkpoint = Checkpoint(snapshot, rows, samples)
+        self.checkpoint = Checkpoint(snapshot, sum(len(part[0]) for part in self._parts), self.recorded)
 
     def forget(self) -> None:
         """Let go of the states; samples stay."""
@@ -106,6 +105,18 @@ class MemoryStore:
     def record(self, t: FloatArray, samples: FloatArray) -> None:
         """Add samples."""
         self._samples.append((t, samples))
+
+    @property
+    def recorded(self) -> int:
+        """How many rows of samples there are."""
+        return sum(len(t) for t, _ in self._samples)
+
+    def unrecord(self, rows: int) -> None:
+        """Let go of the samples behind so many rows."""
+        while self._samples and self.recorded > rows:
+            t, samples = self._samples.pop()
+            if (left := rows - self.recorded) > 0:
+                self._samples.append((t[:left].copy(), samples[:left].copy()))
 
     @property
     def samples(self) -> dict[str, FloatArray]:

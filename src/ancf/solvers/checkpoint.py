@@ -84,23 +84,27 @@ def copies(roots: Mapping[str, Any]) -> Arrays:
     return {place: array.copy() for place, array in distinct(roots).items()}
 
 
-def refill(roots: Mapping[str, Any], saved: Mapping[str, NDArray[Any]]) -> None:
-    """Put saved values into arrays that are there; those of other roots are left out.
+Pairs = list[tuple[NDArray[Any], NDArray[Any]]]
+
+
+def matched(there: Arrays, saved: Mapping[str, NDArray[Any]]) -> Pairs:
+    """Arrays that are there with what was saved of them; what is below other roots is left out.
 
     Raises
     ------
     ModelError
         An array is missing, or has another shape.
     """
-    there = distinct(roots)
+    roots, pairs = {place.split(".", 1)[0] for place in there}, []
     for place, values in saved.items():
         if place.split(".", 1)[0] not in roots:
             continue
         mine = there.get(place)
         if mine is None or mine.shape != values.shape or mine.dtype != values.dtype:
             what = f'its array "{place}" does not fit the model that was compiled'
-            raise ModelError("checkpoint", what, "resume with the model and the version that made it")
-        mine[...] = values
+            raise ModelError("checkpoint", what, "go on with the model and the version that made it")
+        pairs.append((mine, values))
+    return pairs
 
 
 class Watched:
@@ -113,12 +117,12 @@ class Watched:
     """
 
     def __init__(self, system: System) -> None:
-        self._roots = {
+        roots = {
             "parts": system.parts,
             "level": system.level,
             "core": system.core._replace(batches=Batches(), external=Batches()),
         }
-        self._arrays = distinct(self._roots)
+        self._arrays = distinct(roots)
         self._before = {place: array.tobytes() for place, array in self._arrays.items()}
 
     def changed(self) -> Arrays:
@@ -129,10 +133,29 @@ class Watched:
             if array.tobytes() != self._before[place]
         }
 
-    def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:
-        """Let the system be as it was when `saved` was taken; what is not in there is as it was compiled."""
+    def fitting(self, own: Mapping[str, Any], snapshot: Snapshot, names: tuple[str, ...]) -> Pairs:
+        """Arrays of the system, and of a run's own roots, with what a snapshot has of them.
+
+        Raises
+        ------
+        ModelError
+            It is of another system or method: the values with these names are not there.
+        """
+        if not set(names) <= snapshot.values.keys():
+            raise ModelError(
+                "checkpoint", "is of another kind of integrator", "go on with the one that made it"
+            )
+        return matched({**self._arrays, **distinct(own)}, snapshot.arrays)
+
+    def restore(self, saved: Mapping[str, NDArray[Any]], pairs: Pairs | None = None) -> None:
+        """Let the system be as it was when `saved` was taken; what is not in there is as it was compiled.
+
+        ``pairs``: those of :meth:`fitting`, default those of the system alone.
+        """
+        pairs = matched(self._arrays, saved) if pairs is None else pairs
         for place, array in self._arrays.items():
             before = self._before[place]
             if place not in saved and array.tobytes() != before:
                 array[...] = np.frombuffer(before, dtype=array.dtype).reshape(array.shape)
-        refill(self._roots, saved)
+        for mine, values in pairs:
+            mine[...] = values

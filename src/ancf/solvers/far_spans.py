@@ -128,6 +128,17 @@ class FarSpans:
             self.far.part[parts, CALM] = int(self.far.memo[CALMED])
             self._go_to_sleep([k for k in self._calm() if k in parts])
 
+    def sleepers(self) -> dict[str, list[int]]:
+        """Which parts sleep, and how long each has been calm, for a snapshot of the run."""
+        part = self.far.part
+        return {"asleep": np.flatnonzero(part[:, ASLEEP]).tolist(), "calm": part[:, CALM].tolist()}
+
+    def put_back(self, sleepers: dict[str, list[int]]) -> None:
+        """Let sleep what slept at a snapshot, in whose state all are awake now."""
+        if sleepers["asleep"]:
+            self._go_to_sleep(sleepers["asleep"])
+        self.far.part[:, CALM] = sleepers["calm"]
+
     def _calm(self) -> list[int]:
         """Parts that may sleep."""
         part, memo, near = self.far.part, self.far.memo, self._distances()

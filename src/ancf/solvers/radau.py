@@ -192,6 +192,7 @@ class Stepper:
         self.q, self.v, self.a, self.scale = (
             arrays[f"stepper.{name}"].copy() for name in ("q", "v", "a", "scale")
         )
+        self.last = None
         if "last.t" in values:
             own = {name: arrays[f"stepper.last.{name}"].copy() for name in LAST}
             self.last = Step(values["last.t"], values["last.h"], **own, rates=self.rates, method=self.method)

@@ -15,7 +15,7 @@ from ..system.energy import energies
 from ..system.system import System
 from . import failures
 from .bridge import MOST_HALVINGS
-from .checkpoint import Snapshot, Watched, copies, refill
+from .checkpoint import Snapshot, Watched, copies
 from .control import Control
 from .events import happen
 from .radau import Step, Stepper
@@ -108,14 +108,13 @@ class RadauRun:
         free = self.problem.free
         self.stepper.start(self.t_start, q[free], v[free], a[free])
         self.next = max(min(self.h, self.longest), self.shortest)
-        self._compile(q[free], v[free], a[free])
+        self._compile()
 
-    def _compile(self, q: FloatArray, v: FloatArray, a: FloatArray) -> None:
+    def _compile(self) -> None:
         """Evaluate everything once, outside the CPU time of the run."""
-        t = np.array([self.stepper.t])
-        self.problem.residuals(t, q[None], v[None], a[None])
-        self.problem.powers(t, q[None], v[None], a[None])
-        self.problem.placed(t, q[None], v[None], a[None])
+        s, problem = self.stepper, self.problem
+        for evaluate in (problem.residuals, problem.powers, problem.placed):
+            evaluate(np.array([s.t]), s.q[None], s.v[None], s.a[None])
 
     def snapshot(self) -> Snapshot:
         """All that decides how the run goes on, copied."""
@@ -128,17 +127,19 @@ class RadauRun:
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go on from a snapshot, in place of :meth:`start`; see :class:`ancf.solvers.stepping.Run`."""
+        pairs = self.watched.fitting({"work": self.work, "base": self.problem.base}, snapshot, KEPT)
+        self.watched.restore(snapshot.arrays, pairs)
         for name, value in snapshot.values["inputs"].items():
             self.system.inputs.give(name, value)
-        refill({"work": self.work, "base": self.problem.base}, snapshot.arrays)
         for name in KEPT:
             setattr(self, name, snapshot.values[name])
         self.problem.spacing = snapshot.values["spacing"]
         self.stepper.restore(snapshot.values["stepper"], snapshot.arrays)
         self.begun = True
-        s = self.stepper
-        self._compile(s.q, s.v, s.a)
-        self.watched.restore(snapshot.arrays)  # last: the others have evaluated forces and matrices
+        self._compile()
+        self.watched.restore(snapshot.arrays, pairs)  # once more: forces and matrices were evaluated
+
+    put_back = restore
 
     def go(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
         """Take all steps that are left."""

@@ -41,6 +41,10 @@ class AnyRun(Protocol):
         """Go on from a snapshot, in place of :meth:`start`."""
         ...
 
+    def put_back(self, snapshot: Snapshot) -> None:
+        """Be as when a snapshot of this run, or of one that is made alike, was taken."""
+        ...
+
     def go(self, recorder: Recorder, progress: Callable[[Progress], None] | None) -> None:
         """Take all steps that are left."""
         ...

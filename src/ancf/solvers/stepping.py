@@ -24,7 +24,7 @@ from .asleep import Asleep
 from .balance import begin_account
 from .block import implicit_block, kernels_of
 from .bridge import Bridge
-from .checkpoint import Snapshot, Watched, copies, refill
+from .checkpoint import Snapshot, Watched, copies
 from .control import Control
 from .corotation import flies, turning_nodes
 from .corrections import UNLIMITED
@@ -140,17 +140,16 @@ class Run(Asleep):
         return n, status
 
     def snapshot(self) -> Snapshot:
-        """All that decides how the run goes on, copied; of a line as if no part of it slept."""
-        with self.awake():
-            return self._snapshot()
-
-    def _snapshot(self) -> Snapshot:
+        """All that decides how the run goes on, copied; of a line as if no part of it slept, and which do."""
         values = {name: getattr(self, name) for name in self.KEPT}
         values |= {"parts": self.bridge.parts, "inputs": dict(self.system.inputs.given)}
+        if self.far is not None:
+            values["sleep"] = self.far.sleepers()
         if self.control is not None:
             values["controller"] = self.control.kept(self.done)
-        own = copies({"memory": self.memory, "energy0": self.energy0})
-        return Snapshot(self.time(self.done), values, {**self.watched.changed(), **own})
+        with self.awake():
+            own = copies({"memory": self.memory, "energy0": self.energy0})
+            return Snapshot(self.time(self.done), values, {**self.watched.changed(), **own})
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go on from a snapshot, in place of :meth:`start`.
@@ -160,14 +159,18 @@ class Run(Asleep):
         ModelError
             It is of another model, or another method.
         """
-        self._compile(self.system.inputs.tables(snapshot.t - self.h, self.h, 1, self.t_start, self.t_end))
         self.energy0 = np.zeros(3)
+        self._compile(self.system.inputs.tables(snapshot.t - self.h, self.h, 1, self.t_start, self.t_end))
         self.put_back(snapshot)
 
     def put_back(self, snapshot: Snapshot) -> None:
-        """Be as when a snapshot was taken."""
-        refill({"memory": self.memory, "energy0": self.energy0}, snapshot.arrays)
-        self.watched.restore(snapshot.arrays)
+        """Be as when a snapshot was taken; one that does not fit is an error, and nothing has changed."""
+        pairs = self.watched.fitting({"memory": self.memory, "energy0": self.energy0}, snapshot, self.KEPT)
+        if self.far is not None:
+            self.far.wake_all()
+        self.watched.restore(snapshot.arrays, pairs)
+        if self.far is not None:
+            self.far.put_back(snapshot.values["sleep"])
         for name in self.KEPT:
             setattr(self, name, snapshot.values[name])
         self.bridge.parts = snapshot.values["parts"]
