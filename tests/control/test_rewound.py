@@ -84,10 +84,20 @@ def test_inputs_of_then(way):
     assert same(columns(run), columns(plain))
 
 
+def shaken():
+    """A cable whose support moves: its motions are tabulated piece by piece."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e3, EI=0.1, rhoA=0.2, axial_damping=1.0)
+    cable = model.add_beam("cable", start=(0, 0, 0), end=(1, 0, 0), elements=3, section=section)
+    model.pin(cable.start, displacement=("0.1*sin(20*t)", 0.0, "0.05*sin(31*t)"))
+    return model
+
+
+@pytest.mark.parametrize("build", [pushed, shaken])
 @pytest.mark.parametrize("far", [100, 400, 700])
-def test_forward_again(far):
+def test_forward_again(far, build):
     """To a later snapshot, within and beyond what is tabulated ahead."""
-    run = ancf.stepper(pushed(), step=1e-3)
+    run = ancf.stepper(build(), step=1e-3)
     start = run.snapshot()
     run.advance(far)
     later = run.snapshot()
