@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.model.joints import Slide
 from helpers import EXACT, arc, soft
 from motions import momentum
 from random_models import RandomModel
@@ -155,6 +156,17 @@ class TestForcesOfJoints:
         run = ancf.simulate(model, t_end=2e-3, step=step)
         force = np.linalg.norm(run.multiplier("slide of ring along b1"), axis=1)
         assert np.max(force) < 2.0 * force[0]
+
+    @pytest.mark.parametrize("seed", [5, 17, 30, 55, 142])
+    @pytest.mark.parametrize("step", [2.5e-5, 1e-5])
+    def test_beside_all_kinds(self, step, seed):
+        """Frames of nodes far away turned the rows of the joint: 3 N of 4 N were noise after 200 steps."""
+        model = RandomModel(seed).model
+        run = ancf.simulate(model, t_end=200 * step, step=step)
+        for joint in (c.name for c in model.connections if isinstance(c, Slide)):
+            force = run.joint_force(joint)
+            noise = np.max(np.abs(np.diff(force[20:], 3, axis=0))) / 8
+            assert noise < 1e-3 * np.max(np.abs(force))
 
     @pytest.mark.parametrize("joint", JOINTS)
     @pytest.mark.parametrize("method", ["index1", "index2", "ggl"])

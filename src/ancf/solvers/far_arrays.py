@@ -181,12 +181,7 @@ def _lanes(columns: FloatArray) -> FloatArray:
 def _entries(system: System, edge: IntArray) -> IntArray:
     """Places in the values of the iteration matrix of all pairs of a boundary's unknowns, -1: none."""
     i, j = (x.ravel() for x in np.meshgrid(edge, edge, indexing="ij"))
-    places = system.places
-    bi, bj = i // 6, j // 6
-    key = bi * places.n + bj
-    k = np.minimum(np.searchsorted(places.key, key), len(places.key) - 1)
-    there = (bi == bj) | ((bi > bj) & (places.key[k] == key))
-    return np.where(there, places.of(i, j), -1)
+    return system.places.of(i, j)
 
 
 def _extent(part: Part, rest: FloatArray) -> tuple[float, float]:

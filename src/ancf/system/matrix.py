@@ -38,11 +38,13 @@ class Places:
         return 36 * (self.n + len(self.column))
 
     def of(self, i: IntArray, j: IntArray) -> IntArray:
-        """Places of the entries (i, j) of unknowns, -1 above the diagonal blocks or for i, j < 0."""
+        """Places of the entries (i, j) of unknowns, -1: above the diagonal blocks, none, or i, j < 0."""
         (bi, ri), (bj, cj) = divmod(i, 6), divmod(j, 6)
-        k = np.searchsorted(self.key, bi * self.n + bj)
+        key = bi * self.n + bj
+        k = np.searchsorted(self.key, key)
+        stored = np.append(self.key, -1)[k] == key
         place = 36 * np.where(bi == bj, bi, self.n + k) + (6 * ri + cj)
-        return np.where((bi >= bj) & (bj >= 0), place, -1)
+        return np.where(((bi == bj) | stored) & (bi >= bj) & (bj >= 0), place, -1)
 
     def dest(self, slots: IntArray) -> IntArray:
         """Places of all 3x3 blocks of elements with these slots, shape (n, k*k)."""
