@@ -30,12 +30,15 @@ class Pushing:
         """
         start, step, first, last = when
         made = Push(np.zeros_like(q), np.zeros_like(q), np.zeros((3, *q.shape)))
-        for k, weight in enumerate(self.weights):
-            system = self.systems[k]
+        placed = []
+        for k, system in enumerate(self.systems):
             tables = system.inputs.tables(start, step, len(q), first, last)
             states = self._moved(k, q), v.copy(), a.copy()
             place_rows(system.core, tables, *states)
-            moved = any(not np.array_equal(x, y) for x, y in zip(states, (q, v, a), strict=True))
+            placed.append((system, tables, states))
+        # of all systems or of none: what nothing acts on has to cancel
+        moved = any(not np.array_equal(x, y) for *_, own in placed for x, y in zip(own, (q, v, a), strict=True))
+        for k, (weight, (system, tables, states)) in enumerate(zip(self.weights, placed, strict=True)):
             core = system.core if moved else system.core._replace(batches=self._batches[k])
             r = np.empty_like(q)
             stage_residuals(core, tables, *states, np.empty(system.size), r)
