@@ -94,3 +94,31 @@ def test_newton_and_euler(seed):
     ):
         change = np.diff(momentum, axis=0) / STEP - 0.5 * (given[1:] + given[:-1])
         assert np.max(np.abs(change)) < left * size
+
+
+def tie(world, point, stiffness):
+    for axis in np.eye(3):
+        world.model.add_spring(point, tuple(point.initial_position + 0.7 * axis), stiffness=stiffness)
+
+
+@pytest.mark.parametrize("seed", [202, 203, 208, 210, 211, 212, 220, 222, 223, 225, 227, 228, 231, 234])
+def test_a_run_from_an_equilibrium_stays_there(seed):
+    """On springs, pressed on each other, on surfaces and grounds with friction that sticks."""
+    world = World(seed, more=False)
+    for body in world.model.bodies.values():
+        body.set_motion(velocity=(0.0, 0.0, 0.0), angular_velocity=(0.0, 0.0, 0.0))
+        if hasattr(body, "centre"):
+            for arm in 0.3 * np.eye(3):
+                tie(world, body.at(*arm), 60.0)
+                tie(world, body.at(*-arm), 60.0)
+        else:
+            for x in (0.0, 0.5, 1.0):
+                tie(world, body.at(x * body.length), 30.0)
+    state = ancf.equilibrium(world.model)
+    run = ancf.simulate(world.model, t_end=0.02, step=1e-3, start=state)
+    assert max(float(state.contact_force(c)) for c in world.contacts.values()) > 0.1
+    for point in world.points:
+        assert np.max(np.abs(run.velocity(point))) < 1e-6
+    for contact in world.contacts.values():
+        force = run.contact_force(contact)
+        assert np.max(np.abs(force - state.contact_force(contact))) < 1e-6 * max(np.max(force), 1.0)
