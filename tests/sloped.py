@@ -59,6 +59,30 @@ def check_transposed(batch, system, states, x, by):
     assert np.max(np.abs(x @ found - np.einsum("ki,kin->n", by, d))) <= 1e-13 * terms
 
 
+def force_along(batch, system, states, d):
+    """Derivatives of the force along directions d (3, size, 8)."""
+    found = lane_rows(system.size)
+    along(knowing(add_force_slopes, [batch]), *states, d, found, system.core.ws)
+    return found
+
+
+def check_along(system, name, states, step=1e-6, share=1e-9, seed=5):
+    """Of a batch along eight random directions, against differences of order four; their largest entry."""
+    batch, size = system.parts[name], system.size
+    d = lane_rows(3 * size).reshape(3, size, 8)
+    d[...] = np.random.default_rng(seed).uniform(-1, 1, d.shape)
+    wanted, r, most = np.zeros((size, 8)), np.empty(size), 0.0
+    for lane in range(8):
+        for place, weight in PLACES:
+            near = [y + step * place * d[n, :, lane] for n, y in enumerate(states)]
+            residual(Batches([batch]), system.core.ws, *near, np.zeros(size), r)
+            wanted[:, lane] += weight / step * r
+            most = max(most, np.max(np.abs(r)))
+    found, largest = force_along(batch, system, states, d), np.max(np.abs(wanted))
+    assert np.max(np.abs(found - wanted)) <= share * largest + 1e-14 * most / step
+    return largest
+
+
 def check_slopes(system, name, states, x, step=1e-3, share=1e-9):
     """Of a batch by every unknown; the largest derivatives by q, v and a."""
     batch, sizes = system.parts[name], []

@@ -22,6 +22,7 @@ from .cross import (
     not_in_matrix,
     pressed_at,
 )
+from .cross_along import cross_slopes_along
 from .grip import LIMIT, OTHER, X, Y, drawn, rows_of, slopes, springs
 from .near import look_if_live
 from .strand import DAMPING, ELEMENT, POINTS, StrandBatch, find_zones
@@ -124,6 +125,8 @@ implements(
     energy=cross_energy,
     measure=cross_measure,
     remember=cross_remember,
+    force_slopes=cross_slopes_along,
+    slopes_beside=cross_slopes_along,
     inverted=cross_passed,
     early=look_everywhere,
     couples=no_pairs,
