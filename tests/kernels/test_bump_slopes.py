@@ -4,14 +4,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from test_lay_kernels import SHAPES, laid, put, stage
-from test_slopes_along import beside, lanes, tangents
 
 import ancf
-from ancf.compiled import add_force_slopes, add_slopes_beside
-from ancf.linalg.eight import lane_rows
-from ancf.linalg.sparse import to_sparse
-from ancf.solvers.rare import knowing
-from sloped import check_along, force_along
+from sloped import check_along, check_beside
 
 BELOW = SHAPES | {
     "sphere": (ancf.Sphere(0.1, (0.01, 0.02, 0.0)), 0.15),
@@ -57,13 +52,4 @@ def test_what_tangents_lack(name, damping):
     """Rates that go with the directions: all is the tangent's and what is beside it."""
     for seed in range(3):
         system, given = touching(name, 2e-3, damping, False, seed, 0.02)
-        batch, d, rate = system.parts["bumping"], lanes(system.size), 300.0
-        d[1] = rate * d[0]
-        rest, found = lane_rows(system.size), force_along(batch, system, given, d)
-        batches = knowing(add_force_slopes, [batch], add_slopes_beside)
-        beside(batches, *given, d, rest, system.core.ws)
-        A = np.zeros_like(system.core.A)
-        tangents(batches, *given[:2], A, 0.0, rate, 1.0, system.core.ws)
-        kept = to_sparse(A, system.places) @ d[0, : system.n]
-        assert np.max(np.abs((found - rest)[: system.n] - kept)) < 1e-12 * np.max(np.abs(found))
-        assert np.max(np.abs(rest)) > 1e-3 * np.max(np.abs(found))
+        assert check_beside(system, "bumping", given) > 1e-3
