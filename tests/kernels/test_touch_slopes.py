@@ -2,8 +2,12 @@
 
 import numpy as np
 import pytest
+from test_changes import forces, found_by_kernel
 
 import ancf
+from ancf.compiled import traits
+from ancf.contact.strand import DAMPING, RADIUS, STIFFNESS
+from ancf.solvers.sensitivity import Way
 from ancf.system.system import System
 from sloped import check_along
 
@@ -61,6 +65,41 @@ def test_of_cables(angle, gap, shift, elements, damping, speed):
     system = crossed(angle, gap, shift, elements, damping)
     given = moved(system, speed, by=min(1e-4, 0.1 * abs(gap)))
     assert check_along(system, "crossing", given, min(1e-7, 3e-4 * abs(gap)), 3e-8) > 1.0
+
+
+@pytest.mark.parametrize("speed", [0.03, 0.1, -0.1])
+@pytest.mark.parametrize(
+    ("angle", "gap", "shift", "elements"),
+    [
+        (1.57, -2e-4, 0.0, (4, 4)),
+        (1.0, -1e-3, 0.013, (5, 7)),
+        (0.3, -2e-4, 0.1, (4, 3)),
+        (1.2, -1e-3, 0.4995, (4, 4)),
+    ],
+    ids=["crossed", "deep", "slanted", "at ends"],
+)
+def test_of_numbers(angle, gap, shift, elements, speed):
+    """Stiffness, damping and radii of a contact, by themselves and together, against differences."""
+    system = crossed(angle, gap, shift, elements, 300.0)
+    batch, way = system.parts["crossing"], Way(*(x[None] for x in moved(system, speed)))
+    moves = [np.zeros((2, *batch.data.shape)) for _ in range(3)]
+    for move, column in zip(moves, (STIFFNESS, DAMPING, RADIUS), strict=True):
+        move[0, :, column] = batch.data[:, column]
+    radii = [np.zeros_like(batch.radius)] * 3 + [0.01 * batch.radius, np.where(batch.cable == 0, 1e-4, 0.0)]
+    moves = [*(move[0] for move in moves), np.zeros_like(batch.data), moves[0][0] + 0.01 * moves[2][0]]
+
+    def at(k, e):
+        """The batch with the k-th change."""
+        return batch._replace(data=batch.data + e * moves[k], radius=batch.radius + e * radii[k])
+
+    numbers, step = traits(batch).numbers, 1e-4
+    rates = [numbers(at(k, 1.0)) - numbers(batch) for k in range(len(moves))]
+    found = found_by_kernel(system, rates, way, "crossing")
+    for k, own in enumerate(found):
+        near = [forces(system, at(k, step * x), way) for x in (-2.0, -1.0, 1.0, 2.0)]
+        wanted = (near[0] - 8.0 * near[1] + 8.0 * near[2] - near[3]) / (12.0 * step)
+        assert np.max(np.abs(own - wanted)) <= 1e-8 * np.max(np.abs(wanted)), k
+        assert np.max(np.abs(wanted)) > 1e-6, k
 
 
 @pytest.mark.parametrize("elements", [8, 13])
