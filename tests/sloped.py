@@ -3,10 +3,11 @@
 import numpy as np
 
 import ancf
-from ancf.batches import Batches
-from ancf.compiled import add_force_slopes, add_work_slopes, does_something, kernel
+from ancf.batches import Batches, add_tangents
+from ancf.compiled import add_force_slopes, add_slopes_beside, add_work_slopes, does_something, kernel
 from ancf.linalg.eight import lane_rows
-from ancf.solvers.rare import add_all_slopes, add_slopes_along, knowing
+from ancf.linalg.sparse import to_sparse
+from ancf.solvers.rare import add_all_slopes, add_slopes_along, add_slopes_beside_all, knowing
 from ancf.system.core import drive, residual
 
 PLACES = ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12))
@@ -20,6 +21,16 @@ def slopes(batches, q, v, a, x, by_q, by_v, by_a, ws):
 @kernel
 def along(batches, q, v, a, d, r, ws):
     add_slopes_along(batches, q, v, a, d, r, ws)
+
+
+@kernel
+def beside(batches, q, v, a, d, r, ws):
+    add_slopes_beside_all(batches, q, v, a, d, r, ws)
+
+
+@kernel
+def tangents(batches, q, v, A, c_mass, c_damping, c_stiffness, ws):
+    add_tangents(batches, q, v, A, c_mass, c_damping, c_stiffness, ws)
 
 
 @kernel
@@ -57,6 +68,46 @@ def check_transposed(batch, system, states, x, by):
     along(knowing(add_force_slopes, [batch]), *states, d, found, system.core.ws)
     terms = np.sum(np.abs(by)) + np.abs(x) @ np.max(np.abs(found), axis=1)
     assert np.max(np.abs(x @ found - np.einsum("ki,kin->n", by, d))) <= 1e-13 * terms
+
+
+def force_along(batch, system, states, d):
+    """Derivatives of the force along directions d (3, size, 8)."""
+    found = lane_rows(system.size)
+    along(knowing(add_force_slopes, [batch]), *states, d, found, system.core.ws)
+    return found
+
+
+def check_along(system, name, states, step=1e-6, share=1e-9, seed=5):
+    """Of a batch along eight random directions, against differences of order four; their largest entry."""
+    batch, size = system.parts[name], system.size
+    d = lane_rows(3 * size).reshape(3, size, 8)
+    d[...] = np.random.default_rng(seed).uniform(-1, 1, d.shape)
+    wanted, r, most = np.zeros((size, 8)), np.empty(size), 0.0
+    for lane in range(8):
+        for place, weight in PLACES:
+            near = [y + step * place * d[n, :, lane] for n, y in enumerate(states)]
+            residual(Batches([batch]), system.core.ws, *near, np.zeros(size), r)
+            wanted[:, lane] += weight / step * r
+            most = max(most, np.max(np.abs(r)))
+    found, largest = force_along(batch, system, states, d), np.max(np.abs(wanted))
+    assert np.max(np.abs(found - wanted)) <= share * largest + 1e-14 * most / step
+    return largest
+
+
+def check_beside(system, name, states, rate=300.0):
+    """Rates that go with the directions: all is the tangent's and what is beside it; that, of all."""
+    batch, size = system.parts[name], system.size
+    d, rest = lane_rows(3 * size).reshape(3, size, 8), lane_rows(size)
+    d[...] = np.random.default_rng(7).uniform(-1, 1, d.shape)
+    d[1] = rate * d[0]
+    found = force_along(batch, system, states, d)
+    beside(knowing(add_force_slopes, [batch], add_slopes_beside), *states, d, rest, system.core.ws)
+    A = np.zeros_like(system.core.A)
+    tangents(Batches([batch]), *states[:2], A, 0.0, rate, 1.0, system.core.ws)
+    n, largest = system.n, np.max(np.abs(found))
+    kept = to_sparse(A, system.places) @ d[0, :n]
+    assert np.max(np.abs((found - rest)[:n] - kept)) < 1e-12 * largest
+    return np.max(np.abs(rest)) / largest
 
 
 def check_slopes(system, name, states, x, step=1e-3, share=1e-9):

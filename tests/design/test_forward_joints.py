@@ -119,3 +119,30 @@ def test_more_lanes_than_parameters():
     for name in names:
         alone = states(model, method, sensitivities=[name]).sensitivity(name)
         assert np.max(np.abs(alone.dq - whole.sensitivity(name).dq)) <= 1e-10 * np.max(np.abs(alone.dq))
+
+
+def tumbling(held):
+    """A body that tumbles freely, and one that a ball joint holds."""
+    model = ancf.Model(gravity=(0.3, 0.0, -9.81))
+    inertia = {"mass": 0.5, "inertia": (0.002, 0.003, 0.004)}
+    free = model.add_rigid_body("free", at=(0, 0, 0.2), **inertia)
+    free.set_motion(velocity=(0.1, 0, -0.3), angular_velocity=(0.5, 1.0, 0.3))
+    other = model.add_rigid_body("other", at=(0, 0, -0.1), **inertia)
+    if held:
+        model.connect(other.centre, (0, 0, -0.1))
+    else:
+        other.set_motion(angular_velocity=(0.5, 1.0, 0.3))
+    return model
+
+
+@pytest.mark.parametrize("name", ["free.inertia", "other.inertia"])
+@pytest.mark.parametrize("held", [True, False])
+@pytest.mark.parametrize("method", methods())
+def test_what_joints_bear_alone(method, held, name):
+    """The motion does not depend on how large an inertia is: the derivative is the round-off of forces."""
+    given = {"t_end": 0.02, "step": 1e-3, "integrator": methods()[method]}
+    run = ancf.simulate(tumbling(held), sensitivities=[name], **given)
+    own = run.sensitivity(name)
+    for point in ("free.at(0.1, 0, 0)", "other.at(0.1, 0, 0)"):
+        assert np.max(np.abs(own.position(point))) < 1e-12
+        assert np.max(np.abs(own.velocity(point))) < 1e-9

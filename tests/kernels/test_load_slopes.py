@@ -5,7 +5,7 @@ import pytest
 
 import ancf
 from ancf.system.system import System
-from sloped import at_time, check_slopes
+from sloped import at_time, check_beside, check_slopes
 from strained import states
 
 TIME = 0.37
@@ -53,6 +53,7 @@ def test_of_followers(element):
     system, given, x = moved(model)
     name = next(name for name in system.parts if "follow" in name)
     assert check_slopes(system, name, given, x, 1e-4)[0] > 0.0
+    assert check_beside(system, name, given) > 0.01
 
 
 def test_of_pressure():
@@ -61,6 +62,7 @@ def test_of_pressure():
     system, given, x = moved(model)
     name = next(name for name in system.parts if "pressure" in name)
     assert check_slopes(system, name, given, x)[0] > 0.0
+    assert check_beside(system, name, given) > 0.01
 
 
 def test_of_laws():
@@ -71,6 +73,7 @@ def test_of_laws():
     system, given, x = moved(model)
     name = next(name for name in system.parts if name == "force")
     assert min(check_slopes(system, name, given, x, share=3e-9)[:2]) > 0.0
+    assert check_beside(system, name, given) > 1e-3
 
 
 @pytest.mark.parametrize("height", [0.05, HILLS], ids=["plane", "hills"])

@@ -14,6 +14,7 @@ import numpy as np
 from ..compiled import Role, formula, implements, inline_kernel, kernel
 from ..records import Located
 from ..vectors import dot
+from .bump_along import bump_slopes_along, bump_slopes_beside
 from .meeting import (
     FIRST,
     RADII,
@@ -24,6 +25,7 @@ from .meeting import (
     both,
     both_rates,
     end_of,
+    factor_in,
     meet,
     share,
 )
@@ -57,14 +59,6 @@ def bumped(batch, e, q, v):
     N, by_g, by_rate = pressure(data, g, -dot(u, n))
     held, k = lost * N, (w - lost) * data[STIFFNESS]
     return x, y, n, held + k * g, lost * by_g + k, lost * by_rate, g, held
-
-
-@inline_kernel
-def factor_in(k, x, y):
-    """Factor of slot k of a row in the way of the first body past the second, at x and y in their axes."""
-    if k < 4:
-        return 1.0 if k == 0 else x[k - 1]
-    return -1.0 if k == 4 else -y[k - 5]
 
 
 @formula
@@ -229,6 +223,8 @@ implements(
     force=bump_force,
     tangent=bump_tangent,
     energy=bump_energy,
+    force_slopes=bump_slopes_along,
+    slopes_beside=bump_slopes_beside,
     measure=bump_measure,
     remember=bump_remember,
     inverted=bump_passed,

@@ -183,3 +183,11 @@ def apart_at(one, two, moving, other, c):
     x, y = in_body(one, c), in_body(two, c)
     u = less(carried(moving, x[0], x[1], x[2]), carried(other, y[0], y[1], y[2]))
     return u, x, y
+
+
+@inline_kernel
+def factor_in(k, x, y):
+    """Factor of slot k of a row in the way of the first body past the second, at x and y in their axes."""
+    if k < 4:
+        return 1.0 if k == 0 else x[k - 1]
+    return -1.0 if k == 4 else -y[k - 5]

@@ -22,12 +22,16 @@ from .cross import (
     not_in_matrix,
     pressed_at,
 )
+from .cross_along import cross_slopes_along
+from .cross_changes import cross_changes, kinds_of, numbers_of
 from .grip import LIMIT, OTHER, X, Y, drawn, rows_of, slopes, springs
 from .near import look_if_live
 from .strand import DAMPING, ELEMENT, POINTS, StrandBatch, find_zones
 
 __all__ = ["StrandBatch", "find_rows", "rows_in"]
 
+#: Fields whose sizes and numbers say nothing about forces: the list of what is near, zones, the solver's.
+WORKSPACE = ("seen", "room", "first", "near", "box", "middle", "zone", "at", "row", "basis", "small", "older")
 #: Columns of ``row``: three for each slot of both elements, then the stiffness.
 STIFF = 24
 
@@ -124,6 +128,12 @@ implements(
     energy=cross_energy,
     measure=cross_measure,
     remember=cross_remember,
+    force_slopes=cross_slopes_along,
+    slopes_beside=cross_slopes_along,
+    changes=cross_changes,
+    kinds=kinds_of,
+    numbers=numbers_of,
+    numbered=("data", "radius", *WORKSPACE),
     inverted=cross_passed,
     early=look_everywhere,
     couples=no_pairs,

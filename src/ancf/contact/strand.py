@@ -28,8 +28,11 @@ from ..vectors import dot
 #: Columns of ``data``: as those of surfaces, see :mod:`ancf.contact.touch`; the radius is the smaller one.
 RADIUS, STIFFNESS, DAMPING, FRICTION, STICK, DRAG = range(6)
 #: Columns of ``zone``: element, cell, xi from and to, element where the search begins, sum of radii, contact,
-#: arc length on the other cable.
-ELEMENT, CELL, FROM, TO, START, REACH, CONTACT, MET = range(8)
+#: arc length on the other cable, what fixes both xi.
+ELEMENT, CELL, FROM, TO, START, REACH, CONTACT, MET, AT_FROM, AT_TO = range(10)
+#: What fixes a xi of a zone: that the two touch there, or the border of a cell; else it is where an element
+#: passes the end of a cable at xi = y of element b, 2 b + y.
+TOUCHING, BORDER = -2.0, -1.0
 #: Place of ``room``: how many zones are held as they are, -1: they are found anew in each state.
 HELD = 6
 #: Gauss points of a zone and their weights: with three the energy of a crossing is 1e-3 off its force.
@@ -69,7 +72,7 @@ class StrandBatch(NamedTuple):
     last: FloatArray  # (n, 12) memory: the unknowns of base after the last step
     grip: FloatArray  # (room, 9) memory: rows of friction, see :mod:`ancf.contact.grip`
     older: FloatArray  # (room, 9) workspace, these rows before a step
-    zone: FloatArray  # (room, 8) workspace
+    zone: FloatArray  # (room, 10) workspace
     at: NDArray[np.int64]  # (room, 2) elements of rows of the matrix
     row: FloatArray  # (room, 25) these rows, and their stiffness
     basis: FloatArray  # (room, size) workspace of the solver
@@ -289,8 +292,11 @@ def past_end(batch, q, ca, left, right, b, y):
 
 
 @beginning(StrandBatch)
-def add_zone(batch, q, e, ca, cell, o, reach, met, left, right, low, mean, high, count):
-    """Add the zone of a piece of a cell with these clearances, if there is one; the number of all zones."""
+def add_zone(batch, q, e, ca, cell, o, reach, met, ends, left, right, low, mean, high, count):
+    """Add the zone of a piece of a cell with these clearances, if there is one; the number of all zones.
+
+    ``ends``: what fixes those of the piece.
+    """
     there, s0, s1, s = bounds(low, mean, high)
     if not there or count == batch.zone.shape[0]:
         return count
@@ -307,6 +313,8 @@ def add_zone(batch, q, e, ca, cell, o, reach, met, left, right, low, mean, high,
     z[ELEMENT], z[CELL], z[START], z[REACH] = e, cell, o, reach
     z[FROM], z[TO] = middle + half * s0, middle + half * s1
     z[CONTACT], z[MET] = batch.law[batch.cable[e], batch.cable[o]], met
+    z[AT_FROM] = TOUCHING if s0 > -1.0 else ends[0]
+    z[AT_TO] = TOUCHING if s1 < 1.0 else ends[1]
     return count + 1
 
 
@@ -341,27 +349,29 @@ def find_zones_at(batch, q):
                 low, ol, yl = clearance(batch, q, e, ca, left, o, reach)
                 high, oh, yh = clearance(batch, q, e, ca, right, o, reach)
                 part, start, stop = beyond(batch, o, y), beyond(batch, ol, yl), beyond(batch, oh, yh)
+                before, behind = BORDER, BORDER
                 if start != part:
-                    cut = past_end(batch, q, ca, left, x, ol if start > 0.0 else o, yl if start > 0.0 else y)
+                    b_end, y_end = (ol, yl) if start > 0.0 else (o, y)
+                    before = 2.0 * b_end + y_end
+                    cut = past_end(batch, q, ca, left, x, b_end, y_end)
                     f, _, _ = clearance(batch, q, e, ca, cut, o, reach)
                     m, _, _ = clearance(batch, q, e, ca, 0.5 * (left + cut), o, reach)
-                    count = add_zone(
-                        batch, q, e, ca, cell + start, o, reach, met, left, cut, low, m, f, count
-                    )
+                    own = cell + start, o, reach, met, (BORDER, before)
+                    count = add_zone(batch, q, e, ca, *own, left, cut, low, m, f, count)
                     left, low = cut, f
                 if stop != part:
-                    cut = past_end(batch, q, ca, x, right, oh if stop > 0.0 else o, yh if stop > 0.0 else y)
+                    b_end, y_end = (oh, yh) if stop > 0.0 else (o, y)
+                    behind = 2.0 * b_end + y_end
+                    cut = past_end(batch, q, ca, x, right, b_end, y_end)
                     f, _, _ = clearance(batch, q, e, ca, cut, o, reach)
                     m, _, _ = clearance(batch, q, e, ca, 0.5 * (cut + right), o, reach)
-                    count = add_zone(
-                        batch, q, e, ca, cell + stop, o, reach, met, cut, right, f, m, high, count
-                    )
+                    own = cell + stop, o, reach, met, (behind, BORDER)
+                    count = add_zone(batch, q, e, ca, *own, cut, right, f, m, high, count)
                     right, high = cut, f
                 if start != part or stop != part:
                     mean, _, _ = clearance(batch, q, e, ca, 0.5 * (left + right), o, reach)
-                count = add_zone(
-                    batch, q, e, ca, cell + part, o, reach, met, left, right, low, mean, high, count
-                )
+                own = cell + part, o, reach, met, (before, behind)
+                count = add_zone(batch, q, e, ca, *own, left, right, low, mean, high, count)
     return count
 
 

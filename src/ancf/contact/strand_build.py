@@ -93,7 +93,7 @@ def strands(
         last=np.full((n, 12), np.inf),
         grip=np.full((zones, COLUMNS), -1.0),
         older=np.zeros((zones, COLUMNS)),
-        zone=np.zeros((zones, 8)),
+        zone=np.zeros((zones, 10)),
         at=np.zeros((min(ROWS * zones, MOST_ROWS), 2), dtype=np.int64),
         row=np.zeros((min(ROWS * zones, MOST_ROWS), 25)),
         basis=np.zeros((VECTORS, size)),

@@ -30,6 +30,7 @@ from ..elements.shapes import gauss
 from ..model.beam import Beam
 from ..model.bodies import Body, PointMass, RigidBody
 from ..model.points import Point
+from ..simd import every, load, store
 
 
 def along(
@@ -325,3 +326,27 @@ def add_slope_block_along(batch, e, p, rows, A):
             for i in range(3):
                 for j in range(3):
                     A[place + 6 * i + j] += ahead * rows[i][j] + back * rows[j][i]
+
+
+@formula
+def in_lanes(batch, e, p, factors, d, n):
+    """Sum of the factors of point p times eight directions."""
+    x, y, z = every(0.0), every(0.0), every(0.0)
+    for k in range(batch.base.shape[1]):
+        i, w = batch.base[e, k], factors[e, p, k]
+        if i >= 0:
+            x = x + w * load(d, n, i)
+            y = y + w * load(d, n, i + 1)
+            z = z + w * load(d, n, i + 2)
+    return x, y, z
+
+
+@formula
+def add_lanes_along(batch, e, p, factors, w, f, r):
+    """Subtract w times forces f in eight lanes on what the factors of point p of row e make from r."""
+    for k in range(batch.base.shape[1]):
+        i = batch.base[e, k]
+        if i >= 0:
+            s = w * batch.weight[e, p] * factors[e, p, k]
+            for c in range(3):
+                store(load(r, i + c) - s * f[c], r, i + c)

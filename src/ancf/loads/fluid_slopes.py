@@ -13,9 +13,9 @@ from __future__ import annotations
 import math
 
 from ..compiled import formula, inline_kernel
-from ..simd import every, load, store
+from ..simd import load, store
 from ..vectors import both, dot
-from .along import place_at, tangent_at
+from .along import in_lanes, place_at, tangent_at
 from .flow import (
     AREA,
     CLOCK,
@@ -174,19 +174,6 @@ def fluid_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
             X = place_at(batch, e, p, x)
             slopes = slopes_at(batch, e, p, t, size, own, b, X, wet)
             put(batch, e, p, slopes[0], slopes[1], slopes[2], slopes[3], by_q, by_v, by_a)
-
-
-@formula
-def in_lanes(batch, e, p, factors, d, n):
-    """Sum of the factors of point p times eight directions."""
-    x, y, z = every(0.0), every(0.0), every(0.0)
-    for k in range(batch.base.shape[1]):
-        i, w = batch.base[e, k], factors[e, p, k]
-        if i >= 0:
-            x = x + w * load(d, n, i)
-            y = y + w * load(d, n, i + 1)
-            z = z + w * load(d, n, i + 2)
-    return x, y, z
 
 
 @formula

@@ -2,12 +2,11 @@
 
 On a cable e_1 is the unit tangent, and there are no other axes.  On a section e_1 is its normal, and e_2 and
 e_3 are as near to r_y as to r_z, as results have them; on a rigid body they are its own.  Such forces have no
-potential: the matrix takes the symmetric part of their derivatives, which are central differences.
+potential: the matrix takes the symmetric part of their derivatives, see :mod:`ancf.loads.follower_slopes`.
 """
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -16,13 +15,17 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
 from ..model.beam import Beam
-from ..vectors import dot
-from .at_points import at_point
+from .follower_slopes import (
+    differentiate,
+    follower_slopes_along,
+    follower_slopes_beside,
+    follower_work_slopes,
+    put_axes,
+    section_axes,
+    section_of,
+    unit,
+)
 
-#: Step of the differences; slopes and directors are about 1.
-STEP = 1e-6
-#: The same of order four, and its weights.
-WIDE, NEAR, FAR = 1e-3, 8.0 / 12.0, -1.0 / 12.0
 # rows of a probe's factors, see ancf.system.probe: the point, and r_x, r_y, r_z, for which directors stand
 PLACE, AXES = 0, (1, 3, 4)
 
@@ -66,38 +69,13 @@ def build(items, locate, value):
 
 
 @formula
-def put_axes(batch, e, q):
-    """r_x, r_y and r_z of point e into the scratch memory."""
-    for d in range(3):
-        for c in range(3):
-            x = 0.0
-            for k in range(batch.base.shape[1]):
-                if batch.base[e, k] >= 0:
-                    x += batch.slope[e, d, k] * q[batch.base[e, k] + c]
-            batch.axes[e, 3 * d + c] = x
-
-
-@inline_kernel
-def unit(x, y, z):
-    """Unit vector."""
-    inverse = 1.0 / math.sqrt(x * x + y * y + z * z)
-    return x * inverse, y * inverse, z * inverse
-
-
-@formula
 def following(batch, e):
     """The force with the axes that have been put."""
     a, F = batch.axes[e], batch.value[e, 0]
     if not batch.framed[e]:
-        t = unit(a[0], a[1], a[2])
+        t, _ = unit(a[0], a[1], a[2])
         return F[0] * t[0], F[0] * t[1], F[0] * t[2]
-    y, z = unit(a[3], a[4], a[5]), unit(a[6], a[7], a[8])
-    s = unit(y[0] + z[0], y[1] + z[1], y[2] + z[2])
-    d = unit(y[0] - z[0], y[1] - z[1], y[2] - z[2])
-    w = math.sqrt(0.5)
-    y = (w * (s[0] + d[0]), w * (s[1] + d[1]), w * (s[2] + d[2]))
-    z = (w * (s[0] - d[0]), w * (s[1] - d[1]), w * (s[2] - d[2]))
-    t = (y[1] * z[2] - y[2] * z[1], y[2] * z[0] - y[0] * z[2], y[0] * z[1] - y[1] * z[0])
+    t, y, z = section_axes(section_of(a))
     return (
         F[0] * t[0] + F[1] * y[0] + F[2] * z[0],
         F[0] * t[1] + F[1] * y[1] + F[2] * z[1],
@@ -116,20 +94,6 @@ def follower_force(batch, q, v, a, r, ws):
             if i >= 0:
                 for c in range(3):
                     r[i + c] -= batch.factor[e, k] * force[c]
-
-
-@formula
-def differentiate(batch, e):
-    """Derivatives of the force by r_x, r_y and r_z."""
-    for j in range(9):
-        here = batch.axes[e, j]
-        batch.axes[e, j] = here + STEP
-        ahead = following(batch, e)
-        batch.axes[e, j] = here - STEP
-        behind = following(batch, e)
-        batch.axes[e, j] = here
-        for i in range(3):
-            batch.change[e, i, j] = (ahead[i] - behind[i]) / (2.0 * STEP)
 
 
 @inline_kernel
@@ -154,30 +118,12 @@ def follower_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                         A[place + 6 * i + j] -= 0.5 * c_stiffness * x
 
 
-@inline_kernel
-def follower_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
-    """See :func:`ancf.compiled.add_work_slopes`: by the axes by differences of order four."""
-    for e in range(batch.base.shape[0]):
-        put_axes(batch, e, q)
-        X = at_point(batch, e, x)
-        for d in range(3 if batch.framed[e] else 1):
-            for c in range(3):
-                j = 3 * d + c
-                here, by = batch.axes[e, j], 0.0
-                for m in range(4):
-                    batch.axes[e, j] = here + WIDE * (m - 2.0 if m < 2 else m - 1.0)
-                    f = following(batch, e)
-                    by += (FAR if m == 0 or m == 3 else NEAR) * (1.0 if m > 1 else -1.0) * dot(f, X)
-                batch.axes[e, j] = here
-                for k in range(batch.base.shape[1]):
-                    if batch.base[e, k] >= 0:
-                        by_q[batch.base[e, k] + c] -= batch.slope[e, d, k] * by / WIDE
-
-
 implements(
     FollowerForceBatch,
     force=follower_force,
     tangent=follower_tangent,
     work_slopes=follower_work_slopes,
+    force_slopes=follower_slopes_along,
+    slopes_beside=follower_slopes_beside,
     role=Role.EXTERNAL,
 )

@@ -24,7 +24,7 @@ import math
 from ..compiled import formula, inline_kernel
 from ..simd import every, load, store
 from ..vectors import both, dot
-from .fluid_slopes import in_lanes
+from .along import in_lanes
 from .ground_points import drawn_at, pressed_at, pulled_at, touch_at
 from .relief import DRAG, FRICTION, STICK, twist_at
 

@@ -15,7 +15,15 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
 from ..vectors import cross
-from .along import add_along, add_slope_block_along, along, place_at, tangent_at
+from .along import (
+    add_along,
+    add_lanes_along,
+    add_slope_block_along,
+    along,
+    in_lanes,
+    place_at,
+    tangent_at,
+)
 
 #: Gauss points of an element: exact for a cubic.
 POINTS = 4
@@ -80,10 +88,34 @@ def pressure_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
                         by_q[i + c] += w * batch.slope[e, g, k] * by[c]
 
 
+@inline_kernel
+def pressure_slopes_along(batch, q, v, a, d, r, ws):
+    """See :func:`ancf.compiled.add_force_slopes`."""
+    for e in range(batch.base.shape[0]):
+        p, b = batch.value[batch.item[e], 0, 0], (batch.axis[e, 0], batch.axis[e, 1], batch.axis[e, 2])
+        for g in range(batch.weight.shape[1]):
+            turned = cross(in_lanes(batch, e, g, batch.slope, d, 0), b)
+            add_lanes_along(batch, e, g, batch.shape, p, turned, r)
+
+
+@inline_kernel
+def pressure_slopes_beside(batch, q, v, a, d, r, ws):
+    """See :func:`ancf.compiled.add_slopes_beside`: the antisymmetric part."""
+    for e in range(batch.base.shape[0]):
+        p, b = 0.5 * batch.value[batch.item[e], 0, 0], (batch.axis[e, 0], batch.axis[e, 1], batch.axis[e, 2])
+        for g in range(batch.weight.shape[1]):
+            turned = cross(in_lanes(batch, e, g, batch.slope, d, 0), b)
+            add_lanes_along(batch, e, g, batch.shape, p, turned, r)
+            moved = cross(b, in_lanes(batch, e, g, batch.shape, d, 0))
+            add_lanes_along(batch, e, g, batch.slope, -p, moved, r)
+
+
 implements(
     PressureBatch,
     force=pressure_force,
     tangent=pressure_tangent,
     work_slopes=pressure_work_slopes,
+    force_slopes=pressure_slopes_along,
+    slopes_beside=pressure_slopes_beside,
     role=Role.EXTERNAL,
 )

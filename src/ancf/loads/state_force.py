@@ -23,6 +23,7 @@ from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
 from ..elements.shapes import gauss
 from ..model.loads import DistributedLoad
+from ..simd import every, load, store
 from ..vectors import dot
 from .at_points import add_force_at, add_tangent_at, at_point, at_points
 from .law_functions import address_of
@@ -209,6 +210,13 @@ def add_differences(batch, e, size, first, step, weight):
         batch.rows[e, 2, j] -= w * (fz - gz)
 
 
+@formula
+def steps_of(batch, e):
+    """Steps of the differences by place and by velocity."""
+    speed = abs(batch.data[e, 3]) + abs(batch.data[e, 4]) + abs(batch.data[e, 5])
+    return batch.size[e], batch.size[e] + speed
+
+
 @inline_kernel
 def state_force_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
     """Add the symmetric part of minus the derivatives by position and velocity."""
@@ -222,8 +230,7 @@ def state_force_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
         if c_stiffness != 0.0:
             add_differences(batch, e, size, 0, STEP * batch.size[e], c_stiffness)
         if c_damping != 0.0:
-            speed = abs(batch.data[e, 3]) + abs(batch.data[e, 4]) + abs(batch.data[e, 5])
-            add_differences(batch, e, size, 3, STEP * (batch.size[e] + speed), c_damping)
+            add_differences(batch, e, size, 3, STEP * steps_of(batch, e)[1], c_damping)
         m = batch.rows[e]
         xy, xz, yz = 0.5 * (m[0, 1] + m[1, 0]), 0.5 * (m[0, 2] + m[2, 0]), 0.5 * (m[1, 2] + m[2, 1])
         rows = ((m[0, 0], xy, xz), (xy, m[1, 1], yz), (xz, yz, m[2, 2]))
@@ -231,15 +238,16 @@ def state_force_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 
 
 @formula
-def work_by(batch, e, size, j, step, X):
-    """Derivative of the work of the force on X by number j of the state that has been put, of order four."""
-    here, by = batch.data[e, j], 0.0
+def law_by(batch, e, size, j, step):
+    """Derivative of the force by number j of the state that has been put, of order four."""
+    here, x, y, z = batch.data[e, j], 0.0, 0.0, 0.0
     for m in range(4):
         batch.data[e, j] = here + step * (m - 2.0 if m < 2 else m - 1.0)
+        w = (FAR if m == 0 or m == 3 else NEAR) * (1.0 if m > 1 else -1.0) / step
         f = law_force(batch, e, size)
-        by += (FAR if m == 0 or m == 3 else NEAR) * (1.0 if m > 1 else -1.0) * dot(f, X)
+        x, y, z = x + w * f[0], y + w * f[1], z + w * f[2]
     batch.data[e, j] = here
-    return -by / step
+    return x, y, z
 
 
 @inline_kernel
@@ -247,15 +255,66 @@ def state_force_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
     """See :func:`ancf.compiled.add_work_slopes`: of laws by differences of order four."""
     for e in range(batch.base.shape[0]):
         size, X = put_state(batch, e, q, v), at_point(batch, e, x)
-        speed = abs(batch.data[e, 3]) + abs(batch.data[e, 4]) + abs(batch.data[e, 5])
+        by_place, by_speed = steps_of(batch, e)
         for c in range(3):
-            by_place = work_by(batch, e, size, c, WIDE * batch.size[e], X)
-            by_speed = work_by(batch, e, size, 3 + c, WIDE * (batch.size[e] + speed), X)
+            along = dot(law_by(batch, e, size, c, WIDE * by_place), X)
+            faster = dot(law_by(batch, e, size, 3 + c, WIDE * by_speed), X)
             for k in range(batch.base.shape[1]):
                 i = batch.base[e, k]
                 if i >= 0:
-                    by_q[i + c] += batch.factor[e, k] * by_place
-                    by_v[i + c] += batch.factor[e, k] * by_speed
+                    by_q[i + c] -= batch.factor[e, k] * along
+                    by_v[i + c] -= batch.factor[e, k] * faster
+
+
+@formula
+def at_point_in_lanes(batch, e, d, n, c):
+    """Component c of what place, n = 0, or velocity of point e changes by along eight directions."""
+    x = every(0.0)
+    for k in range(batch.base.shape[1]):
+        i = batch.base[e, k]
+        if i >= 0:
+            x = x + batch.factor[e, k] * load(d, n, i + c)
+    return x
+
+
+@formula
+def add_law_along(batch, e, q, v, d, r, apart):
+    """Subtract the change of force e along eight directions from r; ``apart``: what tangents lack of it."""
+    size = put_state(batch, e, q, v)
+    steps = steps_of(batch, e)
+    x, y, z = every(0.0), every(0.0), every(0.0)
+    for n in range(2):
+        step, m = steps[0] if n == 0 else steps[1], batch.rows[e]
+        for i in range(3):
+            for j in range(3):
+                m[i, j] = 0.0
+        if apart:
+            add_differences(batch, e, size, 3 * n, STEP * step, 1.0)
+        for c in range(3):
+            f, by = law_by(batch, e, size, 3 * n + c, WIDE * step), at_point_in_lanes(batch, e, d, n, c)
+            x = x + (f[0] + 0.5 * (m[0, c] + m[c, 0])) * by
+            y = y + (f[1] + 0.5 * (m[1, c] + m[c, 1])) * by
+            z = z + (f[2] + 0.5 * (m[2, c] + m[c, 2])) * by
+    for k in range(batch.base.shape[1]):
+        i, w = batch.base[e, k], batch.factor[e, k]
+        if i >= 0:
+            store(load(r, i) - w * x, r, i)
+            store(load(r, i + 1) - w * y, r, i + 1)
+            store(load(r, i + 2) - w * z, r, i + 2)
+
+
+@inline_kernel
+def state_force_along(batch, q, v, a, d, r, ws):
+    """See :func:`ancf.compiled.add_force_slopes`."""
+    for e in range(batch.base.shape[0]):
+        add_law_along(batch, e, q, v, d, r, False)
+
+
+@inline_kernel
+def state_force_beside(batch, q, v, a, d, r, ws):
+    """See :func:`ancf.compiled.add_slopes_beside`: the antisymmetric part, and how differences differ."""
+    for e in range(batch.base.shape[0]):
+        add_law_along(batch, e, q, v, d, r, True)
 
 
 implements(
@@ -263,6 +322,8 @@ implements(
     force=state_force,
     tangent=state_force_tangent,
     work_slopes=state_force_slopes,
+    force_slopes=state_force_along,
+    slopes_beside=state_force_beside,
     sloped=lambda batch: not (np.any(batch.once) or np.any(batch.winch >= 0)),
     role=Role.EXTERNAL,
     slots=("base", "winch"),

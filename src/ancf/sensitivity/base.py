@@ -16,6 +16,7 @@ from ..compiled import (
     add_slopes_beside,
     add_tangent_work,
     add_work_slopes,
+    choose_memory,
     does_something,
     traits,
 )
@@ -51,7 +52,8 @@ def matrices_of(
     known = [batch for batch in changed if does_something(type(batch), rate)]
     lossy = [batch for batch in changed if not any(batch is one for one in known)]
     others = [batch for batch in batches if not _exact(batch, False)]
-    whole = [batch for batch in others if moving and not _is_joint(batch) and _is_sloped(batch, back)]
+    smooth = [batch for batch in others if moving or not does_something(type(batch), choose_memory)]
+    whole = [batch for batch in smooth if not _is_joint(batch) and _is_sloped(batch, back)]
     joints = [batch for batch in others if _is_joint(batch)] + whole
     rough = [batch for batch in others if not any(batch is one for one in joints)]
     worked = _worked(exact) if back else []

@@ -24,6 +24,9 @@ from .scheme import coefficients
 from .sensitivity import DIFFERENCED, ENOUGH, MOST, add_lossy, both_along, is_done
 from .status import OK, SINGULAR, SLOW
 
+#: The correction after which those that do not shrink may be round-off, and how small they are then.
+LATE, SILENT = 7, 1e-12
+
 
 @formula
 def see(core, x, room):
@@ -218,6 +221,30 @@ def not_done(room, weight, count, enough):
 
 
 @inline_kernel
+def not_silent(core, m, factor, push, n, first, count, room):
+    """Number of lanes whose corrections are more than the round-off of forces that cancel; these stay open.
+
+    What parameters do may be borne by joints alone, and a sensitivity is round-off then: its corrections are
+    compared with what the same forces do where nothing bears them.
+    """
+    r, multipliers, left = room.r, core.joints.multipliers, 0
+    for i in range(r.shape[0]):
+        for k in range(LANES):
+            r[i, k] = (1.0 if i % 2 == 0 else -1.0) * push[first + min(k, count - 1), n, i]
+    for k in range(multipliers.shape[0]):
+        store(every(0.0), r, multipliers[k])
+    for k in range(core.supports.held.shape[0]):
+        store(every(0.0), r, core.supports.held[k])
+    solve_rows(m, factor, room)
+    sizes_of(r, core.weight, room.size)
+    for k in range(count):
+        if room.open[k] > 0.0 and max(room.norm[k], room.shift[k]) <= SILENT * room.size[k]:
+            room.open[k] = 0.0
+        left += 1 if room.open[k] > 0.0 else 0
+    return left
+
+
+@inline_kernel
 def solved(
     core, m, factor, matrices, x, turn, push, gap, friction, n, first, joined, at_once, edge, room, B, G
 ):
@@ -252,6 +279,8 @@ def solved(
         if projects:
             shifted(core, m, factor, x, gap, n, first, joined, room)
         if not_done(room, core.weight, count, enough) == 0 or (known and not again):
+            return OK
+        if round == LATE and not known and not_silent(core, m, factor, push, n, first, count, room) == 0:
             return OK
     return SLOW
 

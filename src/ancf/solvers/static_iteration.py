@@ -236,7 +236,8 @@ class Iteration:
     def followed(self, dq: FloatArray, r: FloatArray, share: float) -> FloatArray:
         """The correction with the derivative of loads that follow, which no symmetric matrix has.
 
-        GMRES from ``dq`` on, preconditioned by the last factorisation; its products are differences.
+        GMRES from ``dq`` on, preconditioned by the last factorisation; its products are differences. Beside a
+        jump of the forces they are no derivatives: what leaves more of the residual than none is not taken.
         """
 
         def product(x: FloatArray) -> FloatArray:
@@ -249,7 +250,7 @@ class Iteration:
         derivative, inverse = (LinearOperator(shape, way, dtype=float) for way in (product, self.solve))
         limits: dict[str, Any] = {"rtol": LEFT_OVER, "restart": DIRECTIONS, "maxiter": 1}
         found: FloatArray = gmres(derivative, r, dq, M=inverse, **limits)[0]
-        return found
+        return found if np.linalg.norm(r - product(found)) < np.linalg.norm(r) else dq
 
     def _short_correction(self, r: FloatArray) -> FloatArray:
         """The same, and mu is also large enough to keep the correction short.

@@ -25,6 +25,7 @@ SPUN = 1e-5  # accepted where sections or bodies spin freely, which leaves their
 LONGEST = 0.3  # largest change of a slope, or of a position in sizes of the model, in one correction
 NO_MOTION = 1e-300  # of a correction: the share that LONGEST leaves of it is whole
 REDUCED = 0.5  # of the residual: what a correction leaves when round-off has not been reached
+GROWN = 2.0  # of the residual: what is more is a jump of the forces, and no round-off
 BALANCED = 1e-6  # of a correction: there is an equilibrium, which may be unstable
 DISTURBANCE = 1e-3  # along the softest mode, to leave an unstable equilibrium
 SLOW = 0.2  # of the correction before, where loads that follow keep the symmetric matrix from converging
@@ -146,9 +147,9 @@ def _degenerate(it: Iteration, share: float) -> str | None:
 
 
 def _stalled(it: Iteration, dq: FloatArray, r: FloatArray, share: float) -> bool:
-    """Round-off: the correction does not reduce the residual any more."""
-    ahead = it.out_of_balance(it.moved(dq, 1.0), share)
-    return bool(np.linalg.norm(ahead) >= REDUCED * np.linalg.norm(r))
+    """Round-off: the correction does not reduce the residual any more, nor make it much larger."""
+    ahead, now = np.linalg.norm(it.out_of_balance(it.moved(dq, 1.0), share)), np.linalg.norm(r)
+    return bool(REDUCED * now <= ahead <= GROWN * now)
 
 
 def until_touching(it: Iteration, dq: FloatArray, longest: float) -> float:
