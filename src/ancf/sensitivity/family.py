@@ -23,40 +23,13 @@ from ..system.beside import SLIDES, Acts, beside
 from ..system.core import Tables
 from ..system.system import System
 from .alike import Known, alike, changed, same_inputs, same_loads
+from .offsets import ABOVE, BENT, BOTH, FOUR, KINKED, PAIR, STEEP, STEP, TINY
 from .parameters import Parameter
 from .pushing import Pushing
 from .remembering import friction_of, with_same_friction
 from .trial import Trial
 from .turns import axes_rates, ends_rates, moves_ends, slopes_local, slopes_rates, stands
 from .values import fed_alike, few_of, quiet_state
-
-#: Step of the differences, relative, and of a parameter that is zero, in its unit or the size of the model.
-STEP = 1e-3
-#: Places of the values in steps, and weights of the derivative of order six: on both sides, on one.
-BOTH = ((-3.0, -2.0, -1.0, 1.0, 2.0, 3.0), (-1 / 60, 9 / 60, -45 / 60, 45 / 60, -9 / 60, 1 / 60))
-#: The same of order four, where that is seen to do.
-FOUR = (-3.0, -1.5, 1.5, 3.0), (1 / 18, -8 / 18, 8 / 18, -1 / 18)
-ABOVE = (
-    (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0),
-    (-147 / 60, 360 / 60, -450 / 60, 400 / 60, -225 / 60, 72 / 60, -10 / 60),
-)
-#: The same, as a share of these steps, where powers of lengths have effects that nearly cancel.
-STEEP = 0.2
-#: The step where forces have kinks, which no value may reach: a taut dropper is stretched by 0.1 mm.
-TINY = 1e-7
-KINKED = {
-    "springs",
-    "contacts",
-    "pressing",
-    "rubbing",
-    "crossing",
-    "gripping",
-    "bumping",
-    "rolling",
-    "ground",
-}
-#: The same where all is linear; energies are quadratic then.
-PAIR = ((-3.0, 3.0), (-1 / 6, 1 / 6))
 
 
 class Family(Pushing):
@@ -154,6 +127,9 @@ class Family(Pushing):
         h *= STEEP if acts is not None and (SLIDES in acts.parts or self._is_steep(acts)) else 1.0
         try:
             self._take(h, *(FOUR if known else PAIR))
+            if self._bends_damped():
+                h *= BENT
+                self._take(h, *(FOUR if known else PAIR))
             if p != 0.0 and not thorough and not self._stays():
                 self._forget()
                 return self._take(tiny, *PAIR)
@@ -170,6 +146,14 @@ class Family(Pushing):
                 self._forget()
                 return self._take(tiny, *PAIR)  # so far from its value there is no such model
         return self._take(h, *ABOVE)  # it may not be negative
+
+    def _bends_damped(self) -> bool:
+        """Whether supports are moved where something dissipates; systems before that are forgotten then."""
+        held = self.base.held
+        if not self.base.core.damped or not any(np.any(shape[held]) for shape in self._shape):
+            return False
+        self._forget()
+        return True
 
     def _is_steep(self, acts: Acts) -> bool:
         """Whether forces have high powers of a length, as those of beams with cross-sections."""

@@ -37,7 +37,9 @@ class Pushing:
             place_rows(system.core, tables, *states)
             placed.append((system, tables, states))
         # of all systems or of none: what nothing acts on has to cancel
-        moved = any(not np.array_equal(x, y) for *_, own in placed for x, y in zip(own, (q, v, a), strict=True))
+        moved = any(
+            not np.array_equal(x, y) for *_, own in placed for x, y in zip(own, (q, v, a), strict=True)
+        )
         for k, (weight, (system, tables, states)) in enumerate(zip(self.weights, placed, strict=True)):
             core = system.core if moved else system.core._replace(batches=self._batches[k])
             r = np.empty_like(q)
