@@ -148,9 +148,10 @@ class Family(Pushing):
         return self._take(h, *ABOVE)  # it may not be negative
 
     def _bends_damped(self) -> bool:
-        """Whether supports are moved where something dissipates; systems before that are forgotten then."""
-        held = self.base.held
-        if not self.base.core.damped or not any(np.any(shape[held]) for shape in self._shape):
+        """Whether supports are moved or turn where something dissipates; the systems are forgotten then."""
+        base = self.base
+        given = np.append(base.held, base.supports.rot_shadow[:, None] + np.arange(3))
+        if not base.core.damped or not any(np.any(shape[given]) for shape in self._shape):
             return False
         self._forget()
         return True
