@@ -240,6 +240,16 @@ class TestRatesOfGivenMotions:
             errors.append([first[inner].max(), second[inner].max(), first.max(), second.max()])
         assert rate(errors)[-1] == pytest.approx([6, 6, 6, 5], abs=0.4)
 
+    @pytest.mark.parametrize("last", [0.04, 0.1, 1.0, 7.3])
+    @pytest.mark.parametrize("spacing", [1e-3, 1e-6, 1e-9])
+    def test_round_off_beyond_the_end(self, spacing, last):
+        """The last stage of a step may lie behind the end of a run by the last digit, times which is much."""
+        times = np.array([np.nextafter(last, np.inf)])
+        value, first, second = differences(lambda t: 3.0 * t[:, None] ** 2, times, spacing, 0.0, last)
+        assert value == pytest.approx(3.0 * last**2)
+        assert first == pytest.approx(6.0 * last, abs=1e-15 * last**2 / spacing * 1e2)
+        assert np.isfinite(second).all()
+
     def test_steps_in_one_block_or_many(self):
         """Inside a run the rates do not depend on how the steps were cut into blocks."""
         times, whole = self.of(np.sin, 0.05)

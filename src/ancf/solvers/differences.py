@@ -6,9 +6,9 @@ from ..batches import remember_all
 from ..compiled import kernel
 from ..system.core import follow, residual, to_local
 from .balance import balance
-from .newmark import check_sections, check_way
 from .scheme import finish, restore, show_bars
 from .status import OK
+from .step_checks import check_sections, check_way
 
 
 @kernel

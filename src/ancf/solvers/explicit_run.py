@@ -21,7 +21,7 @@ from .quick import Direct, shared
 from .sampling import Output
 from .stability import stable_limit
 from .start import consistent_start
-from .status import DIVERGED, SINGULAR
+from .status import DIVERGED, INVERTED, SINGULAR
 from .stepping import Run
 
 #: A step may be larger than asked for by this: estimates about two states differ a little.
@@ -121,6 +121,8 @@ class ExplicitRun(Run):
         m = self.memory
         if (error := failures.blamed(self.system, m.q, m.v, t, number, h)) is not None:
             raise error
+        if self._status == INVERTED:
+            raise failures.collapsed(self.system, int(m.memo[WORST]), t, number, h)
         raise self._failure(t, number, _REASONS.get(self._status, "the forces are no longer finite"), h)
 
     def _check_energy(self, done: int) -> None:

@@ -80,9 +80,9 @@ def failed(system: System, memo: FloatArray, t: float, number: int, reason: str,
     return SolveError(where, what, hint)
 
 
-def collapsed(system: System, memo: FloatArray, t: float, number: int, h: float) -> SolveError:
+def collapsed(system: System, slot: int, t: float, number: int, h: float) -> SolveError:
     """In step ``number`` of length h at t a section has collapsed, or a beam gone through a surface."""
-    place, reason, hint = inverted(system, int(memo[WORST]))
+    place, reason, hint = inverted(system, slot)
     hint = f"try a step of {h / 10:.2g} s or less, {hint}"
     return SolveError(f"t = {t:.6g} s, step {number}, {place}", f"{reason}; step {h:g} s", hint)
 

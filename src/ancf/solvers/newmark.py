@@ -30,7 +30,6 @@ from ..system.core import (
     external_force,
     follow,
     has_rows,
-    inverted_section,
 )
 from .apart import (
     begin_parts,
@@ -70,6 +69,7 @@ from .status import (
     SLOW,
     TURN,
 )
+from .step_checks import check_sections, check_way
 
 #: Least theta/(1 - theta) that is believed before a step has shown its own contraction, and the power that
 #: brings the one of the step before nearer to 1.
@@ -223,30 +223,6 @@ def newton(core, s, h, rule, modified, B, G, apart):
         renew = renew or since == LONGEST
         since += 1
     return SLOW
-
-
-@formula
-def check_way(core, s, furthest):
-    """Status after a converged step: no unknown may have gone further than a step can tell.
-
-    Where tangents turn by more than about half a radian in a step, the equations have several solutions, and
-    those that swing to and fro from step to step gain energy.
-    """
-    for i in range(core.weight.shape[0]):
-        if abs(s.q[i] - s.q0[i]) * core.weight[i] > furthest:
-            s.memo[WORST] = i
-            return FAR
-    return OK
-
-
-@formula
-def check_sections(core, s):
-    """Status after a converged step: no cross-section may have collapsed or turned inside out."""
-    slot = inverted_section(core.batches, core.ws, s.q)
-    if slot < 0:
-        return OK
-    s.memo[WORST] = slot
-    return INVERTED
 
 
 @formula

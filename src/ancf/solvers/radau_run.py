@@ -7,10 +7,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray
 from ..errors import SolveError
 from ..model.integrators import Radau
-from ..system.core import first_event, keep_memory
+from ..system.core import find_inverted, first_event, keep_memory
 from ..system.energy import energies
 from ..system.system import System
 from . import failures
@@ -19,17 +19,16 @@ from .checkpoint import Snapshot, Watched, copies
 from .control import Control
 from .events import happen
 from .radau import Step, Stepper
+from .radau_output import SAME_TIME, RadauOutput
 from .radau_problem import SystemProblem
 from .record import Progress, Recorder, Stats
-from .sampling import sample_rows, sampling_of
+from .sampling import sampling_of
 from .span import Span
 from .start import consistent_start
 from .status import DIVERGED, NOT_FINITE, OK, SINGULAR
 from .stepping import BLOCK_SECONDS
 
 BLOCK_BYTES = 32e6  # of stored states, and of samples
-#: Times of samples at which whole states are interpolated at once.
-AT_ONCE = 64
 #: Least step, in units of the last digit of the time: a load that jumps needs very small ones.
 LEAST_STEP = 16.0
 #: Error that Newton's method leaves when the steps are constant.
@@ -41,15 +40,13 @@ CLOSER = 0.1
 ALL, MORE_THAN_HALF = 0.99, 0.6
 #: Share of what is left of a step of constant size above which a part of it is its last one.
 LAST_PART = 0.999
-#: Part of a step by which times differ that are the same.
-SAME_TIME = 1e-9
 #: Longest step, as a part of the run: what happens within a step is not seen.
 LONGEST_STEP = 0.1
 #: Share of constant steps that may need halving.
 MOST_RETRIED = 0.2
 
 
-class RadauRun:
+class RadauRun(RadauOutput):
     """One simulation of a System; outputs at every ``every``-th multiple of ``step`` and at the end.
 
     Steps have sizes of their own.  Sensors are therefore recorded at every multiple of ``step``, where the
@@ -87,8 +84,8 @@ class RadauRun:
         self.seconds, self.work = 0.0, np.zeros(2)
         self.sampling = sampling_of(system)
         self.stored = self.sampled = 0  # outputs and samples so far, the start not counted
-        self._buffer: list[tuple[FloatArray, ...]] = []
-        self._samples: list[tuple[FloatArray, FloatArray]] = []
+        self._buffer, self._samples = [], []
+        self._solid = any(beam.has_section for beam in system.model.beams.values())
 
     @property
     def stats(self) -> Stats:
@@ -251,7 +248,15 @@ class RadauRun:
             raise self._failure(reason, h)
 
     def _accept(self, step: Step, t: float) -> None:
-        """Outputs and energies of a step."""
+        """Outputs and energies of a step.
+
+        Raises
+        ------
+        SolveError
+            A cross-section has collapsed or turned inside out at its end.
+        """
+        if self._solid:
+            self._check_sections(step, t)
         power = self.problem.powers(step.times, step.Q, step.V, step.A)
         self._output(step, t, power)
         self.work += step.h * (self.stepper.method.b @ power)
@@ -260,6 +265,12 @@ class RadauRun:
             keep_memory(self.system.core.remembering, *self._end(step, t))
         if self.system.core.joints.tail:
             self._look_at_joints(step, t)
+
+    def _check_sections(self, step: Step, t: float) -> None:
+        core = self.system.core
+        slot = int(find_inverted(core.batches, core.ws, self._end(step, t)[0]))
+        if slot >= 0:
+            raise failures.collapsed(self.system, slot, t, self.stepper.counts.steps + 1, step.h)
 
     def _look(self, recorder: Recorder, progress: Callable[[Progress], None] | None, snapshots: bool) -> None:
         """Hand over what there is, now and then; with a snapshot where the state may be kept."""
@@ -305,77 +316,6 @@ class RadauRun:
         self.work[0] += before - float(energies(system, q[None], v[None]).sum())  # an impact
         self.problem.start(q, v)
         self.stepper.start(t, q[free], v[free], a[free])
-
-    def _output(self, step: Step, t: float, power: FloatArray) -> None:
-        """States at the output times of a step that ends at t."""
-        number, times = self._grid(self.every, self.stored, t)
-        states = None
-        if len(number):
-            tau = self._places(step, t, times)
-            states = self._states(step, times, tau)
-            once = self.stepper.method.integrals(tau)[1]
-            self._buffer.append((times, *states, self.work + step.h * (once @ power)))
-            self.stored = int(number[-1])
-        if self.sampling.width:
-            self._record(step, t, number, states)
-
-    def _grid(self, every: int, done: int, t: float) -> tuple[IntArray, FloatArray]:
-        """Numbers after ``done`` and times until t of the multiples of every ``every``-th step."""
-        last = -(-self.steps // every)  # number of the last one
-        near = int((t - self.t_start) / (every * self.h) * (1 + 1e-12) + 1e-9)
-        number = np.arange(done + 1, (last if t >= self.t_end else min(near, last - 1)) + 1)
-        return number, np.where(number == last, self.t_end, self.t_start + number * every * self.h)
-
-    def _places(self, step: Step, t: float, times: FloatArray) -> FloatArray:
-        """Where times are in a step that ends at t, 0 to 1."""
-        tau: FloatArray = np.minimum((times - step.t) / step.h, 1.0)
-        tau[np.abs(times - t) < SAME_TIME * step.h] = 1.0
-        return tau
-
-    def _states(self, step: Step, times: FloatArray, tau: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Interpolated states."""
-        q, v, a = step.at(tau)
-        q[tau == 1.0], v[tau == 1.0], a[tau == 1.0] = step.Q[-1], step.V[-1], step.A[-1]
-        q, v, _ = self.problem.placed(times, q, v, a)
-        return q, v
-
-    def _record(
-        self, step: Step, t: float, outputs: IntArray, states: tuple[FloatArray, FloatArray] | None
-    ) -> None:
-        """Samples of a step that ends at t; at the outputs those of their states, to the last bit."""
-        number, times = self._grid(1, self.sampled, t)
-        if len(number) == 0:
-            return
-        tau = self._places(step, t, times)
-        rows = []
-        for k in range(0, len(number), AT_ONCE):
-            part = slice(k, k + AT_ONCE)
-            rows.append(self._sample(*self._states(step, times[part], tau[part])))
-        samples = np.concatenate(rows)
-        if states is not None:
-            samples[np.minimum(outputs * self.every, self.steps) - number[0]] = self._sample(*states)
-        self._samples.append((times, samples))
-        self.sampled = int(number[-1])
-
-    def _sample(self, q: FloatArray, v: FloatArray) -> FloatArray:
-        samples = np.empty((len(q), self.sampling.width))
-        sample_rows(self.sampling, q, v, samples)
-        return samples
-
-    @property
-    def _bytes(self) -> int:
-        return sum(2 * q.nbytes for _, q, _, _ in self._buffer) + sum(x.nbytes for _, x in self._samples)
-
-    def _flush(self, recorder: Recorder) -> None:
-        now = clock.process_time()
-        self.seconds += now - self._cpu
-        self._cpu = now
-        if self._samples:
-            recorder.record(*(np.concatenate(c) for c in zip(*self._samples, strict=True)))
-            self._samples = []
-        if self._buffer:
-            recorder.append(*(np.concatenate(c) for c in zip(*self._buffer, strict=True)))
-            self._buffer = []
 
     def _failure(self, reason: str, h: float) -> SolveError:
         s = self.stepper

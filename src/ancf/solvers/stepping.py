@@ -351,7 +351,7 @@ class Run(Asleep):
             raise error
         self._check_energy(number - 1)  # if energy came from nowhere, that is the reason
         if status == INVERTED:
-            raise failures.collapsed(self.system, self.memory.memo, t, number, h)
+            raise failures.collapsed(self.system, int(m.memo[WORST]), t, number, h)
         raise self._failure(t, number, failures.REASONS[status], h)
 
     def happened(self, code: int, t: float, number: int) -> None:

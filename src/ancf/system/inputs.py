@@ -243,7 +243,8 @@ def differences(
     at = max(int(np.floor((times[0] - first) / step + 1e-9)), 0) + np.arange(
         n
     )  # places on the grid from first
-    room = int(min(np.floor((last - times[-1]) / step + 1e-9), STENCIL))
+    # by round-off a time may be beyond the last one
+    room = int(np.clip(np.floor((last - times[-1]) / step + 1e-9), 0, STENCIL))
     # which formula a time has depends on its place in the run, not on the block that it is in
     end = max(int(at[-1]) + room, STENCIL - 1)
     begin = np.clip(at - half, 0, end + 1 - STENCIL)
