@@ -62,7 +62,7 @@ def test_against_differences(sensors, name, step):
 def test_what_is_not_known(sensors):
     with pytest.raises(ancf.ModelError, match="there is none by"):
         sensors.sensitivity("stay.lenght")
-    with pytest.raises(ancf.ModelError, match="reactions are known of equilibria only"):
+    with pytest.raises(ancf.ModelError, match="known of equilibria and of the stored states"):
         sensors.sensitivity("stay.length").reaction("strip")
     with pytest.raises(AttributeError, match="has no 'colour'"):
         _ = sensors.sensitivity("stay.length").colour

@@ -20,6 +20,7 @@ from ..model.points import Point
 from ..results import moments
 from ..results.momenta import Momenta
 from ..results.state import Energy
+from ..solvers.in_motion import in_motion
 from ..solvers.kinks import BENT, CLOSE, CLOSER, SMALL
 from ..solvers.sensitivity import LEAST
 from ..system.contact_fields import ContactFields
@@ -45,7 +46,7 @@ class Face(SpringFields, ContactFields, Momenta):
     """What can be asked of state vectors of a system, one (size,) or a history (n, size).
 
     ``beside``: they are changed, or the system is another one, for a difference. ``base``: then points are
-    those of this system.
+    those of this system. ``times``: of the states, if they are stored ones, which have accelerations.
     """
 
     def __init__(
@@ -56,14 +57,16 @@ class Face(SpringFields, ContactFields, Momenta):
         t: float,
         beside: bool = False,
         base: System | None = None,
+        times: Any = None,
     ) -> None:
         self.beside, self.base = beside, None if base is system else base
-        self.system, self.model, self.t = system, system.model, t
+        self.system, self.model, self.t, self.times = system, system.model, t, times
         self._q, self._v = q, v
         self._bodies, self._slots = self.model.bodies, system.slots
         self._joints, self._arcs, self._lengths = system.joints, system.numbering.arcs, system.lengths
         self._springs = springs_of(self.model.connections)
         self._found = _PROBES.setdefault(system, {})
+        self.inertial = False  # something was asked that has forces of inertia in it
 
     def _probe(self, point: Any) -> Probe:
         """Where a point is, which is asked many times of one system by its name."""
@@ -83,27 +86,34 @@ class Face(SpringFields, ContactFields, Momenta):
         return self.system
 
     def reaction(self, support: Any) -> FloatArray:
-        """See :meth:`ancf.State.reaction`; of states at rest alone."""
-        return self._at_rest(support, "reaction", lambda name, r: held_part(self.system, name, r))
+        """See :meth:`ancf.State.reaction`."""
+        name = support_name(self.system, support)
+        forces = self._held_forces(name, "reaction")
+        rows = np.array([held_part(self.system, name, r) for r in np.atleast_2d(forces)])
+        return rows.reshape(*forces.shape[:-1], 3)
 
     def reaction_moment(self, support: Any) -> FloatArray:
-        """See :meth:`ancf.State.reaction_moment`; of states at rest alone."""
-
-        def moment(name: str, r: FloatArray) -> FloatArray:
-            item = next(item for item in self.model.supports if item.name == name)
-            return moments.of_support(self.system, item, self.q, r)
-
-        return self._at_rest(support, "reaction_moment", moment)
-
-    def _at_rest(
-        self, support: Any, question: str, of: Callable[[str, FloatArray], FloatArray]
-    ) -> FloatArray:
+        """See :meth:`ancf.State.reaction_moment`."""
         name = support_name(self.system, support)
+        item = next(item for item in self.model.supports if item.name == name)
+        return moments.of_support(self.system, item, self.q, self._held_forces(name, "reaction_moment"))
+
+    def _held_forces(self, name: str, question: str) -> FloatArray:
+        """What is out of balance, (..., size), for a support; at rest without accelerations."""
         checked = None if self.beside else True
         forces = at_rest(self.system, self.q, self.v, self.t, name, checked) if self.q.ndim == 1 else None
-        if forces is None:
-            raise in_motion(question)
-        return of(name, forces)
+        return self._in_motion(question)[1] if forces is None else forces
+
+    def _in_motion(self, question: str) -> tuple[FloatArray, FloatArray]:
+        """Accelerations, and forces out of balance, (..., size), by the equations of motion of each state."""
+        if self.times is None:
+            raise unkept(question)
+        self.inertial = True
+        system, times = self.system.double, np.atleast_1d(self.times).tolist()
+        states = zip(np.atleast_2d(self.q), np.atleast_2d(self.v), times, strict=True)
+        found = np.array([in_motion(system, *state) for state in states]).swapaxes(0, 1)
+        a, r = found[:, 0] if self.q.ndim == 1 else found
+        return a, r
 
     def joint_moment(self, joint: Any) -> FloatArray:
         """See :meth:`ancf.State.joint_moment`."""
@@ -114,9 +124,9 @@ class Face(SpringFields, ContactFields, Momenta):
         return moments.force_of_joint(self.system, moments.checked_joint(self.system, joint, True), self.q)
 
     def acceleration(self, point: Any) -> FloatArray:
-        """Of states it has no derivative: they do not keep it."""
-        hint = "let sensors record the point: result.sensors.sensitivity(...).acceleration(point)"
-        raise ModelError("sensitivity.acceleration", "states do not keep accelerations", hint)
+        """See :meth:`ancf.State.acceleration`."""
+        a: FloatArray = self._probe(point).field(self._in_motion("acceleration")[0])
+        return a
 
     def energies(self) -> FloatArray:
         """Kinetic, strain and potential energy, (..., 3), J."""
@@ -266,12 +276,14 @@ class Sensitivity:
         self, question: Callable[[Face], Any], linear: bool, around: list[tuple[System, float]]
     ) -> FloatArray:
         family, t = self._family, np.ravel(self.t)[-1]
-        here = np.asarray(question(Face(family.base, self._q, self._v, t)), dtype=np.float64)
+        face = Face(family.base, self._q, self._v, t, times=self.t)
+        here = np.asarray(question(face), dtype=np.float64)
+        around = family.around() if face.inertial else around  # accelerations are not linear in a mass
         total: Any = np.zeros_like(here)
         for system, weight in around:
             if system is not family.base:
                 total = total + weight * (
-                    np.asarray(question(Face(system, self._q, self._v, t, True, family.base))) - here
+                    np.asarray(question(Face(system, self._q, self._v, t, True, family.base, self.t))) - here
                 )
         if linear:
             return np.asarray(total + question(Face(family.base, self.dq, self.dv, t)))
@@ -282,7 +294,7 @@ class Sensitivity:
             ) -> FloatArray:
                 if self.resting is not None:
                     self.resting.bring(family.base, x if places else 0.0)
-                near = Face(family.base, self._q + x * dq, self._v + x * dv, t, True)
+                near = Face(family.base, self._q + x * dq, self._v + x * dv, t, True, times=self.t)
                 return np.asarray(question(near), dtype=np.float64)
 
             total = total + derivative(moved, e)
@@ -327,10 +339,10 @@ def is_linear(question: str, system: System) -> bool:
     return question in LINEAR and not (question == "slope" and system.lengths)
 
 
-def in_motion(question: str) -> ModelError:
-    """What is said of a reaction that is asked for in motion."""
-    what = "derivatives of reactions are known of equilibria only"
-    hint = "ask the state of ancf.equilibrium, or in motion for the force of a spring or joint there"
+def unkept(question: str) -> ModelError:
+    """What is said of forces of inertia where they are not those of a stored state."""
+    what = "its derivatives are known of equilibria and of the stored states of runs"
+    hint = "result.sensitivity(...), or the force of a spring or joint there; sensors record accelerations"
     return ModelError(f"sensitivity.{question}", what, hint)
 
 

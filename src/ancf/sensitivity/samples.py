@@ -16,7 +16,7 @@ from ..solvers.sampling import sample_rows, sample_slopes, sampling_of
 from ..solvers.sensitivity import LEAST
 from ..system.sensors import Listing
 from ..system.system import System
-from .answers import MOVED, PLACES, Face, derivative, in_motion, is_linear, on_another, text_of
+from .answers import MOVED, PLACES, Face, derivative, is_linear, on_another, text_of, unkept
 from .family import Family
 from .remembering import refuse_friction
 
@@ -149,7 +149,7 @@ class SensorSensitivity:
         """
         refuse_friction(self._family.base, name)
         if name in ("reaction", "reaction_moment"):
-            raise in_motion(name)
+            raise unkept(name)
         here, d = self._sensors._arrays(), self._d
         now = {key: np.asarray(here[key][:]) for key in ("time", "q", "v", "measured")}
         question(self._sensors)

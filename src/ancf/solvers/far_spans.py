@@ -130,6 +130,8 @@ class FarSpans:
 
     def sleepers(self) -> dict[str, list[int]]:
         """Which parts sleep, and how long each has been calm, for a snapshot of the run."""
+        if not self.parts:
+            return {"asleep": [], "calm": []}
         part = self.far.part
         return {"asleep": np.flatnonzero(part[:, ASLEEP]).tolist(), "calm": part[:, CALM].tolist()}
 
@@ -137,7 +139,8 @@ class FarSpans:
         """Let sleep what slept at a snapshot, in whose state all are awake now."""
         if sleepers["asleep"]:
             self._go_to_sleep(sleepers["asleep"])
-        self.far.part[:, CALM] = sleepers["calm"]
+        if self.parts:
+            self.far.part[:, CALM] = sleepers["calm"]
 
     def _calm(self) -> list[int]:
         """Parts that may sleep."""

@@ -250,7 +250,8 @@ class Iteration:
         derivative, inverse = (LinearOperator(shape, way, dtype=float) for way in (product, self.solve))
         limits: dict[str, Any] = {"rtol": LEFT_OVER, "restart": DIRECTIONS, "maxiter": 1}
         found: FloatArray = gmres(derivative, r, dq, M=inverse, **limits)[0]
-        return found if np.linalg.norm(r - product(found)) < np.linalg.norm(r) else dq
+        left, whole = (np.linalg.norm(self.solve(x)) for x in (r - product(found), r))
+        return found if left < whole else dq
 
     def _short_correction(self, r: FloatArray) -> FloatArray:
         """The same, and mu is also large enough to keep the correction short.
