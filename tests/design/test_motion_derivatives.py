@@ -77,7 +77,7 @@ def test_random_models(seed):
 
 def test_of_one_state_and_of_an_equilibrium():
     """One stored state as in the history; an equilibrium as before, without accelerations."""
-    model = hung()
+    model = hung("original")
     found = ancf.simulate(model, sensitivities=["body.mass"], **GIVEN).sensitivity("body.mass")
     for question, item in ASKED:
         whole = getattr(found, question)(item)
