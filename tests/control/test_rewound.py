@@ -182,6 +182,21 @@ def test_along_a_line(kind):
     assert np.allclose(forces[0], forces[1], rtol=0, atol=0.1 if kind == "reduced" else 0.0)
 
 
+def test_a_whole_line_in_a_reduced_one():
+    """A snapshot that knows of no spans that sleep: all are awake then, and fall asleep by themselves."""
+    line, mesh = catenary.read_line("en50318-2002"), catenary.Mesh(contact=2.5, messenger=5.0)
+    given = {"speed": 70.0, "pantograph": "en50318-2002", "step": 2e-3, "mesh": mesh}
+    whole, run = catenary.stepper(line, **given), catenary.stepper(line, reduce=True, **given)
+    for one in (whole, run):
+        one.advance(100)
+    run.restore(whole.snapshot())
+    assert not run._run.sleeps
+    for one in (whole, run):
+        one.advance(200)
+    assert run._run.sleeps
+    assert run.pantograph().force == pytest.approx(whole.pantograph().force, abs=0.5)
+
+
 class TestRefused:
     def test_what_is_none(self):
         run = ancf.stepper(pushed(), step=1e-3)

@@ -250,6 +250,18 @@ class TestSaved:
 
 
 class TestFailures:
+    @pytest.mark.parametrize("push", [1e9, 1e200])
+    def test_an_explicit_step_that_fails(self, push):
+        """It says why; the run is where it was."""
+        model, beam = pendulum()
+        model.add_force(beam.end, (model.add_input("u"), 0, 0))
+        run = ancf.stepper(model, step=1e-5, integrator=ancf.Explicit(check=False))
+        run.advance(10)
+        run.inputs["u"] = push
+        with pytest.raises(ancf.SolveError, match=r"the motion has blown up|no longer finite"):
+            run.advance(5000)
+        assert np.isfinite(run.q).all()
+
     def test_a_step_that_fails(self):
         """The run is where it was, answers, and goes on when the input lets it."""
 

@@ -92,7 +92,7 @@ class Ahead:
         elif status == TURN:
             run.turn()
         elif status != OK:
-            self.bridge()
+            self.bridge(status)
 
     def one(self) -> bool:
         """Take a step with as little Python as there can be; whether that was possible."""
@@ -143,11 +143,11 @@ class Ahead:
         self.at = self.given = self.handed = at
         self.rows, self.width, self.sure = max(self.rows, at), 1, False
 
-    def bridge(self) -> None:
+    def bridge(self, status: int) -> None:
         """A step that has failed, in smaller ones; if these fail too, everything is as it was before."""
         run, before = self.run, self.run.snapshot()
         try:
-            run.bridged(run.time(run.done), run.h, run.done + 1)
+            run.bridged(run.time(run.done), run.h, run.done + 1, status)
         except (SolveError, ModelError):
             run.put_back(before)
             raise

@@ -112,7 +112,7 @@ class Stepper(Live):
         """Go back to a snapshot: the run goes on from there to the same bits, its inputs as they were then.
 
         What was recorded since is forgotten. Of a line whose spans sleep (``reduce=True``) the matrix is made
-        anew, so that it goes on but for what Newton's method leaves, here 0.04 N of a contact force.
+        anew, so that it goes on but for what Newton's method leaves: 0.04 N of a contact force of 150 N.
 
         Parameters
         ----------

@@ -81,8 +81,8 @@ class Asleep(Account):
         if self.far is not None:
             self.far.turn()
 
-    def bridged(self, t: float, h: float, number: int) -> None:
-        """Step ``number`` from t to t + h, which has failed; no part sleeps in it."""
+    def bridged(self, t: float, h: float, number: int, status: int) -> None:
+        """Step ``number`` from t to t + h, which has failed with a status; no part sleeps in it."""
         asleep = [] if self.far is None else self.far.wake_all()
         self.bridge.cross(t, h, number)
         if self.far is not None:

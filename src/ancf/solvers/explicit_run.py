@@ -21,7 +21,7 @@ from .quick import Direct, shared
 from .sampling import Output
 from .stability import stable_limit
 from .start import consistent_start
-from .status import DIVERGED, INVERTED, SINGULAR
+from .status import DIVERGED, SINGULAR
 from .stepping import Run
 
 #: A step may be larger than asked for by this: estimates about two states differ a little.
@@ -46,6 +46,7 @@ class ExplicitRun(Run):
             )
         super().__init__(system, method, t_start, t_end, step, every)
         masses = (own(batch) for batch in system.core.batches if (own := traits(batch).turning_mass))
+        self.solids = failures.solids(system)
         self.turning = bool(np.any(system.core.supports.rot_moving >= 0)) or any(masses)
 
     explicit = True
@@ -113,19 +114,17 @@ class ExplicitRun(Run):
     def _advance(self, t: float, h: float, row: NDArray[np.int64], out: Output) -> tuple[int, int]:
         here = self.memory.q, self.memory.v
         tables = self.system.inputs.tables(t, h, len(row), self.t_start, self.t_end, here)
-        n, self._status = self._take(tables, h, row, out)
-        return n, self._status
+        return self._take(tables, h, row, out)
 
-    def bridged(self, t: float, h: float, number: int) -> None:
+    def bridged(self, t: float, h: float, number: int, status: int) -> None:
         """Nothing helps a step that has failed."""
         m = self.memory
         if (error := failures.blamed(self.system, m.q, m.v, t, number, h)) is not None:
             raise error
-        if self._status == INVERTED:
-            raise failures.collapsed(self.system, int(m.memo[WORST]), t, number, h)
-        raise self._failure(t, number, _REASONS.get(self._status, "the forces are no longer finite"), h)
+        raise self._failure(t, number, _REASONS.get(status, "the forces are no longer finite"), h)
 
     def _check_energy(self, done: int) -> None:
+        failures.check_solids(self.system, self.solids, self.memory.q, self.time(done), done, self.h)
         super()._check_energy(done)
         if not self.method.check or done < self.estimated + RARE_STEPS + RARE_WIDE // self.system.size:
             return

@@ -5,10 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
+from ..batches import Batches
 from ..errors import ModelError, SolveError
 from ..loads.law_functions import problem_of
 from ..loads.state_force import law_of, places_of
 from ..model.kinds import kind_of
+from ..system.compile import beams_by_kind
+from ..system.core import find_inverted
 from ..system.system import System
 from .bridge import MOST_PARTS
 from .memory import NORM, WORST
@@ -85,6 +88,23 @@ def collapsed(system: System, slot: int, t: float, number: int, h: float) -> Sol
     place, reason, hint = inverted(system, slot)
     hint = f"try a step of {h / 10:.2g} s or less, {hint}"
     return SolveError(f"t = {t:.6g} s, step {number}, {place}", f"{reason}; step {h:g} s", hint)
+
+
+def solids(system: System) -> Batches:
+    """Elements with cross-sections, which alone are asked whether these are inside out.
+
+    What looks whether a beam has gone through a surface leaves out what is far, for a step that is tried
+    again: it is no judge of steps that are not.
+    """
+    kinds = beams_by_kind(system.model).items()
+    return Batches(system.parts[kind] for kind, beams in kinds if beams[0].has_section)
+
+
+def check_solids(system: System, batches: Batches, q: FloatArray, t: float, number: int, h: float) -> None:
+    """Raise SolveError if a section of those of :func:`solids` is inside out after step ``number``."""
+    slot = int(find_inverted(batches, system.core.ws, q)) if len(batches) else -1
+    if slot >= 0:
+        raise collapsed(system, slot, t, number, h)
 
 
 def inverted(system: System, slot: int) -> tuple[str, str, str]:

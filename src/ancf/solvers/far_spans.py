@@ -136,11 +136,11 @@ class FarSpans:
         return {"asleep": np.flatnonzero(part[:, ASLEEP]).tolist(), "calm": part[:, CALM].tolist()}
 
     def put_back(self, sleepers: dict[str, list[int]]) -> None:
-        """Let sleep what slept at a snapshot, in whose state all are awake now."""
-        if sleepers["asleep"]:
+        """Let sleep what slept at a snapshot, in whose state all are awake now; none of a whole line."""
+        if sleepers.get("asleep"):
             self._go_to_sleep(sleepers["asleep"])
         if self.parts:
-            self.far.part[:, CALM] = sleepers["calm"]
+            self.far.part[:, CALM] = sleepers.get("calm", 0)
 
     def _calm(self) -> list[int]:
         """Parts that may sleep."""

@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import SolveError
 from ..model.integrators import Radau
-from ..system.core import find_inverted, first_event, keep_memory
+from ..system.core import first_event, keep_memory
 from ..system.energy import energies
 from ..system.system import System
 from . import failures
@@ -85,7 +85,7 @@ class RadauRun(RadauOutput):
         self.sampling = sampling_of(system)
         self.stored = self.sampled = 0  # outputs and samples so far, the start not counted
         self._buffer, self._samples = [], []
-        self._solid = any(beam.has_section for beam in system.model.beams.values())
+        self._solids = failures.solids(system)
 
     @property
     def stats(self) -> Stats:
@@ -255,8 +255,9 @@ class RadauRun(RadauOutput):
         SolveError
             A cross-section has collapsed or turned inside out at its end.
         """
-        if self._solid:
-            self._check_sections(step, t)
+        if len(self._solids):
+            end, number = self._end(step, t)[0], self.stepper.counts.steps + 1
+            failures.check_solids(self.system, self._solids, end, t, number, step.h)
         power = self.problem.powers(step.times, step.Q, step.V, step.A)
         self._output(step, t, power)
         self.work += step.h * (self.stepper.method.b @ power)
@@ -265,12 +266,6 @@ class RadauRun(RadauOutput):
             keep_memory(self.system.core.remembering, *self._end(step, t))
         if self.system.core.joints.tail:
             self._look_at_joints(step, t)
-
-    def _check_sections(self, step: Step, t: float) -> None:
-        core = self.system.core
-        slot = int(find_inverted(core.batches, core.ws, self._end(step, t)[0]))
-        if slot >= 0:
-            raise failures.collapsed(self.system, slot, t, self.stepper.counts.steps + 1, step.h)
 
     def _look(self, recorder: Recorder, progress: Callable[[Progress], None] | None, snapshots: bool) -> None:
         """Hand over what there is, now and then; with a snapshot where the state may be kept."""

@@ -170,7 +170,7 @@ class Run(Asleep):
             self.far.wake_all()
         self.watched.restore(snapshot.arrays, pairs)
         if self.far is not None:
-            self.far.put_back(snapshot.values["sleep"])
+            self.far.put_back(snapshot.values.get("sleep", {}))
         for name in self.KEPT:
             setattr(self, name, snapshot.values[name])
         self.bridge.parts = snapshot.values["parts"]
@@ -283,7 +283,7 @@ class Run(Asleep):
                 elif status == TURN:
                     self.turn()
                 elif status != OK:
-                    self.bridged(self.time(done + first), h, done + first + 1)
+                    self.bridged(self.time(done + first), h, done + first + 1, status)
                     self.store(row[first], first, out, self.bridge.sample)
                     first += 1
         finally:
