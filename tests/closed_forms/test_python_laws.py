@@ -178,7 +178,7 @@ def test_halved_steps_ask_it_anew(way, monkeypatch):
         law.times.clear()
         with monkeypatch.context() as patched:
             patched.setattr(Bridge, "_part", fails(looks))
-            run._ahead.bridge()
+            run._ahead.bridge(UNBALANCED)
         asked = np.array(law.times)
         back = np.diff(asked[np.abs(asked - asked.round(2)) < 1e-9])  # a fluid is asked beside its times too
         assert np.any(back < -5e-3) == looks
