@@ -300,9 +300,9 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
         q, v = given_state(system, about, "modes.about")
         joined = len(np.intersect1d(system.free, system.multipliers))
         checks.integer(count, "modes.count", 1, len(system.free) - 2 * joined)
-        notes = _looked_at(system, q, about, "modes.about") + of_motion(system, q, v)
-        notes += doubts(system.model)
+        notes = _looked_at(system, q, about, "modes.about") + of_motion(system, q, v) + doubts(system.model)
         given = about is not None
+        remembered.begin_small(system, q, None if about is None else about.known)
         about = State(system, 0.0, q, np.zeros_like(v)) if about is None else State(system, about.t, q, v)
         about.derivatives = known
         try:
@@ -350,8 +350,9 @@ def damped_modes(model: Model, *, about: State | None = None, count: int = 10) -
     with expected(model):
         system = independent(model)
         q, v = given_state(system, about, "damped_modes.about")
-        time = 0.0 if about is None else about.t
+        time, known = (0.0, None) if about is None else (about.t, about.known)
         checks.integer(count, "damped_modes.count", 1, len(system.free) - 2 * len(system.multipliers))
+        remembered.begin_small(system, q, known)
         values, shapes, whirl, spin, q = damped_modes_about(system, q, v, time, count)
         notes = [] if np.any(spin) else _looked_at(system, q, about, "damped_modes.about")
         return DampedModes(values, shapes, whirl, spin, State(system, time, q, v), notes)

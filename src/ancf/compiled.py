@@ -226,6 +226,10 @@ class Traits:
     rows : function, optional
         ``rows(batch, q)``: the same of a batch whose parts have many, (m, size), stiffnesses (m,) and
         dampings (m,).
+    stick : function, optional
+        ``stick(batch)``: lets friction hold what it acts on, as small vibrations about a state find it.
+    still : function, optional
+        ``still(batch, q, A, factor)``: adds what its tangent leaves to the masses of a time step.
     memory : tuple of str
         Arrays of floats with what the batch remembers of the motion so far, see :func:`remember`: a step
         that is tried again finds them as they were, states and files keep them.
@@ -236,8 +240,7 @@ class Traits:
         current does, so that its matrix says nothing about stability; default every load does.
     late : function, optional
         ``late(batch)``: what an equilibrium brings on when all else is there, as the friction of a ground: a
-        function of the batch and of q that renews it and returns by how much, relative, it has changed; or
-        None.
+        function of the batch and of q that renews it and returns its relative change; or None.
     laid : function, optional
         ``laid(batch, q)``: lets such friction hold from the state q on, as if all that touches had come there
         without it.
@@ -284,6 +287,8 @@ class Traits:
     row: Callable[..., Any] | None = None
     turn: Callable[..., Any] | None = None
     rows: Callable[[Any, Any], tuple[Any, Any, Any]] | None = None
+    stick: Callable[[Any], None] | None = None
+    still: Callable[[Any, Any, Any, float], None] | None = None
     memory: tuple[str, ...] = ()
     goes_round: bool = False
     follows: Callable[[Any], bool] | None = None

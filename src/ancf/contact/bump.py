@@ -15,6 +15,7 @@ from ..compiled import Role, formula, implements, inline_kernel, kernel
 from ..records import Located
 from ..vectors import dot
 from .bump_along import bump_slopes_along, bump_slopes_beside
+from .bump_still import still_part
 from .meeting import (
     FIRST,
     RADII,
@@ -229,6 +230,7 @@ implements(
     remember=bump_remember,
     inverted=bump_passed,
     early=forget_way,
+    still=still_part,
     role=Role.DISSIPATES | Role.MEASURES,
     memory=("last",),
     damped=lambda batch: bool(np.any(batch.data[:, DAMPING])),

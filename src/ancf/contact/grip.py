@@ -347,6 +347,11 @@ def let_rub(batch, q):
     return change / most if most > 0.0 else 0.0
 
 
+def stick(batch):
+    """Let friction hold what it acts on."""
+    batch.grip[batch.grip[:, LIMIT] > 0.0, LIMIT] = np.inf
+
+
 implements(
     GripBatch,
     force=grip_force,
@@ -358,5 +363,6 @@ implements(
     role=Role.RUBS | Role.MEASURES,
     memory=("grip", "found"),
     late=lambda batch: let_rub,
+    stick=stick,
     resting=((renew_limits, (VECTOR, VECTOR)),),
 )

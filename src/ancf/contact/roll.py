@@ -140,6 +140,11 @@ def let_roll(batch, q):
     return change / most if most > 0.0 else 0.0
 
 
+def stick(batch):
+    """Let friction hold what it acts on."""
+    batch.rough[batch.rough[:, LIMIT] > 0.0, LIMIT] = np.inf
+
+
 implements(
     RollBatch,
     force=roll_force,
@@ -149,5 +154,6 @@ implements(
     role=Role.RUBS | Role.MEASURES,
     memory=("rough", "found"),
     late=lambda batch: let_roll,
+    stick=stick,
     resting=((roll_limits, (VECTOR, VECTOR)),),
 )

@@ -349,6 +349,11 @@ def let_rub(batch, q):
     return 1.0 if change > 0.0 else 0.0  # what has been held does not touch: it is let go all the same
 
 
+def stick(batch):
+    """Let friction hold what it acts on."""
+    batch.limit[batch.limit > 0.0] = np.inf
+
+
 implements(
     RubBatch,
     force=rub_force,
@@ -375,5 +380,6 @@ implements(
     memory=("far", "anchor", "limit", "before", "most", "lit", "drift", "since", "acted", "found"),
     late=lambda batch: let_rub,
     early=hold,
+    stick=stick,
     resting=((grip, (VECTOR, types.boolean)), (renew_limits, (VECTOR, VECTOR))),
 )

@@ -13,7 +13,7 @@ from ..errors import SolveError
 from ..model.model import Model
 from ..preparation import given_state
 from ..results.out_of_balance import notes_of_balance
-from ..results.remembered import Remembered
+from ..results.remembered import Remembered, begin_small
 from ..results.state import State
 from ..solvers.damped_modal import Damped
 from ..solvers.linear import Linear
@@ -82,6 +82,7 @@ def linearise(
         time = 0.0 if about is None else about.t
         _check_rest(system, q, v)
         notes = notes_of_balance(system, q, time, known, "linearise.about")
+        begin_small(system, q, known)
         given = Inputs(system, time, inputs)
         made = _damped(system, q, v, time)
         linear = Linear(made, *given.acting(made))

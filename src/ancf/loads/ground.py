@@ -283,6 +283,11 @@ def lay(batch, q):
     lie_down(Located(batch), q)
 
 
+def stick(batch):
+    """Let friction hold what it acts on."""
+    batch.limit[batch.limit > 0.0] = np.inf
+
+
 implements(
     GroundBatch,
     force=ground_force,
@@ -309,4 +314,5 @@ implements(
     follows=lambda batch: False,
     late=lambda batch: let_rub if np.any(batch.grounds[:, FRICTION]) else None,
     laid=lay,
+    stick=stick,
 )

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
+from ..compiled import traits
 from ..connections.contact_touch import ARC
 from ..connections.sliding import FREE, FROZEN, SLIDES, SlidingBatch
 from ..errors import ModelError
@@ -104,6 +105,14 @@ def begin(system: System, q: FloatArray, v: FloatArray, known: Remembered | None
     for name, value in known.inputs.items() if known.led else ():
         if name in system.inputs.given:
             system.inputs.give(name, value)
+
+
+def begin_small(system: System, q: FloatArray, known: Remembered | None) -> None:
+    """Let a system begin small vibrations about a state at rest: what friction acts on sticks."""
+    begin(system, q, np.zeros_like(q), known)
+    for batch in system.core.remembering:
+        if (stick := traits(batch).stick) is not None:
+            stick(batch)
 
 
 def create(file: Any, known: Remembered) -> None:

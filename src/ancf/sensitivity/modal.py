@@ -12,8 +12,9 @@ from ..errors import ModelError, SolveError
 from ..later import bmat, csc_array, splu
 from ..linalg.sparse import to_sparse
 from ..results.modes import Modes
+from ..system.at_rest import assemble_at_rest
 from ..system.contacts import touching
-from ..system.core import assemble, follow_supports, restrict
+from ..system.core import follow_supports, restrict
 from ..system.fields import Fields
 from ..system.system import System
 from .answers import Face, text_of
@@ -124,11 +125,11 @@ class _Problem:
         self.Y = self._whole(modes.shapes)
 
     def _matrices(self, system: System, q: FloatArray) -> tuple[csc_array, csc_array]:
-        core, still = system.core, np.zeros(system.size)
+        core = system.core
         system.level[:] = 1.0, 0.0, 0.0
         found = []
         for mass, stiffness in ((0.0, 1.0), (1.0, 0.0)):
-            assemble(core.batches, core.ws, q, still, core.A, mass, 0.0, stiffness)
+            assemble_at_rest(core.batches, core.ws, q, core.A, mass, 0.0, stiffness)
             restrict(core.supports, core.A)
             found.append(to_sparse(core.A, system.places))
         A = csc_array(found[0] + touching(core, q, system.n).matrix())

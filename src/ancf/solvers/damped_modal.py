@@ -22,10 +22,12 @@ from ..errors import SolveError
 from ..later import coo_array, csc_array
 from ..linalg.sparse import to_sparse
 from ..model.winch import Winch
-from ..system.contacts import touching
-from ..system.core import apply_load, assemble, follow_supports, residual
+from ..system.at_rest import assemble_at_rest
+from ..system.contacts import Touching, touching
+from ..system.core import Core, apply_load, follow_supports, residual
 from ..system.reactions import AT_REST
 from ..system.system import System
+from .differences_of_forces import Differences, contacts_of, without_noise
 from .modal import motions, unscaled
 from .quadratic import ComplexArray, lowest
 from .standing import Standing, vectors_and_arms
@@ -58,6 +60,7 @@ class Damped:
         self.axes = _axes(system)
         self.W = _on_vectors(system, _skew(self.spin))
         self.standing = Standing(system, self.spin, self.centre)
+        self.rough = Differences(system, contacts_of(system))
         system.level[:] = 1.0, 0.0, 0.0
         self.M = self._whole(1.0, 0.0, 0.0)
         self.braked = self._braked() if np.any(self.spin) else None
@@ -81,7 +84,7 @@ class Damped:
         core = self.system.core
         parts = core.batches if batches is None else batches
         with unscaled(self.system):
-            assemble(parts, core.ws, self.q, np.zeros_like(self.q), core.A, mass, damping, stiffness)
+            assemble_at_rest(parts, core.ws, self.q, core.A, mass, damping, stiffness)
         return csc_array(to_sparse(core.A, self.system.places))
 
     def _part(self, A: csc_array, rows: IntArray, columns: IntArray) -> FloatArray:
@@ -97,10 +100,25 @@ class Damped:
         """
         stiffness, damping = self.standing.beyond(self.q)
         system = self.system
-        touches = touching(system.core, self.q, system.n, lambda row: physical(system, row)[: system.n])
-        K = self._whole(0.0, 0.0, 1.0) + csc_array(stiffness) + touches.matrix()
-        resisting = self._whole(0.0, 1.0, 0.0) + csc_array(damping) + touches.brakes()
+        touches, rubs = self._touching(system.core), self._rubbing()
+        K = self._whole(0.0, 0.0, 1.0) + csc_array(stiffness) + touches.matrix() + rubs[0]
+        resisting = self._whole(0.0, 1.0, 0.0) + csc_array(damping) + touches.brakes() + rubs[1]
         return self.M, csc_array(resisting), csc_array(K)
+
+    def _touching(self, core: Core) -> Touching:
+        return touching(core, self.q, self.system.n, lambda row: physical(self.system, row)[: self.system.n])
+
+    def _rubbing(self) -> tuple[csc_array, csc_array]:
+        """What matrices of a time step lack of stiffness and damping of contacts: normals that turn."""
+        core, own = self.system.core, self.rough.batches
+        if not len(own):
+            return csc_array((self.system.n, self.system.n)), csc_array((self.system.n, self.system.n))
+        touches = self._touching(core._replace(batches=own))
+        K, D = (csc_array(x) for x in self.rough.at(self.q, np.zeros_like))
+        return (
+            without_noise(K, self._whole(0.0, 0.0, 1.0, own) + touches.matrix()),
+            without_noise(D, self._whole(0.0, 1.0, 0.0, own) + touches.brakes()),
+        )
 
     def matrices(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Mass, damping with the gyroscopic part, stiffness with the centrifugal one, constraints.

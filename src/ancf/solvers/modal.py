@@ -20,8 +20,9 @@ from ..errors import SolveError
 from ..later import LinearOperator, SuperLU, csc_array, eigh, eigsh, null_space, splu
 from ..linalg.sparse import to_sparse
 from ..model import checks
+from ..system.at_rest import assemble_at_rest
 from ..system.contacts import touching
-from ..system.core import assemble, follow_supports, restrict
+from ..system.core import follow_supports, restrict
 from ..system.system import System
 from .free_spin import FREE_SPIN, Spin
 from .roundoff import shaken
@@ -172,7 +173,7 @@ def _matrix(system: System, q: FloatArray, mass: float, stiffness: float) -> csc
     """Whole matrix mass M + stiffness K with the supports applied."""
     core = system.core
     with unscaled(system):
-        assemble(core.batches, core.ws, q, np.zeros_like(q), core.A, mass, 0.0, stiffness)
+        assemble_at_rest(core.batches, core.ws, q, core.A, mass, 0.0, stiffness)
     restrict(core.supports, core.A)
     return to_sparse(core.A, system.places)
 

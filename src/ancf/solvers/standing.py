@@ -9,18 +9,13 @@ symmetric, those of a time step are: so both are differences of the forces.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..batches import Batches
-from ..compiled import traits
-from ..system.core import residual
 from ..system.system import System
-
-DIFFERENCE, ROUND_OFF = 1e-6, 1e-8  # of positions in sizes of the model; of derivatives, what is none
+from .differences_of_forces import ROUND_OFF, Differences
 
 #: Batches whose forces may come from the ground and brake.
 HELD = ("springs", "torsion springs")
@@ -32,13 +27,7 @@ class Standing:
     def __init__(self, system: System, spin: FloatArray, centre: FloatArray) -> None:
         self.system, self.spin, self.centre = system, spin, centre
         held = [system.parts[name] for name in HELD if name in system.parts] if np.any(spin) else []
-        self.batches = Batches([*held, *system.core.external])
-        self.place = np.arange(system.n)
-        supports = system.core.supports
-        for c in range(3):
-            self.place[supports.rot_slot + c] = supports.rot_shadow + c
-        touched = np.isin(self.place, _touched(self.batches)) & (system.core.weight > 0.0)
-        self.moved = np.flatnonzero(touched)
+        self.own = Differences(system, [*held, *system.core.external])
 
     def velocity(self, q: FloatArray) -> FloatArray:
         """Velocities of the rotation, shape (size,): of places about the axis, of other vectors alone."""
@@ -57,31 +46,7 @@ class Standing:
         self, q: FloatArray, velocity: Callable[[FloatArray], FloatArray]
     ) -> tuple[FloatArray, FloatArray]:
         """Of the forces by positions, velocities following them, and by velocities alone, each (n, n)."""
-        n = self.system.n
-        by_place, by_rate = np.zeros((n, n)), np.zeros((n, n))
-        rate = max(1.0, float(np.linalg.norm(self.spin)))
-        v = velocity(q)
-        for i in self.moved.tolist():
-            weight = self.system.core.weight[i]
-            near, far = (self._nudged(q, i, s * DIFFERENCE / weight) for s in (1.0, -1.0))
-            difference = self._forces(near, velocity(near)) - self._forces(far, velocity(far))
-            by_place[:, i] = difference * weight / (2.0 * DIFFERENCE)
-            step = rate * DIFFERENCE
-            near, far = (self._nudged(v, i, s * step / weight) for s in (1.0, -1.0))
-            by_rate[:, i] = (self._forces(q, near) - self._forces(q, far)) * weight / (2.0 * step)
-        return by_place, by_rate
-
-    def _nudged(self, x: FloatArray, i: int, by: float) -> FloatArray:
-        near = x.copy()
-        near[self.place[i]] += by
-        return near
-
-    def _forces(self, q: FloatArray, v: FloatArray) -> FloatArray:
-        """In global components, (n,)."""
-        none, r = np.zeros_like(q), np.zeros_like(q)
-        residual(self.batches, self.system.core.ws, q, v, none, none, r)
-        found: FloatArray = r[self.place]
-        return found
+        return self.own.at(q, velocity, max(1.0, float(np.linalg.norm(self.spin))))
 
 
 def vectors_and_arms(system: System, q: FloatArray, centre: FloatArray) -> tuple[IntArray, FloatArray]:
@@ -98,11 +63,3 @@ def _beyond(J: FloatArray, at_rest: FloatArray) -> FloatArray:
     found = J - 0.5 * (at_rest + at_rest.T)
     largest = max(float(np.max(np.abs(x), initial=0.0)) for x in (J, at_rest))
     return np.where(np.abs(found) < ROUND_OFF * largest, 0.0, found)
-
-
-def _touched(batches: Iterable[Any]) -> IntArray:
-    """Entries of the state vector of all slots of batches."""
-    slots = [np.ravel(getattr(b, name)) for b in batches for name in traits(b).slots]
-    found = np.concatenate([np.zeros(0, dtype=np.int64), *slots])
-    found = np.unique(found[found >= 0])
-    return np.ravel(found[:, None] + np.arange(3))

@@ -15,11 +15,11 @@ from ..later import LinearOperator, SuperLU, gmres, splu
 from ..linalg.sparse import to_sparse
 from ..model.beam import Beam
 from ..model.joints import Slide
+from ..system.at_rest import assemble_at_rest
 from ..system.contacts import strips_touch, touching
 from ..system.core import (
     Core,
     apply_supports,
-    assemble,
     factorise_matrix,
     follow_supports,
     residual,
@@ -140,7 +140,7 @@ class Iteration:
 
     def _assemble(self, mass: float, stiffness: float, spin: bool) -> None:
         core = self.core
-        assemble(self.mixed.batches, core.ws, self.q, self.zero, core.A, mass, 0.0, stiffness)
+        assemble_at_rest(self.mixed.batches, core.ws, self.q, core.A, mass, 0.0, stiffness)
         if spin:
             self.spin.add(core.A, self.q)
         restrict(core.supports, core.A)
