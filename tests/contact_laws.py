@@ -132,7 +132,10 @@ def rubbed(law: Any, width: float, N: Any, n: Any, x: Any, v: Any, foreseen: boo
         if N[i] <= 0.0:
             anchor = x[i]
         elif size > limit:
-            anchor = x[i] - share * w / (width * stick)
+            way = across(n[i], x[i] - anchor)
+            pull = width * stick * np.linalg.norm(way)
+            if pull > limit:
+                anchor = x[i] - limit / pull * way
         limit = law.friction * N[i]
         if foreseen and i > 0 and N[i] > 0.0 and N[i - 1] > 0.0:
             limit = law.friction * np.clip(2.0 * N[i] - N[i - 1], 0.9 * N[i], 1.1 * N[i])
@@ -196,9 +199,10 @@ def on_ball(run: ancf.Result, contact: Any) -> tuple[Any, Any, Any, Any]:
         if limit > 0.0:
             way = across(n[i], one.at[i] + A @ met[0] - two.at[i] - B @ met[1] + B @ kept)
             w = stick * way + across(n[i], drag * u[i])
-            share = min(1.0, limit / np.linalg.norm(w))
-            T[i] = -share * w
-            held = (way if share == 1.0 else share * w / stick) * (N[i] > 0.0)
+            T[i] = -min(1.0, limit / np.linalg.norm(w)) * w
+            pull = stick * np.linalg.norm(way)
+            shorter = limit / pull if np.linalg.norm(w) > limit and pull > limit else 1.0
+            held = shorter * way * (N[i] > 0.0)
         met, kept = (A.T @ (place[i] - one.at[i]), B.T @ (place[i] - two.at[i])), B.T @ held
         limit = contact.friction * N[i]
     force = N[:, None] * n + T

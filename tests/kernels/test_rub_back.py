@@ -1,15 +1,14 @@
 """What friction on surfaces remembers, backwards: the transposed of what it is forwards, to round-off."""
 
 import numpy as np
-import pytest
 from test_ground_back import check_numbers, check_states
-from test_rub_slopes import BODIES, FRICTIONS, SHAPES, lying
+from test_rub_slopes import BODIES, DAMPINGS, FRICTIONS, SHAPES, lying
 
 
 @SHAPES
 @BODIES
 @FRICTIONS
-@pytest.mark.parametrize("damping", [0.0, 50.0])
+@DAMPINGS
 def test_states_and_memories(kind, on, friction, damping):
     system, batch, given, memory = lying(kind, on, friction, damping)
     points, rows = batch.limit.size, len(batch.most)
@@ -22,6 +21,7 @@ def test_states_and_memories(kind, on, friction, damping):
 @SHAPES
 @BODIES
 @FRICTIONS
-def test_numbers(kind, on, friction):
-    system, batch, given, memory = lying(kind, on, friction)
+@DAMPINGS
+def test_numbers(kind, on, friction, damping):
+    system, batch, given, memory = lying(kind, on, friction, damping)
     check_numbers(batch, system, given, len(memory) + len(batch.most))

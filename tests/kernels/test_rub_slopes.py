@@ -1,5 +1,7 @@
 """Derivatives of friction on surfaces, and of what it remembers, against differences."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from test_ground_slopes import B, G, agree, change, choose, differences, force, keep, lanes, operate, tangents
@@ -26,7 +28,9 @@ from ancf.system.system import System
 ARRAYS = "anchor", "limit", "before"
 SHAPES = pytest.mark.parametrize("kind", ["cylinder", "sphere", "torus", "sheave", "mesh"])
 BODIES = pytest.mark.parametrize("on", [False, True], ids=["ground", "body"])
-FRICTIONS = pytest.mark.parametrize("friction", [0.02, 0.4, 50.0])
+FRICTIONS = pytest.mark.parametrize("friction", [0.001, 0.02, 0.4, 50.0])
+#: What slips drags its anchor along, or the damper alone pulls beyond the limit.
+DAMPINGS = pytest.mark.parametrize("damping", [0.5, 50.0])
 
 
 def lying(kind, on, friction, damping=50.0, seed=4, drifts=True):
@@ -79,9 +83,10 @@ def alike(found, wanted, points):
 @SHAPES
 @BODIES
 @FRICTIONS
-def test_along_states_and_memories(kind, on, friction):
+@DAMPINGS
+def test_along_states_and_memories(kind, on, friction, damping):
     """One after the other, as forces and memories have them."""
-    system, batch, given, memory = lying(kind, on, friction)
+    system, batch, given, memory = lying(kind, on, friction, damping)
     batches = knowing(
         add_force_slopes, [batch], add_slopes_beside, add_memory_slopes, remember_along, choose_memory
     )
@@ -134,11 +139,12 @@ def test_what_tangents_leave_out(kind, on, friction, name):
 @SHAPES
 @BODIES
 @FRICTIONS
+@DAMPINGS
 @pytest.mark.parametrize("field", ["data", "weight", "shape"])
 @pytest.mark.parametrize("name", ["rubbing", "pressing"])
-def test_changes_of_numbers(kind, on, friction, field, name):
+def test_changes_of_numbers(kind, on, friction, damping, field, name):
     """Three changes at once, one of which is none."""
-    system, batch, given, memory = lying(kind, on, friction)
+    system, batch, given, memory = lying(kind, on, friction, damping)
     rubs = name == "rubbing"
     batch = batch if rubs else system.parts["pressing"]
     own, rng = getattr(batch, field), np.random.default_rng(7)
@@ -211,9 +217,13 @@ def test_where_damping_comes_on(kind, field, depth):
 
 
 def test_the_memories_are_of_all_kinds():
-    """Some points stick, some slip, some touch without either so far, in limits that grow as they may."""
-    kinds = set()
-    for friction in (0.02, 0.4, 50.0):
-        _, batch, _, _ = lying("cylinder", True, friction)
+    """Some points stick, some slip and drag their anchors along, or do not, some touch without any so far."""
+    kinds, drags = set(), set()
+    for friction, damping in product((0.001, 0.02, 0.4, 50.0), (0.5, 50.0)):
+        system, batch, given, memory = lying("cylinder", True, friction, damping)
         kinds |= set(np.sign(np.where(batch.limit > 1e9, 2.0, batch.limit)).ravel().tolist())
+        _, left = both(batch, system, given)
+        moved = np.any((left - memory)[: batch.anchor.size].reshape(*batch.anchor.shape) != 0.0, axis=2)
+        drags |= set(moved[batch.limit < 0.0].tolist())
     assert {-1.0, 1.0} <= kinds
+    assert drags == {False, True}

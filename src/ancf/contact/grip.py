@@ -18,6 +18,7 @@ these forces and moments do work; they are zero where all moves as one rigid bod
 momentum are kept whatever the friction is.
 
 Limits are those of the last step, stretches and pairs are memory: they change once for each accepted step.
+A pair that slips keeps a stretch of limit/k_t at most: what the damper takes beyond stretches nothing.
 All work counts as dissipated; what springs hold while they stick they give back.
 """
 
@@ -214,17 +215,17 @@ def grip_force(batch, q, v, a, r, ws):
 def left_over(batch, g, q, v):
     """Stretch of a row after a step, along and across t_a."""
     e, b = int(g[ELEMENT]), int(g[OTHER])
-    w1, w2, f, slips, d1, _, _, d2, _, _, phi = drawn(batch, g, q, v)
+    _, _, _, slips, d1, _, _, d2, _, _, phi = drawn(batch, g, q, v)
     rho, ta, _, _, _, n, _, _, _ = frame(batch, e, g[X], b, g[Y], q)
     along, across = own_axes(ta, n)
     k, _ = springs(batch, g)
-    if slips:
-        x, y = f * w1 / k, f * w2 / k
-    else:
-        held = plus((g[ALONG] * along[0], g[ALONG] * along[1], g[ALONG] * along[2]), g[ACROSS], across)
-        x, y = dot(d1, rho) + dot(d1, held), phi * dot(d2, rho) + dot(d2, held)
+    held = plus((g[ALONG] * along[0], g[ALONG] * along[1], g[ALONG] * along[2]), g[ACROSS], across)
+    x, y = dot(d1, rho) + dot(d1, held), phi * dot(d2, rho) + dot(d2, held)
     if phi == 0.0:
         y = 0.0
+    pull = k * math.sqrt(x * x + y * y)
+    if slips and pull > g[LIMIT]:
+        x, y = x * g[LIMIT] / pull, y * g[LIMIT] / pull
     return x * dot(d1, along) + y * dot(d2, along), x * dot(d1, across) + y * dot(d2, across)
 
 

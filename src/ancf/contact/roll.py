@@ -5,7 +5,8 @@ then, and e the stretch that was left, in the axes of the second body.  With P =
 
     T = -f w,   w = P (k_t (rho + e) + c_t u),   |f w| <= mu N of the last step,
 
-acts in the place of contact, the opposite force in the same place on the second body.  A body that rolls
+acts in the place of contact, the opposite force in the same place on the second body.  What slips keeps a
+stretch of mu N/k_t at most: what the damper takes beyond the limit stretches nothing.  A body that rolls
 without sliding brings ever new places together: rho grows with the third power of a step, and nothing is
 stretched.
 """
@@ -95,9 +96,10 @@ def roll_remember(batch, q, v):
         _, _, c, _, _, _, _ = meet(batch, e, one, two)
         keep = 0.0, 0.0, 0.0
         if m[LIMIT] > 0.0 and N > 0.0:
-            _, _, w, _, f, slips, _, way = dragged(batch, e, q, v)
-            s = f / data[STICK]
-            keep = (s * w[0], s * w[1], s * w[2]) if slips else way
+            _, _, _, _, _, slips, _, way = dragged(batch, e, q, v)
+            size = data[STICK] * math.sqrt(dot(way, way))
+            s = m[LIMIT] / size if slips and size > m[LIMIT] else 1.0
+            keep = s * way[0], s * way[1], s * way[2]
         x, y = in_body(one, c), in_body(two, c)
         o = in_body(two, (two[0][0] + keep[0], two[0][1] + keep[1], two[0][2] + keep[2]))
         for i in range(3):

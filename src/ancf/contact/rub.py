@@ -6,8 +6,9 @@ At the place x of the axis, which a surface that moves carries along, with the n
 
 where v is the velocity past the surface and c_t = c sqrt(k_t/k).  The anchor is where the spring has no
 force; it stays in the axes of what carries the surface, so that a drum which turns takes it along.  A
-point that does not touch takes its anchor along, one that slips drags it at the distance limit/k_t.  Anchors
-and limits are memory: they change once for each accepted step, see ``rub_remember``.  A limit that is known
+point that does not touch takes its anchor along, one that slips drags it at the distance limit/k_t, as soon
+as the spring alone is that long: what the damper takes beyond the limit stretches nothing.  Anchors and
+limits are memory: they change once for each accepted step, see ``rub_remember``.  A limit that is known
 before the step keeps the matrix symmetric and the iteration stable; N is continued from the ends of the last
 two steps, so that what passes by does not feel the pressure where it was.
 
@@ -160,6 +161,20 @@ def drawn(batch, e, p, r, u, n, body, q):
     return w, size, 1.0, False
 
 
+@formula
+def left(batch, e, p, r, u, n, body, q):
+    """The same of the spring alone, f the factor of what a step leaves in it; whether its anchor moves.
+
+    It moves where the point slips and the spring by itself pulls beyond the limit.
+    """
+    _, _, _, slips = drawn(batch, e, p, r, u, n, body, q)
+    w, size, _, _ = drawn(batch, e, p, r, ZERO, n, body, q)
+    limit = abs(batch.limit[e, p])
+    if slips and size > limit:
+        return w, size, limit / size, True
+    return w, size, 1.0, False
+
+
 @beginning(Touching)
 def rubbed(batch, e, p, row):
     """Place of point p, in body axes too, its velocity past the surface and the normal."""
@@ -228,12 +243,13 @@ def rub_remember(batch, q, v):
         for p in range(batch.weight.shape[1]):
             _, _, N, _, _, n, _, _, _ = pressed(batch, e, p, row)
             r, x, u, _ = rubbed(batch, e, p, row)
-            w, size, f, slips = drawn(batch, e, p, r, u, n, body, q)
+            _, size, f, slips = drawn(batch, e, p, r, u, n, body, q)
             find(batch, j, lam * batch.weight[e, p] * f * size, slips)
-            left = x
+            to = x
             if N > 0.0:
-                left = in_body(body, plus(r, -f / data[STICK], w)) if slips else anchor_at(batch, e, p, q)
-            batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = left
+                w, _, f, yields = left(batch, e, p, r, u, n, body, q)
+                to = in_body(body, plus(r, -f / data[STICK], w)) if yields else anchor_at(batch, e, p, q)
+            batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = to
             batch.acted[e, p] = batch.limit[e, p]
             batch.limit[e, p] = data[FRICTION] * ahead(N, batch.before[e, p])
             batch.before[e, p] = N

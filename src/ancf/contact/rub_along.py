@@ -10,7 +10,8 @@ force N' of the step before,
 
     dL = mu (dN by_N + dN' by_N'),    da = dr + dT/k_t  of what slips,    dr  of what does not touch,
 
-in the axes of what carries the surface, and that of what sticks as it was.
+in the axes of what carries the surface, with T of the spring alone, c_t = 0; and that of what sticks, or
+whose spring is within the limit, as it was.
 
 Here a memory is all anchors, then all limits, then all forces before, then ``most``, which has no derivative.
 """
@@ -77,6 +78,19 @@ def drawn_here(batch, e, p, row, here):
     size = np.sqrt(dot(w, w))
     if size > batch.limit[e, p]:
         return x, w, size, abs(batch.limit[e, p]) / size, True, way, anchor
+    return x, w, size, 1.0, False, way, anchor
+
+
+@formula
+def left_here(batch, e, p, row, here):
+    """The same of the spring alone, f the factor of what a step leaves in it; whether its anchor moves."""
+    _, _, _, _, slips, way, anchor = drawn_here(batch, e, p, row, here)
+    stick, n, limit = batch.data[batch.contact[e], STICK], here[4], abs(batch.limit[e, p])
+    x = stick * way[0], stick * way[1], stick * way[2]
+    w = both(1.0, x, -dot(x, n), n)
+    size = np.sqrt(dot(w, w))
+    if slips and size > limit:
+        return x, w, size, limit / size, True, way, anchor
     return x, w, size, 1.0, False, way, anchor
 
 
@@ -204,11 +218,11 @@ def rub_remember_along(batch, q, v, d, z, ws):
                 store(every(0.0), z, limit)
                 store(every(0.0), z, before)
                 continue
-            x, w, size, f, slips, _, own = drawn_here(batch, e, p, row, here)
-            if slips:
+            x, w, size, f, yields, _, own = left_here(batch, e, p, row, here)
+            if yields:
                 da, dL = remembered_in(batch, e, p, row, z)
-                dx = both(data[STICK], carried_along(batch, e, own, ways[1], dr), data[DRAG], du)
-                dT = rubbed(w, size, f, slips, along_ground(n, x, dn, both(1.0, dx, -data[STICK], da)), dL)
+                dx = both(data[STICK], carried_along(batch, e, own, ways[1], dr), -data[STICK], da)
+                dT = rubbed(w, size, f, True, along_ground(n, x, dn, dx), dL)
                 left, dr = both(1.0, here[1], -f / data[STICK], w), both(1.0, dr, 1.0 / data[STICK], dT)
                 inner = inside(batch, e, row, left, dr, ways[1])
                 for c in range(3):
@@ -265,7 +279,8 @@ def rub_memory_changes(batch, q, v, rates, kinds, begin, out, ws):
         for p in range(batch.weight.shape[1]):
             anchor, limit, before = places_of(batch, e, p)
             here = met(batch, e, p, row)
-            N, pull = here[5], drawn_here(batch, e, p, row, here)
+            N, pull = here[5], left_here(batch, e, p, row, here)
+            still = here[0], here[1], here[2], ZERO, here[4], N, here[6], here[7]
             by_N, _ = grown_by(N, batch.before[e, p])
             for m in range(begin.shape[0]):
                 of, z = rates[m * of_each : (m + 1) * of_each], out[begin[m] :]
@@ -280,7 +295,7 @@ def rub_memory_changes(batch, q, v, rates, kinds, begin, out, ws):
                     z[LANES * before] += dN
                     if not pull[4]:
                         continue
-                    dT, w = rubbed_by(batch, e, here, pull, dr, du, dn, own), pull[1]
+                    dT, w = rubbed_by(batch, e, still, pull, dr, ZERO, dn, own), pull[1]
                     stiff, shorter = data[STICK], pull[3] * own[STICK] / data[STICK]
                     dr = both(1.0, dr, 1.0 / stiff, both(1.0, dT, shorter, w))
                     dx = inside(batch, e, row, here[1], dr, STILL)

@@ -13,7 +13,7 @@ from ..loads.ground_slopes import pulled_back
 from ..records import beginning
 from ..vectors import both, dot
 from .press_slopes import add_at, distance_back
-from .rub_along import OWN, drawn_here, grown_by, places_of
+from .rub_along import OWN, drawn_here, grown_by, left_here, places_of
 from .rubbed import ahead
 from .touch import (
     DAMPING,
@@ -41,8 +41,11 @@ STILL = ZERO, ZERO, ZERO
 
 
 @formula
-def back_at(batch, e, p, row, here, pull, rubs, by_T, by_N):
-    """Derivatives at a point by r, u, x, the limit and what carries the surface, from those by T and by N."""
+def back_at(batch, e, p, row, here, pull, rubs, damps, by_T, by_N):
+    """Derivatives at a point by r, u, x, the limit and what carries the surface, from those by T and by N.
+
+    ``damps``: 1, or 0 of the spring alone.
+    """
     _, r, _, u, n, _, by_g, by_speed = here
     by_x, by_n, by_L = ZERO, ZERO, 0.0
     if rubs:
@@ -52,7 +55,7 @@ def back_at(batch, e, p, row, here, pull, rubs, by_T, by_N):
     by_r, a, b, c = distance_back(batch, e, p, row, r, -by_N * by_g, by_n)
     if rubs:
         data, z = batch.data[batch.contact[e]], pull[6]
-        by_r, by_u = plus(by_r, data[STICK], by_x), plus(by_u, data[DRAG], by_x)
+        by_r, by_u = plus(by_r, data[STICK], by_x), plus(by_u, damps * data[DRAG], by_x)
         k = -data[STICK]
         a, b, c = plus(a, k * z[0], by_x), plus(b, k * z[1], by_x), plus(c, k * z[2], by_x)
     return by_r, by_u, by_x, by_L, (a, b, c)
@@ -105,7 +108,7 @@ def worked_at(batch, e, p, row, here, given):
     X = relative(place_on(batch, e, p, given[0]), given[1], here[2])
     pull = drawn_here(batch, e, p, row, here)
     by_T = plus(ZERO, -batch.weight[e, p], X)
-    return X, pull, back_at(batch, e, p, row, here, pull, True, by_T, 0.0)
+    return X, pull, back_at(batch, e, p, row, here, pull, True, 1.0, by_T, 0.0)
 
 
 @formula
@@ -235,20 +238,20 @@ def point_back(batch, e, p, row, z, by_q, by_v, numbers):
     by_next, by_last = grown_by(N, batch.before[e, p])
     by_N = by_force + data[FRICTION] * by_next * by_limit
     own[FRICTION] -= ahead(N, batch.before[e, p]) * by_limit
-    pull, left = drawn_here(batch, e, p, row, here), turned(body, kept)
-    slips, stick = pull[4], data[STICK]
-    by_T = plus(ZERO, 1.0 / stick, left) if slips else ZERO
-    by_r, by_u, by_x, by_L, (a, b, c) = back_at(batch, e, p, row, here, pull, slips, by_T, by_N)
-    if slips:
+    pull, left = left_here(batch, e, p, row, here), turned(body, kept)
+    yields, stick = pull[4], data[STICK]
+    by_T = plus(ZERO, 1.0 / stick, left) if yields else ZERO
+    by_r, by_u, by_x, by_L, (a, b, c) = back_at(batch, e, p, row, here, pull, yields, 0.0, by_T, by_N)
+    if yields:
         y = both(1.0, here[1], -1.0, body[0])
         y = plus(y, -pull[3] / stick, pull[1])
         by_r = plus(by_r, 1.0, left)
         a, b, c = plus(a, kept[0], y), plus(b, kept[1], y), plus(c, kept[2], y)
         own[STICK] -= pull[3] * dot(pull[1], left) / (stick * stick)
-        add_pulled(batch, e, -1.0, here, pull, by_x, own)
+        own[STICK] -= dot(pull[5], by_x)
     by_r = add_back(batch, e, p, -1.0, row, here, by_r, by_u, ZERO, (a, b, c), by_q, by_v)
     add_pressed(batch, e, -1.0, here, by_N, own)
     add_factors(batch, e, p, -1.0, row, by_r, by_u, numbers[factors:])
     for m in range(3):
-        z[anchor + m] = -stick * dot(by_x, body[1 + m]) if slips else kept[m]
+        z[anchor + m] = -stick * dot(by_x, body[1 + m]) if yields else kept[m]
     z[limit], z[before] = by_L, data[FRICTION] * by_last * by_limit

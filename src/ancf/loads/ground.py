@@ -12,7 +12,8 @@ the ground,
 
 where P projects on the ground and c_t = c sqrt(k_t/k) is the same share of the critical damping.  The anchor
 is where the spring has no force: a point that does not touch takes it along, one that slips drags it at the
-distance limit/(d k_t).  Anchors and limits are memory: they change once for each accepted step, see
+distance limit/(d k_t), as soon as the spring alone is that long: what the damper takes beyond the limit
+stretches nothing.  Anchors and limits are memory: they change once for each accepted step, see
 ``ground_remember``.  A limit that is that of the step before keeps the matrix symmetric and the iteration
 stable.  In an equilibrium the anchors are the places of the initial shape, so that friction opposes the way
 from there, whatever the load steps are; it comes on last, with limits that are renewed until they fit.
@@ -61,7 +62,7 @@ from .ground_along import (
     ground_slopes_beside,
 )
 from .ground_numbers import NUMBERED, ground_changes, ground_memory_changes, kinds_of, numbers
-from .ground_points import anchor_at, drawn_at, touch_at
+from .ground_points import anchor_at, drawn_at, left_at, touch_at
 from .ground_slopes import (
     ground_memory_back,
     ground_memory_work,
@@ -216,9 +217,9 @@ def ground_remember(batch, q, v):
         for p in range(batch.weight.shape[1]):
             at, u, n, N, _, _ = touch_at(batch, e, p, q, v)
             stick = ground[STICK]
-            w, _, f, slips = drawn_at(batch, e, p, q, at, u, n)
+            w, _, f, yields = left_at(batch, e, p, q, at, u, n)
             x, y, z = anchor_at(batch, e, p, q)
-            if slips or N == 0.0:
+            if yields or N == 0.0:
                 keep = f / (batch.diameter[e] * stick) if N > 0.0 else 0.0
                 x, y, z = at[0] - keep * w[0], at[1] - keep * w[1], at[2] - keep * w[2]
             batch.anchor[e, p, 0], batch.anchor[e, p, 1], batch.anchor[e, p, 2] = x, y, z

@@ -12,7 +12,7 @@ On a table of heights the normal turns with the place, and dg has a share of tha
 
     dL = mu dN,    danchor = dr + dT/(d k_t) of what slips,    dr of what does not touch,
 
-and that of what sticks as it was.
+with T of the spring alone, c_t = 0, and that of what sticks, or whose spring is within the limit, as it was.
 
 Here a memory is all anchors, then all limits, as :func:`ground_choice` writes them.
 """
@@ -25,11 +25,12 @@ from ..compiled import formula, inline_kernel
 from ..simd import every, load, store
 from ..vectors import both, dot
 from .along import in_lanes
-from .ground_points import drawn_at, pressed_at, pulled_at, touch_at
+from .ground_points import drawn_at, left_at, pressed_at, pulled_at, touch_at
 from .relief import DRAG, FRICTION, STICK, twist_at
 
 #: Part of a limit by which a force is not beyond it, and a limit that nothing reaches, N/m.
 JUST, HELD = 1e-7, 1e100
+ZERO = (0.0, 0.0, 0.0)
 
 
 @formula
@@ -190,12 +191,11 @@ def ground_remember_along(batch, q, v, d, z, ws):
                 store(every(0.0), z, limit)
                 continue
             du, (dg, dn) = in_lanes(batch, e, p, batch.shape, d, 1), turning(batch, e, at, g, dr)
-            w, size, f, slips = drawn_at(batch, e, p, q, at, u, n)
-            if slips:
+            w, size, f, yields = left_at(batch, e, p, q, at, u, n)
+            if yields:
                 da, dL = anchor_in(batch, e, p, z)
-                x, dx = pulled_at(batch, e, p, q, at, u), both(ground[STICK], dr, ground[DRAG], du)
-                dx = both(1.0, dx, -ground[STICK], da)
-                dT = rubbed(w, size, f, slips, along_ground(n, x, dn, dx), dL)
+                x, dx = pulled_at(batch, e, p, q, at, ZERO), both(ground[STICK], dr, -ground[STICK], da)
+                dT = rubbed(w, size, f, True, along_ground(n, x, dn, dx), dL)
                 for c in range(3):
                     store(dr[c] + inverse * dT[c], z, anchor + c)
             dN = by_g * (dg - dot(n, dr)) - by_rate * (dot(n, du) + dot(u, dn))

@@ -6,7 +6,7 @@ changes them, weights of points and factors of their places.  At fixed unknowns 
 
     dN = N dd/d + d (g dk + on g' dc),    dx = dk_t (r - anchor) + dc_t v,    dL = dmu N
 
-and, of what sticks, dT = -w dd are added.
+and, of what sticks, dT = -w dd are added.  What stays in the spring knows of no damping, c_t = 0.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from ..compiled import formula, inline_kernel
 from ..simd import LANES
 from ..vectors import both, dot
 from .along import stretch_at
-from .ground_along import along_ground, both_forces, places_of, rubbed, turning
-from .ground_points import anchor_at, drawn_at, pressed_at, pulled_at
+from .ground_along import ZERO, along_ground, both_forces, places_of, rubbed, turning
+from .ground_points import anchor_at, drawn_at, left_at, pressed_at, pulled_at
 from .relief import DAMPING, DRAG, FRICTION, NORMAL, PLACE, SOFT, STICK, STIFFNESS
 
 #: Fields of which the numbers are made, one after the other, and those that change with these.
@@ -106,6 +106,16 @@ def pull_at(batch, e, p, q, here):
 
 
 @formula
+def left_of(batch, e, p, q, here):
+    """A point as if it stood still, and :func:`pull_at` of what a step leaves in the spring there."""
+    at, u, g, n, N, by_g, by_rate = here
+    still = at, ZERO, g, n, N, by_g, by_rate
+    x, _, _, _, _, way = pull_at(batch, e, p, q, still)
+    w, size, f, yields = left_at(batch, e, p, q, at, u, n)
+    return still, (x, w, size, f, yields, way)
+
+
+@formula
 def rubbed_by(ground, here, pull, dr, du, dn, own, dd):
     """What the friction at a point changes by as it moves and numbers change."""
     x, w, size, f, slips, way = pull
@@ -161,17 +171,17 @@ def ground_memory_changes(batch, q, v, rates, kinds, begin, out, ws):
         ground = batch.grounds[k]
         for p in range(batch.weight.shape[1]):
             here, (anchor, limit) = pressed_at(batch, e, p, q, v), places_of(batch, e, p)
-            N, pull = here[4], pull_at(batch, e, p, q, here)
+            N, (still, pull) = here[4], left_of(batch, e, p, q, here)
             goes_along = N == 0.0 or batch.limit[e, p] == 0.0
             for m in range(begin.shape[0]):
                 of, shaped, z = rates[m * of_each : (m + 1) * of_each], kinds[m] != 0, out[begin[m] :]
                 if goes_along and not shaped and N == 0.0:
                     continue
                 own, dd = of[columns * k : columns * (k + 1)], of[batch.grounds.size + e]
-                dr, du, dn, dN = moved_at(batch, e, p, q, v, here, shaped, own, dd, of)
+                dr, _, dn, dN = moved_at(batch, e, p, q, v, here, shaped, own, dd, of)
                 z[LANES * limit] += own[FRICTION] * N + ground[FRICTION] * dN
                 if pull[4] and not goes_along:
-                    dT = rubbed_by(ground, here, pull, dr, du, dn, own, dd)
+                    dT = rubbed_by(ground, still, pull, dr, ZERO, dn, own, dd)
                     shorter = pull[3] * (dd / d + own[STICK] / ground[STICK])
                     dr = both(1.0, dr, 1.0 / (d * ground[STICK]), both(1.0, dT, shorter, pull[1]))
                 if pull[4] or goes_along:

@@ -67,6 +67,20 @@ def drawn_at(batch, e, p, q, r, u, n):
 
 
 @formula
+def left_at(batch, e, p, q, r, u, n):
+    """The same of the spring alone, f the factor of what a step leaves in it; whether its anchor moves.
+
+    It moves where the point slips and the spring by itself pulls beyond the limit.
+    """
+    _, _, _, slips = drawn_at(batch, e, p, q, r, u, n)
+    w, size, _, _ = drawn_at(batch, e, p, q, r, (0.0, 0.0, 0.0), n)
+    d, limit = batch.diameter[e], abs(batch.limit[e, p])
+    if slips and d * size > limit:
+        return w, size, limit / size, True
+    return w, size, d, False
+
+
+@formula
 def pressed_at(batch, e, p, q, v):
     """Place, velocity, depth and normal at point p of row e; N and its derivatives by depth and its rate."""
     k, d = batch.ground[e], batch.diameter[e]

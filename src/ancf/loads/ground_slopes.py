@@ -19,7 +19,7 @@ from ..compiled import formula, inline_kernel
 from ..vectors import both, dot
 from .along import place_at
 from .ground_along import places_of
-from .ground_numbers import pull_at
+from .ground_numbers import left_of, pull_at
 from .ground_points import pressed_at
 from .relief import DAMPING, DRAG, FRICTION, NORMAL, PLACE, SOFT, STICK, STIFFNESS, twist_at
 
@@ -55,8 +55,11 @@ def pressed_back(batch, e, here, by_N, by_n):
 
 
 @formula
-def back_at(batch, e, here, pull, rubs, by_T, by_N, by_n):
-    """Derivatives at a point by r, u, x and n, and by the limit and, through friction, the diameter."""
+def back_at(batch, e, here, pull, rubs, damps, by_T, by_N, by_n):
+    """Derivatives at a point by r, u, x and n, and by the limit and, through friction, the diameter.
+
+    ``damps``: 1, or 0 of the spring alone.
+    """
     by_x, by_L, by_d = ZERO, 0.0, 0.0
     if rubs:
         by_x, more, by_L, by_d = pulled_back(pull, here[3], by_T)
@@ -64,7 +67,7 @@ def back_at(batch, e, here, pull, rubs, by_T, by_N, by_n):
     by_r, by_u, by_n = pressed_back(batch, e, here, by_N, by_n)
     if rubs:
         ground = batch.grounds[batch.ground[e]]
-        by_r, by_u = both(1.0, by_r, ground[STICK], by_x), both(1.0, by_u, ground[DRAG], by_x)
+        by_r, by_u = both(1.0, by_r, ground[STICK], by_x), both(1.0, by_u, damps * ground[DRAG], by_x)
     return by_r, by_u, by_x, by_n, by_L, by_d
 
 
@@ -74,7 +77,7 @@ def worked_at(batch, e, p, q, here, X):
     n, N, rubs, w = here[3], here[4], batch.limit[e, p] != 0.0, -batch.weight[e, p]
     by_f = both(w, X, 0.0, X)
     pull = pull_at(batch, e, p, q, here)
-    return pull, back_at(batch, e, here, pull, rubs, by_f, dot(n, by_f), both(N, by_f, 0.0, by_f))
+    return pull, back_at(batch, e, here, pull, rubs, 1.0, by_f, dot(n, by_f), both(N, by_f, 0.0, by_f))
 
 
 @formula
@@ -101,13 +104,13 @@ def ground_work_slopes(batch, q, v, a, x, by_q, by_v, by_a, ws):
 
 
 @formula
-def add_numbers(batch, e, factor, here, pull, by_N, by_x, by_n, by_d, out):
-    """Add derivatives by the numbers of a ground and the diameter, times a factor."""
+def add_numbers(batch, e, factor, here, pull, damps, by_N, by_x, by_n, by_d, out):
+    """Add derivatives by the numbers of a ground and the diameter, times a factor; see :func:`back_at`."""
     at, u, g, n, N, by_depth, _ = here
     k, d, rate = batch.ground[e], batch.diameter[e], -dot(here[1], here[3])
     ground, own = batch.grounds[k], out[batch.grounds.shape[1] * k :]
     own[STICK] += factor * dot(pull[5], by_x)
-    own[DRAG] += factor * dot(u, by_x)
+    own[DRAG] += damps * factor * dot(u, by_x)
     if N > 0.0:
         on = min(1.0, 1.0 + g / (SOFT * d))
         own[STIFFNESS] += factor * by_N * d * g
@@ -149,7 +152,7 @@ def ground_number_work(batch, q, v, a, x, out, ws):
             X = place_at(batch, e, p, x)
             pull, (by_r, by_u, by_x, by_n, _, by_d) = worked_at(batch, e, p, q, here, X)
             by_N = -batch.weight[e, p] * dot(n, X)
-            add_numbers(batch, e, 1.0, here, pull, by_N, by_x, by_n, by_d, out)
+            add_numbers(batch, e, 1.0, here, pull, 1.0, by_N, by_x, by_n, by_d, out)
             f = both(N, n, -pull[3] if rubs else 0.0, pull[1])
             out[weights + e * batch.weight.shape[1] + p] -= dot(f, X)
             add_factors(batch, e, p, 1.0, q, v, by_r, by_u, out)
@@ -192,19 +195,20 @@ def ground_memory_back(batch, q, v, z, by_q, by_v, numbers, ws):
                     z[anchor + c] = 0.0
                 z[limit] = 0.0
                 continue
-            pull, by_N = pull_at(batch, e, p, q, here), ground[FRICTION] * by_L
+            (_, pull), by_N = left_of(batch, e, p, q, here), ground[FRICTION] * by_L
             own[FRICTION] -= N * by_L
-            slips = pull[4]
-            by_T = both(1.0 / stiff, left, 0.0, left) if slips else ZERO
-            by_r, by_u, by_x, by_n, by_L, by_d = back_at(batch, e, here, pull, slips, by_T, by_N, ZERO)
-            if slips:
+            yields = pull[4]
+            by_T = both(1.0 / stiff, left, 0.0, left) if yields else ZERO
+            found = back_at(batch, e, here, pull, yields, 0.0, by_T, by_N, ZERO)
+            by_r, by_u, by_x, by_n, by_L, by_d = found
+            if yields:
                 by_r = both(1.0, by_r, 1.0, left)
                 shorter = pull[3] * dot(pull[1], left) / stiff
                 by_d += shorter / d
                 own[STICK] -= shorter / ground[STICK]
             add_at(batch, e, p, -1.0, by_r, by_u, by_q, by_v)
-            add_numbers(batch, e, -1.0, here, pull, by_N, by_x, by_n, by_d, numbers)
+            add_numbers(batch, e, -1.0, here, pull, 0.0, by_N, by_x, by_n, by_d, numbers)
             add_factors(batch, e, p, -1.0, q, v, by_r, by_u, numbers)
             for c in range(3):
-                z[anchor + c] = -ground[STICK] * by_x[c] + (0.0 if slips else left[c])
+                z[anchor + c] = -ground[STICK] * by_x[c] + (0.0 if yields else left[c])
             z[limit] = by_L

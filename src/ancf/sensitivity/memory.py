@@ -22,22 +22,25 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import FloatArray
+from ..arrays import FloatArray, IntArray
 from ..batches import Batches
-from ..compiled import traits
+from ..compiled import choose_memory, traits
 from ..errors import ModelError
+from ..solvers.friction import choose_here
 from ..solvers.kinks import FORCE, LENGTH, LIMIT, Remembering, add_forces_along, leave_along
+from ..solvers.rare import knowing
 from ..solvers.sensitivity import Way
 from ..system.core import apply_supports, keep_memory, place_supports
 from ..system.system import System
 from .answers import derivative
 from .family import Family
+from .marked import keys_of
 from .remembering import Resting, Row, friction_of
 
 #: Arrays of a memory that depend smoothly on the state.
 LENGTHS, FORCES = ("anchor",), ("limit", "before")
-#: Part of a limit by which a force is not beyond it, and a limit that nothing reaches, N/m.
-JUST, HELD = 1e-7, 1e100
+#: A limit that nothing reaches, N/m.
+HELD = 1e100
 
 Function = Callable[[float], FloatArray]
 
@@ -83,17 +86,23 @@ class Memory:
 
     def choose(self, q: FloatArray, v: FloatArray) -> None:
         """Let points do what they do in the state at the end of a step, stick or slip, until :meth:`step`."""
-        chosen = {name: x.copy() for name, x in self._now.items()}
-        limits = [name for name in chosen if name.endswith(".limit")]
-        self.put(self._now | {name: (1.0 + JUST) * self._now[name] for name in limits})
-        keep_memory(self.batches, q, v)
-        for name in limits:
-            anchor, limit = name.replace("limit", "anchor"), chosen[name]
-            stays = np.all(self._own[anchor] == self._now[anchor], axis=-1)
-            limit[~stays & (self._own[name] > 0.0)] *= -1.0  # what is left moves its anchor as well
-            limit[stays & (limit > 0.0)] = HELD
-        self.put(chosen)
+        self.put(self._now)
+        remembering, first, names = self._choosing
+        out = np.zeros(first[-1])
+        choose_here(remembering, first, q, v, out)
+        chosen = split(out, {name: self._now[name] for name in names})
+        self.put(self._now | {name: x for name, x in chosen.items() if name.endswith(".limit")})
         self.share()
+
+    @cached_property
+    def _choosing(self) -> tuple[Batches, IntArray, list[str]]:
+        """The batches as they are asked what points do, and where what they answer lies."""
+        parts = [self.system.parts[name] for name in self.names]
+        names = [
+            f"{name}.{key}" for name, part in zip(self.names, parts, strict=True) for key in keys_of(part)
+        ]
+        sizes = [sum(getattr(part, key).size for key in keys_of(part)) for part in parts]
+        return knowing(choose_memory, parts), np.cumsum([0, *sizes]), names
 
     def begin(self, q: FloatArray, v: FloatArray, s: FloatArray) -> None:
         """Take the derivatives of that from those of the state at the start, (p, 3, size).

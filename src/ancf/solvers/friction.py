@@ -56,6 +56,13 @@ def no_friction() -> Friction:
 
 
 @kernel
+def choose_here(remembering, first, q, v, out):
+    """Fill the memories of batches, one after the other, with what their points do in a state chosen."""
+    for k in range(first.shape[0] - 1):
+        choose_memory_of(remembering, k, q, v, out[first[k] : first[k + 1]])
+
+
+@kernel
 def remember_steps(core, friction, remembering, tables, way):
     """Fill what is remembered in the steps of a block, from what batches that ``remembering`` has know now.
 
