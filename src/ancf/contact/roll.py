@@ -8,7 +8,7 @@ then, and e the stretch that was left, in the axes of the second body.  With P =
 acts in the place of contact, the opposite force in the same place on the second body.  What slips keeps a
 stretch of mu N/k_t at most: what the damper takes beyond the limit stretches nothing.  A body that rolls
 without sliding brings ever new places together: rho grows with the third power of a step, and nothing is
-stretched.
+stretched; where the two turn past each other about the normal as well, with the second one.
 """
 
 from __future__ import annotations
