@@ -79,6 +79,29 @@ def test_several_cables(stiffness, count):
     agrees(model, FALL, names_of(1.0), settings())
 
 
+@pytest.mark.parametrize("method", ["trapezoidal index2", "trapezoidal ggl", "generalized index3"])
+@pytest.mark.parametrize(
+    ("stiffness", "damping", "count"), [(1e5, 30.0, 1), (1e6, 300.0, 3), (1e6, 0.0, 2), (1e8, 0.0, 2)]
+)
+def test_cables_beside_a_joint(stiffness, damping, count, method):
+    """In stiff contacts corrections grow without their changes being mixed."""
+    model = fallen(stiffness=stiffness, damping=damping, count=count)
+    hub = model.add_rigid_body("hub", at=(0.6, 0.42, D), mass=0.2, inertia=(1e-3, 1e-3, 1e-3))
+    top = model.bodies["top"]
+    hub.set_motion(velocity=(0.0, 0.0, -1.0))
+    model.connect(top.end, hub.at(*(top.end.initial_position - [0.6, 0.42, D])))
+    agrees(model, FALL, names_of(damping), settings(methods()[method]))
+
+
+@pytest.mark.parametrize("method", ["trapezoidal index1", "generalized index2"])
+@pytest.mark.parametrize("stiffness", [1e5, 1e6])
+@pytest.mark.parametrize("pair", ["balls", "on plane", "along capsule"])
+def test_stiff_bodies_beside_a_joint(pair, stiffness, method):
+    model = just_above(pair, 1.3e-3, stiffness=stiffness, damping=0.0)
+    given = settings(methods()[method], steps=40, step=2e-4)
+    agrees(model, ROLL, BODIES[:-1], given, 100.0 / stiffness)
+
+
 def grazing(depth, step, **given):
     """The same, so high that in one of the first steps they touch by no more than this."""
     model = fallen(gap=0.02, **given)

@@ -19,6 +19,7 @@ from .ahead import look_ahead
 from .edge import corrected_at_edge, edge_anew, solve_rows, to_local_abreast, to_shadows_abreast
 from .foreseen import foresee
 from .friction import add_remembered, bring, remember_changes, remember_group
+from .mixing_abreast import X, mixed, taken
 from .rare import add_slopes_along, add_slopes_beside_all
 from .scheme import coefficients
 from .sensitivity import DIFFERENCED, ENOUGH, MOST, add_lossy, both_along, is_done
@@ -67,7 +68,7 @@ def products(core, m, K, C, W, moves, room):
 
 
 @inline_kernel
-def taken(room, lane, d):
+def lane_of(room, lane, d):
     """The sensitivity in a lane as vectors (3, size)."""
     for k in range(3):
         for i in range(d.shape[1]):
@@ -78,7 +79,7 @@ def taken(room, lane, d):
 def add_others(core, m, x, room, lane):
     """Add what the batches that are not exact do to r, of one lane."""
     r, d = m.work[0], m.work[1:4]
-    taken(room, lane, d)
+    lane_of(room, lane, d)
     for i in range(r.shape[0]):
         r[i] = 0.0
     if m.lossy.table.shape[0] > 0:
@@ -205,14 +206,18 @@ def turned_back(core, r):
 
 
 @inline_kernel
-def not_done(room, weight, count, enough):
-    """Number of lanes whose corrections, of sizes ``norm``, go on; these stay open."""
+def not_done(room, weight, count, enough, mixes):
+    """Number of lanes whose corrections, of sizes ``norm``, go on; these stay open.
+
+    ``mixes``: some that do not shrink, before the last of a few that are mixed, are no round-off yet.
+    """
     left = 0
     sizes_of(room.d[0], weight, room.size)
     for k in range(count):
         if room.open[k] > 0.0:
             norm = max(room.norm[k], room.shift[k])
-            if is_done(norm, room.size[k], room.before[k], enough):
+            early = mixes and norm > SILENT * room.size[k]
+            if not early and is_done(norm, room.size[k], room.before[k], enough):
                 room.open[k] = 0.0
             else:
                 room.before[k] = norm
@@ -258,9 +263,12 @@ def solved(
     enough = DIFFERENCED if rough else ENOUGH
     again = matrices[2].shape[0] > 0 or jointed
     foresees = m.outside and known and not projects
+    mixes = room.mix.shape[0] > 0 and not foresees
     for k in range(LANES):
         room.before[k], room.open[k], room.shift[k] = np.inf, 1.0 if k < count else 0.0, 0.0
     for round in range(MOST):
+        if mixes:
+            taken(core.weight.shape[0], room.d, room.mix, X)
         if round > 0 and known and not projects:
             out_again(core, m, matrices[2], x, room, B, G)
         else:
@@ -278,10 +286,12 @@ def solved(
         sizes_of(room.r, core.weight, room.norm)
         if projects:
             shifted(core, m, factor, x, gap, n, first, joined, room)
-        if not_done(room, core.weight, count, enough) == 0 or (known and not again):
+        if not_done(room, core.weight, count, enough, mixes and round < LATE) == 0 or (known and not again):
             return OK
         if round == LATE and not known and not_silent(core, m, factor, push, n, first, count, room) == 0:
             return OK
+        if mixes:
+            mixed(core, room, B, G, round)
     return SLOW
 
 

@@ -14,6 +14,7 @@ from ..compiled import formula, inline_kernel
 from ..linalg.eight import lane_rows
 from ..records import recorded
 from ..simd import LANES, absolute, every, gather_lanes, load, put_lanes, store
+from .mixing_abreast import ROOM
 from .sensitivity import ABAR, A, Q, V
 
 
@@ -34,15 +35,19 @@ class Abreast(NamedTuple):
     used: FloatArray  # (8,) what of it the last ones have foreseen
     rows: FloatArray  # (size, 8) what rows of joints are out of balance by
     place: IntArray  # (1, 8) where the lanes of eight parameters begin in an array of all
+    mix: FloatArray  # (ROOM, size, 8) of ancf.solvers.mixing_abreast, or (0, size, 8)
+    first: FloatArray  # (8,) the size of the first correction that it mixes, squared
 
 
-def room_for(size: int) -> Abreast:
-    """Room for the unknowns of a model."""
+def room_for(size: int, mixes: bool = False) -> Abreast:
+    """Room for the unknowns of a model, perhaps for corrections that do not shrink."""
     d = lane_rows(3 * size).reshape(3, size, LANES)
     r, seen, last, rows = lane_rows(size), lane_rows(size), lane_rows(size), lane_rows(size)
-    before, open, norm, sizes, shift, ratio, used = np.zeros((7, LANES))
+    before, open, norm, sizes, shift, ratio, used, first = np.zeros((8, LANES))
     place = np.zeros((1, LANES), dtype=np.int64)
-    return Abreast(d, r, seen, before, open, norm, sizes, shift, last, ratio, used, rows, place)
+    vectors = ROOM if mixes else 0
+    mix = lane_rows(vectors * size).reshape(vectors, size, LANES)
+    return Abreast(d, r, seen, before, open, norm, sizes, shift, last, ratio, used, rows, place, mix, first)
 
 
 def abreast(rows: FloatArray) -> FloatArray:
