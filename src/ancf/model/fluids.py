@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import FloatArray
 from ..errors import ModelError
 from .beam import Beam
 from .functions import TimeFunction
@@ -47,8 +46,7 @@ class Fluid:
         The clock is (t, 1, 0); in the load steps of an equilibrium its second number is the share of the
         loads.
         """
-        clock = TimeFunction(["t", 1.0, 0.0], 3, self.velocity.where)
-        return [self.velocity.uniform, _rate(self.velocity.uniform), clock]
+        return self.velocity.functions()
 
     def acts_on(self, name: str) -> bool:
         """Whether it acts on a body."""
@@ -57,24 +55,6 @@ class Fluid:
     def meets(self, other: Fluid) -> bool:
         """Whether there may be a body on which both act."""
         return self.on is None or other.on is None or bool(set(self.on) & set(other.on))
-
-
-#: Step of the differences that give the acceleration of a fluid, s.
-STEP = 1e-4
-
-
-def _rate(function: TimeFunction) -> TimeFunction:
-    if function.constant or function.missing:
-        return TimeFunction([0.0, 0.0, 0.0], 3, function.where)
-
-    def across(t: float, steps: int) -> FloatArray:
-        return function(t + steps * STEP) - function(t - steps * STEP)
-
-    def rate(t: float) -> FloatArray:  # sixth order: gusts may be as fast as the steps of fast models
-        change: FloatArray = 45.0 * across(t, 1) - 9.0 * across(t, 2) + across(t, 3)
-        return change / (60.0 * STEP)
-
-    return TimeFunction(rate, 3, function.where)
 
 
 def require_section(item: Any, beam: Beam, wanted: tuple[str, ...]) -> None:

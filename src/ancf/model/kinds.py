@@ -29,6 +29,12 @@ def _entry(name: str, module: str = "items") -> Callable[[], Any]:
     return lambda: getattr(import_module(f"ancf.model.file.{module}"), name)
 
 
+@cache
+def _clock(name: str) -> TimeFunction:
+    """The time as the first number: one function for all items of a name, so that models share it."""
+    return TimeFunction(["t", 0.0, 0.0], 3, name)
+
+
 SUPPORTS: list[Kind] = [
     Kind(Pin, "pin", "pin", "pin", _entry("PinEntry"), sheets.pin, look=Look("up", "black", 5.5)),
     Kind(
@@ -62,7 +68,7 @@ LOADS: list[Kind] = [
         push=Push("force", "N"),
         batch="state_force",
         on_state=lambda item: isinstance(item.force, StateFunction),
-        inputs=lambda item: [TimeFunction(["t", 0.0, 0.0], 3, item.name)],
+        inputs=lambda item: [_clock(item.name)],
     ),
     Kind(
         Moment,
@@ -85,7 +91,7 @@ LOADS: list[Kind] = [
         push=Push("load", "N/m"),
         batch="state_force",
         on_state=lambda item: isinstance(item.load, StateFunction),
-        inputs=lambda item: [TimeFunction(["t", 0.0, 0.0], 3, item.name)],
+        inputs=lambda item: [_clock(item.name)],
     ),
     FOLLOWER_FORCE,
     PRESSURE,

@@ -330,7 +330,9 @@ def _of_function(given: TimeFunction, name: str, part: str | None, use: Any) -> 
         raise ModelError(name, "depends on inputs", "vary the input")
     if given.constant:
         now = given(0.0)
-        if given.size == 1 and part is None:
+        if given.size == 1 and part is not None:
+            raise ModelError(name, "is one number, it has no components")
+        if given.size == 1:
             return float(now[0]), lambda x: use(TimeFunction(x, 1, given.where))
         return _of_vector(name, now, part, lambda x: use(TimeFunction(x, given.size, given.where)))
     if part is not None:

@@ -17,6 +17,8 @@ from .functions import Missing, TimeFunction, plain
 #: What a formula of a velocity may depend on.
 NAMES = ("t", "x", "y", "z")
 _NOWHERE = np.zeros(3)
+#: Step of the differences that give the acceleration of a fluid, s.
+STEP = 1e-4
 
 
 class VelocityField:
@@ -51,7 +53,7 @@ class VelocityField:
         It is none of these, or cannot be evaluated at t = 0 in the origin.
     """
 
-    __slots__ = ("given", "heights", "law", "once", "parts", "profile", "uniform", "where")
+    __slots__ = ("_functions", "given", "heights", "law", "once", "parts", "profile", "uniform", "where")
 
     def __init__(self, given: Any, where: str) -> None:
         self.given: Any = given.given if isinstance(given, VelocityField | TimeFunction) else given
@@ -77,12 +79,24 @@ class VelocityField:
         else:
             rest = given
         self.uniform = TimeFunction(rest, 3, where, "m/s")
+        self._functions: list[TimeFunction] = []
 
     def __reduce__(self) -> Any:
         return VelocityField, (self.given, self.where)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> VelocityField:
         return self  # it never changes
+
+    def functions(self) -> list[TimeFunction]:
+        """The part that is the same everywhere, its acceleration, and a clock (t, 1, 0).
+
+        They are the same ones whenever they are asked for: a model with another number, which has the same
+        field, has the same inputs.
+        """
+        if not self._functions:
+            clock = TimeFunction(["t", 1.0, 0.0], 3, self.where)
+            self._functions = [self.uniform, _rate(self.uniform), clock]
+        return self._functions
 
     @property
     def missing(self) -> str:
@@ -142,6 +156,20 @@ class VelocityField:
             what = f"the function of t, x, y, z returned {checks.shown(value.tolist())}, wanted three numbers"
             raise ModelError(self.where, what)
         return value.astype(np.float64)
+
+
+def _rate(function: TimeFunction) -> TimeFunction:
+    if function.constant or function.missing:
+        return TimeFunction([0.0, 0.0, 0.0], 3, function.where)
+
+    def across(t: float, steps: int) -> FloatArray:
+        return function(t + steps * STEP) - function(t - steps * STEP)
+
+    def rate(t: float) -> FloatArray:  # sixth order: gusts may be as fast as the steps of fast models
+        change: FloatArray = 45.0 * across(t, 1) - 9.0 * across(t, 2) + across(t, 3)
+        return change / (60.0 * STEP)
+
+    return TimeFunction(rate, 3, function.where)
 
 
 def _is_formula(given: Any) -> bool:

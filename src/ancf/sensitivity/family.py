@@ -213,6 +213,7 @@ class Family(Pushing):
 
     def _put(self, systems: list[System], offsets: list[float], weights: list[float]) -> None:
         self.systems, self.offsets, self.weights = systems, offsets, weights
+        self.__dict__.pop("wider", None)
         base = self.base
         if self.parameter.linear:  # in it nothing but forces changes
             self._shape = [np.zeros(base.size)] * len(systems)
@@ -297,6 +298,15 @@ class Family(Pushing):
         Where two values do, one of them and that of the model, which all parameters share.
         """
         names = self.changed if names is None else names
+        kinked = names & KINKED.union(friction_of(self.base))
+        if names != kinked and self.wider[0] is not self.systems:
+            systems, weights = self.wider
+            batches = fed_alike(few_of([*systems, self.base], names - kinked))
+            smooth = list(zip(weights, batches[:-1], strict=True))
+            return smooth + self._used(kinked)
+        return self._used(names)
+
+    def _used(self, names: set[str]) -> list[tuple[float, Batches]]:
         if not names:
             return []
         batches = fed_alike(few_of([*self.systems, self.base], names))
@@ -350,12 +360,31 @@ class Family(Pushing):
 
     def know(self, system: System) -> None:
         """Let all systems be as one that runs: its joints, and the weights of their rows."""
-        for own in self.systems if "systems" in self.__dict__ else ():
+        known = self.__dict__
+        others = known["wider"][0] if "wider" in known else ()
+        for own in (*self.systems, *others) if "systems" in known else ():
             own.level[:] = system.level
             if len(system.measured):
                 own.measured[...] = system.measured
         for mine, name, key in self._flags:
             mine[...] = getattr(system.parts[name], key)
+
+    @cached_property
+    def wider(self) -> tuple[list[System], list[float]]:
+        """Systems and weights of what has no kinks: the same ones, unless these are tiny steps apart."""
+        h = (
+            STEP
+            * self._unit
+            * (STEEP if self.parameter.acts and self._is_steep(self.parameter.acts) else 1.0)
+        )
+        if self.parameter.linear or self.linear or max(map(abs, self.offsets)) >= h:
+            return self.systems, self.weights
+        places, weights = FOUR
+        try:
+            systems = [self._compiled(h * x) for x in places]
+        except ModelError:  # so far from its value there is no such model
+            return self.systems, self.weights
+        return systems, [w / h for w in weights]
 
     def of_states(self, time: float) -> tuple[FloatArray, FloatArray]:
         """Derivatives of the initial shape and motion, (size,) each."""
@@ -366,9 +395,11 @@ class Family(Pushing):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # what holds against a given motion was said of the model itself
             here = Known.of(self.base).initial_state(time)
-            both = self._states if time == 0.0 else [system.initial_state(time) for system in self.systems]
+            systems, weights = self.wider
+            states = self._states if systems is self.systems and time == 0.0 else None
+            both = states or [system.initial_state(time) for system in systems]
         q, v = np.zeros(self.base.size), np.zeros(self.base.size)
-        for weight, state in zip(self.weights, both, strict=True):
+        for weight, state in zip(weights, both, strict=True):
             q += weight * (state[0] - here[0])  # what does not change leaves no round-off
             v += weight * (state[1] - here[1])
         if self.straight:  # the lengths of slopes are not linear

@@ -17,19 +17,21 @@ def rates_of(family: Family, forces: bool = False) -> dict[str, FloatArray]:
 
     ``forces``: of batches that know what the forces change by, and not their work alone.
     """
-    found = {}
+    found, (systems, weights) = {}, family.wider
     for name in family.changed:
         batch = family.base.parts[name]
-        numbers, keys = traits(batch).numbers, traits(batch).numbered
+        numbers, keys, sloped = traits(batch).numbers, traits(batch).numbered, traits(batch).sloped
+        if sloped is not None and not sloped(batch):  # nor is known what its numbers do, as beside a winch
+            continue
         if numbers is None or not (
             traits(batch).kinds if forces else does_something(type(batch), add_number_work)
         ):
             continue
-        each = [system.parts[name] for system in family.systems]
+        each = [system.parts[name] for system in systems]
         if any(not _has_other(batch, other, keys) for other in each):
             continue
         here, total = numbers(batch), 0.0
-        for weight, one in zip(family.weights, each, strict=True):
+        for weight, one in zip(weights, each, strict=True):
             if one is not batch:
                 total = total + weight * (numbers(one) - here)
         found[name] = np.asarray(total)

@@ -185,8 +185,9 @@ class Inputs:
         if motion.drive is not None:
             return np.zeros((len(times), 1, 3))
         if motion.rates is not None:
-            return np.stack([motion.values(times), *motion.rates(times)], axis=-1)
-        return np.stack(differences(motion.values, times, step, first, last), axis=-1)
+            return np.stack([motion.rest + motion.values(times), *motion.rates(times)], axis=-1)
+        values, *rates = differences(motion.values, times, step, first, last)
+        return np.stack([motion.rest + values, *rates], axis=-1)
 
     def _rotation(self, r: Rotation, times: FloatArray, step: float, first: float, last: float) -> FloatArray:
         if r.vector is not None:

@@ -68,7 +68,9 @@ class Rotation:
 
 @dataclass(frozen=True)
 class Motion:
-    """Given motion of unknowns: ``values(t)`` of shape (n, k) for times (n,).
+    """Given motion of unknowns: ``rest`` (k,) and ``values(t)`` of shape (n, k) for times (n,).
+
+    Rates are differences of the values alone, so that they lose no digits to where a support stands.
 
     ``part(time, share)`` (k,) is where they are when a share of the motion from the initial shape is there.
     """
@@ -78,6 +80,7 @@ class Motion:
     part: Callable[[float, float], FloatArray] | None = None  # None: the whole is there from the beginning
     rates: Callable[[FloatArray], tuple[FloatArray, FloatArray]] | None = None
     drive: Winch | None = None  # it follows from step to step
+    rest: FloatArray | float = 0.0
 
 
 @dataclass
@@ -208,7 +211,8 @@ def _move(
     def part(time: float, share: float) -> FloatArray:
         return (position + share * displacement(time))[parts]
 
-    constraints.motions.append(Motion(unknowns, lambda t: (position + table(t))[:, parts], part))
+    moved = Motion(unknowns, lambda t: table(t)[:, parts], part, rest=position[parts])
+    constraints.motions.append(moved)
     constraints.driven.add(slot)
 
 
