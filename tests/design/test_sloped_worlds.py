@@ -70,7 +70,8 @@ def test_how_it_begins(seed, name):
     given = GIVEN | {"t_end": 1e-3}
     found = ancf.simulate(model, sensitivities=[name], **given).sensitivity(name).dq[0]
     wanted = extrapolated(lambda other: System(other).initial_state(0.0)[0], model, name, 1e-2)
-    assert np.max(np.abs(found - wanted)) < 1e-10 * np.max(np.abs(wanted))
+    free = System(model).free
+    assert np.max(np.abs(found - wanted)[free]) < 1e-10 * np.max(np.abs(wanted))
 
 
 def reeled(swing=0.1, **fluid):
