@@ -19,7 +19,7 @@ from ..arrays import FloatArray
 from ..batches import Batches
 from ..compiled import Role, traits
 from ..errors import ModelError
-from ..system.beside import SLIDES, Acts, beside
+from ..system.beside import SLIDES, beside
 from ..system.core import Tables
 from ..system.system import System
 from .alike import Known, alike, changed, same_inputs, same_loads
@@ -155,10 +155,6 @@ class Family(Pushing):
             return False
         self._forget()
         return True
-
-    def _is_steep(self, acts: Acts) -> bool:
-        """Whether forces have high powers of a length, as those of beams with cross-sections."""
-        return acts.shapes and any(beam.has_section for beam in self.base.model.beams.values())
 
     def _forget(self) -> None:
         """Of systems that are not needed any more."""
@@ -368,23 +364,6 @@ class Family(Pushing):
                 own.measured[...] = system.measured
         for mine, name, key in self._flags:
             mine[...] = getattr(system.parts[name], key)
-
-    @cached_property
-    def wider(self) -> tuple[list[System], list[float]]:
-        """Systems and weights of what has no kinks: the same ones, unless these are tiny steps apart."""
-        h = (
-            STEP
-            * self._unit
-            * (STEEP if self.parameter.acts and self._is_steep(self.parameter.acts) else 1.0)
-        )
-        if self.parameter.linear or self.linear or max(map(abs, self.offsets)) >= h:
-            return self.systems, self.weights
-        places, weights = FOUR
-        try:
-            systems = [self._compiled(h * x) for x in places]
-        except ModelError:  # so far from its value there is no such model
-            return self.systems, self.weights
-        return systems, [w / h for w in weights]
 
     def of_states(self, time: float) -> tuple[FloatArray, FloatArray]:
         """Derivatives of the initial shape and motion, (size,) each."""

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
+from ..errors import ModelError
 from ..solvers.stages import place_rows, stage_residuals
+from ..system.beside import Acts
 from ..system.core import Core, apply_load, apply_supports, place_supports, residual
+from .offsets import FOUR, STEEP, STEP
+from .parameters import Parameter
 from .values import Push, gaps_of
 
 
@@ -20,6 +25,29 @@ class Pushing:
     weights: list[float]
     _batches: Any  # of each system those that the parameter changes, see Family
     _shape: list[FloatArray]  # changes of the initial shape by system
+    parameter: Parameter
+    linear: bool
+    offsets: list[float]
+    _unit: float  # of the parameter
+    _compiled: Any  # of an offset: the System there
+
+    def _is_steep(self, acts: Acts) -> bool:
+        """Whether forces have high powers of a length, as those of beams with cross-sections."""
+        return acts.shapes and any(beam.has_section for beam in self.base.model.beams.values())
+
+    @cached_property
+    def wider(self) -> tuple[list[Any], list[float]]:
+        """Systems and weights of what has no kinks: the same ones, unless these are tiny steps apart."""
+        acts = self.parameter.acts
+        h = STEP * self._unit * (STEEP if acts is not None and self._is_steep(acts) else 1.0)
+        if self.parameter.linear or self.linear or max(map(abs, self.offsets)) >= h:
+            return self.systems, self.weights
+        places, weights = FOUR
+        try:
+            systems = [self._compiled(h * x) for x in places]
+        except ModelError:  # so far from its value there is no such model
+            return self.systems, self.weights
+        return systems, [w / h for w in weights]
 
     def at_steps(
         self, q: FloatArray, v: FloatArray, a: FloatArray, when: tuple[float, float, float, float], gaps: bool
