@@ -44,6 +44,11 @@ class InputValues(MutableMapping[str, float]):
     def __init__(self, inputs: Inputs, run: AnyRun, history: Given | None = None) -> None:
         self._inputs, self._run, self._history = inputs, run, history
 
+    def __setattr__(self, name: str, value: object) -> None:
+        if not name.startswith("_"):  # it would be accepted, and do nothing
+            raise AttributeError(f'no attribute of inputs can be set: write run.inputs["{name}"] = {value!r}')
+        super().__setattr__(name, value)
+
     def __getitem__(self, name: str) -> float:
         if name not in self._inputs.given:
             raise unknown("inputs", "input", name, self._inputs.given)

@@ -144,7 +144,8 @@ class Stepper(Live):
             what = f"is of step {done} at t = {t:.6g} s, where this run is not with steps of {run.h:g} s"
             raise ModelError(where, what, "give one of a run with the same start and step")
         if self.system.sensors and given.samples > self._store.recorded:
-            raise ModelError(where, "is later than this run, which has not recorded so much")
+            what = "is later than this run, whose sensors have not recorded so much"
+            raise ModelError(where, what, "advance it as far first, or make the stepper without sensors")
 
     @property
     def sensors(self) -> Sensors:

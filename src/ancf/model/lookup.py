@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from copy import copy
 from typing import Self
 
 import numpy as np
@@ -38,7 +37,7 @@ class Lookup:
         self.bodies: dict[str, Body] = {}
         self.connections: list[Connection] = []
         self.inputs: dict[str, Input] = {}
-        self._names = Names()
+        self._names = Names(self._named)
         self._joined = Joined()
         self._place = ""
 
@@ -70,11 +69,16 @@ class Lookup:
         low, high = np.min([r[0] for r in ranges], axis=0), np.max([r[1] for r in ranges], axis=0)
         return float(np.max(high - low)) or self._reach(low) or 1.0
 
+    def _named(self) -> set[str]:
+        """Names of all that is in the model."""
+        lists = [getattr(self, key) for key in (*GROUPS, *SURROUNDINGS)]
+        return {*self.bodies, *(item.name for items in lists for item in items)}
+
     def snapshot(self) -> Self:
         """Return the model as it is now: what is added to one later is not in the other."""
         other = object.__new__(type(self))  # many are made; copy asks each for its ways to be copied first
         other.__dict__.update(self.__dict__)
-        other.bodies, other._names = dict(self.bodies), copy(self._names)
+        other.bodies, other._names = dict(self.bodies), self._names.of(other._named)
         other.inputs, other._joined = dict(self.inputs), Joined()
         for key in (*GROUPS, *SURROUNDINGS):
             setattr(other, key, list(getattr(self, key)))

@@ -18,6 +18,7 @@ from .points import Point, initial_position
 from .supports import node_of, require_node
 
 COINCIDENT = 1e-9  # of the size of the model
+APART = "move one of them there; what stays apart is joined by a spring or a beam"
 
 End = Point | FloatArray
 
@@ -61,7 +62,7 @@ def check_pair(where: str, a: Point, b: End, size: Callable[[], float]) -> None:
     gap = math.dist(first, second)
     if not coincide(gap, first, second, size):
         other = b if isinstance(b, Point) else f"the position {second.tolist()}"
-        hint = _same_place(a, second) or (_same_place(b, first) if isinstance(b, Point) else "")
+        hint = _same_place(a, second) or (_same_place(b, first) if isinstance(b, Point) else "") or APART
         raise ModelError(f"{where}.b", f"{a} and {other} are {gap:.6g} m apart, must coincide", hint)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from ..errors import ModelError
 from . import checks
@@ -18,13 +18,15 @@ BEAM_PLACES = ("arc length", "place along local y", "place along local z")
 class Names:
     """The names taken in one model."""
 
-    __slots__ = ("_taken",)
+    __slots__ = ("_present", "_taken")
 
-    def __init__(self) -> None:
+    def __init__(self, present: Callable[[], set[str]]) -> None:
         self._taken: dict[str, str] = {}
+        self._present = present  # of all that is in the model: what was removed from its lists is free
 
-    def __copy__(self) -> Names:
-        other = Names()
+    def of(self, present: Callable[[], set[str]]) -> Names:
+        """The same of a copy of the model."""
+        other = Names(present)
         other._taken = dict(self._taken)
         return other
 
@@ -54,7 +56,7 @@ class Names:
         self._taken[name] = kind
 
     def _free(self, name: str, where: str) -> str:
-        if name in self._taken:
+        if name in self._taken and name in self._present():
             raise ModelError(f"{where}.name", f'"{name}" is the name of a {self._taken[name]} already')
         return name
 

@@ -10,7 +10,7 @@ from ..errors import ModelError
 from ..model.bodies import PointMass, RigidBody
 
 #: Depth that is spoken of, in sizes of the model, and stored states that are looked at.
-SUNK, MOST = 1e-3, 500
+SUNK, MOST = 2e-4, 500
 
 
 def of_bodies(known: Any) -> list[str]:

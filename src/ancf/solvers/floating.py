@@ -42,7 +42,7 @@ def check_supported(system: System, ignored: list[str]) -> None:
             raise ModelError(
                 "supports",
                 f"nothing holds {label} in {axes}: it floats and has no equilibrium",
-                "add model.pin(...) or model.clamp(...)",
+                "connect it to what holds it, model.connect(...), or add model.pin(...) or model.clamp(...)",
             )
 
 
