@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import VECTOR, Role, formula, implements, inline_kernel, kernel
-from ..loads.along import upstream
+from ..loads.along import let_stick, upstream
 from ..records import Located, beginning
 from ..vectors import dot
 from .press import pressed
@@ -365,11 +365,6 @@ def let_rub(batch, q):
     return 1.0 if change > 0.0 else 0.0  # what has been held does not touch: it is let go all the same
 
 
-def stick(batch):
-    """Let friction hold what it acts on."""
-    batch.limit[batch.limit > 0.0] = np.inf
-
-
 implements(
     RubBatch,
     force=rub_force,
@@ -396,6 +391,6 @@ implements(
     memory=("far", "anchor", "limit", "before", "most", "lit", "drift", "since", "acted", "found"),
     late=lambda batch: let_rub,
     early=hold,
-    stick=stick,
+    stick=let_stick,
     resting=((grip, (VECTOR, types.boolean)), (renew_limits, (VECTOR, VECTOR))),
 )

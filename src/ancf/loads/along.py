@@ -350,3 +350,8 @@ def add_lanes_along(batch, e, p, factors, w, f, r):
             s = w * batch.weight[e, p] * factors[e, p, k]
             for c in range(3):
                 store(load(r, i + c) - s * f[c], r, i + c)
+
+
+def let_stick(batch: Any) -> None:
+    """Let the friction of a batch hold what it acts on, whatever that takes."""
+    batch.limit[batch.limit > 0.0] = np.inf

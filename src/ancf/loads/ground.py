@@ -46,6 +46,7 @@ from .along import (
     add_block_along,
     add_material,
     along,
+    let_stick,
     ordered,
     passed,
     place_at,
@@ -284,11 +285,6 @@ def lay(batch, q):
     lie_down(Located(batch), q)
 
 
-def stick(batch):
-    """Let friction hold what it acts on."""
-    batch.limit[batch.limit > 0.0] = np.inf
-
-
 implements(
     GroundBatch,
     force=ground_force,
@@ -315,5 +311,5 @@ implements(
     follows=lambda batch: False,
     late=lambda batch: let_rub if np.any(batch.grounds[:, FRICTION]) else None,
     laid=lay,
-    stick=stick,
+    stick=let_stick,
 )

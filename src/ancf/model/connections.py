@@ -105,7 +105,7 @@ def make_spring(
     """Check what ``Model.add_spring`` was given."""
     distance = math.dist(initial_position(a), initial_position(b))
     if not 0.0 < distance < math.inf:
-        hint = "a place farther off with length=, or forces by formulas: add_force(point, [\"-30*x\", 0, 0])"
+        hint = 'a place farther off with length=, or forces by formulas: add_force(point, ["-30*x", 0, 0])'
         raise ModelError(f"{where}.b", "its two ends coincide, the spring has no direction", hint)
     made = Spring(
         name,
