@@ -54,6 +54,12 @@ class ArgumentError(ModelError, TypeError):
     """A call has an argument that there is not, lacks one or has too many; ``where`` is what was called."""
 
 
+class UnknownNameError(ModelError, KeyError):
+    """Something is asked for by a name that it does not have; mappings take it for a missing key."""
+
+    __str__ = Exception.__str__  # that of KeyError quotes the whole message
+
+
 class SolveError(_Told, RuntimeError):
     """A solve stopped; what was computed until then is kept.
 

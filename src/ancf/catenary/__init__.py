@@ -26,6 +26,7 @@ from .opened import Overhead, assemble
 from .pantograph import Pantograph, find_pantograph, pantographs, read_pantograph
 from .quantity import Quantity
 from .references import Reference, reference_case, reference_names, rows
+from .report import write_report
 from .rest import form
 from .route import Route
 from .route_form import RouteForm
@@ -123,6 +124,7 @@ __all__ = [
     "verify",
     "wire",
     "wires",
+    "write_report",
     "write_run",
     "write_validation",
 ]

@@ -169,7 +169,7 @@ class Assembled:
         if not found.size:
             size = f"{len(line.spans)} spans"
             if 1 <= span <= len(line.spans):
-                size = f"span {span} has {len(line.spans[span - 1].droppers)} droppers"
+                size = f"span {span} has {np.sum(line.dropper_span == span - 1)} droppers"
             raise ModelError("overhead.dropper", f"there is no dropper {number} in span {span}", f"{size}")
         return int(found[0])
 

@@ -17,6 +17,7 @@ from ..model import checks
 from ..sensitivity.parameters import Parameter
 from ..system.beside import BODIES, SPRINGS, Acts
 from .assemble import Assembled
+from .broken import place_of
 from .form import Form
 from .passing import in_window, uplift_in_window
 from .run_data import RunSlopes
@@ -127,19 +128,6 @@ def check_run(plan: Plan, given: Any, controller: Any) -> None:
                 f'the lowest spring of {unit.name} is relaxed at "{unit.relaxed_at}", which the droppers move'
             )
             raise ModelError(WHERE, what, 'take relaxed_at = "nominal"')
-
-
-def place_of(line: Any, label: Any, where: str) -> int:
-    """Place among the droppers of a line of one such as "6-1"."""
-    labels = [
-        f"{span + 1}-{number + 1}"
-        for span, number in zip(line.dropper_span, line.dropper_number, strict=True)
-    ]
-    if label not in labels:
-        raise ModelError(
-            where, f"there is no dropper {checks.shown(label)}", checks.nearest(str(label), labels)
-        )
-    return labels.index(label)
 
 
 def _lengthened(overhead: Assembled, model: ancf.Model, label: Any, where: str) -> Lengthened:

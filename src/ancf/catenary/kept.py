@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from ..arrays import FloatArray
 from ..columns import read_columns
 from ..errors import ModelError
+from .broken import told
 from .quantity import Quantity
 from .state import pulled
 
@@ -27,6 +28,12 @@ class Kept:
     ----------
     name : str
         That of the folder, and of the pantograph if there are several.
+    folder : str
+        Name of the run.
+    place : int
+        In the train, the first ahead is 0.
+    label : str
+        Short name for a column, "before", of several pantographs "before-2".
     line, state : str
         Title, and conditions with the tensions at rest; nothing of runs of earlier versions.
     speed_kmh : float
@@ -50,6 +57,9 @@ class Kept:
     force: FloatArray
     uplift: list[tuple[float, float]]
     state: str = ""
+    folder: str = ""
+    place: int = 0
+    label: str = ""
 
     @property
     def quantities(self) -> list[Quantity]:
@@ -94,7 +104,11 @@ def read_run(folder: str | Path, name: str | None = None) -> list[Kept]:
     try:
         several = len(data["pantographs"]) > 1
         return [
-            _kept(path, data, k, f"{title}, {_numbered(one['name'], k)}" if several else title)
+            replace(
+                _kept(path, data, k, f"{title}, {_numbered(one['name'], k)}" if several else title),
+                folder=title,
+                label=f"{title}-{k + 1}" if several else title,
+            )
             for k, one in enumerate(data["pantographs"])
         ]
     except (KeyError, TypeError, ValueError) as error:
@@ -136,6 +150,7 @@ def _kept(path: Path, data: dict[str, Any], k: int, name: str) -> Kept:
         force=_numbers(columns, "force_20hz_N", file),
         uplift=[(float(row["position_m"]), float(row["uplift_mm"])) for row in one["uplift_mm"]],
         state=_state(data),
+        place=k,
     )
 
 
@@ -144,7 +159,8 @@ def _state(data: dict[str, Any]) -> str:
         f"{row['wire']} {pulled(row['smallest_N'], row['largest_N'])} N (designed {row['designed_N']:.0f})"
         for row in data.get("tensions", ())
     ]
-    return ", ".join([*filter(None, [data.get("state", "")]), *rows])
+    broken = told([str(label) for label in data.get("broken_droppers", ())])
+    return ", ".join([*filter(None, [data.get("state", ""), broken]), *rows])
 
 
 def _numbers(columns: dict[str, list[Any]], key: str, file: Path) -> FloatArray:

@@ -52,7 +52,9 @@ class DropperForces:
     rest, largest, smallest : float
         Tension before the run and its extremes, N.
     slack : Intervals
-        When it carried nothing.
+        When it carried nothing; never, of a broken one.
+    broken : bool
+        Whether the line does not have it: its forces are 0.
 
     """
 
@@ -63,6 +65,12 @@ class DropperForces:
     largest: float
     smallest: float
     slack: Intervals
+    broken: bool = False
+
+    @property
+    def label(self) -> str:
+        """Span and number, "8-3"."""
+        return f"{self.span}-{self.number}"
 
 
 def in_window(run: Run, pantograph: int = 0) -> slice:
@@ -115,19 +123,23 @@ def uplift_in_window(run: Run, pantograph: int = 0) -> list[SupportUplift]:
 
 
 def dropper_forces(run: Run, over: slice | None = None) -> list[DropperForces]:
-    """Forces of all droppers over some samples, the whole run by default; those that push are never slack."""
+    """Forces of all droppers over some samples, the whole run by default.
+
+    Those that push and those that are broken are never slack.
+    """
     step, slack = 1.0 / sample_rate(run.t), run.form.line.droppers.slack
     part = run.dropper_force[over if over is not None else slice(None)]
-    places = dropper_places(run)
+    places, broken = dropper_places(run), broken_places(run)
     return [
         DropperForces(
             *place,
             float(rest),
             float(np.max(force)),
             float(np.min(force)),
-            at_zero(force if slack else np.ones_like(force), step),
+            at_zero(force if slack and not gone else np.ones_like(force), step),
+            gone,
         )
-        for place, rest, force in zip(places, run.form.dropper_load, part.T, strict=True)
+        for place, rest, force, gone in zip(places, run.form.dropper_load, part.T, broken, strict=True)
     ]
 
 
@@ -136,6 +148,11 @@ def dropper_places(run: Run) -> list[tuple[int, int, float]]:
     line = run.form.line
     places = zip(line.dropper_span, line.dropper_number, line.dropper_x, strict=True)
     return [(int(span) + 1, int(number) + 1, float(x)) for span, number, x in places]
+
+
+def broken_places(run: Run) -> list[bool]:
+    """Of each dropper whether it is broken."""
+    return [f"{span}-{number}" in run.broken_droppers for span, number, _ in dropper_places(run)]
 
 
 def droppers_in_window(run: Run, pantograph: int = 0) -> list[DropperForces]:

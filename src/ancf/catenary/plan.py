@@ -14,6 +14,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
 from .assemble import Assembled
+from .broken import chosen
 from .catalogue import read_line
 from .collectors import Touch
 from .form import Form
@@ -47,20 +48,36 @@ class Door:
         A line that was assembled, and perhaps changed.
     modify : callable, optional
         Changes each model before pantographs are added to it.
+    broken : tuple of (int, int)
+        Span and number, from 1, of the droppers that are taken away.
 
     """
 
     given: Assembled | None = None
     modify: Callable[[Assembled], Any] | None = None
+    broken: tuple[tuple[int, int], ...] = ()
+
+    @classmethod
+    def of(cls, line: Any, shape: AnyForm, modify: Any, broken: Any, where: str) -> Door:
+        """The door of what ``run`` or ``stepper`` was given; ``shape`` is the form of it."""
+        given = line if isinstance(line, Assembled) else None
+        return cls(given, modify, chosen(shape.line, broken, f"{where}.broken_droppers"))
 
     @property
     def changed(self) -> bool:
         """Whether the line may rest in another way than its form says."""
+        return self.opened or bool(self.broken)
+
+    @property
+    def opened(self) -> bool:
+        """Whether somebody may have changed the model by hand."""
         return self.given is not None or self.modify is not None
 
     def overhead(self, found: AnyForm) -> Assembled:
         """A model that nobody else has."""
         made = assemble(found) if self.given is None else copy.deepcopy(self.given)
+        for span, number in self.broken:
+            made.break_dropper(span, number)
         if self.modify is not None:
             self.modify(made)
         return made

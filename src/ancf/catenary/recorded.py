@@ -11,6 +11,7 @@ import ancf
 from .. import garbage
 from ..arrays import FloatArray
 from .assemble import Assembled
+from .broken import broken_of
 from .collectors import Collector
 from .ready import Ready
 from .run_data import Recording, Run
@@ -33,6 +34,7 @@ def recorded(result: ancf.Result, ready: Ready, said: dict[str, Any]) -> Run:
     t: FloatArray = sensors.t
     uplift = np.stack([sensors.position(p)[:, 2] for p in overhead.supports], axis=1) - rest.height
     simulated = float(t[-1] - t[0])
+    broken = broken_of(overhead)
     cpu = plan.spent + result.stats.cpu_seconds
     return Run(
         form=overhead.form.with_loads(rest.load) if plan.door.changed else overhead.form,
@@ -49,7 +51,8 @@ def recorded(result: ancf.Result, ready: Ready, said: dict[str, Any]) -> Run:
         real_time_factor=simulated / max(cpu, 1e-9),
         settings={
             "line": line.title,
-            **({"model": "changed after it was assembled"} if plan.door.changed else {}),
+            **({"model": "changed after it was assembled"} if plan.door.opened else {}),
+            **({"broken droppers": ", ".join(broken)} if broken else {}),
             "step [s]": plan.step,
             "steps": result.stats.steps,
             **({"CPU time of the trial run for the mean height [s]": plan.spent} if plan.spent else {}),
@@ -64,6 +67,7 @@ def recorded(result: ancf.Result, ready: Ready, said: dict[str, Any]) -> Run:
             "integrator": result.provenance["settings"]["integrator"],
             **said,
         },
+        broken_droppers=broken,
     )
 
 

@@ -63,6 +63,7 @@ def run(
     roof: Any = None,
     underside: Any = None,
     reduce: bool = False,
+    broken_droppers: Sequence[str] = (),
 ) -> Run:
     """Run pantographs along a line from its equilibrium.
 
@@ -124,6 +125,9 @@ def run(
         Whether spans move by their modes up to 50 Hz while no pantograph is near and their droppers are taut
         (Craig and Bampton 1968), which long lines gain time by. Not with `sensitivities`,
         sliding joints, or an `integrator` that makes a matrix in each iteration or lets it turn.
+    broken_droppers : sequence of str
+        Span and number from 1, ``["8-3"]``, of droppers that are gone; their halves stay at the clamps as
+        masses. The line is formed with them and comes to rest without them.
 
     Returns
     -------
@@ -145,8 +149,9 @@ def run(
         chatters.
     """
     checks.progress(progress, "run.progress")
+    shape = formed(line, mesh)
     plan = make_plan(
-        formed(line, mesh),
+        shape,
         make_travel(speed),
         pantograph,
         spacing,
@@ -155,7 +160,7 @@ def run(
         until,
         Touch(contact, contact_stiffness, contact_damping),
         step,
-        Door(line if isinstance(line, Assembled) else None, modify),
+        Door.of(line, shape, modify, broken_droppers, "run"),
         roof,
         underside,
     )

@@ -122,6 +122,8 @@ class Run(Told):
         States of the whole line, to plot and to animate, and what was recorded.
     slopes : dict of str to RunSlopes
         Derivatives of the records by parameter, where they were asked for.
+    broken_droppers : tuple of str
+        Span and number from 1, "8-3", of the droppers that the line did not have; their force is 0.
 
     Raises
     ------
@@ -144,6 +146,7 @@ class Run(Told):
     settings: Mapping[str, Any]
     result: Result | None = None
     slopes: Mapping[str, RunSlopes] = field(default_factory=dict, repr=False)
+    broken_droppers: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         count, line = np.size(self.t), self.form.line

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays import FloatArray
+from ..errors import UnknownNameError
+from ..model import checks
 from . import passing
 from .quantity import Quantity
 from .signals import BANDS, CUT_OFF, Butterworth, at_zero, sample_rate
@@ -64,7 +66,9 @@ class Statistics(Told, Mapping[str, Quantity]):
         for quantity in self.quantities:
             if quantity.key == key:
                 return quantity
-        raise KeyError(key)
+        known = list(self)
+        hint = f"{checks.nearest(key, known)} known are {', '.join(known)}".strip()
+        raise UnknownNameError("statistics", f"there is no quantity {checks.shown(key)}", hint)
 
     def __repr__(self) -> str:
         return self.in_a_line()
@@ -154,8 +158,12 @@ def _line(
     if supports:
         highest = max(s.uplift for s in supports)
         yield Quantity("uplift", "uplift at support", "mm", MM * highest)
-    if droppers:
-        yield Quantity("dropper_maximum", "largest dropper force", "N", max(d.largest for d in droppers))
+    broken = [d for d in droppers if d.broken]
+    if broken:
+        yield Quantity("broken_droppers", "broken droppers", "count", len(broken))
+    if len(droppers) > len(broken):
+        largest = max(d.largest for d in droppers if not d.broken)
+        yield Quantity("dropper_maximum", "largest dropper force", "N", largest)
         slack = [d.slack for d in droppers if d.slack.number]
         yield Quantity("slack_droppers", "droppers that went slack", "count", len(slack))
         yield Quantity("slack_number", "slack intervals of droppers", "count", sum(s.number for s in slack))

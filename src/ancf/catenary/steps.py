@@ -90,6 +90,7 @@ def stepper(
     roof: Any = None,
     underside: Any = None,
     reduce: bool = False,
+    broken_droppers: Sequence[str] = (),
 ) -> LineStepper:
     """Pantographs along a line from its equilibrium, step by step.
 
@@ -103,7 +104,7 @@ def stepper(
     ----------
     line, speed, pantograph, spacing, start, window, contact, contact_stiffness, contact_damping
         As of :func:`run`; a window is needed for springs that are relaxed at a mean height alone.
-    step, mesh, integrator, modify, roof, underside
+    step, mesh, integrator, modify, roof, underside, broken_droppers
         As of :func:`run`.
     reduce : bool
         Whether spans move by their modes while no pantograph is near, see :func:`run`. A question about one
@@ -125,9 +126,9 @@ def stepper(
     ancf.stepper : of any model.
 
     """
-    door = Door(line if isinstance(line, Assembled) else None, modify)
     touch = Touch(contact, contact_stiffness, contact_damping)
     shape, travel = formed(line, mesh), make_travel(speed)
+    door = Door.of(line, shape, modify, broken_droppers, WHERE)
     plan = make_plan(
         shape,
         travel,

@@ -15,8 +15,7 @@ from ..files import cell, to_json, write_text
 from .acceptance import acceptance
 from .clamp_strain import bends, clamp_strains
 from .cycles import rainflow
-from .passing import dropper_forces, dropper_places
-from .signals import Intervals
+from .passing import DropperForces, broken_places, dropper_forces, dropper_places
 from .state import state, tensions
 from .statistics import Statistics, statistics
 
@@ -70,6 +69,7 @@ def summary(run: Run, found: Sequence[Statistics]) -> dict[str, Any]:
         "ancf": __version__,
         "line": run.form.line.title,
         "state": state(run.form.line),
+        "broken_droppers": list(run.broken_droppers),
         "tensions": [
             {"wire": name, "designed_N": was, "smallest_N": low, "largest_N": high}
             for name, was, low, high in tensions(run.form)
@@ -139,14 +139,14 @@ def write_uplift(run: Run, found: Sequence[Statistics], path: Path) -> Path:
 
 
 def write_droppers(run: Run, path: Path) -> Path:
-    """One row for each dropper: force at rest, extremes and slack over the whole run."""
+    """One row for each dropper: force at rest, extremes and slack over the whole run; state.
+
+    A broken one has no numbers.
+    """
     head = ("span", "dropper", "position_m", "rest_N", "largest_N", "smallest_N")
     slack = ("slack_count", "slack_s", "longest_slack_s")
-    rows = [
-        (d.span, d.number, d.position, d.rest, d.largest, d.smallest, *_slack(d.slack))
-        for d in dropper_forces(run)
-    ]
-    return _write_csv(path, (*head, *slack), rows)
+    rows = [(d.span, d.number, d.position, *_carried(d)) for d in dropper_forces(run)]
+    return _write_csv(path, (*head, *slack, "state"), rows)
 
 
 def write_cycles(run: Run, path: Path) -> Path:
@@ -157,7 +157,10 @@ def write_cycles(run: Run, path: Path) -> Path:
     places, (low, high) = dropper_places(run), run.window
     forces = [(*place, rainflow(run.dropper_force[:, j])) for j, place in enumerate(places)]
     strains = clamp_strains(run) if bends(run.form.line) else []
-    counted = [("force_N", *one) for one in forces if low <= one[2] <= high]
+    whole = [not gone for gone in broken_places(run)]
+    counted = [
+        ("force_N", *one) for one, there in zip(forces, whole, strict=True) if there and low <= one[2] <= high
+    ]
     counted += [("strain", c.span, c.number, c.position, c.cycles) for c in strains]
     rows = [
         (kind, span, number, x, *row)
@@ -168,8 +171,11 @@ def write_cycles(run: Run, path: Path) -> Path:
     return _write_csv(path, ("quantity", "span", "dropper", "position_m", "range", "mean", "count"), rows)
 
 
-def _slack(slack: Intervals) -> tuple[int, float, float]:
-    return slack.number, slack.seconds, slack.longest
+def _carried(d: DropperForces) -> tuple[Cell, ...]:
+    """Forces, slack and state of one dropper."""
+    if d.broken:
+        return (*[None] * 6, "broken")
+    return d.rest, d.largest, d.smallest, d.slack.number, d.slack.seconds, d.slack.longest, "whole"
 
 
 def write_columns(path: Path, columns: dict[str, Any]) -> Path:

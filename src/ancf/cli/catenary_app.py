@@ -11,6 +11,7 @@ from .common_options import Folder, OptionalFolder, Quiet, Report, Set, States, 
 from .guard import reported
 from .line_options import (
     Aerodynamic,
+    BrokenDroppers,
     ContactKind,
     ContactStiffness,
     Elements,
@@ -75,6 +76,7 @@ def catenary_run(
     underside: Underside = None,
     measure: Measure = None,
     reduce: Reduce = False,
+    break_dropper: BrokenDroppers = None,
     output_step: OutputStep = None,
     states: States = True,
     report: Report = True,
@@ -99,6 +101,7 @@ def catenary_run(
         }
         options |= {"output_step": output_step, "until": until, "contact_stiffness": contact_stiffness}
         options |= {"mesh": mesh, "roof": roof, "underside": underside, "reduce": reduce or None}
+        options["broken_droppers"] = break_dropper
         run_line(line, speed, pantograph, options, output, report, states, quiet, given, to, measure)
 
 
@@ -114,6 +117,7 @@ def catenary_sweep(
     until: Until = None,
     step: Step = None,
     mesh: Elements = None,
+    break_dropper: BrokenDroppers = None,
     workers: Workers = None,
     retry: Retry = False,
     to: To = None,
@@ -128,8 +132,13 @@ def catenary_sweep(
     with reported():
         from .catenary_sweep import sweep_line
 
-        options = {"start": start, "window": window, "until": until, "step": step, "mesh": mesh}
-        options |= {"workers": workers, "retry": retry}
+        options: dict[str, Any] = {"start": start, "window": window, "until": until, "step": step}
+        options |= {
+            "mesh": mesh,
+            "workers": workers,
+            "retry": retry,
+            "broken_droppers": break_dropper or None,
+        }
         sweep_line(line, speed, spacing, pantograph, options, output, to, quiet, given)
 
 

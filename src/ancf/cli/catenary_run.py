@@ -146,6 +146,7 @@ def _written(
 def show(done: Run, found: Sequence[Statistics] = (), measured: Sequence[Measured] = ()) -> None:
     """Print the statistics of each pantograph, and what it would have measured."""
     from ..catenary.acceptance import acceptance, footnote, verdict
+    from ..catenary.broken import told
     from ..catenary.measuring_file import compared
     from ..catenary.state import at_rest, state
     from ..catenary.table import table
@@ -153,6 +154,8 @@ def show(done: Run, found: Sequence[Statistics] = (), measured: Sequence[Measure
     screen = console()
     found_form = done.form
     screen.print(f"{state(found_form.line)}; at rest {at_rest(found_form)}", soft_wrap=True)
+    if done.broken_droppers:
+        screen.print(told(done.broken_droppers), soft_wrap=True)
     for k, one in enumerate(found or _read(done, None)[0]):
         title = f"{done.recordings[k].name}, {one['speed'].value:.4g} km/h"
         screen.print(title, style="bold", soft_wrap=True)

@@ -68,6 +68,8 @@ def sweep_line(
         raise
     names = [units[min(k, len(units) - 1)].name for k in range(2 if apart else 1)]
     told = _state(line, given.get("mesh", Mesh()))
+    if "broken_droppers" in given:
+        told.append(("Broken droppers", ", ".join(given["broken_droppers"])))
     files = _report(line, done, names, told, folder, formats)
     if not quiet:
         console().print("; at rest ".join(text for _, text in told), soft_wrap=True)

@@ -107,6 +107,14 @@ Reduce = Annotated[
     bool,
     typer.Option("--reduce", help="Let spans that no pantograph is near move by their modes: long lines."),
 ]
+BrokenDroppers = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--break-dropper",
+        metavar="SPAN-NUMBER",
+        help="Take a dropper away, both counted from 1: 8-3; may be repeated.",
+    ),
+]
 ResponseFile = Annotated[
     Path, typer.Argument(metavar="RESPONSE.csv", help="Measured frequency response.", show_default=False)
 ]

@@ -77,6 +77,25 @@ def table(*columns: str) -> Table:
     return made
 
 
+def whole_words(made: Table) -> Table:
+    """The same table with no column narrower than its longest word, however narrow the screen is."""
+    longest = []
+    for column in made.columns:
+        texts = [str(text) for text in (column.header, *column.cells)]
+        longest.append(max(map(len, texts)))
+        column.min_width = max((len(word) for text in texts for word in text.split()), default=1)
+    if sum(longest) + 2 * len(longest) > console().width:  # the first column alone takes what is left
+        for column in made.columns[1:]:
+            column.width = column.min_width
+    return made
+
+
+def fits(made: Table) -> bool:
+    """Whether the screen is wide enough for the columns of a table."""
+    gaps = 2 * (len(made.columns) - 1)
+    return sum(column.min_width or 1 for column in made.columns) + gaps <= console().width
+
+
 class Screen:
     """Progress and remarks of one run, on stderr.
 

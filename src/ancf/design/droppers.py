@@ -115,7 +115,7 @@ class LineRuns:
         report: Callable[[Tried], None] | None = None,
     ) -> None:
         from .. import catenary
-        from ..catenary.derivatives import place_of
+        from ..catenary.broken import place_of
 
         self.line, self.parameters, self.settings = line, dict(parameters), dict(settings)
         self.evaluated = self.settings.pop("evaluated", 0)

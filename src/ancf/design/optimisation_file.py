@@ -108,7 +108,7 @@ def read_optimisation(path: str | Path) -> OptimisationFile:
     ModelError
         Something is wrong; ``where`` is the path in the file, for several problems the file.
     """
-    from ..catenary.derivatives import place_of
+    from ..catenary.broken import place_of
     from ..catenary.file import parse_line
     from ..catenary.mesh import Mesh
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..catenary import Line, Mesh, Route, acceptance, form
 from ..catenary import run as run_line
+from ..catenary.broken import chosen
 from ..errors import ModelError
 from ..model import checks
 from .extras import pandas
@@ -177,6 +178,7 @@ def sweep(
         checks.positive(speed, f"sweep.speeds[{k}]")
     for k, spacing in enumerate(spacings):
         checks.positive(spacing, f"sweep.spacings[{k}]")
+    chosen(line, settings.get("broken_droppers", ()), "sweep.broken_droppers")
     if not len(speeds):
         raise ModelError("sweep.speeds", "is empty")
     rows = [{SPEED: float(v), SPACING: float(d)} for v, d in itertools.product(speeds, spacings)]

@@ -15,6 +15,8 @@ Piece = Element | str
 MANY = 9
 #: A number that a browser would break at its exponent.
 EXPONENT = re.compile(r"(-?\d[\d.]*[eE]-\d+)")
+#: A name with a number, which a browser would break at the hyphen.
+NUMBERED = re.compile(r"(\S+-\d+)")
 #: Width of an SVG, and pixels of the page for one of its points: a figure over two columns fills the page.
 DRAWN_WIDTH, POINT = re.compile(r'<svg\b[^>]*?\bwidth="([\d.]+)pt"'), 1.65
 
@@ -70,7 +72,13 @@ def _whole(text: str) -> list[Piece]:
 
 def _head(text: str, look: dict[str, str]) -> Element:
     """Head of a column; where there is nothing to read, a screen reader finds no head."""
-    return element("th", text, scope="col", **look) if text else element("td", **look)
+    return element("th", *_joined(text), scope="col", **look) if text else element("td", **look)
+
+
+def _joined(text: str) -> list[Piece]:
+    """Text whose words that end in a number stay on one line: "after-2" is a name."""
+    parts = NUMBERED.split(text)
+    return [element("span", part, class_="whole") if k % 2 else part for k, part in enumerate(parts) if part]
 
 
 def pairs(rows: Iterable[tuple[str, str]]) -> Element:

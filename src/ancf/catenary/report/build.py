@@ -12,6 +12,7 @@ from ...files import write_text, writing
 from ...viz import printed, style
 from ...viz.html import element, figure, page, section
 from ..acceptance import acceptance, footnote, verdict
+from ..broken import told as broken
 from ..clamp_strain import strained
 from ..state import at_rest, state, titled
 from . import measured as measuring
@@ -120,6 +121,10 @@ def _top(content: Content, title: str, lists: Sequence[Sequence[Quantity]]) -> I
     yield element("p", what, class_="faint")
     found = content.run.form
     yield element("p", f"State: {state(found.line)}; at rest {at_rest(found)}.", class_="faint")
+    if content.run.broken_droppers:
+        yield element(
+            "p", f"{_capital(broken(content.run.broken_droppers))}: left out of slack and extremes."
+        )
     if content.reference is None:
         for name, one in zip(content.names, lists, strict=True):
             told = f"{name}: {verdict(one)}" if content.several else verdict(one).capitalize()
@@ -127,6 +132,10 @@ def _top(content: Content, title: str, lists: Sequence[Sequence[Quantity]]) -> I
         return
     for k in range(len(content.found)):
         yield _box(_verdict(content, k), content.compared(k))
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
 
 
 def _box(text: str, rows: Sequence[Quantity]) -> Element:
@@ -221,7 +230,8 @@ def _line_tables(content: Content) -> Iterator[Element]:
     low, high = content.run.window
     if content.elasticity is not None:
         title = f"Static elasticity of span {content.elasticity.span + 1}"
-        yield section(title, "elasticity", tables.elasticity(content))
+        gone = "Of the line with all its droppers." if content.run.broken_droppers else ""
+        yield section(title, "elasticity", tables.elasticity(content), element("p", gone, class_="faint"))
     yield section("Loads and uplift at the supports", "supports", tables.supports(content))
     for k in range(len(content.found)):
         title = "Droppers in the window" + (f", {content.name(k)}" if content.several else "")

@@ -30,26 +30,51 @@ TITLE = "Comparison of runs"
 WIDTH = 180.0  # mm
 
 
+def compared(runs: Sequence[Kept]) -> list[tuple[int, int]]:
+    """Which are compared: places of minuend and subtrahend.
+
+    Each pantograph with the one of the first run that has its place in the train; those of one run alone with
+    its first.
+    """
+    first = runs[0].folder
+    if all(run.folder == first for run in runs):
+        return [(k, 0) for k in range(1, len(runs))]
+    by_place = {run.place: k for k, run in enumerate(runs) if run.folder == first}
+    return [
+        (k, by_place[run.place])
+        for k, run in enumerate(runs)
+        if run.folder != first and run.place in by_place
+    ]
+
+
+def heads(runs: Sequence[Kept]) -> list[str]:
+    """Heads of the columns of values and differences: "before-1", "after-1 less before-1"."""
+    labels = [run.label or run.name for run in runs]
+    return [*labels, *(f"{labels[i]} less {labels[j]}" for i, j in compared(runs))]
+
+
 def differences(runs: Sequence[Kept]) -> list[tuple[str, str, list[float | None], list[float | None]]]:
-    """Name and unit of each quantity, its values (runs,), and by how much they differ from the first run."""
+    """Name and unit of each quantity, its values (runs,), and their differences, of those `compared`."""
     by_key = [{q.key: q for q in run.quantities} for run in runs]
     keys = dict.fromkeys(key for one in by_key for key in one)
     found = []
     for key in keys:
         first = next(one[key] for one in by_key if key in one)
         values = [one[key].value if key in one else None for one in by_key]
-        base = values[0]
-        changes = [None if v is None or base is None else v - base for v in values[1:]]
+        changes = [_less(values[i], values[j]) for i, j in compared(runs)]
         found.append((first.name, first.unit, values, changes))
     return found
 
 
+def _less(value: float | None, base: float | None) -> float | None:
+    return None if value is None or base is None else value - base
+
+
 def write_table(runs: Sequence[Kept], path: Path) -> Path:
-    """CSV with a row for each quantity: values of all runs, differences from the first."""
+    """CSV with a row for each quantity: values of all runs, and their differences."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    names = [run.name for run in runs]
-    writer.writerow(["quantity", "unit", *names, *(f"{name} less {names[0]}" for name in names[1:])])
+    writer.writerow(["quantity", "unit", *heads(runs)])
     for name, unit, values, changes in differences(runs):
         cells = ("" if value is None else f"{value:.9g}" for value in [*values, *changes])
         writer.writerow([name, unit, *cells])
@@ -82,10 +107,10 @@ def pieces(runs: Sequence[Kept], save: Save) -> list[Element]:
     parts = [element("h1", TITLE)]
     for run in runs:
         low, high = run.window
-        what = f"{run.name}: {run.line}, {run.speed_kmh:.4g} km/h, evaluated from {low:g} m to {high:g} m"
+        what = f"{told(run)}: {run.line}, {run.speed_kmh:.4g} km/h, evaluated from {low:g} m to {high:g} m"
         what += f"; {run.state}." if run.state else "."
         parts.append(element("p", what, class_="faint"))
-    names = [run.name for run in runs]
+    names = [run.label or run.name for run in runs]
     parts.append(
         section(
             "Acceptance",
@@ -116,21 +141,24 @@ def pieces(runs: Sequence[Kept], save: Save) -> list[Element]:
 
 
 def _all(runs: Sequence[Kept]) -> Element:
-    """Values of all runs, and differences from the first."""
+    """Values of all runs, and their differences."""
     from ...viz.html import table
 
-    names = [run.name for run in runs]
-    heads = [*names, *(f"{name} less {names[0]}" for name in names[1:])]
-    rows = []
+    columns, rows = heads(runs), []
     for name, unit, values, changes in differences(runs):
         rows.append((name, "" if unit == "count" else unit, *(shown(v, unit) for v in [*values, *changes])))
-    return table(("quantity", "unit", *heads), rows, numbers=range(2, 2 + len(heads)))
+    return table(("quantity", "unit", *columns), rows, numbers=range(2, 2 + len(columns)))
+
+
+def told(run: Kept) -> str:
+    """Label, and of which pantograph it is: "before-2 (before, dsa380 (2))"."""
+    return run.name if run.label in ("", run.name) else f"{run.label} ({run.name})"
 
 
 def _draw_force(canvas: Figure, runs: Sequence[Kept]) -> None:
     axes = canvas.subplots()
     for k, run in enumerate(runs):
-        axes.plot(run.position, run.force, label=run.name, **style.line(k))
+        axes.plot(run.position, run.force, label=run.label or run.name, **style.line(k))
     for low, high in dict.fromkeys(run.window for run in runs):
         axes.axvspan(low, high, color=style.SHADE, linewidth=0, zorder=0)
     axes.set(xlabel="track position [m]", ylabel="contact force [N]")
@@ -145,7 +173,7 @@ def _draw_uplift(canvas: Figure, runs: Sequence[Kept]) -> None:
         if run.uplift:
             x, size = zip(*run.uplift, strict=True)
             look = {"marker": style.look(k).marker, "linestyle": "none", "color": style.line(k)["color"]}
-            axes.plot(x, size, label=run.name, **look)
+            axes.plot(x, size, label=run.label or run.name, **look)
     axes.set(xlabel="track position [m]", ylabel="largest uplift [mm]")
     style.from_zero(axes)
     style.legend_above(canvas, axes, 3)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...viz import style
-from ..passing import dropper_forces, dropper_places, passing_time
+from ..passing import broken_places, dropper_forces, dropper_places, passing_time
 from . import marks
 from .line_answer import span_of_passings
 
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     from .content import Content
 
+#: Marker of a broken dropper.
+BROKEN: dict[str, Any] = {"color": "black", "markerfacecolor": "none", "markersize": 5, "zorder": 7}
 PANEL, REST = 14.0, 24.0  # mm: height of a history, of legend and labels
 
 
@@ -28,7 +30,8 @@ def extremes_size(content: Content) -> tuple[float, float]:
 def draw_extremes(content: Content, figure: Figure) -> None:
     """Smallest, static and largest force of each dropper over the whole run; the slack ones marked."""
     axes = figure.subplots()
-    found = dropper_forces(content.run)
+    every = dropper_forces(content.run)
+    found = [d for d in every if not d.broken]
     x = np.array([d.position for d in found])
     marks.shade_window(axes, content.run.window)
     low, high = [d.smallest for d in found], [d.largest for d in found]
@@ -38,9 +41,12 @@ def draw_extremes(content: Content, figure: Figure) -> None:
     axes.plot(
         slack, np.zeros(len(slack)), "x", color=style.ORANGE, markersize=4, label="went slack", zorder=6
     )
+    gone = [d.position for d in every if d.broken]
+    if gone:
+        axes.plot(gone, np.zeros(len(gone)), "D", **BROKEN, label="broken")
     marks.along_track(axes, content)
     axes.set(xlabel="track position [m]", ylabel="dropper force [N]")
-    axes.set_ylim(bottom=-0.08 * max(high))
+    axes.set_ylim(bottom=-0.08 * max(high, default=1.0))
     marks.legend(figure, axes)
 
 
@@ -52,12 +58,13 @@ def history_size(content: Content) -> tuple[float, float]:
 def draw_history(content: Content, figure: Figure) -> None:
     """Force of each dropper of the first span of the window over time, with the passing pantographs."""
     run, shown = content.run, _shown(content)
-    places = dropper_places(run)
+    places, gone = dropper_places(run), broken_places(run)
     panels = figure.subplots(len(shown), sharex=True, sharey=True, squeeze=False)[:, 0]
     for axes, j in zip(panels, shown, strict=True):
         _one(axes, content, j)
         span, number, x = places[j]
-        axes.set_title(f"span {span}, dropper {number}, {x:g} m", loc="left", fontsize=7, pad=1.5)
+        title = f"span {span}, dropper {number}, {x:g} m{', broken' if gone[j] else ''}"
+        axes.set_title(title, loc="left", fontsize=7, pad=1.5)
     panels[-1].set_xlabel("time [s]")
     panels[-1].set_xlim(*span_of_passings(content, [places[j][2] for j in shown]))
     figure.supylabel("dropper force [N]", fontsize=8)
@@ -69,7 +76,7 @@ def _one(axes: Axes, content: Content, j: int) -> None:
     force, x = run.dropper_force[:, j], dropper_places(run)[j][2]
     axes.plot(run.t, force, color=style.BLUE, linewidth=0.9, label="force")
     axes.axhline(float(run.form.dropper_load[j]), linestyle=":", label="at rest", **marks.FINE)
-    slack = (force <= 0) & run.form.line.droppers.slack
+    slack = (force <= 0) & run.form.line.droppers.slack & (not broken_places(run)[j])
     axes.fill_between(
         run.t, 0, 1, where=slack, transform=axes.get_xaxis_transform(), color=style.ORANGE, alpha=0.35,
         linewidth=0, label="slack",

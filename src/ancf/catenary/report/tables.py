@@ -91,6 +91,9 @@ def clamps(content: Content) -> Element:
         strains = (f"{1e6 * value:.0f}" for value in (c.rest, c.largest, c.smallest, c.cycles.largest))
         force = forces[c.span, c.number]
         many = f"{c.cycles.number(0.5 * c.cycles.largest):g}"
+        if f"{c.span}-{c.number}" in content.run.broken_droppers:
+            rows.append((str(c.span), str(c.number), f"{c.position:g}", *strains, many, "broken", ""))
+            continue
         worst = (shown(force.largest, "N"), f"{force.number(0.5 * force.largest):g}")
         rows.append((str(c.span), str(c.number), f"{c.position:g}", *strains, many, *worst))
     head = ("span", "dropper", "position [m]", "strain at rest [1e-6]", "largest", "smallest", "range")
@@ -131,6 +134,8 @@ def droppers(content: Content, k: int) -> Element:
 
 
 def _dropper(d: DropperForces) -> tuple[str, ...]:
+    if d.broken:
+        return (str(d.span), str(d.number), f"{d.position:g}", "broken", *[""] * 5)
     forces = (shown(force, "N") for force in (d.rest, d.largest, d.smallest))
     slack = (shown(1e3 * time, "ms") for time in (d.slack.seconds, d.slack.longest))
     return (str(d.span), str(d.number), f"{d.position:g}", *forces, str(d.slack.number), *slack)
