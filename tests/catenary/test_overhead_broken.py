@@ -15,6 +15,8 @@ from ancf.catenary.broken import chosen, told
 from ancf.catenary.kept import read_runs
 from ancf.catenary.passing import dropper_forces
 from ancf.catenary.report.comparison import pieces
+from ancf.catenary.report.content import Content
+from ancf.catenary.report.figures import FIGURES
 from ancf.viz import style
 from overhead_lines import COARSE, STEP, collector, short_line
 
@@ -178,6 +180,40 @@ def _rows(runs):
     from ancf.catenary.report.comparison import differences
 
     return {name: [*values, *changes] for name, _, values, changes in differences(runs)}
+
+
+class TestScale:
+    @pytest.mark.parametrize("count", [1, 2, 3])
+    @pytest.mark.parametrize("name", ["force", "force-window", "dropper-extremes", "height"])
+    def test_what_happens_at_the_end_of_the_line_does_not_set_it(self, count, name):
+        run = whole(count)
+        recordings, forces = [], run.dropper_force.copy()
+        for one in run.recordings:
+            late = one.position > run.form.line.length - 20.0
+            force = np.where(late, 5e3, one.force)
+            recordings.append(replace(one, force=force, height=np.where(late, 9.0, one.height)))
+        forces[:, -2:] = 5e3
+        shown = _axes(name, replace(run, recordings=recordings, dropper_force=forces))
+        for axes, before in zip(shown, _axes(name, run), strict=True):
+            assert axes.get_ylim() == pytest.approx(before.get_ylim(), rel=0.02)
+            assert axes.get_ylim()[1] < 500.0
+
+    @pytest.mark.parametrize("count", [1, 2])
+    def test_holds_what_is_evaluated(self, count):
+        run = whole(count)
+        for k, axes in enumerate(_axes("force", run)):
+            x, force = run.recordings[k].position, run.recordings[k].force
+            inside = force[(x >= run.window[0]) & (x <= run.window[1])]
+            assert axes.get_ylim()[0] < inside.min()
+            assert axes.get_ylim()[1] > inside.max()
+
+
+def _axes(name, run):
+    content = Content.of(run)
+    kind = FIGURES[name]
+    with style.new_figure(*kind.size(content)) as figure:
+        kind.draw(content, figure)
+        return list(figure.axes)
 
 
 class TestOption:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -31,10 +32,12 @@ def summarise(
     """Everything worth keeping of a run, ready for JSON."""
     from ..results import slackness
     from ..results.tension import compressions
+    from ..results.wavering import waverings
 
     model = study.model
     still = study.simulation is None
     state, counters = result.state(), result.stats.as_dict()
+    waver = {item.body for item in waverings(state if still else result)}
     summary: dict[str, Any] = {
         "title": study.title,
         "model_file": str(path),
@@ -45,7 +48,7 @@ def summarise(
         "settings": settings(study),
         "t": float(result.t[-1]),
         "stored_times": len(result.t),
-        "outputs": {label: at_point(model, state, label) for label in outputs(study)},
+        "outputs": {label: at_point(model, state, label, waver) for label in outputs(study)},
         "energy": energies(result),
         "compression": [item.as_dict() for item in compressions(result)],
         "slack": [item.as_dict() for item in slackness.of_ropes(result)],
@@ -108,14 +111,18 @@ def outputs(study: Study) -> list[str]:
     return [str(point) for point in shown_points(study.model)]
 
 
-def at_point(model: Model, state: State, label: str) -> dict[str, Any]:
-    """State at a point, and what holds it; only a beam or cable has a tension."""
+def at_point(model: Model, state: State, label: str, waver: Collection[str] = ()) -> dict[str, Any]:
+    """State at a point, and what holds it; only a beam or cable has a tension.
+
+    `waver` are the cables whose forces waver within elements: their tensions at points are not to be trusted.
+    """
     point = model.point(label)
     held = [support.name for support in model.supports if support.point == point]
     return {
         "position": [float(x) for x in state.position(point)],
         "velocity": [float(x) for x in state.velocity(point)],
         "tension": float(state.tension(point)) if isinstance(point.body, Beam) else None,
+        "tension_wavers": point.body.name in waver,
         "support": held[0] if held else None,
     }
 
@@ -137,6 +144,8 @@ def print_summary(to: Console, summary: dict[str, Any]) -> None:
     to.print(_what(summary), soft_wrap=True)
     to.print()
     to.print(_point_table(summary))
+    if any(value["tension_wavers"] for value in summary["outputs"].values()):
+        to.print("~ wavers within elements that are long for how they bend: see the note", soft_wrap=True)
     if summary["kind"] == "simulation":
         to.print()
         to.print(_energy(summary["energy"]))
@@ -163,7 +172,8 @@ def _point_table(summary: dict[str, Any]) -> Any:
         speed = f"{math.hypot(*value['velocity']):.6g}"
         place = [coordinate(x, value["position"]) for x in value["position"]]
         end = speed if moving else value["support"] or ""
-        tension = "" if value["tension"] is None else f"{value['tension']:.6g}"
+        doubt = "~" if value["tension_wavers"] else ""
+        tension = "" if value["tension"] is None else f"{doubt}{value['tension']:.6g}"
         made.add_row(label, *place, tension, end)
     return made
 

@@ -130,6 +130,24 @@ def element_forces(
     return force if strain == "material" else force * stretch
 
 
+def along(known: Any, beam: Beam, x: FloatArray) -> FloatArray:
+    """Forces of a cable at arc lengths x (m,), linear between the middles of its elements, N, (n_t, m).
+
+    Beyond the outer middles it is what it is there. Within elements the force wavers where they are too long
+    for how they bend, in their middles it does not, see :mod:`ancf.results.wavering`.
+    """
+    places = np.asarray(middles(beam))
+    after = np.clip(np.searchsorted(places, x), min(1, beam.elements - 1), beam.elements - 1)
+    before = np.maximum(after - 1, 0)
+    span = np.where(after > before, places[after] - places[before], 1.0)
+    share = np.clip((x - places[before]) / span, 0.0, 1.0)
+    found = np.empty((len(known.q), len(x)))
+    for rows, forces in pieces(known, [beam]):
+        force = forces[beam.name]
+        found[rows] = (1.0 - share) * force[:, before] + share * force[:, after]
+    return found
+
+
 class _Lowest:
     """Smallest and largest force of a cable so far, and where the smallest is."""
 

@@ -124,7 +124,7 @@ def pieces(runs: Sequence[Kept], save: Save) -> list[Element]:
         (
             "force",
             "Contact force below 20 Hz",
-            "Over the track; shaded: what is evaluated.",
+            "Over the track; shaded: what is evaluated, which sets the scale.",
             _draw_force,
             90.0,
         ),
@@ -162,6 +162,9 @@ def _draw_force(canvas: Figure, runs: Sequence[Kept]) -> None:
     for low, high in dict.fromkeys(run.window for run in runs):
         axes.axvspan(low, high, color=style.SHADE, linewidth=0, zorder=0)
     axes.set(xlabel="track position [m]", ylabel="contact force [N]")
+    inside = [run.force[(run.position >= run.window[0]) & (run.position <= run.window[1])] for run in runs]
+    least, most = min(map(np.min, inside)), max(map(np.max, inside))
+    axes.set_ylim(least - 0.3 * (most - least), most + 0.3 * (most - least))  # ends of lines are no part
     low = min(float(np.min(run.position)) for run in runs)
     axes.set_xlim(low, max(float(np.max(run.position)) for run in runs))
     style.legend_above(canvas, axes, 3)

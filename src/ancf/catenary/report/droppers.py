@@ -46,7 +46,9 @@ def draw_extremes(content: Content, figure: Figure) -> None:
         axes.plot(gone, np.zeros(len(gone)), "D", **BROKEN, label="broken")
     marks.along_track(axes, content)
     axes.set(xlabel="track position [m]", ylabel="dropper force [N]")
-    axes.set_ylim(bottom=-0.08 * max(high, default=1.0))
+    shown = np.array(high)[marks.clear(content, x)] if len(x) else np.ones(1)
+    most = float(np.max(shown, initial=1.0))
+    axes.set_ylim(-0.08 * most, 1.05 * most)
     marks.legend(figure, axes)
 
 

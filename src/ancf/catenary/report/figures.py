@@ -48,7 +48,7 @@ FIGURES = {
     ),
     "force": FigureKind(
         "Contact force over the track",
-        "Unfiltered and below 20 Hz; the evaluated window is shaded.",
+        "Unfiltered and below 20 Hz; the evaluated window is shaded. The scale leaves the end spans out.",
         force.size,
         force.draw,
     ),
@@ -84,7 +84,7 @@ FIGURES = {
     ),
     "dropper-extremes": FigureKind(
         "Dropper forces",
-        "Of each dropper over the whole run.",
+        "Of each dropper over the whole run. The scale leaves the end spans out.",
         droppers.extremes_size,
         droppers.draw_extremes,
     ),

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from ...arrays import FloatArray
 from ...viz import style
 from . import marks
 
@@ -28,6 +31,8 @@ def draw(content: Content, figure: Figure) -> None:
     for k, axes in enumerate(panels):
         marks.shade_window(axes, content.run.window)
         _curves(axes, content, k)
+        recording = content.run.recordings[k]
+        marks.scale(axes, recording.force[marks.clear(content, recording.position)])
         marks.along_track(axes, content)
     panels[-1].set_xlabel("track position [m]")
     marks.legend(figure, panels[0])
@@ -38,7 +43,7 @@ def draw_window(content: Content, figure: Figure) -> None:
     panels = figure.subplots(len(content.found), sharex=True, squeeze=False)[:, 0]
     for k, axes in enumerate(panels):
         _curves(axes, content, k)
-        _levels(axes, content, k)
+        marks.scale(axes, content.run.recordings[k].force[content.found[k].window], _levels(axes, content, k))
         marks.along_track(axes, content, content.run.window)
     panels[-1].set_xlabel("track position [m]")
     marks.legend(figure, panels[0])
@@ -53,7 +58,8 @@ def _curves(axes: Axes, content: Content, k: int) -> None:
         axes.set_title(content.name(k), loc="left")
 
 
-def _levels(axes: Axes, content: Content, k: int) -> None:
+def _levels(axes: Axes, content: Content, k: int) -> FloatArray:
+    """Draw mean and three standard deviations to each side, and give them, N."""
     found, end = content.found[k], content.run.window[1]
     levels = (
         ("mean_plus_3_sigma", "$F_m + 3\\sigma$"),
@@ -64,3 +70,4 @@ def _levels(axes: Axes, content: Content, k: int) -> None:
         value = found[key].value
         axes.axhline(value, linestyle="--", **marks.FINE)
         axes.annotate(text, (end, value), xytext=(3, 0), textcoords="offset points", va="center", fontsize=7)
+    return np.array([found[key].value for key, _ in levels])

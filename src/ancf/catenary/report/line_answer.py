@@ -76,10 +76,13 @@ def draw_height(content: Content, figure: Figure) -> None:
     axes = figure.subplots()
     rate = sample_rate(content.run.t)
     marks.shade_window(axes, content.run.window)
+    shown = []
     for k, found in enumerate(content.found):
         recording = content.run.recordings[k]
         height = found.filter.low_pass(recording.height, rate, CUT_OFF)
         axes.plot(recording.position, MM * height, label=content.name(k), **marks.look(k))
+        shown.append(MM * height[marks.clear(content, recording.position)])
+    marks.scale(axes, *shown)
     marks.along_track(axes, content)
     axes.set(xlabel="track position [m]", ylabel="height of the contact point [mm]")
     marks.legend(figure, axes)

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from ...arrays import BoolArray, FloatArray
 from ...viz import style
 from ..drawn import mark_line, shade_window
 
@@ -13,7 +16,7 @@ if TYPE_CHECKING:
 
     from .content import Content
 
-__all__ = ["along_track", "legend", "look", "mark_line", "shade_window"]
+__all__ = ["along_track", "clear", "legend", "look", "mark_line", "scale", "shade_window"]
 
 WIDTH = 180.0  # mm, of all figures
 RAW: dict[str, Any] = {"color": style.LIGHT, "linewidth": 0.5}
@@ -31,6 +34,25 @@ def along_track(axes: Axes, content: Content, limits: tuple[float, float] | None
     whole = (min(float(x.min()) for x in positions), max(float(x.max()) for x in positions))
     axes.set_xlim(limits or whole)
     mark_line(axes, content.run.form.line)
+
+
+def clear(content: Content, x: FloatArray) -> BoolArray:
+    """Which of track positions (n,) are in the window, or not in the first and last span of the line.
+
+    There a wire is stiff: a force at its end is no part of what is evaluated, and would set the scale.
+    """
+    (low, high), spans = content.run.window, content.run.form.line.spans
+    first, last = spans[0].length, content.run.form.line.length - spans[-1].length
+    return ((x >= low) & (x <= high)) | ((x >= first) & (x <= last))
+
+
+def scale(axes: Axes, *values: FloatArray) -> None:
+    """Make y show some values with a little room, whatever else is drawn."""
+    every = np.concatenate(values)
+    if every.size:
+        low, high = float(np.min(every)), float(np.max(every))
+        room = 0.06 * (high - low) or 1.0
+        axes.set_ylim(low - room, high + room)
 
 
 def legend(figure: Figure, axes: Axes, columns: int = 6) -> None:

@@ -11,6 +11,7 @@ from ...errors import ModelError
 from ...model.beam import Beam
 from ...model.section import Section
 from ...model.shapes import Circle, Rectangle
+from ...results.tension import along
 from ...system.fields import Fields
 from ...system.probe import R_Y, R_Z
 from .parts import Thread
@@ -45,11 +46,18 @@ def _thread(shown: Fields, beam: Beam, x: FloatArray, moving: bool) -> Thread:
     points = [beam.at(place) for place in x.tolist()]
     values = {}
     if moving:
-        values["tension"] = _joined(shown.tension(p) for p in points)
+        values["tension"] = tensions(shown, beam, x)
         values["curvature"] = _joined(shown.curvature(p) for p in points)
         values["speed"] = _joined(np.linalg.norm(shown.velocity(p), axis=-1) for p in points)
     position = _joined(shown.position(p) for p in points)
     return Thread(beam.name, beam.element, x, position, values, _outline(shown, beam, x))
+
+
+def tensions(shown: Fields, beam: Beam, x: FloatArray) -> FloatArray:
+    """Axial forces (n, m) at arc lengths, N; of a cable by the middles of its elements."""
+    if beam.has_section:
+        return _joined(shown.tension(beam.at(place)) for place in x.tolist())
+    return along(shown, beam, x)
 
 
 def _joined(columns: Iterable[FloatArray]) -> FloatArray:

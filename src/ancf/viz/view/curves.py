@@ -1,7 +1,7 @@
 """The curves beside the moving picture: energies, traced points, joints, springs, sensors.
 
-What matters comes first: contact forces, then what moves little beside what only travels, and of
-displacements those along gravity.
+What matters comes first: contact forces, tensions of sensors where they change by a part of their size, then
+what moves little beside what only travels, and of displacements those along gravity.
 """
 
 from __future__ import annotations
@@ -28,6 +28,10 @@ ALL_POINTS, FEW = 400_000, 300
 STILL = 1e-6
 #: A component that changes by less than this part of the largest one would look constant beside it.
 SMALL = 0.02
+#: Tensions that change by less than this part of the largest one matter less than what moves.
+EVEN = 0.1
+#: Of a point that goes less far than this part of where it is, its coordinates look constant.
+NEAR = 0.1
 #: A point that goes farther than this part of the model's size travels.
 FAR = 0.3
 
@@ -36,12 +40,13 @@ def curves(result: Any, states: Histories, traced: Sequence[Trace], scene: Scene
     """All curves of a result over a scene's time, panel by panel; what tells most comes first."""
     recorded = _sensors(result, {trace.name for trace in traced})
     paths = [_position(trace, scene.size) for trace in traced]
-    found = recorded.contacts + _energies(result)
+    lively = _lively(recorded.tensions)
+    found = recorded.contacts + (recorded.tensions if lively else []) + _energies(result)
     for first, _ in paths:
         found += first
     found += recorded.moved + _joints(states)
     found += recorded.springs or _springs(states.t, states, states.springs, "spring force")
-    found += recorded.joints + recorded.fields
+    found += recorded.joints + ([] if lively else recorded.tensions) + recorded.bends
     for _, last in paths:
         found += last
     found += _inputs(result)
@@ -49,6 +54,12 @@ def curves(result: Any, states: Histories, traced: Sequence[Trace], scene: Scene
     most = int(np.clip(ALL_POINTS // max(len(found), 1), FEW, POINTS))
     shortened = [_shortened(curve, span, most) for curve in found]
     return [curve for curve in shortened if len(curve.t)]
+
+
+def _lively(tensions: Sequence[Curve]) -> bool:
+    """Whether one of them changes much beside the largest."""
+    largest = max((float(np.max(np.abs(c.values))) for c in tensions), default=0.0)
+    return any(float(np.ptp(c.values)) > EVEN * largest for c in tensions)
 
 
 def _shortened(curve: Curve, span: tuple[float, float], most: int) -> Curve:
@@ -77,7 +88,8 @@ def _energies(result: Any) -> list[Curve]:
 def _position(trace: Trace, size: float) -> tuple[list[Curve], list[Curve]]:
     """Components of a traced point that change, in two panels if some are small beside others.
 
-    First are the large ones; but of a point that travels through the model the small ones.
+    First are the large ones; but of a point that travels through the model the small ones. Of one that stays
+    near its place they count from there.
     """
     ranges = np.ptp(trace.position, axis=0)
     small = ranges < SMALL * ranges.max()
@@ -89,8 +101,10 @@ def _position(trace: Trace, size: float) -> tuple[list[Curve], list[Curve]]:
 
 def _components(trace: Trace, mask: Any) -> list[Curve]:
     axes = [k for k in range(3) if mask[k]]
-    panel = f"{', '.join('xyz'[k] for k in axes)} of {trace.name}"
-    return [_curve("xyz"[k], "m", trace.t, trace.position[:, k], panel) for k in axes]
+    near = np.ptp(trace.position, axis=0).max() < NEAR * np.abs(trace.position).max()
+    since = trace.position[0] if near else np.zeros(3)
+    panel = f"{', '.join('xyz'[k] for k in axes)} {'displacement ' if near else ''}of {trace.name}"
+    return [_curve("xyz"[k], "m", trace.t, trace.position[:, k] - since[k], panel) for k in axes]
 
 
 def _joints(states: Any, said: str = "") -> list[Curve]:
@@ -134,7 +148,8 @@ class _Recorded(NamedTuple):
     springs: list[Curve]
     moved: list[Curve]
     joints: list[Curve]
-    fields: list[Curve]
+    tensions: list[Curve]
+    bends: list[Curve]
 
 
 def _sensors(result: Any, traced: set[str]) -> _Recorded:
@@ -142,7 +157,7 @@ def _sensors(result: Any, traced: set[str]) -> _Recorded:
     try:
         sensors = result.sensors
     except ModelError:
-        return _Recorded([], [], [], [], [])
+        return _Recorded([], [], [], [], [], [])
     t, columns = sensors.t, sensors.listing.columns
     contacts = {
         name: sensors.contact_force(name) for name in columns if _answers(sensors.contact_force, name)
@@ -151,13 +166,13 @@ def _sensors(result: Any, traced: set[str]) -> _Recorded:
     places = {short_label(point): point for point in sensors.listing.points}
     moved = {name: sensors.position(p) for name, p in places.items() if str(p) not in traced}
     along = {name: point for name, point in places.items() if isinstance(point.body, Beam)}
-    fields = _most_varied(t, {n: sensors.tension(p) for n, p in along.items()}, "N", "tension of sensors")
+    tensions = _most_varied(t, {n: sensors.tension(p) for n, p in along.items()}, "N", "tension of sensors")
     bent = {name: sensors.curvature(point) for name, point in along.items()}
-    fields += _most_varied(t, bent, "1/m", "curvature of sensors")
+    bends = _most_varied(t, bent, "1/m", "curvature of sensors")
     down = np.abs(np.asarray(result.model.gravity, dtype=np.float64))
     forces = _most_varied(t, contacts, "N", "contact force")
     joints = _joints(sensors, " of sensors")
-    return _Recorded(forces, springs, _displacements(t, moved, down), joints, fields)
+    return _Recorded(forces, springs, _displacements(t, moved, down), joints, tensions, bends)
 
 
 def _answers(question: Callable[[str], Any], name: str) -> bool:

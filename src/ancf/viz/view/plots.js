@@ -119,7 +119,7 @@ class Panel {
       : this.shown.at(frameAt(this.now)).map(({ y, run }) => {
         const band = this.bands.find((one) => one.run === run);
         const [low, high] = [Math.min(...band?.low ?? y), Math.max(...band?.high ?? y)].map((value) => written(value, 3));
-        return `${several ? DATA.runs[run] + ": " : ""}${low} to ${high} ${this.shown.unit}${band ? ` in ${band.states} states` : ""}`;
+        return `${several ? DATA.runs[run] + ": " : ""}${low} to ${high} ${this.shown.unit}${band ? ` in ${band.states} states` : ""}${this.shown.middles ? ", middles of elements" : ""}`;
       });
     said.forEach((text, i) => { this.keys.children[i].lastChild.data = text; });
   }

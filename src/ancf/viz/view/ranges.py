@@ -10,7 +10,8 @@ import numpy as np
 
 from ...arrays import FloatArray
 from ...model.beam import Beam
-from ..scene import QUANTITIES, Scene, Thread
+from ..scene import Scene, Thread
+from ..scene.sampling import tensions
 from .curve import within
 from .histories import Histories
 
@@ -64,11 +65,11 @@ def _range(states: Histories, thread: Thread, stride: int) -> Range:
     x = np.union1d(thread.x[::stride], thread.x[-1:])
     points = [beam.at(place) for place in x.tolist()]
     questions: dict[str, Callable[[Any], FloatArray]] = {
-        "tension": states.tension,
         "curvature": states.curvature,
         "speed": lambda point: np.linalg.norm(states.velocity(point), axis=-1),
     }
-    values = {name: np.stack([_extremes(questions[name](p)) for p in points], axis=1) for name in QUANTITIES}
+    values = {"tension": _extremes(tensions(states, beam, x))}
+    values |= {name: np.stack([_extremes(ask(p)) for p in points], axis=1) for name, ask in questions.items()}
     moved = [_extremes((r := states.position(p)) - r[0]) for p in points]  # each (2, 3)
     for name, axis in MOVES.items():
         values[name] = np.stack([both[:, axis] for both in moved], axis=1)

@@ -5,6 +5,8 @@ const AXES = ["x", "y", "z"];
 const SEEN = { perspective: 1.55, orthographic: 1.65 };
 // Width for labels and the colour bar beside them, pixels.
 const BESIDE = 150;
+// Width of a picture below which the colour bar lies under it, room for labels then, and the bar's share of the height.
+const NARROW = 480, LABELS = 70, UNDER = 0.16;
 // Length of a window that follows a point, m, and from which slenderness on the axes are stretched.
 const WINDOW = 120, SLENDER = 8;
 
@@ -63,6 +65,8 @@ class Picture {
     this.view = this.flatView() ?? "3-D";
   }
 
+  narrow() { return this.div.clientWidth < NARROW; }
+
   // The view along the axis in which nothing extends.
   flatView() {
     const [, middle, short] = this.order, across = this.extent[middle];
@@ -94,7 +98,8 @@ class Picture {
       : extents.map((extent, i) => i === this.long ? 1 : Math.max(0.07, share * extent / across));
     const { eye, up, type } = VIEWS[this.view], [right, above] = directions(Object.values(eye), Object.values(up));
     const seen = (direction) => shape.reduce((sum, length, i) => sum + length * Math.abs(direction[i]), 0);
-    const wide = Math.max(width - BESIDE, width / 2) / Math.max(height, 1);
+    const room = this.narrow() ? [width - LABELS, (1 - UNDER) * height] : [Math.max(width - BESIDE, width / 2), height];
+    const wide = room[0] / Math.max(room[1], 1);
     const scale = SEEN[type] * Math.min(wide / seen(right), 1 / seen(above));
     return shape.map((length) => scale * length);
   }
@@ -112,10 +117,11 @@ class Picture {
     const ranges = this.ranges(k), ratios = this.ratios(ranges);
     return Object.fromEntries(AXES.map((axis, i) => [`scene.${axis}axis`, {
       tickangle: 0, title: { text: ratios[i] < 0.3 ? "" : `${axis} [m]` }, range: ranges[i], type: "linear",
-      nticks: Math.max(2, Math.round(6 * ratios[i])), showticklabels: ratios[i] >= 0.3,
+      nticks: Math.max(i === this.long ? 5 : 2, Math.round(6 * ratios[i])), showticklabels: ratios[i] >= 0.3,
       showbackground: false, showgrid: true, zeroline: true, gridcolor: LOOKS.grid, zerolinecolor: LOOKS.light, showspikes: false,
       ...this.view.startsWith("3-D") ? { ticksuffix: "" } : this.flatAxis(i),
-    }]).concat([["scene.aspectratio", Object.fromEntries(AXES.map((axis, i) => [axis, ratios[i]]))]]));
+    }]).concat([["scene.aspectratio", Object.fromEntries(AXES.map((axis, i) => [axis, ratios[i]]))],
+                ["scene.domain", this.narrow() ? { x: [0, 1], y: [UNDER, 1] } : { x: [0, 0.93], y: [0, 1] }]]));
   }
 
   // The axis that one looks along shows nothing.
@@ -138,7 +144,7 @@ class Picture {
   layout() {
     const layout = {
       margin: { l: 0, r: 0, t: 0, b: 0 }, font: FONT, paper_bgcolor: LOOKS.paper, uirevision: "kept",
-      scene: { aspectmode: "manual", domain: { x: [0, 0.93], y: [0, 1] }, camera: this.camera(), uirevision: "kept",
+      scene: { aspectmode: "manual", camera: this.camera(), uirevision: "kept",
                bgcolor: LOOKS.paper },
       hoverlabel: { bgcolor: LOOKS.paper, bordercolor: LOOKS.light, font: FONT }, showlegend: false,
     };
@@ -226,9 +232,11 @@ class Picture {
     }
     const { low, high, unit, name, clipped } = quantity;
     if (kind === "solid") return { colorscale: LOOKS.scale, cmin: low, cmax: high };
-    const title = { text: `${name} [${unit}]` + (clipped ? "<br>(99 % of values)" : ""), side: "right", font: FONT };
-    const colorbar = { title, len: 0.6, thickness: 12, x: 1, xpad: 4, y: 0.5, outlinewidth: 0, tickfont: FONT,
-                       exponentformat: "power", minexponent: 5 };
+    const text = `${name} [${unit}]`, share = clipped ? "(99 % of values)" : "";
+    const place = this.narrow()
+      ? { orientation: "h", title: { text: `${text} ${share}`.trim(), side: "top", font: FONT }, len: 0.86, x: 0.5, y: 0, yanchor: "bottom", nticks: 5 }
+      : { title: { text: text + (share && `<br>${share}`), side: "right", font: FONT }, len: 0.6, x: 1, xpad: 4, y: 0.5 };
+    const colorbar = { ...place, thickness: 12, outlinewidth: 0, tickfont: FONT, exponentformat: "power", minexponent: 5 };
     return { "line.colorscale": LOOKS.scale, "line.cmin": low, "line.cmax": high, "line.showscale": first,
              "line.colorbar": colorbar,
              hovertemplate: `%{text}<br>${name} %{customdata:.4g} ${unit}<extra></extra>` };
@@ -262,13 +270,16 @@ class Picture {
   measure() {
     const before = this.place;
     this.place = `${this.div.clientWidth} ${this.div.clientHeight}`;
+    this.lay = this.narrow();
     return this.place !== before;
   }
 
   async resize() {
+    const narrow = this.lay;
     if (!this.div.clientWidth || !this.measure()) return;
     await Plotly.Plots.resize(this.div);
     await this.relayout(this.shown);
+    if (narrow !== this.lay) await this.recolor(this.color, this.shown);
   }
 
   async relayout(k, camera = false) {

@@ -107,6 +107,7 @@ function alongBody(body, quantity, unit, threads) {
   const name = `${quantity} along ${body}`;
   return {
     name, quantity, unit, body, along: true,
+    middles: quantity === "tension" && threads.some(({ thread }) => !thread.outline),
     bands() {
       return LAST === 0 ? [] : threads.map(({ thread, range }) => {
         if (!range?.values[quantity]) return { run: thread.run, ...extremes(thread, quantity) };
