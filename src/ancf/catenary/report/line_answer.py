@@ -49,7 +49,8 @@ def _histories(axes: Axes, content: Content) -> None:
         axes.plot(run.t, MM * run.uplift[:, support.number - 1], label=label, **marks.look(i))
     axes.set(xlabel="time [s]", ylabel="uplift at support [mm]")
     axes.set_xlim(*span_of_passings(content, [s.position for s in supports]))
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4)
+    if supports:
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4)
 
 
 def _middle(supports: list[SupportUplift]) -> list[SupportUplift]:

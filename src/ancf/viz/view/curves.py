@@ -26,12 +26,10 @@ MOST, PANELS = 6, 20
 ALL_POINTS, FEW = 400_000, 300
 #: A component that changes by less than this part of the largest one is not drawn.
 STILL = 1e-6
-#: A component that changes by less than this part of the largest one would look constant beside it.
+#: What changes by less than this part of the largest component, or of where a point is, would look constant.
 SMALL = 0.02
 #: Tensions that change by less than this part of the largest one matter less than what moves.
 EVEN = 0.1
-#: Of a point that goes less far than this part of where it is, its coordinates look constant.
-NEAR = 0.1
 #: A point that goes farther than this part of the model's size travels.
 FAR = 0.3
 
@@ -101,7 +99,7 @@ def _position(trace: Trace, size: float) -> tuple[list[Curve], list[Curve]]:
 
 def _components(trace: Trace, mask: Any) -> list[Curve]:
     axes = [k for k in range(3) if mask[k]]
-    near = np.ptp(trace.position, axis=0).max() < NEAR * np.abs(trace.position).max()
+    near = np.ptp(trace.position, axis=0).max() < SMALL * np.abs(trace.position).max()
     since = trace.position[0] if near else np.zeros(3)
     panel = f"{', '.join('xyz'[k] for k in axes)} {'displacement ' if near else ''}of {trace.name}"
     return [_curve("xyz"[k], "m", trace.t, trace.position[:, k] - since[k], panel) for k in axes]
