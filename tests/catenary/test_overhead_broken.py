@@ -4,6 +4,7 @@ import csv
 import json
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -262,6 +263,19 @@ class TestOption:
         assert done.code == 2
         assert "there is no dropper '5-11'" in done.err
         assert "span 5 has the droppers 5-1 to 5-9" in done.err
+
+    @pytest.mark.slow
+    @pytest.mark.parametrize("labels", [("5-3",), ("4-2", "6-9")])
+    def test_sweep_names_them(self, call, labels):
+        asked = [word for label in labels for word in ("--break-dropper", label)]
+        done = call(
+            "catenary", "sweep", "en50318-2002", "--speed", 250, "--mesh", 2.5, 5, "--step", 2e-3, *asked,
+            "--pantograph", "en50318-2002", "--workers", 1, "--to", "html", "-o", "swept",
+        )  # fmt: skip
+        assert done.code == 0, done.err
+        assert f"\n{told(labels)}\n" in done.out
+        report = Path("swept/report.html").read_text(encoding="utf-8")
+        assert f"Broken droppers: {', '.join(labels)}." in report
 
 
 def catenary_sweep(given):

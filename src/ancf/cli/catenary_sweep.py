@@ -43,6 +43,7 @@ def sweep_line(
         With code 1 when cases failed.
     """
     from ..catenary import Mesh, find_pantograph, read_line
+    from ..catenary.broken import told as broken_text
     from ..design.sweep import sweep, values_of
     from ..model.file.paths import assignments
     from ..viz.printed import chosen
@@ -67,12 +68,13 @@ def sweep_line(
         error.add_note(f"what has ended is kept in {folder}: the same command goes on")
         raise
     names = [units[min(k, len(units) - 1)].name for k in range(2 if apart else 1)]
-    told = _state(line, given.get("mesh", Mesh()))
-    if "broken_droppers" in given:
-        told.append(("Broken droppers", ", ".join(given["broken_droppers"])))
-    files = _report(line, done, names, told, folder, formats)
+    told, broken = _state(line, given.get("mesh", Mesh())), given.get("broken_droppers", ())
+    said = [*told, ("Broken droppers", ", ".join(broken))] if broken else told
+    files = _report(line, done, names, said, folder, formats)
     if not quiet:
         console().print("; at rest ".join(text for _, text in told), soft_wrap=True)
+        if broken:
+            console().print(broken_text(broken), soft_wrap=True)
         _show(done, len(names))
         console().print("written: " + ", ".join(map(str, [folder / "table.csv", *files])), soft_wrap=True)
         _tell_warnings(done)
