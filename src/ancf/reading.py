@@ -1,4 +1,4 @@
-"""What a command reads: what writes files asks for it, and writes over none of it."""
+"""What a command reads: what writes files asks for it, and writes over none of it; studies know it."""
 
 from __future__ import annotations
 
@@ -19,6 +19,19 @@ def inputs_spared() -> Iterator[None]:
         yield
     finally:
         _READ.reset(before)
+
+
+@contextmanager
+def inputs_told() -> Iterator[list[Path]]:
+    """The files that are read within this context, as they come; they stay inputs of what is around it."""
+    around, found = _READ.get(), list[Path]()
+    before = _READ.set(found)
+    try:
+        yield found
+    finally:
+        _READ.reset(before)
+        if around is not None:
+            around.extend(found)
 
 
 def as_input(path: Path) -> Path:

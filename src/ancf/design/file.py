@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -17,9 +17,11 @@ from ..model.file import read_toml
 from ..model.file.fields import Entry, checked
 from ..model.file.kinds import STUDY, refuse
 from ..model.file.messages import combined, of_validation
+from ..reading import inputs_told
 from .cases import ModelCase
 from .distributions import distribution_of
 from .extras import pandas
+from .fingerprints import fingerprints
 from .lines import LineCase
 from .run_settings import beside_file
 from .sampling import DESIGN, METHODS, sample
@@ -121,9 +123,12 @@ class FileCase:
     Parameters
     ----------
     inner : ModelCase or LineCase
+    files : mapping
+        Fingerprints of the files that were read for it, by their paths.
     """
 
     inner: ModelCase | LineCase
+    files: Mapping[str, str] = field(default_factory=dict)
 
     def __call__(self, /, **values: Any) -> dict[str, float]:
         """Outputs of a case."""
@@ -165,12 +170,14 @@ def read_study_file(path: str | Path) -> StudyFile:
     except ValidationError as error:
         raise combined(of_validation(error, _entry_at), str(path)) from None
     names = _names(entry)
-    case = _case(entry, path, {name: p.path for name, p in zip(names, entry.parameters, strict=True)})
+    with inputs_told() as read:
+        case = _case(entry, path, {name: p.path for name, p in zip(names, entry.parameters, strict=True)})
     samples = _samples(entry, names, path)
     from .study import rows_of
 
-    case.check(rows_of(samples)[0])
-    return StudyFile(entry.title, FileCase(case), samples)
+    with inputs_told() as checked_too:
+        case.check(rows_of(samples)[0])
+    return StudyFile(entry.title, FileCase(case, fingerprints([*read, *checked_too])), samples)
 
 
 def _entry_at(parts: tuple[int | str, ...]) -> type[Entry]:

@@ -9,17 +9,22 @@ from pathlib import Path
 from typing import Any
 
 from .._version import __version__
+from .fingerprints import first_changed
 
 #: What a study leaves; study.json is written when the others are there.
 FILES = ("table.csv", "table.parquet", "study.json", "report.html")
 
 
 def finished(folder: Path, files: dict[str, str], report: bool) -> dict[str, Any] | None:
-    """What study.json says, if it was made of these files by this version; else None."""
+    """What study.json says, if it was made of these files by this version; else None.
+
+    Nor may a file have changed that its cases have read.
+    """
     try:
         found: dict[str, Any] = json.loads((folder / "study.json").read_text(encoding="utf-8"))
         same = found["files"] == files and found["versions"]["ancf"] == __version__
-    except (OSError, ValueError, LookupError, TypeError):
+        same = same and not first_changed(found["read"], folder)
+    except (OSError, ValueError, LookupError, TypeError, AttributeError):
         return None
     there = all((folder / name).is_file() for name in FILES if report or name != "report.html")
     return found if same and there else None

@@ -20,6 +20,7 @@ from .extras import pandas
 from .finished import FILES
 from .journal import Journal, Outcome, case_key
 from .processes import Case, Processes
+from .sources import sources
 from .work import Function, outcome, packed
 
 if TYPE_CHECKING:
@@ -136,7 +137,8 @@ def study(
     if place is not None:
         spare_inputs(place, FILES)
     with locked(place, f"folder {folder}"):
-        journal = Journal(_journal(place), identity(function), f"folder {folder}")
+        given = getattr(function, "files", {})
+        journal = Journal(_journal(place), identity(function), f"folder {folder}", given)
         try:
             if retry:
                 journal.forget_failed()
@@ -147,11 +149,13 @@ def study(
             if left:
                 executor = _executor(function, content, workers, scheduler)
                 _carry_out(executor, left, journal, known, wanted, progress)
+            read = journal.files()
         finally:
             journal.close()
         table = table_of(samples, rows, known)
         if place is not None:
-            about = {"title": title, "function": identity(function), "seconds": _seconds(known, wanted)}
+            seconds = _seconds(known, wanted)
+            about = {"title": title, "function": identity(function), "seconds": seconds, "read": read}
             stamp = hashlib.sha256(repr((about, [*map(case_key, rows)], samples.attrs)).encode()).hexdigest()
             write_all(place, table, {**about, "stamp": stamp, "files": files or {}}, report)
     return table
@@ -192,7 +196,10 @@ def check_arguments(function: Callable[..., Any], row: Mapping[str, Any]) -> Non
 
 
 def identity(function: Any) -> dict[str, Any]:
-    """What tells one study from another: the function's name and source, or what it says itself."""
+    """What tells one study from another: the function's name, its source and what that rests on.
+
+    An object may say it itself, by ``identity()``.
+    """
     if hasattr(function, "identity"):
         return dict(function.identity())
     if isinstance(function, functools.partial):
@@ -204,7 +211,8 @@ def identity(function: Any) -> dict[str, Any]:
         text = inspect.getsource(inner if hasattr(inner, "__code__") else type(inner))
     except (OSError, TypeError):
         text = ""
-    return {"function": name, "source": hashlib.sha256(text.encode("utf-8")).hexdigest()[:16]}
+    source = hashlib.sha256(text.encode("utf-8")).hexdigest()[:16]
+    return {"function": name, "source": source, **sources(function)}
 
 
 def table_of(samples: DataFrame, rows: list[dict[str, Any]], known: Mapping[str, Outcome]) -> DataFrame:

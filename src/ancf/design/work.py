@@ -7,12 +7,15 @@ import pickle
 import time
 import warnings
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ..errors import ModelError
 from ..model.checks import shown
+from ..reading import inputs_told
+from .fingerprints import fingerprints
 from .journal import FAILED, OK, Outcome
 
 Function = Callable[..., Mapping[str, float]]
@@ -27,6 +30,12 @@ class NotFiniteError(ModelError):
 def outcome(function: Function, values: Mapping[str, Any]) -> Outcome:
     """Call the function with the values of one case; an error is an outcome too."""
     start = time.perf_counter()
+    with inputs_told() as read:
+        made = _outcome(function, values, start)
+    return replace(made, files=fingerprints(read)) if read else made
+
+
+def _outcome(function: Function, values: Mapping[str, Any], start: float) -> Outcome:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:

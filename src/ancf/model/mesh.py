@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..errors import ModelError
+from ..reading import as_input
 from .shape import AT, Parameter, Shape
 
 #: Of the size of a mesh: corners of an STL file that are as near are one.
@@ -152,7 +153,7 @@ def read_stl(path: Path) -> FloatArray:
         It cannot be read, or holds no triangles.
     """
     try:
-        data = path.read_bytes()
+        data = as_input(path).read_bytes()
     except OSError as error:
         raise ModelError("Mesh.file", f'"{path}" cannot be read: {error.strerror}') from None
     count = int.from_bytes(data[80:HEAD], "little") if len(data) >= HEAD else -1
