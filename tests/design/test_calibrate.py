@@ -8,6 +8,7 @@ import pandas as pd
 import pytest
 
 import ancf
+from ancf.design.calibrate import STARTS
 from ancf.design.calibration_file import read_calibration
 from example_scripts import script
 from places import EXAMPLES
@@ -215,6 +216,140 @@ class TestCoverage:
         data = pd.DataFrame({"t": t, "position(beam.end)[2]": z})
         fit = ancf.calibrate(beam, data, {"EI": (0.1, 10.0), "damping": (0.0, 0.5)}, step=4e-3)
         assert fit.values == pytest.approx({"EI": 0.3, "damping": 0.05}, rel=1e-7)
+
+
+SWAY = {"size": (0.1, 1.0), "rate": (0.0, 2.0)}
+RATE = {"rate": (1.0, 20.0)}
+
+
+def sway(size, rate):
+    """Two columns that both tell both parameters, the second of some per cent of the first."""
+    return {"y": size * np.exp(-rate * T), "z": 0.07 * size * np.cos(2.0 * rate * T)}
+
+
+def behind(deviations, seed, size=0.4, rate=0.7):
+    """What they are behind noise of these deviations."""
+    draw = np.random.default_rng(seed)
+    exact = sway(size, rate)
+    return {"t": T} | {name: exact[name] + d * draw.standard_normal(len(T)) for name, d in deviations.items()}
+
+
+class TestNoise:
+    """Columns whose noise is not in proportion to their spread."""
+
+    @pytest.mark.parametrize("noise", [(3e-3, 3e-3), (3e-2, 1e-4), (1e-4, 1e-2), (6e-3, 4e-4)])
+    def test_intervals_hold(self, noise):
+        """The truth is within 95 % intervals about as often as it should be, and the noise is found."""
+        deviations, inside, sizes = dict(zip("yz", noise, strict=True)), [], []
+        for seed in range(150):
+            fit = ancf.calibrate(sway, behind(deviations, seed), SWAY)
+            for name, (low, high) in fit.confidence(0.95).items():
+                inside.append(low < {"size": 0.4, "rate": 0.7}[name] < high)
+            if fit.estimated:
+                sizes.append([fit.scales[name] / deviations[name] for name in "yz"])
+        assert 0.92 <= np.mean(inside) <= 0.985
+        if max(noise) / min(noise) != 15.0:
+            assert len(sizes) > 100
+            assert np.mean(sizes, axis=0) == pytest.approx([1.0, 1.0], abs=0.05)
+
+    @pytest.mark.parametrize("seed", [1, 2, 3])
+    def test_is_as_if_it_were_given(self, seed):
+        """Nearly: of 41 numbers a column the noise is known within a tenth. In processes it is the same."""
+        deviations = {"y": 3e-3, "z": 3e-3}
+        data = behind(deviations, seed)
+        fit, given = (ancf.calibrate(sway, data, SWAY, deviations=d) for d in (None, deviations))
+        assert set(fit.estimated) == {"y", "z"}
+        assert "the noise of the columns was estimated" in fit.notes()[0]
+        assert f"y {fit.scales['y']:.3g}, z {fit.scales['z']:.3g}" in fit.notes()[0]
+        for name in given.values:
+            assert fit.values[name] == pytest.approx(given.values[name], abs=0.5 * given.deviations[name])
+            assert fit.deviations[name] == pytest.approx(given.deviations[name], rel=0.3)
+        assert given.notes() == []
+        assert ancf.calibrate(sway, data, SWAY, workers=2).values == fit.values
+
+    @pytest.mark.parametrize("given", ["y", "z"])
+    def test_of_one_column_is_given(self, given):
+        """The other one is weighed beside it."""
+        fit = ancf.calibrate(
+            sway,
+            behind({"y": 3e-3, "z": 2e-3}, 7),
+            SWAY,
+            deviations={given: {"y": 3e-3, "z": 2e-3}[given]},
+        )
+        (other,) = fit.estimated
+        assert other != given
+        assert fit.scales[other] == pytest.approx({"y": 3e-3, "z": 2e-3}[other], rel=0.35)
+
+    @pytest.mark.parametrize("seed", range(4))
+    def test_in_proportion_stays(self, seed):
+        """Where columns hardly differ, their weights are those of their spread."""
+        fit = ancf.calibrate(sway, noisy(sway(0.4, 0.7), 0.02, seed), SWAY)
+        assert not fit.estimated
+        assert fit.notes() == []
+
+    def test_that_is_none(self):
+        """Computed data have none: no column becomes infinitely heavy."""
+        fit = ancf.calibrate(sway, {"t": T, **sway(0.4, 0.7)}, SWAY)
+        assert fit.values == pytest.approx({"size": 0.4, "rate": 0.7}, rel=1e-7)
+
+    def test_of_a_column_with_few_numbers(self):
+        """It is not told: the column keeps its weight."""
+        data = behind({"y": 3e-3, "z": 3e-3}, 3)
+        few = np.full(len(T), np.nan)
+        few[[0, 20, 40]] = data["z"][[0, 20, 40]]
+        fit = ancf.calibrate(sway, data | {"z": few}, SWAY)
+        assert "z" not in fit.estimated
+        assert abs(fit.values["rate"] - 0.7) < 4 * fit.deviations["rate"]
+
+
+class TestValleys:
+    """``cos(rate t)``: beside the right rate there are others which no way downhill leaves."""
+
+    @staticmethod
+    def cosine(rate):
+        return {"y": np.cos(rate * T)}
+
+    @pytest.mark.parametrize("rate", [9.5, 10.5, 12.4])
+    def test_that_the_middle_of_the_bounds_misses(self, rate):
+        data = noisy(self.cosine(rate), 0.02, 1)
+        middle = ancf.calibrate(self.cosine, data, RATE, start={"rate": 20.0**0.5})
+        assert abs(middle.values["rate"] - rate) > 1.0
+        fit = ancf.calibrate(self.cosine, data, RATE)
+        assert fit.values["rate"] == pytest.approx(rate, abs=0.02)
+
+    @pytest.mark.parametrize("rate", [1.7, 5.3, 7.4, 14.2, 18.0])
+    def test_the_best_of_some_points_is_the_start(self, rate):
+        """Where none of them lies in the right valley, the fit is no worse than any of them."""
+        data, asked = noisy(self.cosine(rate), 0.02, 1), []
+
+        def watched(rate):
+            asked.append(rate)
+            return self.cosine(rate)
+
+        fit = ancf.calibrate(watched, data, RATE)
+        left = [np.sum((self.cosine(one)["y"] - data["y"]) ** 2) for one in asked[:STARTS]]
+        assert asked[0] == pytest.approx(20.0**0.5)
+        assert asked[STARTS] == asked[int(np.argmin(left))]
+        assert np.sum(fit.residuals["y"] ** 2) <= min(left)
+        gaps = np.diff(np.log([1.0, *sorted(asked[:STARTS]), 20.0]))
+        assert gaps.max() < 2.5 * np.log(20.0) / (STARTS + 1)
+
+    @pytest.mark.parametrize("start", [1.5, 14.0, 17.0])
+    def test_another_one_is_told(self, start):
+        data = noisy(self.cosine(7.4), 0.02, 1)
+        fit = ancf.calibrate(self.cosine, data, RATE, start={"rate": start}, deviations=0.02)
+        assert abs(fit.values["rate"] - 7.4) > 1.0
+        (note,) = [note for note in fit.notes() if "times the deviations" in note]
+        assert note.startswith(f"the residuals are {fit.excess:.2g} times the deviations that were given")
+        assert fit.excess == pytest.approx(fit.rms["y"] / 0.02, rel=0.05)
+
+    @pytest.mark.parametrize(("factor", "told"), [(0.3, True), (0.7, False), (1.0, False), (3.0, False)])
+    @pytest.mark.parametrize("seed", range(5))
+    def test_noise_that_is_given_wrong(self, factor, told, seed):
+        """Told where the residuals are more than twice as large."""
+        data = behind({"y": 0.01, "z": 0.01}, seed)
+        fit = ancf.calibrate(sway, data, SWAY, deviations=0.01 * factor)
+        assert any("times the deviations" in note for note in fit.notes()) is told
 
 
 class TestWhatDataCannotTell:

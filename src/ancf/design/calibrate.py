@@ -20,12 +20,15 @@ from .calibration_data import TIME, bounds_of, columns_of, priors_of, start_of
 from .calibration_problem import Computed, Problem
 from .fit import Fit
 from .processes import without_script
+from .weights import NOTABLE, ROUNDS, SETTLED, apart
 from .work import packed, unpacked
 
 #: Step of the central differences, in units of the distance of the bounds (or of its logarithm).
 STEP = 1e-4
 #: Residuals of a model that could not be computed, in units of those at the start.
 FAILED = 1e3
+#: Points between the bounds at which the model is computed to begin at the best, if no start is given.
+STARTS = 8
 #: Points whose derivatives are kept: a step that is not taken goes back to the one before.
 RECENT = 3
 
@@ -62,10 +65,12 @@ def calibrate(
         Bounds (low, high) by name. Of positive bounds that differ by more than ten times the logarithm is
         looked for.
     start : mapping, optional
-        Where to begin, default the mean of the prior, else the middle of the bounds.
+        Where to begin, default the means of the priors, else the middle of the bounds. Where neither is
+        given, eight points between the bounds are computed, and the best is the start.
     deviations : float or mapping, optional
-        Standard deviation of the noise of the columns, up to a common factor, which the residuals tell;
-        default in proportion to the spread of each column. With priors the whole deviation, needed.
+        Standard deviation of the noise of the columns, up to a common factor, which the residuals tell.
+        Default in proportion to the spread of each column, and where the residuals of two columns then differ
+        by more than 1.5 times, from the residuals of each. With priors the whole deviation, needed.
     priors : mapping, optional
         What is known of parameters before: mean and standard deviation (mean, deviation) by name. Each counts
         as one more number that was measured, with this deviation.
@@ -107,23 +112,73 @@ def calibrate(
         raise ModelError("calibrate.data", f"has {count} numbers for {len(bounds)} parameters", "give more")
     checks.integer(most, "calibrate.most", 1, 100_000)
     with _pool(problem, checks.integer(workers, "calibrate.workers", 0, 10_000)) as compute:
-        first = compute([problem.units(begun)])[0]
-        if isinstance(first, Exception):
-            raise first
-        search = _Search(compute, FAILED * (1.0 + float(np.max(np.abs(first.residuals)))))
-        found = least_squares(
-            search.residuals,
-            problem.units(begun),
-            jac=search.derivatives,
-            bounds=(np.zeros(len(bounds)), np.ones(len(bounds))),
-            x_scale="jac",
-            xtol=1e-10,
-            ftol=1e-12 if tolerance is None else checks.positive(tolerance, "calibrate.tolerance"),
-            gtol=1e-12,
-            max_nfev=most,
-        )
+        points = [problem.units(begun)] if start or known else _over(len(bounds))
+        at, first = _best(compute, points)
+        search = _Search(compute, FAILED * (1.0 + float(np.max(np.abs(first.residuals)))), len(points) - 1)
+
+        def least(begin: FloatArray) -> Any:
+            return least_squares(
+                search.residuals,
+                begin,
+                jac=search.derivatives,
+                bounds=(np.zeros(len(bounds)), np.ones(len(bounds))),
+                x_scale="jac",
+                xtol=1e-10,
+                ftol=1e-12 if tolerance is None else checks.positive(tolerance, "calibrate.tolerance"),
+                gtol=1e-12,
+                max_nfev=most,
+            )
+
+        found = _weighed(problem, search, least, at)
         covariance = problem.covariance(found.x, found.jac, found.fun)
     return problem.fit(found, covariance, search.evaluations)
+
+
+def _over(count: int) -> list[FloatArray]:
+    """Points (p,) evenly over the unit cube from its middle on, multiples of powers of a golden number.
+
+    Source: M. Roberts, The unreasonable effectiveness of quasirandom sequences (2018).
+    """
+    golden = 2.0
+    for _ in range(60):
+        golden = (1.0 + golden) ** (1.0 / (count + 1))
+    steps = golden ** -np.arange(1.0, count + 1.0)
+    return [(0.5 + k * steps) % 1.0 for k in range(STARTS)]
+
+
+def _best(
+    compute: Callable[[Sequence[FloatArray]], list[Any]], points: list[FloatArray]
+) -> tuple[FloatArray, Computed]:
+    """The point with the least residuals, and what it gives.
+
+    Raises
+    ------
+    ModelError, SolveError
+        The model cannot be computed at any, or what is given for it is wrong.
+    """
+    first = compute(points[:1])[0]
+    if isinstance(first, ModelError):
+        raise first
+    made = [first, *(compute(points[1:]) if len(points) > 1 else ())]
+    good = [k for k, one in enumerate(made) if not isinstance(one, Exception)]
+    if not good:
+        raise first
+    best = min(good, key=lambda k: float(np.sum(made[k].residuals ** 2)))
+    return points[best], made[best]
+
+
+def _weighed(problem: Problem, search: _Search, least: Callable[[FloatArray], Any], begin: FloatArray) -> Any:
+    """The least sum of squares, with columns weighed by their noise where it is not given."""
+    found = least(begin)
+    limit = NOTABLE
+    for _ in range(ROUNDS):
+        noise = problem.noise(found)
+        if apart(noise) <= limit:
+            break
+        limit = SETTLED
+        search.weigh(problem.weigh(noise))
+        found = least(found.x)
+    return found
 
 
 @dataclass
@@ -135,6 +190,11 @@ class _Search:
     evaluations: int = 0
     size: int = 0
     known: dict[bytes, Computed] = field(default_factory=dict)
+    weights: Any = 1.0
+
+    def weigh(self, weights: FloatArray) -> None:
+        """Weights (n,) of the residuals from now on."""
+        self.weights = weights
 
     def residuals(self, u: FloatArray) -> FloatArray:
         """Residuals (n,); large ones where the model cannot be computed, so that the step is not taken."""
@@ -146,7 +206,7 @@ class _Search:
             return np.full(self.size, self.failed)
         self.size = len(made.residuals)
         self.known = dict([*self.known.items()][-RECENT:]) | {u.tobytes(): made}
-        return np.asarray(made.residuals)
+        return np.asarray(self.weights * made.residuals)
 
     def derivatives(self, u: FloatArray) -> FloatArray:
         """Those that the model gives (n, p), else central differences, one-sided at the bounds."""
@@ -167,7 +227,7 @@ class _Search:
         columns = dict(here)
         for k, below, above in zip(unknown, made[::2], made[1::2], strict=True):
             columns[k] = (above.residuals - below.residuals) / (high[k] - low[k])
-        return np.stack([columns[k] for k in range(len(u))], axis=1)
+        return np.stack([self.weights * columns[k] for k in range(len(u))], axis=1)
 
 
 @contextmanager

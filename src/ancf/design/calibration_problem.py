@@ -18,6 +18,7 @@ from .calibration_data import is_logarithmic, numbers_of
 from .cases import OF_MODEL, histories
 from .fit import Fit
 from .formulas import Formula
+from .weights import FLOOR, noise_of
 
 #: Singular values of the derivatives below this part of the largest tell nothing.
 NOTHING = 1e-9
@@ -50,6 +51,9 @@ class Problem:
     settings: SimulationSettings | None
     priors: dict[str, tuple[float, float]]
     scales: dict[str, float] = field(default_factory=dict)
+    given: frozenset[str] = frozenset()
+    estimated: tuple[str, ...] = ()
+    taken: dict[str, float] = field(default_factory=dict)
 
     def scale(self, given: Any) -> None:
         """Take what the residuals are divided by."""
@@ -63,6 +67,7 @@ class Problem:
                 what = "has no deviation: there are priors" if self.priors else "is constant"
                 raise ModelError(f'calibrate.data["{name}"]', what, "give its deviation")
             self.scales[name] = checks.positive(spread, f"calibrate.deviations: {name}")
+            self.given |= {name} if here is not None else frozenset()
         if isinstance(given, Mapping):
             for name in given:
                 if name not in self.columns:
@@ -70,6 +75,32 @@ class Problem:
                     raise ModelError(
                         f"calibrate.deviations: {name}", what, checks.nearest(name, self.columns)
                     )
+
+    def rows(self) -> dict[str, slice]:
+        """Where the residuals of each column stand."""
+        ends = np.cumsum([int(np.sum(np.isfinite(x))) for x in self.columns.values()]).tolist()
+        return {name: slice(a, b) for name, a, b in zip(self.columns, [0, *ends[:-1]], ends, strict=True)}
+
+    def noise(self, found: Any) -> dict[str, float]:
+        """Noise of the columns in units of their scales; nothing to ask where all deviations are given."""
+        if len(self.given) == len(self.columns) or self.priors:
+            return {}
+        return noise_of(self.rows(), found.fun, np.asarray(found.jac), self.given)
+
+    def weigh(self, noise: Mapping[str, float]) -> FloatArray:
+        """Take this noise, in units of what was taken before; weights (n,) of the computed residuals.
+
+        Processes that compute keep the scales with which they began.
+        """
+        before = self.taken or self.scales
+        self.taken = dict(before)
+        for name, size in noise.items():
+            least = FLOOR * float(np.nanstd(self.columns[name]))
+            self.taken[name] = max(before[name] * size, least)
+        self.estimated = tuple(name for name in noise if name not in self.given)
+        parts = self.rows().items()
+        sizes = [np.full(part.stop - part.start, self.scales[n] / self.taken[n]) for n, part in parts]
+        return np.concatenate(sizes)
 
     def values(self, u: FloatArray) -> dict[str, float]:
         """Parameters of numbers (p,) from 0 to 1."""
@@ -183,9 +214,11 @@ class Problem:
             t={name: self.times[rows] for name, rows in good.items()},
             measured={name: x[good[name]] for name, x in self.columns.items()},
             predicted={name: predicted[name][rows] for name, rows in good.items()},
-            scales=self.scales,
+            scales=self.taken or self.scales,
             evaluations=evaluations + 2,
             converged=bool(found.success),
             message=ENDS[found.status],
             priors=self.priors,
+            given=len(self.given) == len(self.columns),
+            estimated=self.estimated,
         )

@@ -17,6 +17,8 @@ from ..model.tables import Readable, Sheet, Table, number
 UNKNOWN = 1.0 / math.sqrt(12.0)
 #: Part of the deviation of a prior that is left where the data told a tenth of what is known in the end.
 LITTLE = math.sqrt(0.9)
+#: Residuals in units of the given deviations from which on a note is made, if chance makes them so rarely.
+FAR, CHANCE = 2.0, 1e-4
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,10 @@ class Fit(Readable):
         How the search ended.
     priors : dict of str to (float, float)
         Mean and standard deviation of what was known before.
+    given : bool
+        Whether the deviations of all columns were given.
+    estimated : tuple of str
+        Columns whose scales are their noise, from the residuals.
     """
 
     values: dict[str, float]
@@ -58,6 +64,14 @@ class Fit(Readable):
     converged: bool = True
     message: str = ""
     priors: dict[str, tuple[float, float]] = field(default_factory=dict)
+    given: bool = False
+    estimated: tuple[str, ...] = ()
+
+    @property
+    def excess(self) -> float:
+        """Root of the mean square of the residuals by their scales, for the numbers beyond the parameters."""
+        sums = [np.sum((r / self.scales[name]) ** 2) for name, r in self.residuals.items()]
+        return math.sqrt(float(np.sum(sums)) / max(self.count - len(self.values), 1))
 
     @property
     def names(self) -> list[str]:
@@ -139,12 +153,28 @@ class Fit(Readable):
             made.append(
                 f"the data tell less of {name} than its {before} {'does' if before == 'prior' else 'do'}"
             )
+        made += self._of_noise()
         matrix = self.correlation
         for i, one in enumerate(self.names):
             for j, other in enumerate(self.names[:i]):
                 if abs(matrix[i, j]) > 0.95:
                     made.append(f"{other} and {one} are told together only: correlation {matrix[i, j]:.3f}")
         return made
+
+    def _of_noise(self) -> list[str]:
+        """What the size of the residuals says."""
+        from scipy.special import chdtrc
+
+        if self.estimated:
+            sizes = ", ".join(f"{name} {self.scales[name]:.3g}" for name in self.estimated)
+            return [f"the noise of the columns was estimated from the residuals, for their weights: {sizes}"]
+        free = max(self.count - len(self.values), 1)
+        if not (self.given and self.excess > FAR and chdtrc(free, free * self.excess**2) < CHANCE):
+            return []
+        return [
+            f"the residuals are {self.excess:.2g} times the deviations that were given: the search ended in "
+            "another valley, or the model lacks something; begin elsewhere with start"
+        ]
 
     def __repr__(self) -> str:
         found = ", ".join(f"{name}={number(x)}" for name, x in self.values.items())
@@ -186,6 +216,7 @@ class Fit(Readable):
             "covariance": self.covariance.tolist(),
             "rms": self.rms,
             "scales": self.scales,
+            "scales_estimated": list(self.estimated),
             "numbers": self.count,
             "evaluations": self.evaluations,
             "converged": self.converged,
