@@ -83,6 +83,19 @@ def indices(folder):
     return _study(folder, method="saltelli", count=8, seed=1)
 
 
+def long_names(folder):
+    """With many outputs whose names are long, and numbers with many digits."""
+    names = [f"largest_tension_of_the_{k}_th_stay_cable_in_newton" for k in range(9)]
+
+    def case(a, b):
+        return {name: -1.2345e-7 * (a + k * b) for k, name in enumerate(names)}
+
+    varied = {name: ancf.Uniform(0.0, 1.0) for name in "ab"}
+    samples = ancf.sample(varied, method="latin-hypercube", count=200, seed=1)
+    ancf.study(case, samples, folder=folder, workers=0)
+    return folder / "report.html"
+
+
 def calibration(folder):
     draw = np.random.default_rng(1)
     data = {"t": T, "y [m]": 1.0 - 2.0 * T + 0.1 * draw.standard_normal(len(T))}
@@ -124,7 +137,10 @@ def reproduction(folder):
 #: By what is shown; each writes its page into a folder and returns the file.
 PAGES = {
     write.__name__: write
-    for write in (line, train, comparison, sweep, study, indices, calibration, verdicts, reproduction)
+    for write in (
+        *(line, train, comparison, sweep, study, indices, long_names),
+        *(calibration, verdicts, reproduction),
+    )
 }
 
 

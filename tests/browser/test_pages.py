@@ -43,3 +43,20 @@ def test_everybody_can_read_it(browser, tmp_path, name):
     assert wrong == []
     assert all(url.startswith(("file:", "data:")) for url in asked), asked
     tab.close()
+
+
+@pytest.mark.parametrize("name", ["study", "long_names"])
+@pytest.mark.parametrize("width", [1200, 1600])
+def test_tables_take_the_room_that_there_is(browser, tmp_path, name, width):
+    """None is cut while the window is wide enough for it."""
+    page = html_pages.written(name, tmp_path)
+    tab = browser.new_page(viewport={"width": width, "height": 900})
+    tab.goto(page.as_uri())
+    found = tab.evaluate(
+        """[...document.querySelectorAll(".scroll")].filter(e => e.offsetParent)
+           .map(e => [e.scrollWidth, e.clientWidth])"""
+    )
+    assert len(found) > 3
+    for needed, given in found:
+        assert needed <= given or given >= width - 70
+    tab.close()

@@ -73,6 +73,15 @@ def said(table):
     return json.loads(json.dumps(summary(table, table.attrs["ancf design"])))
 
 
+def without_cases(found):
+    """All but the numbers of cases, which are those of the order."""
+    plain = {key: value for key, value in found.items() if key not in ("extremes", "outputs")}
+    outputs = found["outputs"].items()
+    return plain | {
+        name: {key: value for key, value in row.items() if not key.endswith("_case")} for name, row in outputs
+    }
+
+
 @pytest.mark.parametrize("method", ["saltelli", "morris"])
 class TestRowsOfADesign:
     @pytest.mark.parametrize("arranged", ["shuffled", "sorted", "backwards"])
@@ -86,7 +95,7 @@ class TestRowsOfADesign:
             "backwards": np.arange(len(samples))[::-1],
         }
         other = ancf.study(ishigami, samples.iloc[order[arranged]].reset_index(drop=True), workers=0)
-        assert close(said(of_angles(method, 64)), said(other))
+        assert close(without_cases(said(of_angles(method, 64))), without_cases(said(other)))
 
     def test_with_a_column_in_other_units(self, method):
         """Then rows are known by which of their columns change."""

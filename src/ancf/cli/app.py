@@ -221,7 +221,7 @@ def study(
         from .study import run_study, show_status
 
         if status:
-            show_status(file)
+            show_status(output if file.is_file() else file)
             return
         options = {"workers": workers, "scheduler": scheduler, "retry": retry, "report": report}
         run_study(file, output, options, quiet)

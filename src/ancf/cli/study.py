@@ -11,9 +11,12 @@ import typer
 
 from .guard import FAILED
 from .screen import Screen, bar_of, console, duration, table
+from .summary import plural
 
 if TYPE_CHECKING:
     from ..design.study import Step
+
+NUMBERS = ("mean", "deviation", "minimum", "maximum")
 
 
 def run_study(path: Path, folder: Path, options: dict[str, Any], quiet: bool = False) -> None:
@@ -79,6 +82,10 @@ def cases_progress(screen: Screen) -> Iterator[Any]:
         yield _Lines(screen)
 
 
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:.6g}"
+
+
 class _Lines:
     """One line whenever another tenth is done."""
 
@@ -119,11 +126,24 @@ def _tell(made: dict[str, Any], folder: Path, report: bool, quiet: bool) -> None
 
 def _show(made: dict[str, Any], folder: Path, report: bool) -> None:
     from ..design.finished import FILES
+    from ..design.report.tables import extreme_cases
 
-    where, shown = console(), table("output", "mean", "deviation", "smallest", "largest")
-    for name, row in made["statistics"]["outputs"].items():
-        numbers = (row.get(key) for key in ("mean", "deviation", "minimum", "maximum"))
-        shown.add_row(name, *("-" if number is None else f"{number:.6g}" for number in numbers))
+    where, shown = console(), table("output", "mean", "deviation", "smallest", "case", "largest", "case")
+    found = made["statistics"]
+    for name, row in found["outputs"].items():
+        mean, deviation, least, most = (_number(row.get(key)) for key in NUMBERS)
+        cases = (str(row.get(key, "-")) for key in ("minimum_case", "maximum_case"))
+        shown.add_row(name, mean, deviation, least, next(cases), most, next(cases))
     where.print(shown)
+    if found["extremes"]:
+        heads, rows = extreme_cases(found, [*found["outputs"]])
+        shown = table(*heads)
+        for cells in rows:
+            shown.add_row(*cells)
+        where.print(shown)
+    if found["noted"]:
+        first = made["first_noted"]
+        text = f"{plural(found['noted'], 'case')} with notes, in the column message; the first, "
+        where.print(f"{text}case {first['case']}: {first['message']}", soft_wrap=True)
     names = [name for name in FILES if report or name != "report.html"]
     where.print("written: " + ", ".join(str(folder / name) for name in names), soft_wrap=True)

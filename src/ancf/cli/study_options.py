@@ -9,7 +9,7 @@ import typer
 
 StudyFile = Annotated[
     Path,
-    typer.Argument(metavar="STUDY.toml", help="Study file, or with --status a folder.", show_default=False),
+    typer.Argument(metavar="STUDY.toml", help="Study file, or with --status its folder.", show_default=False),
 ]
 Workers = Annotated[
     int | None,

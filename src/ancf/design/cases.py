@@ -15,6 +15,7 @@ from ..errors import ModelError
 from ..model.file.paths import PathError, changed
 from ..viz.pictures.questions import QUANTITIES, ask
 from .formulas import Formula, Vocabulary
+from .work import Noted
 
 if TYPE_CHECKING:
     from ..model.file import Study
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 OF_STATES = ("twist",)
 #: How the error of a key says that there is none.
 UNKNOWN = "unknown key"
+#: States that are stored of a run at most beside its start, for its notes.
+STORED = 50
 FREQUENCY = "frequency"
 OF_MODEL = Vocabulary(("t", FREQUENCY), tuple(QUANTITIES))
 
@@ -91,7 +94,7 @@ class ModelCase:
         """Outputs of the case with these values."""
         study = self.read(values)
         answers = _ModelAnswers(study, self.formulas)
-        return {name: formula(answers) for name, formula in self.formulas}
+        return Noted({name: formula(answers) for name, formula in self.formulas}, answers.notes())
 
 
 def histories(study: Study, formulas: Mapping[str, Formula], times: FloatArray) -> dict[str, FloatArray]:
@@ -138,6 +141,11 @@ def sensor_of(model: Any, quantity: str, item: str, where: str, nouns: tuple[str
     return found
 
 
+def _stride(steps: int) -> int:
+    """Steps between states that are stored for the notes of a run, so that the last one is."""
+    return next(k for k in range(-(-steps // STORED), steps + 1) if steps % k == 0)
+
+
 class _ModelAnswers:
     """A computed model."""
 
@@ -159,10 +167,14 @@ class _ModelAnswers:
             step=settings.step,
             start=self._start if settings.start == "equilibrium" else None,
             integrator=settings.integrator,
-            output_step=settings.step if whole else steps * settings.step,
+            output_step=settings.step * (1 if whole else _stride(steps)),
             sensors=items or None,
         )
         self._stored, self._sampled = result, result.sensors if items else result
+
+    def notes(self) -> list[str]:
+        """What the result or the equilibrium says of itself, each once."""
+        return [text for one in (self._start, self._stored) if one is not None for text in one.notes]
 
     def _state(self) -> Any:
         settings, given = self.study.simulation, self.study.equilibrium

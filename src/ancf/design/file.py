@@ -17,6 +17,7 @@ from ..model.file import read_toml
 from ..model.file.fields import Entry, checked
 from ..model.file.kinds import STUDY, refuse
 from ..model.file.messages import combined, of_validation
+from ..model.file.paths import PathError
 from ..reading import inputs_told
 from .cases import ModelCase
 from .distributions import distribution_of
@@ -176,8 +177,20 @@ def read_study_file(path: str | Path) -> StudyFile:
     from .study import rows_of
 
     with inputs_told() as checked_too:
-        case.check(rows_of(samples)[0])
-    return StudyFile(entry.title, FileCase(case, fingerprints([*read, *checked_too])), samples)
+        try:
+            case.check(rows_of(samples)[0])
+        except PathError as error:
+            raise _of_path(error, entry) from None
+    title = entry.title or str(case.tables.get("title", ""))
+    return StudyFile(title, FileCase(case, fingerprints([*read, *checked_too])), samples)
+
+
+def _of_path(error: PathError, entry: StudyEntry) -> ModelError:
+    """The error of a path of the model or line with its place in the study file."""
+    places = [k for k, given in enumerate(entry.parameters) if given.path == error.where]
+    if not places:
+        return error
+    return ModelError(f"parameters[{places[0]}].path", f'"{error.where}": {error.what}', error.hint)
 
 
 def _entry_at(parts: tuple[int | str, ...]) -> type[Entry]:

@@ -44,9 +44,14 @@ def summary(table: DataFrame, design: dict[str, Any] | None) -> dict[str, Any]:
     places = places_of(table, design) if design is not None and method in ORDERED else None
     lost = method in ORDERED and places is None
     note = _note(table, method, failed) + (f" {LOST}" if lost else "")
-    made: dict[str, Any] = {"cases": len(table), "failed": failed, "note": note}
+    noted = int(((table["status"] == "ok") & (table["message"] != "")).sum())
+    made: dict[str, Any] = {"cases": len(table), "failed": failed, "noted": noted, "note": note}
     random = drawn_rows(table)
-    made["outputs"] = {name: _described(column(table, name)[random], method) for name in outputs_of(table)}
+    made["outputs"] = {
+        name: _described(column(table, name)[random], method) | _extreme(column(table, name), random)
+        for name in outputs_of(table)
+    }
+    made["extremes"] = _cases_of(table, made["outputs"])
     made["effects"] = {name: effects(table, name) for name in outputs_of(table)}
     if method in ORDERED and design is not None:
         indices = _sobol if method == "saltelli" else _morris
@@ -119,6 +124,27 @@ def _described(values: FloatArray, method: str) -> dict[str, Any]:
             made["mean_confidence"] = [made["mean"] - float(half), made["mean"] + float(half)]
         made["percentiles"] = [percentile(good, p) for p in PERCENTILES]
     return made
+
+
+def _extreme(values: FloatArray, rows: Any) -> dict[str, int]:
+    """Cases of the smallest and the largest value among some rows, the first of equal ones."""
+    good = np.flatnonzero(rows & np.isfinite(values))
+    if not len(good):
+        return {}
+    return {
+        "minimum_case": int(good[np.argmin(values[good])]),
+        "maximum_case": int(good[np.argmax(values[good])]),
+    }
+
+
+def _cases_of(table: DataFrame, outputs: dict[str, Any]) -> list[dict[str, Any]]:
+    """Parameters of the cases with the smallest and the largest outputs, in their order."""
+    keys = ("minimum_case", "maximum_case")
+    cases = sorted({row[key] for row in outputs.values() for key in keys if key in row})
+    return [
+        {"case": case, "parameters": {name: table[name].tolist()[case] for name in parameters_of(table)}}
+        for case in cases
+    ]
 
 
 def percentile(ordered: FloatArray, p: float) -> dict[str, float | None]:

@@ -105,14 +105,15 @@ def study(
     progress : callable
         Called with a :class:`Step` when cases have ended.
     title : str
-        Of the report.
+        Of the report, default the name of the function.
     files : mapping, optional
         Hashes of the files that make the study, kept in ``study.json``.
 
     Returns
     -------
     DataFrame
-        The samples, the outputs, ``status`` ("ok" or "failed") and ``message``.
+        The samples, the outputs, ``status`` ("ok" or "failed") and ``message``: why a case failed, or what
+        was warned of or noted in it.
 
     Raises
     ------
@@ -155,7 +156,12 @@ def study(
         table = table_of(samples, rows, known)
         if place is not None:
             seconds = _seconds(known, wanted)
-            about = {"title": title, "function": identity(function), "seconds": seconds, "read": read}
+            about = {
+                "title": title or _title(function),
+                "function": identity(function),
+                "seconds": seconds,
+                "read": read,
+            }
             stamp = hashlib.sha256(repr((about, [*map(case_key, rows)], samples.attrs)).encode()).hexdigest()
             write_all(place, table, {**about, "stamp": stamp, "files": files or {}}, report)
     return table
@@ -213,6 +219,13 @@ def identity(function: Any) -> dict[str, Any]:
         text = ""
     source = hashlib.sha256(text.encode("utf-8")).hexdigest()[:16]
     return {"function": name, "source": source, **sources(function)}
+
+
+def _title(function: Any) -> str:
+    """Of the report: the name of the function, if it has one."""
+    inner = function.func if isinstance(function, functools.partial) else function
+    name = getattr(inner, "__name__", type(inner).__name__)
+    return "" if name in ("<lambda>", "FileCase") else str(name)
 
 
 def table_of(samples: DataFrame, rows: list[dict[str, Any]], known: Mapping[str, Outcome]) -> DataFrame:

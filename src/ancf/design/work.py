@@ -6,7 +6,7 @@ import math
 import pickle
 import time
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -21,6 +21,20 @@ from .journal import FAILED, OK, Outcome
 Function = Callable[..., Mapping[str, float]]
 #: Begins the message of a case whose outputs are of the wrong kind: it is the function that is wrong.
 WRONG_KIND = "outputs"
+
+
+class Noted(dict[str, float]):
+    """Outputs of a case with what is to know of it.
+
+    Parameters
+    ----------
+    outputs : mapping of str to float
+    notes : sequence of str
+    """
+
+    def __init__(self, outputs: Mapping[str, float], notes: Sequence[str]) -> None:
+        super().__init__(outputs)
+        self.notes = tuple(notes)
 
 
 class NotFiniteError(ModelError):
@@ -39,13 +53,15 @@ def _outcome(function: Function, values: Mapping[str, Any], start: float) -> Out
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
-            outputs = _numbers(function(**values))
+            given = function(**values)
+            outputs = _numbers(given)
         except Exception as error:
             wrong = isinstance(error, ModelError) and error.where.startswith(WRONG_KIND)
             wrong = wrong and not isinstance(error, NotFiniteError)
             return Outcome(FAILED, {}, _told(error), time.perf_counter() - start, wrong)
-    told = dict.fromkeys(str(w.message) for w in caught if w.category is UserWarning)
-    return Outcome(OK, outputs, "; ".join(f"warning: {text}" for text in told), time.perf_counter() - start)
+    told = [f"warning: {w.message}" for w in caught if w.category is UserWarning]
+    told += [f"note: {text}" for text in getattr(given, "notes", ())]
+    return Outcome(OK, outputs, "; ".join(dict.fromkeys(told)), time.perf_counter() - start)
 
 
 def _numbers(given: Any) -> dict[str, float]:

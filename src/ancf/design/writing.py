@@ -63,18 +63,20 @@ def _about(table: DataFrame, design: Any, about: dict[str, Any]) -> dict[str, An
         "design": design,
         "cases": len(table),
         "failed": failed,
-        **_first_failed(table),
+        **_first(table, "failed", table["status"] == "failed"),
+        **_first(table, "noted", (table["status"] == "ok") & (table["message"] != "")),
         "parameters": table.attrs["parameters"],
         "outputs": table.attrs["outputs"],
         "versions": {"ancf": __version__, **{name: _version(name) for name in PACKAGES}},
     }
 
 
-def _first_failed(table: DataFrame) -> dict[str, Any]:
-    wrong = table[table["status"] == "failed"]
-    if not len(wrong):
+def _first(table: DataFrame, said: str, rows: Any) -> dict[str, Any]:
+    """The first case of some, and its message."""
+    found = table[rows]
+    if not len(found):
         return {}
-    return {"first_failed": {"case": int(wrong.index[0]), "message": str(wrong["message"].iloc[0])}}
+    return {f"first_{said}": {"case": int(found.index[0]), "message": str(found["message"].iloc[0])}}
 
 
 def _version(name: str) -> str | None:

@@ -19,6 +19,8 @@ LARGEST = 1e100  # of a coordinate in m or of an inertia in kg m^2
 
 #: Axes by their letters, for messages.
 AXES = {"x": "(1, 0, 0)", "y": "(0, 1, 0)", "z": "(0, 0, 1)"}
+#: Letters and digits that look alike.
+LOOKS = str.maketrans("l10", "iio")
 
 
 def shown(value: object, limit: int = 60) -> str:
@@ -185,9 +187,21 @@ def listed(names: Iterable[str], limit: int = 20) -> str:
 
 
 def nearest(value: object, names: Iterable[str]) -> str:
-    """Return 'did you mean "x"?' for the most similar name, or nothing."""
-    found = difflib.get_close_matches(value, list(names), n=1) if isinstance(value, str) else []
+    """Return 'did you mean "x"?' for the most similar name, or nothing.
+
+    One that differs by capitals or by letters and digits that look alike comes before all others.
+    """
+    if not isinstance(value, str):
+        return ""
+    known = list(names)
+    alike = [name for name in known if isinstance(name, str) and _looks(name) == _looks(value)]
+    found = alike or difflib.get_close_matches(value, known, n=1)
     return f'did you mean "{found[0]}"?' if found else ""
+
+
+def _looks(name: str) -> str:
+    """A name as it looks, near enough: l, I and 1 are one, so are O and 0, and capitals."""
+    return name.casefold().translate(LOOKS)
 
 
 def _from_numpy(value: Any, where: str) -> FloatArray:

@@ -127,7 +127,8 @@ def _resolve(model: Model, name: Any, exchange: Any) -> tuple[float, Any]:
         if item.name == owner:
             return _of_item(partial(exchange, model), item, name, found["key"], found["part"])
     known = [*model.bodies, *(item.name for item in _items(model))]
-    raise ModelError(name, f'the model has no "{owner}"', checks.nearest(owner, known))
+    there = f"there are: {checks.listed(dict.fromkeys(known), 10)}" if known else "it has nothing yet"
+    raise ModelError(name, f'the model has no "{owner}", {there}', checks.nearest(owner, known))
 
 
 def _items(model: Model) -> list[Any]:

@@ -40,9 +40,16 @@ def section(title: str, name: str, *pieces: Piece) -> Element:
 
 
 def table(
-    head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Iterable[int] = (), **more: str
+    head: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    numbers: Iterable[int] = (),
+    wide: bool = False,
+    **more: str,
 ) -> Element:
-    """Table of texts; columns whose place is in `numbers` are aligned to the right."""
+    """Table of texts; columns whose place is in `numbers` are aligned to the right.
+
+    With many columns, or if it is `wide`, it takes the room of the window that it needs.
+    """
     right = set(numbers)
     cells = [{"class_": "number"} if i in right else {} for i in range(len(head))]
     top = element("tr", *(_head(text, a) for text, a in zip(head, cells, strict=True)))
@@ -59,7 +66,7 @@ def table(
     return element(
         "div",
         element("table", element("thead", top), element("tbody", *body), **more),
-        class_="scroll wide" if len(head) >= MANY else "scroll",
+        class_="scroll wide" if wide or len(head) >= MANY else "scroll",
         tabindex="0",
     )
 

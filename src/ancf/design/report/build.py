@@ -50,6 +50,8 @@ def write_report(path: Path, table: DataFrame, found: dict[str, Any], about: dic
     parts += [_of_output(table, found, name) for name in names[:MOST_OUTPUTS]]
     if found["failed"]:
         parts.append(section("Failed cases", "failed", tables.failed(table, MOST_MESSAGES)))
+    if found["noted"]:
+        parts.append(section("Notes", "notes", tables.noted(table, MOST_MESSAGES)))
     parts.append(section("Data", "data", pairs(tables.data(table, found, about)), *_varied(table, about)))
     links = [element("a", str(part[0].text), href=f"#{part.get('id')}") for part in parts]
     head = [element("h1", title), element("p", _head(table, about), class_="faint")]
@@ -66,6 +68,9 @@ def _head(table: DataFrame, about: dict[str, Any]) -> str:
 
 def _outputs(found: dict[str, Any], names: list[str]) -> Iterator[Element]:
     yield tables.summary(found, names)
+    if found["extremes"]:
+        yield element("h3", "Smallest and largest")
+        yield tables.extremes(found, names)
     if any("percentiles" in found["outputs"][name] for name in names):
         yield element("h3", "Percentiles")
         yield tables.percentiles(found, names)

@@ -23,6 +23,8 @@ HEADS = {
     ),
     "morris": ("parameter", "mean effect µ", "mean size µ*", "± (95 %)", "deviation σ"),
 }
+#: Parameters in tables of cases.
+MOST_PARAMETERS = 6
 KEYS = {"saltelli": ("S1", "S1_conf", "ST", "ST_conf"), "morris": ("mu", "mu_star", "mu_star_conf", "sigma")}
 
 
@@ -35,15 +37,39 @@ def number(value: Any) -> str:
 
 def summary(found: dict[str, Any], names: list[str]) -> Element:
     """Mean, deviation and extremes of the outputs."""
-    heads = ("output", "cases", "mean", "95 % confidence", "deviation", "smallest", "largest")
-    return table(heads, (_summary_row(name, found["outputs"][name]) for name in names), range(1, 7))
+    heads = ("output", "cases", "mean", "95 % confidence", "deviation", "smallest", "case", "largest", "case")
+    rows = (_summary_row(name, found["outputs"][name]) for name in names)
+    return table(heads, rows, range(1, len(heads)))
 
 
 def _summary_row(name: str, row: dict[str, Any]) -> list[str]:
     low, high = row.get("mean_confidence", (None, None))
     within = "–" if low is None else f"{number(low)} to {number(high)}"
     cells = [number(row.get(key)) for key in ("mean", "deviation", "minimum", "maximum")]
-    return [name, str(row["count"]), cells[0], within, *cells[1:]]
+    least, most = (str(row.get(key, "–")) for key in ("minimum_case", "maximum_case"))
+    return [name, str(row["count"]), cells[0], within, cells[1], cells[2], least, cells[3], most]
+
+
+def extremes(found: dict[str, Any], names: list[str]) -> Element:
+    """Parameters of the cases in which outputs are smallest or largest."""
+    heads, rows = extreme_cases(found, names)
+    return table(heads, rows, range(1, len(heads) - 1))
+
+
+def extreme_cases(found: dict[str, Any], names: list[str]) -> tuple[list[str], list[list[str]]]:
+    """Heads and rows of a table: cases, their first parameters, and what is extreme in them."""
+    cases = {row["case"]: row["parameters"] for row in found["extremes"]}
+    heads = [*next(iter(cases.values()), {})][:MOST_PARAMETERS]
+    said: dict[int, list[str]] = {}
+    for key, text in (("minimum_case", "smallest"), ("maximum_case", "largest")):
+        for name in names:
+            if key in found["outputs"][name]:
+                said.setdefault(found["outputs"][name][key], []).append(f"{text} {name}")
+    rows = [
+        [str(case), *(number(cases[case][name]) for name in heads), ", ".join(texts)]
+        for case, texts in said.items()
+    ]
+    return ["case", *heads, "in it"], rows
 
 
 def percentiles(found: dict[str, Any], names: list[str]) -> Element:
@@ -55,7 +81,7 @@ def percentiles(found: dict[str, Any], names: list[str]) -> Element:
         if rows:
             lines.append([name, *(number(row["value"]) for row in rows)])
             lines.append(["", *(f"{number(row['low'])} … {number(row['high'])}" for row in rows)])
-    return table(heads, lines, range(1, len(heads)))
+    return table(heads, lines, range(1, len(heads)), wide=True)
 
 
 def indices(found: dict[str, Any], method: str) -> Element:
@@ -65,6 +91,15 @@ def indices(found: dict[str, Any], method: str) -> Element:
     rows = sorted(found["indices"].items(), key=lambda item: -item[1][order])
     lines = ([name, *(f"{row[key]:.4g}" for key in keys)] for name, row in rows)
     return table(HEADS[method], lines, range(1, 5))
+
+
+def noted(cases: DataFrame, most: int) -> Element:
+    """Cases that have notes or warnings."""
+    told = cases[(cases["status"] == "ok") & (cases["message"] != "")]
+    rows = [[str(index), str(row["message"])] for index, row in told.head(most).iterrows()]
+    if len(told) > most:
+        rows.append(["…", f"and {len(told) - most} more, see table.csv"])
+    return table(("case", "note"), rows, range(1))
 
 
 def failed(cases: DataFrame, most: int) -> Element:

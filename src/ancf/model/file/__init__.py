@@ -168,6 +168,9 @@ OTHER_FILE = re.compile(r"\.(csv|tsv|txt|dat|json|ya?ml|xlsx?)$", re.IGNORECASE)
 
 
 def _toml(text: str, source: str) -> dict[str, Any]:
+    if source.endswith(".py"):
+        hint = f"run it: python {source}; a study of a function in it: ancf.study(function, samples)"
+        raise ModelError(source, "is a Python file, files of TOML are read here", hint)
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:
