@@ -1,4 +1,4 @@
-"""``ancf.gradient``: the derivatives of one number of a simulation by any number of parameters."""
+"""``ancf.gradient``: the derivatives of one number of a run or an equilibrium by any number of parameters."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import garbage
-from ..analysis import simulate
+from ..analysis import equilibrium, simulate
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
 from ..model import checks
@@ -46,12 +46,15 @@ def gradient(
     objective: str,
     parameters: Any,
     *,
-    t_end: float,
-    step: float,
+    t_end: float | None = None,
+    step: float | None = None,
     start: State | None = None,
     integrator: Any = None,
 ) -> tuple[float, dict[str, float]]:
     """A number of a simulation and its exact derivatives by parameters of the model.
+
+    Without ``t_end`` and ``step`` it is a number of the equilibrium, ``"tension(rope.start)"``, with the
+    sensitivities of :func:`ancf.equilibrium`.
 
     Models of cables, beams, springs, masses, rigid bodies and joints, sliding ones as well, in fluids with
     currents, gusts and waves, with loads of all kinds, on grounds and surfaces, with friction that remembers
@@ -72,7 +75,8 @@ def gradient(
     parameters : sequence of str or mapping
         As ``sensitivities`` of :func:`ancf.simulate`.
     t_end, step, start, integrator
-        As of :func:`ancf.simulate`; a start has to know its own derivatives.
+        As of :func:`ancf.simulate`; a start has to know its own derivatives. Without ``t_end`` it is the
+        equilibrium that is asked, default that of :func:`ancf.equilibrium`.
 
     Returns
     -------
@@ -89,8 +93,11 @@ def gradient(
     """
     formula = Formula(checks.text(objective, WHERE), WHERE, OF_RUN)
     check_asked(model, [formula])
-    check_has_derivative(formula)
     wanted = parameters_of(model, parameters, "gradient.parameters")
+    if t_end is None or step is None:
+        check_still(t_end, step, integrator, "gradient")
+        return _at_rest(model, formula, wanted, start)
+    check_has_derivative(formula)
     made = prepared(
         model,
         method=method_of(integrator, "gradient"),
@@ -111,6 +118,31 @@ def gradient(
         with suppress(UnsolvedError):  # what it cannot solve, sensitivities may
             return _backward(way, made, formula, wanted, start)
     return _forward(model, formula, wanted, settings)
+
+
+def check_still(t_end: Any, step: Any, integrator: Any, where: str) -> None:
+    """Raise ModelError unless none of what a simulation needs is given: then it is the equilibrium."""
+    for name, other in (("step", t_end), ("t_end", step)):
+        if other is not None:
+            hint = "give t_end and step, or none for the equilibrium"
+            raise ModelError(f"{where}.{name}", "is missing", hint)
+    if integrator is not None:
+        raise ModelError(f"{where}.integrator", "has no effect on an equilibrium", "give t_end and step")
+
+
+def _at_rest(
+    model: Model, formula: Formula, parameters: list[Parameter], start: State | None
+) -> tuple[float, dict[str, float]]:
+    """Of an equilibrium: a history of one time."""
+    state = equilibrium(model, sensitivities=parameters) if start is None else start
+    found = {pair: np.asarray(ask(state, *pair))[None] for pair in dict.fromkeys(formula.asked)}
+    value, slopes = gradient_of(formula, Histories(np.zeros(1), found))
+    made = {}
+    for parameter in parameters:
+        own = state.sensitivity(parameter.name)
+        parts = (np.sum(slope[0] * np.asarray(ask(own, *pair))) for pair, slope in slopes.items())
+        made[parameter.name] = float(sum(parts))
+    return value, made
 
 
 def check_has_derivative(formula: Formula) -> None:

@@ -1,4 +1,4 @@
-"""``ancf.minimise``: parameters with which a number of a simulation is least, by exact gradients."""
+"""``ancf.minimise``: parameters with which a number of a run or equilibrium is least, by exact gradients."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from ..model.model import Model
 from ..model.tables import Readable, Sheet, Table, number
 from ..results.state import State
 from .calibration_data import bounds_of, start_of
+from .gradient import check_still
 from .number import Numbers
 
 WHERE = "minimise"
@@ -70,15 +71,15 @@ def minimise(
     objective: str,
     parameters: Mapping[str, tuple[float, float]],
     *,
-    t_end: float,
-    step: float,
+    t_end: float | None = None,
+    step: float | None = None,
     start: Mapping[str, float] | None = None,
     constraints: Mapping[str, tuple[float | None, float | None]] | None = None,
     begin: Callable[..., State] | None = None,
     integrator: Any = None,
     most: int = 100,
 ) -> Optimum:
-    """Find parameters within bounds with which a number of a simulation is least.
+    """Find parameters within bounds with which a number of a simulation is least, or of an equilibrium.
 
     SciPy's SLSQP with the exact gradients of :func:`ancf.gradient`.
 
@@ -92,14 +93,14 @@ def minimise(
     parameters : mapping
         Bounds (low, high) by name.
     t_end, step, integrator
-        As of :func:`ancf.simulate`.
+        As of :func:`ancf.simulate`. Without ``t_end`` and ``step`` the numbers are those of the equilibrium.
     start : mapping, optional
         Where to begin, default the middle of the bounds.
     constraints : mapping, optional
         Bounds (low, high) of other numbers by their formulas, None for none.
     begin : function, optional
         ``begin(model, sensitivities=...)`` is the state from which the run starts, such as
-        ``ancf.equilibrium``; default the initial shape.
+        ``ancf.equilibrium``; default the initial shape. Without ``t_end`` that state is what is asked.
     most : int
         Steps of the search at most.
 
@@ -117,6 +118,8 @@ def minimise(
     from scipy import optimize
 
     bounds = bounds_of(parameters, WHERE)
+    if t_end is None or step is None:
+        check_still(t_end, step, integrator, WHERE)
     problem = _Problem(model, bounds, {"t_end": t_end, "step": step, "integrator": integrator}, begin)
     limits = [] if constraints is None else [_limit(problem, *item) for item in constraints.items()]
     search: Any = optimize.minimize
