@@ -95,7 +95,10 @@ class Foreseen(Inputs):
             value[:, k] = self.loads[k].under(self.given, times)
         motion = np.zeros((steps, 0, 3)) if known is None else known
         if known is None and self.motions:
-            motion = np.stack(differences(self._places, times, step, first, last), axis=-1)
+            motion = np.stack(differences(self._ways, times, step, first, last), axis=-1)
+            motion[:, :, 0] += np.concatenate(
+                [np.broadcast_to(m.rest, len(m.unknowns)) for m in self.motions]
+            )
         return Tables(value, motion, np.zeros((steps, 0, 3, 3, 3)))
 
     @property
@@ -115,11 +118,11 @@ class Foreseen(Inputs):
             for begin in range(0, steps, PIECE):
                 rows = slice(begin, begin + PIECE)
                 for k, found in enumerate(differences(one.values, times[rows], step, first, last)):
-                    motion[rows, columns, k] = found
+                    motion[rows, columns, k] = found if k else one.rest + found
                 yield None
             column = columns.stop
         yield self._made(start, step, steps, first, last, motion)
 
-    def _places(self, times: FloatArray) -> FloatArray:
-        """All given motions side by side."""
+    def _ways(self, times: FloatArray) -> FloatArray:
+        """All given motions from where they rest, side by side."""
         return np.concatenate([motion.values(times) for motion in self.motions], axis=1)
