@@ -294,7 +294,9 @@ class Family(Pushing):
         Where two values do, one of them and that of the model, which all parameters share.
         """
         names = self.changed if names is None else names
-        kinked = names & KINKED.union(friction_of(self.base))
+        roles = {name: traits(part).role for name, part in self.base.parts.items()}
+        jointed = {name for name, role in roles.items() if Role.CONSTRAINS in role}  # and events
+        kinked = names & KINKED.union(friction_of(self.base), jointed)
         if names != kinked and self.wider[0] is not self.systems:
             systems, weights = self.wider
             batches = fed_alike(few_of([*systems, self.base], names - kinked))
