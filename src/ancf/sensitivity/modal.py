@@ -12,8 +12,8 @@ from ..errors import ModelError, SolveError
 from ..later import bmat, csc_array, splu
 from ..linalg.sparse import to_sparse
 from ..results.modes import Modes
+from ..solvers.modal import contacts_about
 from ..system.at_rest import assemble_at_rest
-from ..system.contacts import touching
 from ..system.core import follow_supports, restrict
 from ..system.fields import Fields
 from ..system.system import System
@@ -132,7 +132,7 @@ class _Problem:
             assemble_at_rest(core.batches, core.ws, q, core.A, mass, 0.0, stiffness)
             restrict(core.supports, core.A)
             found.append(to_sparse(core.A, system.places))
-        A = csc_array(found[0] + touching(core, q, system.n).matrix())
+        A = csc_array(found[0] + contacts_about(system, q))
         lam = np.isin(self.free, system.multipliers)
         keep = _diagonal(~lam)
         M = csc_array(keep @ found[1][self.free][:, self.free] @ keep)

@@ -27,7 +27,7 @@ from ..system.contacts import Touching, touching
 from ..system.core import Core, apply_load, follow_supports, residual
 from ..system.reactions import AT_REST
 from ..system.system import System
-from .differences_of_forces import Differences, contacts_of, without_noise
+from .differences_of_forces import Differences, axes_of, contacts_of, without_noise
 from .modal import motions, unscaled
 from .quadratic import ComplexArray, lowest
 from .standing import Standing, vectors_and_arms
@@ -57,7 +57,7 @@ class Damped:
         self.v, self.a = np.zeros_like(q), np.zeros_like(q)
         system.place(time, self.q, self.v, self.a)
         self.spin, self.centre = rotation_of(system, q, v)
-        self.axes = _axes(system)
+        self.axes = axes_of(system)
         self.W = _on_vectors(system, _skew(self.spin))
         self.standing = Standing(system, self.spin, self.centre)
         self.rough = Differences(system, contacts_of(system))
@@ -344,22 +344,6 @@ def _on_vectors(system: System, matrix: FloatArray, elsewhere: float = 0.0) -> c
     rows = np.concatenate([np.repeat(places, 3, axis=1).ravel(), others])
     columns = np.concatenate([np.tile(places, (1, 3)).ravel(), others])
     return csc_array(coo_array((values, (rows, columns)), shape=(system.n, system.n)))
-
-
-def _axes(system: System) -> csc_array:
-    """Global components of all unknowns."""
-    supports = system.core.supports
-    whole = np.ones(system.n)
-    rows, columns, values = [], [], []
-    for k, slot in enumerate(supports.rot_slot.tolist()):
-        whole[slot : slot + 3] = 0.0
-        rows += np.repeat(slot + np.arange(3), 3).tolist()
-        columns += np.tile(slot + np.arange(3), 3).tolist()
-        values += supports.rot_R[k, 0].ravel().tolist()
-    each = np.flatnonzero(whole)
-    i, j = np.concatenate([each, rows]).astype(int), np.concatenate([each, columns]).astype(int)
-    given = np.concatenate([np.ones(len(each)), values])
-    return csc_array(coo_array((given, (i, j)), shape=(system.n, system.n)))
 
 
 def physical(system: System, x: FloatArray) -> FloatArray:

@@ -14,7 +14,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..batches import Batches
 from ..compiled import Role, traits
-from ..later import csc_array
+from ..later import coo_array, csc_array
 from ..system.core import residual
 from ..system.system import System
 
@@ -77,6 +77,22 @@ def without_noise(found: csc_array, known: csc_array) -> csc_array:
     left = csc_array(found - known)
     left.data[np.abs(left.data) < ROUND_OFF * np.max(np.abs(found.data), initial=0.0)] = 0.0
     return left
+
+
+def axes_of(system: System) -> csc_array:
+    """Global components of all unknowns."""
+    supports = system.core.supports
+    whole = np.ones(system.n)
+    rows, columns, values = [], [], []
+    for k, slot in enumerate(supports.rot_slot.tolist()):
+        whole[slot : slot + 3] = 0.0
+        rows += np.repeat(slot + np.arange(3), 3).tolist()
+        columns += np.tile(slot + np.arange(3), 3).tolist()
+        values += supports.rot_R[k, 0].ravel().tolist()
+    each = np.flatnonzero(whole)
+    i, j = np.concatenate([each, rows]).astype(int), np.concatenate([each, columns]).astype(int)
+    given = np.concatenate([np.ones(len(each)), values])
+    return csc_array(coo_array((given, (i, j)), shape=(system.n, system.n)))
 
 
 def _touched(batches: Iterable[Any]) -> IntArray:

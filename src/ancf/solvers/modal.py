@@ -16,6 +16,8 @@ import numpy as np
 from numpy.linalg import LinAlgError
 
 from ..arrays import FloatArray, IntArray
+from ..batches import Batches
+from ..compiled import traits
 from ..errors import SolveError
 from ..later import LinearOperator, SuperLU, csc_array, eigh, eigsh, null_space, splu
 from ..linalg.sparse import to_sparse
@@ -24,11 +26,13 @@ from ..system.at_rest import assemble_at_rest
 from ..system.contacts import touching
 from ..system.core import follow_supports, restrict
 from ..system.system import System
+from .differences_of_forces import Differences, axes_of, without_noise
 from .free_spin import FREE_SPIN, Spin
 from .roundoff import shaken
 
 MANY = 4000  # unknowns up to which joints are eliminated by dense algebra
 DENSE = 300  # unknowns up to which all modes are computed by dense algebra
+CROSSED = 1500  # unknowns up to which cables that cross are differentiated
 MORE = 2.0  # times x.K x: an eigenvalue that is round-off
 SURELY, ROUNDED = 30.0, 3.0  # times the round-off of x.K x: what is surely negative; what is zero
 LOWERED = 60  # times that the shift is lowered
@@ -55,8 +59,7 @@ def natural_modes(system: System, q: FloatArray, count: int) -> tuple[FloatArray
     lam = np.intersect1d(system.free, system.multipliers)
     checks.integer(count, "modes.count", 1, len(free) - len(lam))
     system.level[:] = 1.0, 0.0, 0.0
-    whole = _matrix(system, q, 0.0, 1.0)
-    whole = csc_array(whole + touching(system.core, q, system.n).matrix())
+    whole = csc_array(_matrix(system, q, 0.0, 1.0) + contacts_about(system, q))
     K, C = csc_array(whole[free][:, free]), csc_array(whole[lam][:, free])
     M = csc_array(_matrix(system, q, 1.0, 0.0)[free][:, free])
     values, vectors = _eigen(K, M, C, count)
@@ -176,6 +179,24 @@ def _matrix(system: System, q: FloatArray, mass: float, stiffness: float) -> csc
         assemble_at_rest(core.batches, core.ws, q, core.A, mass, 0.0, stiffness)
     restrict(core.supports, core.A)
     return to_sparse(core.A, system.places)
+
+
+def contacts_about(system: System, q: FloatArray) -> csc_array:
+    """Stiffness of contacts that stay out of the matrix, (n, n), of cables that cross with normals that turn.
+
+    The latter by differences, of models with up to CROSSED unknowns; of larger ones normals are as they are.
+    """
+    core, n = system.core, system.n
+    found = touching(core, q, n).matrix()
+    own = Batches([batch for batch in core.batches if traits(batch).rows is not None])
+    if not len(own) or n > CROSSED:
+        return found
+    touches = touching(core._replace(batches=own), q, n)
+    if not len(touches.stiffness):
+        return found
+    by_place, axes = Differences(system, own).at(q, np.zeros_like)[0], axes_of(system)
+    slopes = csc_array(axes.T @ csc_array(0.5 * (by_place + by_place.T)) @ axes)
+    return csc_array(found + without_noise(slopes, touches.matrix()))
 
 
 @contextmanager
