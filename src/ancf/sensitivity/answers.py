@@ -21,7 +21,6 @@ from ..results import moments
 from ..results.momenta import Momenta
 from ..results.state import Energy
 from ..solvers.in_motion import in_motion
-from ..solvers.kinks import BENT, CLOSE, CLOSER, SMALL
 from ..solvers.sensitivity import LEAST
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
@@ -35,6 +34,9 @@ from .remembering import Resting, Row, refuse_friction
 
 #: Change of a state, in sizes of the model, of the differences of an answer, and of velocities per second.
 MOVED = 1e-4
+#: Part of a derivative by which differences of order two that reach over no kink agree, part of the largest
+#: one below which that does not matter; how much closer others are taken, and how often.
+BENT, SMALL, CLOSE, CLOSER = 1e-3, 1e-6, 32.0, 2
 #: Questions that are linear in the state; slopes on a cable whose length a winch changes are not.
 LINEAR = ("position", "velocity", "slope", "multiplier", "arc_rate")
 #: Where points are, by system and by name.

@@ -16,7 +16,6 @@ from ..arrays import FloatArray
 from ..batches import Batches
 from ..compiled import traits
 from ..errors import SolveError
-from ..solvers.kinks import FAR
 from ..solvers.statics import Leaned
 from ..system.core import Core, keep_memory
 from ..system.system import System
@@ -26,6 +25,8 @@ from .remembering import Row
 
 #: What is remembered of the step before: without it limits are those of a state at rest.
 BEFORE = "before"
+#: Changes of places by which derivatives of limits are differences, m.
+FAR = 1e-6
 
 
 class Leaning:
@@ -91,7 +92,7 @@ class Leaning:
 
     def _pushed(self, d: Row) -> FloatArray:
         r = np.zeros_like(self.q)
-        self.memory.add_push(d, (self.q, self._still, self._still), r)
+        self.memory.add_push(d, (self.q, self._still), r)
         r[self.core.supports.held], r[self.memory.system.n :] = 0.0, 0.0
         return r
 

@@ -8,7 +8,13 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
+from ..compiled import add_memory_changes, add_memory_slopes, remember_along
+from ..linalg.eight import lane_rows
+from ..simd import LANES
+from ..solvers.friction import Friction
+from ..solvers.rare import knowing
 from ..system.system import System
+from .nearby import changes_of
 
 #: Arrays of such a memory with derivatives, in this order, and what follows them.
 REMEMBERED, BESIDE = ("anchor", "limit", "before"), ("most",)
@@ -66,6 +72,21 @@ class Marked:
     def instead(self, system: System) -> Iterable[tuple[Any, Any]]:
         """Batches of the system and these."""
         return [(system.parts[name], batch) for name, batch in self.batches.items()]
+
+
+def friction_of_all(marked: Marked, rates: list[dict[str, FloatArray]]) -> Friction:
+    """What kernels ask for of all batches, whose numbers parameters change by these rates.
+
+    Derivatives are zero.
+    """
+    groups, numbers = -(-len(rates) // LANES), len(marked.now)
+    z = lane_rows(groups * numbers).reshape(groups, numbers, LANES)
+    changes = changes_of(marked.batches, rates, list(marked.batches))
+    of = np.repeat(marked.first[:-1], np.diff(changes.start))
+    begin = ((changes.of // LANES) * numbers + of) * LANES + changes.of % LANES
+    batches = knowing(add_memory_slopes, marked.batches.values(), remember_along, add_memory_changes)
+    own = changes.start, changes.rates, changes.rates_from, changes.kinds, changes.kinds_from
+    return Friction(batches, marked.first, marked.now, marked.now[None], z, *own, begin)
 
 
 def keys_of(batch: Any) -> list[str]:

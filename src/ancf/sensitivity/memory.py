@@ -8,10 +8,10 @@ so that R_z dz_n joins what a parameter does to the residual, and
 
     dz_{n+1} = g_q s_q + g_v s_v + g_z dz_n + g_p.
 
-Both are pointwise: derivatives along directions are differences, lengths, velocities and limits by
-themselves. What slips in the state at the end of the step slips in all of theirs, what sticks, sticks. So
-does what is just at its limit: as long as nothing moves there, as in an equilibrium to which it has slipped,
-both sides of the kink have the same derivative, but only along all changes together.
+Batches know both in closed form; where a parameter changes more than their numbers, what it does to the
+memory itself are differences. What slips in the state at the end of the step slips in all of theirs, what
+sticks, sticks. So does what is just at its limit: as long as nothing moves there, as in an equilibrium to
+which it has slipped, both sides of the kink have the same derivative, but only along all changes together.
 """
 
 from __future__ import annotations
@@ -26,15 +26,19 @@ from ..arrays import FloatArray, IntArray
 from ..batches import Batches
 from ..compiled import choose_memory, traits
 from ..errors import ModelError
-from ..solvers.friction import choose_here
-from ..solvers.kinks import FORCE, LENGTH, LIMIT, Remembering, add_forces_along, leave_along
+from ..linalg.eight import lane_rows
+from ..simd import LANES
+from ..solvers.abreast_room import abreast
+from ..solvers.friction import Friction, choose_here
+from ..solvers.friction_start import push_beside, push_start, remember_start
 from ..solvers.rare import knowing
 from ..solvers.sensitivity import Way
-from ..system.core import apply_supports, keep_memory, place_supports
+from ..system.core import keep_memory, place_supports
 from ..system.system import System
 from .answers import derivative
 from .family import Family
-from .marked import keys_of
+from .marked import Marked, friction_of_all, keys_of
+from .rates import rates_of
 from .remembering import Resting, Row, friction_of
 
 #: Arrays of a memory that depend smoothly on the state.
@@ -64,15 +68,14 @@ class Memory:
 
     def __init__(self, system: System, families: list[Family]) -> None:
         self.system, self.families, self.names = system, families, friction_of(system)
+        self.marked = Marked(system, self.names)
         self.batches = Batches(system.parts[name] for name in self.names)
         self._none = np.zeros(system.size)
         self._own = self.arrays_of(system)
         self._now = self.copy()
-        self._lay_out()
         self.none = {name: x if name.endswith(".far") else np.zeros_like(x) for name, x in self._now.items()}
         self.d: list[Row] = [self.zeros() for _ in families]
         self.known = False  # derivatives are given with the start
-        self.beside: Row = {}  # arrays of other batches that remember the same
 
     def __bool__(self) -> bool:
         return bool(self.names)
@@ -152,7 +155,7 @@ class Memory:
 
     def share(self) -> None:
         """Let the systems of all families, and what else there is, remember the same."""
-        for name, x in self.beside.items():
+        for name, x in self.marked.views.items():
             x[...] = self._own[name]
         for x, own in self._shared:
             x[...] = own
@@ -173,83 +176,57 @@ class Memory:
         core = self.system.core
         q, v, a = (x[0].copy() for x in way)
         place_supports(core.supports, core.loads.value, tables, 0, q, v, a)
-        add_forces_along(self._remembering(self._own), core.ws, self._rows(self.d), q, v, a, made)
-        for row in made:
-            apply_supports(core.supports, row)
-            row[core.supports.held], row[self.system.n :] = 0.0, 0.0
+        push_start(core, self._with(self.d), q, v, lane_rows(self.system.size), made)
         return made
 
-    def add_push(self, d: Row, state: tuple[FloatArray, FloatArray, FloatArray], r: FloatArray) -> None:
-        """Add what derivatives d of the memory do to the residual of a state (q, v, a), before supports."""
-        memory, ws = self._remembering(self._own), self.system.core.ws
-        add_forces_along(memory, ws, self._rows([d]), *state, r[None])
+    def add_push(self, d: Row, state: tuple[FloatArray, FloatArray], r: FloatArray) -> None:
+        """Add what derivatives d of the memory do to the residual of a state (q, v), before supports."""
+        made = lane_rows(self.system.size)
+        push_beside(self.system.core, self._with([d]), *state, made)
+        r += made[:, 0]
 
     def step(self, q: FloatArray, v: FloatArray, s: FloatArray) -> None:
         """Remember an accepted step that ends in a state with these derivatives, (p, 2, size)."""
-        kept, rows = self.copy(), self._rows(self.d)
-        left, weight = np.zeros_like(rows), self.system.weights()
-        leave_along(self._remembering(kept), rows, q, v, np.ascontiguousarray(s), weight, left)
-        shapes = {name: (own, self._own[name].shape) for name, own in self._smooth.items()}
-        found = [{name: row[own].reshape(x) for name, (own, x) in shapes.items()} for row in left]
-        for family, d in zip(self.families, found, strict=True):
-            if set(self.names) & family.changed:
-                self._add_own(family, kept, q, v, d)
+        kept, friction = self.copy(), self._with(self.d)
+        remember_start(self.system.core, friction, q, v, abreast(s))
+        found = [self.marked.row(friction.z[k // LANES, :, k % LANES]) for k in range(len(self.families))]
+        for family, known, d in zip(self.families, self._rates, found, strict=True):
+            unknown = set(self.names) & family.changed - known.keys()
+            if unknown:
+                self._add_own(family, unknown, kept, q, v, d)
         self.d = found
         self.put(self._now)
         keep_memory(self.batches, q, v)
         self._now = self.copy()
         self.share()
 
-    def _rows(self, d: list[Row]) -> FloatArray:
-        """Derivatives of memories, (p, n), zero where they have none."""
-        made = np.zeros((len(d), len(self._differences.smooth)))
-        for rows, row in zip(made, d, strict=True):
-            for name, own in self._smooth.items():
-                if name in row:
-                    rows[own] = row[name].ravel()
-        return made
+    def _with(self, d: list[Row]) -> Friction:
+        """What kernels ask for, with these derivatives of what is remembered now."""
+        for name, x in self.marked.views.items():
+            x[...] = self._own[name]
+        groups = -(-len(d) // LANES)
+        z = lane_rows(groups * len(self.marked.now)).reshape(groups, len(self.marked.now), LANES)
+        for k, row in enumerate(d):
+            z[k // LANES, :, k % LANES] = self.marked.vector(row)
+        return self._friction._replace(z=z)
 
-    def _remembering(self, kept: Row) -> Remembering:
-        """What differences begin with, that is kept."""
-        self._start[0][:] = np.concatenate([kept[name].ravel() for name in self._floats])
-        if len(self._start[1]):
-            counts = [x.ravel() for name, x in kept.items() if name not in self._floats]
-            self._start[1][:] = np.concatenate(counts)
-        return self._differences._replace(limit=self._limit())
+    @cached_property
+    def _rates(self) -> list[Row]:
+        """Changes of the numbers of batches by parameter, where these are all that it does to them."""
+        each = [rates_of(family, forces=True) if self.names else {} for family in self.families]
+        return [{name: x for name, x in own.items() if name in self.names} for own in each]
 
-    def _lay_out(self) -> None:
-        """Make batches whose memory are parts of one array of numbers and one of counts."""
-        floats = {name: x for name, x in self._own.items() if x.dtype == np.float64}
-        ends = np.cumsum([0, *(x.size for x in floats.values())]).tolist()
-        self._floats = {name: slice(*ends[k : k + 2]) for k, name in enumerate(floats)}
-        self._numbers = np.zeros(ends[-1])
-        counts = {name: x for name, x in self._own.items() if name not in floats}
-        last = np.cumsum([0, *(x.size for x in counts.values())]).tolist()
-        self._counts = np.zeros(last[-1], dtype=np.int64)
-        views = {name: self._numbers[rows].reshape(floats[name].shape) for name, rows in self._floats.items()}
-        for k, (name, x) in enumerate(counts.items()):
-            views[name] = self._counts[last[k] : last[k + 1]].reshape(x.shape)
-        made = []
-        for name in self.names:
-            own = {key.split(".")[1]: x for key, x in views.items() if key.split(".")[0] == name}
-            made.append(self.system.parts[name]._replace(**own))
-        names = [name for name in floats if name.split(".")[1] in (*LENGTHS, *FORCES)]
-        rows = [np.arange(self._floats[name].start, self._floats[name].stop) for name in names]
-        kinds = [np.full(len(own), kind_of(name)) for own, name in zip(rows, names, strict=True)]
-        ends = np.cumsum([0, *map(len, rows)]).tolist()
-        self._smooth = {name: slice(*ends[k : k + 2]) for k, name in enumerate(names)}
-        none = np.zeros(0, dtype=np.int64)
-        smooth, size = np.concatenate([none, *rows]), self.system.size
-        self._start = np.zeros_like(self._numbers), np.zeros_like(self._counts)
-        begins = self._numbers, self._counts, *self._start, smooth, np.concatenate([none, *kinds])
-        room = np.zeros_like(self._numbers), np.zeros((6, size)), np.zeros((6, len(smooth)))
-        self._differences = Remembering(Batches(made), *begins, *room, np.zeros((2, size)), 1.0)
+    @cached_property
+    def _friction(self) -> Friction:
+        return friction_of_all(self.marked, self._rates)
 
-    def _add_own(self, family: Family, kept: Row, q: FloatArray, v: FloatArray, d: Row) -> None:
-        """Add what a parameter itself does to the memory that a step leaves."""
+    def _add_own(
+        self, family: Family, names: set[str], kept: Row, q: FloatArray, v: FloatArray, d: Row
+    ) -> None:
+        """Add what a parameter itself does to the memory that a step leaves in these batches."""
         self.put(kept)
         keep_memory(self.batches, q, v)
-        here = {name: self._own[name].copy() for name in d}
+        here = {name: self._own[name].copy() for name in d if name.split(".")[0] in names}
         for own, weight in family.around():
             if own is self.system:
                 continue
@@ -257,8 +234,8 @@ class Memory:
             for name, x in arrays.items():
                 x[...] = kept[name]
             keep_memory(Batches(own.parts[name] for name in self.names), q, v)
-            for name, x in d.items():
-                x += weight * (arrays[name] - here[name])
+            for name, x in here.items():
+                d[name] += weight * (arrays[name] - x)
 
     def arrays_of(self, system: System) -> Row:
         """All that these batches remember, by "part.array"."""
@@ -285,22 +262,6 @@ class Memory:
         """Let the system remember this."""
         for name, own in self._own.items():
             own[...] = kept[name]
-
-    def _limit(self) -> float:
-        """The size of limits."""
-        most = (
-            np.max(np.abs(x), initial=0.0) for name, x in self._now.items() if name.split(".")[1] in FORCES
-        )
-        return float(max(most, default=0.0)) or 1.0
-
-
-def _size(d: Row) -> float:
-    return max((float(np.max(np.abs(x), initial=0.0)) for x in d.values()), default=0.0)
-
-
-def kind_of(name: str) -> int:
-    """Of the numbers of an array of a memory."""
-    return LENGTH if name.split(".")[1] in LENGTHS else LIMIT if name.endswith(".limit") else FORCE
 
 
 def split(total: FloatArray, like: Row) -> Row:

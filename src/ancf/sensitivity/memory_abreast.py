@@ -22,9 +22,9 @@ from ..solvers.friction_start import push_start, remember_start
 from ..solvers.rare import knowing
 from ..solvers.sensitivity import Way
 from ..system.core import place_supports
-from .marked import Marked
+from .marked import friction_of_all
 from .memory import Memory
-from .nearby import Nearby, changes_of
+from .nearby import Nearby
 
 #: What a batch does that knows the derivatives of its memory.
 KNOWN = add_memory_slopes, remember_along, add_memory_changes
@@ -43,27 +43,15 @@ class MemoryAbreast:
 
     def __init__(self, memory: Memory, nearby: Nearby) -> None:
         self.memory, self.nearby, system = memory, nearby, memory.system
-        own = Marked(system, memory.names)
-        self.own, self.first, self.now, self.marked = own, own.first, own.now, own.batches
-        memory.beside = own.views
+        own = self.own = memory.marked
+        self.first, self.now, self.marked = own.first, own.now, own.batches
         self.remembering = knowing(choose_memory, [system.parts[name] for name in memory.names])
         self.chosen = np.zeros((1, len(self.now)))
-        groups = -(-len(nearby.families) // LANES)
-        self.z = lane_rows(groups * len(self.now)).reshape(groups, len(self.now), LANES)
         nearby.marked = self.marked
-        self.friction = nearby.friction = self._friction()
-
-    def _friction(self) -> Friction:
-        """What kernels ask for."""
-        rates, names = self.nearby.rates, self.memory.names
-        families = range(len(self.nearby.families))
-        each = [{name: x for name, x in rates[k].items() if name in names} for k in families]
-        changes = changes_of(self.marked, each, names)
-        of = np.repeat(self.first[:-1], np.diff(changes.start))
-        begin = ((changes.of // LANES) * len(self.now) + of) * LANES + changes.of % LANES
-        batches = knowing(add_memory_slopes, self.marked.values(), remember_along, add_memory_changes)
-        own = changes.start, changes.rates, changes.rates_from, changes.kinds, changes.kinds_from
-        return Friction(batches, self.first, self.now, self.now[None], self.z, *own, begin)
+        families = range(len(nearby.families))
+        rates = [{name: x for name, x in nearby.rates[k].items() if name in memory.names} for k in families]
+        self.friction = nearby.friction = friction_of_all(own, rates)
+        self.z = self.friction.z
 
     def choose(self, q: FloatArray, v: FloatArray) -> None:
         """As :meth:`Memory.choose`."""

@@ -29,3 +29,9 @@ def push_start(core, friction, q, v, r, push):
         for k in range(min(LANES, push.shape[0] - LANES * g)):
             for i in range(core.weight.shape[0]):
                 push[LANES * g + k, i] = r[i, k]
+
+
+@kernel
+def push_beside(core, friction, q, v, r):
+    """Add R_z dz of the first eight parameters to r, (size, 8), also where supports hold."""
+    add_remembered(friction, 0, q, v, r, core.ws)
