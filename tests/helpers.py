@@ -1,6 +1,7 @@
 """Small models, dense views of a System and difference formulas that several tests share."""
 
 import numpy as np
+import pytest
 from scipy.integrate import solve_ivp
 
 import ancf
@@ -36,6 +37,12 @@ METHODS = {
 
 #: Relative bars of test_elements and test_kernels, which say why.
 BY_DIFFERENCES, BY_ROUND_OFF = 1e-7, 1e-12
+
+
+def some(cases, every=2):
+    """Cases of a long family: every second one is tried always, all of them with --slow."""
+    long = [pytest.param(*(c if isinstance(c, tuple) else (c,)), marks=pytest.mark.slow) for c in cases]
+    return [long[k] if k % every else case for k, case in enumerate(cases)]
 
 
 def arc(u):

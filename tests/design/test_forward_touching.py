@@ -13,6 +13,7 @@ from jointed import methods
 import ancf
 from ancf.model.vary import value_of
 from ancf.system.system import System
+from helpers import some
 from slopes import extrapolated, remainder_slopes
 
 TIGHT = ancf.Newton(tolerance=1e-14, modified=False)
@@ -59,13 +60,15 @@ def agrees(model, text, names, given, change=1e-6, off=1e-7):
 @pytest.mark.parametrize("method", METHODS, ids=["trapezoidal", "generalized"])
 @pytest.mark.parametrize(
     ("angle", "stiffness", "damping", "elements"),
-    [
-        (1.5, 2e4, 30.0, (3, 4)),
-        (0.3, 2e4, 0.0, (4, 3)),
-        (1.0, 1e6, 30.0, (6, 5)),
-        (1.5, 1e5, 0.0, (2, 6)),
-        (1.5, 1e7, 300.0, (3, 4)),
-    ],
+    some(
+        [
+            (1.5, 2e4, 30.0, (3, 4)),
+            (1.0, 1e6, 30.0, (6, 5)),
+            (0.3, 2e4, 0.0, (4, 3)),
+            (1.5, 1e5, 0.0, (2, 6)),
+            (1.5, 1e7, 300.0, (3, 4)),
+        ]
+    ),
 )
 def test_cables(angle, stiffness, damping, elements, method):
     """Central differences of their forces were up to 6e-6 off, and stiff ones were not solved at all."""
@@ -73,7 +76,7 @@ def test_cables(angle, stiffness, damping, elements, method):
     agrees(model, FALL, names_of(damping), settings(method))
 
 
-@pytest.mark.parametrize(("stiffness", "count"), [(2e4, 2), (1e5, 3), (1e6, 2)])
+@pytest.mark.parametrize(("stiffness", "count"), some([(2e4, 2), (1e5, 3), (1e6, 2)]))
 def test_several_cables(stiffness, count):
     model = fallen(stiffness=stiffness, count=count, of_cable=0.1)
     agrees(model, FALL, names_of(1.0), settings())
@@ -81,7 +84,8 @@ def test_several_cables(stiffness, count):
 
 @pytest.mark.parametrize("method", ["trapezoidal index2", "trapezoidal ggl", "generalized index3"])
 @pytest.mark.parametrize(
-    ("stiffness", "damping", "count"), [(1e5, 30.0, 1), (1e6, 300.0, 3), (1e6, 0.0, 2), (1e8, 0.0, 2)]
+    ("stiffness", "damping", "count"),
+    some([(1e5, 30.0, 1), (1e6, 300.0, 3), (1e8, 0.0, 2), (1e6, 0.0, 2)]),
 )
 def test_cables_beside_a_joint(stiffness, damping, count, method):
     """In stiff contacts corrections grow without their changes being mixed."""

@@ -14,6 +14,7 @@ import ancf
 from ancf.model.body_contact import BodyContact
 from ancf.model.surfaces import SurfaceContact
 from contact_laws import on_ball, on_beam, on_ground, points_of
+from helpers import some
 from random_worlds import Frame, World
 
 EXACT = ancf.Trapezoidal(newton=ancf.Newton(tolerance=1e-13))
@@ -101,7 +102,7 @@ def tie(world, point, stiffness):
         world.model.add_spring(point, tuple(point.initial_position + 0.7 * axis), stiffness=stiffness)
 
 
-@pytest.mark.parametrize("seed", [202, 203, 208, 210, 211, 212, 220, 222, 223, 225, 227, 228, 231, 234])
+@pytest.mark.parametrize("seed", some([202, 203, 208, 210, 211, 212, 220, 222, 223, 225, 227, 228, 231, 234]))
 def test_a_run_from_an_equilibrium_stays_there(seed):
     """On springs, pressed on each other, on surfaces and grounds with friction that sticks."""
     world = World(seed, more=False)
