@@ -8,10 +8,10 @@ so that R_z dz_n joins what a parameter does to the residual, and
 
     dz_{n+1} = g_q s_q + g_v s_v + g_z dz_n + g_p.
 
-Batches know both in closed form; where a parameter changes more than their numbers, what it does to the
-memory itself are differences. What slips in the state at the end of the step slips in all of theirs, what
-sticks, sticks. So does what is just at its limit: as long as nothing moves there, as in an equilibrium to
-which it has slipped, both sides of the kink have the same derivative, but only along all changes together.
+Batches know all but the last of it in closed form; what a parameter itself does to the memory are
+differences. What slips in the state at the end of the step slips in all of theirs, what sticks, sticks. So
+does what is just at its limit: as long as nothing moves there, as in an equilibrium to which it has slipped,
+both sides of the kink have the same derivative, but only along all changes together.
 """
 
 from __future__ import annotations
@@ -38,7 +38,6 @@ from ..system.system import System
 from .answers import derivative
 from .family import Family
 from .marked import Marked, friction_of_all, keys_of
-from .rates import rates_of
 from .remembering import Resting, Row, friction_of
 
 #: Arrays of a memory that depend smoothly on the state.
@@ -190,10 +189,9 @@ class Memory:
         kept, friction = self.copy(), self._with(self.d)
         remember_start(self.system.core, friction, q, v, abreast(s))
         found = [self.marked.row(friction.z[k // LANES, :, k % LANES]) for k in range(len(self.families))]
-        for family, known, d in zip(self.families, self._rates, found, strict=True):
-            unknown = set(self.names) & family.changed - known.keys()
-            if unknown:
-                self._add_own(family, unknown, kept, q, v, d)
+        for family, d in zip(self.families, found, strict=True):
+            if set(self.names) & family.changed:
+                self._add_own(family, kept, q, v, d)
         self.d = found
         self.put(self._now)
         keep_memory(self.batches, q, v)
@@ -211,22 +209,14 @@ class Memory:
         return self._friction._replace(z=z)
 
     @cached_property
-    def _rates(self) -> list[Row]:
-        """Changes of the numbers of batches by parameter, where these are all that it does to them."""
-        each = [rates_of(family, forces=True) if self.names else {} for family in self.families]
-        return [{name: x for name, x in own.items() if name in self.names} for own in each]
-
-    @cached_property
     def _friction(self) -> Friction:
-        return friction_of_all(self.marked, self._rates)
+        return friction_of_all(self.marked, [{} for _ in self.families])
 
-    def _add_own(
-        self, family: Family, names: set[str], kept: Row, q: FloatArray, v: FloatArray, d: Row
-    ) -> None:
-        """Add what a parameter itself does to the memory that a step leaves in these batches."""
+    def _add_own(self, family: Family, kept: Row, q: FloatArray, v: FloatArray, d: Row) -> None:
+        """Add what a parameter itself does to the memory that a step leaves, by differences."""
         self.put(kept)
         keep_memory(self.batches, q, v)
-        here = {name: self._own[name].copy() for name in d if name.split(".")[0] in names}
+        here = {name: self._own[name].copy() for name in d}
         for own, weight in family.around():
             if own is self.system:
                 continue
