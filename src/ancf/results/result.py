@@ -24,7 +24,7 @@ from ..system.probe import lengths_of
 from ..system.redundancy import independent
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import accuracy, motions, remembered, sharp_bends, tension, turned_bends, wavering
+from . import accuracy, motions, remembered, sharp_bends, stretched, tension, turned_bends, wavering
 from .below import of_bodies
 from .comparison import Comparison, compare
 from .given import Given, Led, history_of
@@ -220,21 +220,21 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Led, Filmed, Readabl
     @property
     def notes(self) -> list[str]:
         """What to know of the run that nobody asked for, one line each: motions that jump or are noisy,
-        numbers that look like those of other units, cables that were pressed, and when, bent too sharply for
-        their elements, had forces that waver within these or bends that have turned at the end, bodies below
-        a ground, energy that came from nowhere, steps that are long for what vibrates, joints of which others
-        hold a part.
+        numbers that look like those of other units, cables that were pressed, and when, bodies that were
+        stretched by more than a tenth, cables that bent too sharply for their elements, had forces that waver
+        within these or bends that have turned at the end, bodies below a ground, energy that came from
+        nowhere, steps that are long for what vibrates, joints of which others hold a part.
 
         All stored states are looked at, when it is asked for.
         """
-        pressed = tension.notes(tension.compressions(self))
+        far = [*tension.notes(tension.compressions(self)), *stretched.notes(stretched.stretched(self))]
         given = [str(text) for text in self._header.get("notes", [])]
         bent = sharp_bends.notes(sharp_bends.sharp_bends(self))
         if len(self.t) and turned_bends.looked_at(self.model):
             bent += turned_bends.notes(self.state())
         bent += wavering.notes(wavering.waverings(self))
         below = [*of_bodies(self), *accuracy.of_energy(self)]
-        return [*given, *pressed, *bent, *below, *of_steps(self), *accuracy.of_joints(self)]
+        return [*given, *far, *bent, *below, *of_steps(self), *accuracy.of_joints(self)]
 
     @property
     def stats(self) -> Stats:
