@@ -68,6 +68,31 @@ def between_middles(result, point):
     return np.array([np.interp(point.x, x, row) for row in known])
 
 
+class TestScale:
+    @pytest.mark.parametrize("scales", [[[-1.0, 3.0]], [[0.5, 0.5]], [None, [-2.0, 9.0]], [None]])
+    def test_is_what_a_curve_says_or_all_that_it_has(self, opened, scales):
+        """A curve may leave parts of it out; where none does, the plot chooses."""
+        choose(opened, 0, "energy, potential from the start")
+        free = opened.ask("panels[0].curves._fullLayout.yaxis.range")
+        everything = [np.concatenate([line(opened, 0, k)[1] for k in range(4)])]
+        opened.ask(
+            f"{scales!r}.forEach((s, i) => {{ panels[0].shown.lines[i].scale = s; }})".replace("None", "null")
+        )
+        told = [scale for scale in scales if scale]
+        others = [line(opened, 0, k)[1] for k in range(4) if k >= len(scales) or scales[k] is None]
+        low, high = (f(np.concatenate([*others, *told])) for f in (np.min, np.max))
+        opened.ask("panels[0].show()")
+        shown = opened.ask("panels[0].curves._fullLayout.yaxis.range")
+        if told:
+            room = 0.06 * (high - low)
+            assert shown == pytest.approx([low - room, high + room], rel=1e-6)
+        else:
+            assert shown == pytest.approx(free)
+            assert shown[0] <= np.min(everything)
+            assert shown[1] >= np.max(everything)
+        opened.ask("panels[0].shown.lines.forEach((l) => { l.scale = null; }); panels[0].show()")
+
+
 class TestAlong:
     @pytest.mark.parametrize("quantity", ["tension", "curvature", "speed", "z displacement"])
     def test_extremes_are_those_of_all_states(self, opened, runs, quantity):

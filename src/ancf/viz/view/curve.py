@@ -27,6 +27,8 @@ class Curve:
         Curves with the same panel are drawn together, in the same unit.
     run : int
         Which of several compared runs it is of.
+    scale : (low, high), optional
+        Values that the panel has to show; all of them where there is none.
     """
 
     name: str
@@ -35,6 +37,7 @@ class Curve:
     values: FloatArray
     panel: str
     run: int = 0
+    scale: tuple[float, float] | None = None
 
 
 def decimated(t: FloatArray, values: FloatArray, most: int = POINTS) -> tuple[FloatArray, FloatArray]:

@@ -16,6 +16,7 @@ from ...arrays import FloatArray
 from ...errors import ModelError
 from ...model.beam import Beam
 from ..scene import Scene
+from . import wire_ends
 from .curve import POINTS, Curve, decimated, within
 from .histories import Histories
 from .traces import Trace, short_label
@@ -36,7 +37,7 @@ FAR = 0.3
 
 def curves(result: Any, states: Histories, traced: Sequence[Trace], scene: Scene) -> list[Curve]:
     """All curves of a result over a scene's time, panel by panel; what tells most comes first."""
-    recorded = _sensors(result, {trace.name for trace in traced})
+    recorded = _sensors(result, states, {trace.name for trace in traced})
     paths = [_position(trace, scene.size) for trace in traced]
     lively = _lively(recorded.tensions)
     found = recorded.contacts + (recorded.tensions if lively else []) + _energies(result)
@@ -150,7 +151,7 @@ class _Recorded(NamedTuple):
     bends: list[Curve]
 
 
-def _sensors(result: Any, traced: set[str]) -> _Recorded:
+def _sensors(result: Any, states: Any, traced: set[str]) -> _Recorded:
     """Forces, displacements, tensions and curvatures of all that was recorded at every step."""
     try:
         sensors = result.sensors
@@ -168,7 +169,10 @@ def _sensors(result: Any, traced: set[str]) -> _Recorded:
     bent = {name: sensors.curvature(point) for name, point in along.items()}
     bends = _most_varied(t, bent, "1/m", "curvature of sensors")
     down = np.abs(np.asarray(result.model.gravity, dtype=np.float64))
-    forces = _most_varied(t, contacts, "N", "contact force")
+    forces = [
+        replace(curve, scale=wire_ends.scale(result, states, curve.name, curve.values))
+        for curve in _most_varied(t, contacts, "N", "contact force")
+    ]
     joints = _joints(sensors, " of sensors")
     return _Recorded(forces, springs, _displacements(t, moved, down), joints, tensions, bends)
 

@@ -70,12 +70,21 @@ class Panel {
     const across = along
       ? { title: { text: "s [m]", standoff: 4 }, unifiedhovertitle: { text: "s = %{x:.4g} m" } }
       : { range: [first, last], title: { text: "t [s]", standoff: 4 }, unifiedhovertitle: { text: "t = %{x:.4g} s" } };
+    const reach = this.reach();
     return {
       margin: { l: 55, r: 12, t: 6, b: 34 }, font: { ...FONT, size: 11 }, showlegend: false, dragmode: false,
       hovermode: "x unified", plot_bgcolor: LOOKS.paper, paper_bgcolor: LOOKS.paper,
       hoverlabel: { bgcolor: LOOKS.paper, bordercolor: LOOKS.light, font: FONT }, xaxis: { ...axis, ...across },
-      yaxis: { ...axis, title: { text: `[${unit}]`, standoff: 4 }, exponentformat: "power", minexponent: 5 },
+      yaxis: { ...axis, ...reach, title: { text: `[${unit}]`, standoff: 4 }, exponentformat: "power", minexponent: 5 },
     };
+  }
+
+  // What the panel has to show, where some curves leave parts of them out of its scale.
+  reach() {
+    if (this.shown.along || !this.shown.lines.some((line) => line.scale)) return {};
+    const ends = this.shown.lines.flatMap(({ scale, y }) => scale ?? leastAndMost(y));
+    const [low, high] = leastAndMost(ends), room = 0.06 * (high - low) || 1;
+    return { range: [low - room, high + room] };
   }
 
   traces() {
@@ -191,6 +200,10 @@ function key({ color, dash }) {
   stroke.setAttribute("stroke-dasharray", STROKES[dash % 6]);
   span.append(" ");
   return span;
+}
+
+function leastAndMost(values) {
+  return values.reduce(([low, high], x) => [Math.min(low, x), Math.max(high, x)], [Infinity, -Infinity]);
 }
 
 function frameAt(t) {

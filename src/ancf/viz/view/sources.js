@@ -61,7 +61,7 @@ function overTime(name, curves) {
   const kinds = [...new Set(curves.map((curve) => curve.name))], several = DATA.runs.length > 1;
   const lines = curves.map((curve, i) => ({
     name: several ? `${DATA.runs[curve.run]}: ${curve.name}` : curve.name, unit: curve.unit,
-    x: curve.t.values, y: curve.values.values,
+    x: curve.t.values, y: curve.values.values, scale: curve.scale,
     color: several ? curve.run : i, dash: several ? kinds.indexOf(curve.name) : i,
   }));
   return { name, lines, unit: curves[0].unit, along: false };
