@@ -161,12 +161,12 @@ def test_description_is_valid_and_complete(units, version):
     by_name = {v.name: v for v in description.modelVariables}
     assert {n for n, v in by_name.items() if v.causality == "input"} == {"thrust", "lift"}
     assert float(by_name["thrust"].start) == 0.5
-    assert by_name["thrust"].description == "pull of the drive [N]"
-    assert not by_name["lift"].description
+    assert by_name["thrust"].description == "pull of the drive"
+    assert by_name["lift"].description == 'input "lift" of the model'
     wanted = {"'rope.at(1)'.position.x", "rope.end.tension", "tie.length", "hook.joint_force.x"}
     assert wanted <= by_name.keys()
     assert "load.tension" not in by_name
-    assert by_name["tie.length"].description == "[m]"
+    assert by_name["tie.length"].description == 'length of the spring "tie"'
 
 
 @pytest.mark.parametrize("version", ["2.0", "3.0"])

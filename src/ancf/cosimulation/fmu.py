@@ -36,11 +36,11 @@ The machine that imports it needs Python and the package ancf.
 """
 
 from pathlib import Path
-from xml.etree.ElementTree import SubElement
 
 from {library} import {words}
 from {library}.enums import Fmi{n}Status
 
+from ancf.cosimulation.described import described
 from ancf.cosimulation.motion import MODEL, Kept, Motion
 from ancf.errors import ModelError, SolveError
 
@@ -48,11 +48,9 @@ from ancf.errors import ModelError, SolveError
 class {name}(Fmi{n}Slave):
     """{title}"""
 
-    author = "ancf"
-    description = {title!r}
-
     def __init__(self, **given):
         super().__init__(**given)
+        self.description = {title!r}
         # of this instance: Python keeps the script of the first one, whose folder may be gone
         folders = [Path(given.get("resources") or "."), Path(__file__).parent]
         own = next((folder for folder in folders if (folder / MODEL).is_file()), folders[-1])
@@ -70,14 +68,17 @@ class {name}(Fmi{n}Slave):
         for output in motion.outputs:
             variable = {number}(
                 output.name,
-                description=f"[{{output.unit}}]",
+                description=output.said,
                 causality=Fmi{n}Causality.output,
                 variability=Fmi{n}Variability.continuous,
                 getter=lambda output=output: motion.value(output),
             )
             self.register_variable(variable)
 
-{more}    def exit_initialization_mode(self):
+    def to_xml(self, *options):
+        return described(super().to_xml(*options), self.motion)
+
+    def exit_initialization_mode(self):
         self.motion.run
 
     def do_step(self, current_time, step_size):
@@ -108,14 +109,6 @@ _WORDS = {
         "words": "Fmi2Causality, Fmi2Slave, Fmi2Variability, Real",
         "number": "Real",
         "independent": "",
-        "more": (  # which the library leaves out
-            "    def to_xml(self, *options):\n"
-            "        root = super().to_xml(*options)\n"
-            '        initial = SubElement(root.find("ModelStructure"), "InitialUnknowns")\n'
-            '        for unknown in root.iterfind("ModelStructure/Outputs/Unknown"):\n'
-            '            SubElement(initial, "Unknown", unknown.attrib)\n'
-            "        return root\n\n"
-        ),
         "done": "True",
         "failed": "False",
     },
@@ -124,10 +117,9 @@ _WORDS = {
         "words": "Float64, Fmi3Causality, Fmi3Slave, Fmi3StepResult, Fmi3Variability",
         "number": "Float64",
         "independent": (
-            '        self.time = 0.0\n        self.register_variable(Float64("time", '
+            '        self.time = 0.0\n        self.register_variable(Float64("time", description="time", '
             "causality=Fmi3Causality.independent, variability=Fmi3Variability.continuous))\n"
         ),
-        "more": "",
         "done": "Fmi3StepResult(status=Fmi3Status.ok)",
         "failed": "Fmi3StepResult(status=Fmi3Status.error)",
     },

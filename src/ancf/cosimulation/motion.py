@@ -59,9 +59,8 @@ class Motion:
             self._run.inputs[name] = value
 
     def said(self, name: str) -> str:
-        """What the model file says of an input, and its unit, as far as it does."""
-        item = self.study.model.inputs[name]
-        return " ".join(part for part in (item.description, f"[{item.unit}]" if item.unit else "") if part)
+        """What the model file says of an input, or that it is one."""
+        return self.study.model.inputs[name].description or f'input "{name}" of the model'
 
     def value(self, output: Output) -> float:
         """What an output is now."""

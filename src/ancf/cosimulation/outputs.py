@@ -35,6 +35,31 @@ OF_CONTACT = {"contact_force": "N", "contact_gap": "m"}
 OF_STRIP, OF_RUBBING = {"arc_length": "m"}, {"friction_force": "N", "slipping": "1"}
 #: What a question is called.
 WORDS = {"friction_force": "friction"}
+#: What the answers are, for the description of a unit: {of} is the point or connection, {part} an axis.
+SAID = {
+    "position": "place of {of} along {part}",
+    "velocity": "velocity of {of} along {part}",
+    "tension": "axial force at {of}, positive where it pulls",
+    "spring_force": 'force of the spring "{of}", positive where it pulls',
+    "spring_length": 'length of the spring "{of}"',
+    "joint_force": 'force along {part} that the second end of the joint "{of}" receives',
+    "joint_moment": 'moment about {part} that the second end of the joint "{of}" receives',
+    "reaction": 'force along {part} that the support "{of}" gives',
+    "reaction_moment": 'moment about {part} that the support "{of}" gives',
+    "torsion_angle": 'angle by which the torsion spring "{of}" is turned',
+    "torsion_moment": 'moment of the torsion spring "{of}", positive against a growing angle',
+    "joint_angle": 'angle by which the joint "{of}" has turned',
+    "joint_rate": 'rate of the angle of the joint "{of}"',
+    "joint_angles": 'angle {part} of the joint "{of}"',
+    "joint_rates": 'rate of angle {part} of the joint "{of}"',
+    "joint_displacement": 'way of the joint "{of}" along its axis',
+    "joint_velocity": 'rate of the way of the joint "{of}"',
+    "contact_force": 'force of the contact "{of}", never negative',
+    "contact_gap": 'gap of the contact "{of}", negative while it touches',
+    "arc_length": 'place of "{of}" on its carrier, by arc length',
+    "friction_force": 'friction of the contact "{of}", by size',
+    "slipping": 'share of the friction of the contact "{of}" that slips, 0 to 1',
+}
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*")
 
 
@@ -58,6 +83,12 @@ class Output:
     of: str
     part: int
     unit: str
+
+    @property
+    def said(self) -> str:
+        """What it is, in words."""
+        part = str(self.part + 1) if self.question in COUNTED else "xyz"[self.part]
+        return SAID[self.question].format(of=self.of, part=part)
 
     def value(self, state: State) -> float:
         """What it is in a state."""

@@ -175,7 +175,14 @@ def plain_trace(trace: Trace, numbers: Numbers) -> Plain:
 def plain_curve(curve: Curve, numbers: Numbers) -> Plain:
     """A curve."""
     pair = {"t": numbers.floats(curve.t), "values": numbers.floats(curve.values)}
-    return {"name": curve.name, "unit": curve.unit, "panel": curve.panel, "run": curve.run, **pair, "scale": curve.scale}
+    return {
+        "name": curve.name,
+        "unit": curve.unit,
+        "panel": curve.panel,
+        "run": curve.run,
+        **pair,
+        "scale": curve.scale,
+    }
 
 
 def plain_range(found: Range, numbers: Numbers) -> Plain:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...arrays import BoolArray, FloatArray
 from ...model.beam import Beam
-from ...model.connections import Contact
+from ...model.contact import Contact
 
 #: Recorded points inside of a wire from which on they are taken for its supports, and the share of times
 #: that has to remain between the outer ones.
