@@ -60,3 +60,36 @@ def test_tables_take_the_room_that_there_is(browser, tmp_path, name, width):
     for needed, given, left in found:  # from the left edge of the headings on
         assert needed <= given or given >= width - left - 70
     tab.close()
+
+
+@pytest.mark.parametrize("name", ["study", "long_names", "comparison", "calibration"])
+@pytest.mark.parametrize("width", [320, 400, 600])
+def test_narrow_screens_scroll_within_tables_and_figures(browser, tmp_path, name, width):
+    """Names of rows stay in sight while the columns pass, letters of figures stay as large as text."""
+    page = html_pages.written(name, tmp_path)
+    tab = browser.new_page(viewport={"width": width, "height": 800})
+    tab.goto(page.as_uri())
+    assert tab.evaluate("document.documentElement.scrollWidth") <= width
+    wide = tab.evaluate(
+        "[...document.querySelectorAll('figure img')].map(e => e.getBoundingClientRect().width)"
+    )
+    most = tab.evaluate(
+        "[...document.querySelectorAll('figure img')].map(e => parseFloat(e.style.maxWidth) || 1e4)"
+    )
+    assert all(w >= min(544, m) - 1 for w, m in zip(wide, most, strict=True))
+    moved = tab.evaluate(
+        """[...document.querySelectorAll(".scroll")]
+           .filter(e => e.querySelector("thead th:first-child:not(.number)"))
+           .filter(e => e.scrollWidth > e.clientWidth + 40).map(e => {
+             const [head, cell] = ["thead th", "tbody td"].map(x => e.querySelector(`${x}:first-child`));
+             const last = e.querySelector("tbody td:last-child");
+             const places = () => [head, cell, last].map(x => x.getBoundingClientRect().left);
+             const before = places(); e.scrollLeft = 40; const after = places();
+             return before.map((x, k) => after[k] - x);
+           })"""
+    )
+    assert moved or name != "study" or width > 400
+    for head, cell, last in moved:
+        assert (abs(head), abs(cell)) < (1, 1)
+        assert last < -39
+    tab.close()

@@ -101,14 +101,19 @@ def pairs(rows: Iterable[tuple[str, str]]) -> Element:
 def figure(name: str, title: str, caption: str, drawn: str | bytes) -> Element:
     """Figure with its picture inside the page, SVG as text or PNG as bytes; ids stay apart.
 
-    An SVG is as large as its letters ask for, however narrow it is drawn.
+    An SVG is as large as its letters ask for, however narrow it is drawn; on narrow screens it scrolls.
     """
     content, kind = (drawn, "png") if isinstance(drawn, bytes) else (drawn.encode("utf-8"), "svg+xml")
     width = DRAWN_WIDTH.search(drawn) if isinstance(drawn, str) else None
-    look = {"style": f"max-width: {POINT * float(width[1]):.0f}px"} if width else {}
-    image = picture(content, kind, f"{title}. {caption}", **look)
+    most = POINT * float(width[1]) if width else None
     text = element("figcaption", element("strong", f"{title}. "), caption)
-    return element("figure", image, text, id=f"figure-{name}")
+    return element("figure", framed(content, kind, f"{title}. {caption}", most), text, id=f"figure-{name}")
+
+
+def framed(content: bytes, kind: str, alt: str, most: float | None = None) -> Element:
+    """Picture that scrolls within the page where this is narrow, `most` pixels wide, see :func:`picture`."""
+    look = {"style": f"max-width: {most:.0f}px; min-width: min(34rem, {most:.0f}px)"} if most else {}
+    return element("div", picture(content, kind, alt, **look), class_="scroll", tabindex="0")
 
 
 def picture(content: bytes, kind: str, alt: str, **more: str) -> Element:

@@ -7,7 +7,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...viz.html import element, folded, page, picture, section
+from ...viz.html import element, folded, framed, page, section
 from . import numbers, tables
 
 if TYPE_CHECKING:
@@ -96,8 +96,7 @@ def _picture(entry: Entry) -> Iterator[Element]:
         return
     content = path.read_bytes()
     width = int.from_bytes(content[16:20], "big") / DENSITY  # of the PNG's header
-    image = picture(content, "png", entry.title, style=f"max-width: {width:.0f}px")
-    yield element("figure", image)
+    yield element("figure", framed(content, "png", entry.title, width))
 
 
 def _judged(entry: Entry) -> Iterator[Element]:
