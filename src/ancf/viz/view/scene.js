@@ -5,8 +5,9 @@ const AXES = ["x", "y", "z"];
 const SEEN = { perspective: 1.55, orthographic: 1.65 };
 // Width for labels and the colour bar beside them, pixels.
 const BESIDE = 150;
-// Width of a picture below which the colour bar lies under it, room for labels then, and the bar's share of the height.
-const NARROW = 480, LABELS = 70, UNDER = 0.16;
+// Width of a picture below which the colour bar lies under it; room for labels beside and below then, and the bar's
+// share of the height.
+const NARROW = 480, LABELS = 70, BELOW = 60, UNDER = 0.16;
 // Length of a window that follows a point, m, and from which slenderness on the axes are stretched.
 const WINDOW = 120, SLENDER = 8;
 
@@ -100,7 +101,8 @@ class Picture {
     const seen = (direction) => shape.reduce((sum, length, i) => sum + length * Math.abs(direction[i]), 0);
     const room = this.narrow() ? [width - LABELS, (1 - UNDER) * height] : [Math.max(width - BESIDE, width / 2), height];
     const wide = room[0] / Math.max(room[1], 1);
-    const scale = SEEN[type] * Math.min(wide / seen(right), 1 / seen(above));
+    const free = this.narrow() ? 1 - BELOW / Math.max(room[1], 2 * BELOW) : 1;
+    const scale = SEEN[type] * Math.min(wide / seen(right), free / seen(above));
     return shape.map((length) => scale * length);
   }
 
