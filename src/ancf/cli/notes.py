@@ -6,11 +6,10 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ..errors import ModelError
-from ..model.doubts import doubts
+from ..model.doubts import doubts, drawn_otherwise
 from ..model.file import Study
 from ..model.integrators import Radau
 from ..model.jumps import jumps
-from ..model.model import Model
 from ..model.periods import few_steps
 from ..model.series import noises
 from ..model.sudden import sudden
@@ -39,7 +38,7 @@ def notes(study: Study, system: System) -> list[str]:
     """All remarks on a study, one line each."""
     return [
         *_floating(system),
-        *_stretched(study.model),
+        *drawn_otherwise(study.model),
         *noises(study.model),
         *_jumps(study),
         *doubts(study.model),
@@ -54,13 +53,6 @@ def _floating(system: System) -> Iterator[str]:
         check_supported(system, [])
     except ModelError as error:
         yield error.what
-
-
-def _stretched(model: Model) -> Iterator[str]:
-    for beam in model.beams.values():
-        if abs(beam.stretch - 1) > 1e-12:
-            share = f"{100 * abs(beam.stretch - 1):.3g} % {'longer' if beam.stretch > 1 else 'shorter'}"
-            yield f'body "{beam.name}" starts {share} than its natural length {beam.length:g} m'
 
 
 def _jumps(study: Study) -> Iterator[str]:

@@ -59,6 +59,14 @@ def doubts(model: Any) -> list[str]:
     return [*found]
 
 
+def drawn_otherwise(model: Any) -> Iterator[str]:
+    """Beams and cables whose initial shape is longer or shorter than they are without forces."""
+    for beam in model.beams.values():
+        if abs(beam.stretch - 1) > 1e-12:
+            share = f"{100 * abs(beam.stretch - 1):.3g} % {'longer' if beam.stretch > 1 else 'shorter'}"
+            yield f'body "{beam.name}" starts {share} than its natural length {beam.length:g} m'
+
+
 def _of_section(section: Section) -> Iterator[str]:
     if section.E is not None and section.E < SOFTEST:
         hint = "in N/m^2, steel has 2.1e11"

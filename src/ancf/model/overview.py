@@ -8,9 +8,11 @@ from typing import Any, Protocol
 from ..arrays import FloatArray
 from .beam import Beam
 from .bodies import Body, kind
+from .doubts import doubts, drawn_otherwise
 from .inputs import Input
 from .kind import Kind
 from .kinds import SURROUNDINGS, kind_of
+from .series import noises
 from .sheets import place
 from .tables import Sheet, Table, counted, number, numbers, plural
 
@@ -43,7 +45,7 @@ class Described(Protocol):
 
 
 def of_model(model: Described) -> Sheet:
-    """Bodies, supports, loads and connections of a model; of hundreds the first and the last."""
+    """Bodies, supports, loads and connections of a model (of hundreds the ends), and doubts about it."""
     bodies = list(model.bodies.values())
     facts = [
         ("gravity", f"{numbers(model.gravity)} m/s^2"),
@@ -64,6 +66,7 @@ def of_model(model: Described) -> Sheet:
         if items:
             facts.append((key, counted(record.noun for _ in items)))
             tables.append(Table((record.noun, "where", "data"), [_item(item) for item in items]))
+    facts += [("note", text) for text in (*drawn_otherwise(model), *noises(model), *doubts(model))]
     return Sheet(f'Model "{model.title}"' if model.title else "Model", facts, tables)
 
 

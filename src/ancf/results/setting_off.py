@@ -22,6 +22,8 @@ from .state import State
 #: Share of the velocity of a support below which a body is at rest.
 STILL = 1e-9
 
+#: Share by which the length of a winch may differ from what is drawn, unsaid: cables are pulled by less.
+OTHER_LENGTH = 0.01
 #: By how much of an element's length, or rad, a support may miss what it holds; by how much it is a warning.
 MISSED, TORN = 1e-6, 1e-3
 
@@ -80,13 +82,28 @@ def missed(system: System, start: State | None, q: FloatArray, level: int = 3) -
     level : int
         Of the caller that a warning names.
     """
+    lengths = list(_other_lengths(system, start, q))
     if system.inputs.still and start is None:
-        return []
+        return lengths
     said = list(_missed(system, start, q))
     for text, size in said:
         if size > TORN:
             warnings.warn(text, UserWarning, stacklevel=level + 1)
-    return [text for text, _ in said]
+    return [*(text for text, _ in said), *lengths]
+
+
+def _other_lengths(system: System, start: State | None, q: FloatArray) -> Iterator[str]:
+    """Winches whose cable is longer or shorter than the shape or state from which a run starts."""
+    for winch in system.model.supports:
+        if not isinstance(winch, Winch):
+            continue
+        beam, shape = winch.beam, "the initial shape"
+        now, had = float(q[system.lengths[beam.name][0]]), beam.length * beam.stretch
+        if start is not None and beam.name in start._lengths:
+            had, shape = float(start._q[start._lengths[beam.name][0]]), "the given start"
+        if abs(now - had) > OTHER_LENGTH * had:
+            jolt = "a jolt in the first step; start from ancf.equilibrium(model), or draw it so"
+            yield f'"{winch.name}" has {now:.4g} m of "{beam.name}" out and {shape} has {had:.4g} m: {jolt}'
 
 
 def _missed(system: System, start: State | None, q: FloatArray) -> Iterator[tuple[str, float]]:

@@ -51,8 +51,8 @@ class Stretched:
         size = f"{100.0 * abs(self.strain):.3g} %"
         return (
             f'"{self.body}" {how} {size} at {self.point}, t = {self.t:.6g} s: was its '
-            f"EA of {self.EA:g} N given in kN? steel yields at 0.2 %, fibre ropes break at some 15 %; rubber "
-            "goes so far, but its EA would not stay constant"
+            f"EA of {self.EA:g} N given in kN, or do its ends go too far? steel yields at 0.2 %, fibre ropes "
+            "break at some 15 %; rubber goes so far, but its EA would not stay constant"
         )
 
 
