@@ -661,3 +661,32 @@ def test_a_place_as_the_first_end(make, place):
     assert caught.value.hint == "a place in space is the other end, b"
     if make != "add_spring":  # whose ends are apart
         getattr(model, make)("hub", place, **more)
+
+
+@pytest.mark.parametrize(
+    ("joint", "end"),
+    [("connect", "start"), ("connect", "end"), ("connect", "at"), ("weld", "start"), ("weld", "end")],
+)
+@pytest.mark.parametrize("points", [20, 50, 200])
+def test_places_that_nearly_coincide_say_how_to_draw_them(joint, end, points):
+    """A place on a ring by hand is not that of the ring through sampled points; what is advised is."""
+    angle = np.linspace(0, 2 * np.pi, points)
+    ring = np.column_stack([5 * np.cos(angle), 5 * np.sin(angle), np.zeros(points)])
+    section = ancf.Section(EA=1e6, EI=1e3, rhoA=1.0)
+    model = ancf.Model()
+    collar = model.add_beam("collar", path=ring, elements=24, section=section, closed=True)
+    place = collar.at(collar.length / 12)
+
+    def drawn(name, where):
+        if end == "at":
+            return model.add_point_mass(name, at=where, mass=1.0)
+        ends = {"start": where, "end": np.asarray(where) - [0, 0, 6]}
+        if end == "end":
+            ends = {"start": ends["end"], "end": where}
+        return getattr(model.add_beam(name, **ends, elements=2, section=section), end)
+
+    by_hand = drawn("thing", (5 * np.cos(np.pi / 6), 5 * np.sin(np.pi / 6), 0.0))
+    with pytest.raises(ancf.ModelError, match="must coincide") as caught:
+        getattr(model, joint)(by_hand, place)
+    assert caught.value.hint == f'draw "thing" with {end}={place}.initial_position'
+    getattr(model, joint)(drawn("again", place.initial_position), place)

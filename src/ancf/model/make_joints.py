@@ -18,6 +18,7 @@ from .points import Point, initial_position
 from .supports import node_of, require_node
 
 COINCIDENT = 1e-9  # of the size of the model
+NEAR = 1e-2  # below which two places are meant to be one
 APART = "move one of them there; what stays apart is joined by a spring or a beam"
 
 End = Point | FloatArray
@@ -62,7 +63,10 @@ def check_pair(where: str, a: Point, b: End, size: Callable[[], float]) -> None:
     gap = math.dist(first, second)
     if not coincide(gap, first, second, size):
         other = b if isinstance(b, Point) else f"the position {second.tolist()}"
-        hint = _same_place(a, second) or (_same_place(b, first) if isinstance(b, Point) else "") or APART
+        hint = _same_place(a, second) or (_same_place(b, first) if isinstance(b, Point) else "")
+        if not hint and isinstance(b, Point) and gap <= NEAR * size():
+            hint = _drawn_at(a, b) or _drawn_at(b, a)
+        hint = hint or APART
         raise ModelError(f"{where}.b", f"{a} and {other} are {gap:.6g} m apart, must coincide", hint)
 
 
@@ -73,6 +77,13 @@ def _same_place(point: Point, place: FloatArray) -> str:
         return ""
     x, y, z = (round(float(c), 12) + 0.0 for c in body.axes.T @ (place - body.position))
     return f"{body.name}.at({x:.12g}, {y:.12g}, {z:.12g}) is there"
+
+
+def _drawn_at(point: Point, other: Point) -> str:
+    """How what has a point at its end is drawn from another one, "" for points within a beam."""
+    body = point.body
+    key = {0.0: "start", body.length: "end"}.get(point.x, "") if isinstance(body, Beam) else "at"
+    return f'draw "{body.name}" with {key}={other}.initial_position' if key else ""
 
 
 def coincide(gap: float, first: FloatArray, second: FloatArray, size: Callable[[], float]) -> bool:
