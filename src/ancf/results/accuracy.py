@@ -13,6 +13,7 @@ from ..solvers.locking import freed, locked, stiffest
 from ..system import redundancy
 from ..system.consistency import nearly_dependent
 from ..system.system import System
+from . import turned_round
 from .faces import History, Instant
 
 #: Share of the displacement that locking may take unsaid, and of the model's size that is never said.
@@ -32,7 +33,7 @@ KEEPING = ("trapezoidal", "explicit")
 def of_state(state: Instant) -> list[str]:
     """Notes on an equilibrium: which cable bends too little, and by how much."""
     system = state.system
-    found = [*redundancy.notes(system), *doubts(system.model)]
+    found = [*turned_round.notes(system, state.q), *redundancy.notes(system), *doubts(system.model)]
     if np.any(state.v):
         return found
     moved = np.abs(locked(system, state.q))

@@ -152,7 +152,7 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
         """What to know of an equilibrium that nobody asked for: cables that are pressed harder than they can
         stand, bodies that are stretched by more than a tenth, cables that bend too sharply for their
         elements, whose forces waver within these, or are so stiff that they bend too little, bodies below a
-        ground, friction that does not act from the initial shape.
+        ground or turned round in their clamps, friction that does not act from the initial shape.
 
         It takes about as long as an iteration of the equilibrium, when it is asked for.
         """
