@@ -141,7 +141,7 @@ def _cell(element: Element) -> Cell:
 
 
 def _picture(element: Element) -> Picture:
-    image, caption = element.find("img"), element.find("figcaption")
+    image, caption = element.find(".//img"), element.find("figcaption")
     source = "" if image is None else image.get("src", "")
     if not source.startswith(PNG):
         raise ModelError("report", "has a picture that is no PNG")
