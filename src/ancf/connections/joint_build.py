@@ -50,7 +50,10 @@ class Row:
         return (*vectors, self.value)
 
 
-UNITS = tuple(Vector(constant=e) for e in np.eye(3))
+#: Difference of cosines that is round-off.
+ALIKE = 1e-9
+UNIT_AXES: FloatArray = np.eye(3)
+UNITS = tuple(Vector(constant=e) for e in UNIT_AXES)
 
 
 def place_of(end: Point | FloatArray, locate: Locate) -> Vector:
@@ -84,9 +87,13 @@ def node_axes(beam: Beam, node: int) -> FloatArray:
     return axes
 
 
-def normals(direction: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Two unit vectors normal to a direction and to each other."""
-    first = np.cross(direction, np.eye(3)[int(np.argmin(np.abs(direction)))])
+def normals(direction: FloatArray, axes: FloatArray = UNIT_AXES) -> tuple[FloatArray, FloatArray]:
+    """Two unit vectors normal to a direction and to each other, one of them to the row of `axes` across it.
+
+    Of rows that are as much across it, but for round-off, it is the first.
+    """
+    along = np.abs(axes @ direction)
+    first = np.cross(direction, axes[int(np.argmax(along < np.min(along) + ALIKE))])
     first /= np.linalg.norm(first)
     return first, np.cross(direction, first)
 
