@@ -70,7 +70,9 @@ def test_a_winch_that_is_told_its_speed(version, tmp_path):
     done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr[-2000:]
     found = json.loads(done.stdout.splitlines()[-1])
-    run = ancf.stepper(read_study(tmp_path / "hoist.toml").model, step=2e-3)
+    told = HOIST.replace('name = "speed"', f'name = "speed"\nvalue = {TOLD[0.0]}')  # as the unit begins
+    (tmp_path / "told.toml").write_text(told, "utf-8")
+    run = ancf.stepper(read_study(tmp_path / "told.toml").model, step=2e-3)
     heights, forces, pulls = [], [], []
     for k in range(31):
         heights.append(run.position("load")[2]), forces.append(run.tension("rope.start"))

@@ -47,6 +47,22 @@ def driven_steps(
     ModelError
         Next to nothing would be left of the cable, or a function fails.
     """
+    out = _followed(winch, length, rate, times, step, given)
+    winch.check_left(out[:, 0], times)
+    return out
+
+
+def acceleration_from(
+    winch: Winch, length: float, rate: float, time: float, step: float, given: dict[str, float]
+) -> float:
+    """Second rate in a step from a time on, m/s^2: that of the drum where something begins at the time."""
+    return float(_followed(winch, length, rate, np.array([time + step]), step, given)[0, 2])
+
+
+def _followed(
+    winch: Winch, length: float, rate: float, times: FloatArray, step: float, given: dict[str, float]
+) -> FloatArray:
+    """What :func:`driven_steps` gives, however little is left of the cable."""
     assert winch.speed is not None
     assert winch.acceleration is not None
     most = winch.acceleration * step
@@ -61,7 +77,6 @@ def driven_steps(
         else:
             length, rate = _towards(goals[k], length, rate, wanted, most, step)
         out[k] = length, rate, (rate - before) / step
-    winch.check_left(out[:, 0], times)
     return out
 
 

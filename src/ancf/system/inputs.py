@@ -13,7 +13,7 @@ from ..arrays import FloatArray
 from ..model.functions import TimeFunction
 from ..model.winch import Winch
 from .core import Tables
-from .drives import driven_steps
+from .drives import acceleration_from, driven_steps
 from .supports import Constraints, Motion, Rotation
 
 #: Points of the difference formulas for the rates of given motions: sixth order.
@@ -112,7 +112,7 @@ class Inputs:
 
         ``first`` and ``last`` are the times of the whole run, s: rates are differences of values
         between them.  ``here``: state vectors q, v from which lengths follow that are driven; ``still``: they
-        stay as they are there.
+        are as they are there, with the acceleration of a step from there on.
         """
         if self.still:
             value = _amplitudes(self.loads, np.zeros(steps), self.given)
@@ -174,7 +174,10 @@ class Inputs:
             drive.winch.check_left(np.array([length]), times[:1])
             here = None
         rate = 0.0 if here is None else float(here[1][drive.unknown])
-        if here is None or still:
+        if still:
+            begins = acceleration_from(drive.winch, length, rate, float(times[0]), step, self.given)
+            drive.put(tables, slice(None), np.array([length, rate, begins]))
+        elif here is None:
             drive.put(tables, slice(None), np.array([length, rate, 0.0]))
         else:
             found = driven_steps(drive.winch, length, rate, times, step, self.given)
