@@ -24,8 +24,7 @@ from ..system.probe import lengths_of
 from ..system.redundancy import independent
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import accuracy, motions, remembered, sharp_bends, stretched, tension, turned_bends, wavering
-from .below import of_bodies
+from . import motions, noticed, remembered
 from .comparison import Comparison, compare
 from .given import Given, Led, history_of
 from .momenta import Momenta
@@ -34,7 +33,6 @@ from .overview import line_of_result, of_result
 from .pictures import Filmed
 from .read_store import ReadStore
 from .remembered import Remembered
-from .resolution import of_steps
 from .sensitivities import sensitivity_of
 from .sensors import Sensors
 from .slackness import SlackInterval, slack_intervals
@@ -222,19 +220,13 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Led, Filmed, Readabl
         """What to know of the run that nobody asked for, one line each: motions that jump or are noisy,
         numbers that look like those of other units, cables that were pressed, and when, bodies that were
         stretched by more than a tenth, cables that bent too sharply for their elements, had forces that waver
-        within these or bends that have turned at the end, bodies below a ground, energy that came from
-        nowhere, steps that are long for what vibrates, joints of which others hold a part.
+        within these or bends that turned, bodies below a ground, beams that may have gone through what they
+        touch, energy that came from nowhere, steps that are long for what vibrates, joints of which others
+        hold a part.
 
         All stored states are looked at, when it is asked for.
         """
-        far = [*tension.notes(tension.compressions(self)), *stretched.notes(stretched.stretched(self))]
-        given = [str(text) for text in self._header.get("notes", [])]
-        bent = sharp_bends.notes(sharp_bends.sharp_bends(self))
-        if len(self.t) and turned_bends.looked_at(self.model):
-            bent += turned_bends.notes(self.state())
-        bent += wavering.notes(wavering.waverings(self))
-        below = [*of_bodies(self), *accuracy.of_energy(self)]
-        return [*given, *far, *bent, *below, *of_steps(self), *accuracy.of_joints(self)]
+        return noticed.of_result(self, [str(text) for text in self._header.get("notes", [])])
 
     @property
     def stats(self) -> Stats:
