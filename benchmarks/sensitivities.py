@@ -17,7 +17,7 @@ import ancf
 from ancf.paper import cantilever, pendulum, sliding
 
 COUNTS = 1, 8, 16
-ROUNDS = 3
+ROUNDS = 5
 #: Of a beam, in this order.
 SEA = {"spectrum": "jonswap", "height": 4.0, "period": 9.0, "depth": 60.0, "components": 60, "seed": 1}
 NUMBERS = ["EI", "rhoA", "EA", "length", "bending_damping", "axial_damping", "damping"]
@@ -139,6 +139,49 @@ def solid(turned: bool) -> ancf.Model:
     return model
 
 
+def blown(elements: int = 32) -> ancf.Model:
+    """A damped cable between two pins under a pressure that changes."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    damping = {"axial_damping": 0.5, "bending_damping": 1e-4, "damping": 0.05}
+    section = ancf.Section(EA=500.0, EI=0.05, rhoA=0.2, diameter=0.02, **damping)
+    given = {"start": (0, 0, 0), "end": (1, 0.1, 0), "elements": elements, "section": section}
+    rope = model.add_beam("rope", length=1.05, **given)
+    model.pin(rope.start)
+    model.pin(rope.end)
+    model.add_pressure(rope, "4*sin(30*t)", (0.0, 1.0, 0.0), name="blow")
+    return model
+
+
+def crossed(elements: int = 16) -> ancf.Model:
+    """A taut cable between two pins, and another one that falls on it and swings there."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    damping = {"axial_damping": 20.0, "bending_damping": 1e-3, "damping": 0.2}
+    section = ancf.Section(EA=2e4, EI=0.05, rhoA=0.2, diameter=0.02, **damping)
+    given = {"elements": elements, "section": section}
+    low = model.add_beam("rope", start=(0, 0, 0), end=(1, 0, 0), length=0.998, **given)
+    top = model.add_beam("top", start=(0.5, -0.5, 0.021), end=(0.5, 0.5, 0.021), length=1.0, **given)
+    for beam in (low, top):
+        model.pin(beam.start)
+        model.pin(beam.end)
+    model.add_contact(low, top, stiffness=1e4, damping=10.0, name="touch")
+    return model
+
+
+def piled(count: int = 4) -> ancf.Model:
+    """A pile of balls on a plane, each on springs."""
+    model = ancf.Model(gravity=(0.3, 0.0, -9.81))
+    below = model.add_surface("floor", ancf.Plane())
+    for k in range(count):
+        at = 0.01 * k, 0.005 * k, 0.1 + 0.2 * k
+        ball = model.add_rigid_body(f"b{k}", at=at, mass=0.5, inertia=(0.002, 0.003, 0.004))
+        stay = {"stiffness": 200.0, "damping": 2.0, "length": 0.5, "name": f"stay{k}"}
+        model.add_spring(ball.centre, (0.5, 0.3, at[2]), **stay)
+        skin = model.add_surface(f"skin{k}", ancf.Sphere(radius=0.1), on=ball)
+        model.add_contact(skin, below, stiffness=2e4, damping=30.0, name=f"on{k}")
+        below = skin
+    return model
+
+
 def of_rope() -> list[str]:
     """Sixteen numbers of a model with one rope."""
     ends = [f"rope.{end}[{k}]" for end in ("start", "end") for k in range(3)]
@@ -159,6 +202,13 @@ def cases() -> dict[str, tuple[ancf.Model, list[str], str, dict[str, Any]]]:
     of_lying += [f"bed.{name}" for name in ("stiffness", "friction", "damping", "stick", "height")]
     of_drawn = [f"rope.{name}" for name in NUMBERS] + [f"gravity[{k}]" for k in range(3)]
     of_drawn += ["on.friction", "on.stiffness", "on.damping", "bob.mass", "stay.stiffness", "stay.length"]
+    of_blown = [f"rope.{name}" for name in (*NUMBERS, "diameter")] + [f"gravity[{k}]" for k in range(3)]
+    of_blown += [*(f"rope.end[{k}]" for k in range(3)), "rope.start[0]", "blow.pressure"]
+    of_crossed = [f"{rope}.{name}" for rope in ("rope", "top") for name in NUMBERS[:6]]
+    of_crossed += ["gravity[2]", "gravity[1]", "touch.stiffness", "touch.damping"]
+    of_piled = [f"{name}{k}" for name in ("b", "stay", "on") for k in range(4)]
+    kinds = {"b": ["mass"], "s": ["length"], "o": ["stiffness", "damping"]}
+    of_piled = [f"{name}.{kind}" for name in of_piled for kind in kinds[name[0]]]
     of_solid = ["rope.E", "rope.rho", "rope.axial_damping", "rope.bending_damping", "rope.length"]
     of_solid += [f"gravity[{k}]" for k in range(3)]
     return {
@@ -177,6 +227,19 @@ def cases() -> dict[str, tuple[ancf.Model, list[str], str, dict[str, Any]]]:
         "friction on a drum, 24 elements, 1000 steps": lambda: _hung(
             drawn(), of_drawn, tip.format("bob"), 1e-3
         ),
+        "pressure, 32 elements, 1000 steps": (
+            blown(),
+            of_blown,
+            tip.format("rope.at(0.4)"),
+            _set(1000, 1e-3),
+        ),
+        "crossed, 2 of 16 elements, 1000 steps": (
+            crossed(),
+            of_crossed,
+            tip.format("top.at(0.3)"),
+            _set(1000, 1e-3),
+        ),
+        "pile of 4 balls, 1000 steps": (piled(), of_piled, tip.format("b3.centre"), _set(1000, 1e-3)),
         "damped solid, 16 elements, 500 steps": (solid(False), of_solid, end, _set(500, 1e-3)),
         "moment, 16 elements, 500 steps": (solid(True), of_solid, end, _set(500, 1e-3)),
         "7.4, 6+2 elements, 2000 steps": (sliding.build(), own, tip.format("slider.end"), _set(2000, 2e-4)),
@@ -202,17 +265,21 @@ def seconds(work: Any) -> float:
 
 def measured(model: ancf.Model, names: list[str], objective: str, settings: dict[str, Any]) -> list[float]:
     """Of a run s, of sensitivities and gradients by some parameters runs each."""
-    works = [lambda: ancf.simulate(model, **settings)]
+
+    def run() -> None:
+        ancf.simulate(model, **settings)
+
+    works: list[Any] = []
     for count in COUNTS:
         works.append(lambda n=count: ancf.simulate(model, sensitivities=names[:n], **settings))
     for count in COUNTS:
         works.append(lambda n=count: ancf.gradient(model, objective, names[:n], **settings))
-    for work in works:
+    for work in (run, *works):
         work()
-    times = [
-        median(row) for row in zip(*([seconds(work) for work in works] for _ in range(ROUNDS)), strict=True)
-    ]
-    return [times[0], *(t / times[0] for t in times[1:])]
+    pairs = [[(seconds(run), seconds(work)) for work in works] for _ in range(ROUNDS)]
+    runs = [own for row in pairs for own, _ in row]
+    ratios = [[theirs / own for own, theirs in row] for row in pairs]
+    return [median(runs), *(median(column) for column in zip(*ratios, strict=True))]
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
+from ..compiled import traits
 from ..errors import ModelError
 from ..model.bodies import RigidBody
 from ..model.body_contact import BodyContact
@@ -55,6 +56,15 @@ def bumps(items: Sequence[BodyContact], slots: dict[str, IntArray], measured: Fl
     if any(item.friction > 0.0 for item in items):
         found["rolling"] = RollBatch(*batch)
     return found
+
+
+def renumbered(batch: Any, items: Sequence[BodyContact]) -> Any:
+    """The batch with the numbers of these contacts in place of the same ones with others.
+
+    What contacts remember is their own.
+    """
+    own = {key: getattr(batch, key).copy() for key in traits(batch).memory if key != "found"}
+    return batch._replace(data=np.array([_numbers(item) for item in items]), **own)
 
 
 def share(parts: dict[str, Any]) -> None:

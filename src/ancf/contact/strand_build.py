@@ -12,7 +12,7 @@ from numba import types
 
 from .. import addresses
 from ..arrays import FloatArray, IntArray
-from ..compiled import VECTOR
+from ..compiled import VECTOR, traits
 from ..elements.registry import ELEMENTS
 from ..errors import ModelError
 from ..later import cKDTree
@@ -114,6 +114,22 @@ def share(parts: dict[str, Any]) -> None:
         parts["gripping"] = GripBatch(*parts["crossing"])
 
 
+def renumbered(batch: Any, items: Sequence[CableContact]) -> Any:
+    """The batch with the numbers of these contacts and lengths of cables in place of others nearby.
+
+    The list of what is near, and the room for it, stay: they have margins.  What contacts remember is their
+    own.
+    """
+    cables = list(dict.fromkeys(body for item in items for body in (item.body, item.other)))
+    own = {key: getattr(batch, key).copy() for key in traits(batch).memory if key != "found"}
+    return batch._replace(
+        length=np.concatenate([np.diff(cable.node_x) for cable in cables]),
+        place=np.concatenate([cable.node_x[:-1] for cable in cables]),
+        data=np.array([_numbers(item) for item in items]),
+        **own,
+    )
+
+
 def _numbers(item: CableContact) -> list[float]:
     stick = item.stiffness if item.stick is None else item.stick
     drag = item.damping * math.sqrt(stick / item.stiffness)
@@ -146,7 +162,7 @@ def _places(cable: Beam, spacing: float) -> tuple[FloatArray, FloatArray]:
     """Arc lengths, and initial places there."""
     count = min(max(math.ceil(cable.length / spacing), 2), MOST_PLACES)
     x = np.linspace(0.0, cable.length, count + 1)
-    return x, np.array([cable.initial_position(s) for s in x.tolist()])
+    return x, cable.initial_places(x)
 
 
 def _refuse_sunk(item: CableContact) -> None:

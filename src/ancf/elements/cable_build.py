@@ -174,22 +174,19 @@ def reference_strains(beam: Beam) -> tuple[FloatArray, FloatArray]:
     natural = beam.natural
     if natural is None or not natural.bends:
         return eps0, kappa0
-    for e in range(n):
-        h = beam.node_x[e + 1] - beam.node_x[e]
-        values = np.stack(
-            [
-                natural.node_position[e],
-                natural.stretch * natural.node_tangent[e],
-                natural.node_position[e + 1],
-                natural.stretch * natural.node_tangent[e + 1],
-            ]
-        )
-        xa, xb = gauss(beam.gauss[0])[0], gauss(beam.gauss[1])[0]
-        r_s = hermite(xa, h, 1) @ values / natural.stretch
-        eps0[e, : len(xa)] = axial_strain(r_s, beam.strain)
-        kappa = curvature(hermite(xb, h, 1) @ values, hermite(xb, h, 2) @ values, beam.strain)
-        kappa0[e, : len(xb)] = np.where(kappa * h < STRAIGHT, 0.0, kappa)
+    h, nodes = np.diff(beam.node_x)[:, None], [natural.node_position, natural.stretch * natural.node_tangent]
+    values = np.stack([*(x[:-1] for x in nodes), *(x[1:] for x in nodes)], axis=1)
+    xa, xb = gauss(beam.gauss[0])[0], gauss(beam.gauss[1])[0]
+    r_s = _slopes(xa, h, 1) @ values / natural.stretch
+    eps0[:, : len(xa)] = axial_strain(r_s, beam.strain)
+    kappa = curvature(_slopes(xb, h, 1) @ values, _slopes(xb, h, 2) @ values, beam.strain)
+    kappa0[:, : len(xb)] = np.where(kappa * h < STRAIGHT, 0.0, kappa)
     return eps0, kappa0
+
+
+def _slopes(xi: FloatArray, h: FloatArray, derivative: int) -> FloatArray:
+    """Derivatives of the shape functions at places in elements of lengths h (n, 1), (n, places, 4)."""
+    return hermite(np.broadcast_to(xi, (len(h), len(xi))), np.repeat(h, len(xi), axis=1), derivative)
 
 
 def _part(beam: Beam, slot: IntArray) -> tuple[tuple[int, ...], IntArray, FloatArray, FloatArray, FloatArray]:

@@ -74,6 +74,8 @@ from .relief import DRAG, FRICTION, STICK
 
 #: Gauss points of an element.
 POINTS = 10
+#: Fields that depend on the lengths of elements.
+SHAPES = ("weight", "shift", "shape", "slope")
 #: Depth in diameters, below which nothing may be held.
 BURIED = 1.0
 
@@ -108,11 +110,10 @@ def build(items, locate, value, model):
     """Batch of these grounds; ModelError if a section has no diameter, or a support is below."""
     pairs = []
     for k, item in enumerate(items):
-        for name, body in model.bodies.items():
-            if isinstance(body, Beam) and item.acts_on(name):
-                require_section(item, body, ("diameter",))
-                _refuse_buried(item, body, model)
-                pairs.append((k, body))
+        for body in _bodies(item, model):
+            require_section(item, body, ("diameter",))
+            _refuse_buried(item, body, model)
+            pairs.append((k, body))
     bodies = [body for _, body in pairs]
     fields, owners = along(bodies, locate, POINTS)
     which = [k for k, body in pairs for _ in range(body.elements)]
@@ -136,13 +137,29 @@ def build(items, locate, value, model):
     )
 
 
-def renumbered(batch: Any, items: Any) -> Any:
-    """The batch with the numbers of these grounds in place of the same ones with others.
+def renumbered(batch: Any, model: Any, locate: Any = None) -> Any:
+    """The batch of a model that differs in numbers of grounds and in diameters alone.
 
-    What friction remembers is its own.
+    ``locate``: finds the probe of a point where lengths of beams differ as well.  What friction remembers is
+    its own.
     """
-    own = {key: getattr(batch, key).copy() for key in traits(batch).memory}
-    return batch._replace(grounds=np.array([_numbers(item) for item in items]), **own)
+    items, own = model.grounds, {key: getattr(batch, key).copy() for key in traits(batch).memory}
+    bodies = [body for item in items for body in _bodies(item, model)]
+    if locate is not None:
+        found = along(bodies, locate, POINTS)[0] | ordered(bodies, locate, POINTS)
+        own |= {key: found[key] for key in (*SHAPES, "label")}
+    each = [body.section.diameter for body in bodies for _ in range(body.elements)]
+    return batch._replace(
+        grounds=np.array([_numbers(item) for item in items]),
+        diameter=np.array(each, dtype=np.float64),
+        **own,
+    )
+
+
+def _bodies(item, model):
+    """Those that a ground acts on."""
+    each = model.bodies.items()
+    return [body for name, body in each if isinstance(body, Beam) and item.acts_on(name)]
 
 
 def _numbers(item):

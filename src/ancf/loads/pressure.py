@@ -7,13 +7,14 @@ its derivative, which is then all of it.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
+from ..model.followers import Pressure
 from ..vectors import cross
 from .along import (
     add_along,
@@ -49,6 +50,13 @@ def build(items, locate, value):
     counts = [item.body.elements for item in items]
     rows = np.repeat(np.arange(len(items)), counts)
     return PressureBatch(**fields, axis=np.array([items[k].axis for k in rows]), item=rows, value=value)
+
+
+def renumbered(batch: Any, model: Any, locate: Any) -> Any:
+    """The batch of a model with beams of other lengths; ``locate`` finds the probe of a point."""
+    bodies = [load.body for load in model.loads if isinstance(load, Pressure)]
+    found = along(bodies, locate, POINTS)[0]
+    return batch._replace(**{key: found[key] for key in ("weight", "shift", "shape", "slope")})
 
 
 @inline_kernel

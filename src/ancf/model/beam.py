@@ -249,6 +249,12 @@ class Beam:
         position += np.array([y, z]) @ self.initial_axes(x)
         return position
 
+    def initial_places(self, x: FloatArray) -> FloatArray:
+        """Initial positions (n, 3) of the centreline at these x, see :meth:`initial_position`."""
+        e = np.clip(self.node_x.searchsorted(x, side="right") - 1, 0, self.elements - 1)
+        h = np.diff(self.node_x)[e]
+        return self._cubic(e, ((x - self.node_x[e]) / h)[:, None], h[:, None])[0]
+
     def initial_tangent(self, x: float) -> FloatArray:
         """Initial unit tangent (3,) of the cubic through the nodes at x."""
         slope = self._hermite(x)[1]
@@ -275,8 +281,12 @@ class Beam:
         return both
 
     def _hermite(self, x: float) -> tuple[FloatArray, FloatArray]:
-        e, s, h = self._place(x)
-        (p0, p1), (m0, m1) = self.node_position[e : e + 2], h * self.stretch * self.node_tangent[e : e + 2]
+        return self._cubic(*self._place(x))
+
+    def _cubic(self, e: Any, s: Any, h: Any) -> tuple[FloatArray, FloatArray]:
+        """Place and slope at s of elements e of length h."""
+        p0, p1 = self.node_position[e], self.node_position[e + 1]
+        m0, m1 = (h * self.stretch * self.node_tangent[k] for k in (e, e + 1))
         position = p0 + s * m0 + s**2 * (3 * (p1 - p0) - 2 * m0 - m1) + s**3 * (2 * (p0 - p1) + m0 + m1)
         rate = m0 + 2 * s * (3 * (p1 - p0) - 2 * m0 - m1) + 3 * s**2 * (2 * (p0 - p1) + m0 + m1)
         return position, rate / h

@@ -167,6 +167,8 @@ class TimeFunction:
             return self._refuse, False
         if isinstance(given, Mapping | Series):
             return self._from_series(given)
+        if isinstance(given, Scaled):
+            return given.table, False
         if callable(given):
             return self._from_callable(given), False
         parts = [self._component(given, self.where)] if self.size == 1 else self._components(given)
@@ -249,6 +251,22 @@ class TimeFunction:
             raise ModelError(self.where, what, "a series may stand for one component of three")
         self.series = (given,)
         return given, given.constant
+
+
+class Scaled:
+    """A function of time times a number; a class, to be pickled."""
+
+    def __init__(self, given: TimeFunction, factor: float) -> None:
+        self.given, self.factor = given, factor
+
+    def __call__(self, t: float) -> Any:
+        """A number, or (3,), at the time t in s."""
+        value = self.factor * self.given(t)
+        return float(value[0]) if self.given.size == 1 else value
+
+    def table(self, times: FloatArray) -> FloatArray:
+        """Values (n, size) at many times, see :meth:`TimeFunction.table`."""
+        return self.factor * self.given.table(times)
 
 
 def call(

@@ -17,7 +17,7 @@ from .bodies import Body, PointMass
 from .describe import section as described
 from .describe import section_of
 from .exchange import exchanged, renewed
-from .functions import TimeFunction
+from .functions import Scaled, TimeFunction
 from .inputs import make_input
 from .kinds import GROUPS, SURROUNDINGS
 from .loads import DistributedLoad
@@ -340,20 +340,4 @@ def _of_function(given: TimeFunction, name: str, part: str | None, use: Any) -> 
         raise ModelError(
             name, "is a component of a function of time", f"{name[:-3]} is a factor of all of it"
         )
-    return 1.0, lambda x: use(_Scaled.of(given, x))
-
-
-class _Scaled:
-    """A function of time times a number; a class, to be pickled."""
-
-    def __init__(self, given: TimeFunction, factor: float) -> None:
-        self.given, self.factor = given, factor
-
-    def __call__(self, t: float) -> Any:
-        value = self.factor * self.given(t)
-        return float(value[0]) if self.given.size == 1 else value
-
-    @classmethod
-    def of(cls, given: TimeFunction, factor: float) -> TimeFunction:
-        """As a function of time."""
-        return TimeFunction(cls(given, factor), given.size, given.where)
+    return 1.0, lambda x: use(TimeFunction(Scaled(given, x), given.size, given.where))

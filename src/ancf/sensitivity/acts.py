@@ -5,8 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from ..model.beam import Beam
-from ..model.bodies import PointMass
+from ..model.bodies import PointMass, RigidBody
+from ..model.body_contact import BodyContact
+from ..model.cable_contact import CableContact
 from ..model.connections import Spring
+from ..model.followers import Pressure
 from ..model.functions import TimeFunction
 from ..model.joints import Slide, Spherical
 from ..model.loads import DistributedLoad, Force, Moment
@@ -14,7 +17,20 @@ from ..model.model import Model
 from ..model.section import DAMPINGS
 from ..model.surfaces import SurfaceContact
 from ..model.winches import by_body
-from ..system.beside import BODIES, ELEMENTS, FLUIDS, GROUND, PRESSING, RUBBING, SLIDES, SPRINGS, Acts
+from ..system.beside import (
+    BODIES,
+    BUMPING,
+    CROSSING,
+    ELEMENTS,
+    FLUIDS,
+    GROUND,
+    PRESSING,
+    PRESSURE,
+    RUBBING,
+    SLIDES,
+    SPRINGS,
+    Acts,
+)
 
 #: Of sections, those on which the forces of elements alone depend, and those on which weights do, too.
 FORCES, MASSES = {"EA", "EI", "E", *DAMPINGS}, {"rhoA", "rho"}
@@ -38,13 +54,13 @@ def acts_of(model: Model, name: str) -> Acts | None:
     ground = next((one for one in model.grounds if one.name == owner), None)
     if ground is not None:
         rough = ("friction", "stick") if ground.friction > 0.0 else ()  # else friction begins
-        return Acts(frozenset((GROUND,))) if key in ("stiffness", "damping", *rough) else None
+        return Acts(frozenset((GROUND,))) if key in ("stiffness", "damping", "height", *rough) else None
     body = model.bodies.get(owner)
     if body is None:
         return _of_connection(model, owner, key)
     if key in MOTION and not model.fluids:
         return Acts()
-    if isinstance(body, PointMass):
+    if isinstance(body, PointMass | RigidBody):
         return Acts(frozenset((BODIES,)), weighs=True) if key == "mass" else None
     if not isinstance(body, Beam) or owner in by_body(model):
         return None
@@ -52,23 +68,31 @@ def acts_of(model: Model, name: str) -> Acts | None:
         return Acts(_wet(model))
     if key in FORCES or key in MASSES:
         return Acts(frozenset((ELEMENTS, BODIES)), weighs=key in MASSES)
+    around = frozenset((GROUND,) if model.grounds else ()) | _wet(model)
+    if key == "diameter":
+        wide = any(isinstance(one, CableContact) for one in model.connections)  # which has to find others
+        return None if wide else Acts(around | {ELEMENTS, BODIES}, weighs=True)
     if not _is_bare(model):
         return None
     if key in ("start", "end"):
-        sprung = not body.has_section and all(isinstance(one, Spring) for one in model.connections)
+        loose = Spring | CableContact | BodyContact
+        sprung = not body.has_section and all(isinstance(one, loose) for one in model.connections)
         return Acts(moves=True) if sprung else None
     slides = any(isinstance(one, Slide) for one in model.connections)
-    everything = frozenset((ELEMENTS, SPRINGS, BODIES, *((SLIDES,) if slides else ())))
-    everything |= _wet(model)
+    everything = around | {ELEMENTS, SPRINGS, BODIES, CROSSING, PRESSURE, *((SLIDES,) if slides else ())}
     moves = any(getattr(one, way, None) is not None for one in model.supports for way in MOTIONS)
     return Acts(everything, weighs=True, moves=moves, shapes=True) if key == "length" else None
 
 
 def _of_connection(model: Model, owner: str, key: str) -> Acts | None:
-    """The same of a number of a connection."""
+    """The same of a number of a connection, of contacts of cables and of bodies without friction."""
     found = next((one for one in model.connections if one.name == owner), None)
     if isinstance(found, Spring) and key in ("stiffness", "damping", "length"):
         return Acts(frozenset((SPRINGS,)))
+    if isinstance(found, CableContact | BodyContact):
+        part = CROSSING if isinstance(found, CableContact) else BUMPING
+        plain = found.friction == 0.0 and key in ("stiffness", "damping")
+        return Acts(frozenset((part,))) if plain else None
     if not isinstance(found, SurfaceContact):
         return None
     rough = ("friction", "stick") if found.friction > 0.0 else ()  # else friction begins
@@ -81,16 +105,26 @@ def _wet(model: Model) -> frozenset[str]:
 
 
 def _is_bare(model: Model) -> bool:
-    """Whether there is nothing but dead forces, moments at ends, fluids, springs, shared nodes and slides."""
-    around = model.grounds or model.surfaces or by_body(model)
+    """Whether all there is, is known to know of lengths what :func:`ancf.system.beside.beside` does.
+
+    Dead forces, pressures, moments at ends, fluids, grounds, springs, shared nodes, slides, and contacts of
+    cables and of bodies without friction.
+    """
     return (
-        not around
-        and all(_turns_end(load) or isinstance(_given(load), TimeFunction) for load in model.loads)
-        and all(
-            isinstance(one, Spring | Slide) or (isinstance(one, Spherical) and one.shared)
-            for one in model.connections
-        )
+        not by_body(model)
+        and all(_is_bare_load(load) for load in model.loads)
+        and all(_is_bare_connection(one) for one in model.connections)
     )
+
+
+def _is_bare_load(load: Any) -> bool:
+    return isinstance(load, Pressure) or _turns_end(load) or isinstance(_given(load), TimeFunction)
+
+
+def _is_bare_connection(one: Any) -> bool:
+    if isinstance(one, CableContact | BodyContact):
+        return one.friction == 0.0
+    return isinstance(one, Spring | Slide) or (isinstance(one, Spherical) and one.shared)
 
 
 def _turns_end(load: Any) -> bool:

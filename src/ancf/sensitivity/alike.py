@@ -11,6 +11,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..batches import Batches
 from ..compiled import Role, traits
+from ..model.joints import Slide
 from ..system.core import Tables
 from ..system.system import System
 
@@ -167,6 +168,16 @@ def same_loads(a: System, b: System) -> bool:
     names = ("still", "hung", "slot", "factor")
     same = a.dead is b.dead or all(np.array_equal(getattr(a.dead, x), getattr(b.dead, x)) for x in names)
     return same and _same_functions(a, b)
+
+
+def begins_alike(a: System, b: System) -> bool:
+    """Whether all on which the initial shape and motion depend is the same."""
+    mine, other = a.model, b.model
+    same = a.inputs is b.inputs or (_unmoved(a, b) and mine.inputs is other.inputs)
+    same = same and all(body is other.bodies[name] for name, body in mine.bodies.items())
+    same = same and all(x is y for x, y in zip(mine.supports, other.supports, strict=True))
+    pairs = zip(mine.connections, other.connections, strict=True)
+    return same and all(x is y for x, y in pairs if isinstance(x, Slide))
 
 
 def alike(a: System, b: System) -> bool:

@@ -22,7 +22,7 @@ from ..errors import ModelError
 from ..system.beside import SLIDES, beside
 from ..system.core import Tables
 from ..system.system import System
-from .alike import Known, alike, changed, same_inputs, same_loads
+from .alike import Known, alike, begins_alike, changed, same_inputs, same_loads
 from .offsets import ABOVE, BENT, BOTH, FOUR, KINKED, PAIR, STEEP, STEP, TINY
 from .parameters import Parameter
 from .pushing import Pushing
@@ -373,6 +373,8 @@ class Family(Pushing):
             return np.zeros(self.base.size), np.zeros(self.base.size)
         if self._ends is not None:
             return self._ends
+        if all(begins_alike(self.base, system) for system in self.systems):
+            return np.zeros(self.base.size), np.zeros(self.base.size)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # what holds against a given motion was said of the model itself
             here = Known.of(self.base).initial_state(time)

@@ -9,11 +9,16 @@ import numpy as np
 
 from ..connections.spring_build import renumbered, springs
 from ..contact.build import renumbered as touching
+from ..contact.bump_build import renumbered as bumping
+from ..contact.strand_build import renumbered as crossing
 from ..elements.registry import ELEMENTS as ELEMENTS_OF
 from ..elements.registry import offered
 from ..loads.fluid import renumbered as in_fluids
 from ..loads.ground import renumbered as on_ground
+from ..loads.pressure import renumbered as again_pressed
 from ..model.beam import Beam
+from ..model.body_contact import BodyContact
+from ..model.cable_contact import CableContact
 from ..model.model import Model
 from ..model.points import Point
 from ..model.surfaces import SurfaceContact
@@ -26,6 +31,14 @@ from .system import System
 #: Parts that can be made alone: elements, as one.
 ELEMENTS, SPRINGS, BODIES, SLIDES = "elements", "springs", "bodies", "slides"
 FLUIDS, PRESSING, RUBBING, GROUND = "fluid", "pressing", "rubbing", "ground"
+CROSSING, BUMPING, PRESSURE = "crossing", "bumping", "pressure"
+#: Parts of contacts and what numbers them again.
+CONTACTS: dict[str, tuple[type, Any]] = {
+    PRESSING: (SurfaceContact, touching),
+    RUBBING: (SurfaceContact, touching),
+    CROSSING: (CableContact, crossing),
+    BUMPING: (BodyContact, bumping),
+}
 
 
 class Acts(NamedTuple):
@@ -66,18 +79,20 @@ def beside(system: System, model: Model, acts: Acts) -> System:
 
 def _renumbered(system: System, model: Model, acts: Acts) -> Parts:
     """Parts in which nothing but numbers is another one."""
-    found = Parts()
+    found, find = Parts(), _finder(system) if acts.shapes else None
     if ELEMENTS in acts.parts:
         found |= {kind: _elements(system, kind, beams) for kind, beams in _others(system, model).items()}
     if SPRINGS in acts.parts and SPRINGS in system.parts and not acts.shapes:
         found[SPRINGS] = renumbered(system.parts[SPRINGS], system.model, model)
-    items = [one for one in model.connections if isinstance(one, SurfaceContact)]
-    for name in {PRESSING, RUBBING} & acts.parts & system.parts.keys():
-        found[name] = touching(system.parts[name], items)
-    if GROUND in acts.parts:
-        found[GROUND] = on_ground(system.parts[GROUND], model.grounds)
-    if FLUIDS in acts.parts:
-        found[FLUIDS] = in_fluids(system.parts[FLUIDS], model, _finder(system) if acts.shapes else None)
+    for name in CONTACTS.keys() & acts.parts & system.parts.keys():
+        kind, again = CONTACTS[name]
+        found[name] = again(system.parts[name], [one for one in model.connections if isinstance(one, kind)])
+    surroundings: tuple[tuple[str, Any], ...] = (GROUND, on_ground), (FLUIDS, in_fluids)
+    for name, around in surroundings:
+        if name in acts.parts & system.parts.keys():
+            found[name] = around(system.parts[name], model, find)
+    if PRESSURE in acts.parts & system.parts.keys() and acts.shapes:
+        found[PRESSURE] = again_pressed(system.parts[PRESSURE], model, find)
     return found
 
 
