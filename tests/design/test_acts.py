@@ -137,6 +137,16 @@ def lined():
     return model
 
 
+def striped():
+    """A wire and a collector whose strip touches it."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    section = ancf.Section(EA=1e5, EI=2.0, rhoA=1.0)
+    a = model.add_beam("a", start=(0, 0, 0), end=(8, 0, 0), elements=4, section=section)
+    m = model.add_point_mass("m", at=(1, 0, -0.001), mass=4.0)
+    model.add_contact(m, a, stiffness=5e3, damping=30.0, strip=(0, 1, 0), normal=(0, 0, 1), name="strip")
+    return model
+
+
 def rough():
     """The same in waves, which are as fast as gravity makes them."""
     return drowned(4, {"spectrum": "regular", "height": 0.5, "period": 5.0, "depth": 20.0})
@@ -161,6 +171,7 @@ KNOWN = {
     drowned: ("a.length", "a.start[0]", "a.drag[1]", "c.added_mass[0]", "a.diameter", "sea.density"),
     lined: (*LAID, "a.diameter"),
     laid: (*LAID, "touch.stiffness", "touch.damping"),
+    striped: ("m.mass", "strip.stiffness", "strip.damping"),
     piled: ("a.length", "a.start[0]", "a.diameter", "b1.mass", "on0.stiffness", "on1.damping"),
 }
 KNOWN[rough] = KNOWN[drowned]

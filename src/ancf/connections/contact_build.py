@@ -42,12 +42,21 @@ def contacts(
         x=np.concatenate([line[0] for line in lines]),
         line_slot=np.concatenate([line[1] for line in lines]).astype(np.int64),
         line_poly=np.concatenate([line[2] for line in lines]),
-        data=np.array([[item.stiffness, item.damping] for item in items]),
+        data=_numbers(items),
         travel=np.array([item.travel for item in items]),
         normal=np.array([item.normal for item in items]),
         **curves([item.profile for item in items]),
         found=measured,
     )
+
+
+def renumbered(batch: ContactBatch, items: Sequence[Contact]) -> ContactBatch:
+    """The batch with the numbers of these contacts in place of the same ones with others."""
+    return batch._replace(data=_numbers(items))
+
+
+def _numbers(items: Sequence[Contact]) -> FloatArray:
+    return np.array([[item.stiffness, item.damping] for item in items])
 
 
 def no_contacts() -> ContactBatch:

@@ -9,6 +9,7 @@ from ..model.bodies import PointMass, RigidBody
 from ..model.body_contact import BodyContact
 from ..model.cable_contact import CableContact
 from ..model.connections import Spring
+from ..model.contact import Contact
 from ..model.followers import Pressure
 from ..model.functions import TimeFunction
 from ..model.joints import Slide, Spherical
@@ -29,6 +30,7 @@ from ..system.beside import (
     RUBBING,
     SLIDES,
     SPRINGS,
+    STRIPS,
     Acts,
 )
 
@@ -89,6 +91,8 @@ def _of_connection(model: Model, owner: str, key: str) -> Acts | None:
     found = next((one for one in model.connections if one.name == owner), None)
     if isinstance(found, Spring) and key in ("stiffness", "damping", "length"):
         return Acts(frozenset((SPRINGS,)))
+    if isinstance(found, Contact):
+        return Acts(frozenset((STRIPS,))) if key in ("stiffness", "damping") else None
     if isinstance(found, CableContact | BodyContact):
         part = CROSSING if isinstance(found, CableContact) else BUMPING
         plain = found.friction == 0.0 and key in ("stiffness", "damping")

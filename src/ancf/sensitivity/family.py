@@ -55,6 +55,8 @@ class Family(Pushing):
     shift, turn : ndarray
         Derivatives of the state where it is held, (size,), and of the local axes of supports, (k, 3, 3), if
         these are all that keeps it from being plain; else, and where they are zero, empty.
+    moves : bool
+        What supports hold depends on the parameter.
     joined : bool
         It is plain but for rows of joints that depend on the parameter.
     constant : bool
@@ -112,7 +114,7 @@ class Family(Pushing):
 
     def _see_ends(self, moved: FloatArray) -> None:
         """An end of a cable moves what supports hold, and no number of a batch and no load."""
-        self._fed, self._loads = True, False
+        self._fed, self._loads, self.moves = True, False, True
         self.constant = all(f.constant for f in self.base.inputs.loads)
         self._see_held(moved, slopes_rates(self.base, moved), True)
 
@@ -189,12 +191,6 @@ class Family(Pushing):
             return not kinked
         return len({self._branches(system) for system in (self.base, *self.systems)}) == 1
 
-    def _moves_kinks(self) -> bool:
-        """Whether supports are moved where something has kinks, whose numbers stay as they are."""
-        base = self.base
-        held, kinked = base.held, (base.parts[name] for name in KINKED & set(base.parts))
-        return any(len(b[0]) for b in kinked) and any(np.any(shape[held]) for shape in self._shape)
-
     def _take_line(self, offset: float) -> None:
         """Let the systems be one at this offset and the model's own: all is linear between them."""
         self._put([self._compiled(offset), self.base], [offset, 0.0], [1.0 / offset, -1.0 / offset])
@@ -246,6 +242,7 @@ class Family(Pushing):
         base = self.base
         self.changed = self._names()
         still, self._fed = self._steady_inputs()
+        self.moves = not still
         plain = still and (self._fed or all(self._has_own(system) for system in self.systems))
         rows = any(Role.CONSTRAINS in traits(base.parts[name]).role for name in self.changed)
         self._see_supports(plain, rows)
@@ -264,7 +261,7 @@ class Family(Pushing):
         own = self.systems, self.weights
         turn: Any = slopes_rates(base, moved) if self.straight else axes_rates(base, *own)
         if turn is None or (np.any(turn) and len(base.multipliers)):
-            plain, turn = False, none
+            plain, turn, self.moves = False, none, True
         self._see_held(moved, turn, plain, rows)
 
     def _see_held(self, moved: FloatArray, turn: FloatArray, plain: bool, rows: bool = False) -> None:
@@ -272,6 +269,7 @@ class Family(Pushing):
         shift = np.zeros(self.base.size)
         shift[self.base.held] = moved[self.base.held]
         moves = bool(np.any(shift) or np.any(turn))
+        self.moves = self.moves or moves
         self.plain, self.joined = plain and not (moves or rows), plain and rows and not moves
         self.shift = shift if plain and not rows and np.any(shift) else shift[:0]
         self.turn = turn if plain and not rows and np.any(turn) else turn[:0]

@@ -154,10 +154,7 @@ class Following:
         """States of a block, see :class:`ancf.solvers.record.Recorder`."""
         if not self.histories.stored:
             self._begin()
-            self.store.append(t, q, v, work)
-            self._hand_on()
-            return
-        if len(t):
+        elif len(t):
             self._take(q, v)
             keep = self._kept_of(self.taken, len(t))
             t, q, v, work = t[keep], q[keep], v[keep], work[keep]
@@ -216,8 +213,10 @@ class Following:
     def _leads(self) -> bool:
         """Whether places follow from velocities: of a result in memory, for a file has both."""
         supports = self.system.core.supports
-        moves = bool(self.nearby.others) or bool(np.any(supports.rot_moving >= 0))
-        return not (self.memory or moves or len(self.system.multipliers) or isinstance(self.store, FileStore))
+        moves = any(self.families[k].moves for k in self.nearby.others)
+        moves = moves or bool(np.any(supports.rot_moving >= 0))
+        alone = bool(self.memory) and not self.abreast  # whose steps ask for places
+        return not (alone or moves or len(self.system.multipliers) or isinstance(self.store, FileStore))
 
     def _kept_of(self, done: int, count: int) -> BoolArray:
         """Which of the last steps are stored."""

@@ -10,7 +10,7 @@ from typing import Any
 from ..errors import ModelError
 from ..model import checks
 from ..model.beam import Beam
-from ..model.bodies import PointMass
+from ..model.bodies import PointMass, RigidBody
 from ..model.connections import Spring
 from ..model.model import Model
 from ..model.section import DAMPINGS
@@ -176,7 +176,7 @@ def _of_body(model: Model, name: str) -> bool:
     body = model.bodies.get(owner)
     if isinstance(body, Beam):
         return key in OF_SECTIONS and owner not in by_body(model)
-    return isinstance(body, PointMass) and key == "mass"
+    return isinstance(body, PointMass | RigidBody) and key == "mass"
 
 
 def _of_fluid(model: Model, name: str) -> bool:

@@ -12,7 +12,7 @@ from ..errors import ModelError
 from ..solvers.stages import place_rows, stage_residuals
 from ..system.beside import Acts
 from ..system.core import Core, apply_load, apply_supports, place_supports, residual
-from .offsets import FOUR, STEEP, STEP
+from .offsets import FOUR, KINKED, STEEP, STEP
 from .parameters import Parameter
 from .values import Push, gaps_of
 
@@ -34,6 +34,12 @@ class Pushing:
     def _is_steep(self, acts: Acts) -> bool:
         """Whether forces have high powers of a length, as those of beams with cross-sections."""
         return acts.shapes and any(beam.has_section for beam in self.base.model.beams.values())
+
+    def _moves_kinks(self) -> bool:
+        """Whether supports are moved where something has kinks, whose numbers stay as they are."""
+        base = self.base
+        held, kinked = base.held, (base.parts[name] for name in KINKED & set(base.parts))
+        return any(len(b[0]) for b in kinked) and any(np.any(shape[held]) for shape in self._shape)
 
     @cached_property
     def wider(self) -> tuple[list[Any], list[float]]:

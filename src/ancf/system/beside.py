@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..connections.contact_build import renumbered as stripped
 from ..connections.spring_build import renumbered, springs
 from ..contact.build import renumbered as touching
 from ..contact.bump_build import renumbered as bumping
@@ -19,6 +20,7 @@ from ..loads.pressure import renumbered as again_pressed
 from ..model.beam import Beam
 from ..model.body_contact import BodyContact
 from ..model.cable_contact import CableContact
+from ..model.contact import Contact
 from ..model.model import Model
 from ..model.points import Point
 from ..model.surfaces import SurfaceContact
@@ -31,13 +33,14 @@ from .system import System
 #: Parts that can be made alone: elements, as one.
 ELEMENTS, SPRINGS, BODIES, SLIDES = "elements", "springs", "bodies", "slides"
 FLUIDS, PRESSING, RUBBING, GROUND = "fluid", "pressing", "rubbing", "ground"
-CROSSING, BUMPING, PRESSURE = "crossing", "bumping", "pressure"
+CROSSING, BUMPING, PRESSURE, STRIPS = "crossing", "bumping", "pressure", "contacts"
 #: Parts of contacts and what numbers them again.
 CONTACTS: dict[str, tuple[type, Any]] = {
     PRESSING: (SurfaceContact, touching),
     RUBBING: (SurfaceContact, touching),
     CROSSING: (CableContact, crossing),
     BUMPING: (BodyContact, bumping),
+    STRIPS: (Contact, stripped),
 }
 
 
