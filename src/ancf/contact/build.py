@@ -101,14 +101,30 @@ def batches(
     return found
 
 
-def renumbered(batch: Any, items: Sequence[SurfaceContact]) -> Any:
+def renumbered(batch: Any, items: Sequence[SurfaceContact], locate: Any = None) -> Any:
     """The batch with the numbers of these contacts in place of the same ones with others.
 
-    What friction remembers is its own.
+    ``locate``: finds the probe of a point where lengths of beams differ as well.  What friction remembers is
+    its own.
     """
     keys = [key for key in traits(batch).memory if key != "found"] if isinstance(batch, RubBatch) else []
     own = {key: getattr(batch, key).copy() for key in keys}
+    if locate is not None:
+        own |= _shapes(batch, items, locate)
     return batch._replace(data=np.array([_numbers(item) for item in items]), **own)
+
+
+def _shapes(batch: Any, items: Sequence[SurfaceContact], locate: Any) -> dict[str, Any]:
+    """Fields that depend on lengths of elements."""
+    rubs = isinstance(batch, RubBatch)
+    items = [item for item in items if item.friction > 0.0] if rubs else items
+    bodies = [item.body for item in items]
+    fields, _ = along(bodies, locate, POINTS)
+    found = {"shape": fields["shape"], "reach": _reach(fields, items), "weight": fields["weight"]}
+    found |= winched(bodies, locate)
+    if rubs:
+        found |= ordered(bodies, locate, POINTS) | {"anchor": np.concatenate([*map(_places, items)])}
+    return found
 
 
 def _numbers(item: SurfaceContact) -> list[float]:

@@ -81,7 +81,8 @@ def acts_of(model: Model, name: str) -> Acts | None:
         sprung = not body.has_section and all(isinstance(one, loose) for one in model.connections)
         return Acts(moves=True) if sprung else None
     slides = any(isinstance(one, Slide) for one in model.connections)
-    everything = around | {ELEMENTS, SPRINGS, BODIES, CROSSING, PRESSURE, *((SLIDES,) if slides else ())}
+    touching = {CROSSING, PRESSING, RUBBING}
+    everything = around | touching | {ELEMENTS, SPRINGS, BODIES, PRESSURE, *((SLIDES,) if slides else ())}
     moves = any(getattr(one, way, None) is not None for one in model.supports for way in MOTIONS)
     return Acts(everything, weighs=True, moves=moves, shapes=True) if key == "length" else None
 
@@ -111,8 +112,8 @@ def _wet(model: Model) -> frozenset[str]:
 def _is_bare(model: Model) -> bool:
     """Whether all there is, is known to know of lengths what :func:`ancf.system.beside.beside` does.
 
-    Dead forces, pressures, moments at ends, fluids, grounds, springs, shared nodes, slides, and contacts of
-    cables and of bodies without friction.
+    Dead forces, pressures, moments at ends, fluids, grounds, springs, shared nodes, slides, contacts with
+    surfaces, and those of cables and of bodies without friction.
     """
     return (
         not by_body(model)
@@ -128,7 +129,7 @@ def _is_bare_load(load: Any) -> bool:
 def _is_bare_connection(one: Any) -> bool:
     if isinstance(one, CableContact | BodyContact):
         return one.friction == 0.0
-    return isinstance(one, Spring | Slide) or (isinstance(one, Spherical) and one.shared)
+    return isinstance(one, Spring | Slide | SurfaceContact) or (isinstance(one, Spherical) and one.shared)
 
 
 def _turns_end(load: Any) -> bool:

@@ -89,7 +89,8 @@ def _renumbered(system: System, model: Model, acts: Acts) -> Parts:
         found[SPRINGS] = renumbered(system.parts[SPRINGS], system.model, model)
     for name in CONTACTS.keys() & acts.parts & system.parts.keys():
         kind, again = CONTACTS[name]
-        found[name] = again(system.parts[name], [one for one in model.connections if isinstance(one, kind)])
+        items = [one for one in model.connections if isinstance(one, kind)]
+        found[name] = again(system.parts[name], items, *([find] if kind is SurfaceContact else []))
     surroundings: tuple[tuple[str, Any], ...] = (GROUND, on_ground), (FLUIDS, in_fluids)
     for name, around in surroundings:
         if name in acts.parts & system.parts.keys():
