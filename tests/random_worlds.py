@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 import ancf
 
@@ -48,6 +49,20 @@ class Frame:
         """As a function of time."""
         turned = self.axial if axial else self.vector
         return lambda t: tuple(turned(f(t / self.size[1]), *powers))
+
+
+ABOUT_Z = Rotation.from_rotvec([0.0, 0.0, 0.7]).as_matrix()
+FRAMES = {
+    "turned": Frame(R=ABOUT_Z, o=np.array([0.3, -0.2, 0.5])),
+    "mirrored": Frame(R=ABOUT_Z @ np.diag([1.0, -1.0, 1.0])),
+    "beams from their ends": Frame(flipped=True),
+    "renamed in another order": Frame(order=3),
+    "millimetres and grams": Frame(size=(1e3, 1.0, 1e3)),
+    "odd units": Frame(size=(0.01, 100.0, 0.3)),
+}
+#: How runs of worlds are made: to round-off, s.
+EXACT = ancf.Trapezoidal(newton=ancf.Newton(tolerance=1e-13))
+STEP, COUNT = 2.5e-4, 40
 
 
 def unit(x: Any) -> Any:
@@ -298,3 +313,23 @@ class World:
             out[key] = getattr(run.energy, key) / f.number(1.0, 2, -2, 1)
         out["momentum"] = run.momentum / f.number(1.0, 1, -1, 1) @ f.R
         return out
+
+
+def run_of(world: World) -> ancf.Result:
+    """A short run in the units of a world."""
+    time = world.frame.size[1]
+    given = {"t_end": COUNT * STEP * time, "step": STEP * time, "integrator": EXACT}
+    return ancf.simulate(world.model, sensors=list(world.contacts.values()), **given)
+
+
+def differences(make: Callable[..., World], seed: int) -> dict[str, float]:
+    """How far what a run tells goes apart in each of the frames, by its name and theirs, as a share."""
+    first, found = make(seed), {}
+    wanted = first.answers(run_of(first))
+    for name, frame in FRAMES.items():
+        world = make(seed, frame)
+        answers = world.answers(run_of(world))
+        for key, values in wanted.items():
+            size = max(float(np.max(np.abs(values))), 1.0 if "of" in key else 0.1)
+            found[f"{name}: {key}"] = float(np.max(np.abs(answers[key] - values))) / size
+    return found
