@@ -42,7 +42,8 @@ class Account:
         stiff, size = self._extent
         loads = np.sum(np.abs(self.system.core.loads.gravity)) + np.sum(np.abs(self.memory.f))
         weight = float(loads) * size
-        return ROUNDED * float(np.sum(np.abs(self.energy0))) + ROUNDED_FORCES * (stiff + weight)
+        at_start = float(np.sum(np.abs(self.energy0)))
+        return ROUNDED * at_start + ROUNDED_FORCES * (stiff + weight) + NOTHING
 
     @cached_property
     def _extent(self) -> tuple[float, float]:
