@@ -204,7 +204,7 @@ class Gear(World):
         how: dict[str, Any] = self._pull(rng, way)
         if rng.random() < 0.25:
             w = rng.uniform(3, 12)
-            how = {"motion": lambda t: s + way * N(0.05 * (1 - np.cos(w * t / f.size[1])), 1)}
+            how = {"motion": lambda t: s + way * N(0.05 * (1 - np.cos(w * max(f.clock(t), 0.0))), 1)}
         self.slides[f"SL{k}"] = m.slide(point, along=beam, name=self.name(f"SL{k}"), **how), beam
 
     def _pull(self, rng: Any, way: int) -> dict[str, Any]:
@@ -218,7 +218,7 @@ class Gear(World):
             how |= {"friction": rng.uniform(0.1, 0.4), "friction_velocity": N(0.1, 1, -1)}
         size, w = rng.uniform(1, 5), rng.uniform(3, 20)
         if rng.random() < 0.5:
-            how["force"] = lambda t: way * N(size * np.cos(w * t / f.size[1]), 1, -2, 1)
+            how["force"] = lambda t: way * N(size * np.cos(w * f.clock(t)), 1, -2, 1)
         return how
 
     def _rail(self, k: int, rng: Any) -> None:

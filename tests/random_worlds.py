@@ -17,10 +17,11 @@ FACES = np.array([[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 
 
 @dataclass(frozen=True)
 class Frame:
-    """How a model is written down: turned or mirrored, moved, in other units, beams from their other ends.
+    """How a model is written down: turned or mirrored, moved, later, in other units, beams from other ends.
 
     ``R`` is orthogonal, about z where there are surfaces of fluids and grounds; ``o`` is added first, m.
-    ``size`` are the numbers of a unit of length, time and mass; ``order`` mixes what is added.
+    ``later`` is when all begins, s; ``size`` are the numbers of a unit of length, time and mass; ``order``
+    mixes what is added.
     """
 
     R: Any = field(default_factory=lambda: np.eye(3))
@@ -28,6 +29,11 @@ class Frame:
     size: tuple[float, float, float] = (1.0, 1.0, 1.0)
     order: int | None = None
     flipped: bool = False
+    later: float = 0.0
+
+    def clock(self, t: float) -> float:
+        """Time since all began, s."""
+        return t / self.size[1] - self.later
 
     def number(self, x: Any, length: float = 0, time: float = 0, mass: float = 0) -> Any:
         """In these units."""
@@ -48,7 +54,7 @@ class Frame:
     def law(self, f: Callable[[float], Any], *powers: float, axial: bool = False) -> Callable[[float], Any]:
         """As a function of time."""
         turned = self.axial if axial else self.vector
-        return lambda t: tuple(turned(f(t / self.size[1]), *powers))
+        return lambda t: tuple(turned(f(self.clock(t)), *powers))
 
 
 ABOUT_Z = Rotation.from_rotvec([0.0, 0.0, 0.7]).as_matrix()
@@ -60,6 +66,8 @@ FRAMES = {
     "millimetres and grams": Frame(size=(1e3, 1.0, 1e3)),
     "odd units": Frame(size=(0.01, 100.0, 0.3)),
 }
+#: From an equilibrium of nothing at another time. Of grounds with dampers it remembers limits of rest.
+LATER = {"later": Frame(later=0.37)}
 #: How runs of worlds are made: to round-off, s.
 EXACT = ancf.Trapezoidal(newton=ancf.Newton(tolerance=1e-13))
 STEP, COUNT = 2.5e-4, 40
@@ -316,17 +324,19 @@ class World:
 
 
 def run_of(world: World) -> ancf.Result:
-    """A short run in the units of a world."""
-    time = world.frame.size[1]
-    given = {"t_end": COUNT * STEP * time, "step": STEP * time, "integrator": EXACT}
+    """A short run in the units of a world, from its initial shape."""
+    later, time = world.frame.later, world.frame.size[1]
+    given = {"t_end": (later + COUNT * STEP) * time, "step": STEP * time, "integrator": EXACT}
+    if later:
+        given["start"] = ancf.equilibrium(world.model, of=[], time=later * time)
     return ancf.simulate(world.model, sensors=list(world.contacts.values()), **given)
 
 
-def differences(make: Callable[..., World], seed: int) -> dict[str, float]:
+def differences(make: Callable[..., World], seed: int, frames: dict[str, Frame]) -> dict[str, float]:
     """How far what a run tells goes apart in each of the frames, by its name and theirs, as a share."""
     first, found = make(seed), {}
     wanted = first.answers(run_of(first))
-    for name, frame in FRAMES.items():
+    for name, frame in frames.items():
         world = make(seed, frame)
         answers = world.answers(run_of(world))
         for key, values in wanted.items():
