@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import ModelError
 from ..model.doubts import doubts, drawn_otherwise
+from ..model.elsewhere import elsewhere
 from ..model.file import Study
 from ..model.integrators import Radau
 from ..model.jumps import jumps
@@ -39,6 +40,7 @@ def notes(study: Study, system: System) -> list[str]:
     return [
         *_floating(system),
         *drawn_otherwise(study.model),
+        *_elsewhere(study),
         *noises(study.model),
         *_jumps(study),
         *doubts(study.model),
@@ -53,6 +55,13 @@ def _floating(system: System) -> Iterator[str]:
         check_supported(system, [])
     except ModelError as error:
         yield error.what
+
+
+def _elsewhere(study: Study) -> Iterator[str]:
+    """Of a run from the initial shape what supports and winches do not fit it."""
+    settings = study.simulation
+    if settings is not None and settings.start != "equilibrium":
+        yield from (text for text, _ in elsewhere(study.model))
 
 
 def _jumps(study: Study) -> Iterator[str]:

@@ -9,6 +9,7 @@ from ..arrays import FloatArray
 from .beam import Beam
 from .bodies import Body, kind
 from .doubts import doubts, drawn_otherwise
+from .elsewhere import elsewhere
 from .inputs import Input
 from .kind import Kind
 from .kinds import SURROUNDINGS, kind_of
@@ -66,8 +67,14 @@ def of_model(model: Described) -> Sheet:
         if items:
             facts.append((key, counted(record.noun for _ in items)))
             tables.append(Table((record.noun, "where", "data"), [_item(item) for item in items]))
-    facts += [("note", text) for text in (*drawn_otherwise(model), *noises(model), *doubts(model))]
+    facts += [("note", text) for text in _notes(model)]
     return Sheet(f'Model "{model.title}"' if model.title else "Model", facts, tables)
+
+
+def _notes(model: Described) -> list[str]:
+    """What ``ancf check`` and runs from the initial shape say of a model too."""
+    away = [text for text, _ in elsewhere(model)]
+    return [*drawn_otherwise(model), *away, *noises(model), *doubts(model)]
 
 
 def sizes(bodies: Iterable[Body]) -> str:

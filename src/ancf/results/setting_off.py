@@ -8,24 +8,22 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..model.beam import Beam
 from ..model.bodies import Body
+from ..model.elsewhere import INITIAL, elsewhere, length_said, miss_said
 from ..model.jumps import SHARE
-from ..model.sudden import moved_with, sudden
+from ..model.sudden import sudden
 from ..model.supports import Support
 from ..model.winch import Winch
 from ..system.initial_motion import at_rest
-from ..system.nodes import node_of, start_vectors
+from ..system.nodes import node_of
 from ..system.system import System
 from .state import State
 
 #: Share of the velocity of a support below which a body is at rest.
 STILL = 1e-9
 
-#: Share by which the length of a winch may differ from what is drawn, unsaid: cables are pulled by less.
-OTHER_LENGTH = 0.01
-#: By how much of an element's length, or rad, a support may miss what it holds; by how much it is a warning.
-MISSED, TORN = 1e-6, 1e-3
+#: By how much of an element's length, or rad, a support may miss what it holds without a warning.
+TORN = 1e-3
 
 
 def setting_off(
@@ -82,54 +80,29 @@ def missed(system: System, start: State | None, q: FloatArray, level: int = 3) -
     level : int
         Of the caller that a warning names.
     """
-    lengths = list(_other_lengths(system, start, q))
-    if system.inputs.still and start is None:
-        return lengths
-    said = list(_missed(system, start, q))
+    said = elsewhere(system.model, system.inputs.given) if start is None else [*_of_state(system, start, q)]
     for text, size in said:
         if size > TORN:
             warnings.warn(text, UserWarning, stacklevel=level + 1)
-    return [*(text for text, _ in said), *lengths]
+    return [text for text, _ in said]
 
 
-def _other_lengths(system: System, start: State | None, q: FloatArray) -> Iterator[str]:
-    """Winches whose cable is longer or shorter than the shape or state from which a run starts."""
-    for winch in system.model.supports:
-        if not isinstance(winch, Winch):
-            continue
-        beam, shape = winch.beam, "the initial shape"
-        now, had = float(q[system.lengths[beam.name][0]]), beam.length * beam.stretch
-        if start is not None and beam.name in start._lengths:
-            had, shape = float(start._q[start._lengths[beam.name][0]]), "the given start"
-        if abs(now - had) > OTHER_LENGTH * had:
-            jolt = "a jolt in the first step; start from ancf.equilibrium(model), or draw it so"
-            yield f'"{winch.name}" has {now:.4g} m of "{beam.name}" out and {shape} has {had:.4g} m: {jolt}'
-
-
-def _missed(system: System, start: State | None, q: FloatArray) -> Iterator[tuple[str, float]]:
+def _of_state(system: System, start: State, q: FloatArray) -> Iterator[tuple[str, float]]:
+    """What is said of supports that do not fit a state, with the size of what they miss."""
+    shape, winches = "the given start", list[str]()
     for support in system.model.supports:
         body = support.point.body
         if isinstance(support, Winch):
+            now, had = q[system.lengths[body.name][0]], support.beam.length * support.beam.stretch
+            given = body.name in start._lengths
+            had = start._q[start._lengths[body.name][0]] if given else had
+            winches += length_said(support, float(now), float(had), shape if given else INITIAL)
             continue
         node = node_of(body, support.point.x)
-        slots = system.slots[body.name][node]
-        now = q[_triples(slots)].reshape(-1, 3)
-        if start is None:
-            had = start_vectors(body)[node][: len(now)]
-        else:
-            had = start._q[_triples(start._slots[body.name][node])].reshape(-1, 3)
-        sizes = np.linalg.norm(now - had, axis=1)
-        slopes = np.linalg.norm(had, axis=1) > 0.0  # an element may have other vectors, which begin with zero
-        slopes[0] = False
-        turned = float(np.max(sizes[slopes] / np.linalg.norm(had[slopes], axis=1), initial=0.0))
-        size_of_model = 1.0 / float(system.core.weight[slots[0]])
-        length = float(np.min(np.diff(body.node_x))) if isinstance(body, Beam) else size_of_model
-        size = max(float(sizes[0]) / length, turned)
-        if size > MISSED and moved_with(system.model, support):
-            far = f"{sizes[0]:.3g} m away" if sizes[0] / length >= turned else f"turned by {turned:.3g}"
-            shape = "the initial shape" if start is None else "the given start"
-            jolt = "a jolt in the first step; start from ancf.equilibrium(model), or draw it there"
-            yield f'"{support.name}" is {far} from {shape} at the start of the run: {jolt}', size
+        places = q[_triples(system.slots[body.name][node])].reshape(-1, 3)
+        held = start._q[_triples(start._slots[body.name][node])].reshape(-1, 3)
+        yield from miss_said(system.model, support, places, held, shape)
+    yield from ((text, 0.0) for text in winches)
 
 
 def _triples(slots: IntArray) -> IntArray:
