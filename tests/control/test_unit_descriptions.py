@@ -1,6 +1,8 @@
 """What the description of an exported unit tells a master: units, words, steps, who made it."""
 
+import json
 import math
+import re
 import zipfile
 from xml.etree import ElementTree
 
@@ -123,6 +125,8 @@ class TestDescription:
         found = fmpy.read_model_description(str(exported / f"{name}{version}.fmu"))
         study = read_study(exported / f"{name}.toml")
         assert found.generationTool.startswith("ancf ")
+        assert found.modelName == study.title or not study.title
+        assert found.coSimulation.modelIdentifier == name.capitalize() + str(version)
         assert found.description == (study.title or name.capitalize() + str(version)).replace('"', " ")
         span, settings = found.defaultExperiment, study.simulation
         assert float(span.stopTime) == settings.t_end
@@ -133,6 +137,18 @@ class TestDescription:
         outputs = len([v for v in found.modelVariables if v.causality == "output"])
         unknowns = "InitialUnknowns/Unknown" if version == 2 else "InitialUnknown"
         assert len(root.findall(f"ModelStructure/{unknowns}")) == outputs
+
+
+@pytest.mark.parametrize("version", ["2.0", "3.0"])
+@pytest.mark.parametrize("title", ["Kran 7", 'a "short" rope', "wind < 5 & more", "  Seil über\tRolle ", ""])
+def test_title_is_the_name(tmp_path, title, version):
+    """That of the file is the identifier alone, by which a master finds the library."""
+    text = f"title = {json.dumps(title)}\n" + re.sub(r"(?m)^title = .*$", "", MODEL)
+    (tmp_path / "model.toml").write_text(text, encoding="utf-8")
+    export_fmu(tmp_path / "model.toml", tmp_path / "crane-2.fmu", version)
+    found = fmpy.read_model_description(str(tmp_path / "crane-2.fmu"))
+    assert found.modelName == (" ".join(title.split()) or "Crane_2")
+    assert found.coSimulation.modelIdentifier == "Crane_2"
 
 
 @pytest.mark.parametrize("question", SAID)

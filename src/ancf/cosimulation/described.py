@@ -12,10 +12,12 @@ from .units import base_unit
 def described(root: Element, motion: Motion) -> Element:
     """Complete the root of a ``modelDescription.xml``, of FMI 2.0 or 3.0.
 
-    Units of all variables, with those of SI they are of; steps by which a master may go on; the time span of
-    the model file; unknowns of the initial state.
+    The title of the model as its name; units of all variables, with those of SI they are of; steps by which a
+    master may go on; the time span of the model file; unknowns of the initial state.
     """
     older = root.get("fmiVersion", "").startswith("2")
+    if title := " ".join(motion.study.title.split()):
+        root.set("modelName", title)
     root.set("generationTool", f"ancf {__version__} ({root.get('generationTool')})")
     _steps(root, motion, older)
     units = {output.name: output.unit for output in motion.outputs}
