@@ -5,9 +5,13 @@ const AXES = ["x", "y", "z"];
 const SEEN = { perspective: 1.55, orthographic: 1.65 };
 // Width for labels and the colour bar beside them, pixels.
 const BESIDE = 150;
+// Height for labels and the title below a flat view, pixels.
+const TITLED = 80;
 // Width of a picture below which the colour bar lies under it; room for labels beside and below then, and the bar's
 // share of the height.
 const NARROW = 480, LABELS = 70, BELOW = 60, UNDER = 0.16;
+// Room at both ends of an axis at which labels of another are centred, pixels, and the part of the height that is drawn in.
+const LABELLED = 34, DRAWN = 0.5;
 // Length of a window that follows a point, m, and from which slenderness on the axes are stretched.
 const WINDOW = 120, SLENDER = 8;
 
@@ -78,8 +82,9 @@ class Picture {
   // Ranges of the axes at state k: of the whole run, or a window about the point that is followed.
   ranges(k) {
     const least = this.stretched ? 0.08 * this.extent[this.order[1]] : 0.04 * this.size;
+    const labels = this.labelRoom();
     const ranges = this.extent.map((extent, i) => {
-      const half = extent / 2 + Math.max(0.06 * extent, least);
+      const half = extent / 2 + Math.max(0.06 * extent, least, labels[i]);
       return [this.middle[i] - half, this.middle[i] + half];
     });
     if (this.followed) {
@@ -87,6 +92,15 @@ class Picture {
       ranges[this.long] = [centre - half, centre + half];
     }
     return ranges;
+  }
+
+  // By axis the room in m that labels at its end need, in flat views to scale.
+  labelRoom() {
+    const { eye, up, type } = VIEWS[this.view], { clientWidth: width, clientHeight: height } = this.div;
+    if (type !== "orthographic" || this.stretched || !width || !height) return [0, 0, 0];
+    const above = AXES.findIndex((axis) => up[axis]), across = AXES.findIndex((axis) => !up[axis] && !eye[axis]);
+    const metre = Math.min(DRAWN * height / this.extent[above], Math.max(width - BESIDE, width / 2) / this.extent[across]);
+    return AXES.map((_, i) => i === across && Number.isFinite(metre) ? LABELLED / metre : 0);
   }
 
   // Lengths of the drawn axes: in proportion, or so that all are well seen; as large as there is room.
@@ -101,7 +115,8 @@ class Picture {
     const seen = (direction) => shape.reduce((sum, length, i) => sum + length * Math.abs(direction[i]), 0);
     const room = this.narrow() ? [width - LABELS, (1 - UNDER) * height] : [Math.max(width - BESIDE, width / 2), height];
     const wide = room[0] / Math.max(room[1], 1);
-    const free = this.narrow() ? 1 - BELOW / Math.max(room[1], 2 * BELOW) : 1;
+    const below = this.narrow() ? BELOW : type === "orthographic" ? TITLED : 0;
+    const free = 1 - below / Math.max(room[1], 2 * below, 1);
     const scale = SEEN[type] * Math.min(wide / seen(right), free / seen(above));
     return shape.map((length) => scale * length);
   }
