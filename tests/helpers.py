@@ -41,8 +41,14 @@ BY_DIFFERENCES, BY_ROUND_OFF = 1e-7, 1e-12
 
 def some(cases, every=2):
     """Cases of a long family: every second one is tried always, all of them with --slow."""
-    long = [pytest.param(*(c if isinstance(c, tuple) else (c,)), marks=pytest.mark.slow) for c in cases]
-    return [long[k] if k % every else case for k, case in enumerate(cases)]
+    return [later(case) if k % every else case for k, case in enumerate(cases)]
+
+
+def later(case):
+    """A case that is tried with --slow alone."""
+    if hasattr(case, "marks"):
+        return pytest.param(*case.values, marks=[*case.marks, pytest.mark.slow], id=case.id)
+    return pytest.param(*(case if isinstance(case, tuple) else (case,)), marks=pytest.mark.slow)
 
 
 def arc(u):

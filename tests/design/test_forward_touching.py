@@ -208,7 +208,7 @@ def just_above(pair, gap, step=0, **given):
 
 @pytest.mark.parametrize(
     ("method", "off"),
-    [("trapezoidal index1", 3e-8), ("generalized index2", 3e-8), ("generalized index3", 1e-6)],
+    some([("trapezoidal index1", 3e-8), ("generalized index2", 3e-8), ("generalized index3", 1e-6)]),
 )
 @pytest.mark.parametrize("pair", PAIRS)
 def test_bodies(pair, method, off):
@@ -218,7 +218,7 @@ def test_bodies(pair, method, off):
 
 
 @pytest.mark.parametrize(("depth", "step"), [(1e-6, 3), (1e-5, 2)])
-@pytest.mark.parametrize("pair", PAIRS)
+@pytest.mark.parametrize("pair", some([*PAIRS]))
 def test_bodies_that_graze(pair, depth, step):
     """By some micrometres in a step."""
     model = just_above(pair, -depth, step)
