@@ -31,7 +31,7 @@ def notes(system: System, q: FloatArray) -> list[str]:
         now = q[system.slots[body.name][node][slopes][:, None] + np.arange(3)]
         if np.any(np.sum(now * before, axis=1) < 0.0):
             where = f'"{body.name}" has turned round in "{support.name}", its slope points backwards there'
-            advice = 'take stretch="fixed" or shorter elements there, and a small load across what buckles'
+            advice = 'it carries less; take a stiffer section, and there shorter elements or stretch="fixed"'
             return [f"{where}: no material does; {advice}"]
     return []
 

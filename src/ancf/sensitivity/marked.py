@@ -69,6 +69,15 @@ class Marked:
             if name.split(".")[1] in REMEMBERED
         }
 
+    def fill(self, z: FloatArray, rows: list[dict[str, FloatArray]]) -> None:
+        """Put derivatives by each parameter into its lane of z, (p/8 rounded up, numbers, 8)."""
+        for k, row in enumerate(rows):
+            z[k // LANES, :, k % LANES] = self.vector(row)
+
+    def rows(self, z: FloatArray, count: int) -> list[dict[str, FloatArray]]:
+        """Those of as many parameters."""
+        return [self.row(z[k // LANES, :, k % LANES]) for k in range(count)]
+
     def instead(self, system: System) -> Iterable[tuple[Any, Any]]:
         """Batches of the system and these."""
         return [(system.parts[name], batch) for name, batch in self.batches.items()]

@@ -188,7 +188,7 @@ class Memory:
         """Remember an accepted step that ends in a state with these derivatives, (p, 2, size)."""
         kept, friction = self.copy(), self._with(self.d)
         remember_start(self.system.core, friction, q, v, abreast(s))
-        found = [self.marked.row(friction.z[k // LANES, :, k % LANES]) for k in range(len(self.families))]
+        found = self.marked.rows(friction.z, len(self.families))
         for family, d in zip(self.families, found, strict=True):
             if set(self.names) & family.changed:
                 self._add_own(family, kept, q, v, d)
@@ -204,8 +204,7 @@ class Memory:
             x[...] = self._own[name]
         groups = -(-len(d) // LANES)
         z = lane_rows(groups * len(self.marked.now)).reshape(groups, len(self.marked.now), LANES)
-        for k, row in enumerate(d):
-            z[k // LANES, :, k % LANES] = self.marked.vector(row)
+        self.marked.fill(z, d)
         return self._friction._replace(z=z)
 
     @cached_property

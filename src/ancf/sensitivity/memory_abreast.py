@@ -15,7 +15,6 @@ from ..compiled import (
     remember_along,
 )
 from ..linalg.eight import lane_rows
-from ..simd import LANES
 from ..solvers.abreast_room import abreast
 from ..solvers.friction import Friction, remember_steps
 from ..solvers.friction_start import push_start, remember_start
@@ -63,8 +62,7 @@ class MemoryAbreast:
         Or from a start that knows its own.
         """
         if self.memory.known:
-            for k, d in enumerate(self.memory.d):
-                self.z[k // LANES, :, k % LANES] = self.own.vector(d)
+            self.own.fill(self.z, self.memory.d)
             return
         self.now[:], self.z[...] = 0.0, 0.0
         remember_start(self.memory.system.core, self.friction, q, v, abreast(s))
@@ -87,7 +85,7 @@ class MemoryAbreast:
 
     def end(self) -> None:
         """Let the memory know the derivatives that the last step leaves."""
-        self.memory.d = [self.own.row(self.z[k // LANES, :, k % LANES]) for k in range(len(self.memory.d))]
+        self.memory.d = self.own.rows(self.z, len(self.memory.d))
 
 
 def memory_abreast(memory: Memory, nearby: Nearby) -> MemoryAbreast | None:
